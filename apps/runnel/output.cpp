@@ -16,9 +16,12 @@ namespace runnel::program {
 namespace {
 
 // Words that nobody shall overlook.
-constexpr std::array<std::pair<const char*, const char*>, 6> kColours{{{"error:", "1;31"},
+constexpr std::array<std::pair<const char*, const char*>, 9> kColours{{{"error:", "1;31"},
                                                                        {"warning:", "1;33"},
                                                                        {"FAILED", "1;31"},
+                                                                       {"STUCK", "1;31"},
+                                                                       {"STOP", "1;31"},
+                                                                       {"BLOCKED", "1;33"},
                                                                        {"NOT CONNECTED", "1;31"},
                                                                        {"PAUSED", "1;33"},
                                                                        {"ended, held", "1;33"}}};

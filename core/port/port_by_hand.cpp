@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/element/runtime.h"
+#include "core/port/hand_slot.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/types/type_info.h"
@@ -34,6 +35,11 @@ bool Port::is_set_by_hand(Setter setter) const noexcept {
 
 AnyValue Port::ValueByHand(Setter setter) const {
   if (!is_set_by_hand(setter) || !type_.is_transparent()) return {};
+  if (const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr) {
+    // Whoever takes the value elsewhere, an undo, takes no person along who is heard of: it is at rest there.
+    const std::lock_guard publisher(slot->mutex);
+    if (slot->hold && slot->hold->safe_value) return slot->hold->safe_value;
+  }
   const std::shared_ptr<void> copy = type_.Make();
   bool is_copied = false;
   extras_->by_hand[SlotOf(setter)]->VisitLatest([&](const void* value, ValueTimes) {
@@ -53,7 +59,11 @@ Result<void> Port::PublishByHand(const Fill& fill, Setter setter) {
     if (auto filled = fill(value); !filled) return filled;
     return internal::CheckWithin(*this, limits(), value);
   };
+  // Whoever watches a deadline publishes there without the structure lock.
+  const auto slot = setter == Setter::kPerson ? HandSlot::Of(*this) : nullptr;
+  std::unique_lock publisher = slot ? std::unique_lock(slot->mutex) : std::unique_lock<std::mutex>();
   if (is_set_by_hand(setter)) {
+    if (slot) slot->stand_in = extras_->by_hand[SlotOf(setter)].get();
     const auto published = extras_->by_hand[SlotOf(setter)]->PublishFilled(fill_within);
     return published ? Result<void>() : published.error();
   }
@@ -61,7 +71,12 @@ Result<void> Port::PublishByHand(const Fill& fill, Setter setter) {
   if (!channel) return CannotPublish("only a module can make values of its type");
   auto output = std::make_unique<internal::StandIn>(*this, std::move(channel));
   if (auto published = output->PublishFilled(fill_within); !published) return published.error();
-  Extras().by_hand[SlotOf(setter)] = std::move(output);
+  auto& place = Extras().by_hand[SlotOf(setter)];
+  place = std::move(output);
+  if (slot) {
+    slot->stand_in = place.get();
+    publisher.unlock();
+  }
   try {
     RebindSinks();
     PruneConversions();
@@ -77,12 +92,18 @@ bool Port::Release(Setter setter) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (!is_set_by_hand(setter)) return false;
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
+  const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;
   try {
     RebindSinks();
     PruneConversions();
   } catch (...) {  // some are still bound to it
     extras_->by_hand[SlotOf(setter)] = std::move(released);
     throw;
+  }
+  if (slot) {
+    const std::lock_guard publisher(slot->mutex);
+    slot->stand_in = nullptr;
+    slot->hold.reset();
   }
   internal::DeleteLater(std::move(released));
   TellOfChange();

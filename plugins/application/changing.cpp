@@ -19,6 +19,7 @@
 #include "plugins/parameters/moved_file_name.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_text.h"
+#include "plugins/structure/element_state.h"
 #include "plugins/structure/reload.h"
 #include "plugins/structure/renamed_text.h"
 
@@ -69,6 +70,24 @@ std::optional<Error> FindOverwritten(const FrameworkElement& application, const 
 std::string PluginOf(std::string_view type) {
   const std::size_t slash = type.find('/');
   return std::string(type.substr(0, slash == std::string_view::npos ? 0 : slash));
+}
+
+// What is set now and no file keeps, as a sentence; "" for nothing. Under the structure lock.
+std::string WhatPasses(FrameworkElement& application, const Scheduler& scheduler) {
+  std::string all;
+  const auto add = [&](const std::string& what) { all += (all.empty() ? "" : ", ") + what; };
+  if (application.runtime().robot_stop().in_force()) add("the STOP of the robot");
+  bool is_recorded = false;
+  for (const std::string& path : scheduler.PausedPaths()) add("the pause of " + path);
+  application.Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr) return;
+    if (port->is_blocked()) add("the block of " + port->path());
+    is_recorded = is_recorded || internal::IsRecorded(*port);
+    if (port->is_set_by_hand()) add("the value by hand of " + port->path());
+  });
+  if (is_recorded) add("recordings");
+  return all.empty() ? "" : "not saved, as it ends with the run: " + all;
 }
 
 }  // namespace
@@ -216,7 +235,10 @@ Result<void> Application::Save(const std::filesystem::path& file, bool overwrite
   if (!overwrites) {
     if (auto lost = FindOverwritten(**found, file)) return *lost;
   }
-  return SaveApplication(**found, tools, file);
+  auto saved = SaveApplication(**found, tools, file);
+  const std::string passing = saved ? WhatPasses(**found, *parts_->scheduler) : "";
+  if (!passing.empty()) parts_->Add({ApplicationEvent::Kind::kNotice, passing});
+  return saved;
 }
 
 Result<std::string> Application::SaveConfiguration(const std::filesystem::path& file) {
@@ -259,7 +281,10 @@ CommandService& Application::service() {
   hooks.save = [this](const std::string& file) -> Result<std::string> {
     std::string done = "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
     if (auto saved = Save(file, true); !saved) return saved.error();
-    return done;
+    const std::lock_guard lock(parts_->runtime().structure_mutex());
+    const auto found = parts_->FindAgain();
+    const std::string passing = found ? WhatPasses(**found, *parts_->scheduler) : "";
+    return passing.empty() ? done : done + "\n" + passing;
   };
   using SaveDifference = ServiceHooks::SaveDifference;
   hooks.preview_save = [this](const std::string& file) -> Result<SaveDifference> {

@@ -50,6 +50,7 @@ struct LogLevelRequest {
 };
 /// Sets the value at a port by hand: readers find it instead of what is published, until a ReleaseRequest.
 struct PublishRequest {
+  static constexpr double kSlowestRate = 0.001;
   static constexpr double kFastestRate = 1000;
   static constexpr Duration kShortestDeadline = std::chrono::milliseconds(10);
   static constexpr Duration kLongestDeadline = std::chrono::minutes(1);

@@ -23,91 +23,52 @@ const char* HandStateName(HandState state) noexcept {
   return "";
 }
 
-Result<void> HandLeases::Check(const std::string& port, const Request& request, Time now) const {
-  const auto found = holds_.find(port);
-  const Hold* const hold = found == holds_.end() ? nullptr : &found->second;
+void EndedLeases::Add(const std::string& lease) {
+  const std::lock_guard lock(mutex_);
+  leases_.push_back(lease);
+  if (leases_.size() > kRemembered) leases_.pop_front();
+}
+
+bool EndedLeases::Has(const std::string& lease) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::find(leases_, lease) != leases_.end();
+}
+
+Result<void> HandHold::Check(const Request& request, Time now) const {
   if (!request.lease.empty()) {
-    if (std::ranges::find(ended_, request.lease) != ended_.end()) {
-      return Error{.message = "this hold has ended", .path = port, .hint = kTakeHoldAgain};
-    }
-    if (hold != nullptr && hold->state == HandState::kDriven && hold->lease != request.lease) {
-      return Error{.message = "somebody else drives it", .path = port};
+    if (ended_->Has(request.lease)) return Error{.message = "this hold has ended", .hint = kTakeHoldAgain};
+    if (state_ == HandState::kDriven && lease_ != request.lease) {
+      return Error{.message = "somebody else drives it"};
     }
   }
   if (request.deadline && now - request.received > *request.deadline) {
     return Error{.message = "the value has waited for longer than its deadline of " +
                             DurationText(*request.deadline),
-                 .path = port,
                  .hint = kTakeHoldAgain};
   }
   return {};
 }
 
-bool HandLeases::Note(const std::string& port, const Request& request) {
-  const auto found = holds_.find(port);
-  bool goes_on = false;
-  if (found != holds_.end()) {
-    const Hold& before = found->second;
-    goes_on = before.state == HandState::kDriven && request.deadline &&
-              !request.lease.empty() && before.lease == request.lease;
-    if (!goes_on) EndLeaseOf(before);
-  }
-  Hold hold{.state = HandState::kSet, .lease = request.lease};
-  if (request.deadline) {
-    hold.state = HandState::kDriven;
-    hold.deadline = *request.deadline;
-    hold.due = request.received + *request.deadline;
-  }
-  holds_.insert_or_assign(port, std::move(hold));
+bool HandHold::Note(const Request& request) {
+  const bool goes_on = state_ == HandState::kDriven && request.deadline && !request.lease.empty() &&
+                       lease_ == request.lease;
+  if (!goes_on) EndLease();
+  state_ = request.deadline ? HandState::kDriven : HandState::kSet;
+  lease_ = request.lease;
+  deadline_ = request.deadline.value_or(Duration::zero());
+  due_ = request.received + deadline_;
+  has_failed = false;
   return goes_on;
 }
 
-void HandLeases::Forget(const std::string& port) {
-  const auto found = holds_.find(port);
-  if (found == holds_.end()) return;
-  EndLeaseOf(found->second);
-  holds_.erase(found);
+void HandHold::NoteLost() {
+  EndLease();
+  state_ = HandState::kLost;
+  number = 0;
 }
 
-void HandLeases::ForgetAll() {
-  for (const auto& [port, hold] : holds_) EndLeaseOf(hold);
-  holds_.clear();
-}
-
-std::vector<std::pair<std::string, Duration>> HandLeases::Expire(Time now) {
-  std::vector<std::pair<std::string, Duration>> lost;
-  for (auto& [port, hold] : holds_) {
-    if (hold.state != HandState::kDriven || hold.due > now) continue;
-    EndLeaseOf(hold);
-    hold.state = HandState::kLost;
-    lost.emplace_back(port, hold.deadline);
-  }
-  return lost;
-}
-
-std::optional<Time> HandLeases::next() const {
-  std::optional<Time> next;
-  for (const auto& [port, hold] : holds_) {
-    if (hold.state == HandState::kDriven && (!next || hold.due < *next)) next = hold.due;
-  }
-  return next;
-}
-
-std::optional<HandState> HandLeases::StateOf(const std::string& port) const {
-  const auto found = holds_.find(port);
-  return found == holds_.end() ? std::nullopt : std::optional(found->second.state);
-}
-
-std::vector<std::pair<std::string, HandState>> HandLeases::All() const {
-  std::vector<std::pair<std::string, HandState>> all;
-  for (const auto& [port, hold] : holds_) all.emplace_back(port, hold.state);
-  return all;
-}
-
-void HandLeases::EndLeaseOf(const Hold& hold) {
-  if (hold.state != HandState::kDriven || hold.lease.empty()) return;
-  ended_.push_back(hold.lease);
-  if (ended_.size() > kRemembered) ended_.pop_front();
+void HandHold::EndLease() {
+  if (state_ == HandState::kDriven && !lease_.empty()) ended_->Add(lease_);
 }
 
 }  // namespace runnel

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
-#include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/clock.h"
 #include "core/base/result.h"
+#include "core/port/hand_slot.h"
 
 namespace runnel {
 
@@ -21,49 +23,63 @@ enum class HandState {
 };
 [[nodiscard]] const char* HandStateName(HandState state) noexcept;
 
-/// Who sets which ports by hand, and until when he has to be heard of again. Only that: it publishes nothing.
+/// Leases that have ended: what comes of them later, from a network that was stuck or a page that was asleep, is refused.
+/// Threads: any.
+class EndedLeases {
+ public:
+  void Add(const std::string& lease);
+  [[nodiscard]] bool Has(const std::string& lease) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::deque<std::string> leases_;  // the newest of them
+};
+
+/// Who sets a port by hand, and until when he has to be heard of again. Only that: it publishes nothing. It lies in the
+/// port's slot, and goes where that goes.
 ///
-/// Who drives gives his hold a name, a lease, which ends with the hold: what comes of it later, from a network that was
-/// stuck or a page that was asleep, is refused. Who has a lease keeps others with leases off; people who just publish
-/// take the port over, and a block ends everything.
+/// Who drives gives his hold a name, a lease, which ends with the hold. Who has a lease keeps others with leases off; people
+/// who just publish take the port over, and a block or release ends everything.
 ///
-/// Threads: one at a time. Times are the machine's.
-class HandLeases {
+/// Threads: one at a time (HandSlot::mutex). Times are the machine's.
+class HandHold final : public HandSlot::Hold {
  public:
   struct Request {
     std::string lease = {};                 ///< "": none
     std::optional<Duration> deadline = {};  ///< nothing: the last value of the lease, or one without
-    Time received{};  ///< the deadline counts from here
+    Time received{};                        ///< the deadline counts from here
   };
 
-  /// Whether it may be published at the port. Errors: the port is driven by another one, the lease has
-  /// ended, its deadline has passed already.
-  [[nodiscard]] Result<void> Check(const std::string& port, const Request& request, Time now) const;
-  /// That it has been. True: it goes on with a lease that is there.
-  bool Note(const std::string& port, const Request& request);
-  /// The port is no longer set by hand.
-  void Forget(const std::string& port);
-  void ForgetAll();
+  explicit HandHold(std::shared_ptr<EndedLeases> ended) : ended_(std::move(ended)) {}
+  ~HandHold() override { EndLease(); }
 
-  /// Ports whose deadline has passed, which are lost now.
-  [[nodiscard]] std::vector<std::pair<std::string, Duration>> Expire(Time now);
-  /// When the next deadline ends.
-  [[nodiscard]] std::optional<Time> next() const;
-  [[nodiscard]] std::optional<HandState> StateOf(const std::string& port) const;
-  /// By path.
-  [[nodiscard]] std::vector<std::pair<std::string, HandState>> All() const;
+  /// Whether it may be published at a port with this hold. Errors, without a path: the port is driven by another one, the
+  /// lease has ended, its deadline has passed already.
+  [[nodiscard]] Result<void> Check(const Request& request, Time now) const;
+  /// That it is to be. True: it goes on with a lease that is there.
+  bool Note(const Request& request);
+  /// Its deadline has passed, and readers find the safe value.
+  void NoteLost();
+
+  [[nodiscard]] HandState state() const noexcept { return state_; }
+  [[nodiscard]] Duration deadline() const noexcept { return deadline_; }
+  /// When he has to be heard of; nothing if he need not.
+  [[nodiscard]] std::optional<Time> due() const noexcept {
+    return state_ == HandState::kDriven ? std::optional(due_) : std::nullopt;
+  }
+
+  std::string path = {};     ///< of the port when it was set last, for people
+  std::uint64_t number = 0;  ///< which publishing is the last one
+  bool has_failed = false;   ///< to get the safe value, which has been told
 
  private:
-  struct Hold {
-    HandState state;
-    std::string lease;
-    Duration deadline{};
-    Time due{};
-  };
-  void EndLeaseOf(const Hold& hold);
+  void EndLease();
 
-  std::map<std::string, Hold, std::less<>> holds_;  // by path
-  std::deque<std::string> ended_;                   // leases, the newest of them
+  const std::shared_ptr<EndedLeases> ended_;
+  HandState state_ = HandState::kSet;
+  std::string lease_ = {};
+  Duration deadline_{};
+  Time due_{};
 };
 
 }  // namespace runnel

@@ -1,13 +1,17 @@
 #include "plugins/command_service/hand_settings.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 #include "core/paths/path_search.h"
+#include "core/port/port_extras.h"
+#include "core/port/stand_in.h"
 #include "core/types/duration_text.h"
+#include "plugins/command_service/caught_error.h"
 #include "plugins/structure/value_by_hand.h"
 
 namespace runnel {
@@ -29,9 +33,30 @@ bool Free(Port& port) {
   return port.Unblock() || was_by_person || was_by_rule;
 }
 
+// Nothing else keeps anything there.
+HandHold& HoldOf(const HandSlot& slot) { return static_cast<HandHold&>(*slot.hold); }
+
+HandState StateOf(const Port& port) {
+  const auto slot = HandSlot::Find(port);
+  if (!slot) return HandState::kSet;
+  const std::lock_guard lock(slot->mutex);
+  return slot->hold ? HoldOf(*slot).state() : HandState::kSet;
+}
+
+Result<AnyValue> SafeAnyValueOf(const Port& port) {
+  const auto safe = SafeValueOf(port);
+  if (!safe) return safe.error();
+  if (auto good = internal::CheckWithin(port, port.limits(), safe->get()); !good) {
+    return At(port, "has no safe value for the end of a deadline; declare a default");
+  }
+  return AnyValue(port.type(), *safe);
+}
+
 Result<void> CheckRequest(const PublishRequest& request) {
-  if (request.rate && (*request.rate <= 0 || *request.rate > PublishRequest::kFastestRate)) {
-    return Error{.message = "the rate must be above 0 and at most 1000 Hz"};
+  // Written so that NaN is refused, too.
+  if (request.rate && !(*request.rate >= PublishRequest::kSlowestRate &&
+                        *request.rate <= PublishRequest::kFastestRate)) {
+    return Error{.message = "the rate must be from 0.001 to 1000 Hz"};
   }
   if (request.deadline && (*request.deadline < PublishRequest::kShortestDeadline ||
                            *request.deadline > PublishRequest::kLongestDeadline)) {
@@ -102,7 +127,7 @@ std::vector<std::pair<std::string, HandState>> HandSettings::All() const {
       if (port->is_blocked()) {
         told_.emplace_back(port->path(), HandState::kStopped);
       } else if (port->is_set_by_hand()) {
-        told_.emplace_back(port->path(), leases_.StateOf(port->path()).value_or(HandState::kSet));
+        told_.emplace_back(port->path(), StateOf(*port));
       }
     });
   }
@@ -115,17 +140,13 @@ Result<std::string> HandSettings::Block(const BlockRequest& request) {
   const auto found = PathSearch(runtime_).FindPort(request.port, PathKind::kElement);
   if (!found) return found.error();
   if (auto blocked = (*found)->Block(); !blocked) return blocked.error();
-  std::string path = (*found)->path();
-  const std::lock_guard lock(mutex_);
-  last_.erase(path);
-  leases_.Forget(path);
-  (*found)->Release();
-  return path;
+  (*found)->Release();  // whoever drove it lets go first
+  return (*found)->path();
 }
 
 Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& request) {
   if (auto good = CheckRequest(request); !good) return good.error();
-  const HandLeases::Request wish{request.lease, request.deadline, request.received.value_or(Now())};
+  const HandHold::Request wish{request.lease, request.deadline, request.received.value_or(Now())};
   const std::lock_guard structure(runtime_.structure_mutex());
   const auto found = PathSearch(runtime_).FindPort(request.port, PathKind::kElement);
   if (!found) return found.error();
@@ -133,101 +154,142 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
   if (port.is_blocked()) {
     return Error{.message = "is blocked", .path = port.path(), .hint = "release it first"};
   }
-  const auto value = ValueOf(port, request.value);
-  if (!value) return value.error();
+  const auto made = ValueOf(port, request.value);
+  if (!made) return made.error();
+  const AnyValue value(port.type(), *made);
+  if (auto good = internal::CheckWithin(port, port.limits(), value.get()); !good) return good.error();
   // Who asks for a deadline is told at once if nothing could be done when it has passed.
+  AnyValue safe;
   if (request.deadline) {
-    if (const auto safe = SafeValueOf(port); !safe) return safe.error();
+    const auto stop = port.stop();
+    const auto rest = stop ? Result(stop->safe_value()) : SafeAnyValueOf(port);
+    if (!rest) return rest.error();
+    safe = *rest;
   }
   Published published{port.path()};
-  const std::lock_guard lock(mutex_);
-  if (!port.is_set_by_hand()) leases_.Forget(published.port);  // released by others, or another port
-  if (auto allowed = leases_.Check(published.port, wish, Now()); !allowed) return allowed.error();
-  if (auto done = PublishByHand(port, value->get()); !done) return done.error();
-  published.goes_on = leases_.Note(published.port, wish);
-  const std::uint64_t number = last_[published.port] = ++count_;
-  if (request.rate) PublishAgainAndAgain({published.port, *value}, number, *request.rate);
-  if (request.deadline && watches_ && !watch_.joinable()) {
-    watch_ = std::thread([this] { Watch(); });
+  const Slot slot = HandSlot::Of(port);
+  const auto fill = internal::FillWith(value);
+  std::uint64_t number = 0;
+  // Under the slot's mutex: noted first, so that nothing that is thrown leaves a value without its deadline.
+  auto done = port.PublishByHand([&](void* to) -> Result<void> {
+    if (!slot->hold) slot->hold = std::make_unique<HandHold>(ended_);
+    HandHold& hold = HoldOf(*slot);
+    if (auto allowed = hold.Check(wish, Now()); !allowed) {
+      Error error = allowed.error();
+      error.path = published.port;
+      return error;
+    }
+    published.goes_on = hold.Note(wish);
+    hold.safe_value = safe;
+    hold.path = published.port;
+    hold.number = number = ++count_;
+    if (request.deadline) WatchOver(slot);
+    return fill(to);
+  });
+  if (!done) {
+    const std::lock_guard lock(slot->mutex);
+    if (slot->stand_in == nullptr) slot->hold.reset();
+    return done.error();
   }
-  if (request.deadline) has_changed_.notify_all();
+  if (request.rate) PublishAgainAndAgain(slot, value, number, *request.rate);
   return published;
 }
 
-void HandSettings::PublishAgainAndAgain(HandSet set, std::uint64_t number, double rate) {
+// By the worker, which no thread of a cycle waits for, and without the structure lock.
+void HandSettings::PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t number, double rate) {
   const Duration period = FromSeconds(1 / rate);
-  tasks_.PostSteps([this, set = std::move(set), number, period,
+  tasks_.PostSteps([this, slot = std::move(slot), value = std::move(value), number, period,
                     due = runtime_.clock().Now() + period]() mutable -> std::optional<Duration> {
     const Time now = runtime_.clock().Now();
-    if (now < due) {
-      const std::lock_guard lock(mutex_);
-      if (!IsLast(set.path, number)) return {};
-    } else {
-      const std::lock_guard structure(runtime_.structure_mutex());
-      const std::lock_guard lock(mutex_);
-      if (!IsLast(set.path, number)) return {};
-      const auto found = PathSearch(runtime_).FindPort(set.path, PathKind::kElement);
-      if (!found || !(*found)->is_set_by_hand()) return {};  // released, or gone
-      if (!PublishByHand(**found, set.value.get())) return {};
+    const std::lock_guard lock(slot->mutex);
+    if (!slot->hold || HoldOf(*slot).number != number) return {};  // released, or set anew
+    if (now >= due) {
+      if (!slot->Publish(value)) return {};
       due = std::max(due + period, now);
     }
     return std::clamp(due - now, kShortestLook, kLongestLook);
   });
 }
 
-bool HandSettings::IsLast(const std::string& port, std::uint64_t number) const {
-  const auto last = last_.find(port);
-  return last != last_.end() && last->second == number;
-}
-
 Result<std::string> HandSettings::Release(const ReleaseRequest& request) {
   if (request.port.empty()) return Error{.message = "'release' needs the name of what is released"};
-  const std::lock_guard structure(runtime_.structure_mutex());
-  auto released = ReleasePort(runtime_, request.port);
-  if (!released) return released;
+  return ReleasePort(runtime_, request.port);
+}
+
+// Under the slot's mutex.
+void HandSettings::WatchOver(const Slot& slot) {
   const std::lock_guard lock(mutex_);
-  last_.erase(*released);
-  leases_.Forget(*released);
-  return released;
+  if (std::ranges::find(driven_, slot) == driven_.end()) driven_.push_back(slot);
+  must_look_ = true;
+  if (watches_ && !watch_.joinable()) watch_ = std::thread([this] { Watch(); });
+  has_changed_.notify_all();
 }
 
 void HandSettings::Watch() {
   std::unique_lock lock(mutex_);
   while (!ends_) {
-    const auto next = leases_.next();
-    if (!next) {
-      has_changed_.wait(lock);
-    } else if (const Duration left = *next - Now(); left > Duration::zero()) {
-      has_changed_.wait_for(lock, left);
+    must_look_ = false;
+    lock.unlock();
+    const auto next = LookAtDeadlines();
+    lock.lock();
+    const auto shall_look = [&] { return must_look_ || ends_; };
+    if (next) {
+      has_changed_.wait_for(lock, *next - Now(), shall_look);
     } else {
-      lock.unlock();
-      LookAtDeadlines();
-      lock.lock();
+      has_changed_.wait(lock, shall_look);
     }
   }
 }
 
-// The structure lock first: what is published by hand is so under it, and a value that has just come in time counts.
-void HandSettings::LookAtDeadlines() {
-  const std::lock_guard structure(runtime_.structure_mutex());
-  const std::lock_guard lock(mutex_);
-  for (const auto& [path, deadline] : leases_.Expire(Now())) {
-    last_.erase(path);
-    const auto found = PathSearch(runtime_).FindPort(path, PathKind::kElement);
-    if (!found || !(*found)->is_set_by_hand()) {
-      leases_.Forget(path);
-      continue;
+std::optional<Time> HandSettings::LookAtDeadlines() {
+  std::optional<Time> next;
+  for (std::size_t i = std::numeric_limits<std::size_t>::max();;) {
+    Slot slot;
+    {
+      const std::lock_guard lock(mutex_);
+      i = std::min(i, driven_.size());
+      if (i-- == 0) return next;
+      slot = driven_[i];
     }
-    std::string text = path + ": nobody has been heard of for " + DurationText(deadline) + "; ";
-    const auto safe = SafeValueOf(**found);
-    if (safe && PublishByHand(**found, safe->get())) {
-      text += "it is at rest until it is released";
-    } else {  // what is published must do
-      (*found)->Release();
-      leases_.Forget(path);
-      text += "it has no safe value, and is released";
+    if (const auto due = LookAt(slot); due && (!next || *due < *next)) next = due;
+  }
+}
+
+// When to look again. A value that has just come in time counts: it is published under the same mutex.
+std::optional<Time> HandSettings::LookAt(const Slot& slot) {
+  const std::lock_guard lock(slot->mutex);
+  HandHold* const hold = slot->hold ? &HoldOf(*slot) : nullptr;
+  const auto due = hold != nullptr && slot->stand_in != nullptr ? hold->due() : std::nullopt;
+  if (!due) {
+    const std::lock_guard list(mutex_);
+    std::erase(driven_, slot);
+    return {};
+  }
+  if (*due > Now()) return due;
+  // Whatever is thrown, the other slots' deadlines are looked at, and this one is tried again.
+  try {
+    if (const auto at_rest = slot->Publish(hold->safe_value); at_rest) {
+      hold->NoteLost();
+      log_.Add(ApplicationLog::Kind::kWarning,
+               hold->path + ": nobody has been heard of for " + DurationText(hold->deadline()) +
+                   "; it is at rest until it is released");
+    } else {
+      TellFailure(*hold, at_rest.error());
     }
-    log_.Add(ApplicationLog::Kind::kWarning, std::move(text));
+  } catch (...) {
+    TellFailure(*hold, CaughtError());
+  }
+  return Now() + kShortestLook;
+}
+
+// Once for each deadline: it is tried a thousand times a second.
+void HandSettings::TellFailure(HandHold& hold, const Error& error) {
+  if (std::exchange(hold.has_failed, true)) return;
+  try {
+    log_.Add(ApplicationLog::Kind::kWarning, hold.path + ": nobody has been heard of, and it cannot be given its safe value (" +
+                                                 error.message + "); this is tried again");
+  } catch (...) {
+    hold.has_failed = false;  // told at the next try
   }
 }
 

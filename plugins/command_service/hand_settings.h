@@ -1,10 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -12,6 +13,8 @@
 
 #include "core/base/clock.h"
 #include "core/element/runtime.h"
+#include "core/port/hand_slot.h"
+#include "core/types/any_value.h"
 #include "plugins/command_service/application_log.h"
 #include "plugins/command_service/command_request.h"
 #include "plugins/command_service/command_worker.h"
@@ -34,8 +37,10 @@ Result<std::string> ReleasePort(Runtime& runtime, const std::string& path);
 /// is not given back to its publishers: a robot that has just lost the person who drove it must not begin to drive by
 /// itself.
 ///
-/// Threads: the worker's; All() and LookAtDeadlines() by any. One of its own looks at deadlines, from the first on:
-///          it waits for the structure lock, and for nothing else.
+/// All of it is kept in the port's slot (HandSlot), and goes where the port goes: nothing here is found by a path.
+///
+/// Threads: the worker's; All() and LookAtDeadlines() by any. One of its own looks at deadlines, from the first on. It
+///          takes a mutex for each slot, and neither the structure lock nor the worker: no change keeps it up.
 class HandSettings {
  public:
   /// `watched_clock`: for tests, of a machine whose deadlines only LookAtDeadlines() looks at.
@@ -51,20 +56,19 @@ class HandSettings {
   Result<std::string> Block(const BlockRequest& request);
   Result<std::string> Release(const ReleaseRequest& request);
 
-  /// Publishes the safe value where a deadline has passed.
-  void LookAtDeadlines();
+  /// Publishes the safe value where a deadline has passed. When the next one ends.
+  std::optional<Time> LookAtDeadlines();
   /// Ports that are set by hand or blocked, by path. Waits for nobody: while the structure is being changed, as before.
   [[nodiscard]] std::vector<std::pair<std::string, HandState>> All() const;
   /// Of the machine, from which deadlines count.
   [[nodiscard]] Time Now() const { return clock_.Now(); }
 
  private:
-  struct HandSet {
-    std::string path;
-    std::shared_ptr<const void> value;
-  };
-  void PublishAgainAndAgain(HandSet set, std::uint64_t number, double rate);
-  [[nodiscard]] bool IsLast(const std::string& port, std::uint64_t number) const;
+  using Slot = std::shared_ptr<HandSlot>;
+  void PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t number, double rate);
+  void WatchOver(const Slot& slot);
+  std::optional<Time> LookAt(const Slot& slot);
+  void TellFailure(HandHold& hold, const Error& error);
   void Watch();
 
   Runtime& runtime_;
@@ -72,16 +76,15 @@ class HandSettings {
   const SteadyClock machine_clock_;
   const Clock& clock_;
   const bool watches_;
-  // Whoever publishes looks at them under the structure lock, which comes first, so that nothing is published after
-  // a deadline has passed.
-  mutable std::mutex mutex_;
+  const std::shared_ptr<EndedLeases> ended_ = std::make_shared<EndedLeases>();
+  mutable std::mutex mutex_;  // comes after the structure lock and after a slot's mutex
   std::condition_variable has_changed_;
-  HandLeases leases_;                                     // guarded by mutex_
-  std::map<std::string, std::uint64_t, std::less<>> last_;  // so: which publishing at a port is the last one
-  std::uint64_t count_ = 0;                               // so
+  std::vector<Slot> driven_;                                     // guarded by mutex_: those with a deadline
   mutable std::vector<std::pair<std::string, HandState>> told_;  // so: by All()
-  bool ends_ = false;                                     // so
-  std::thread watch_;
+  bool must_look_ = false;                                       // so
+  bool ends_ = false;                                            // so
+  std::atomic<std::uint64_t> count_{0};
+  std::thread watch_;  // made by the worker
   TaskGroup tasks_;  // first to go: its tasks use the rest
 };
 

@@ -28,7 +28,7 @@ std::string DrivingText(Runtime& runtime) {
     const auto* const port = dynamic_cast<const Port*>(&each);
     if (port != nullptr && port->is_driving()) paths += (paths.empty() ? "" : ", ") + port->path();
   });
-  return paths.empty() ? "but NO PORT of this application is marked as driving" : "what drives: " + paths;
+  return paths.empty() ? "warning: no port of this application is marked as driving, so nothing has its safe value" : "what drives: " + paths;
 }
 
 std::string StateText(const ServedApplication& application) {
@@ -61,6 +61,7 @@ std::string StateText(const ServedApplication& application) {
     if (count > 0) text += ", " + std::to_string(count) + (count == 1 ? one : many);
   };
   add(StoppedModules(root, *application.scheduler, nullptr).size(), " module FAILED", " modules FAILED");
+  add(application.scheduler->StuckModules().size(), " module STUCK", " modules STUCK");
   add(paused, " module PAUSED", " modules PAUSED");
   add(blocked, " port BLOCKED", " ports BLOCKED");
   add(by_hand, " port set by hand", " ports set by hand");

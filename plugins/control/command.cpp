@@ -50,7 +50,7 @@ const std::vector<CommandKind>& Kinds() {
       {"release", 0, 1, {}, MakeServiceCommand},
       {"block", 1, 1, {}, MakeServiceCommand},
       {"quit", 0, 0, {}, MakeServiceCommand},
-      {"publish", 1, 2, {"rate", "deadline"}, MakeServiceCommand},
+      {"publish", 2, 2, {"rate", "deadline"}, MakeServiceCommand},
       {"call", 1, 2, {"timeout"}, MakeCallCommand},
       {"network", 0, 0, {}, MakeNetworkCommand},
       {"activities", 0, 1, {"all", "abort"}, MakeActivitiesCommand},

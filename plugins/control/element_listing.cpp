@@ -178,7 +178,11 @@ std::string StateText(FrameworkElement& element, const ListingOptions& options,
                       const std::map<std::string, std::string>& stopped) {
   const auto found = stopped.find(element.path());
   if (found != stopped.end()) return ", FAILED" + (found->second.empty() ? "" : ": " + found->second);
-  if (options.scheduler != nullptr && IsModule(element) && options.scheduler->IsPaused(element)) return ", PAUSED";
+  if (options.scheduler == nullptr || !IsModule(element)) return {};
+  for (const StuckModule& each : options.scheduler->StuckModules()) {
+    if (each.path == element.path()) return ", STUCK" + fmt::format(" for {:.1f} s", ToSeconds(each.since));
+  }
+  if (options.scheduler->IsPaused(element)) return ", PAUSED";
   return {};
 }
 

@@ -2,9 +2,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/number_text.h"
 #include "core/paths/distant_ports.h"
-#include "core/types/duration_text.h"
+#include "plugins/command_service/request_table.h"
 #include "plugins/control/application_state.h"
 #include "plugins/control/command.h"
 #include "plugins/structure/change_text.h"
@@ -45,40 +44,34 @@ LogLevelRequest LevelOf(const std::string& wish) {
   return {wish.substr(0, equals), wish.substr(equals + 1)};
 }
 
-CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
+// One of those that every client offers: words are its fields, in their order.
+Result<CommandRequest> DescribedRequestOf(const DescribedRequest& described, const Request& request) {
+  RequestFields fields;
+  for (const auto& [name, value] : request.options) fields[name] = value;
+  for (std::size_t i = 0; i < std::min(described.fields.size(), request.arguments.size()); ++i) {
+    fields[std::string(described.fields[i].name)] = request.arguments[i];
+  }
+  if (request.command == "release" && request.arguments.empty()) fields["path"] = std::string(kRobotStopName);
+  return MakeRequest(described.name, fields, kClient);
+}
+
+Result<CommandRequest> RequestOf(const Request& request, PlacedChanges placed) {
+  if (const auto described = FindRequest(request.command)) return DescribedRequestOf(**described, request);
   const std::string argument = request.arguments.empty() ? "" : request.arguments[0];
-  if (request.command == "undo") return UndoRequest{};
-  if (request.command == "redo") return RedoRequest{};
+  if (request.command == "undo") return CommandRequest(UndoRequest{});
+  if (request.command == "redo") return CommandRequest(RedoRequest{});
   if (request.command == "save") {
-    return SaveRequest{.file = argument,
-                       .is_configuration = request.Option("config") == "yes",
-                       .overwrites = request.Option("overwrite") == "yes"};
+    return CommandRequest(SaveRequest{.file = argument,
+                                      .is_configuration = request.Option("config") == "yes",
+                                      .overwrites = request.Option("overwrite") == "yes"});
   }
-  if (request.command == "reload") return ReloadRequest{argument};
-  if (request.command == "restart") return RestartRequest{argument};
-  if (request.command == "quit") return QuitRequest{};
-  if (request.command == "stop") return RobotStopRequest{true, kClient};
-  if (request.command == "pause") return PauseRequest{argument, true};
-  if (request.command == "resume") return PauseRequest{argument, false};
-  if (request.command == "log") return LevelOf(request.Option("level"));
-  if (request.command == "release" && argument.empty()) return RobotStopRequest{false, kClient};
-  if (request.command == "release") return ReleaseRequest{argument};
-  if (request.command == "block") return BlockRequest{argument};
-  if (request.command == "publish") {
-    // What is no number is out of the bounds.
-    const auto rate = request.Has("rate") ? std::optional(NumberIn<double>(request.Option("rate")).value_or(0))
-                                          : std::nullopt;
-    PublishRequest publish{argument, request.arguments.size() > 1 ? request.arguments[1] : "", rate};
-    // So is what is no duration.
-    if (request.Has("deadline")) {
-      const auto deadline = ParseDuration(request.Option("deadline"));
-      publish.deadline = deadline ? *deadline : Duration::zero();
-    }
-    return publish;
-  }
-  return ChangeRequest{.placed = std::move(placed),
-                       .client = kClient,
-                       .may_end_application = request.Option("yes") == "yes"};
+  if (request.command == "reload") return CommandRequest(ReloadRequest{argument});
+  if (request.command == "restart") return CommandRequest(RestartRequest{argument});
+  if (request.command == "quit") return CommandRequest(QuitRequest{});
+  if (request.command == "log") return CommandRequest(LevelOf(request.Option("level")));
+  return CommandRequest(ChangeRequest{.placed = std::move(placed),
+                                      .client = kClient,
+                                      .may_end_application = request.Option("yes") == "yes"});
 }
 
 }  // namespace
@@ -99,11 +92,10 @@ CommandResult MakeServiceCommand(const Request& request, const CommandContext& c
   if (placed.changes.size() == 1 && IsFar(placed.changes.front())) {
     return ShowExtensionText(context.application.runtime, "command", request.body, kFarPatience);
   }
-  if (request.command == "publish" && request.arguments.size() < 2) {
-    return Error{.message = "'publish' wants a value"};
-  }
+  auto wanted = RequestOf(request, std::move(placed));
+  if (!wanted) return wanted.error();
   const std::shared_ptr<PendingCommand> pending =
-      context.service.Begin(RequestOf(request, std::move(placed)), context.tasks);
+      context.service.Begin(std::move(*wanted), context.tasks);
   const bool is_of_robot = request.command == "stop" || (request.command == "release" && request.arguments.empty());
   return Command([pending, is_of_robot, &runtime = context.application.runtime](Answer& answer) -> CommandStep {
     if (!pending->is_done()) return std::shared_ptr<const WorkerTask>(pending->task());

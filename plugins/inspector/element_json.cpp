@@ -90,6 +90,7 @@ void AddPort(const Port& port, JsonObject& json) {
   json.Add("required", port.is_required()).Add("pullable", port.is_pullable());
   json.Add("description", port.description()).Add("unit", port.unit());
   json.Add("by_hand", port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule));
+  json.Add("driving", port.is_driving()).Add("blocked", port.is_blocked());
   const InputLimits& limits = port.limits();
   json.Add("bounds", BoundsText(limits));
   json.AddTextOrNull("default", limits.default_value ? ToText(limits.default_value.type(),
@@ -180,6 +181,7 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return hash;
     Mix(port->is_set_by_hand() || port->is_set_by_hand(Port::Setter::kRule) ? 1 : 0, hash);
+    Mix((port->is_driving() ? 1 : 0) + (port->is_blocked() ? 2 : 0), hash);
     Mix(BoundsText(port->limits()), hash);
     MixAwaited(AwaitedBy(*port), hash);
     return hash;

@@ -32,6 +32,9 @@ std::string HintFor(const TakeOptions& known, const TakeOptions& take, std::stri
 NetworkElement::NetworkElement(const Placement& placement, NetworkOptions options)
     : FrameworkElement(placement, ElementKind::kGroup), options_(std::move(options)) {
   Annotate(std::make_unique<NotSaved>());  // the tags of the file make it again
+  // A button elsewhere sends these, and no module here may have a port of them.
+  internal::MakeTypedPortsKnown<bool>();
+  internal::MakeTypedPortsKnown<double>();
   runtime().root().Annotate<DistantPorts>(std::make_unique<NetworkPorts>(*this));
 }
 

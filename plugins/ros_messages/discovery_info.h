@@ -24,7 +24,7 @@ struct RosNode {
   friend bool operator==(const RosNode&, const RosNode&) = default;
 };
 
-/// One message of the topic "ros_discovery_info" (no "rt/" in front; FindQuality("discovery_writer")): all nodes of a
+/// One message of the topic "ros_discovery_info" (no "rt/" in front): all nodes of a
 /// participant. Each participant has its own, and writes it anew at every change.
 struct RosParticipant {
   RosGid gid{};

@@ -1,17 +1,12 @@
 #include "plugins/ros_messages/node_messages.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/log/log_message.h"
 #include "core/types/type_of.h"
 
 namespace runnel {
-
-namespace {
-
-}  // namespace
 
 std::uint8_t RosLevel(LogLevel level) {
   switch (level) {
@@ -36,14 +31,6 @@ RosLog ToRosLog(const LogMessage& said, Time stamp) {
   RosLog log{.stamp = stamp, .name = std::move(name), .msg = said.TextWithCount(), .file = {}, .function = {}};
   log.level = RosLevel(said.level);
   return log;
-}
-
-RosTransformStamped ToRosTransform(Time stamp, std::string frame, std::string child, double x, double y,
-                                   double heading) {
-  return {.header = {.stamp = stamp, .frame_id = std::move(frame)},
-          .child_frame_id = std::move(child),
-          .transform = {.translation = {.x = x, .y = y},
-                        .rotation = {.z = std::sin(heading / 2), .w = std::cos(heading / 2)}}};
 }
 
 // Names with a dot: whoever describes a type of the same message has its name to himself.
@@ -82,33 +69,6 @@ void Describe(TypeBuilder<RosDiagnostics>& type) {
   type.Name("ros.Diagnostics")
       .Field("header", &RosDiagnostics::header)
       .Field("status", &RosDiagnostics::status);
-}
-void Describe(TypeBuilder<RosVector3>& type) {
-  type.Name("ros.Vector3")
-      .Field("x", &RosVector3::x, {.unit = "m"})
-      .Field("y", &RosVector3::y, {.unit = "m"})
-      .Field("z", &RosVector3::z, {.unit = "m"});
-}
-void Describe(TypeBuilder<RosQuaternion>& type) {
-  type.Name("ros.Quaternion")
-      .Field("x", &RosQuaternion::x)
-      .Field("y", &RosQuaternion::y)
-      .Field("z", &RosQuaternion::z)
-      .Field("w", &RosQuaternion::w);
-}
-void Describe(TypeBuilder<RosTransform>& type) {
-  type.Name("ros.Transform")
-      .Field("translation", &RosTransform::translation)
-      .Field("rotation", &RosTransform::rotation);
-}
-void Describe(TypeBuilder<RosTransformStamped>& type) {
-  type.Name("ros.TransformStamped")
-      .Field("header", &RosTransformStamped::header)
-      .Field("child_frame_id", &RosTransformStamped::child_frame_id)
-      .Field("transform", &RosTransformStamped::transform);
-}
-void Describe(TypeBuilder<RosTransforms>& type) {
-  type.Name("ros.Transforms").Field("transforms", &RosTransforms::transforms);
 }
 
 }  // namespace runnel

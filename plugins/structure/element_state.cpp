@@ -1,12 +1,15 @@
 #include "plugins/structure/element_state.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
+#include "core/element/not_saved.h"
 #include "core/element/runtime.h"
 #include "core/element/tags.h"
 #include "core/port/given_limits.h"
 #include "core/port/port_stop.h"
+#include "core/port/probe_port.h"
 #include "core/types/type_info.h"
 #include "plugins/structure/value_by_hand.h"
 
@@ -80,6 +83,13 @@ ElementState::ElementState(const FrameworkElement& element, Inherit how, Below b
 
 Result<void> ElementState::GivePorts(FrameworkElement& made) const { return Give(*noted_, made); }
 
+bool IsRecorded(const Port& port) {
+  return std::ranges::any_of(port.outgoing(), [](const Connection& each) {
+    return dynamic_cast<const ProbePort*>(each.to) != nullptr &&
+           each.to->parent()->FindAnnotation<NotSaved>() != nullptr;
+  });
+}
+
 std::string WhatIsSetAt(const Port& port) {
   std::string text;
   const auto add = [&](bool is_set, const char* what) {
@@ -90,6 +100,7 @@ std::string WhatIsSetAt(const Port& port) {
   add(port.is_set_by_hand(), "its value by hand");
   add(port.FindAnnotation<GivenLimits>() != nullptr, "its limits");
   add(!TagsOf(port).empty(), "its tags");
+  add(IsRecorded(port), "its recording");
   return text;
 }
 

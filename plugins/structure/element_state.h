@@ -37,8 +37,9 @@ class ElementState {
   UnlistedElement noted_;
 };
 
-/// What of a person would get lost with `port`, as nothing stands for it any more: "a value by hand, limits"; "" for
-/// nothing.
+/// What would get lost with `port`, as nothing stands for it any more: "its value by hand, its limits"; "" for nothing.
 [[nodiscard]] std::string WhatIsSetAt(const Port& port);
+/// Whether a recorder takes its values.
+[[nodiscard]] bool IsRecorded(const Port& port);
 
 }  // namespace runnel::internal

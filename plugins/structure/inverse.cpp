@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/element/element_path.h"
+#include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
@@ -141,7 +142,11 @@ ChangeSet MakeAgain(FrameworkElement& element, std::optional<Error>& why_not) {
   ChangeSet changes;
   AddCreation(element, FrameworkElement::Inherit::kAsReplacement, changes, why_not);
   AddInnerConnections(element, changes);
-  for (const Connection& tie : ExternalConnectionsOf(element)) AddConnection(tie, changes);
+  for (const Connection& tie : ExternalConnectionsOf(element)) {
+    // Recorders and offers, which are beside the tree, tie themselves to what comes.
+    const auto to = element.runtime().root().Find(tie.to->path());
+    if (to && *to == tie.to) AddConnection(tie, changes);
+  }
   return changes;
 }
 

@@ -304,6 +304,12 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
     return match.errors.front();
   }
   // Made anew by its own type it is to go on where it was. Another type takes over what it can.
+  for (const Setting& each : SettingsOf(before)) {
+    if (FindConfigurable(made, each.parameter)) continue;
+    warnings_.push_back({.message = "its value " + each.value + " of parameter '" + each.parameter +
+                                    "' went with it: the new module has no such parameter",
+                         .path = before.path()});
+  }
   before.Visit([&](FrameworkElement& each) {
     const auto* const port = dynamic_cast<const Port*>(&each);
     if (port == nullptr || std::ranges::count(match.ports, port, &std::pair<Port*, Port*>::first) > 0) return;

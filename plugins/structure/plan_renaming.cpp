@@ -14,6 +14,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/port/proxy_port.h"
 #include "core/types/type_info.h"
+#include "plugins/structure/element_state.h"
 #include "plugins/structure/name_in_file.h"
 #include "plugins/structure/plan.h"
 
@@ -87,6 +88,13 @@ Result<void> Plan::Check(const CopyElement& change) {
   std::optional<Error> why_not;
   const ChangeSet changes = MakeLike(element, Sibling(element, name), why_not);
   if (why_not) return *why_not;
+  const auto ties = ExternalConnectionsOf(element);
+  const bool is_recorded = std::ranges::any_of(ties, [](const Connection& tie) { return IsRecorded(*tie.from); });
+  if (!ties.empty()) {
+    warnings_.push_back({.message = std::string("is not connected with others, as ") + element.path() + " is" +
+                                    (is_recorded ? ", nor recorded by that name" : ""),
+                         .path = Sibling(element, name)});
+  }
   for (const Change& each : changes) {
     const auto check = [this](const auto& one) { return Check(one); };
     if (auto possible = std::visit(check, each); !possible) return possible;

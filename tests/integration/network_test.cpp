@@ -35,6 +35,42 @@ TEST_F(TwoRobots, APlannerThatIsHeldUpHoldsNobodyUpAndGoesOnWithWhatIsNew) {
   ASSERT_TRUE(robot->WaitFor("values come again"));
 }
 
+// The robot itself is not told: a twist that is stopped where it comes from stops who moves by it.
+TEST_F(TwoRobots, AStopOfThePlannerStopsTheRobotAndNothingElseThatItSends) {
+  const auto robot = Start("two_robots.xml");
+  const auto planner = Start("two_robots_planner.xml");
+  WaitUntilItDrives();
+  ASSERT_EQ(Runnel("stop --app planner").code, kDone);
+  WaitForText("get --app robot /gate/wanted", "{forward: 0, turn: 0}");
+  EXPECT_THAT(Runnel("network --app planner").text, HasSubstr("STOPPED: its safe value is sent"));
+  EXPECT_THAT(Runnel("network --app robot").text, Not(HasSubstr("STOPPED")));
+  ASSERT_EQ(Runnel("release --app planner").code, kDone);
+  WaitUntilItDrives();
+  // What somebody sets by hand is sent, too.
+  ASSERT_EQ(Runnel("publish --app planner /planner/output/twist '{forward: 0.125, turn: 0}'").code, kDone);
+  WaitForText("get --app robot /gate/wanted", "forward: 0.125");
+}
+
+// Its port is true while the STOP is in force; no module has to know of it.
+TEST_F(TwoRobots, AStopOfOneStopsTheOtherWhereTheFilesSaySo) {
+  const Program planner("run " + Write("planner", R"(  <group name="panel"><port name="stopped" type="bool" direction="output"/></group>
+  <driving port="panel/stopped" safe="true"/>
+  <network><offer port="panel/stopped" topic="/stop" as="std_msgs/msg/Bool"/><take topic="/cmd" to="gate/wanted"/></network>
+  <module name="gate" type="motion/command_gate"/>
+)"));
+  Program base("run " + Write("base", R"(  <group name="panel"><port name="pressed" type="bool" direction="input"/></group>
+  <stop_button port="panel/pressed"/>
+  <network><take topic="/stop" as="std_msgs/msg/Bool" to="panel/pressed"/><take topic="/cmd" to="gate/wanted"/></network>
+  <module name="gate" type="motion/command_gate"/>
+)"));
+  WaitForText("network --app planner", "read by base");
+  ASSERT_EQ(Runnel("stop --app planner").code, kDone);
+  ASSERT_TRUE(base.WaitFor("STOP, by the button /base/panel/pressed"));
+  ASSERT_EQ(Runnel("release --app planner").code, kDone);
+  const Ended released = Runnel("release --app base");  // somebody there releases it
+  EXPECT_EQ(released.code, kDone) << released.text;
+}
+
 TEST_F(TwoRobots, ARobotThatIsKilledAndStartedAgainFindsItsPlannerAndTheLatchedGoal) {
   const auto planner = Start("two_robots_planner.xml");
   auto robot = Start("two_robots.xml");

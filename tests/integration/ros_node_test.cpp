@@ -43,7 +43,7 @@ TEST_F(AmongRosNodes, TheyReadItsScansItsNodeItsTimeAndItsLog) {
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   EXPECT_TRUE(Node("scan").WaitFor("scan frame laser ranges 181 from -1.571 step 0.01745 most 4.00"));
   EXPECT_TRUE(Node("clock").WaitFor("clock 1."));
-  EXPECT_TRUE(Node("graph").WaitFor("node /robots base readers 1 writers 5"));
+  EXPECT_TRUE(Node("graph").WaitFor("node /robots base readers 2 writers 6"));
   EXPECT_TRUE(Node("log").WaitFor("is in the network"));
 }
 
@@ -59,7 +59,7 @@ TEST_F(AmongRosNodes, ThoseOfHumbleSeeItAsOneOfTheirs) {
   std::ofstream(folder_ / "robot.xml") << humble;
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   Program node = Node("graph_of_humble");
-  EXPECT_TRUE(node.WaitFor("node /robots base readers 1 writers 5"));
+  EXPECT_TRUE(node.WaitFor("node /robots base readers 2 writers 6"));
   node.Send(SIGTERM);
   EXPECT_THAT(node.Wait().text, Not(HasSubstr("another participant")));
 }

@@ -229,7 +229,7 @@ void BindApplication(py::module_& module) {
       .def("_reader", [](const Open& open, const std::string& path, std::size_t queue) { return std::make_shared<Reader>(open, path, queue); })
       .def("_writer", [](const Open& open, const std::string& path) { return std::make_shared<TiedPort>(open, path, PathKind::kInput, ConnectOptions{}); })
       .def("_publish", PublishByHand)
-      .def("_release", [](const Open& open, const std::string& path) { Checked(WithoutGil([&] { return path.empty() ? Result<void>(Error{.message = "the path is empty"}) : (*open)->Release(path); })); })
+      .def("_release", [](const Open& open, const std::string& path) { Checked(WithoutGil([&] { return (*open)->Release(path); })); })
       .def("_block", [](const Open& open, const std::string& path) { Checked(WithoutGil([&] { return Block(**open, path); })); })
       .def("_robot_stop", [](const Open& open, bool is_pressed) { Checked(WithoutGil([&] { return SetStop(**open, is_pressed); })); })
       .def("_call", Call)
@@ -238,11 +238,11 @@ void BindApplication(py::module_& module) {
       .def("_step", Step)
       .def("_start", [](const Open& open) { Checked(WithoutGil([&] { return (*open)->Start(); })); })
       .def("_quit", [](const Open& open) { WithoutGil([&] { if (open->application) open->application->Stop(); }); })
-      .def("_pause", [](const Open& open, const std::string& path) {
-        Checked(WithoutGil([&] { return path.empty() ? (*open)->Pause() : (*open)->Pause(path); }));
+      .def("_pause", [](const Open& open, const std::optional<std::string>& path) {
+        Checked(WithoutGil([&] { return path ? (*open)->Pause(*path) : (*open)->Pause(); }));
       })
-      .def("_resume", [](const Open& open, const std::string& path) {
-        Checked(WithoutGil([&] { return path.empty() ? (*open)->Resume() : (*open)->Resume(path); }));
+      .def("_resume", [](const Open& open, const std::optional<std::string>& path) {
+        Checked(WithoutGil([&] { return path ? (*open)->Resume(*path) : (*open)->Resume(); }));
       })
       .def("_set_speed", [](const Open& open, double speed) { Checked(WithoutGil([&] { return (*open)->SetSpeed(speed); })); })
       .def("_close",

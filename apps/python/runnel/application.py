@@ -62,6 +62,13 @@ def text_of(value, inside=False):
     return str(value) if isinstance(value, _extension.Value) else repr(value)
 
 
+def _given(path):
+    """The path, or None for all; what is empty by mistake is not all."""
+    if path == "":
+        raise _extension.Error("the path is empty")
+    return path
+
+
 def _words(values):
     return [(str(name), text_of(value)) for name, value in values.items()]
 
@@ -268,7 +275,7 @@ class Application(_extension.Application):
         if path is None:
             self._robot_stop(False)
         else:
-            self._release(path)
+            self._release(_given(path))
 
     def block(self, path):
         """Stops one port: its readers have the safe value, whatever anybody publishes, until release(path)."""
@@ -324,13 +331,13 @@ class Application(_extension.Application):
         """Ends all cycles. It can be started again. (The STOP of the robot is stop().)"""
         self._quit()
 
-    def pause(self, path=""):
+    def pause(self, path=None):
         """Pauses simulated time, or leaves what is at or below `path` out of cycles."""
-        self._pause(path)
+        self._pause(_given(path))
 
-    def resume(self, path=""):
+    def resume(self, path=None):
         """Takes that back."""
-        self._resume(path)
+        self._resume(_given(path))
 
     def set_speed(self, factor):
         """How many times faster than real time simulated time passes; 0: as fast as it can."""

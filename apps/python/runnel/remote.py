@@ -303,8 +303,11 @@ class Remote:
         """STOP of the robot: all that moves something has its safe value, until release(). By a connection of its own: no
         request of another thread delays it.
         """
-        with contextlib.closing(_Socket(self._path, 5)) as connection:
-            return _outcome(*_exchange(connection, _request("stop", [], {}, "")))
+        try:
+            with contextlib.closing(_Socket(self._path, 5)) as connection:
+                return _outcome(*_exchange(connection, _request("stop", [], {}, "")))
+        except (OSError, _extension.Error) as why:
+            raise _extension.Error(f"the STOP of {self.name} is not confirmed: {why}") from None
 
     def release(self, path=None):
         """Ends the STOP; with the path of a port, its block or the value set by hand there."""
@@ -332,13 +335,13 @@ class Remote:
 
     # Its time.
 
-    def pause(self, path=""):
+    def pause(self, path=None):
         """Pauses simulated time, or leaves what is at or below `path` out of cycles."""
-        return self.ask("pause", *([path] if path else []))
+        return self.ask("pause", *([] if path is None else [path]))
 
-    def resume(self, path=""):
+    def resume(self, path=None):
         """Takes that back."""
-        return self.ask("resume", *([path] if path else []))
+        return self.ask("resume", *([] if path is None else [path]))
 
     def step(self, cycles=1):
         """Pauses, and lets so many cycles run."""

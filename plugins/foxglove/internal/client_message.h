@@ -28,8 +28,8 @@ struct UnsubscribeMessage {
   std::vector<std::uint32_t> ids;
 };
 struct AdvertiseMessage {
-  static constexpr std::string_view kName = "advertise";
-  static constexpr WebRole kRole = WebRole::kDrive;
+  static constexpr std::string_view kName = "advertise";  ///< of other topics than the STOP: kDrive
+  static constexpr WebRole kRole = WebRole::kLook;
   struct Channel {
     std::uint32_t id;
     std::string topic;
@@ -39,7 +39,7 @@ struct AdvertiseMessage {
 };
 struct UnadvertiseMessage {
   static constexpr std::string_view kName = "unadvertise";
-  static constexpr WebRole kRole = WebRole::kDrive;
+  static constexpr WebRole kRole = WebRole::kLook;
   std::vector<std::uint32_t> ids;
 };
 struct GetParametersMessage {

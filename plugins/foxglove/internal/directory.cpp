@@ -7,6 +7,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
+#include "plugins/foxglove/internal/robot_stop_access.h"
 #include "plugins/services/callable.h"
 #include "plugins/values/foxglove_topics.h"
 
@@ -93,7 +94,7 @@ struct Directory::Search {
   }
 
   std::vector<FoundPort> ports;
-  std::vector<DirectoryService> services;  // without their numbers
+  std::vector<DirectoryService> services = StopServices();  // without their numbers
   std::vector<std::pair<std::string, DirectoryParameter>> parameters;  // with their topics
   Counts target_topics, shown_topics, parameter_topics;
 };
@@ -108,7 +109,8 @@ const std::string& NameIn(const std::unordered_map<std::string, int>& counts,
 
 }  // namespace
 
-Directory::Directory(Runtime& runtime) : runtime_(runtime), walk_(runtime) {}
+Directory::Directory(Runtime& runtime)
+    : runtime_(runtime), walk_(runtime), stop_(std::make_shared<const FoxgloveChannel>(StopChannel())) {}
 Directory::~Directory() = default;
 
 Directory::SteadyTime Directory::Look(SteadyTime now) {
@@ -150,6 +152,7 @@ Directory::SteadyTime Directory::Look(SteadyTime now) {
 void Directory::AddChannels(const Search& search, const Port* robot_pose,
                             DirectoryContent& content) {
   if (!search.shown_topics.contains(log_->topic)) AddChannel(log_->topic, "", nullptr, log_, content);
+  AddChannel(stop_->topic, "", nullptr, stop_, content);
   for (const Search::FoundPort& port : search.ports) {
     if (port.port != robot_pose) continue;
     const Encoding& encoding = TransformOf(*port.type);

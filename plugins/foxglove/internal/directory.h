@@ -26,8 +26,8 @@ class BroughtByClient final : public Annotation {};
 struct DirectoryChannel {
   std::uint32_t id;
   std::string topic;
-  std::string port;      ///< path; "" for the log
-  const TypeInfo* type;  ///< nullptr for the log
+  std::string port;      ///< path; "" for the log and the STOP
+  const TypeInfo* type;  ///< nullptr for these
   std::shared_ptr<const FoxgloveChannel> encoding;  ///< of its type, without the topic
 };
 
@@ -107,6 +107,7 @@ class Directory {
   std::unique_ptr<Search> search_;  // while the walk is under way
   SteadyTime look_at_{};
   std::shared_ptr<const DirectoryContent> content_ = std::make_shared<DirectoryContent>();
+  const Encoding stop_;
   const Encoding log_ = std::make_shared<const FoxgloveChannel>(LogChannel());
   std::unordered_map<const TypeInfo*, std::vector<Encoding>> encodings_;
   std::unordered_map<const TypeInfo*, Encoding> transforms_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
+#include "plugins/foxglove/internal/robot_stop_access.h"
 
 namespace runnel::internal {
 
@@ -26,7 +27,7 @@ FoxgloveSession::FoxgloveSession(std::shared_ptr<FoxgloveShared> shared, WebClie
       subscriptions_(shared_->application.service.application(), client),
       parameters_(*shared_, send_queue_, client.Waker()),
       calls_(*shared_, send_queue_, client) {
-  send_queue_.Send(ServerInfoMessage(*shared_, shared_->RoleOf(client)));
+  send_queue_.Send(ServerInfoMessage(*shared_));
 }
 
 void FoxgloveSession::SendStatus(StatusLevel level, const Error& error) {
@@ -62,9 +63,13 @@ void FoxgloveSession::OnBinary(std::string_view message) {
     return SendError({.message = "there is no binary message of this kind here",
                       .hint = "byte 1: the value of a client's channel, then the channel's id; byte 2: a call of a service"});
   }
-  if (!MayDo(WebRole::kDrive, "publishing")) return;
   const std::uint32_t id = ReadNumber(message, 1);
   const auto found = publications_.find(id);
+  if (found != publications_.end() && found->second.path == kStopName) {
+    (void)SetStop(*shared_, kStopName, message.substr(kHead));
+    return;
+  }
+  if (!MayDo(WebRole::kDrive, "publishing")) return;
   if (found == publications_.end()) {
     return SendError({.message = "channel " + std::to_string(id) + " is not advertised"});
   }
@@ -104,6 +109,11 @@ void FoxgloveSession::Advertise(const AdvertiseMessage::Channel& channel, bool& 
     return SendError(
         {.message = "advertise: more than " + std::to_string(kMostPublications) + " channels"});
   }
+  if (channel.topic == kStopName) {
+    publications_[channel.id] = {channel.topic, nullptr, nullptr};
+    return;
+  }
+  if (!MayDo(WebRole::kDrive, AdvertiseMessage::kName)) return;
   const auto content = shared_->directory.content();
   const auto input = content->inputs.find(channel.topic);
   if (input == content->inputs.end()) {
@@ -162,7 +172,7 @@ void FoxgloveSession::FollowStructure() {
     subscriptions_.Retain(*content);
     if (!gone.empty()) send_queue_.Send(UnadvertiseMessageFor(gone));
     DropPublications(*content);
-    if (shared_->RoleOf(client_) >= WebRole::kDrive) calls_.Follow(*content);
+    calls_.Follow(*content, shared_->RoleOf(client_) >= WebRole::kDrive);
     if (has_graph_ && content->graph != graph_) {
       send_queue_.Send(GraphMessage(graph_, content->graph));
       graph_ = content->graph;
@@ -187,6 +197,7 @@ void FoxgloveSession::DropPublications(const DirectoryContent& content) {
   std::erase_if(publications_, [&](const auto& each) {
     const auto& [id, publication] = each;
     const auto input = content.inputs.find(publication.path);
+    if (publication.path == kStopName) return false;
     if (input != content.inputs.end() && input->second.type == publication.type) return false;
     SendStatus(StatusLevel::kWarning,
                {.message = "channel " + std::to_string(id) + " is closed: its input is gone",
@@ -199,6 +210,7 @@ void FoxgloveSession::DropPublications(const DirectoryContent& content) {
 bool FoxgloveSession::ContinuePublications() {
   bool is_any_making = false;
   std::erase_if(publications_, [&](const auto& each) {
+    if (each.second.channel == nullptr) return false;  // of the STOP
     if (each.second.channel->Continue()) is_any_making = true;
     const auto error = each.second.channel->TakeError();
     if (error) SendError(*error);

@@ -31,19 +31,17 @@ void AddTopics(JsonObject& message, const char* field, const char* ids,
 
 }  // namespace
 
-std::string ServerInfoMessage(const FoxgloveShared& shared, WebRole role) {
-  const bool may_publish = role >= WebRole::kDrive;
+std::string ServerInfoMessage(const FoxgloveShared& shared) {
   return JsonObjectText([&](JsonObject& message) {
     message.Add("op", "serverInfo").Add("name", shared.application.name);
     {
       JsonArray capabilities(message.Key("capabilities"));
-      for (const char* each : {"time", "parameters", "parametersSubscribe", "connectionGraph"}) {
+      // The last two for all, since whoever may look may press STOP.
+      for (const char* each : {"time", "parameters", "parametersSubscribe", "connectionGraph", "clientPublish", "services"}) {
         capabilities.Add(each);
       }
-      if (may_publish) capabilities.Add("clientPublish");
-      if (may_publish) capabilities.Add("services");
     }
-    if (may_publish) message.AddJson("supportedEncodings", R"(["json"])");
+    message.AddJson("supportedEncodings", R"(["json"])");
     JsonObject(message.Key("metadata")).Add("runnel", shared.application.version);
     message.Add("sessionId", shared.session);
   });

@@ -17,7 +17,7 @@ struct FoxgloveShared;
 
 enum class StatusLevel { kInformation = 0, kWarning = 1, kError = 2 };
 
-[[nodiscard]] std::string ServerInfoMessage(const FoxgloveShared& shared, WebRole role);
+[[nodiscard]] std::string ServerInfoMessage(const FoxgloveShared& shared);
 [[nodiscard]] std::string StatusMessage(StatusLevel level, std::string_view text);
 [[nodiscard]] std::string AdvertiseMessageFor(std::span<const DirectoryChannel* const> channels);
 [[nodiscard]] std::string UnadvertiseMessageFor(std::span<const std::uint32_t> ids);

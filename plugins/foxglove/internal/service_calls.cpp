@@ -10,6 +10,7 @@
 #include "plugins/command_service/caught_error.h"
 #include "plugins/foxglove/internal/client_message.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
+#include "plugins/foxglove/internal/robot_stop_access.h"
 #include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"
 #include "plugins/values/foxglove_channel.h"
@@ -24,7 +25,7 @@ constexpr std::size_t kMostCalls = 100;
 
 }  // namespace
 
-void ServiceCalls::Follow(const DirectoryContent& content) {
+void ServiceCalls::Follow(const DirectoryContent& content, bool may_call) {
   std::vector<std::uint32_t> gone;
   std::vector<const DirectoryService*> fresh;
   for (const auto& [id, path] : advertised_) {
@@ -32,6 +33,7 @@ void ServiceCalls::Follow(const DirectoryContent& content) {
   }
   for (const std::uint32_t id : gone) advertised_.erase(id);
   for (const auto& [id, service] : content.services) {
+    if (!may_call && service.path != kStopName) continue;
     if (advertised_.try_emplace(id, service.path).second) fresh.push_back(&service);
   }
   if (!gone.empty()) send_queue_.Send(UnadvertiseServicesMessage(gone));
@@ -43,6 +45,13 @@ void ServiceCalls::Begin(std::string_view message, bool may_call) {
   if (!call) return send_queue_.Send(StatusMessage(StatusLevel::kError, call.error().ToString()));
   Pending pending{.service = call->service, .call = call->call, .path = {}, .json = call->payload, .begun = {}};
   const auto found = advertised_.find(call->service);
+  if (found != advertised_.end() && (found->second == kStopName || (may_call && found->second == kReleaseName))) {
+    const std::string reply = SetStop(shared_, found->second, call->payload);
+    if (!client_.SendBinary(ServiceReplyMessage(call->service, call->call, reply))) {
+      Fail(pending, {.message = "done, but the reply was lost, as too much waits for this viewer"});
+    }
+    return;
+  }
   if (!may_call) return Fail(pending, {.message = "calling takes a token for the role 'drive'"});
   if (found == advertised_.end()) return Fail(pending, {.message = "there is no such service any more"});
   if (call->encoding != "json") {

@@ -27,9 +27,9 @@ class ServiceCalls {
   ServiceCalls(FoxgloveShared& shared, SendQueue& send_queue, WebClient& client)
       : shared_(shared), send_queue_(send_queue), client_(client) {}
 
-  /// Tells of services that have come and gone.
-  void Follow(const DirectoryContent& content);
-  /// A binary message: a call. `may_call`: else it is refused.
+  /// Tells of services that have come and gone; who may not call is told of the STOP alone.
+  void Follow(const DirectoryContent& content, bool may_call);
+  /// A binary message: a call. `may_call`: else it is refused, but for the STOP.
   void Begin(std::string_view message, bool may_call);
   /// Answers what can be answered. When it wants to be called again.
   SteadyTime Continue(SteadyTime now);

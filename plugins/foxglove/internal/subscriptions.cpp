@@ -5,6 +5,7 @@
 
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/command_service/caught_error.h"
+#include "plugins/foxglove/internal/robot_stop_access.h"
 #include "plugins/foxglove/internal/server_messages.h"
 
 namespace runnel::internal {
@@ -43,8 +44,7 @@ std::vector<Error> Subscriptions::Add(const SubscribeMessage& message,
 }
 
 Subscriptions::Subscription Subscriptions::To(const DirectoryChannel& channel) {
-  const bool is_log = channel.type == nullptr;
-  return {channel, is_log ? nullptr : std::make_unique<WatchedPort>(channel.port)};
+  return {channel, channel.type == nullptr ? nullptr : std::make_unique<WatchedPort>(channel.port)};
 }
 
 std::vector<Error> Subscriptions::Remove(const UnsubscribeMessage& message) {
@@ -70,6 +70,9 @@ void Subscriptions::Retain(const DirectoryContent& content) {
 
 bool Subscriptions::Sample() {
   if (by_id_.empty() || client_.waiting_bytes() > kMuchWaiting) return true;
+  for (auto& [id, each] : by_id_) {
+    if (each.channel.encoding->topic == kStopName) ShowStop(id, each);
+  }
   const EpochGuard guard;  // what is found stays in memory so long
   {
     Runtime& runtime = application_.runtime;
@@ -87,17 +90,27 @@ bool Subscriptions::Sample() {
   }
   for (auto each = by_id_.begin(); each != by_id_.end();) {
     const auto subscription = each++;
-    if (subscription->second.port == nullptr) ShowLog(subscription->first, subscription->second);
+    if (subscription->second.channel.encoding->topic == "/log") ShowLog(subscription->first, subscription->second);
     if (!subscription->second.is_found || Show(subscription->first, subscription->second)) continue;
     by_id_.erase(subscription);
   }
   return true;
 }
 
+// As it is, then each change; whoever has the structure lock.
+void Subscriptions::ShowStop(std::uint32_t id, Subscription& subscription) {
+  const RobotStop::State state = application_.runtime.robot_stop().state();
+  if (subscription.next > state.changes) return;
+  std::string bytes;
+  AppendMessageHead(id, application_.runtime.clock().Now(), bytes);
+  subscription.channel.encoding->Append(&state, state.since, bytes);
+  if (client_.SendBinary(std::move(bytes))) subscription.next = state.changes + 1;
+}
+
 // All that is kept, then what comes.
 void Subscriptions::ShowLog(std::uint32_t id, Subscription& subscription) {
   const ApplicationLog& log = application_.log;
-  std::uint64_t& next = subscription.next_in_log;
+  std::uint64_t& next = subscription.next;
   const auto read = log.ReadEntries(next, kLogEntriesAtOnce);
   next += read.lost;
   for (const ApplicationLog::Entry& entry : read.entries) {

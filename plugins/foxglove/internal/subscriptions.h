@@ -38,12 +38,13 @@ class Subscriptions {
  private:
   struct Subscription {
     DirectoryChannel channel;
-    std::unique_ptr<WatchedPort> port;  // nullptr for the log
+    std::unique_ptr<WatchedPort> port;  // nullptr for the log and the STOP
     bool is_found = false;
-    std::uint64_t next_in_log = 0;
+    std::uint64_t next = 0;  // entry of the log, or change of the STOP
   };
 
   [[nodiscard]] static Subscription To(const DirectoryChannel& channel);
+  void ShowStop(std::uint32_t id, Subscription& subscription);
   void ShowLog(std::uint32_t id, Subscription& subscription);
 
   // False if its type has thrown.

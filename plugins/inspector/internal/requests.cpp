@@ -7,10 +7,10 @@
 #include <variant>
 
 #include "core/paths/path_search.h"
+#include "plugins/command_service/request_table.h"
 #include "plugins/command_service/save_place.h"
 #include "plugins/inspector/internal/call_request.h"
 #include "plugins/inspector/internal/conversion_request.h"
-#include "plugins/inspector/internal/stop_messages.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
@@ -43,17 +43,6 @@ std::vector<RequestError> ErrorsOf(const Diagnostics& diagnostics) {
   return errors;
 }
 
-std::string ReplyTo(std::optional<std::uint64_t> request, const CommandAnswer& answer) {
-  if (!answer) return Refusal(request, ErrorsOf(answer.diagnostics), answer.needs);
-  std::string text = answer.text;
-  for (const Error& warning : answer.diagnostics.warnings()) text += "\n" + warning.ToString();
-  if (answer.client.empty()) return Reply(request, text);
-  return JsonObjectText([&](JsonObject& json) {
-    AddHead(request, true, json);
-    json.Add("text", text).Add("client", answer.client);
-  });
-}
-
 using CommandOrErrors = std::variant<CommandRequest, std::vector<RequestError>>;
 
 CommandOrErrors ReadChanges(ViewerMessage& message) {
@@ -76,12 +65,18 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
 }
 
 CommandOrErrors MakePublish(ViewerMessage& message) {
-  if (message.is_stop) return CommandRequest(BlockRequest{message.path});
   PublishRequest publish{message.path, message.value, message.rate};
   // Of what no duration can hold the service says so.
   if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
   publish.lease = message.lease;
   return CommandRequest(std::move(publish));
+}
+
+// Of the STOP of the robot, or of a port.
+CommandOrErrors MakeRelease(ViewerMessage& message) {
+  if (message.path == kRobotStopName)
+    return CommandRequest(RobotStopRequest{false, message.client});
+  return CommandRequest(ReleaseRequest{message.path});
 }
 
 std::string FindCompatible(Inspection& inspection, const ViewerMessage& message) {
@@ -286,6 +281,17 @@ std::string Refusal(std::optional<std::uint64_t> request, const std::vector<Requ
   });
 }
 
+std::string ReplyTo(std::optional<std::uint64_t> request, const CommandAnswer& answer) {
+  if (!answer) return Refusal(request, ErrorsOf(answer.diagnostics), answer.needs);
+  std::string text = answer.text;
+  for (const Error& warning : answer.diagnostics.warnings()) text += "\n" + warning.ToString();
+  if (answer.client.empty()) return Reply(request, text);
+  return JsonObjectText([&](JsonObject& json) {
+    AddHead(request, true, json);
+    json.Add("text", text).Add("client", answer.client);
+  });
+}
+
 std::span<const Operation> AllOperations() {
   using enum WebRole;
   using Message = ViewerMessage;
@@ -295,11 +301,13 @@ std::span<const Operation> AllOperations() {
       Operation("compatible", kLook, ByWorker<FindCompatible>),
       Operation("conversions", kLook, ByWorker<FindConversions>),
       Operation("panel", kLook, ByWorker<ReadPanel>),
-      Operation("stop", kLook, AtOnce<PressStop>),  // whoever sees the robot
-      Operation("release_stop", kDrive, AtOnce<ReleaseStop>),
+      Operation("stop", kLook, ByService<[](Message& of) {
+                  return CommandRequest(RobotStopRequest{true, of.client});
+                }>),
       Operation("publish", kDrive, ByService<MakePublish>),
-      Operation("release", kDrive,
-                ByService<[](Message& of) { return CommandRequest(ReleaseRequest{of.path}); }>),
+      Operation("release", kDrive, ByService<MakeRelease>),
+      Operation("block", kDrive,
+                ByService<[](Message& of) { return CommandRequest(BlockRequest{of.path}); }>),
       Operation("call", kDrive, Call), Operation("abort", kDrive, ByWorker<AbortCall>),
       // Who drives may stop all of it and let it go on, but not leave out one module, which may be what
       // keeps the robot from colliding.

@@ -32,6 +32,9 @@ struct ViewerRequest {
       {};  ///< in the place of a task: asked with each look; none: at once
 };
 
+[[nodiscard]] std::string ReplyTo(std::optional<std::uint64_t> request,
+                                  const CommandAnswer& answer);
+
 /// What viewers may say, and who may say it.
 struct Operation {
   /// `on_done` is called by the worker when the task is done.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/element/robot_stop.h"
+#include "plugins/command_service/request_table.h"
 #include "plugins/inspector/internal/requests.h"
 #include "plugins/values/json_writer.h"
 
@@ -17,22 +18,6 @@ RobotStop& StopOf(const Inspection& inspection) {
 }
 
 }  // namespace
-
-std::string PressStop(Inspection& inspection, const ViewerMessage& message) {
-  const bool is_new = StopOf(inspection).Press(message.client);
-  if (is_new)
-    inspection.application().log.Add(ApplicationLog::Kind::kWarning,
-                                     "STOP is in force, by " + message.client);
-  return Reply(message.request, is_new ? "STOP is in force" : "STOP was in force already");
-}
-
-std::string ReleaseStop(Inspection& inspection, const ViewerMessage& message) {
-  if (!StopOf(inspection).Release(message.client))
-    return Reply(message.request, "STOP was not in force");
-  inspection.application().log.Add(ApplicationLog::Kind::kWarning,
-                                   "STOP has been released, by " + message.client);
-  return Reply(message.request, "STOP has been released");
-}
 
 LifeSign::LifeSign(Inspection& inspection, WebClient& client)
     : inspection_(inspection),
@@ -72,18 +57,18 @@ void StopSession::OnText(std::string_view text) {
     client_.SendText(Refusal(request, {{std::move(error)}}));
   };
   if (!message) return refuse(message.error());
-  message->client = name_;
-  if (message->op == "stop") {
-    client_.SendText(PressStop(inspection_, *message));
-  } else if (message->op != "release_stop") {
-    refuse({.message = "this connection knows no '" + message->op + "'",
-            .hint = "it bears 'stop' and 'release_stop'"});
-  } else if (inspection_.RoleOf(client_) < WebRole::kDrive) {
-    refuse({.message = "'release_stop' is not allowed to who may only look",
-            .hint = "it takes a token for the role 'drive'"});
-  } else {
-    client_.SendText(ReleaseStop(inspection_, *message));
+  const bool is_press = message->op == "stop";
+  if (!is_press && (message->op != "release" || message->path != kRobotStopName)) {
+    return refuse({.message = "this connection knows no '" + message->op + "'",
+                   .hint = "it bears 'stop', and 'release' with the path 'stop'"});
   }
+  if (!is_press && inspection_.RoleOf(client_) < WebRole::kDrive) {
+    return refuse({.message = "'release' is not allowed to who may only look",
+                   .hint = "it takes a token for the role 'drive'"});
+  }
+  const auto done =
+      inspection_.service().Begin(RobotStopRequest{is_press, name_}, inspection_.tasks());
+  client_.SendText(ReplyTo(request, done->Take()));
 }
 
 }  // namespace runnel::internal

@@ -4,16 +4,9 @@
 #include <string>
 
 #include "plugins/inspector/internal/inspection.h"
-#include "plugins/inspector/internal/viewer_message.h"
 #include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {
-
-// The STOP of the robot, as viewers press and see it: by the server's thread alone, without worker, structure lock or
-// limits of requests.
-
-[[nodiscard]] std::string PressStop(Inspection& inspection, const ViewerMessage& message);
-[[nodiscard]] std::string ReleaseStop(Inspection& inspection, const ViewerMessage& message);
 
 /// Tells a client each second, and at each press and release, that the application lives and how it stands with the STOP.
 ///

@@ -56,7 +56,8 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text,
   ReadFlag(members, "on", message.is_on);
   ReadFlag(members, "overwrite", message.overwrites);
   ReadFlag(members, "yes", message.may_end_application);
-  ReadFlag(members, "stop", message.is_stop);
+  if (members.Find("stop") != nullptr)
+    members.Complain("\"stop\" is an operation of its own: of one port 'block'");
   message.value = members.Text("value").value_or("");
   message.rate = members.Number("rate");
   message.deadline = members.Number("deadline");

@@ -41,7 +41,6 @@ struct ViewerMessage {
   std::optional<double> rate;
   std::optional<double> deadline;  ///< s
   std::string lease;
-  bool is_stop = false;
   std::optional<double> speed;
   std::size_t elements = 12;
   std::uint64_t cycles = 1;

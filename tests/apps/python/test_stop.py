@@ -40,6 +40,23 @@ def test_one_port_is_blocked_until_it_is_released(base):
         base.release("")
 
 
+def test_an_empty_path_is_not_the_whole_application(base):
+    for do in (base.pause, base.resume, base.release):
+        with pytest.raises(runnel.Error):
+            do("")
+    with runnel.connect("base") as far:
+        for do in (far.pause, far.resume, far.release, far.block):
+            with pytest.raises(runnel.Error, match="one of its words is empty"):
+                do("")
+
+
+def test_a_stop_that_is_not_confirmed_says_so(base, tmp_path):
+    with runnel.connect("base") as far:
+        far._path = tmp_path / "nobody.sock"
+        with pytest.raises(runnel.Error, match="the STOP of base is not confirmed: "):
+            far.stop()
+
+
 def test_the_same_from_another_process(base):
     with runnel.connect("base") as far:
         assert "STOP is in force" in far.stop()

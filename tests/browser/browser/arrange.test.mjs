@@ -181,9 +181,9 @@ test('in a window of 800x600 the graph has the room, and details lie over it whe
   await page.locator('#details').waitFor({ state: 'detached' });
 });
 
-test('on a phone map, graph, values, parameters and stop are a tap away', async (t) => {
+test('on a phone map, graph, values, parameters and STOP are a tap away', async (t) => {
   const { application, inspector, page } = await OpenMock(t, { width: 390, height: 844 });
-  for (const id of ['phone-map', 'phone-graph', 'phone-values', 'phone-parameters', 'stop']) {
+  for (const id of ['phone-map', 'phone-graph', 'phone-values', 'phone-parameters', 'pause-all', 'stop-button']) {
     const { x, width, y, height } = await page.locator(`#${id}`).boundingBox();
     assert.ok(x >= 0 && x + width <= 390 && y + height <= 844 && height >= 44, id);
   }
@@ -196,8 +196,8 @@ test('on a phone map, graph, values, parameters and stop are a tap away', async 
   await field.fill('2');
   await field.press('Enter');
   await page.locator('#undo:not([disabled])').waitFor();
-  await page.locator('#stop').click();
-  await page.locator('#stop', { hasText: 'Go on' }).waitFor();
+  await page.locator('#pause-all').click();
+  await page.locator('#pause-all', { hasText: 'Go on' }).waitFor();
   assert.equal(application.paused, true);
   await page.locator('#phone-graph').click();
   await inspector.click('/mock/laser');

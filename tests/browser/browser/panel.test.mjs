@@ -3,10 +3,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Network, OpenPanel } from '../support/panel.mjs';
-import { DemoFile, RunApplication } from '../support/runnel.mjs';
+import { DemoFile, Replaced, RunApplication } from '../support/runnel.mjs';
 
 async function Demo(t) {
-  const { file } = await DemoFile(t);
+  const { file } = await DemoFile(t, (text) => Replaced(text, '</application>', '  <driving port="robot/drive/twist"/>\n</application>'));
   return RunApplication(t, file, { options: ['--speed', '1'] });
 }
 
@@ -83,28 +83,30 @@ test('a network that is stuck leaves a robot that rests, and old commands are no
   await observer.drives('lost');
 });
 
-test('the stop holds the robot until it is released, whoever drives', async (t) => {
+test('STOP holds the robot until it is released, whoever drives', async (t) => {
   const { observer, driver } = await Driven(t);
-  await observer.page.locator('.card-stop .stop-button').click();
-  await observer.page.locator('#hand-banner.stopped').waitFor();
+  await observer.page.locator('#stop-button').click();
+  await observer.page.locator('#stop-banner[data-stop="in_force"]').waitFor();
   await observer.rests();
   await driver.drives('stopped');
   await driver.letGo();
   await driver.push(0, 1);
-  await driver.widget('joystick').getByText('is stopped by hand').waitFor();
   await driver.letGo();
+  await driver.drives('stopped');
   await observer.rests();
   await observer.picture('panel_stopped');
-  await driver.page.locator('#release').click();
-  await driver.drives('free');
+  await driver.page.locator('#stop-release').click();
+  await driver.drives('set'); // let go, and not given back
+  await observer.rests();
+  await driver.widget('joystick').getByRole('button', { name: 'Give back' }).click();
   await observer.shows('speed', 0.1, 0.5);
 });
 
-test('on a phone the joystick and the stop are under the thumb', async (t) => {
+test('on a phone the joystick and STOP are under the thumb', async (t) => {
   const application = await Demo(t);
   const panel = await OpenPanel(t, application.url, { width: 390, height: 844, touch: true, colours: 'dark' });
   const stick = await panel.page.locator('[data-stick]').boundingBox();
-  const stop = await panel.page.locator('.thumb .stop-button').boundingBox();
+  const stop = await panel.page.locator('#stop-button').boundingBox();
   for (const box of [stick, stop]) {
     assert.ok(box.y > 844 / 2 && box.y + box.height <= 844, JSON.stringify(box));
     assert.ok(box.x >= 0 && box.x + box.width <= 390, JSON.stringify(box));
@@ -113,7 +115,7 @@ test('on a phone the joystick and the stop are under the thumb', async (t) => {
   assert.equal(await panel.page.evaluate(() => document.documentElement.scrollWidth), 390);
   await panel.turns(0.9, 1.1, Pushing(panel, -1, 0));
   await panel.picture('panel_phone');
-  await panel.page.locator('.thumb .stop-button').dispatchEvent('pointerdown', { button: 0 });
-  await panel.page.locator('#hand-banner.stopped').waitFor();
+  await panel.page.locator('#stop-button').dispatchEvent('pointerdown', { button: 0 });
+  await panel.page.locator('#stop-banner[data-stop="in_force"]').waitFor();
   await panel.rests();
 });

@@ -33,6 +33,7 @@ test('a panel is made for the structure of this connection, not for that of the 
   const { application, server, page } = await OpenMockPanel(t, { lost: true });
   await page.locator('[data-widget="joystick"]').waitFor();
   application.delay = 500;
+  application.values = {}; // they are of the old names
   application.change([{ change: 'rename', path: '/mock/world', name: 'earth' }]);
   server.restart();
   await page.locator('#edit').click();

@@ -12,8 +12,10 @@ export class MockApplication {
     this.layout = {}; // what viewers have arranged
     this.panel = '';  // the operator's, as it is saved
     this.delay = 0;   // ms, before the structure is told
-    this.isFrozen = false; // says nothing any more, and answers nothing
+    this.isFrozen = false; // says nothing any more, and what is asked waits
     this.asked = [];  // all requests
+    this.stop = { in_force: false, by: '', since: 0 };
+    this.isHanging = false; // the main connections say nothing more, those of the STOP do
     this.answers = {}; // op -> function (reply, message, socket), in the place of the mock's own answer
     this.time = 0;
     this.paused = false;
@@ -141,7 +143,7 @@ export function ModuleElements(catalogue, type, path, { thread = null } = {}) {
   for (const port of module.ports) {
     elements.push({ path: `${path}/${port.name}`, kind: 'port', name: port.name, direction: port.direction,
       data_type: port.type, interface: false, required: port.required ?? false, pullable: port.pullable ?? false,
-      description: '', owner: path });
+      description: '', owner: path, ...(port.driving ? { driving: true } : {}) });
   }
   for (const parameter of module.parameters) {
     elements.push({ path: `${path}/${parameter.name}`, kind: 'parameter', name: parameter.name, data_type: parameter.type,

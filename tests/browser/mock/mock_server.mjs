@@ -11,20 +11,23 @@ let runs = 0;
 let viewers = 0;
 
 /**
- * {url, port, close(), restart(), application, watched(), asked(path)}; watched(): the ports that pages look at; asked(): how one was asked for
+ * {url, port, close(), restart(), away(), application, watched(), asked(path)}; watched(): the ports that pages look at; asked(): how one was asked for
  * last; `page`: the folder of the bundle.
  */
 export async function ServeMock(application, { page, port = 0, readOnly = false }) {
   const http = createServer(async (request, response) => {
+    if (request.url === '/access') return response.writeHead(200).end('change');
     const entry = kTypes[request.url.split('?')[0]];
     if (!entry) return response.writeHead(404).end();
     response.writeHead(200, { 'content-type': entry[1] }).end(await readFile(join(page, entry[0])));
   });
-  const sockets = new WebSocketServer({ server: http });
+  let isAway = false;
+  const sockets = new WebSocketServer({ server: http, verifyClient: () => !isAway });
   let run = `run ${++runs}`;
   const clients = new Set();
   sockets.on('connection', (socket) => {
-    const client = new Client(socket, application, { run, readOnly, tellAll: (message) => clients.forEach((each) => each.send(message)) });
+    const Kind = socket.protocol === 'runnel.stop.v1' ? StopClient : Client;
+    const client = new Kind(socket, application, { run, readOnly, tellAll: (message) => clients.forEach((each) => each.tell?.(message)) });
     clients.add(client);
     socket.on('close', () => clients.delete(client));
   });
@@ -35,12 +38,19 @@ export async function ServeMock(application, { page, port = 0, readOnly = false 
   await new Promise((done) => { http.listen(port, '127.0.0.1', done); });
   return {
     application, port: http.address().port, url: `http://127.0.0.1:${http.address().port}/`,
-    watched: () => [...clients].flatMap((client) => client.watched),
-    asked: (path) => [...clients].map((client) => client.asked.get(path)).find(Boolean),
+    watched: () => [...clients].flatMap((client) => client.watched ?? []),
+    asked: (path) => [...clients].map((client) => client.asked?.get(path)).find(Boolean),
     /** As if the application began anew. */
     restart: () => {
       run = `run ${++runs}`;
       for (const socket of sockets.clients) socket.terminate();
+    },
+    /** Nobody can reach it while `meanwhile` is under way. */
+    away: async (meanwhile) => {
+      isAway = true;
+      for (const socket of sockets.clients) socket.terminate();
+      await meanwhile();
+      isAway = false;
     },
     close: async () => {
       clearInterval(timer);
@@ -50,23 +60,79 @@ export async function ServeMock(application, { page, port = 0, readOnly = false 
   };
 }
 
+/** Tells each second, and when it has changed, how it stands with the STOP. */
+class LifeSign {
+  #turns = 0;
+  #told = '';
+
+  constructor(client) {
+    this.client = client;
+  }
+
+  turn() {
+    const { stop } = this.client.application;
+    if (++this.#turns % 20 !== 1 && this.#told === JSON.stringify(stop)) return;
+    this.#told = JSON.stringify(stop);
+    this.client.send({ op: 'alive', stop });
+  }
+}
+
+function AnswerStop(application, op, { path }, by, reply) {
+  if (op !== 'stop' && (op !== 'release' || path !== 'stop')) return false;
+  application.stop = { in_force: op === 'stop', by, since: application.time };
+  reply({ ok: true, text: '' });
+  return true;
+}
+
+/** A connection that bears the STOP alone. */
+class StopClient {
+  constructor(socket, application) {
+    Object.assign(this, { socket, application, name: `viewer ${++viewers}` });
+    this.alive = new LifeSign(this);
+    this.backlog = [];
+    socket.on('message', (text) => { this.backlog.push(text); this.#read(); });
+  }
+
+  #read() {
+    while (!this.application.isFrozen && this.backlog.length > 0) this.#answer(JSON.parse(this.backlog.shift()));
+  }
+
+  #answer({ op, request, ...asked }) {
+    const { application, socket } = this;
+    const reply = (told) => this.send({ op: 'reply', request, ...told });
+    application.asked.push({ op, ...asked, by: this.name, isOwn: true });
+    if (application.answers[op]) application.answers[op](reply, asked, socket);
+    else AnswerStop(application, op, asked, this.name, reply);
+  }
+
+  send(message) {
+    this.socket.send(JSON.stringify(message));
+  }
+
+  turn() {
+    this.#read();
+    if (!this.application.isFrozen) this.alive.turn();
+  }
+}
+
 class Client {
   #watched = new Map(); // path -> how many values have been sent
   #told = new Map();    // path -> what has been sent last, and when that was
   #lastState = '';
   #rated = 0;
-  #turns = 0;
 
   constructor(socket, application, { run, readOnly, tellAll }) {
     Object.assign(this, { socket, application, readOnly, tellAll });
     this.rates = false;
     this.asked = new Map(); // port path -> the message that asked for its values
     this.name = `viewer ${++viewers}`;
-    socket.on('message', (text) => this.#receive(JSON.parse(text)));
+    this.backlog = [];
+    socket.on('message', (text) => { this.backlog.push(text); this.#read(); });
     this.send({ op: 'hello', protocol: 1, application: application.name, file: `/mock/${application.name}.xml`, run,
       clock: 'simulated', viewer: this.name, read_only: readOnly, runnel: '0.0.0' });
     this.send({ op: 'catalogue', ...application.catalogue });
     this.isTold = false;
+    this.alive = new LifeSign(this);
     setTimeout(() => this.#tell(), application.delay);
   }
 
@@ -83,14 +149,27 @@ class Client {
     return [...this.#watched.keys()];
   }
 
+  tell(message) {
+    this.send(message);
+  }
+
+  get isStuck() {
+    return this.application.isFrozen || this.application.isHanging;
+  }
+
+  #read() {
+    while (!this.isStuck && this.backlog.length > 0) this.#receive(JSON.parse(this.backlog.shift()));
+  }
+
   send(message) {
     this.socket.send(JSON.stringify(message));
   }
 
   turn() {
     const { application } = this;
-    if (!this.isTold || application.isFrozen) return;
-    if (++this.#turns % 20 === 1) this.send({ op: 'alive' });
+    this.#read();
+    if (!this.isTold || this.isStuck) return;
+    this.alive.turn();
     const state = JSON.stringify(application.state);
     if (state !== this.#lastState) this.send({ op: 'state', ...application.state });
     this.#lastState = state;
@@ -133,12 +212,11 @@ class Client {
 
   #answer({ op, request, ...asked }) {
     const { application } = this;
-    if (application.isFrozen) return undefined;
     const reply = (told) => this.send({ op: 'reply', request, ...told });
-    application.asked.push({ op, ...asked });
+    application.asked.push({ op, ...asked, by: this.name });
     if (application.answers[op]) return application.answers[op](reply, asked, this.socket);
     const refuse = (text) => reply({ ok: false, errors: [{ message: text, path: '', hint: '', change: null }] });
-    if (this.readOnly && !['compatible', 'panel'].includes(op)) return refuse('the application can be watched only');
+    if (this.readOnly && !['compatible', 'panel', 'stop'].includes(op)) return refuse('the application can be watched only');
     const before = application.structure;
     const count = application.log.length;
     const finish = (ok, told = {}) => {
@@ -161,6 +239,7 @@ class Client {
       const types = application.catalogue.modules.map(({ type, summary }) => ({ type, summary, lost: application.lost ?? [] }));
       return reply({ ok: true, text: '', types });
     }
+    if (AnswerStop(application, op, asked, this.name, reply)) return undefined;
     if (op === 'panel') return reply({ ok: true, text: application.panel, file: '/mock/robot.panel.json' });
     if (op === 'save_panel') {
       application.panel = asked.value;

@@ -17,7 +17,7 @@ const kTypes = [
 
 const kModules = [
   { type: 'mock/world', summary: 'a world with a robot', plugin: 'mock', ports: [
-    { name: 'twist', direction: 'input', type: 'Twist2', required: true }, { name: 'map', direction: 'output', type: 'WorldMap' }, { name: 'scene', direction: 'output', type: 'Scene' },
+    { name: 'twist', direction: 'input', type: 'Twist2', required: true, driving: true }, { name: 'map', direction: 'output', type: 'WorldMap' }, { name: 'scene', direction: 'output', type: 'Scene' },
     { name: 'pose', direction: 'output', type: 'Pose2' }, { name: 'goal', direction: 'output', type: 'Point2' }],
   parameters: [{ name: 'goal_x', type: 'double', unit: 'm', default: '3' }, { name: 'goal_y', type: 'double', unit: 'm', default: '1' }] },
   { type: 'mock/laser', summary: 'measures distances', plugin: 'mock', ports: [{ name: 'pose', direction: 'input', type: 'Pose2', required: true },

@@ -13,11 +13,11 @@ function Robot() {
 }
 
 /** The operator's panel at the same; `widgets`: those that have been saved. */
-export async function OpenMockPanel(t, { widgets, prepare, ...options } = {}) {
+export async function OpenMockPanel(t, { widgets, prepare, readOnly = false, ...options } = {}) {
   const application = Robot();
   if (widgets) application.panel = JSON.stringify({ panel: 1, widgets });
   prepare?.(application);
-  const server = await ServeMock(application, { page: process.env.RUNNEL_PAGE });
+  const server = await ServeMock(application, { page: process.env.RUNNEL_PAGE, readOnly });
   Cleanup(t, () => server.close());
   const panel = await OpenPanel(t, server.url, options);
   return { application, server, panel, page: panel.page };

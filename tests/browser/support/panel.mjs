@@ -52,17 +52,18 @@ class Panel {
 
   /**
    * Has `panel` begin to drive (and end before it begins again) until the robot turns here as it should: a machine that
-   * is busy with other tests may itself leave a page without a turn for so long that the server takes it for dead.
+   * is busy with other tests may itself leave a page without a turn for so long that the server takes it for dead, or without an
+   * answer for so long that the page lets go.
    */
   async turns(least, most, { begin, end }) {
-    for (;;) {
+    for (let left = 10; ; --left) {
       await begin();
       const seen = await this.page.waitForFunction(([from, to]) => {
         const text = document.querySelector('[data-widget="turning"] [data-gauge]')?.dataset.gauge;
         if (text !== '' && Number(text) >= from && Number(text) <= to) return 'turns';
         return document.querySelector('#hand-banner.lost') ? 'lost' : false;
-      }, [least, most]);
-      if (await seen.jsonValue() === 'turns') return;
+      }, [least, most], { timeout: left > 0 ? 6000 : 60000 }).catch((error) => { if (left === 0) throw error; });
+      if (await seen?.jsonValue() === 'turns') return;
       await end();
     }
   }

@@ -40,7 +40,8 @@ test('an application without a panel has one that suits it', () => {
   assert.equal(kinds.joystick.target, '/app/gate/wanted');
   assert.equal(kinds.speed.target, '/app/world/twist');
   assert.equal(kinds.slider.target, '/app/planner/speed');
-  assert.ok(kinds.stop && kinds.map && kinds.plot);
+  assert.ok(kinds.map && kinds.plot);
+  assert.equal(kinds.stop, undefined, 'the page has one that no panel can lose');
   for (const a of widgets) for (const b of widgets) assert.ok(a === b || !Overlaps(a, b), `${a.id} is beside ${b.id}`);
   assert.deepEqual(ParsePanel(PanelText(widgets)), widgets);
   assert.deepEqual(DefaultPanel(new Structure(), catalogue), []);

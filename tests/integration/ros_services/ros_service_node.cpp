@@ -2,6 +2,7 @@
 // made: nothing of Runnel is in it. It says on standard output what comes:
 //
 //     ros_service_node DOMAIN call         calls /lamp/switch (SetBool), /lamp/warm (Trigger), /lamp/reset (Empty)
+//     ros_service_node DOMAIN stop         calls /house/stop (SetBool) with true, then with false
 //     ros_service_node DOMAIN serve        has /house/switch (SetBool), which refuses each second call
 //     ros_service_node DOMAIN parameters   lists, describes, gets and sets parameters of the node /house
 //     ros_service_node DOMAIN events       shows what comes on /parameter_events
@@ -34,6 +35,17 @@ void Call(dds_entity_t participant) {
   });
   const Ends reset = MakeClient(participant, "lamp/reset", std_srvs_srv_dds__Empty_Request__desc, std_srvs_srv_dds__Empty_Response__desc);
   CallOnce<std_srvs_srv_dds__Empty_Response_>(reset, std_srvs_srv_dds__Empty_Request_{}, [](const auto&) { std::printf("reset: done\n"); });
+}
+
+void Stop(dds_entity_t participant) {
+  const Ends stop = MakeClient(participant, "house/stop", std_srvs_srv_dds__SetBool_Request__desc, std_srvs_srv_dds__SetBool_Response__desc);
+  for (const bool data : {true, false}) {
+    std_srvs_srv_dds__SetBool_Request_ request{};
+    request.data = data;
+    CallOnce<std_srvs_srv_dds__SetBool_Response_>(stop, request, [&](const auto& response) {
+      std::printf("stop %d: %s '%s'\n", data ? 1 : 0, response.success ? "done" : "refused", response.message);
+    });
+  }
 }
 
 void Serve(dds_entity_t participant) {
@@ -199,6 +211,7 @@ int main(int argc, char** argv) {
   const dds_entity_t participant = dds_create_participant(domain, nullptr, nullptr);
   if (participant < 0) return 1;
   if (what == "call") Call(participant);
+  if (what == "stop") Stop(participant);
   if (what == "serve") Serve(participant);
   if (what == "parameters") Parameters(participant);
   if (what == "events") Events(participant);

@@ -49,6 +49,19 @@ constexpr const char* kHouse = R"(<module name="lamp" type="switches/lamp"/>
     <offer port="lamp/set"/>
   </network>)";
 
+TEST_F(ServicesOfRos, TheStopIsPressedByNodesAndReleasedWhereTheFileSaysSo) {
+  const std::string with_ros = std::string(kHouse).replace(std::string(kHouse).find("<offer"), 0, "<ros distribution=\"jazzy\"/>\n");
+  {
+    const Program house(Arguments("run", "house", with_ros));
+    const Ended called = Node("stop").Wait();
+    EXPECT_THAT(called.text, AllOf(HasSubstr("stop 1: done 'the robot is stopped'"), HasSubstr("stop 0: refused 'the STOP is not released")));
+    EXPECT_THAT(Runnel("ps").text, AllOf(HasSubstr("STOP"), HasSubstr("the service /house/stop")));
+  }
+  const std::string may_release = std::string(with_ros).replace(with_ros.find("<ros "), 5, "<ros stop_releases=\"true\" ");
+  const Program house(Arguments("run", "house", may_release));
+  EXPECT_THAT(Node("stop").Wait().text, HasSubstr("stop 0: done 'the STOP is released'"));
+}
+
 TEST_F(ServicesOfRos, AreOfferedToNodes) {
   const Program house(Arguments("run", "house", kHouse));
   Program node = Node("call");

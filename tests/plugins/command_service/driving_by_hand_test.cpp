@@ -1,6 +1,8 @@
 // Deadlines of what is set by hand, at a port.
 
+#include <future>
 #include <memory>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -107,13 +109,67 @@ TEST_F(DrivingByHand, TheSafeValueOfAnInputIsItsDefault) {
   EXPECT_EQ(base.height.Get(), 0.2);
 }
 
-TEST_F(DrivingByHand, WithoutASafeValueItIsReleased) {
+TEST_F(DrivingByHand, WithoutASafeValueThereIsNoDeadline) {
   HandSettings by_hand(runtime, worker, log, &machine);
-  EXPECT_EQ(Publish(by_hand, {"/base/input/sealed", "3", {}, Duration(250ms)}), "");
-  machine.Advance(1s);
-  by_hand.LookAtDeadlines();
+  EXPECT_THAT(Publish(by_hand, {"/base/input/sealed", "3", {}, Duration(250ms)}), HasSubstr("no safe value"));
   EXPECT_FALSE(base.sealed.is_set_by_hand());
+  EXPECT_EQ(Publish(by_hand, {"/base/input/sealed", "3"}), "");
+}
+
+// The port that takes its place has the deadline, too.
+TEST_F(DrivingByHand, ADeadlineGoesWithThePortThatTakesItsPlace) {
+  HandSettings by_hand(runtime, worker, log, &machine);
+  EXPECT_EQ(Drive(by_hand, "{forward: 0.3}"), "");
+  Base& next = runtime.Create<Base>(runtime.root(), "renamed");
+  ASSERT_TRUE(runtime.MakeReady(next));
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    next.motion.TakeOver(base.motion);
+    next.motion.InheritAnnotations(base.motion);
+  }
+  EXPECT_EQ(next.motion.Get(), (Motion{0.3, 0}));
+  EXPECT_THAT(by_hand.All(), ElementsAre(Pair("/renamed/input/motion", HandState::kDriven)));
+  machine.Advance(250ms);
+  by_hand.LookAtDeadlines();
+  EXPECT_EQ(next.motion.Get(), Motion{});
+  EXPECT_THAT(by_hand.All(), ElementsAre(Pair("/renamed/input/motion", HandState::kLost)));
+  EXPECT_TRUE(by_hand.Release({"/renamed/input/motion"}));
   EXPECT_THAT(by_hand.All(), ::testing::IsEmpty());
+}
+
+// An undo makes the port again with what was set there: at rest, as nobody is heard of any more.
+TEST_F(DrivingByHand, WhatADrivenPortLeavesBehindIsItsSafeValue) {
+  HandSettings by_hand(runtime, worker, log, &machine);
+  EXPECT_EQ(Publish(by_hand, {kMotion, "{forward: 0.3}"}), "");
+  const auto left = [&] {
+    const std::lock_guard lock(runtime.structure_mutex());
+    return *static_cast<const Motion*>(base.motion.ValueByHand().get());
+  };
+  EXPECT_EQ(left(), (Motion{0.3, 0}));
+  EXPECT_EQ(Drive(by_hand, "{forward: 0.3}"), "");
+  EXPECT_EQ(left(), Motion{});
+  ASSERT_TRUE(base.motion.Release());
+  EXPECT_THAT(by_hand.All(), ::testing::IsEmpty()) << "released behind its back";
+  EXPECT_THAT(Drive(by_hand, "{forward: 0.3}"), HasSubstr("has ended"));
+}
+
+// A slow constructor, an editor that applies a thousand changes: whoever has the structure lock keeps nothing up.
+TEST_F(DrivingByHand, ADeadlineWaitsForNoChangeOfTheStructure) {
+  HandSettings by_hand(runtime, worker, log);
+  EXPECT_EQ(Publish(by_hand, {kMotion, "{forward: 0.3}", {}, Duration(10ms)}), "");
+  std::promise<void> begun;
+  std::promise<void> may_end;
+  std::thread change([&] {
+    const std::lock_guard lock(runtime.structure_mutex());
+    begun.set_value();
+    may_end.get_future().wait();
+  });
+  begun.get_future().wait();
+  EXPECT_EQ(Publish(by_hand, {kMotion, "{}", 1e-12}), "the rate must be from 0.001 to 1000 Hz");
+  WaitUntil("the base is at rest", [&] { return Read() == Motion{}; });
+  (void)by_hand.All();  // does not wait either
+  may_end.set_value();
+  change.join();
 }
 
 TEST_F(DrivingByHand, ABlockKeepsEverybodyElseOff) {

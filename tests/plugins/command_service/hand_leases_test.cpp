@@ -6,28 +6,27 @@ namespace runnel::test {
 namespace {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Pair;
 
 class HandLeasesTest : public ::testing::Test {
  protected:
   bool Drive(const std::string& lease, std::optional<Duration> deadline = 300ms) {
     return Ask({.lease = lease, .deadline = deadline});
   }
-  bool Ask(HandLeases::Request request) {
+  bool Ask(HandHold::Request request) {
     request.received = now;
     problem = "";
-    if (const auto good = leases.Check("/drive", request, now); !good) {
+    if (!hold) hold = std::make_unique<HandHold>(ended);
+    if (const auto good = hold->Check(request, now); !good) {
       problem = good.error().message;
       return false;
     }
-    goes_on = leases.Note("/drive", request);
+    goes_on = hold->Note(request);
     return true;
   }
 
-  HandLeases leases;
+  std::shared_ptr<EndedLeases> ended = std::make_shared<EndedLeases>();
+  std::unique_ptr<HandHold> hold;
   Time now{1h};
   std::string problem;
   bool goes_on = false;
@@ -38,43 +37,34 @@ TEST_F(HandLeasesTest, WhoIsHeardOfInTimeDrivesOn) {
   EXPECT_FALSE(goes_on);
   for (int i = 0; i < 10; ++i) {
     now += 299ms;
-    EXPECT_THAT(leases.Expire(now), IsEmpty());
     EXPECT_TRUE(Drive("a"));
     EXPECT_TRUE(goes_on);
   }
-  EXPECT_EQ(leases.StateOf("/drive"), HandState::kDriven);
-  EXPECT_EQ(leases.next(), now + 300ms);
-}
-
-TEST_F(HandLeasesTest, WhoIsNotHeardOfIsLostAtTheDeadlineAndOnce) {
-  Drive("a");
-  now += 299ms;
-  EXPECT_THAT(leases.Expire(now), IsEmpty());
-  now += 1ms;
-  EXPECT_THAT(leases.Expire(now), ElementsAre(Pair("/drive", Duration(300ms))));
-  EXPECT_THAT(leases.Expire(now), IsEmpty());
-  EXPECT_EQ(leases.StateOf("/drive"), HandState::kLost);
-  EXPECT_EQ(leases.next(), std::nullopt);
+  EXPECT_EQ(hold->state(), HandState::kDriven);
+  EXPECT_EQ(hold->due(), now + 300ms);
 }
 
 TEST_F(HandLeasesTest, WhatComesOfALostHoldIsRefusedAndAnotherHoldIsNot) {
   Drive("a");
   now += 1s;
-  (void)leases.Expire(now);
+  hold->NoteLost();
+  EXPECT_EQ(hold->state(), HandState::kLost);
+  EXPECT_EQ(hold->due(), std::nullopt);
   EXPECT_FALSE(Drive("a"));
   EXPECT_THAT(problem, HasSubstr("has ended"));
   EXPECT_TRUE(Drive("b"));
-  EXPECT_EQ(leases.StateOf("/drive"), HandState::kDriven);
+  EXPECT_EQ(hold->state(), HandState::kDriven);
 }
 
 TEST_F(HandLeasesTest, AValueThatHasWaitedForLongerThanItsDeadlineIsRefused) {
+  HandHold late(ended);
   const Time received = now;
   now += 301ms;
-  EXPECT_FALSE(leases.Check("/drive", {.lease = "a", .deadline = 300ms, .received = received}, now));
-  EXPECT_TRUE(leases.Check("/drive", {.lease = "a", .deadline = 302ms, .received = received}, now));
+  EXPECT_FALSE(late.Check({.lease = "a", .deadline = 300ms, .received = received}, now));
+  EXPECT_TRUE(late.Check({.lease = "a", .deadline = 302ms, .received = received}, now));
   // The deadline counts from when it came, not from when somebody had time for it.
-  leases.Note("/drive", {.lease = "a", .deadline = 302ms, .received = received});
-  EXPECT_EQ(leases.next(), received + 302ms);
+  late.Note({.lease = "a", .deadline = 302ms, .received = received});
+  EXPECT_EQ(late.due(), received + 302ms);
 }
 
 TEST_F(HandLeasesTest, OneHoldKeepsOthersOff) {
@@ -82,7 +72,7 @@ TEST_F(HandLeasesTest, OneHoldKeepsOthersOff) {
   EXPECT_FALSE(Drive("b"));
   EXPECT_THAT(problem, HasSubstr("somebody else"));
   EXPECT_TRUE(Drive("a", {})) << "its last value";
-  EXPECT_EQ(leases.StateOf("/drive"), HandState::kSet);
+  EXPECT_EQ(hold->state(), HandState::kSet);
   EXPECT_TRUE(Drive("b"));
   EXPECT_FALSE(Drive("a")) << "has ended";
 }
@@ -90,19 +80,16 @@ TEST_F(HandLeasesTest, OneHoldKeepsOthersOff) {
 TEST_F(HandLeasesTest, WhoPublishesWithoutALeaseTakesOver) {
   Drive("a");
   EXPECT_TRUE(Ask({}));
-  EXPECT_EQ(leases.StateOf("/drive"), HandState::kSet);
+  EXPECT_EQ(hold->state(), HandState::kSet);
   EXPECT_FALSE(Drive("a"));
-  now += 1s;
-  EXPECT_THAT(leases.Expire(now), IsEmpty());
+  EXPECT_EQ(hold->due(), std::nullopt);
 }
 
-TEST_F(HandLeasesTest, ReleasedNobodyIsWaitedFor) {
+TEST_F(HandLeasesTest, AHoldThatGoesEndsItsLease) {
   Drive("a");
-  leases.ForgetAll();
-  now += 1s;
-  EXPECT_THAT(leases.Expire(now), IsEmpty());
-  EXPECT_THAT(leases.All(), IsEmpty());
+  hold.reset();
   EXPECT_FALSE(Drive("a"));
+  EXPECT_TRUE(Drive("b"));
 }
 
 }  // namespace

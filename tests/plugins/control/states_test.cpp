@@ -21,6 +21,18 @@ class Slow final : public Module {
   void Update() override { std::this_thread::sleep_for(5ms); }
 };
 
+/// Does not return from its cycle as long as somebody wants that.
+class Hanging final : public Module {
+ public:
+  using Module::Module;
+  static inline std::atomic<bool> hangs{false};
+
+ private:
+  void Update() override {
+    while (hangs.load()) std::this_thread::sleep_for(1ms);
+  }
+};
+
 class StatesTest : public ControlTest {
  protected:
   std::string State() { return Client().hello().state; }
@@ -78,7 +90,7 @@ TEST_F(StatesTest, StopIsPressedWhoeverHasTheStructureAndTheWorker) {
 }
 
 TEST_F(StatesTest, WhatDrivesIsNamedOrThatNothingDoes) {
-  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force; 'runnel release' ends it; but NO PORT of this application is"));
+  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force; 'runnel release' ends it; warning: no port of this application is marked as driving"));
   {
     const std::lock_guard lock(runtime.structure_mutex());
     EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
@@ -106,6 +118,17 @@ TEST_F(StatesTest, QuitEndsTheRunAndNotTheRobot) {
   EXPECT_THAT(Ask("quit").output, HasSubstr("the run ends"));
   EXPECT_TRUE(has_quit);
   EXPECT_FALSE(runtime.robot_stop().in_force());
+}
+
+TEST_F(StatesTest, AModuleThatDoesNotReturnIsTold) {
+  Register<Hanging>("test/hanging");
+  ASSERT_EQ(Change("create thread other period=1ms\ncreate /hang test/hanging\nmove /hang to other").code, 0);
+  ASSERT_TRUE(scheduler.SetStuckLimit("/app/hang", 20ms));
+  Hanging::hangs = true;
+  WaitUntil("it is told", [&] { return State().find("1 module STUCK") != std::string::npos; });
+  EXPECT_THAT(Ask("ls /hang").output, HasSubstr(", STUCK for "));
+  Hanging::hangs = false;
+  WaitUntil("it is well again", [&] { return State().find("STUCK") == std::string::npos; });
 }
 
 TEST_F(StatesTest, AThreadThatOverrunsIsTold) {

@@ -26,19 +26,12 @@ TEST_F(FoxgloveTest, GreetsWithWhatItCanDo) {
   EXPECT_THAT(protocol.names, ElementsAre("foxglove.websocket.v1", "foxglove.sdk.v1"));
 }
 
-TEST_F(FoxgloveTest, OffersNoPublishingToThoseWhoMayOnlyLook) {
-  Begin(/*is_read_only=*/true);
-  const Json greeting = Take("serverInfo").at(0);
-  EXPECT_THAT(greeting["capabilities"], Not(Contains("clientPublish")));
-  EXPECT_FALSE(greeting.contains("supportedEncodings"));
-}
-
 TEST_F(FoxgloveTest, AdvertisesAllThatComesOut) {
   Begin();
   std::vector<std::string> topics;
   for (const auto& [topic, channel] : Channels()) topics.push_back(topic);
   EXPECT_THAT(topics, ElementsAre("/log", "/robot/pose", "/robot/pose/foxglove", "/robot/scan",
-                                  "/robot/scan/foxglove", "/robot/speed", "/tf"));
+                                  "/robot/scan/foxglove", "/robot/speed", "/stop", "/tf"));
   const Json pose = channels["/robot/pose/foxglove"];
   EXPECT_EQ(pose["encoding"], "json");
   EXPECT_EQ(pose["schemaEncoding"], "jsonschema");

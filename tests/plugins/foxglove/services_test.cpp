@@ -64,7 +64,7 @@ class FoxgloveServices : public FoxgloveTest {
 TEST_F(FoxgloveServices, AreAdvertisedWithTheirSchemas) {
   Begin();
   Find();
-  ASSERT_EQ(services.size(), 3u);
+  ASSERT_EQ(services.size(), 5u) << "with those of the STOP";
   const Json& where = services.at("/clerk/where");
   EXPECT_EQ(where["type"], "service Pose2(string)");
   EXPECT_EQ(where["request"]["encoding"], "json");
@@ -121,8 +121,11 @@ TEST_F(FoxgloveServices, GoWithTheirModule) {
 TEST_F(FoxgloveServices, AreNotForThoseWhoOnlyLook) {
   Begin(/*is_read_only=*/true);
   Turn();
-  EXPECT_THAT(Take("advertiseServices"), IsEmpty());
-  session->OnBinary("\x02" + Word(1) + Word(1) + Word(4) + "json{}");
+  const auto told = Take("advertiseServices");
+  ASSERT_EQ(told.size(), 1u);
+  ASSERT_EQ(told[0]["services"].size(), 1u);
+  EXPECT_EQ(told[0]["services"][0]["name"], "/stop") << "which is for everybody";
+  session->OnBinary("\x02" + Word(3) + Word(1) + Word(4) + "json{}");
   EXPECT_THAT(Failure(), HasSubstr("role 'drive'"));
 }
 

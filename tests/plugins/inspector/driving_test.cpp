@@ -38,7 +38,7 @@ TEST_F(Driving, AStopHoldsUntilItIsReleased) {
   Start();
   Viewer viewer = View();
   Viewer other = View();
-  EXPECT_EQ(viewer.Ask({{"op", "publish"}, {"path", kIn}, {"stop", true}})["ok"], true);
+  EXPECT_EQ(viewer.Ask({{"op", "block"}, {"path", kIn}})["ok"], true);
   other.Next(Hands(Hand("stopped")), "stopped");
   const Json refused = other.Ask({{"op", "publish"}, {"path", kIn}, {"value", "7"}});
   EXPECT_EQ(refused["ok"], false);
@@ -60,7 +60,7 @@ TEST_F(Driving, MembersOfAnotherKindAreRefused) {
   EXPECT_EQ(with("lease", 7), false);
   EXPECT_EQ(with("lease", std::string(200, 'a')), false);
   EXPECT_EQ(with("stop", "yes"), false);
-  EXPECT_EQ(with("stop", true), false) << "it has no safe value";
+  EXPECT_EQ(with("stop", true), false) << "that is called 'block'";
 }
 
 TEST_F(Driving, APanelIsKeptAndGivenToAllViewers) {

@@ -77,7 +77,7 @@ const std::map<std::string, std::pair<WebRole, WebRole>, std::less<>> kNeeded{
     {"restart", {WebRole::kChange, WebRole::kChange}},
     {"quit", {WebRole::kChange, WebRole::kChange}},
     {"stop", {WebRole::kLook, WebRole::kLook}},
-    {"release_stop", {WebRole::kDrive, WebRole::kDrive}}};
+    {"block", {WebRole::kDrive, WebRole::kDrive}}};
 
 TEST_F(Roles, MayDoOfEveryOperationWhatTheyMay) {
   hooks.save = [](const std::string&) -> Result<std::string> { return std::string("saved"); };

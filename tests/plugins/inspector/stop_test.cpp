@@ -43,12 +43,12 @@ TEST_F(ViewersStop, WhoeverLooksPressesAndWhoDrivesReleases) {
     EXPECT_TRUE(in_force());
     EXPECT_THAT(other.Next(InForce(true), "STOP")["stop"]["by"], HasSubstr("viewer "));
     drives.Next(InForce(true), "STOP, to who drives");
-    const Json refused = looks.Ask({{"op", "release_stop"}});
+    const Json refused = looks.Ask({{"op", "release"}, {"path", "stop"}});
     EXPECT_EQ(refused["ok"], false) << protocol;
     EXPECT_THAT(refused["errors"][0]["hint"], HasSubstr("'drive'"));
     EXPECT_TRUE(in_force());
-    EXPECT_EQ(looks.Ask({{"op", "stop"}})["text"], "STOP was in force already");
-    EXPECT_EQ(drives.Ask({{"op", "release_stop"}})["ok"], true);
+    EXPECT_THAT(looks.Ask({{"op", "stop"}})["text"], HasSubstr("in force already"));
+    EXPECT_EQ(drives.Ask({{"op", "release"}, {"path", "stop"}})["ok"], true);
     EXPECT_FALSE(in_force());
     other.Next(InForce(false), "no STOP any more");
   }
@@ -58,7 +58,7 @@ TEST_F(ViewersStop, ReadOnlyItIsPressedAllTheSame) {
   Start({.is_read_only = true});
   Viewer viewer(server->port(), "", "runnel.stop.v1");
   EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true);
-  EXPECT_EQ(viewer.Ask({{"op", "release_stop"}})["ok"], false);
+  EXPECT_EQ(viewer.Ask({{"op", "release"}, {"path", "stop"}})["ok"], false);
   EXPECT_TRUE(in_force());
 }
 
@@ -82,7 +82,7 @@ TEST_F(ViewersStop, NeedsNeitherWorkerNorStructureNorRoomForRequests) {
               "refusal");
   EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true);
   EXPECT_TRUE(in_force());
-  EXPECT_EQ(stop.Ask({{"op", "release_stop"}})["ok"], true);
+  EXPECT_EQ(stop.Ask({{"op", "release"}, {"path", "stop"}})["ok"], true);
   EXPECT_FALSE(in_force());
   EXPECT_EQ(stop.Ask({{"op", "stop"}})["ok"], true);
   EXPECT_TRUE(in_force());
@@ -96,6 +96,7 @@ TEST_F(ViewersStop, ItsOwnConnectionKnowsNothingElse) {
   EXPECT_EQ(reply["ok"], false);
   EXPECT_THAT(reply["errors"][0]["message"], HasSubstr("knows no 'save'"));
   EXPECT_EQ(stop.Ask({{"op", 7}})["ok"], false);
+  EXPECT_EQ(stop.Ask({{"op", "release"}, {"path", "/app/a/output/out"}})["ok"], false);
   EXPECT_FALSE(in_force());
   for (int i = 0; i < 2; ++i) EXPECT_EQ(stop.Next("alive")["stop"]["in_force"], false);
 }

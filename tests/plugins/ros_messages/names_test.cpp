@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/ros_messages/quality.h"
 
 namespace runnel::test {
 namespace {
@@ -51,22 +50,6 @@ TEST(RosNames, BecomeThoseOfDds) {
   EXPECT_EQ(DdsType("rcl_interfaces/srv/GetParameters_Request"), "rcl_interfaces::srv::dds_::GetParameters_Request_");
   EXPECT_EQ(RosType("sensor_msgs::msg::dds_::LaserScan_"), "sensor_msgs/msg/LaserScan");
   EXPECT_EQ(RosType("Other"), "");
-}
-
-TEST(Quality, IsFoundByName) {
-  EXPECT_EQ(FindQuality("sensor")->depth, 5U);
-  EXPECT_FALSE(FindQuality("sensor")->is_reliable);
-  EXPECT_TRUE(FindQuality("latched")->is_transient_local);
-  EXPECT_EQ(FindQuality("rosout")->lifespan, std::chrono::seconds(10));
-  EXPECT_EQ(FindQuality("sensors").error().hint, "did you mean 'sensor'?");
-}
-
-TEST(Quality, OfReadersAsksForAtMostWhatWritersOffer) {
-  const Quality reliable = *FindQuality("default"), sensor = *FindQuality("sensor"), latched = *FindQuality("latched");
-  EXPECT_EQ(WhyNoMatch(reliable, sensor), "");
-  EXPECT_EQ(WhyNoMatch(latched, reliable), "");
-  EXPECT_THAT(WhyNoMatch(sensor, reliable), HasSubstr("best effort"));
-  EXPECT_THAT(WhyNoMatch(reliable, latched), HasSubstr("volatile"));
 }
 
 }  // namespace

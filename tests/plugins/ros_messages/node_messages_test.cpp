@@ -44,7 +44,6 @@ void CheckSameAs(const std::string& message) {
 TEST(NodeMessages, AreThoseOfRos2) {
   CheckSameAs<RosLog>("rcl_interfaces/msg/Log");
   CheckSameAs<RosDiagnostics>("diagnostic_msgs/msg/DiagnosticArray");
-  CheckSameAs<RosTransforms>("tf2_msgs/msg/TFMessage");
   CheckSameAs<RosParameterValue>("rcl_interfaces/msg/ParameterValue");
   CheckSameAs<RosParameter>("rcl_interfaces/msg/Parameter");
   CheckSameAs<RosParameterDescriptor>("rcl_interfaces/msg/ParameterDescriptor");
@@ -69,14 +68,6 @@ TEST(NodeMessages, SayWhatModulesSay) {
   EXPECT_EQ(log.name, "robot.sonar");
   EXPECT_EQ(log.msg, "no echo (3 more left out)");
   EXPECT_EQ(log.stamp, Time(Duration(7)));
-}
-
-TEST(NodeMessages, SayWhereFramesAre) {
-  const auto transform = ToRosTransform({}, "map", "robot", 1, 2, 3.14159265358979323846);
-  EXPECT_EQ(transform.header.frame_id, "map");
-  EXPECT_EQ(transform.transform.translation.y, 2);
-  EXPECT_NEAR(transform.transform.rotation.z, 1, 1e-12);
-  EXPECT_NEAR(transform.transform.rotation.w, 0, 1e-12);
 }
 
 TEST(RosParameters, AreValuesOfAnyType) {

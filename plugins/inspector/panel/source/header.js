@@ -7,11 +7,9 @@ import { Pause, Resume } from '../../page/source/state/actions.js';
 import { theme } from '../../page/source/state/choices.js';
 import { canChange, canDrive, connection, hello, isConnected, isSilent, role, run } from '../../page/source/state/store.js';
 import { KindIcon } from './editing/kind_icon.js';
-import { Discard, SavePanel, chosen, file, isChanged, isEditing, isLoaded, isOverwriting, isStopSeen, isUnsaved, widgets } from './panel_state.js';
-import { StopButton } from './widgets/stop.js';
+import { Discard, SavePanel, chosen, file, isChanged, isEditing, isLoaded, isOverwriting, isUnsaved } from './panel_state.js';
 
 export function Header() {
-  const hasStop = widgets.value.some(({ kind }) => kind === 'stop');
   return html`
     <header class="panel-head">
       <div class="brand"><${Icon} name="mark" /><h1>${hello.value?.application ?? 'Runnel'}</h1><${State} /></div>
@@ -24,7 +22,6 @@ export function Header() {
         <a class="button-like" id="inspector" href=${`/${location.search}`} title="The inspector: data flow, parameters, log"><${Icon} name="plug" size=${17} /><span>Inspector</span></a>
         <${Theme} />
       </div>
-      ${isLoaded.value && !(hasStop && isStopSeen.value) && html`<${StopButton} small />`}
     </header>`;
 }
 

@@ -1,4 +1,4 @@
-// The operator's panel: widgets on a grid, in one column on a phone, with what drives and the stop under the thumb.
+// The operator's panel: widgets on a grid, in one column on a phone, with what drives and the STOP under the thumb.
 
 import { render } from 'preact';
 import { effect, signal } from '@preact/signals';
@@ -16,11 +16,12 @@ import { Settings } from './editing/settings.js';
 import { Header } from './header.js';
 import { InOrder, RowsOf } from './model/grid.js';
 import { Load, chosen, isEditing, isLoaded, widgets } from './panel_state.js';
-import { StopBanner } from './widgets/stop.js';
+import { ShowStop } from '../../page/source/stop/stop_view.js';
+import { HandBanner } from './widgets/hand_banner.js';
 
 const kNarrow = '(max-width: 640px)';
-const kByThumb = ['joystick', 'stop']; // the first of each stays on a phone's screen
-const kOfDesks = ['keys', 'gamepad'];
+const kByThumb = 'joystick'; // the first of them stays on a phone's screen, beside the STOP
+const kOfDesks = ['keys', 'gamepad', 'stop'];
 
 const isNarrow = signal(matchMedia(kNarrow).matches);
 matchMedia(kNarrow).addEventListener('change', (event) => { isNarrow.value = event.matches; });
@@ -32,7 +33,7 @@ function Page() {
       <${Header} />
       <${LostBanner} />
       <${TokenBanner} />
-      <${StopBanner} />
+      <${HandBanner} />
       ${editing && html`<${Palette} />`}
       <div class="panel-main">${isLoaded.value && (isNarrow.value && !editing ? html`<${Column} />` : html`<${Grid} />`)}
         ${editing && html`<${Settings} />`}</div>
@@ -54,13 +55,14 @@ function Grid() {
 
 function Column() {
   const all = InOrder(widgets.value).filter(({ kind }) => !kOfDesks.includes(kind));
-  const byThumb = kByThumb.map((kind) => all.find((each) => each.kind === kind)).filter(Boolean);
+  const byThumb = all.filter(({ kind }) => kind === kByThumb).slice(0, 1);
   return html`
     <main class="column" aria-label="Panel">${all.filter((each) => !byThumb.includes(each)).map((widget) => html`<${Frame} key=${widget.id} widget=${widget} />`)}</main>
     ${byThumb.length > 0 && html`<section class="thumb" aria-label="Driving">${byThumb.map((widget) => html`<${Frame} key=${widget.id} widget=${widget} />`)}</section>`}`;
 }
 
 StartKeeping();
+ShowStop();
 WatchThePage();
 effect(() => {
   if (isConnected.value && structureOf.value === hello.value.run && catalogue.value.types.size > 0) Load();

@@ -12,7 +12,6 @@ export const widgets = signal([]);
 export const isEditing = signal(false);
 export const chosen = signal(null); // id of the widget whose settings are shown
 export const file = signal(null);   // where the server keeps it; null: in memory
-export const isStopSeen = signal(true); // the stop of the panel, if it has one, is on the screen
 export const isLoaded = signal(false);
 const savedText = signal('');       // as the server has it; "": nothing yet
 export const isChanged = computed(() => isLoaded.value && savedText.value !== '' && PanelText(widgets.value) !== savedText.value);

@@ -2,7 +2,7 @@
 
 import { Refusal, TokenProtocols } from './token.js';
 
-const kProtocol = 'runnel.inspector.v1';
+const kViewer = 'runnel.inspector.v1';
 const kFirstPause = 250;   // ms before the next attempt
 const kLongestPause = 2000;
 const kSilent = 2000;      // ms without a word of the server, which gives a sign of life each second
@@ -24,7 +24,8 @@ export class Link {
    * `onState` is told 'connecting', 'open', 'silent' (nothing has come for a while; 'open' again when something does), 'lost' or
    * 'refused' (then it is for show() to go on), and why.
    */
-  constructor(url, token, { onMessage, onState }) {
+  constructor(url, token, { protocol = kViewer, onMessage, onState }) {
+    this.protocol = protocol;
     this.url = url;
     this.token = token;
     this.#onMessage = onMessage;
@@ -35,7 +36,7 @@ export class Link {
   open() {
     clearTimeout(this.#timer);
     this.#onState('connecting', '');
-    const socket = new WebSocket(this.url, [kProtocol, ...TokenProtocols(this.token)]);
+    const socket = new WebSocket(this.url, [this.protocol, ...TokenProtocols(this.token)]);
     this.#socket = socket;
     this.#heard = performance.now();
     this.#isSilent = false;

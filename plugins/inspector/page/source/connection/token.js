@@ -24,6 +24,9 @@ export function Keep(token, storage) {
   inMemory = token;
 }
 
+/** The one that is kept, or ''. */
+export const CurrentToken = () => Kept(globalThis.localStorage);
+
 /** What a WebSocket offers to show the token: headers of its own it cannot have, and an address is written down. */
 export const TokenProtocols = (token) => (/^[\w.~-]+$/.test(token) ? [`runnel.token.${token}`] : []);
 

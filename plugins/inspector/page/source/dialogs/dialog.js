@@ -2,6 +2,7 @@
 
 import { useEffect, useRef } from 'preact/hooks';
 import { html } from 'htm/preact';
+import { BringStopInto } from '../stop/stop_view.js';
 import { openDialog } from '../state/choices.js';
 
 /**
@@ -19,8 +20,12 @@ export function Dialog({ title, children, className = '', style }) {
   useEffect(() => {
     const before = document.activeElement;
     element.current.showModal();
-    element.current.querySelector('[autofocus], input, button:not(.remove)')?.focus();
-    return () => queueMicrotask(() => before?.focus?.()); // while the dialog is there nothing else takes the focus
+    const bringBack = BringStopInto(element.current);
+    element.current.querySelector('.dialog-body :is([autofocus], input, button:not(.remove))')?.focus();
+    return () => {
+      bringBack();
+      queueMicrotask(() => before?.focus?.()); // while the dialog is there nothing else takes the focus
+    };
   }, []);
   const onPointerDown = (event) => { if (event.target === element.current) CloseDialog(); };
   return html`<dialog ref=${element} class=${className} style=${style} aria-label=${title} onClose=${() => CloseDialog()}

@@ -61,7 +61,7 @@ const kKeys = [
   ]],
   ['Everywhere', [
     ['/', 'find'], ['A', 'add a module'], ['Ctrl + Z', 'undo'], ['Ctrl + Shift + Z, Ctrl + Y', 'redo'], ['Ctrl + S', 'save'], ['Ctrl + C, Ctrl + V', 'copy, paste'],
-    ['P', 'pause or go on'], ['.', 'one step'], ['G', 'to the graph'], ['D', 'to the details'], ['?', 'this list'],
+    ['Ctrl + Space, Pause', 'STOP: all that moves gets its safe value'], ['P', 'pause or go on'], ['.', 'one step'], ['G', 'to the graph'], ['D', 'to the details'], ['?', 'this list'],
   ]],
 ];
 

@@ -38,7 +38,7 @@ export function ByHand({ port }) {
           aria-label="How often a second it is published again; empty: once" title="Hz; empty: once" value=${rate}
           onInput=${(event) => setRate(event.target.value)} onKeyDown=${onKey} />
         <button disabled=${!canDrive.value || text === ''} onClick=${send}>Publish</button>
-        ${port.by_hand && html`<button class="release" disabled=${!canDrive.value} title="Readers find again what is published"
+        ${(port.by_hand || port.blocked) && html`<button class="release" disabled=${!canDrive.value} title="Readers find again what is published"
             onClick=${() => Release(port.path)}>Release</button>`}
       </div>
       ${problem && html`<p class="problem" role="alert">${problem}</p>`}

@@ -46,7 +46,9 @@ export function PortDetails({ element }) {
       ['required', element.required ? 'yes' : ''],
       ['unit', element.unit], ['in', element.bounds], ['default', element.default],
       ['topic', element.topic], ['state', element.far && element.state], ['why', element.misfit], ['heard', element.master],
-      ...(element.offers ?? []).map(({ topic, readers, misfit }) => ['offered', `${topic}${readers.length > 0 ? `, read by ${readers.join(', ')}` : ''}${misfit ? `; ${misfit}` : ''}`]),
+      ...(element.offers ?? []).map(({ topic, readers, misfit, is_stopped }) => ['offered', `${topic}${readers.length > 0 ? `, read by ${readers.join(', ')}` : ''}${is_stopped ? ', STOPPED: its safe value is sent' : ''}${misfit ? `; ${misfit}` : ''}`]),
+      ['drives', element.driving ? 'something moves by it: under the STOP of the robot' : ''],
+      ['blocked', element.blocked ? 'readers find its safe value, until it is released' : ''],
       ['set by hand', element.by_hand ? 'what is published is not read' : ''],
     ]} />
     <${BlackboardSection} key=${`board ${path}`} path=${path} />

@@ -1,4 +1,4 @@
-// The page on a phone: the map, the graph, values, parameters, one at a time, and a way to stop at any time.
+// The page on a phone: the map, the graph, values, parameters, one at a time.
 
 import { html } from 'htm/preact';
 import { GraphView } from '../graph/graph_view.js';
@@ -10,7 +10,7 @@ import { ParameterList, ValueList } from './all_modules.js';
 import { Details } from './details.js';
 import { Icon } from './icon.js';
 import { LogView } from './log_view.js';
-import { StopButton } from './stop_button.js';
+import { PauseButton } from './pause_button.js';
 
 const kViews = {
   map: ['Map', 'world', WorldView], graph: ['Graph', 'mark', GraphOnPhone], values: ['Values', 'plot', ValueList],
@@ -27,7 +27,7 @@ export function PhonePage() {
     <nav class="phone-tabs" aria-label="Views">
       ${kTabs.map((name) => html`<button key=${name} id=${`phone-${name}`} aria-current=${name === view} disabled=${name === 'map' && !hasWorld.value}
         onClick=${() => SetPanels({ phone: name })}><${Icon} name=${kViews[name][1]} size=${20} />${kViews[name][0]}</button>`)}
-      <${StopButton} />
+      <${PauseButton} />
     </nav>`;
 }
 

@@ -20,7 +20,7 @@ export function PortRow({ port }) {
     <div><${Link} path=${port.path} text=${port.name} /> <small class="type">${port.data_type}</small>
       ${LacksSource(structure, port) && html`<span class="badge bad">required, without a source</span>`}
       ${AlarmCount(port.path) > 0 && silent.value.has(port.path) && html`<span class="badge bad">silent</span>`}
-      ${port.by_hand && html`<small class="missing">set by hand</small>`}
+      ${port.blocked ? html`<span class="badge bad">blocked</span>` : port.by_hand && html`<small class="missing">set by hand</small>`}
       <small class="rate">${rate === null ? '' : FormatRate(rate)}</small></div>
     <div class="value">${!item ? html`<span class="none">nothing yet</span>`
       : catalogue.value.isOpaque(port.data_type) ? html`<span class="none">${kNoText}</span>`

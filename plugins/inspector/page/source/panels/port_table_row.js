@@ -34,9 +34,10 @@ export const PortTableRow = memo(({ row, number, top, stood, isFrozen, isSelecte
   const { item = null, rate = null, bandwidth = null, age = null } = isFrozen ? stood ?? {} : untracked(() => MeasuresOf(row));
   const known = catalogue.value.type(type);
   const canSet = canDrive.value && known?.kind !== 'opaque';
-  const byHand = structure.get(path)?.by_hand ?? false;
+  const port = structure.get(path);
+  const byHand = Boolean(port?.by_hand || port?.blocked);
   const edit = () => { if (canSet) { onProblem(''); onEdit(path); } };
-  const unit = structure.get(path)?.unit;
+  const unit = port?.unit;
   return html`
     <div class=${`row ${isSelected ? 'selected' : ''} ${byHand ? 'by-hand' : ''}`} role="row" aria-rowindex=${number + 2}
         aria-selected=${isSelected} data-port-line=${path} style=${{ top: `${top}px` }}

@@ -11,6 +11,7 @@ import { ForgetArrangement, TakeArrangement } from './arrangement.js';
 import { AddLogEntries } from './log.js';
 import { ShowNetwork, network } from './network.js';
 import { Silence } from './silence.js';
+import { OtherIs, ShowToken, StartStop, TakeFromOther, UseOther } from '../stop/stop_state.js';
 
 export const connection = signal({ state: 'connecting', reason: '', since: 0 });
 export const hello = signal(null);
@@ -65,6 +66,8 @@ export async function Request(message) {
 /** Begins to talk with the application that has sent this page. */
 export function Start(url) {
   link = new Link(url, TakeToken(location, history, localStorage), { onMessage: Receive, onState: OnState });
+  UseOther(link);
+  StartStop(url); // first of all
   link.open();
   return link;
 }
@@ -73,14 +76,20 @@ export function Start(url) {
 export function UseToken(token) {
   Keep(token, localStorage);
   link.show(token);
+  ShowToken(token);
 }
 
 function OnState(state, reason) {
-  connection.value = { state, reason };
+  batch(() => {
+    connection.value = { state, reason };
+    if (state === 'connecting') structureOf.value = null;
+  });
+  OtherIs(state);
 }
 
 const kReceivers = {
   hello: OnHello,
+  alive: ({ stop }) => { if (stop) TakeFromOther(stop); },
   catalogue: (message) => { catalogue.value = new Catalogue(message); },
   structure: OnStructure,
   structure_change: OnStructureChange,

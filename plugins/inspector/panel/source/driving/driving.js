@@ -1,8 +1,9 @@
-// Who of this page drives what, how it stands with the ports, and the stop.
+// Who of this page drives what, and how it stands with the ports.
 
 import { computed, effect, signal } from '@preact/signals';
 import { ErrorText, Release } from '../../../page/source/state/actions.js';
-import { Request, canDrive, isConnected, run } from '../../../page/source/state/store.js';
+import { Request, canDrive, run } from '../../../page/source/state/store.js';
+import { isInForce, pressed } from '../../../page/source/stop/stop_state.js';
 import { isEditing } from '../panel_state.js';
 import { Hold } from './hold.js';
 
@@ -15,7 +16,7 @@ export const hands = computed(() => Object.fromEntries((run.value.hands ?? []).m
 
 /** A hold begins only by an act in a page that somebody looks at, and not while it is arranged. */
 function MayBegin() {
-  return canDrive.value && !isEditing.value && !document.hidden && document.hasFocus();
+  return canDrive.value && !isInForce.value && !pressed.value && !isEditing.value && !document.hidden && document.hasFocus();
 }
 
 /** Takes hold, or says what is wanted now. False: another widget has the port, or it cannot be had. */
@@ -58,28 +59,8 @@ function Note(of, name, value) {
   of.value = value === undefined ? others : { ...others, [name]: value };
 }
 
-/** Ports that are to be stopped as soon as there is a connection. */
-export const stopsWaiting = signal([]);
-
-export function Stop(ports) {
-  LetGoOfAll();
-  stopsWaiting.value = [...new Set([...stopsWaiting.value, ...ports])];
-  SendStops();
-}
-
-async function SendStops() {
-  if (!isConnected.value) return;
-  for (const path of stopsWaiting.value) {
-    const reply = await Request({ op: 'publish', path, stop: true });
-    // What the application refuses it refuses again; what the connection has lost is sent again.
-    if (reply.ok || isConnected.value) stopsWaiting.value = stopsWaiting.value.filter((each) => each !== path);
-    if (!reply.ok && isConnected.value) Note(problems, 'stop', (reply.errors ?? []).map(ErrorText).join('\n'));
-  }
-}
-
 /** Gives ports back to what is connected to them. */
 export async function GiveBack(ports) {
-  stopsWaiting.value = stopsWaiting.value.filter((each) => !ports.includes(each));
   for (const port of ports) await Release(port);
 }
 
@@ -89,5 +70,5 @@ export function WatchThePage() {
   window.addEventListener('pagehide', LetGoOfAll);
   document.addEventListener('visibilitychange', () => { if (document.hidden) LetGoOfAll(); });
   effect(() => { if (isEditing.value) LetGoOfAll(); });
-  effect(() => { if (isConnected.value && stopsWaiting.value.length > 0) SendStops(); });
+  effect(() => { if (isInForce.value || pressed.value) LetGoOfAll(); });
 }

@@ -1,14 +1,14 @@
 // The card around a widget; while the panel is arranged it is moved by its bar and resized by its corner, in steps of
 // the grid, by mouse or by arrow keys.
 
-import { useEffect, useRef } from 'preact/hooks';
+import { useRef } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { NameOf } from '../../../page/source/model/structure.js';
 import { Boundary } from '../../../page/source/panels/boundary.js';
 import { Icon } from '../../../page/source/panels/icon.js';
 import { kColumns } from '../model/grid.js';
 import { kKinds } from '../model/kinds.js';
-import { MoveWidget, RemoveWidget, chosen, isEditing, isStopSeen, widgets } from '../panel_state.js';
+import { MoveWidget, RemoveWidget, chosen, isEditing, widgets } from '../panel_state.js';
 import { WidgetView } from '../widgets/widget.js';
 
 const kTitledByThemselves = ['button', 'switch', 'stop', 'text', 'map'];
@@ -29,18 +29,10 @@ function Cells(card, dx, dy) {
   return { columns: Math.round(dx / column), rows: Math.round(dy / row) };
 }
 
-/** Where the stop has been scrolled away, the bar on top has one. */
-function WatchSeen(card) {
-  const observer = new IntersectionObserver(([entry]) => { isStopSeen.value = entry.intersectionRatio > 0.6; }, { threshold: [0.6] });
-  observer.observe(card);
-  return () => { observer.disconnect(); isStopSeen.value = true; };
-}
-
 export function Frame({ widget }) {
   const card = useRef(null);
   const { id, kind, x, y, w, h } = widget;
   const editing = isEditing.value;
-  useEffect(() => (kind === 'stop' ? WatchSeen(card.current) : undefined), [kind]);
   const drag = (event, place) => {
     if (!editing || event.button !== 0 || event.target.closest('.card-tools')) return;
     event.preventDefault();

@@ -46,8 +46,7 @@ export function DefaultPanel(structure, catalogue) {
   }
   if (drive) {
     put('joystick', 'joystick', side, below, 4, 6, { target: drive.path, ...kDrivesAtFirst });
-    put('stop', 'stop', side, below + 6, 4, 2);
-    below += 8;
+    below += 6;
   }
   const camera = PicturePort(structure, catalogue);
   if (camera) {

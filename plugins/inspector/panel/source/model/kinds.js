@@ -9,8 +9,7 @@ export const kKinds = {
   joystick: { label: 'Joystick', icon: 'joystick', w: 4, h: 6, least: { w: 2, h: 4 }, drives: true },
   keys: { label: 'Keys', icon: 'keys', w: 3, h: 4, least: { w: 2, h: 3 }, drives: true },
   gamepad: { label: 'Gamepad', icon: 'gamepad', w: 3, h: 4, least: { w: 2, h: 3 }, drives: true },
-  stop: { label: 'STOP', icon: 'stop', w: 3, h: 3, least: { w: 2, h: 2 },
-    settings: [{ name: 'target', label: 'Port', kind: 'input', note: 'none: all that this panel drives' }] },
+  stop: { label: 'STOP', icon: 'stop', w: 3, h: 3, least: { w: 2, h: 2 }, isOld: true }, // each page has one that no panel can lose
   slider: { label: 'Slider', icon: 'slider', w: 4, h: 2, least: { w: 2, h: 2 },
     settings: [{ name: 'target', label: 'Sets', kind: 'target' }, { name: 'minimum', label: 'From', kind: 'number' },
       { name: 'maximum', label: 'To', kind: 'number' }, { name: 'step', label: 'Step', kind: 'number' }] },

@@ -3,6 +3,7 @@
 import { html } from 'htm/preact';
 import { FormatNumber } from '../../../page/source/model/value_format.js';
 import { canDrive, catalogue, role, revision, structure } from '../../../page/source/state/store.js';
+import { isInForce } from '../../../page/source/stop/stop_state.js';
 import { GiveBack, hands, held, problems } from '../driving/driving.js';
 import { AxesOf } from '../model/twist.js';
 
@@ -16,16 +17,16 @@ export function DriveOf({ target }) {
   return axes ? { port, axes } : { problem: `${port.data_type} is no motion` };
 }
 
-const kTexts = { driven: 'you drive', set: 'at rest, by hand', lost: 'link lost: at rest', stopped: 'stopped' };
+const kTexts = { driven: 'you drive', set: 'at rest, by hand', lost: 'link lost: at rest', stopped: 'blocked' };
 
 export function DrivingState({ widget, problem, motion }) {
   const port = widget.target;
   const mine = held.value[port] === widget.id;
   const state = hands.value[port];
   const told = problem ?? problems.value[widget.id];
-  const text = role.value === 'look' ? 'read-only' : mine ? kTexts.driven
+  const text = isInForce.value ? 'STOP' : role.value === 'look' ? 'read-only' : mine ? kTexts.driven
     : state === 'driven' ? 'somebody drives' : kTexts[state] ?? 'the application drives';
-  const kind = mine ? 'mine' : state ?? 'free';
+  const kind = isInForce.value ? 'stopped' : mine ? 'mine' : state ?? 'free';
   return html`
     <div class="driving-state">
       <span class=${`driving-chip ${kind}`} data-driving=${kind}>${text}</span>

@@ -1,0 +1,58 @@
+#include "plugins/foxglove/internal/robot_stop_access.h"
+
+#include "plugins/foxglove/internal/foxglove_shared.h"
+#include "plugins/values/json_reader.h"
+#include "plugins/values/json_writer.h"
+
+namespace runnel::internal {
+
+namespace {
+
+constexpr const char* kReplySchema =
+    R"({"type":"object","properties":{"success":{"type":"boolean"},"message":{"type":"string"}}})";
+
+// What cannot be read presses: somebody has asked for a STOP.
+bool SaysFalse(std::string_view json) {
+  const auto parsed = JsonPart::Parse(json);
+  if (!parsed) return false;
+  for (const auto& [name, value] : parsed->members()) {
+    if (name == "data") return value.boolean() == false;
+  }
+  return parsed->boolean() == false;
+}
+
+}  // namespace
+
+std::vector<DirectoryService> StopServices() {
+  const auto service = [](std::string_view name, const char* type, const char* schema) {
+    DirectoryService made{.name = std::string(name), .path = std::string(name), .type = type};
+    made.request_schema = schema;
+    made.reply_schema = kReplySchema;
+    return made;
+  };
+  return {service(kStopName, "STOP of the robot: true presses", R"({"type":"object","properties":{"data":{"type":"boolean"}}})"),
+          service(kReleaseName, "ends the STOP of the robot", R"({"type":"object","properties":{}})")};
+}
+
+FoxgloveChannel StopChannel() {
+  return {std::string(kStopName), "runnel.Stop",
+          R"({"type":"object","properties":{"data":{"type":"boolean"},"by":{"type":"string"},"since":{"type":"number"}}})",
+          [](const void* value, Time, std::string& json) {
+            const auto& state = *static_cast<const RobotStop::State*>(value);
+            JsonObject message(json);
+            message.Add("data", state.in_force).Add("by", state.by);
+            message.Add("since", ToSeconds(state.since.time_since_epoch()));
+          }};
+}
+
+std::string SetStop(FoxgloveShared& shared, std::string_view name, std::string_view json) {
+  CommandAnswer answer = CommandAnswer::Done("false does nothing; " + std::string(kReleaseName) + " releases");
+  const bool is_release = name == kReleaseName;
+  if (is_release || !SaysFalse(json)) {
+    answer = shared.application.service.Begin(RobotStopRequest{!is_release, "Foxglove"}, *shared.tasks)->Take();
+  }
+  const std::string text = answer ? answer.text : answer.diagnostics.ToString();
+  return JsonObjectText([&](JsonObject& reply) { reply.Add("success", static_cast<bool>(answer)).Add("message", text); });
+}
+
+}  // namespace runnel::internal

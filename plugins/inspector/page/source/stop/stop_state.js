@@ -1,0 +1,98 @@
+// The STOP of the robot, as this page presses it and the robot confirms it.
+
+import { computed, signal } from '@preact/signals';
+import { Link } from '../connection/link.js';
+import { CurrentToken } from '../connection/token.js';
+
+const kConfirmed = 1000; // ms within which the robot confirms; then it is asked once more, and the page says so
+
+/** {in_force, by, since} as the robot told it last; null: never yet. */
+export const told = signal(null);
+/** What this page has pressed and the robot has not confirmed: {isLate, problem: why it was refused}; null: nothing. */
+export const pressed = signal(null);
+export const releaseProblem = signal('');
+const ownState = signal('connecting');
+const otherState = signal('connecting'); // of the page's other connection
+const isOwnHeard = computed(() => ownState.value === 'open');
+/** The robot has been heard of within 2 s. */
+export const isHeard = computed(() => isOwnHeard.value || otherState.value === 'open');
+/** As the robot has confirmed it, whether or not it can be heard now. */
+export const isInForce = computed(() => told.value?.in_force === true);
+
+let own = null;
+let other = null;
+let timer = 0;
+const asked = new Set(); // links of which an answer to a press is awaited
+
+/** Opens the connection that bears nothing else. */
+export function StartStop(url) {
+  own = new Link(url, CurrentToken(), { protocol: 'runnel.stop.v1', onMessage: ({ op, stop }) => { if (op === 'alive') Take(stop); },
+    onState: (state) => { ownState.value = state; Resend(); } });
+  own.open();
+}
+
+/** The page's other connection, by which it is pressed, too, while the own one is away. */
+export function UseOther(link) {
+  other = link;
+}
+
+export function OtherIs(state) {
+  otherState.value = state;
+  Resend();
+}
+
+/** As the other connection tells it: it may carry so much that this comes late. */
+export function TakeFromOther(stop) {
+  if (!isOwnHeard.value) Take(stop);
+}
+
+export function ShowToken(token) {
+  own?.show(token);
+}
+
+function Take(stop) {
+  told.value = stop;
+  if (stop.in_force) Confirmed();
+  else releaseProblem.value = '';
+}
+
+function Confirmed() {
+  clearInterval(timer);
+  pressed.value = null;
+}
+
+/** One message; what is not confirmed is sent again, also when there is a connection again. */
+export function PressStop() {
+  pressed.value = { isLate: false, problem: '' };
+  releaseProblem.value = '';
+  clearInterval(timer);
+  timer = setInterval(() => {
+    if (pressed.value) pressed.value = { ...pressed.value, isLate: true };
+    Resend([own, other]);
+  }, kConfirmed);
+  Send(isOwnHeard.value ? own : other);
+}
+
+function Resend(links = [isOwnHeard.value ? own : other]) {
+  if (pressed.value && !pressed.value.problem) links.forEach(Send);
+}
+
+async function Send(link) {
+  if (!link || asked.has(link)) return;
+  asked.add(link);
+  const reply = await link.request({ op: 'stop' });
+  asked.delete(link);
+  if (reply.ok && link === own && !isInForce.value) Take({ in_force: true, by: '', since: 0 }); // who it was comes at once
+  if (reply.ok) return Confirmed();
+  if (reply.lost || !pressed.value) return undefined; // sent again
+  clearInterval(timer);
+  pressed.value = { isLate: true, problem: reply.errors?.[0]?.message ?? 'no reason was given' };
+  return undefined;
+}
+
+/** The second, separate act. */
+export async function ReleaseStop() {
+  const reply = await (isOwnHeard.value ? own : other).request({ op: 'release', path: 'stop' });
+  const error = reply.errors?.[0];
+  releaseProblem.value = reply.ok ? '' : [error?.message, error?.hint].filter(Boolean).join('; ') || 'it was refused';
+}

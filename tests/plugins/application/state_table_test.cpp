@@ -1,0 +1,338 @@
+// The table of states and operations: what has been set at an element, tried with everything that can be done to it. No
+// cell is silent: a state is kept, or whoever does it is told that it is gone, or it is refused. The table stands in
+// apps/documentation/pages/concepts/states.md.
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "core/element/robot_stop.h"
+#include "core/element/tags.h"
+#include "core/log/log_levels.h"
+#include "core/port/given_limits.h"
+#include "core/port/port_stop.h"
+#include "core/port/probe_port.h"
+#include "plugins/application/application.h"
+#include "plugins/recording/recorder.h"
+#include "plugins/scheduling/scheduler.h"
+#include "plugins/scheduling/thread_container.h"
+#include "plugins/structure/value_by_hand.h"
+#include "tests/support/temporary_folder.h"
+
+namespace runnel::test {
+namespace {
+
+constexpr const char* kText = R"(<application name="app">
+  <load plugin="states"/>
+  <clock type="simulated" speed="0"/>
+  <thread name="fast" period="10ms"/>
+  <thread name="slow" period="20ms"/>
+  <group name="g">
+    <module name="m" type="states/filter"/>
+  </group>
+  <module name="source" type="states/source"/>
+  <module name="sink" type="states/filter"/>
+  <connect from="g/m/out" to="sink/in"/>
+</application>
+)";
+
+/// An application, and where in it is what has been set.
+struct Trial {
+  explicit Trial(const std::filesystem::path& file) : application(Load(file)) {}
+
+  static LoadedApplication Load(const std::filesystem::path& file) {
+    auto loaded = Application::Load(file, {.plugin_folders = {RUNNEL_TEST_STATES_PLUGIN}});
+    if (!loaded) throw std::runtime_error(loaded.diagnostics().ToString());
+    return loaded;
+  }
+
+  template <typename T = FrameworkElement>
+  [[nodiscard]] T& At(const std::string& path) {
+    const std::lock_guard lock(application->runtime().structure_mutex());
+    const auto found = application->runtime().root().Find(path);
+    if (!found) throw std::runtime_error(found.error().ToString());
+    return dynamic_cast<T&>(**found);
+  }
+  [[nodiscard]] FrameworkElement& Module() { return At(module); }
+  [[nodiscard]] Port& In(const std::string& name = "in") { return At<Port>(module + "/input/" + name); }
+  [[nodiscard]] Port& Out() { return At<Port>(module + "/output/out"); }
+
+  void Note(const ChangeOutcome& outcome) {
+    is_refused = is_refused || !outcome;
+    told += outcome.diagnostics.ToString();
+  }
+  void Do(const ChangeSet& changes) { Note(application->Apply(changes)); }
+  void Undo() { Note(application->Undo()); }
+  // A step on the way to what is tried.
+  void Must(const ChangeSet& changes) {
+    const auto outcome = application->Apply(changes);
+    if (!outcome) throw std::runtime_error(outcome.diagnostics.ToString());
+  }
+
+  LoadedApplication application;
+  std::unique_ptr<Recorder> recorder = {};
+  std::string module = "/app/g/m";
+  std::string told = {};
+  bool is_refused = false;
+  TemporaryFolder folder{};
+};
+
+void Require(const Result<void>& result) {
+  if (!result) throw std::runtime_error(result.error().ToString());
+}
+
+struct State {
+  std::string name;
+  std::string word;  // by which who is told knows that it is meant
+  std::function<void(Trial&)> set;
+  std::function<bool(Trial&)> is_there;
+};
+
+State OfConnection(const std::string& name, const std::string& input, const ConnectOptions& options) {
+  return {name, "connect",
+          [=](Trial& trial) { trial.Must({ConnectPorts{"/app/source/out", trial.module + "/" + input, options}}); },
+          [=](Trial& trial) {
+            const Port& to = trial.In(input);
+            for (const Connection& each : trial.At<Port>("/app/source/output/out").outgoing()) {
+              const ConnectOptions& now = each.options;
+              const bool is_same = now.queue == options.queue && now.pull == options.pull &&
+                                   now.convert == options.convert && now.late == options.late;
+              if (each.to == &to) return is_same;
+            }
+            return false;
+          }};
+}
+
+// One line for each.
+const std::vector<State>& States() {
+  static const double five = 5;
+  static const std::vector<State> states{
+      {"value by hand", "value by hand", [](Trial& trial) { Require(PublishByHand(trial.In(), &five)); },
+       [](Trial& trial) {
+         const AnyValue value = trial.In().ValueByHand();
+         return value && *static_cast<const double*>(value.get()) == five;
+       }},
+      {"block of the port", "block", [](Trial& trial) { Require(trial.In().Block()); },
+       [](Trial& trial) { return trial.In().is_blocked(); }},
+      {"STOP of the robot", "STOP|driving",
+       [](Trial& trial) {
+         Require(trial.In().SetDriving(true));
+         trial.application->runtime().robot_stop().Press("the test");
+       },
+       [](Trial& trial) {
+         return trial.In().is_driving() && trial.application->runtime().robot_stop().in_force();
+       }},
+      {"limits", "limits",
+       [](Trial& trial) {
+         const InputLimits limits{.minimum = 0, .maximum = 9};
+         Require(trial.In().SetLimits(limits));
+         trial.In().Annotate(std::make_unique<GivenLimits>(limits));
+       },
+       [](Trial& trial) { return BoundsText(trial.In().limits()) == "0 .. 9"; }},
+      {"paused", "pause", [](Trial& trial) { Require(trial.application->Pause(trial.module)); },
+       [](Trial& trial) { return trial.application->scheduler().IsPaused(trial.Module()); }},
+      {"log level", "log", [](Trial& trial) { SetLogLevel(trial.application->runtime(), trial.module, LogLevel::kDebug); },
+       [](Trial& trial) {
+         for (const auto& [path, level] : ReadLogLevels(trial.application->runtime())) {
+           if (path == trial.module) return level == LogLevel::kDebug;
+         }
+         return false;
+       }},
+      {"tag", "tags", [](Trial& trial) { Require(SetTags(trial.Module(), {"safety"})); },
+       [](Trial& trial) { return TagsText(trial.Module()) == "safety"; }},
+      {"parameter", "gain", [](Trial& trial) { trial.Must({SetParameter{trial.module + "/gain", "3"}}); },
+       [](Trial& trial) { return trial.application->Get(trial.module + "/gain").value() == "3"; }},
+      {"thread", "thread", [](Trial& trial) { trial.Must({AssignToThread{trial.module, "fast"}}); },
+       [](Trial& trial) {
+         const auto* const thread = OwnThread(trial.Module());
+         return thread != nullptr && thread->name() != "slow";
+       }},
+      {"recorded", "record",
+       [](Trial& trial) {
+         auto started = Recorder::Start(trial.application->runtime(), nullptr,
+                                        {.file = (trial.folder.path() / "run.mcap").string(),
+                                         .ports = {trial.module + "/out"}});
+         if (!started) throw std::runtime_error(started.error().ToString());
+         trial.recorder = std::move(*started);
+       },
+       [](Trial& trial) {
+         for (const Connection& each : trial.Out().outgoing()) {
+           if (dynamic_cast<const ProbePort*>(each.to) != nullptr) return true;
+         }
+         return false;
+       }},
+      OfConnection("queue option", "queued", {.queue = 4}),
+      OfConnection("pulled", "pulled", {.pull = true}),
+      OfConnection("late", "late", {.late = true}),
+      OfConnection("conversion", "rounded", {.convert = "round"}),
+  };
+  return states;
+}
+
+struct Operation {
+  std::string name;
+  std::function<void(Trial&)> act;
+};
+
+// One line for each.
+const std::vector<Operation>& Operations() {
+  const auto rename = [](Trial& trial) {
+    trial.Do({RenameElement{trial.module, "n"}});
+    trial.module = "/app/g/n";
+  };
+  const auto rename_group = [](Trial& trial) {
+    trial.Do({RenameElement{"/app/g", "h"}});
+    trial.module = "/app/h/m";
+  };
+  const auto swap = [](Trial& trial) { trial.Do({ReplaceModule{trial.module, "states/other", {}, 0}}); };
+  const auto swap_to_empty = [](Trial& trial) { trial.Do({ReplaceModule{trial.module, "states/empty", {}, 0}}); };
+  const auto erase = [](Trial& trial) { trial.Do({DeleteElement{trial.module}}); };
+  const auto undone = [](const std::function<void(Trial&)>& act) {
+    return [=](Trial& trial) {
+      const std::string module = trial.module;
+      act(trial);
+      if (!trial.is_refused) trial.Undo();
+      trial.module = module;
+    };
+  };
+  static const std::vector<Operation> operations{
+      {"rename", rename},
+      {"rename + undo", undone(rename)},
+      {"rename of the group", rename_group},
+      {"swap", swap},
+      {"swap + undo", undone(swap)},
+      {"swap to a type without the ports",
+       [=](Trial& trial) {
+         trial.Must({DisconnectPorts{trial.module + "/out", "/app/sink/in"}});
+         swap_to_empty(trial);
+       }},
+      {"the same + undo",
+       [=](Trial& trial) {
+         trial.Must({DisconnectPorts{trial.module + "/out", "/app/sink/in"}});
+         undone(swap_to_empty)(trial);
+       }},
+      {"delete + undo", undone(erase)},
+      {"delete of the group + undo", undone([](Trial& trial) { trial.Do({DeleteElement{"/app/g"}}); })},
+      {"copy",
+       [](Trial& trial) {
+         trial.Do({CopyElement{trial.module, "n"}});
+         trial.module = "/app/g/n";
+       }},
+      {"move to a thread", [](Trial& trial) { trial.Do({AssignToThread{"/app/g", "slow"}}); }},
+      {"save + load",
+       [](Trial& trial) {
+         const auto file = trial.folder.path() / "saved.xml";
+         (void)trial.application->TakeEvents();
+         if (const auto saved = trial.application->Save(file); !saved) trial.told += saved.error().ToString();
+         for (const ApplicationEvent& each : trial.application->TakeEvents()) trial.told += each.text + "\n";
+         trial.recorder.reset();
+         trial.application = Trial::Load(file);
+       }},
+      {"reload of the plugin", [](Trial& trial) { trial.Note(trial.application->Reload("states")); }},
+      {"restart of the module", [](Trial& trial) { trial.Do({ReplaceModule{trial.module, "states/filter"}}); }},
+      {"disconnect + undo", undone([](Trial& trial) {
+         ChangeSet changes;
+         for (const char* each : {"in", "queued", "pulled", "late", "rounded"}) {
+           for (const Port* from : trial.In(each).incoming()) changes.push_back(DisconnectPorts{from->path(), trial.In(each).path()});
+         }
+         changes.push_back(DisconnectPorts{trial.module + "/out", "/app/sink/in"});
+         trial.Do(changes);
+       })},
+      {"another period", [](Trial& trial) {
+         trial.Do({ScheduleThread{.thread = "fast", .period = std::chrono::milliseconds(5)}});
+       }},
+  };
+  return operations;
+}
+
+class StateTable : public ::testing::Test {
+ protected:
+  StateTable() { std::ofstream(file_) << kText; }
+
+  // "kept", "told", "refused", or "SILENT", of each of the states.
+  std::vector<std::string> Try(const std::vector<const State*>& states, const Operation& operation) {
+    std::vector<std::string> cells;
+    try {
+      Trial trial(file_);
+      for (const State* each : states) each->set(trial);
+      for (const State* each : states) EXPECT_TRUE(each->is_there(trial)) << each->name;
+      operation.act(trial);
+      for (const State* each : states) {
+        bool is_there = false;
+        try {
+          is_there = each->is_there(trial);
+        } catch (const std::exception&) {  // nor is its port
+        }
+        const bool is_told = std::regex_search(trial.told, std::regex(each->word));
+        cells.emplace_back(trial.is_refused ? (trial.told.empty() ? "SILENT" : "refused") : is_there ? "kept" : is_told ? "told" : "SILENT");
+        last_told_ = trial.told;
+      }
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << operation.name << ": " << error.what();
+      cells.resize(states.size(), "FAILED");
+    }
+    return cells;
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_.path() / "app.xml";
+  std::string last_told_;
+};
+
+std::string Table(const std::vector<std::vector<std::string>>& cells) {
+  std::string text = "| |";
+  for (const Operation& each : Operations()) text += " " + each.name + " |";
+  text += "\n|---|";
+  for (std::size_t i = 0; i < Operations().size(); ++i) text += "---|";
+  for (std::size_t i = 0; i < States().size(); ++i) {
+    text += "\n| " + States()[i].name + " |";
+    for (const std::string& each : cells[i]) text += " " + each + " |";
+  }
+  return text + "\n";
+}
+
+TEST_F(StateTable, IsTheOneThatIsPrinted) {
+  std::vector<std::vector<std::string>> cells(States().size());
+  for (std::size_t i = 0; i < States().size(); ++i) {
+    for (const Operation& operation : Operations()) {
+      cells[i].push_back(Try({&States()[i]}, operation).front());
+      EXPECT_NE(cells[i].back(), "SILENT") << States()[i].name << ", " << operation.name;
+    }
+  }
+  std::ifstream stream(std::filesystem::path(RUNNEL_TEST_SOURCES) / "apps/documentation/pages/concepts/states.md");
+  const std::string printed{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_THAT(printed, ::testing::HasSubstr(Table(cells))) << "the table is now:\n" << Table(cells);
+}
+
+// Two states do not disturb each other: whatever one of them is alone it is beside the other, unless the whole is refused.
+TEST_F(StateTable, IsTheSameForTwoStates) {
+  std::map<std::pair<const State*, const Operation*>, std::string> alone;
+  for (const State& state : States()) {
+    for (const Operation& each : Operations()) alone[{&state, &each}] = Try({&state}, each).front();
+  }
+  for (std::size_t i = 0; i < States().size(); ++i) {
+    for (std::size_t j = i + 1; j < States().size(); ++j) {
+      const State& one = States()[i];
+      const State& other = States()[j];
+      for (const Operation& each : Operations()) {
+        const auto cells = Try({&one, &other}, each);
+        const std::string first = alone[{&one, &each}];
+        const std::string second = alone[{&other, &each}];
+        const bool is_refused = first == "refused" || second == "refused";
+        EXPECT_EQ(cells[0], is_refused ? "refused" : first) << one.name << " beside " << other.name << ", " << each.name;
+        EXPECT_EQ(cells[1], is_refused ? "refused" : second) << other.name << " beside " << one.name << ", " << each.name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace runnel::test

@@ -1,0 +1,112 @@
+// The STOP of the robot as the protocol has it: a service, a topic to publish to, a topic that tells of it.
+
+#include "tests/plugins/foxglove/foxglove_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+class FoxgloveStop : public FoxgloveTest {
+ protected:
+  static std::string Word(std::uint32_t number) {
+    std::string bytes;
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>(number >> (8 * i) & 0xff);
+    return bytes;
+  }
+  /// What the service answers, at once; nothing if it does not.
+  Json Call(const std::string& name, const std::string& json) {
+    Turn();
+    for (const Json& message : Take("advertiseServices")) {
+      for (const Json& each : message["services"]) services[each["name"]] = each["id"];
+    }
+    client.binaries.clear();
+    session->OnBinary("\x02" + Word(services.at(name)) + Word(++calls) + Word(4) + "json" + json);
+    for (const std::string& bytes : client.binaries) {
+      if (bytes[0] == 3 && bytes.substr(5, 4) == Word(calls)) return Json::parse(bytes.substr(17));
+    }
+    return {};
+  }
+  [[nodiscard]] bool in_force() { return runtime.robot_stop().in_force(); }
+
+  std::map<std::string, std::uint32_t> services;
+  std::uint32_t calls = 0;
+};
+
+TEST_F(FoxgloveStop, IsPressedByWhoeverMayLookWhileTheStructureIsLocked) {
+  client.its_role = WebRole::kLook;
+  Begin(true);
+  EXPECT_EQ(Call("/stop", R"({"data":false})")["success"], true);
+  EXPECT_FALSE(in_force()) << "false does nothing";
+  EXPECT_EQ(services.size(), 1u) << "what else there is takes a role";
+  {
+    const HeldStructure held(runtime);
+    const Json reply = Call("/stop", R"({"data":true})");
+    EXPECT_EQ(reply["success"], true);
+    EXPECT_THAT(reply["message"].get<std::string>(), HasSubstr("STOP is in force"));
+    EXPECT_TRUE(in_force());
+  }
+  EXPECT_EQ(Call("/stop", R"({"data":false})")["success"], true);
+  EXPECT_TRUE(in_force()) << "false does not release";
+}
+
+TEST_F(FoxgloveStop, IsPressedByACallThatSaysNothing) {
+  Begin();
+  EXPECT_EQ(Call("/stop", "{}")["success"], true);
+  EXPECT_TRUE(in_force());
+  runtime.robot_stop().Release("the test");
+  EXPECT_EQ(Call("/stop", "")["success"], true);
+  EXPECT_TRUE(in_force());
+}
+
+TEST_F(FoxgloveStop, IsReleasedByWhoMayDrive) {
+  client.its_role = WebRole::kDrive;
+  Begin();
+  EXPECT_EQ(Call("/release", "{}")["success"], false) << "it is not in force";
+  runtime.robot_stop().Press("the test");
+  EXPECT_EQ(Call("/release", "{}")["success"], true);
+  EXPECT_FALSE(in_force());
+  runtime.robot_stop().Press("the test");
+  const std::uint32_t release = services.at("/release");
+  client.its_role = WebRole::kLook;
+  session->OnBinary("\x02" + Word(release) + Word(99) + Word(4) + "json{}");
+  session->OnPoll();
+  EXPECT_FALSE(Take("serviceCallFailure").empty());
+  EXPECT_TRUE(in_force());
+}
+
+TEST_F(FoxgloveStop, IsPressedByATopicThatClientsPublish) {
+  client.its_role = WebRole::kLook;
+  Begin();
+  Say({{"op", "advertise"}, {"channels", {{{"id", 3}, {"topic", "/stop"}, {"encoding", "json"}}}}});
+  Turn();
+  Publish(3, R"({"data":false})");
+  EXPECT_FALSE(in_force());
+  Publish(3, R"({"data":true})");
+  EXPECT_TRUE(in_force());
+  EXPECT_EQ(Complaint(), "");
+  Say({{"op", "unadvertise"}, {"channelIds", {3}}});
+  Publish(3, R"({"data":true})");
+  EXPECT_NE(Complaint(), "");
+}
+
+TEST_F(FoxgloveStop, IsTold) {
+  Begin();
+  Turn();
+  Say({{"op", "subscribe"}, {"subscriptions", {{{"id", 5}, {"channelId", IdOf("/stop")}}}}});
+  Turn();
+  auto values = TakeValues();
+  ASSERT_EQ(values.size(), 1u);
+  EXPECT_EQ(values[0].json["data"], false);
+  clock.Set(Time(std::chrono::seconds(7)));
+  runtime.robot_stop().Press("a button");
+  Turn();
+  values = TakeValues();
+  ASSERT_EQ(values.size(), 1u);
+  EXPECT_EQ(values[0].json["data"], true);
+  EXPECT_EQ(values[0].json["by"], "a button");
+  EXPECT_EQ(values[0].json["since"], 7);
+  Turn();
+  EXPECT_THAT(TakeValues(), IsEmpty()) << "nothing new";
+}
+
+}  // namespace
+}  // namespace runnel::test
