@@ -158,8 +158,7 @@ void AddWhatAccompaniesARun(CLI::App& run, RunArguments& arguments) {
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
-  run.add_flag("--profile", arguments.is_profiled,
-               "measures how long each module takes, and says so at the end");
+  run.add_flag("--profile", arguments.is_profiled, "measures how long each module takes, and says so at the end");
   run.add_option("--log", arguments.log_file,
                  "writes faults, warnings, changes and what modules say into a file")
       ->type_name("FILE");
@@ -180,10 +179,8 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
       ->type_name("FACTOR")
       ->check(CheckSpeed)
       ->excludes(fast);
-  run.add_flag("--paused", arguments.is_paused,
-               "simulated time stands still until 'runnel resume' or 'runnel step'");
-  run.add_flag("--clear-stop", arguments.clears_stop,
-               "begins without the STOP that was in force when an earlier run of the file ended");
+  run.add_flag("--paused", arguments.is_paused, "simulated time stands still until 'runnel resume' or 'runnel step'");
+  run.add_flag("--clear-stop", arguments.clears_stop, "begins without the STOP that an earlier run of the file left in force");
   run.add_flag("--single-thread", arguments.is_single_threaded,
                "the cycles of all threads one after the other in one: simulated time, in step with the real one");
   AddWhatAccompaniesARun(run, arguments);
