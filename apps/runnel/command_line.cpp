@@ -182,6 +182,8 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
       ->excludes(fast);
   run.add_flag("--paused", arguments.is_paused,
                "simulated time stands still until 'runnel resume' or 'runnel step'");
+  run.add_flag("--clear-stop", arguments.clears_stop,
+               "begins without the STOP that was in force when an earlier run of the file ended");
   run.add_flag("--single-thread", arguments.is_single_threaded,
                "the cycles of all threads one after the other in one: simulated time, in step with the real one");
   AddWhatAccompaniesARun(run, arguments);

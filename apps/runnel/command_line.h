@@ -44,6 +44,7 @@ struct RunArguments {
   std::string log_file = {};  ///< "": none
   std::optional<std::string> crash_file = {};  ///< "": none; without, one that is named after the process
   bool has_control = true;  ///< other processes of the user can reach it
+  bool clears_stop = false;  ///< begins without the STOP of a process before
   bool steps = false;       ///< a cycle for each line of standard input
   std::vector<ExtensionByName> extensions = {};
   std::vector<std::string> preloads =

@@ -222,6 +222,8 @@ ApplicationOptions OptionsOf(const RunArguments& arguments) {
   options.speed_words = "--fast and --speed";
   options.pause_words = "--paused";
   options.has_control = arguments.has_control;
+  options.keeps_stop = true;
+  options.clears_stop = arguments.clears_stop;
   options.notes_running_modules = true;
   options.is_profiled = arguments.is_profiled;
   // Time that is stepped from cycle to cycle is one thread's.
@@ -257,6 +259,7 @@ Result<void> CheckFile(const RunArguments& arguments) {
 
 // What a run before has written stays.
 RunArguments ArgumentsOfNextRun(RunArguments arguments) {
+  arguments.clears_stop = false;  // of the run that was begun by a person
   if (!arguments.log_file.empty()) arguments.log_file = FileOfNextRun(arguments.log_file);
   const auto catalogue = ExtensionCatalogue::Read(PluginManager().search_path());
   for (ExtensionByName& extension : arguments.extensions) {

@@ -16,6 +16,7 @@
 #include "core/conversion/conversion.h"
 #include "core/port/converted_flow.h"
 #include "core/port/late_edge.h"
+#include "core/port/hand_slot.h"
 #include "core/port/port_extras.h"
 #include "core/port/typed_ports.h"
 #include "core/types/type_info.h"
@@ -117,7 +118,13 @@ Port::Port(const Placement& placement, Direction direction, const TypeInfo& type
       type_(type),
       description_(std::move(description)) {}
 
-Port::~Port() = default;
+// Who watches a deadline holds on to the slot, which another port may have by now.
+Port::~Port() {
+  const auto slot = extras_ && extras_->by_hand.front() ? HandSlot::Find(*this) : nullptr;
+  if (!slot) return;
+  const std::lock_guard lock(slot->mutex);
+  if (slot->stand_in == extras_->by_hand.front().get()) slot->stand_in = nullptr;
+}
 
 Result<void> Port::CheckEnds(const Port& from, const Port& to, const ConnectOptions& options) {
   if (&from.runtime() != &to.runtime()) {

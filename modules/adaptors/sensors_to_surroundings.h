@@ -15,6 +15,7 @@
 #include "modules/types/pose.h"
 #include "modules/types/range_scan.h"
 #include "modules/types/surroundings.h"
+#include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
@@ -29,10 +30,11 @@ class SensorToSurroundings : public Module {
   SensorToSurroundings(const Placement& placement, std::string port, std::string description)
       : Module(placement),
         measurement(this, std::move(port),
-                    {.description = std::move(description), .required = true}) {}
+                    {.description = std::move(description), .required = true, .ageing = Ageing::kTimesOut}) {}
 
   Input<Measurement> measurement;
-  Input<Pose2> pose{this, "pose", {.description = "where it was measured", .required = true}};
+  Input<Pose2> pose{
+      this, "pose", {.description = "where it was measured", .required = true, .ageing = Ageing::kTimesOut}};
   Output<Surroundings> surroundings{this, "surroundings", {.description = "in the robot's frame"}};
 
   StaticParameter<double> safe_distance{
@@ -42,6 +44,8 @@ class SensorToSurroundings : public Module {
        .bounds = {0.05, 10.0},
        .unit = "m",
        .description = "how near the robot's centre may come to a boundary"}};
+  InputTimeout measurement_timeout{this, measurement, {.log = &log()}};
+  InputTimeout pose_timeout{this, pose, {.log = &log()}};
 
  private:
   [[nodiscard]] virtual Result<Configuration> Configure() const {
@@ -56,10 +60,9 @@ class SensorToSurroundings : public Module {
   }
 
   void Update() override {
-    const auto measured = measurement.Read();
-    const auto at = pose.Read();
-    if (measured.is_new() && at)
-      surroundings.Publish(adaptor_->Update(*measured, *at), measured.timestamp());
+    const auto measured = measurement_timeout.Read(measurement, now());
+    const auto at = pose_timeout.Read(pose, now());
+    if (measured.is_new() && at) surroundings.Publish(adaptor_->Update(*measured, *at));
   }
 
   std::optional<Adaptor> adaptor_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/element/framework_element.h"
+#include "core/port/port_stop.h"
+#include "core/types/value_copy.h"
 #include "modules/flow/ports_by_name.h"
 
 namespace runnel {
@@ -19,11 +21,13 @@ Result<void> FusionBehaviour::Construct() {
   for (std::uint32_t i = 1; i <= count; ++i) {
     const std::string number = std::to_string(i);
     activities_.emplace_back(this, "activity" + number,
-                             InputOptions{.description = "how active the behaviour is", .required = true});
+                             InputOptions{.description = "how active the behaviour is", .required = true,
+                                          .ageing = Ageing::kTimesOut});
     target_ratings_.emplace_back(this, "target_rating" + number,
                                  InputOptions{.description = "how content it is", .required = true});
     inputs_.push_back((*ports)->MakeInput(
-        InputGroup(), "in" + number, {.description = "what it wants", .required = true, .unit = unit.Get()}));
+        InputGroup(), "in" + number,
+        {.description = "what it wants", .required = true, .unit = unit.Get(), .ageing = Ageing::kTimesOut}));
   }
   output_ = (*ports)->MakeOutput(OutputGroup(), "out",
                                  {.description = "what all of them come to", .unit = unit.Get()});
@@ -38,6 +42,7 @@ Result<void> FusionBehaviour::Construct() {
   } else {
     no_fusion_ = fusion.error().message;
   }
+  if (IsVelocity(output_->type(), unit.Get())) standstill_ = output_->type().Make();
   signals_.resize(count);
   weights_.resize(count);
   found_.resize(count);
@@ -77,7 +82,7 @@ void FusionBehaviour::OnBehaviourParametersChanged() {
 
 bool FusionBehaviour::ReadSignals() {
   for (std::size_t i = 0; i < signals_.size(); ++i) {
-    const auto active = activities_[i].Peek();
+    const auto active = activities_[i].Read();
     const auto rated = target_ratings_[i].Peek();
     if (!active || !rated) return false;
     signals_[i] = {active->value(), rated->value()};
@@ -92,15 +97,12 @@ bool FusionBehaviour::ReadSignals() {
 }
 
 bool FusionBehaviour::ReadValues() {
-  has_fused_ = true;
   for (std::size_t i = 0; i < weights_.size(); ++i) {
     found_[i] = nullptr;
-    if (weights_[i] == 0.0 && i != winner_) continue;
+    if (weights_[i] == 0.0) continue;
     (void)values_->Read(*inputs_[i], i);
     found_[i] = values_->Find(i);
-    if (found_[i] != nullptr) continue;
-    if (signals_[i].activity > 0.0) return false;
-    has_fused_ = false;  // nobody is active, and not all have said what they want
+    if (found_[i] == nullptr) return false;
   }
   return true;
 }
@@ -110,19 +112,25 @@ std::optional<Behaviour::Outcome> FusionBehaviour::Behave(double activation) {
   const FusedSignals fused = Fuse(chosen_, signals_, activation);
   winner_ = fused.winner;
   WeighChannels(chosen_, signals_, weights_);
-  if (!ReadValues()) {
-    has_fused_ = false;
-    return Miss("a channel is active and has no value");
-  }
+  if (!ReadValues()) return Miss("a channel is active and has no value");
+  has_fused_ = true;
   return Outcome{fused.activity, fused.target_rating};
 }
 
 void FusionBehaviour::PublishFused() {
-  if (has_fused_) {
-    if (chosen_ == FusionMethod::kWinnerTakesAll) {
+  const bool is_anybody_active = signals_[winner_].activity > 0.0;
+  if (has_fused_ && (is_anybody_active || standstill_)) {
+    // As it is, unless what has come from another channel is older.
+    const bool is_forwarded = is_anybody_active && chosen_ == FusionMethod::kWinnerTakesAll &&
+                              (!value_fusion_ || values_->times(winner_).timestamp <= CurrentCycle()->stamp);
+    if (is_forwarded) {
       values_->Forward(*output_, winner_);
     } else {
-      (void)output_->PublishFilled([this](void* value) -> Result<void> {
+      (void)output_->PublishFilled([&](void* value) -> Result<void> {
+        if (!is_anybody_active) {
+          (void)CopyValue(output_->type(), standstill_.get(), value);
+          return {};
+        }
         value_fusion_->Fuse(weights_, found_, winner_, value);
         return {};
       });

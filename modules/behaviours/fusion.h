@@ -26,6 +26,8 @@ inline void Describe(TypeBuilder<FusionMethod>& type) {
 ///
 /// Values:  of one type, `type`; the winner's is published on without a copy, others are weighted number by number,
 ///          angles as unit vectors (ValueFusion). A channel without activity need not have a value.
+///          Where nobody is active, velocities are a standstill, and values of other types are not published.
+/// Stamps:  the oldest of all activities, and of the values that have part in what is published.
 /// Errors:  a type that no port of a loaded plugin has; a method that cannot weight values of the type.
 class FusionBehaviour final : public Behaviour {
  public:
@@ -67,7 +69,7 @@ class FusionBehaviour final : public Behaviour {
   std::optional<Outcome> Behave(double activation) override;
   void OnBehaviourParametersChanged() override;
   [[nodiscard]] bool ReadSignals();
-  // False: a channel that counts has none.
+  // False: a channel that is active has none.
   [[nodiscard]] bool ReadValues();
   void PublishFused();
   void DiscardFused();
@@ -80,6 +82,7 @@ class FusionBehaviour final : public Behaviour {
   FusedValue fused_{*this};
   std::optional<ValueFusion> value_fusion_;  // nothing: only the winner's can be taken
   std::string no_fusion_;                    // why
+  std::shared_ptr<const void> standstill_;   // nullptr: zero of the type is none
   FusionMethod chosen_ = FusionMethod::kWinnerTakesAll;
   std::vector<FusedChannel> signals_;
   std::vector<double> weights_;

@@ -34,7 +34,7 @@ class Navigator final : public Group {
   GroupParameter cruise_speed{{*this, "cruise_speed"},
                               {"drive/speed", "avoid/speed", "follow_wall/speed"},
                               "at most"};
-  GroupParameter goal_tolerance{{*this, "goal_tolerance"}, {"drive/goal_tolerance"}, "nearer than this is there"};
+  GroupParameter goal_tolerance{{*this, "goal_tolerance"}, {"drive/goal_tolerance", "escape/goal_tolerance"}, "nearer than this is there"};
 
   DriveToGoalBehaviour drive{{*this, "drive"}};
   AvoidObstaclesBehaviour avoid{{*this, "avoid"}};

@@ -1,11 +1,20 @@
 #include "modules/behaviours/robot_behaviours.h"
 
+#include <algorithm>
+
 namespace runnel {
 
+namespace {
+constexpr const char* kNoGoal = "goal has never come";
+constexpr const char* kUnclearGoal = "goal is not a number";
+}  // namespace
+
 std::optional<Behaviour::Outcome> DriveToGoalBehaviour::Behave(double activation) {
-  const auto here = pose.Read();
+  const auto here = pose_timeout.Read(pose, now());
   const auto there = goal.Read();
-  if (!here || !there) return Miss("nothing has come to its pose or its goal");
+  if (!here) return Miss(pose_timeout.words());
+  if (!there) return Miss(kNoGoal);
+  if (!IsFinite(*there)) return Miss(kUnclearGoal);
   DriveToGoalConfiguration configuration;
   configuration.tolerance = goal_tolerance.Get();
   const Wish wish = DriveToGoal(steering.Get(), configuration, *here, *there);
@@ -14,8 +23,8 @@ std::optional<Behaviour::Outcome> DriveToGoalBehaviour::Behave(double activation
 }
 
 std::optional<Behaviour::Outcome> AvoidObstaclesBehaviour::Behave(double activation) {
-  const auto view = surroundings.Read();
-  if (!view) return Miss("nothing has come to its surroundings");
+  const auto view = surroundings_timeout.Read(surroundings, now());
+  if (!view) return Miss(surroundings_timeout.words());
   AvoidObstaclesConfiguration configuration;
   configuration.near_distance = near_distance.Get();
   const Wish wish = AvoidObstacles(steering.Get(), configuration, *view);
@@ -24,8 +33,8 @@ std::optional<Behaviour::Outcome> AvoidObstaclesBehaviour::Behave(double activat
 }
 
 std::optional<Behaviour::Outcome> FollowWallBehaviour::Behave(double activation) {
-  const auto view = surroundings.Read();
-  if (!view) return Miss("nothing has come to its surroundings");
+  const auto view = surroundings_timeout.Read(surroundings, now());
+  if (!view) return Miss(surroundings_timeout.words());
   FollowWallConfiguration configuration;
   configuration.first_turn = first_direction.Get();
   const Wish wish = FollowWall(steering.Get(), configuration, *view);
@@ -34,14 +43,19 @@ std::optional<Behaviour::Outcome> FollowWallBehaviour::Behave(double activation)
 }
 
 std::optional<Behaviour::Outcome> EscapeBehaviour::Behave(double activation) {
-  const auto here = pose.Read();
+  const auto here = pose_timeout.Read(pose, now());
   const auto there = goal.Read();
-  const auto view = surroundings.Read();
-  if (!here || !there || !view) return Miss("nothing has come to its pose, its goal or its surroundings");
+  const auto view = surroundings_timeout.Read(surroundings, now());
+  if (!here) return Miss(pose_timeout.words());
+  if (!view) return Miss(surroundings_timeout.words());
+  if (!there) return Miss(kNoGoal);
+  if (!IsFinite(*there)) return Miss(kUnclearGoal);
   EscapeConfiguration configuration;
   configuration.patience = patience.Get();
   configuration.margin = leave_margin.Get();
-  const double time_step = last_ ? ToSeconds(now() - *last_) : 0.0;
+  configuration.tolerance = goal_tolerance.Get();
+  // While it could not tell, the robot stood.
+  const double time_step = last_ ? std::min(ToSeconds(now() - *last_), surroundings_timeout.limit.Get()) : 0.0;
   last_ = now();
   // Who may do nothing waits for nothing.
   const double passed = activation > 0.0 ? time_step : 0.0;
@@ -50,10 +64,10 @@ std::optional<Behaviour::Outcome> EscapeBehaviour::Behave(double activation) {
 }
 
 std::optional<Behaviour::Outcome> EmergencyStopBehaviour::Behave(double activation) {
-  const auto view = surroundings.Read();
-  const auto others = wanted.Read();
-  if (!view || !others) return Miss("nothing has come to its surroundings or what others want");
-  if (ToSeconds(now() - view.timestamp()) > timeout.Get()) {
+  const auto view = surroundings_timeout.Read(surroundings, now());
+  const auto others = wanted_timeout.Read(wanted, now());
+  if (!view || !others) {
+    Warn(view ? wanted_timeout.words() : surroundings_timeout.words());
     twist.Set({});
     return Outcome{activation, 1.0};
   }

@@ -11,6 +11,7 @@
 #include "modules/types/pose.h"
 #include "modules/types/surroundings.h"
 #include "plugins/behaviours/behaviour.h"
+#include "plugins/parameters/input_timeout.h"
 
 // The behaviours of a robot that drives to a goal. Each has its own idea of the motion; a fusion makes them one.
 
@@ -35,8 +36,10 @@ class DriveToGoalBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Pose2> pose{this, "pose", {.description = "of the robot, world's frame", .required = true}};
-  Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true}};
+  Input<Pose2> pose{
+      this, "pose", {.description = "of the robot, world's frame", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<Point2> goal{
+      this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
   ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
 
   SteeringParameters steering{this};
@@ -46,6 +49,7 @@ class DriveToGoalBehaviour final : public Behaviour {
                                     .bounds = {0.01, 10.0},
                                     .unit = "m",
                                     .description = "nearer than this is there"}};
+  InputTimeout pose_timeout{this, pose, {}};
 
  private:
   std::optional<Outcome> Behave(double activation) override;
@@ -56,8 +60,11 @@ class AvoidObstaclesBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Surroundings> surroundings{
-      this, "surroundings", {.description = "what a sensor adaptor knows of the obstacles", .required = true}};
+  Input<Surroundings> surroundings{this,
+                                   "surroundings",
+                                   {.description = "what a sensor adaptor knows of the obstacles",
+                                    .required = true,
+                                    .ageing = Ageing::kTimesOut}};
   ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
 
   SteeringParameters steering{this};
@@ -67,6 +74,7 @@ class AvoidObstaclesBehaviour final : public Behaviour {
                                    .bounds = {0.1, 10.0},
                                    .unit = "m",
                                    .description = "obstacles nearer than this disturb it"}};
+  InputTimeout surroundings_timeout{this, surroundings, {}};
 
  private:
   std::optional<Outcome> Behave(double activation) override;
@@ -77,8 +85,11 @@ class FollowWallBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Surroundings> surroundings{
-      this, "surroundings", {.description = "what a sensor adaptor knows of the obstacles", .required = true}};
+  Input<Surroundings> surroundings{this,
+                                   "surroundings",
+                                   {.description = "what a sensor adaptor knows of the obstacles",
+                                    .required = true,
+                                    .ageing = Ageing::kTimesOut}};
   ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
 
   SteeringParameters steering{this};
@@ -86,6 +97,7 @@ class FollowWallBehaviour final : public Behaviour {
       this,
       "first_direction",
       {.default_value = FirstTurn::kLeft, .description = "which way it turns where it meets a wall"}};
+  InputTimeout surroundings_timeout{this, surroundings, {}};
 
  private:
   std::optional<Outcome> Behave(double activation) override;
@@ -97,10 +109,15 @@ class EscapeBehaviour final : public Behaviour {
  public:
   explicit EscapeBehaviour(const Placement& placement) : Behaviour(placement) { KeepState(state_); }
 
-  Input<Pose2> pose{this, "pose", {.description = "of the robot, world's frame", .required = true}};
-  Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true}};
-  Input<Surroundings> surroundings{
-      this, "surroundings", {.description = "what a sensor adaptor knows of the obstacles", .required = true}};
+  Input<Pose2> pose{
+      this, "pose", {.description = "of the robot, world's frame", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<Point2> goal{
+      this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
+  Input<Surroundings> surroundings{this,
+                                   "surroundings",
+                                   {.description = "what a sensor adaptor knows of the obstacles",
+                                    .required = true,
+                                    .ageing = Ageing::kTimesOut}};
 
   Parameter<double> patience{this,
                              "patience",
@@ -114,6 +131,14 @@ class EscapeBehaviour final : public Behaviour {
                                   .bounds = {0.0, 10.0},
                                   .unit = "m",
                                   .description = "by which it ends nearer to the goal than it began"}};
+  Parameter<double> goal_tolerance{this,
+                                   "goal_tolerance",
+                                   {.default_value = EscapeConfiguration{}.tolerance,
+                                    .bounds = {0.01, 10.0},
+                                    .unit = "m",
+                                    .description = "nearer than this is there, as drive_to_goal has it"}};
+  InputTimeout pose_timeout{this, pose, {}};
+  InputTimeout surroundings_timeout{this, surroundings, {}};
 
  private:
   std::optional<Outcome> Behave(double activation) override;
@@ -122,14 +147,19 @@ class EscapeBehaviour final : public Behaviour {
   std::optional<Time> last_;
 };
 
-/// Lets nothing pass but turning on the spot where the way ahead ends, and nothing at all where nobody looks any more.
+/// Lets nothing pass but turning on the spot where the way ahead ends, and nothing at all while nobody looks, or it does not know
+/// what the others want.
 class EmergencyStopBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Surroundings> surroundings{
-      this, "surroundings", {.description = "what a sensor adaptor knows of the obstacles", .required = true}};
-  Input<Twist2> wanted{this, "wanted", {.description = "how the others want to move", .required = true}};
+  Input<Surroundings> surroundings{this,
+                                   "surroundings",
+                                   {.description = "what a sensor adaptor knows of the obstacles",
+                                    .required = true,
+                                    .ageing = Ageing::kTimesOut}};
+  Input<Twist2> wanted{
+      this, "wanted", {.description = "how the others want to move", .required = true, .ageing = Ageing::kTimesOut}};
   ControlOutput<Twist2> twist{this, "twist", {.description = "standstill, or turning on the spot"}};
 
   Parameter<double> least_way{this,
@@ -138,12 +168,8 @@ class EmergencyStopBehaviour final : public Behaviour {
                                .bounds = {0.0, 10.0},
                                .unit = "m",
                                .description = "with less free way ahead it stops"}};
-  Parameter<double> timeout{this,
-                            "timeout",
-                            {.default_value = 0.5,
-                             .bounds = {0.01, 60.0},
-                             .unit = "s",
-                             .description = "an older view of the surroundings stops it"}};
+  InputTimeout surroundings_timeout{this, surroundings, {.name = "timeout"}};
+  InputTimeout wanted_timeout{this, wanted, {}};
 
  private:
   std::optional<Outcome> Behave(double activation) override;

@@ -1,16 +1,25 @@
 #pragma once
 
-#include <optional>
-
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "modules/motion/algorithm/command_gate.h"
 #include "modules/types/contact.h"
 #include "modules/types/pose.h"
+#include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
 
 namespace runnel {
+
+/// Why a command does not pass.
+enum class GateState {
+  kOpen,
+  kNoCommand,   ///< none has come yet
+  kOldCommand,  ///< the last one is older than the gate allows: whoever commands has fallen silent
+  kContact,     ///< the body touches something
+  kStopped,     ///< somebody has closed the gate, or the robot is stopped
+  kNotANumber,  ///< the command is none that can be driven
+  kOldContact,  ///< the bumper has fallen silent
+};
 
 inline void Describe(TypeBuilder<GateState>& type) {
   type.Name("GateState")
@@ -18,7 +27,9 @@ inline void Describe(TypeBuilder<GateState>& type) {
       .Value("no_command", GateState::kNoCommand)
       .Value("old_command", GateState::kOldCommand)
       .Value("contact", GateState::kContact)
-      .Value("stopped", GateState::kStopped);
+      .Value("stopped", GateState::kStopped)
+      .Value("not_a_number", GateState::kNotANumber)
+      .Value("old_contact", GateState::kOldContact);
 }
 
 /// Stands between whoever commands and the drive: lets commands pass while they are fresh and
@@ -28,31 +39,42 @@ class CommandGate final : public Module {
  public:
   using Module::Module;
 
-  Input<Twist2> wanted{
-      this, "wanted", {.description = "what the planner commands", .required = true}};
-  Input<Contact> contact{this, "contact", {.description = "what a bumper says"}};
+  Input<Twist2> wanted{this,
+                       "wanted",
+                       {.description = "what the planner commands",
+                        .required = true,
+                        .drives = true,
+                        .ageing = Ageing::kTimesOut}};
+  /// Commands are no older for it.
+  Input<Contact> contact{this, "contact", {.description = "what a bumper says", .ageing = Ageing::kSetOnce}};
   Output<Twist2> allowed{this, "allowed", {.description = "the same, or standstill"}};
   Output<GateState> state{this, "state", {.description = "why commands do not pass"}};
 
-  Parameter<double> timeout{this,
-                            "timeout",
-                            {.default_value = 0.5,
-                             .bounds = {0.01, 60.0},
-                             .unit = "s",
-                             .description = "older commands do not pass"}};
+  InputTimeout timeout{this, wanted, {.name = "timeout"}};
+  /// A bumper that has spoken once has to go on; one that says only what has changed needs a longer one.
+  InputTimeout contact_timeout{this, contact, {}};
   Parameter<bool> stop{
       this, "stop", {.default_value = false, .description = "holds the robot whatever comes"}};
 
  private:
   void Update() override {
-    const auto command = wanted.Read();
-    const Contact touch = contact.Read().value_or(Contact{});
-    std::optional<double> age;
-    if (command) age = ToSeconds(now() - command.timestamp());
-    const GateState verdict = CheckCommand(age, timeout.Get(), touch, stop.Get());
+    const auto command = timeout.Read(wanted, now());
+    const auto touch = contact_timeout.Read(contact, now());
+    has_bumper_ = has_bumper_ || touch;
+    const GateState verdict = Check(touch);
     allowed.Publish(verdict == GateState::kOpen ? *command : Twist2{});
     state.Publish(verdict);
   }
+  [[nodiscard]] GateState Check(const Lease<Contact>& touch) const {
+    if (stop.Get() || wanted.is_stopped()) return GateState::kStopped;
+    if (timeout.lack() == InputLack::kNeverCame) return GateState::kNoCommand;
+    if (has_bumper_ && !touch) return GateState::kOldContact;
+    if (touch && touch->is_touching) return GateState::kContact;
+    if (timeout.lack() == InputLack::kNone) return GateState::kOpen;
+    return timeout.lack() == InputLack::kOld ? GateState::kOldCommand : GateState::kNotANumber;
+  }
+
+  bool has_bumper_ = false;
 };
 
 }  // namespace runnel

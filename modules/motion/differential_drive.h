@@ -8,17 +8,24 @@
 #include "modules/motion/algorithm/differential_drive.h"
 #include "modules/types/pose.h"
 #include "modules/types/wheel_speeds.h"
+#include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
 
 namespace runnel {
 
 /// Turns the wish how the body shall move into wheel speeds, within the limits of the drive and
-/// without sudden changes. Without any command, or with an old one only, the wheels come to a stop.
+/// without sudden changes. Without any command, or with an old one only, the wheels come to a stop; while the robot is stopped
+/// they stand at once.
 class DifferentialDriveModule final : public Module {
  public:
   using Module::Module;
 
-  Input<Twist2> twist{this, "twist", {.description = "how the body shall move", .required = true}};
+  Input<Twist2> twist{this,
+                      "twist",
+                      {.description = "how the body shall move",
+                       .required = true,
+                       .drives = true,
+                       .ageing = Ageing::kTimesOut}};
   Output<WheelSpeeds> wheels{this, "wheels", {.description = "what the wheels shall do"}};
 
   Parameter<double> wheel_radius{
@@ -51,29 +58,22 @@ class DifferentialDriveModule final : public Module {
                                        .bounds = {0.01, 500.0},
                                        .unit = "rad/s^2",
                                        .description = "of the body"}};
-  Parameter<double> timeout{this,
-                            "timeout",
-                            {.default_value = 0.5,
-                             .bounds = {0.01, 60.0},
-                             .unit = "s",
-                             .description = "older commands count as standstill"}};
+  InputTimeout timeout{this, twist, {.name = "timeout", .log = &log()}};
 
  private:
-  [[nodiscard]] Twist2 Wanted() {
-    const auto command = twist.Read();
-    const bool is_fresh = command && now() - command.timestamp() <= FromSeconds(timeout.Get());
-    return is_fresh ? *command : Twist2{};
-  }
-
   void Update() override {
     const DifferentialDrive drive{.wheel_radius = wheel_radius.Get(),
                                   .track = track.Get(),
                                   .maximum_speed = maximum_speed.Get(),
                                   .maximum_turn_rate = maximum_turn_rate.Get()};
     const AccelerationLimit limit{.forward = acceleration.Get(), .turn = turn_acceleration.Get()};
-    const Twist2 wanted = WithinLimits(drive, Wanted());
-    current_ = Approach(limit, current_, wanted, ToSeconds(now() - last_.value_or(now())));
+    const auto command = timeout.Read(twist, now());
+    const Twist2 wanted = WithinLimits(drive, command ? *command : Twist2{});
+    const double time_step = ToSeconds(now() - last_.value_or(now()));
     last_ = now();
+    // Stopped, or paused for so long that the wheels have come to rest: from a standstill.
+    const bool begins = twist.is_stopped() || time_step > timeout.limit.Get();
+    current_ = begins ? Twist2{} : Approach(limit, current_, wanted, time_step);
     wheels.Publish(WheelSpeedsFor(drive, current_));
   }
 

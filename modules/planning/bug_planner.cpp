@@ -56,15 +56,18 @@ Result<void> BugPlanner::Prepare() {
 }
 
 void BugPlanner::Update() {
-  const auto view = surroundings.Read();
-  const auto here = pose.Read();
+  const auto view = surroundings_timeout.Read(surroundings, now());
+  const auto here = pose_timeout.Read(pose, view ? view.timestamp() : now());
   const auto there = goal.Read();
-  if (!view.is_new() || !here || !there) return;
-  // Whoever localises has fallen silent: going on would be driving blind.
-  if (view.timestamp() - here.timestamp() > FromSeconds(pose_timeout.Get())) return;
+  if (surroundings_timeout.lack() == InputLack::kNotMeasured) twist.Publish(Twist2{});
+  if (there.is_new() && !IsFinite(*there)) log().Warn("goal is not a number");
+  // Going on would be driving blind.
+  if (!view.is_new() || !here || !there || !IsFinite(*there)) return;
   CheckSensors(*view);
   const bool is_same_task = state_.has_task && state_.goal == *there;
-  const BugInput input{.time_step = last_ ? ToSeconds(now() - *last_) : 0.0,
+  // While it was silent, the robot stood.
+  const double most = surroundings_timeout.limit.Get();
+  const BugInput input{.time_step = last_ ? std::min(ToSeconds(now() - *last_), most) : 0.0,
                        .pose = *here,
                        .surroundings = *view,
                        .start = is_same_task ? state_.start : Position(*here),

@@ -15,6 +15,7 @@
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "modules/types/surroundings.h"
+#include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 
@@ -40,9 +41,11 @@ class BugPlanner : public Module {
   Input<Surroundings> surroundings{
       this,
       "surroundings",
-      {.description = "what a sensor adaptor knows of the obstacles", .required = true}};
-  Input<Pose2> pose{this, "pose", {.description = "of the robot, world's frame", .required = true}};
-  Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true}};
+      {.description = "what a sensor adaptor knows of the obstacles", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<Pose2> pose{
+      this, "pose", {.description = "of the robot, world's frame", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<Point2> goal{
+      this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
   Output<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
   Output<PlannerStatus> status{this, "status", {.description = "mode, distance, hit points …"}};
   Output<HitAndLeavePoints> points{
@@ -88,13 +91,9 @@ class BugPlanner : public Module {
                                 .bounds = {0.05, 20.0},
                                 .unit = "rad/s",
                                 .description = "how fast it turns at most"}};
-  Parameter<double> pose_timeout{this,
-                                 "pose_timeout",
-                                 {.default_value = 0.2,
-                                  .bounds = {0.0, 60.0},
-                                  .unit = "s",
-                                  .description = "with a pose that is older by this than the view "
-                                                 "of the surroundings, it is silent"}};
+  /// Of a pose against the view, of which it is the place.
+  InputTimeout pose_timeout{this, pose, {.seconds = 0.2, .log = &log()}};
+  InputTimeout surroundings_timeout{this, surroundings, {.log = &log()}};
 
   /// What it remembers; for the thread that runs it, or while it does not run.
   [[nodiscard]] const BugState& state() const { return state_; }

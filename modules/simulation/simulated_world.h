@@ -14,6 +14,7 @@
 #include "modules/types/wheel_speeds.h"
 #include "modules/types/world_map.h"
 #include "plugins/parameters/file_path.h"
+#include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 
@@ -31,8 +32,12 @@ class SimulatedWorld final : public SenseControlModule {
   explicit SimulatedWorld(const Placement& placement);
   ~SimulatedWorld() override;
 
-  Input<WheelSpeeds> wheels{
-      controller_inputs(), "wheels", {.description = "what the wheels shall do", .required = true}};
+  Input<WheelSpeeds> wheels{controller_inputs(),
+                            "wheels",
+                            {.description = "what the wheels shall do",
+                             .required = true,
+                             .drives = true,
+                             .ageing = Ageing::kTimesOut}};
   Output<Scene> scene{sensor_outputs(), "scene", {.description = "what stands still"}};
   Output<Pose2> pose{sensor_outputs(), "pose", {.description = "where the robot really is"}};
   Output<Twist2> twist{sensor_outputs(), "twist", {.description = "how it really moves"}};
@@ -47,12 +52,8 @@ class SimulatedWorld final : public SenseControlModule {
   StaticParameter<FilePath> world{this, "world", {.description = "the world file, or the name of one that comes with Runnel"}};
   Parameter<double> goal_x{this, "goal_x", kGoalOfFile};
   Parameter<double> goal_y{this, "goal_y", kGoalOfFile};
-  Parameter<double> timeout{this,
-                            "timeout",
-                            {.default_value = 0.5,
-                             .bounds = {0.01, 3600.0},
-                             .unit = "s",
-                             .description = "without newer wheel speeds for so long, the wheels come to rest"}};
+  /// Without newer wheel speeds for so long, the wheels come to rest.
+  InputTimeout timeout{this, wheels, {.name = "timeout"}};
   StaticParameter<double> robot_radius{
       this,
       "robot_radius",

@@ -74,6 +74,11 @@ struct ApplicationOptions {
 
   /// Other processes of the same user reach it: `runnel ls`, `runnel swap`. That they cannot is a warning.
   bool has_control = false;
+  /// STOP is kept in the user's run-time folder until it is released, and is in force again when the application of this
+  /// file is loaded by another process. That the folder cannot be trusted is an error.
+  bool keeps_stop = false;
+  /// Begins without a STOP that was kept.
+  bool clears_stop = false;
   /// What the program itself adds, in the order in which they begin. Each is of one application.
   std::vector<std::shared_ptr<ApplicationExtension>> extensions = {};
   /// What plugins add, after those. What the words of the file need is loaded besides.

@@ -109,6 +109,11 @@ Result<void> Application::Parts::Begin(Application& application, Diagnostics& di
   for (const LogMessage& message : std::exchange(early_messages, {})) Hear(message);
   for (const auto& extension : extensions()) extension->AddHooks(application, hooks);
   if (!hooks.record) hooks.record = RecordingOnDemand(application);
+  if (options().keeps_stop && !file().empty()) {
+    auto follows = StopFile::Follow(runtime().robot_stop(), *log, file(), name(), options().clears_stop, diagnostics);
+    if (!follows) return follows.error();
+    stop_file = std::move(*follows);
+  }
   if (options().has_control) {
     auto server =
         ControlServer::Start(application.service(), {.application = name(), .file = file()});

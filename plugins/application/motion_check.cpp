@@ -14,10 +14,12 @@ void WarnOfUnmarkedMotion(const ApplicationCheckUse& use) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return;
     is_marked = is_marked || port->is_driving();
-    if (moves == nullptr && !port->is_proxy() && IsVelocity(port->type(), port->unit())) moves = port;
+    // What others read over the network is held by itself.
+    const bool is_read = !port->is_proxy() && port->direction() == Port::Direction::kInput;
+    if (moves == nullptr && is_read && IsVelocity(port->type(), port->unit())) moves = port;
   });
   if (moves == nullptr || is_marked) return;
-  use.diagnostics.AddWarning({.message = "has velocities, and no port of the application is marked as driving: a STOP stops nothing",
+  use.diagnostics.AddWarning({.message = "takes velocities, and no port of the application is marked as driving: a STOP stops nothing",
                               .path = moves->path(),
                               .position = FindSourcePlace(*moves),
                               .hint = "mark the port that moves something: <driving port=\"…\"/>"});

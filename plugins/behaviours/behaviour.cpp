@@ -23,7 +23,8 @@ Behaviour::Behaviour(const Placement& placement) : Module(placement) { RegisterM
 Result<void> Behaviour::Construct() {
   for (std::uint32_t i = 1; i <= inhibitions.Get(); ++i) {
     inhibition_ports_.emplace_back(this, "inhibition" + std::to_string(i),
-                                   InputOptions{.description = "how much it is held back; the greatest counts"});
+                                   InputOptions{.description = "how much it is held back; the greatest counts",
+                                                .ageing = Ageing::kSetOnce});
   }
   inhibition_values_.assign(inhibition_ports_.size(), 0.0);
   return {};
@@ -66,8 +67,8 @@ void Behaviour::Hold(double activation) {
   Warn(missed_);
   before_.reset();  // what it does when it can tell again is no change of its own
   last_.activation = activation;
-  last_.activity = std::min(last_.activity, activation);
-  for (double& each : derived_) each = std::min(each, last_.activity);
+  last_.activity = 0.0;
+  std::ranges::fill(derived_, 0.0);
   PublishSignals(last_);
   for (HeldBack* const each : held_back_) each->Discard();
   for (HeldBack* const each : held_back_) each->Publish();

@@ -54,7 +54,7 @@ class Behaviour : public Module {
  public:
   explicit Behaviour(const Placement& placement);
 
-  Input<Stimulation> stimulation{this, "stimulation", {.description = "how much it is wanted"}};
+  Input<Stimulation> stimulation{this, "stimulation", {.description = "how much it is wanted", .ageing = Ageing::kSetOnce}};
   Output<Activity> activity{this, "activity", {.description = "how much it does"}};
   Output<TargetRating> target_rating{
       this, "target_rating", {.description = "0: content; 1: as far from what it wants as can be"}};
@@ -86,8 +86,8 @@ class Behaviour : public Module {
     double target_rating = 0.0;
   };
   /// What it does with so much activation. Outputs are set, not published (ControlOutput). Nothing: it cannot tell, since
-  /// something is missing; nothing of it is published then, its activity stays as it was or what activation is left of it,
-  /// its target rating stays as it was, and a warning says why (Miss()).
+  /// something is missing; nothing of it is published then, it is active in nothing, its target rating stays as it was (1
+  /// if it never could tell), and a warning says why (Miss()).
   virtual std::optional<Outcome> Behave(double activation) = 0;
   /// As OnParametersChanged() of modules.
   virtual void OnBehaviourParametersChanged() {}
@@ -95,11 +95,13 @@ class Behaviour : public Module {
   Result<void> Construct() override;
   Result<void> Prepare() override;
 
-  /// For Behave(): `return Miss("nothing has come to its goal");` Any text that lives as long as the program.
+  /// For Behave(): `return Miss("nothing has come to its goal");` Any text that lives as long as this.
   [[nodiscard]] std::nullopt_t Miss(const char* reason) noexcept {
     missed_ = reason;
     return std::nullopt;
   }
+  /// In the log, no more often than `warning_interval` says.
+  void Warn(const char* text);
 
  private:
   friend class HeldBack;
@@ -112,7 +114,6 @@ class Behaviour : public Module {
   [[nodiscard]] bool HasSameActivities();
   void Hold(double activation);
   void PublishSignals(const MetaSignals& now);
-  void Warn(const char* text);
   [[noreturn]] void Fail(const std::string& message) const;
   double CheckSignal(const char* name, double value) const;
 
@@ -123,7 +124,7 @@ class Behaviour : public Module {
   std::vector<double> derived_;
   std::vector<HeldBack*> held_back_;
   std::optional<MetaSignals> before_;  // if it could tell
-  MetaSignals last_;
+  MetaSignals last_{.target_rating = 1.0};  // who never could tell is not content
   bool has_new_parameters_ = false;
   const char* missed_ = nullptr;
   std::uint64_t cycle_ = 0;

@@ -16,6 +16,12 @@ void AsyncWorker::WaitUntilBack() noexcept {
   while (work_.load(std::memory_order_acquire) != nullptr) back_.Wait();
 }
 
+bool AsyncWorker::WaitUntilBack(Time deadline) noexcept {
+  const auto is_away = [this] { return work_.load(std::memory_order_acquire) != nullptr; };
+  while (is_away() && SteadyClock().Now() < deadline) back_.WaitUntil(deadline);
+  return !is_away();
+}
+
 void AsyncWorker::Run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     given_.Wait();

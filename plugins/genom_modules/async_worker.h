@@ -21,6 +21,8 @@ class AsyncWorker {
   void Begin(genom_execution::AsyncWork& work) noexcept;
   /// Not in a cycle, but on a simulated clock.
   void WaitUntilBack() noexcept;
+  /// At most until then, by the machine. False: it is still away.
+  [[nodiscard]] bool WaitUntilBack(Time deadline) noexcept;
 
  private:
   void Run(const std::stop_token& stop);

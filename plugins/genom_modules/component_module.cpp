@@ -6,6 +6,7 @@
 
 #include "core/base/exception_text.h"
 #include "core/element/runtime.h"
+#include "core/module/hand_over.h"
 
 namespace runnel::genom_modules {
 
@@ -19,6 +20,8 @@ namespace {
 constexpr int kMostRounds = 1000;
 // Of a cycle for codels of other threads. They are short, or they are asynchronous ones, which are not waited for.
 constexpr Duration kPatience = std::chrono::milliseconds(20);
+// For those that another component is to take the place of: cycles are held meanwhile.
+constexpr Duration kToSettle = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -35,6 +38,7 @@ ComponentModule::ComponentModule(const Placement& placement, const genom_executi
                       .fill = [](genom_execution::Request& request, auto& arguments) {
                         WithArguments<std::uint32_t>(arguments, [&](std::uint32_t id) { request.abort_id = id; });
                       }}) {
+  Annotate(std::make_unique<BeforeHandOver>([this] { Settle(); }));
   for (const auto& task : component.tasks) {
     ParameterOptions<std::string> options;
     options.description = std::string("name of the thread that runs task '") + task.name + "'; empty: the module's own";
@@ -109,6 +113,7 @@ void ComponentModule::Update() {
     if (has_fault_.load(std::memory_order_relaxed)) throw std::runtime_error(fault_);
     return;
   }
+  if (is_settled_) BeginAfresh();
   if (!has_run_.load(std::memory_order_relaxed)) CheckPeriods();
   has_run_.store(true, std::memory_order_relaxed);
   const bool is_watched = genom_state.is_watched();
@@ -160,17 +165,40 @@ void ComponentModule::RunPasses(Time time, bool is_forced) {
   }
 }
 
+void ComponentModule::EndActivities(Time deadline) {
+  engine_->Stop();
+  for (int round = 0; has_run_ && !is_broken_ && !engine_->is_ended() && round < 100; ++round) {
+    RunPasses(now(), true);
+    for (auto& worker : workers_) {
+      if (worker != nullptr && !worker->WaitUntilBack(deadline)) {
+        throw std::runtime_error("one of its asynchronous codels does not come back");
+      }
+    }
+  }
+  for (ModulePart* part : parts_) part->AfterPasses();
+}
+
+void ComponentModule::Settle() {
+  if (!engine_ || !has_run_ || is_broken_) return;
+  is_settled_ = true;
+  EndActivities(SteadyClock().Now() + kToSettle);
+}
+
+// The change has been taken back. Nobody else may be looking at the engine.
+void ComponentModule::BeginAfresh() {
+  if (!engine_->is_ended()) return;
+  if (std::ranges::any_of(own_tasks_, [](const auto& target) { return target != nullptr; })) {
+    throw std::runtime_error("has ended for one that was to take its place; restart it");
+  }
+  engine_.emplace(component_, Options());
+  for (ModulePart* part : parts_) part->Prepare(*engine_);
+  is_settled_ = false;
+}
+
 void ComponentModule::End() noexcept {
   if (!engine_) return;
   try {
-    engine_->Stop();
-    for (int round = 0; has_run_ && !is_broken_ && !engine_->is_ended() && round < 100; ++round) {
-      RunPasses(now(), true);
-      for (auto& worker : workers_) {
-        if (worker != nullptr) worker->WaitUntilBack();
-      }
-    }
-    for (ModulePart* part : parts_) part->AfterPasses();
+    EndActivities(Time::max());
   } catch (...) {  // a codel has thrown: nobody is there to be told
   }
   workers_.clear();  // what is with them comes back first

@@ -71,6 +71,10 @@ class ComponentModule : public Module {
   void CheckPeriods() const;
   void RunPasses(Time time, bool is_forced);
   void PublishState();
+  /// Before another component takes its place: as End(), but it may be run again.
+  void Settle();
+  void EndActivities(Time deadline);
+  void BeginAfresh();
 
   const genom_execution::ComponentTable& component_;
   void* const ids_;
@@ -82,6 +86,7 @@ class ComponentModule : public Module {
   OwnPart own_part_{*this};
   std::vector<std::unique_ptr<AsyncWorker>> workers_;  // by places; none without asynchronous codels
   bool is_simulated_ = false;
+  bool is_settled_ = false;  // it begins afresh if it is run again
   // Codels have run. relaxed: looked at when nothing runs any more.
   std::atomic<bool> has_run_{false};
   // A codel has thrown, and no other may run. release, acquire: the fault of another thread is there.

@@ -21,7 +21,7 @@ class InPort {
  public:
   template <typename Owner>
   InPort(Owner&& owner, const std::string& name, const std::string& description)
-      : input_(owner, name, {.description = description}) {}
+      : input_(owner, name, {.description = description, .ageing = Ageing::kTimesOut}) {}
 
   void Fetch() {
     fetched_ = input_.Read();

@@ -1,5 +1,7 @@
 #include "plugins/genom_modules/task_module.h"
 
+#include <mutex>
+
 #include "core/base/nearest_name.h"
 #include "core/module/wake_source.h"
 #include "core/types/text_format.h"
@@ -37,6 +39,7 @@ TaskModule::TaskModule(const Placement& placement, ComponentModule& component, s
 }
 
 Result<void> TaskModule::Prepare() {
+  const std::lock_guard lock(runtime().structure_mutex());
   const auto thread = FindThread(component_, thread_);
   if (!thread) return thread.error();
   if (auto good = Check(**thread); !good) return good;

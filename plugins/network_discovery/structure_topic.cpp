@@ -58,6 +58,7 @@ void StructureTopic::Follow() {
           std::string text;
           auto from = CdrReader::Begin(sample.octets);
           if (!from || !from->GetText(text)) return;
+          std::erase_if(text, [](unsigned char letter) { return (letter < 0x20 && letter != '\n') || letter == 0x7f; });
           const std::lock_guard lock(mutex_);
           texts_[name] = std::move(text);
         },
@@ -95,6 +96,7 @@ Result<std::optional<std::string>> FindInStructure(const std::string& text, cons
   std::size_t depth = 0;
   for (std::string line; std::getline(lines, line);) {
     const std::size_t indent = line.find_first_not_of(' ');
+    if (indent == std::string::npos) continue;
     if (word == words.size() && indent <= depth) break;
     if (word == words.size()) {
       found += line + "\n";

@@ -1,6 +1,7 @@
 #include "plugins/recording/recorder_module.h"
 
 #include <iterator>
+#include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -25,8 +26,11 @@ Result<void> RecorderModule::Prepare() {
     return Error{.message = "needs the file to record to, as parameter 'file'", .path = path()};
   }
   is_simulated_ = dynamic_cast<const ManualClock*>(&runtime().clock()) != nullptr;
-  RecordedApplication about{.name = std::string(SplitPath(path()).front()),
-                            .file = FindSourcePlace(*this).file};
+  RecordedApplication about{.name = std::string(SplitPath(path()).front())};
+  {
+    const std::lock_guard lock(runtime().structure_mutex());
+    about.file = FindSourcePlace(*this).file;
+  }
   // A recorder that was made while the application runs stands in no file.
   if (auto text = XmlDocument::ReadText(about.file)) about.text = std::move(*text);
   auto started = Recorder::Start(runtime(), nullptr,

@@ -57,16 +57,17 @@ void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkEle
   }
 }
 
-Result<void> Give(const FrameworkElement& noted, FrameworkElement& made) {
+Result<void> Give(const FrameworkElement& noted, FrameworkElement& made, const ElementState::TakenOver& taken_over) {
   auto* const port = dynamic_cast<Port*>(&made);
+  const bool has_its_own = std::ranges::any_of(taken_over, [&](const auto& each) { return each.second == port; });
   const auto* const state = noted.FindAnnotation<PortState>();
-  if (port != nullptr && state != nullptr) {
+  if (port != nullptr && state != nullptr && !has_its_own) {
     if (auto given = GiveTo(*port, *state); !given) return given;
   }
   for (const FrameworkElement* child : noted.children()) {
     FrameworkElement* const counterpart = made.FindChild(child->name());
     if (counterpart == nullptr) continue;
-    if (auto given = Give(*child, *counterpart); !given) return given;
+    if (auto given = Give(*child, *counterpart, taken_over); !given) return given;
   }
   return {};
 }
@@ -81,7 +82,9 @@ ElementState::ElementState(const FrameworkElement& element, Inherit how, Below b
   noted_->InheritAnnotations(element, how);
 }
 
-Result<void> ElementState::GivePorts(FrameworkElement& made) const { return Give(*noted_, made); }
+Result<void> ElementState::GivePorts(FrameworkElement& made, const TakenOver& taken_over) const {
+  return Give(*noted_, made, taken_over);
+}
 
 bool IsRecorded(const Port& port) {
   return std::ranges::any_of(port.outgoing(), [](const Connection& each) {

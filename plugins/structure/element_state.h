@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -28,8 +29,11 @@ class ElementState {
 
   /// Before `made` is prepared: that may go by what it is annotated with.
   void GiveAnnotations(FrameworkElement& made) const { made.InheritAnnotations(*noted_, how_); }
-  /// When nobody but its readers can see `made` yet. Errors: as Port::PublishByHand().
-  Result<void> GivePorts(FrameworkElement& made) const;
+  /// Ports, each with that which takes over from it.
+  using TakenOver = std::vector<std::pair<Port*, Port*>>;
+  /// When nobody but its readers can see `made` yet. Nothing to ports that take over from others, as they have that.
+  /// Errors: as Port::PublishByHand().
+  Result<void> GivePorts(FrameworkElement& made, const TakenOver& taken_over = {}) const;
 
  private:
   Inherit how_;

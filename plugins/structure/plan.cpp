@@ -214,7 +214,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                         return set;
                       next.InheritAnnotations(before);
                       if (change.state) {
-                        if (auto given = change.state->GivePorts(next); !given) return given;
+                        if (auto given = change.state->GivePorts(next, ports); !given) return given;
                       }
                       if (auto copied = CopyState(before, next); !copied) return copied;
                       Replaced replaced{{}, next.path(), next.id(), change.probation_cycles};

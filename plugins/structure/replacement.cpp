@@ -7,6 +7,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
+#include "core/module/hand_over.h"
 #include "core/module/kept_state.h"
 #include "core/paths/path_search.h"
 
@@ -153,6 +154,14 @@ std::vector<Error> StateRefusals(const FrameworkElement& before, const Framework
 }
 
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after) {
+  if (const auto* const first = before.FindAnnotation<BeforeHandOver>()) {
+    try {
+      first->settle();
+    } catch (...) {
+      return Error{.message = "cannot be replaced now: " + DescribeException(),
+                   .path = before.path()};
+    }
+  }
   const auto* const from = before.FindAnnotation<KeptState>();
   auto* const to = after.FindAnnotation<KeptState>();
   if (from == nullptr || to == nullptr) return {};

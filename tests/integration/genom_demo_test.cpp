@@ -67,7 +67,7 @@ TEST_F(GenomDemo, IsSentInterruptedResumedAndSwapped) {
   EXPECT_THAT(Trip(), HasSubstr("is_set: true"));
   const Ended arrived = Runnel("call /guide/go_to '{to: {x: -4.5, y: -0.5}}' --timeout 1000s");
   EXPECT_EQ(arrived.code, kDone) << arrived.text;
-  EXPECT_EQ(Runnel("stop").code, kDone);
+  EXPECT_EQ(Runnel("quit").code, kDone);
   (void)program.Wait();
   EXPECT_THAT(Runnel("info " + recording).text,
               AllOf(HasSubstr("/guide/output/go_to_calls"), HasSubstr("/guide/output/twist")));
@@ -91,7 +91,7 @@ TEST_F(GenomDemo, DoesTheSameInAReplayWithItsCalls) {
   EXPECT_EQ(going.Wait().code, kDone);
   const Ended arrived = Runnel("call /guide/go_to '{to: {x: -4.5, y: -0.5}}' --timeout 1000s");
   EXPECT_EQ(arrived.code, kDone) << arrived.text;
-  EXPECT_EQ(Runnel("stop").code, kDone);
+  EXPECT_EQ(Runnel("quit").code, kDone);
   (void)program.Wait();
   const Ended replayed = Runnel("replay " + recording + " " + demo_ +
                                 " --ports localisation/pose --ports eyes/surroundings --rate 0 --quiet --record " + again);

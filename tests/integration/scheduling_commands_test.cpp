@@ -50,7 +50,7 @@ class SchedulingCommands : public testing::Test {
 };
 
 constexpr const char* kLatency = "  <latency from=\"source/count\" to=\"relay/seen\"/>\n";
-constexpr const char* kSimulated = "  <clock type=\"simulated\"/>\n";
+constexpr const char* kOnSimulatedClock = "  <clock type=\"simulated\"/>\n";
 
 TEST_F(SchedulingCommands, TopShowsTheModulesAndTheirLatency) {
   Write(kLatency);
@@ -75,7 +75,7 @@ TEST_F(SchedulingCommands, TopShowsTheModulesAndTheirLatency) {
 }
 
 TEST_F(SchedulingCommands, AProfileIsInTheLogAtTheEnd) {
-  Write(std::string(kSimulated) + kLatency + "  <profile/>\n");
+  Write(std::string(kOnSimulatedClock) + kLatency + "  <profile/>\n");
   const Ended ended = Runnel("run --fast --duration 1 --quiet --log " + Path("log") + " " + application_);
   EXPECT_EQ(ended.code, kDone);
   EXPECT_THAT(TextOfFile(Path("log")), AllOf(ContainsRegex("info +share/%"), HasSubstr("/demo/relay\n"),
@@ -83,7 +83,7 @@ TEST_F(SchedulingCommands, AProfileIsInTheLogAtTheEnd) {
 }
 
 TEST_F(SchedulingCommands, ATraceHasArrowsAlongTheChain) {
-  Write(std::string(kSimulated) + kLatency);
+  Write(std::string(kOnSimulatedClock) + kLatency);
   const Ended ended = Runnel("run --fast --duration 1 --trace " + Path("trace.json") + " " + application_);
   EXPECT_EQ(ended.code, kDone);
   std::map<std::string, int> ends;

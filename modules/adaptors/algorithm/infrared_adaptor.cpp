@@ -29,7 +29,8 @@ std::pair<Point2, Point2> BoxRound(Point2 apex, double heading, double half_widt
 
 Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& pose) {
   Surroundings surroundings;
-  if (!(ranges.range_maximum > 0.0)) return surroundings;
+  const bool says_all = !std::isnan(ranges.front) && !std::isnan(ranges.left) && !std::isnan(ranges.right);
+  if (!(ranges.range_maximum > 0.0) || !says_all) return surroundings;
   surroundings.is_measured = true;
   surroundings.sensor_range = static_cast<float>(ranges.range_maximum);
   surroundings.safe_distance = static_cast<float>(configuration_.safe_distance);
@@ -37,15 +38,13 @@ Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& 
   const auto cone = [&](double bearing, double range) {
     const bool has_echo = range <= ranges.range_maximum;
     return Cone{bearing, std::min(ranges.field_of_view / 2, kWidest),
-                has_echo ? range : ranges.range_maximum, has_echo, range >= 0.0};
+                has_echo ? std::max(range, LocalMap::kLeastDistance) : ranges.range_maximum, has_echo};
   };
   const std::array cones = {cone(0.0, ranges.front), cone(kPi / 2, ranges.left),
                             cone(-kPi / 2, ranges.right)};
   surroundings.is_vague = true;
   map_.SetPose(pose);
-  for (const Cone& each : cones) {
-    if (each.is_valid) Carve(each, pose);
-  }
+  for (const Cone& each : cones) Carve(each, pose);
   for (const Cone& each : cones) {
     if (each.has_echo) MarkArc(each, pose);
   }

@@ -27,7 +27,7 @@ class InfraredAdaptor {
       : configuration_(configuration) {}
 
   /// `ranges` taken from the body's centre at `pose` (world). Nothing is known (is_measured
-  /// false) from ranges with range_maximum 0. Does not allocate.
+  /// false) from ranges with range_maximum 0, or where one is no number. Does not allocate.
   [[nodiscard]] Surroundings Update(const InfraredRanges& ranges, const Pose2& pose);
 
  private:
@@ -36,7 +36,6 @@ class InfraredAdaptor {
     double half_width;  ///< rad, below pi / 2
     double echo;        ///< m, at most range_maximum
     bool has_echo;
-    bool is_valid;  ///< not so if the range is no number: the cone then says nothing
   };
   void Carve(const Cone& cone, const Pose2& pose);
   void MarkArc(const Cone& cone, const Pose2& pose);

@@ -1,20 +1,32 @@
 #include "modules/adaptors/algorithm/laser_adaptor.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 namespace runnel {
 
 namespace {
 
-bool MetSomething(const RangeScan& scan, float range) {
-  return std::isfinite(range) && range >= 0.0F && range <= scan.range_maximum;
+// How far off the boundary is that a ray met; nothing: it met none. What is too near to measure (-infinity, as
+// REP 117 has it, or less than the scan can tell) is as near as it can tell.
+std::optional<double> MetAt(const RangeScan& scan, float range) {
+  if (std::isnan(range) || range > scan.range_maximum) return {};
+  return std::max({double{range}, scan.range_minimum, LocalMap::kLeastDistance});
+}
+
+// Where half of the rays say nothing (NaN), a wall may be.
+bool SaysEnough(const RangeScan& scan) {
+  const auto silent = std::ranges::count_if(scan.ranges, [](float range) { return std::isnan(range); });
+  return 2 * static_cast<std::size_t>(silent) < scan.ranges.size();
 }
 
 }  // namespace
 
 Surroundings LaserAdaptor::Update(const RangeScan& scan, const Pose2& pose) {
   Surroundings surroundings;
-  if (scan.ranges.empty()) return surroundings;
+  if (!SaysEnough(scan)) return surroundings;
   surroundings.is_measured = true;
   surroundings.sensor_range = static_cast<float>(scan.range_maximum);
   surroundings.safe_distance = static_cast<float>(configuration_.safe_distance);
@@ -27,9 +39,9 @@ Surroundings LaserAdaptor::Update(const RangeScan& scan, const Pose2& pose) {
   Point2 direction = UnitVector(scan.start_angle);
   double bearing = scan.start_angle;
   for (const float range : scan.ranges) {
-    if (MetSomething(scan, range)) {
-      AddBoundaryPoint(surroundings, {range, bearing});
-      map_.MarkBoundary(frame.ToWorld(double{range} * direction));
+    if (const auto distance = MetAt(scan, range)) {
+      AddBoundaryPoint(surroundings, {*distance, bearing});
+      map_.MarkBoundary(frame.ToWorld(*distance * direction));
     }
     bearing += scan.angle_step;
     direction = Turned(direction, step);

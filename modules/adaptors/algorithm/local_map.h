@@ -21,6 +21,9 @@ class LocalMap {
   /// within the laser's 4 m being remembered, also where the robot has turned away from it.
   static constexpr int kCellsAcross = 192;
   static constexpr double kCellSize = 0.05;  ///< m
+  /// m; where boundaries are that are too near to measure (-infinity): at the body's very centre they would lie in no
+  /// direction.
+  static constexpr double kLeastDistance = 0.01;
   /// m; up to here from its centre to each side the window is surely valid.
   static constexpr double kReach = (kCellsAcross / 2 - 1) * kCellSize;
 

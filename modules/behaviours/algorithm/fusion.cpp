@@ -63,10 +63,10 @@ void WeighChannels(FusionMethod method, std::span<const FusedChannel> channels, 
     const double activity = channels[i].activity;
     switch (method) {
       case FusionMethod::kWinnerTakesAll:
-        weights[i] = i == winner ? 1.0 : 0.0;
+        weights[i] = i == winner && greatest > 0.0 ? 1.0 : 0.0;
         break;
       case FusionMethod::kWeightedAverage:
-        weights[i] = sum > 0.0 ? activity / sum : 1.0 / static_cast<double>(channels.size());
+        weights[i] = sum > 0.0 ? activity / sum : 0.0;
         break;
       case FusionMethod::kWeightedSum:
         weights[i] = greatest > 0.0 ? activity / greatest : 0.0;

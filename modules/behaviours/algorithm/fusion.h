@@ -8,7 +8,7 @@ namespace runnel {
 /// How the behaviours of one node are made one.
 enum class FusionMethod {
   kWinnerTakesAll,   ///< the first of those with the greatest activity
-  kWeightedAverage,  ///< by activity; of those that do nothing, all alike
+  kWeightedAverage,  ///< by activity
   kWeightedSum,      ///< by activity in parts of the greatest
 };
 
@@ -36,7 +36,8 @@ struct FusedSignals {
 [[nodiscard]] FusedSignals Fuse(FusionMethod method, std::span<const FusedChannel> channels,
                                 double activation);
 
-/// By what each channel's value is multiplied before all are added. As many weights as channels.
+/// By what each channel's value is multiplied before all are added: 0 for all where nobody is active, as nobody wants any
+/// of them. As many weights as channels.
 void WeighChannels(FusionMethod method, std::span<const FusedChannel> channels, std::span<double> weights);
 
 /// The sum, weighted.

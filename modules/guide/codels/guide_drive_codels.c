@@ -51,12 +51,28 @@ static void stand(const guide_twist *twist, genom_context self)
   twist->write(self);
 }
 
-/* Fetches the pose and adds up the way; null before there is one. */
-static const robot_pose *travelled(const guide_pose *pose, guide_ids_trip_s *trip, genom_context self)
+/* Null before there is one, or where it is no number. How old it is, the drive sees by what is published. */
+static const robot_pose *pose_of(const guide_pose *pose, genom_context self)
 {
   const robot_pose *now;
   pose->read(self);
   now = pose->data(self);
+  return now && isfinite(now->x) && isfinite(now->y) && isfinite(now->heading) ? now : NULL;
+}
+
+/* Null before there is one, or where nothing was measured. */
+static const robot_surroundings *view_of(const guide_surroundings *surroundings, genom_context self)
+{
+  const robot_surroundings *around;
+  surroundings->read(self);
+  around = surroundings->data(self);
+  return around && around->is_measured ? around : NULL;
+}
+
+/* Fetches the pose and adds up the way; null where it is not known. */
+static const robot_pose *travelled(const guide_pose *pose, guide_ids_trip_s *trip, genom_context self)
+{
+  const robot_pose *now = pose_of(pose, self);
   if (!now) return NULL;
   const double way = hypot(now->x - trip->last.x, now->y - trip->last.y);
   trip->length += way;
@@ -85,9 +101,7 @@ guide_rest(const guide_twist *twist, const genom_context self)
 genom_event
 guide_take(const robot_point *to, const guide_pose *pose, guide_ids_trip_s *trip, const genom_context self)
 {
-  const robot_pose *now;
-  pose->read(self);
-  now = pose->data(self);
+  const robot_pose *now = pose_of(pose, self);
   if (!now) return guide_pause_start;
   memset(trip, 0, sizeof(*trip));
   trip->is_set = true;
@@ -101,8 +115,7 @@ genom_event
 guide_resume(const guide_ids_trip_s *trip, const guide_pose *pose, const genom_context self)
 {
   if (!trip->is_set) return guide_no_pose(self);
-  pose->read(self);
-  return pose->data(self) ? guide_drive : guide_pause_start;
+  return pose_of(pose, self) ? guide_drive : guide_pause_start;
 }
 
 /* Straight to the goal, until a wall is in the way. */
@@ -111,10 +124,8 @@ guide_towards(const guide_pose *pose, const guide_surroundings *surroundings, co
               guide_ids_trip_s *trip, const guide_twist *twist, const genom_context self)
 {
   const robot_pose *now = travelled(pose, trip, self);
-  const robot_surroundings *around;
-  surroundings->read(self);
-  around = surroundings->data(self);
-  if (!now || !around || !around->is_measured) return guide_pause_drive;
+  const robot_surroundings *around = view_of(surroundings, self);
+  if (!now || !around) return guide_pause_drive;
   const double x = trip->to.x - now->x, y = trip->to.y - now->y;
   const double bearing = wrapped(atan2(y, x) - now->heading);
   if (hypot(x, y) < ARRIVED) return guide_arrived;
@@ -133,9 +144,7 @@ guide_along(const guide_pose *pose, const guide_surroundings *surroundings, cons
             guide_ids_trip_s *trip, const guide_twist *twist, const genom_context self)
 {
   const robot_pose *now = travelled(pose, trip, self);
-  const robot_surroundings *around;
-  surroundings->read(self);
-  around = surroundings->data(self);
+  const robot_surroundings *around = view_of(surroundings, self);
   if (!now || !around) return guide_pause_follow;
   const double x = trip->to.x - now->x, y = trip->to.y - now->y;
   const double line_x = trip->to.x - trip->from.x, line_y = trip->to.y - trip->from.y;

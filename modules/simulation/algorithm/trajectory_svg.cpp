@@ -12,7 +12,6 @@ namespace runnel {
 
 namespace {
 
-using internal::IsFinite;
 using internal::kFaintInk;
 using internal::kFooter;
 using internal::kHeader;

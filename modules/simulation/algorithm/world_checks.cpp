@@ -15,11 +15,9 @@ namespace {
 
 std::string Text(Point2 point) { return fmt::format("({:g}, {:g})", point.x, point.y); }
 
-bool IsFinite(Point2 point) { return std::isfinite(point.x) && std::isfinite(point.y); }
-
-bool AreFinite(const std::vector<Point2>& points) { return std::ranges::all_of(points, IsFinite); }
-
-bool IsFinite(const Pose2& pose) { return IsFinite(Position(pose)) && std::isfinite(pose.heading); }
+bool AreFinite(const std::vector<Point2>& points) {
+  return std::ranges::all_of(points, [](Point2 point) { return IsFinite(point); });
+}
 
 bool Meet(const Segment2& a, const Segment2& b) {
   if (WhereItMeets(a, b)) return true;

@@ -17,6 +17,9 @@ struct Point2 {
   friend constexpr bool operator==(Point2, Point2) = default;
 };
 
+[[nodiscard]] inline bool IsFinite(Point2 point) {
+  return std::isfinite(point.x) && std::isfinite(point.y);
+}
 [[nodiscard]] constexpr double Dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
 /// Positive if b lies to the left of a.
 [[nodiscard]] constexpr double Cross(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }

@@ -13,6 +13,9 @@ struct Pose2 {
   friend constexpr bool operator==(const Pose2&, const Pose2&) = default;
 };
 
+[[nodiscard]] inline bool IsFinite(const Pose2& pose) {
+  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.heading);
+}
 [[nodiscard]] constexpr Point2 Position(const Pose2& pose) { return {pose.x, pose.y}; }
 
 /// The frame of a body (x ahead, y left) in that of its pose. Its sine and cosine are computed once for many points.
@@ -50,5 +53,8 @@ struct Twist2 {
 
   friend constexpr bool operator==(const Twist2&, const Twist2&) = default;
 };
+[[nodiscard]] inline bool IsFinite(const Twist2& twist) {
+  return std::isfinite(twist.forward) && std::isfinite(twist.turn);
+}
 
 }  // namespace runnel

@@ -49,6 +49,9 @@ struct Surroundings {
   friend constexpr bool operator==(const Surroundings&, const Surroundings&) = default;
 };
 static_assert(sizeof(Surroundings) <= 256);
+[[nodiscard]] constexpr bool IsMeasured(const Surroundings& surroundings) {
+  return surroundings.is_measured;
+}
 
 /// A point of a boundary, seen from the body's centre.
 struct BoundaryPoint {

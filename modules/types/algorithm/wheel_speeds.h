@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace runnel {
 
 /// How fast the two wheels of a differential drive turn, in rad/s, positive ahead.
@@ -9,5 +11,8 @@ struct WheelSpeeds {
 
   friend constexpr bool operator==(const WheelSpeeds&, const WheelSpeeds&) = default;
 };
+[[nodiscard]] inline bool IsFinite(const WheelSpeeds& speeds) {
+  return std::isfinite(speeds.left) && std::isfinite(speeds.right);
+}
 
 }  // namespace runnel

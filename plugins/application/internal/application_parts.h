@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/log/log_sink.h"
+#include "plugins/application/internal/stop_file.h"
 #include "plugins/application/application.h"
 #include "plugins/application/application_description.h"
 #include "plugins/application/application_extension.h"
@@ -45,6 +46,7 @@ struct Application::Parts final : ApplicationDescription {
   std::optional<CommandService> service;
   std::mutex reloading;                 // one plugin after the other; before all others
   std::size_t prepared_extensions = 0;  // that must be ended
+  std::unique_ptr<StopFile> stop_file;
   std::unique_ptr<ControlServer> control;
 
   Time start{};                         // of the run, on the application's clock

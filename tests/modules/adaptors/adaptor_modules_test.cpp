@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -32,6 +33,25 @@ TEST(LaserToSurroundings, WaitsUntilItKnowsWhereItIs) {
   rig.Feed(rig.module.measurement, RangeScan{0, 0.1, 0.02, 4, {1.5F}});
   rig.RunCycle();
   EXPECT_EQ(rig.module.surroundings.publications(), 0u);
+}
+
+TEST(LaserToSurroundings, IsSilentWithAPoseThatIsOldOrNoNumber) {
+  test::ModuleRig<LaserToSurroundings> rig;
+  ASSERT_TRUE(rig.Prepare());
+  const RangeScan scan{0, 0.1, 0.02, 4, {1.5F}};
+  rig.Feed(rig.module.pose, {std::nan(""), 0.0, 0.0});
+  rig.Feed(rig.module.measurement, scan);
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.surroundings.publications(), 0u) << "no number";
+  rig.Feed(rig.module.pose, {});
+  rig.RunCycles(30);
+  rig.Feed(rig.module.measurement, scan);
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.surroundings.publications(), 0u) << "old";
+  rig.Feed(rig.module.pose, {});
+  rig.Feed(rig.module.measurement, scan);
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.surroundings.publications(), 1u);
 }
 
 TEST(InfraredToSurroundings, GivesOneVagueViewForEachMeasurement) {

@@ -77,6 +77,24 @@ TEST(LaserAdaptor, TellsRangesByBearing) {
   EXPECT_NEAR(NearestBoundary(surroundings).bearing, kPi / 4, kSectorWidth);
 }
 
+// REP 117: -infinity is "too near to measure", NaN "no statement".
+TEST(LaserAdaptor, WhatIsTooNearToMeasureIsABoundary) {
+  for (const float range : {-kNothing, 0.0F, 0.01F}) {
+    const Surroundings surroundings = LaserAdaptor().Update(Scan(range), {});
+    EXPECT_TRUE(surroundings.is_measured);
+    EXPECT_NEAR(NearestBoundary(surroundings).distance, 0.02, 1e-3) << range;
+    EXPECT_EQ(FreeRange(surroundings, 0.0, 0.3), 0.0) << range;
+  }
+}
+
+TEST(LaserAdaptor, KnowsNothingWhereHalfOfItsRaysSayNothing) {
+  RangeScan scan = Scan(kNothing);
+  for (std::size_t i = 0; i < 80; ++i) scan.ranges[i] = std::nanf("");
+  EXPECT_TRUE(LaserAdaptor().Update(scan, {}).is_measured);
+  for (std::size_t i = 0; i < 100; ++i) scan.ranges[i] = std::nanf("");
+  EXPECT_FALSE(LaserAdaptor().Update(scan, {}).is_measured);
+}
+
 TEST(LaserAdaptor, RemembersWhatItNoLongerSees) {
   LaserAdaptor adaptor;
   (void)adaptor.Update(ScanOfWall({}), {});
@@ -111,6 +129,22 @@ TEST(LaserAdaptor, KeepsTheEdgeOfAnObstacleNextToFreeRays) {
 
 TEST(InfraredAdaptor, KnowsNothingFromRangersWithoutRange) {
   EXPECT_EQ(InfraredAdaptor().Update(InfraredRanges{}, {}), Surroundings{});
+}
+
+TEST(InfraredAdaptor, KnowsNothingWhereARangerSaysNothing) {
+  const double no_number = std::nan("");
+  for (const InfraredRanges& ranges : {InfraredRanges{no_number, 1.0, 1.0, 2.0, kField},
+                                       InfraredRanges{1.0, no_number, 1.0, 2.0, kField},
+                                       InfraredRanges{1.0, 1.0, no_number, 2.0, kField}}) {
+    EXPECT_FALSE(InfraredAdaptor().Update(ranges, {}).is_measured);
+  }
+}
+
+TEST(InfraredAdaptor, WhatIsTooNearToMeasureIsABoundary) {
+  const Surroundings surroundings =
+      InfraredAdaptor().Update({-kInfinity, kInfinity, kInfinity, 2.0, kField}, {});
+  EXPECT_TRUE(surroundings.is_measured);
+  EXPECT_EQ(FreeRange(surroundings, 0.0, 0.3), 0.0);
 }
 
 TEST(InfraredAdaptor, TakesAnEchoForItsWholeArc) {

@@ -38,8 +38,8 @@ Expected Reckon(FusionMethod method, const std::vector<FusedChannel>& channels, 
   const Exact n = static_cast<Exact>(channels.size());
   const auto weight = [&](std::size_t k) -> Exact {
     const Exact a = channels[k].activity;
-    if (method == FusionMethod::kWinnerTakesAll) return k == winner ? 1 : 0;
-    if (method == FusionMethod::kWeightedAverage) return sum > 0 ? a / sum : 1 / n;
+    if (method == FusionMethod::kWinnerTakesAll) return k == winner && a > 0 ? 1 : 0;
+    if (method == FusionMethod::kWeightedAverage) return sum > 0 ? a / sum : 0;
     return greatest > 0 ? a / greatest : 0;
   };
   Expected expected;

@@ -145,6 +145,46 @@ TEST_F(FusionTest, TheWinnersTextIsPassedOnAsItIs) {
   EXPECT_THAT(fault->message, HasSubstr("cannot be weighted"));
 }
 
+// What a fusion passes on where nobody is active, nobody wants.
+TEST_F(FusionTest, StandsStillWhereNobodyIsActive) {
+  for (const char* method : {"winner_takes_all", "weighted_average", "weighted_sum"}) {
+    rig.Set("method", method);
+    FeedChannel(rig, 1, 0.0, 1.0, Twist2{0.2, 0.3});
+    FeedChannel(rig, 2, 0.0, 0.5, Twist2{0.4, 0.3});
+    rig.RunCycle();
+    EXPECT_THAT(rig.output<Twist2>("out"), HasPublished(Twist2{})) << method;
+    EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  }
+}
+
+TEST_F(FusionTest, IsSilentWhereNobodyIsActiveAndZeroIsNoStandstill) {
+  rig.Set("type", "Pose2");
+  for (const char* method : {"winner_takes_all", "weighted_average", "weighted_sum"}) {
+    rig.Set("method", method);
+    FeedChannel(rig, 1, 0.0, 1.0, Pose2{1, 2, 3});
+    FeedChannel(rig, 2, 0.0, 0.5, Pose2{3, 2, 1});
+    rig.RunCycle();
+    EXPECT_EQ(rig.output<Pose2>("out").publications(), 0u) << method;
+  }
+}
+
+TEST_F(FusionTest, WhatItMakesIsAsOldAsTheOldestOfIt) {
+  for (const char* method : {"winner_takes_all", "weighted_average", "weighted_sum"}) {
+    rig.Set("method", method);
+    FeedChannel(rig, 1, 0.25, 1.0, Twist2{0.2, 0.3});
+    const Time oldest = rig.now();
+    rig.RunCycles(3);
+    FeedChannel(rig, 2, 0.5, 1.0, Twist2{0.2, 0.3});
+    rig.RunCycle();
+    for (const char* output : {"out", "activity"}) {
+      Time stamp{};
+      dynamic_cast<Port&>(**rig.module.Find("output/" + std::string(output)))
+          .VisitLatest([&](const void*, ValueTimes times) { stamp = times.timestamp; });
+      EXPECT_EQ(stamp, oldest) << method << " " << output;
+    }
+  }
+}
+
 TEST_F(FusionTest, SaysNothingUntilAllWhoAreActiveHaveSaidWhatTheyWant) {
   rig.Feed("activity1", Activity(0.5));
   rig.Feed("target_rating1", TargetRating(0.5));

@@ -1,3 +1,6 @@
+#include <chrono>
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "modules/behaviours/planner_status_teller.h"
@@ -52,6 +55,37 @@ TEST(DriveToGoalTest, TurnsAndDrivesUntilItIsThere) {
   EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(0.0)));
 }
 
+TEST(DriveToGoalTest, IsActiveInNothingWhileItCannotTell) {
+  Rig<DriveToGoalBehaviour> rig;
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(1.0))) << "it may not say that it is content";
+  rig.Feed("goal", Point2{2.0, 0.0});
+  rig.Feed("pose", Pose2{});
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0)));
+  rig.RunCycles(12);
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0))) << "the pose is old";
+  rig.Feed("pose", Pose2{});
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0)));
+  rig.Feed("pose", Pose2{std::nan(""), 0.0, 0.0});
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0))) << "the pose is no number";
+}
+
+TEST(DriveToGoalTest, ItsGoalDoesNotGrowOld) {
+  Rig<DriveToGoalBehaviour> rig;
+  rig.Feed("goal", Point2{2.0, 0.0});
+  rig.RunCycles(100);
+  rig.Feed("pose", Pose2{});
+  const Time now = rig.now();
+  rig.RunCycle();
+  Time stamp{};
+  rig.module.twist.port.VisitLatest([&](const void*, ValueTimes times) { stamp = times.timestamp; });
+  EXPECT_EQ(stamp, now) << "that of the pose";
+}
+
 TEST(AvoidObstaclesTest, TurnsAwayTheMoreTheNearer) {
   Rig<AvoidObstaclesBehaviour> rig;
   rig.Feed("surroundings", WallAt(0.6, 0.7));
@@ -84,12 +118,17 @@ TEST(FollowWallTest, KeepsTheWallOnItsHand) {
 
 TEST(EscapeTest, WaitsForProgressThenForAWayToTheGoal) {
   Rig<EscapeBehaviour> rig;
-  rig.Feed("pose", Pose2{});
   rig.Feed("goal", Point2{5.0, 0.0});
-  rig.Feed("surroundings", WallAt(0.5, 0.0));
-  rig.RunCycles(79);
+  const auto stand = [&](int cycles) {
+    for (; cycles > 0; --cycles) {
+      rig.Feed("pose", Pose2{});
+      rig.Feed("surroundings", WallAt(0.5, 0.0));
+      rig.RunCycle();
+    }
+  };
+  stand(79);
   EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
-  rig.RunCycles(3);
+  stand(3);
   EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0))) << "4 s have passed";
   rig.Feed("pose", Pose2{1.0, 0.0, 0.0});
   rig.RunCycle();
@@ -98,6 +137,84 @@ TEST(EscapeTest, WaitsForProgressThenForAWayToTheGoal) {
   rig.RunCycle();
   EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
   EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(0.0)));
+}
+
+TEST(EscapeTest, ItsGapsAreNoTimeWithoutProgress) {
+  Rig<EscapeBehaviour> rig;
+  rig.Feed("pose", Pose2{});
+  rig.Feed("goal", Point2{5.0, 0.0});
+  rig.Feed("surroundings", WallAt(0.5, 0.0));
+  rig.RunCycles(5);
+  rig.Wait(std::chrono::seconds(30));
+  rig.Feed("pose", Pose2{});
+  rig.Feed("surroundings", WallAt(0.5, 0.0));
+  rig.RunCycles(2);
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+}
+
+TEST(EscapeTest, RestsWhereDrivingIsContent) {
+  Rig<EscapeBehaviour> rig;
+  rig.Set("goal_tolerance", "0.3");
+  rig.Feed("goal", Point2{0.2, 0.0});
+  for (int i = 0; i < 100; ++i) {
+    rig.Feed("pose", Pose2{});
+    rig.Feed("surroundings", WallAt(0.5, 0.0));
+    rig.RunCycle();
+  }
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+}
+
+TEST(EmergencyStopTest, StopsWhereItKnowsNothing) {
+  Rig<EmergencyStopBehaviour> rig;
+  rig.Feed("wanted", Twist2{0.4, 0.3});
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0))) << "no view has come";
+  EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(1.0)));
+  EXPECT_THAT(rig.module.twist.port, HasPublished(Twist2{}));
+  Surroundings view = WallAt(1.0, 0.0);
+  rig.Feed("surroundings", view);
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  view.is_measured = false;
+  rig.Feed("surroundings", view);
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0))) << "the view is not measured";
+  EXPECT_THAT(rig.module.twist.port, HasPublished(Twist2{}));
+}
+
+TEST(EmergencyStopTest, StopsWhereItDoesNotKnowWhatTheOthersWant) {
+  Rig<EmergencyStopBehaviour> rig;
+  rig.Feed("surroundings", WallAt(1.0, 0.0));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0)));
+  EXPECT_THAT(rig.module.twist.port, HasPublished(Twist2{}));
+}
+
+TEST(RobotBehavioursTest, AreActiveInNothingWithoutAGoodView) {
+  const auto check = [](auto&& rig) {
+    if constexpr (requires { rig.module.pose; }) {
+      rig.Feed("pose", Pose2{});
+      rig.Feed("goal", Point2{5.0, 0.0});
+    }
+    Surroundings view = WallAt(0.4, 0.0);
+    rig.Feed("surroundings", view);
+    if constexpr (requires { rig.module.patience; }) rig.Set("patience", "0.1");
+    rig.RunCycles(5);
+    EXPECT_GT(rig.Last(rig.module.activity).value(), 0.0);
+    view.is_measured = false;
+    rig.Feed("surroundings", view);
+    rig.RunCycle();
+    EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0))) << "it is not measured";
+    view.is_measured = true;
+    rig.Feed("surroundings", view);
+    rig.RunCycle();
+    EXPECT_GT(rig.Last(rig.module.activity).value(), 0.0);
+    rig.RunCycles(12);
+    EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0))) << "it is old";
+  };
+  check(Rig<AvoidObstaclesBehaviour>());
+  check(Rig<FollowWallBehaviour>());
+  check(Rig<EscapeBehaviour>());
 }
 
 TEST(EmergencyStopTest, LetsNothingPassButTurning) {

@@ -1,3 +1,5 @@
+#include <chrono>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -48,16 +50,9 @@ TEST(AccelerationLimit, ComesNearerStepByStep) {
   EXPECT_EQ(Approach(limit, {0.9, 0}, {1, 0}, 0.25), (Twist2{1, 0}));
 }
 
-TEST(CommandGate, StateTellsWhy) {
-  EXPECT_EQ(CheckCommand(std::nullopt, 1, {}), GateState::kNoCommand);
-  EXPECT_EQ(CheckCommand(0.5, 1, {}), GateState::kOpen);
-  EXPECT_EQ(CheckCommand(1.5, 1, {}), GateState::kOldCommand);
-  EXPECT_EQ(CheckCommand(0.5, 1, {true, 0}), GateState::kContact);
-}
-
 TEST(CommandGateModule, StopsWhenWhoeverCommandsFallsSilent) {
   test::ModuleRig<CommandGate> rig(milliseconds(100));
-  ASSERT_TRUE(rig.module.timeout.Set(0.25));
+  ASSERT_TRUE(rig.module.timeout.limit.Set(0.25));
   ASSERT_TRUE(rig.Prepare());
   rig.RunCycle();
   EXPECT_EQ(rig.Last(rig.module.state), GateState::kNoCommand);
@@ -87,6 +82,77 @@ TEST(CommandGateModule, StopsAtAContactAndWhenTold) {
   EXPECT_EQ(rig.Last(rig.module.state), GateState::kStopped);
 }
 
+TEST(CommandGateModule, StopsAtWhatIsNoNumberAndWhenTheBumperFallsSilent) {
+  test::ModuleRig<CommandGate> rig;
+  const auto drive = [&](double forward, int cycles) {
+    for (; cycles > 0; --cycles) {
+      rig.Feed(rig.module.wanted, {forward, 0});
+      rig.RunCycle();
+    }
+    return rig.Last(rig.module.state);
+  };
+  EXPECT_EQ(drive(0.3, 30), GateState::kOpen) << "who has no bumper needs none";
+  EXPECT_EQ(drive(std::nan(""), 1), GateState::kNotANumber);
+  EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
+  rig.Feed(rig.module.contact, {});
+  EXPECT_EQ(drive(0.3, 1), GateState::kOpen);
+  EXPECT_EQ(drive(0.3, 12), GateState::kOldContact);
+  EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
+  rig.Feed(rig.module.contact, {});
+  EXPECT_EQ(drive(0.3, 1), GateState::kOpen);
+}
+
+TEST(CommandGateModule, WhatPassesIsAsOldAsItWas) {
+  test::ModuleRig<CommandGate> rig;
+  rig.Feed(rig.module.wanted, {0.3, 0});
+  const Time measured = rig.now();
+  rig.RunCycles(4);
+  Time stamp{};
+  rig.module.allowed.VisitLatest([&](const void*, ValueTimes times) { stamp = times.timestamp; });
+  EXPECT_EQ(stamp, measured);
+}
+
+TEST(StoppedRobot, StandsAtOnceAndBeginsFromAStandstill) {
+  test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
+  const auto drive = [&](int cycles) {
+    for (; cycles > 0; --cycles) {
+      rig.Feed(rig.module.twist, {0.5, 0});
+      rig.RunCycle();
+    }
+    return rig.Last(rig.module.wheels).left;
+  };
+  EXPECT_NEAR(drive(10), 10.0, 1e-9);
+  ASSERT_TRUE(rig.runtime.robot_stop().Press("a test"));
+  EXPECT_EQ(drive(1), 0.0) << "past the ramp";
+  EXPECT_EQ(drive(5), 0.0);
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.wheels).left, 0.0) << "by nothing from before";
+  EXPECT_NEAR(drive(1), 2.0, 1e-9) << "1 m/s^2 for 0.1 s";
+}
+
+TEST(StoppedRobot, ItsGateSaysSo) {
+  test::ModuleRig<CommandGate> rig;
+  rig.Feed(rig.module.wanted, {0.3, 0});
+  rig.RunCycle();
+  ASSERT_TRUE(rig.runtime.robot_stop().Press("a test"));
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kStopped);
+  EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
+}
+
+TEST(DifferentialDriveModule, BeginsFromAStandstillAfterAPause) {
+  test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
+  for (int i = 0; i < 10; ++i) {
+    rig.Feed(rig.module.twist, {0.5, 0});
+    rig.RunCycle();
+  }
+  rig.Wait(std::chrono::seconds(30));
+  rig.Feed(rig.module.twist, {0.5, 0});
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.wheels), WheelSpeeds{});
+}
+
 TEST(DifferentialDriveModule, ComesToAStopWhenNobodyCommands) {
   test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
   ASSERT_TRUE(rig.Prepare());
@@ -99,7 +165,7 @@ TEST(DifferentialDriveModule, ComesToAStopWhenNobodyCommands) {
 
 TEST(DifferentialDriveModule, GetsFasterNoFasterThanItMay) {
   test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
-  ASSERT_TRUE(rig.module.timeout.Set(10));
+  ASSERT_TRUE(rig.module.timeout.limit.Set(10));
   ASSERT_TRUE(rig.Prepare());
   rig.Feed(rig.module.twist, {2.0, 0});
   rig.RunCycle();

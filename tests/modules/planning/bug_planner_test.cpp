@@ -1,5 +1,7 @@
 #include "modules/planning/bug_planner.h"
 
+#include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
@@ -54,6 +56,34 @@ TEST_F(BugPlannerTest, IsSilentWhenNobodyTellsItWhereItIs) {
     rig.RunCycle();
   }
   EXPECT_EQ(rig.module.twist.publications(), 5u) << "for 0.2 s, not longer";
+}
+
+TEST_F(BugPlannerTest, IsSilentWithWhatIsOldOrNoNumber) {
+  rig.Feed(rig.module.goal, {3, 0});
+  Step({std::nan(""), 0, 0});
+  EXPECT_EQ(rig.module.twist.publications(), 0u) << "the pose is no number";
+  rig.Feed(rig.module.goal, {std::nan(""), 0});
+  Step({});
+  EXPECT_EQ(rig.module.twist.publications(), 0u) << "the goal is no number";
+  rig.Feed(rig.module.goal, {3, 0});
+  rig.Feed(rig.module.pose, {});
+  rig.Feed(rig.module.surroundings,
+           Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
+  rig.Wait(std::chrono::seconds(1));
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.twist.publications(), 0u) << "view and pose are of one time, and old";
+  Step({});
+  EXPECT_EQ(rig.module.twist.publications(), 1u);
+}
+
+TEST_F(BugPlannerTest, ItsSilenceIsNoTimeWithoutGettingOn) {
+  rig.Feed(rig.module.goal, {3, 0});
+  Step({});
+  Step({});
+  rig.Wait(std::chrono::seconds(30));
+  Step({0.05, 0, 0});  // it has gone on until its command was old
+  EXPECT_EQ(status().mode, PlannerMode::kMotionToGoal);
+  EXPECT_LT(rig.module.state().idle_time, 1.0);
 }
 
 TEST_F(BugPlannerTest, DrivesToTheGoalInTheOpen) {

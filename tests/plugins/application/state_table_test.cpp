@@ -18,6 +18,7 @@
 #include "core/element/tags.h"
 #include "core/log/log_levels.h"
 #include "core/port/given_limits.h"
+#include "core/port/hand_slot.h"
 #include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
 #include "plugins/application/application.h"
@@ -119,6 +120,18 @@ const std::vector<State>& States() {
        [](Trial& trial) {
          const AnyValue value = trial.In().ValueByHand();
          return value && *static_cast<const double*>(value.get()) == five;
+       }},
+      {"deadline of it", "value by hand",
+       [](Trial& trial) {
+         Require(PublishByHand(trial.In("late"), &five));
+         const auto slot = HandSlot::Of(trial.In("late"));
+         slot->hold = std::make_unique<HandSlot::Hold>();
+         slot->hold->safe_value = AnyValue(0.0);
+       },
+       // In force, or as if it had passed.
+       [](Trial& trial) {
+         const AnyValue value = trial.In("late").ValueByHand();
+         return value && *static_cast<const double*>(value.get()) == 0.0;
        }},
       {"block of the port", "block", [](Trial& trial) { Require(trial.In().Block()); },
        [](Trial& trial) { return trial.In().is_blocked(); }},

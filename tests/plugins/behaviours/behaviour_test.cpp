@@ -142,7 +142,7 @@ TEST(BehaviourTest, WhatIsSetByHandMustBeASignal) {
   EXPECT_THAT(fault->message, HasSubstr("its stimulation is 7, which is not within 0 and 1"));
 }
 
-TEST(BehaviourTest, WhoCannotTellKeepsItsSignalsWithinItsActivation) {
+TEST(BehaviourTest, WhoCannotTellIsActiveInNothing) {
   ModuleRig<Told> rig;
   rig.Feed("stimulation", Stimulation(0.5));
   rig.module.derived = 0.5;
@@ -152,18 +152,24 @@ TEST(BehaviourTest, WhoCannotTellKeepsItsSignalsWithinItsActivation) {
   }
   rig.module.can_tell = false;
   rig.RunCycle();
-  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.5)));
-  rig.Feed("stimulation", Stimulation(0.25));
-  rig.RunCycle();
-  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.25)));
-  EXPECT_THAT(rig.module.half.port, HasPublished(Activity(0.25)));
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  EXPECT_THAT(rig.module.half.port, HasPublished(Activity(0.0)));
   EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(0.5)));
   EXPECT_FALSE(out.Take()) << "what it had begun is dropped";
   rig.module.can_tell = true;
   rig.module.derived = 0.0;
   rig.RunCycle();
-  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.25)));
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.5)));
   EXPECT_TRUE(out.Take());
+}
+
+TEST(BehaviourTest, WhoNeverCouldTellIsNotContent) {
+  ModuleRig<Told> rig;
+  rig.Feed("stimulation", Stimulation(0.5));
+  rig.module.can_tell = false;
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(1.0)));
 }
 
 TEST(BehaviourTest, AllocatesNothingInItsCycles) {

@@ -1,4 +1,5 @@
 #include "core/lockfree/thread_epoch.h"
+#include "core/module/hand_over.h"
 #include "core/port/port.h"
 #include "tests/plugins/genom_modules/component_fixture.h"
 
@@ -27,6 +28,20 @@ TEST_F(ComponentLifeTest, EndsActivitiesWhenItGoes) {
   (void)CollectRetired();
   ASSERT_EQ(wait->Poll(rig.now()), CallStatus::kAnswered) << wait->error();
   EXPECT_EQ(ToText(*reply, wait->reply()), "1099");
+}
+
+// Its ports and ids have not gone to the other one yet.
+TEST_F(ComponentLifeTest, EndsActivitiesBeforeAnotherTakesItsPlaceAndBeginsAfreshIfNoneDoes) {
+  rig.RunCycles(2);
+  const auto wait = Begin("wait", "{turns: 100}");
+  rig.RunCycles(3);
+  rig.module.FindAnnotation<BeforeHandOver>()->settle();
+  EXPECT_EQ(Outcome("wait", *wait), "1099");
+  rig.RunCycles(2);
+  const auto again = Begin("wait", "{turns: 2}");
+  rig.RunCycles(10);
+  EXPECT_THAT(Outcome("wait", *again),
+              testing::Not(testing::AnyOf("pending", HasSubstr("interrupted"))));
 }
 
 TEST_F(ComponentLifeTest, InterruptsActivitiesThatCannotStopWhenItGoes) {

@@ -269,6 +269,19 @@ TEST(TopicNamesTest, PathsBecomeNamesThatRosAllows) {
   EXPECT_EQ(ReadableTopic("rt/scan"), "/scan");
 }
 
+// Others may say anything; what is shown of it moves no cursor and sets no colour.
+TEST_F(NetworkLinkTest, WhatOneSaysOfItselfMayBeAnything) {
+  Member b(*engine_, "b");
+  Member a(*engine_, "robot");
+  a.structure = "/robot  group\n\n   \n  la\x1b[31mser  module\r\n  sonar  module\n";
+  a.Begin();
+  b.Begin();
+  Result<std::optional<std::string>> sonar = std::optional<std::string>();
+  WaitUntil("it is found", [&] { return (sonar = b.StructureOf("//robot/sonar")).has_value() && *sonar; });
+  EXPECT_EQ(**sonar, "  sonar  module\n");
+  EXPECT_THAT(**b.StructureOf("//robot"), HasSubstr("  la[31mser  module\n"));
+}
+
 TEST_F(NetworkLinkTest, WhatOneIsMadeOfGoesWithItAndComesAnew) {
   Member b(*engine_, "b");
   b.Begin();

@@ -5,6 +5,7 @@
 #include "core/element/tags.h"
 #include "core/log/log_levels.h"
 #include "core/port/given_limits.h"
+#include "core/port/hand_slot.h"
 #include "core/port/port_stop.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/structure/value_by_hand.h"
@@ -102,6 +103,17 @@ TEST_F(KeptStateTest, IsAStopThatIsBackWhenADeletionIsUndone) {
   }
   MustDo({RenameElement{"/app/sink", "drain"}});
   EXPECT_TRUE(At<Port>("/app/drain/input/side").is_blocked());
+}
+
+TEST_F(KeptStateTest, LeavesNothingToWhoWatchesADeadlineWhenItsPortIsGone) {
+  const auto slot = HandSlot::Find(At<Port>("/app/source/input/extra"));
+  ASSERT_NE(slot, nullptr);
+  ASSERT_NE(slot->stand_in, nullptr);
+  MustDo({DeleteElement{"/app/source"}});
+  EXPECT_EQ(slot->stand_in, nullptr);
+  MustBe(history.Undo());
+  EXPECT_NE(slot->stand_in, nullptr);
+  EXPECT_EQ(HandSlot::Find(At<Port>("/app/source/input/extra")), slot);
 }
 
 TEST_F(KeptStateTest, GoesWithAnotherName) {

@@ -104,6 +104,21 @@ TEST_F(WatchedPortTest, ShowsWhatIsSetByHandAndWhatIsReadAfterIt) {
   EXPECT_EQ(Look(input), 8);
 }
 
+TEST_F(WatchedPortTest, ShowsTheSafeValueOfAnInputThatIsStopped) {
+  Input<int> in(app, "in", {.drives = true, .safe_value = AnyValue(-1)});
+  ASSERT_TRUE(Port::Connect(source.out, in));
+  WatchedPort input("/app/in");
+  source.out.Publish(1);
+  EXPECT_EQ(Look(input), 1);
+  ASSERT_TRUE(runtime.robot_stop().Press("a test"));
+  EXPECT_EQ(Look(input), -1);
+  source.out.Publish(2);
+  ASSERT_TRUE(runtime.robot_stop().Release("a test"));
+  EXPECT_EQ(Look(input), -1);
+  source.out.Publish(3);
+  EXPECT_EQ(Look(input), 3);
+}
+
 TEST_F(WatchedPortTest, ShowsTheValueOfAnotherSource) {
   Source& other = runtime.Create<Source>(app, "other");
   Input<int> in(app, "in");

@@ -20,10 +20,6 @@ inline constexpr double kPlotWidth = 904.0;
 inline constexpr std::string_view kInk = "#1f2733";
 inline constexpr std::string_view kFaintInk = "#667182";
 
-[[nodiscard]] inline bool IsFinite(Point2 point) {
-  return std::isfinite(point.x) && std::isfinite(point.y);
-}
-
 /// Attributes from names and values in turn.
 [[nodiscard]] std::string Style(std::initializer_list<std::string_view> names_and_values);
 

@@ -1,0 +1,36 @@
+// `runnel check` of applications in which something moves.
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "plugins/application/application_description.h"
+#include "tests/support/temporary_folder.h"
+
+namespace runnel::test {
+namespace {
+
+std::string Checked(const std::string& inside) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "app.xml") << "<application name=\"app\">\n<load plugin=\"states\"/>\n" << inside << "\n</application>\n";
+  ApplicationOptions options;
+  options.plugin_folders = {RUNNEL_TEST_STATES_PLUGIN};
+  ApplicationDescription description(std::move(options));
+  (void)description.Read(folder / "app.xml");
+  description.RunChecks({});
+  return description.diagnostics().ToString();
+}
+
+TEST(MotionCheck, WarnsWhereSomethingMovesAndNothingIsMarked) {
+  EXPECT_THAT(Checked("<module name='m' type='states/filter'/>"),
+              ::testing::HasSubstr("app.xml:3:1: warning: /app/m/input/in: takes velocities, and no port of the "
+                                   "application is marked as driving"));
+}
+
+TEST(MotionCheck, IsContentWithAMarkAndWhereNothingMoves) {
+  EXPECT_EQ(Checked("<module name='m' type='states/filter'/><driving port='m/queued'/>"), "");
+  EXPECT_EQ(Checked("<module name='m' type='states/source'/>"), "");
+}
+
+}  // namespace
+}  // namespace runnel::test
