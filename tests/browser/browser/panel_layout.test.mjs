@@ -8,6 +8,7 @@ import { OpenPanel } from '../support/panel.mjs';
 import { DemoFile, Replaced, RunApplication } from '../support/runnel.mjs';
 
 async function Drag(panel, locator, dx, dy) {
+  await locator.scrollIntoViewIfNeeded();
   await panel.drawn();
   const { x, y, width, height } = await locator.boundingBox();
   await panel.page.mouse.move(x + width / 2, y + height / 2);
