@@ -90,6 +90,12 @@ std::vector<Latency> Scheduler::ReadLatencies() {
   return latencies;
 }
 
+std::vector<std::pair<std::string, CycleStatistics>> Scheduler::ThreadStatistics() const {
+  std::vector<std::pair<std::string, CycleStatistics>> all;
+  for (const auto& runner : runners_) all.emplace_back(runner->path(), runner->statistics());
+  return all;
+}
+
 // With full paths, so that one that is asked for twice is known again.
 Result<std::shared_ptr<LatencyChain>> Scheduler::MakeChain(const LatencyRequest& request) {
   const auto path = FindDataPath(runtime_.root(), request);

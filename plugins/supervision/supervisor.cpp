@@ -1,7 +1,9 @@
 #include "plugins/supervision/supervisor.h"
 
 #include <algorithm>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "core/paths/path_search.h"
@@ -20,6 +22,8 @@ using internal::StaleWatch;
 
 namespace {
 
+// For so long cycles are counted before it is told that they come late, or come in time again.
+constexpr Duration kCounted = std::chrono::seconds(1);
 // How often modules are asked for what they want.
 constexpr Duration kLookForRequests = std::chrono::milliseconds(50);
 
@@ -39,6 +43,7 @@ struct Supervisor::Shared {
   Time Watch(Time now);
   void ServeRequests(Time now);
   void KeepSafe(Time now);
+  void CountOverruns(Time now);
 
   Runtime& runtime;
   Scheduler& scheduler;
@@ -50,6 +55,15 @@ struct Supervisor::Shared {
   };
 
   internal::Standstill standstill;  // under the structure lock
+  // What has been counted of a thread, and told.
+  struct KnownThread {
+    std::uint64_t cycles = 0;
+    std::uint64_t overruns = 0;
+    bool is_late = false;
+  };
+  std::map<std::string, KnownThread>
+      threads;  // by path; of the thread that looks out, as the next ones
+  std::optional<Time> counted;
   std::vector<StaleWatch> watches;  // of the thread that looks out
   std::mutex pausing;               // one after the other; before all others
   std::vector<KnownPause> pauses;   // guarded by pausing
@@ -149,9 +163,33 @@ void Supervisor::Shared::KeepSafe(Time now) {
                   });
 }
 
+// Told once when most cycles of a thread take longer than its period, and once when hardly any does so any more.
+void Supervisor::Shared::CountOverruns(Time now) {
+  if (counted && now < *counted + kCounted) return;
+  const std::lock_guard lock(runtime.structure_mutex());
+  for (const auto& [path, all] : scheduler.ThreadStatistics()) {
+    KnownThread& known = threads[path];
+    const std::uint64_t cycles = all.cycles - known.cycles;
+    const std::uint64_t overruns = all.overruns - known.overruns;
+    const bool was_late = known.is_late;
+    const bool is_late = counted && overruns * (was_late ? 10 : 2) > cycles;
+    if (counted && cycles == 0) continue;
+    known = {all.cycles, all.overruns, is_late};
+    if (is_late == was_late) continue;
+    const std::string count =
+        std::to_string(overruns) + " of its last " + std::to_string(cycles) + " cycles";
+    Note(
+        {path,
+         is_late ? "overruns: " + count + " took longer than its period" : "keeps its period again",
+         now, false, !is_late});
+  }
+  counted = now;
+}
+
 Time Supervisor::Shared::Watch(Time now) {
   ServeRequests(now);
   KeepSafe(now);
+  CountOverruns(now);
   std::vector<std::pair<const StaleWatch*, StaleWatch::Turn>> turns;
   Time next = now + kLookForRequests;
   if (!watches.empty()) {

@@ -1,87 +1,9 @@
 // Inputs that fall silent and modules that fail, on the simulated clock and on the real one.
 
-#include "plugins/supervision/supervisor.h"
+#include "tests/plugins/supervision/supervised_robot.h"
 
-#include <atomic>
-
-#include <gmock/gmock.h>
-
-#include "plugins/structure/structure_editor.h"
-#include "plugins/structure/value_by_hand.h"
-#include "tests/plugins/scheduling/test_modules.h"
-#include "tests/support/wait_until.h"
-
-namespace runnel {
+namespace runnel::supervised {
 namespace {
-
-using namespace std::chrono_literals;
-using test::WaitUntil;
-using testing::At;
-using testing::Doing;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using testing::MustSucceed;
-using testing::Relay;
-using ::testing::SizeIs;
-
-ChangeSet Switch(const Port& input, const Port& from, const Port& to) {
-  return {DisconnectPorts{from.path(), input.path()}, ConnectPorts{to.path(), input.path()}};
-}
-
-/// Two sensors that say which they are as long as they work, and a reader that is fed by the first.
-struct Robot {
-  explicit Robot(SchedulerOptions::ClockKind clock) : scheduler(runtime, {.clock = clock}) {
-    laser.action = [this](Doing& module) {
-      if (laser_throws) throw std::runtime_error("no answer");
-      if (laser_works) module.out.Publish(1);
-    };
-    infrared.action = [](Doing& module) { module.out.Publish(2); };
-    reader.action = [this](Doing& module) { seen = module.in.Get(); };
-    MustSucceed(Port::Connect(laser.out, reader.in));
-    MustSucceed(runtime.MakeReady(runtime.root()));
-  }
-  StaleRule SwitchingRule() {
-    return {.input = reader.in.path(),
-            .after = 30ms,
-            .fresh_after = 50ms,
-            .on_stale = {.changes = Switch(reader.in, laser.out, infrared.out),
-                         .description = "switched to infrared"},
-            .on_fresh = {.changes = Switch(reader.in, infrared.out, laser.out),
-                         .description = "switched to the laser"}};
-  }
-  std::vector<std::string> Messages() {
-    std::vector<std::string> messages;
-    for (const Notice& notice : supervisor.TakeNotices()) messages.push_back(notice.message);
-    return messages;
-  }
-
-  Runtime runtime;
-  ModuleRegistry modules;
-  ThreadContainer& thread = CreateThread(runtime, "main", {.period = 10ms});
-  Doing& laser = runtime.Create<Doing>(runtime.root(), "laser");
-  Doing& infrared = runtime.Create<Doing>(runtime.root(), "infrared");
-  Doing& reader = runtime.Create<Doing>(runtime.root(), "reader");
-  std::atomic<bool> laser_works{true};
-  std::atomic<bool> laser_throws{false};
-  std::atomic<double> seen{0};
-  Scheduler scheduler;
-  StructureEditor editor{runtime, modules, &scheduler};
-  Supervisor supervisor{runtime, scheduler, [this](const ChangeSet& changes) -> Result<void> {
-                          const ChangeOutcome outcome = editor.Apply(changes);
-                          if (!outcome) return outcome.diagnostics.errors().front();
-                          return {};
-                        }};
-};
-
-class Supervised : public ::testing::Test {
- protected:
-  // A thread in which nothing runs of itself.
-  ThreadContainer& OnlyOnData() {
-    return CreateThread(robot.runtime, "idle", {.activation = ThreadOptions::Activation::kTrigger});
-  }
-  Robot robot{SchedulerOptions::ClockKind::kSimulated};
-};
 
 TEST_F(Supervised, InputsThatFallSilentAreFedByAnotherSourceAndGetTheirsBack) {
   MustSucceed(robot.supervisor.Add(robot.SwitchingRule()));
@@ -230,87 +152,20 @@ TEST_F(Supervised, ARuleThatCannotTakeItsValueBackSaysSo) {
   EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("nothing new"), HasSubstr("was_renamed")));
 }
 
-/// Something moves by what the reader reads from the laser.
-class Driven : public Supervised {
- protected:
-  Driven() {
-    MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
-    robot.scheduler.RunUntil(At(100));
-    EXPECT_EQ(robot.seen, 1);
-  }
-  void RunOn() { robot.scheduler.RunUntil(robot.runtime.clock().Now() + 200ms); }
-};
-
-TEST_F(Driven, APortHasItsSafeValueWhileWhatFeedsItIsPaused) {
-  MustSucceed(robot.supervisor.SetPaused("/laser", true));
-  EXPECT_THAT(robot.Messages(), ElementsAre("has its safe value: /laser is paused"));
-  RunOn();
-  EXPECT_EQ(robot.seen, -7);
-  robot.laser_works = false;
-  MustSucceed(robot.supervisor.SetPaused("/laser", false));
-  RunOn();
-  EXPECT_EQ(robot.seen, -7) << "the command of before moves nothing";
-  robot.laser_works = true;
-  RunOn();
-  EXPECT_EQ(robot.seen, 1);
-  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("is driven again")));
-}
-
-TEST_F(Driven, APortHasItsSafeValueWhenWhatFeedsItHasFailed) {
-  robot.laser_throws = true;
-  RunOn();
-  EXPECT_EQ(robot.seen, -7);
-  EXPECT_THAT(robot.Messages(), ElementsAre("has its safe value: /laser has failed"));
-  MustSucceed(Port::Disconnect(robot.laser.out, robot.reader.in));
-  MustSucceed(Port::Connect(robot.infrared.out, robot.reader.in));
-  RunOn();
-  EXPECT_EQ(robot.seen, 2) << "another one feeds it";
-}
-
-TEST_F(Driven, WhatAPersonHasSetStaysAndWhatIsReleasedMeanwhileIsSafeAgain) {
-  const double nine = 9;
-  MustSucceed(PublishByHand(robot.reader.in, &nine));
-  MustSucceed(robot.supervisor.SetPaused("/laser", true));
-  RunOn();
-  EXPECT_EQ(robot.seen, 9);
-  EXPECT_TRUE(robot.reader.in.Release());
-  EXPECT_TRUE(robot.reader.in.Release(Port::Setter::kRule));
-  RunOn();
-  EXPECT_EQ(robot.seen, -7);
-}
-
-TEST_F(Driven, WhatARuleHasSetIsTheRulesToTakeBack) {
-  robot.supervisor.Add(
-      PauseReaction{.of = "/infrared", .on_pause = {.published = {{"/reader/in", "5"}}}});
-  MustSucceed(robot.supervisor.SetPaused("/laser", true));
-  MustSucceed(robot.supervisor.SetPaused("/infrared", true));
-  RunOn();
-  EXPECT_EQ(robot.seen, 5);
-  MustSucceed(robot.supervisor.SetPaused("/laser", false));
-  RunOn();
-  EXPECT_EQ(robot.seen, 5);
-}
-
-TEST(SupervisedInRealTime, APortHasItsSafeValueWhileTheThreadOfWhatFeedsItIsStuck) {
-  Robot robot(SchedulerOptions::ClockKind::kReal);
-  std::atomic<bool> hangs{false};
-  auto& other = robot.runtime.Create<Doing>(robot.runtime.root(), "other");
-  other.action = [&](Doing&) { hangs.wait(true); };
-  auto& apart = CreateThread(robot.runtime, "apart", {.period = 10ms});
-  AssignThread(other, apart);
-  AssignThread(robot.laser, apart);
-  MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
-  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
-  MustSucceed(robot.scheduler.SetStuckLimit("", 50ms));
-  MustSucceed(robot.scheduler.Start());
-  WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
-  hangs = true;
-  WaitUntil("the safe value is seen", [&] { return robot.seen == -7; });
-  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("which runs /laser, does not return")));
-  hangs = false;
-  hangs.notify_all();
-  WaitUntil("the laser is seen again", [&] { return robot.seen == 1; });
-  robot.scheduler.Stop();
+TEST_F(Supervised, AThreadThatOverrunsIsToldOnceAndThatItKeepsItsPeriodAgain) {
+  robot.scheduler.RunUntil(At(1500));
+  EXPECT_THAT(robot.Messages(), IsEmpty());
+  robot.infrared.action = [&](Doing& of) {
+    robot.scheduler.simulated_clock().Set(of.cycle_time() + 15ms);
+  };
+  robot.scheduler.RunUntil(At(5000));
+  const auto late = robot.supervisor.TakeNotices();
+  ASSERT_THAT(late, SizeIs(1));
+  EXPECT_EQ(late[0].path, robot.thread.path());
+  EXPECT_THAT(late[0].message, HasSubstr("overruns: "));
+  robot.infrared.action = [](Doing&) {};
+  robot.scheduler.RunUntil(At(8000));
+  EXPECT_THAT(robot.Messages(), ElementsAre("keeps its period again"));
 }
 
 // What is latched, such as a goal, sets off the module that is fed by it from now on.
@@ -372,4 +227,4 @@ TEST(SupervisedInRealTime, InputsAreSwitchedWhileThreadsRun) {
 }
 
 }  // namespace
-}  // namespace runnel
+}  // namespace runnel::supervised

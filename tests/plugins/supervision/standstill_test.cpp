@@ -1,0 +1,93 @@
+// Ports that drive, while what feeds them does not run.
+
+#include "tests/plugins/supervision/supervised_robot.h"
+
+namespace runnel::supervised {
+namespace {
+
+/// Something moves by what the reader reads from the laser.
+class Driven : public Supervised {
+ protected:
+  Driven() {
+    MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+    robot.scheduler.RunUntil(At(100));
+    EXPECT_EQ(robot.seen, 1);
+  }
+  void RunOn() { robot.scheduler.RunUntil(robot.runtime.clock().Now() + 200ms); }
+};
+
+TEST_F(Driven, APortHasItsSafeValueWhileWhatFeedsItIsPaused) {
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  EXPECT_THAT(robot.Messages(), ElementsAre("has its safe value: /laser is paused"));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+  robot.laser_works = false;
+  MustSucceed(robot.supervisor.SetPaused("/laser", false));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7) << "the command of before moves nothing";
+  robot.laser_works = true;
+  RunOn();
+  EXPECT_EQ(robot.seen, 1);
+  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("is driven again")));
+}
+
+TEST_F(Driven, APortHasItsSafeValueWhenWhatFeedsItHasFailed) {
+  robot.laser_throws = true;
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+  EXPECT_THAT(robot.Messages(), ElementsAre("has its safe value: /laser has failed"));
+  MustSucceed(Port::Disconnect(robot.laser.out, robot.reader.in));
+  MustSucceed(Port::Connect(robot.infrared.out, robot.reader.in));
+  RunOn();
+  EXPECT_EQ(robot.seen, 2) << "another one feeds it";
+}
+
+TEST_F(Driven, WhatAPersonHasSetStaysAndWhatIsReleasedMeanwhileIsSafeAgain) {
+  const double nine = 9;
+  MustSucceed(PublishByHand(robot.reader.in, &nine));
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  RunOn();
+  EXPECT_EQ(robot.seen, 9);
+  EXPECT_TRUE(robot.reader.in.Release());
+  EXPECT_TRUE(robot.reader.in.Release(Port::Setter::kRule));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+}
+
+TEST_F(Driven, WhatARuleHasSetIsTheRulesToTakeBack) {
+  robot.supervisor.Add(
+      PauseReaction{.of = "/infrared", .on_pause = {.published = {{"/reader/in", "5"}}}});
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  MustSucceed(robot.supervisor.SetPaused("/infrared", true));
+  RunOn();
+  EXPECT_EQ(robot.seen, 5);
+  MustSucceed(robot.supervisor.SetPaused("/laser", false));
+  RunOn();
+  EXPECT_EQ(robot.seen, 5);
+}
+
+TEST(StandstillInRealTime, APortHasItsSafeValueWhileTheThreadOfWhatFeedsItIsStuck) {
+  Robot robot(SchedulerOptions::ClockKind::kReal);
+  std::atomic<bool> hangs{false};
+  auto& other = robot.runtime.Create<Doing>(robot.runtime.root(), "other");
+  other.action = [&](Doing&) { hangs.wait(true); };
+  auto& apart = CreateThread(robot.runtime, "apart", {.period = 10ms});
+  AssignThread(other, apart);
+  AssignThread(robot.laser, apart);
+  MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+  MustSucceed(robot.scheduler.SetStuckLimit("", 50ms));
+  MustSucceed(robot.scheduler.Start());
+  WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
+  hangs = true;
+  WaitUntil("the safe value is seen", [&] { return robot.seen == -7; });
+  EXPECT_THAT(robot.Messages(),
+              ::testing::Contains(HasSubstr("which runs /laser, does not return")));
+  hangs = false;
+  hangs.notify_all();
+  WaitUntil("the laser is seen again", [&] { return robot.seen == 1; });
+  robot.scheduler.Stop();
+}
+
+}  // namespace
+}  // namespace runnel::supervised

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "plugins/supervision/supervisor.h"
+
+#include <atomic>
+
+#include <gmock/gmock.h>
+
+#include "plugins/structure/structure_editor.h"
+#include "plugins/structure/value_by_hand.h"
+#include "tests/plugins/scheduling/test_modules.h"
+#include "tests/support/wait_until.h"
+
+namespace runnel::supervised {
+
+using namespace std::chrono_literals;
+using test::WaitUntil;
+using testing::At;
+using testing::Doing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::MustSucceed;
+using testing::Relay;
+using ::testing::SizeIs;
+
+inline ChangeSet Switch(const Port& input, const Port& from, const Port& to) {
+  return {DisconnectPorts{from.path(), input.path()}, ConnectPorts{to.path(), input.path()}};
+}
+
+/// Two sensors that say which they are as long as they work, and a reader that is fed by the first.
+struct Robot {
+  explicit Robot(SchedulerOptions::ClockKind clock) : scheduler(runtime, {.clock = clock}) {
+    laser.action = [this](Doing& module) {
+      if (laser_throws) throw std::runtime_error("no answer");
+      if (laser_works) module.out.Publish(1);
+    };
+    infrared.action = [](Doing& module) { module.out.Publish(2); };
+    reader.action = [this](Doing& module) { seen = module.in.Get(); };
+    MustSucceed(Port::Connect(laser.out, reader.in));
+    MustSucceed(runtime.MakeReady(runtime.root()));
+  }
+  StaleRule SwitchingRule() {
+    return {.input = reader.in.path(),
+            .after = 30ms,
+            .fresh_after = 50ms,
+            .on_stale = {.changes = Switch(reader.in, laser.out, infrared.out),
+                         .description = "switched to infrared"},
+            .on_fresh = {.changes = Switch(reader.in, infrared.out, laser.out),
+                         .description = "switched to the laser"}};
+  }
+  std::vector<std::string> Messages() {
+    std::vector<std::string> messages;
+    for (const Notice& notice : supervisor.TakeNotices()) messages.push_back(notice.message);
+    return messages;
+  }
+
+  Runtime runtime;
+  ModuleRegistry modules;
+  ThreadContainer& thread = CreateThread(runtime, "main", {.period = 10ms});
+  Doing& laser = runtime.Create<Doing>(runtime.root(), "laser");
+  Doing& infrared = runtime.Create<Doing>(runtime.root(), "infrared");
+  Doing& reader = runtime.Create<Doing>(runtime.root(), "reader");
+  std::atomic<bool> laser_works{true};
+  std::atomic<bool> laser_throws{false};
+  std::atomic<double> seen{0};
+  Scheduler scheduler;
+  StructureEditor editor{runtime, modules, &scheduler};
+  Supervisor supervisor{runtime, scheduler, [this](const ChangeSet& changes) -> Result<void> {
+                          const ChangeOutcome outcome = editor.Apply(changes);
+                          if (!outcome) return outcome.diagnostics.errors().front();
+                          return {};
+                        }};
+};
+
+class Supervised : public ::testing::Test {
+ protected:
+  // A thread in which nothing runs of itself.
+  ThreadContainer& OnlyOnData() {
+    return CreateThread(robot.runtime, "idle", {.activation = ThreadOptions::Activation::kTrigger});
+  }
+  Robot robot{SchedulerOptions::ClockKind::kSimulated};
+};
+
+}  // namespace runnel::supervised
