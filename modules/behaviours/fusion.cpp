@@ -24,7 +24,8 @@ Result<void> FusionBehaviour::Construct() {
                              InputOptions{.description = "how active the behaviour is", .required = true,
                                           .ageing = Ageing::kTimesOut});
     target_ratings_.emplace_back(this, "target_rating" + number,
-                                 InputOptions{.description = "how content it is", .required = true});
+                                 InputOptions{.description = "how content it is", .required = true,
+                                              .ageing = Ageing::kTimesOut});
     inputs_.push_back((*ports)->MakeInput(
         InputGroup(), "in" + number,
         {.description = "what it wants", .required = true, .unit = unit.Get(), .ageing = Ageing::kTimesOut}));
@@ -83,7 +84,7 @@ void FusionBehaviour::OnBehaviourParametersChanged() {
 bool FusionBehaviour::ReadSignals() {
   for (std::size_t i = 0; i < signals_.size(); ++i) {
     const auto active = activities_[i].Read();
-    const auto rated = target_ratings_[i].Peek();
+    const auto rated = target_ratings_[i].Read();
     if (!active || !rated) return false;
     signals_[i] = {active->value(), rated->value()};
     if (!IsMetaValue(signals_[i].activity) || !IsMetaValue(signals_[i].target_rating)) {

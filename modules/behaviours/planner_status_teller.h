@@ -18,11 +18,11 @@ class PlannerStatusTeller final : public Module {
  public:
   explicit PlannerStatusTeller(const Placement& placement) : Module(placement) { RegisterMetaSignals(); }
 
-  Input<Pose2> pose{this, "pose", {.description = "of the robot, world's frame", .required = true}};
-  Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true}};
+  Input<Pose2> pose{this, "pose", {.description = "of the robot, world's frame", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
   Input<TargetRating> content{
-      this, "content", {.description = "of the behaviour that drives to the goal", .required = true}};
-  Input<Activity> detour{this, "detour", {.description = "of what leads round obstacles"}};
+      this, "content", {.description = "of the behaviour that drives to the goal", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<Activity> detour{this, "detour", {.description = "of what leads round obstacles", .ageing = Ageing::kTimesOut}};
   Output<PlannerStatus> status{this, "status", {.description = "as planners say it"}};
   Output<HitAndLeavePoints> points{
       this, "points", {.description = "where detours began and ended, the last of them, whenever there is another one"}};

@@ -56,7 +56,8 @@ class InputTimeout {
                .unit = "s",
                .description = "a value of " + input.name() + " that is older does not count"}),
         log_(options.log) {
-    constexpr std::array kWords = {"is there again", "has never come", "is old", "is not measured", "is not a number"};
+    constexpr std::array kWords = {"is there again", "has never come", "is old", "is not measured",
+                                   "is not a number"};
     for (std::size_t i = 0; i < texts_.size(); ++i) texts_[i] = input.name() + " " + kWords[i];
   }
 
@@ -66,9 +67,9 @@ class InputTimeout {
   template <typename T>
   [[nodiscard]] Lease<T> Read(Input<T>& input, Time now) {
     Lease<T> lease = input.Read();
-    Note(!lease                                                          ? InputLack::kNeverCame
+    Note(!lease                                               ? InputLack::kNeverCame
          : now - lease.timestamp() > FromSeconds(limit.Get()) ? InputLack::kOld
-                                                                         : FindLack(*lease),
+                                                              : FindLack(*lease),
          now);
     if (lack_ != InputLack::kNone) return {};
     return lease;
@@ -76,7 +77,9 @@ class InputTimeout {
   /// Of the last Read().
   [[nodiscard]] InputLack lack() const noexcept { return lack_; }
   /// "pose is old"; lives as long as this.
-  [[nodiscard]] const char* words() const noexcept { return texts_[static_cast<std::size_t>(lack_)].c_str(); }
+  [[nodiscard]] const char* words() const noexcept {
+    return texts_[static_cast<std::size_t>(lack_)].c_str();
+  }
 
  private:
   // What has not come yet is told when it should have.

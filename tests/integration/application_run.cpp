@@ -90,6 +90,7 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
   const Time start = runtime.clock().Now();
   auto change = choice.changes.begin();
   const auto step = [&] {
+    if (choice.each_step) choice.each_step(*built.application, *scheduler, run.duration);
     if (choice.before_step) choice.before_step();
     const bool went_on = scheduler->Step();
     if (choice.after_step) choice.after_step();

@@ -10,6 +10,7 @@
 #include "core/module/run_monitor.h"
 #include "modules/types/algorithm/pose.h"
 #include "plugins/scheduling/fault.h"
+#include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change.h"
 #include "plugins/supervision/supervision_rules.h"
 
@@ -35,6 +36,8 @@ struct ApplicationChoice {
   Duration limit = std::chrono::hours(1);
   std::function<void()> before_step = {};  ///< of the scheduler: for probes
   std::function<void()> after_step = {};
+  /// Before each step, with the time that has passed: for those who do more than change the structure.
+  std::function<void(FrameworkElement& application, Scheduler& scheduler, Duration passed)> each_step = {};
   /// Applied one after the other, each when so much time has passed. Throws if one is refused.
   std::vector<std::pair<Duration, ChangeSet>> changes = {};
 };
