@@ -37,6 +37,8 @@ StopButton::StopButton(Runtime& runtime, StopButtonRule rule, Tell tell)
     const std::lock_guard lock(runtime_.structure_mutex());
     Port& port = **PathSearch(runtime_).FindPort(rule_.port, PathKind::kOutput);
     element_ = std::make_unique<ButtonElement>(runtime_.root(), port.type());
+    // The first time it makes what it sleeps on, which takes the lock: not in the thread, which waits for no lock.
+    (void)element_->probe.Wait(Duration(1));
     (void)Port::Connect(port, element_->probe);
   }
   thread_ = std::thread([this] { Work(); });
