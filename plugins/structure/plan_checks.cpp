@@ -22,70 +22,21 @@
 
 namespace runnel::internal {
 
-std::string Plan::KeyOf(const Placement& place, std::string key, const FrameworkElement* before) {
-  key += " " + std::to_string(place.parent.id()) + "/" + place.name;
-  if (before != nullptr) key += " " + std::to_string(before->id());
-  return key + " " + std::to_string(keys_[key]++);
+namespace {
+
+// What the parameter is to be set to; one that it accepts.
+Result<std::shared_ptr<const void>> ValueIn(const SetParameter& change,
+                                            const Configurable& parameter) {
+  if (!change.object) return parameter.Parse(change.value);
+  if (change.type != &parameter.type()) {
+    return Error{.message =
+                     "a " + parameter.type().name() + " cannot be set to a " + change.type->name()};
+  }
+  if (auto good = parameter.Check(change.object.get()); !good) return good.error();
+  return change.object;
 }
 
-Result<Workshop::Work> Plan::MakeModule(const Placement& place, const ReplaceModule& change,
-                                        const FrameworkElement* before) {
-  std::string key = change.type;
-  for (const Setting& each : change.settings) key += " " + each.parameter + "=" + each.value;
-  // Whatever is to be known of others is looked at first: they may go while it is made.
-  const std::uint64_t revision = runtime_.revision_by_others();
-  const auto& work =
-      workshop_.Get(KeyOf(place, std::move(key), before), [&]() -> Result<Workshop::Work> {
-        std::vector<Setting> inherited;
-        Values values;
-        std::optional<ElementState> state;
-        std::string name = place.name;
-        if (before != nullptr) {
-          inherited = SettingsOf(*before);
-          values = ValuesOf(*before);
-          state.emplace(*before, FrameworkElement::Inherit::kAsReplacement,
-                        ElementState::Below::kIncluded);
-          name = NameInFile::Of(*before);
-        }
-        const Unlocked unlocked(runtime_);
-        auto made = modules_.Make(change.type, place);
-        if (!made) {
-          Error error = made.error();
-          if (error.path.empty()) error.path = place.parent.path() + "/" + place.name;
-          return error;
-        }
-        if (auto set = ConfigureNew(**made, inherited, change.settings); !set) return set.error();
-        if (change.state) change.state->GiveAnnotations(**made);
-        if (state) state->GiveAnnotations(**made);
-        if (name != place.name) (*made)->Annotate(std::make_unique<NameInFile>(name));
-        if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared.error();
-        return Workshop::Work{std::make_shared<UnlistedElement>(std::move(*made)),
-                              std::move(values)};
-      });
-  if (runtime_.revision_by_others() != revision) throw Workshop::Overtaken();
-  return work;
-}
-
-Result<Workshop::Work> Plan::MakeGroup(const Placement& place, const FrameworkElement* before,
-                                       const GivenState& state) {
-  return workshop_.Get(KeyOf(place, "group", before), [&]() -> Result<Workshop::Work> {
-    auto made = std::make_shared<UnlistedElement>(std::make_unique<Group>(place));
-    if (state) state->GiveAnnotations(**made);
-    if (before != nullptr) {
-      (*made)->InheritAnnotations(*before);
-      NameInFile::Note(**made, *before);
-    }
-    if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared.error();
-    return Workshop::Work{std::move(made)};
-  });
-}
-
-Result<void> Plan::AddNew(UnlistedElement made, const GivenState& state) {
-  if (state) state->GiveAnnotations(*made);
-  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
-  AddCreation(std::make_shared<UnlistedElement>(std::move(made)), nullptr, state);
-  return {};
-}
+}  // namespace
 
 Result<void> Plan::Check(const CreateModule& change) {
   const auto place = overlay_.PlaceFor(change.path);
@@ -173,6 +124,75 @@ Result<void> Plan::Check(const DeleteElement& change) {
   overlay_.Remove(element);
   AddRemoval(element);
   return {};
+}
+
+Result<void> Plan::Check(const SetParameter& change) {
+  const auto found = overlay_.Find(change.path, PathKind::kParameter);
+  if (!found) return found.error();
+  auto* const parameter = dynamic_cast<Configurable*>(*found);
+  if (parameter == nullptr) {
+    return Error{.message = (*found)->path() + " is not a parameter", .path = (*found)->path()};
+  }
+  if (const auto* const group = dynamic_cast<const GroupParameter*>(*found)) {
+    return CheckAll(*group, change);
+  }
+  const bool is_settled =
+      parameter->info().is_static && (*found)->life_cycle() == LifeCycle::kReady;
+  const auto value = ValueIn(change, *parameter);
+  if (!value) {
+    Error error = value.error();
+    if (error.path.empty()) error.path = (*found)->path();
+    return error;
+  }
+  if (is_settled) return CheckStatic(**found, *parameter, value->get());
+  Concern(**found);
+  auto before = std::make_shared<std::shared_ptr<const void>>();
+  steps_.push_back({[parameter, before, value = *value] {
+                      *before = parameter->Value();
+                      return parameter->SetFrom(value.get());
+                    },
+                    [parameter, before] {
+                      if (*before) (void)parameter->SetFrom(before->get());
+                    },
+                    [parameter, path = (*found)->path()](auto&) -> ChangeSet {
+                      // The module has been made by this change set, and goes as a whole.
+                      if (parameter->info().is_static) return {};
+                      return {SetParameter{path, parameter->ToText()}};
+                    }});
+  return {};
+}
+
+// What stands for others is set by setting them, each as its kind is set.
+Result<void> Plan::CheckAll(const GroupParameter& group, const SetParameter& change) {
+  const auto targets = group.Find();
+  if (targets.empty()) {
+    return Error{.message = "nothing is there any more that could be set by it",
+                 .path = group.path()};
+  }
+  for (const ConfigurableElement& each : targets) {
+    SetParameter one{each.element->path(), change.value, change.object, change.type};
+    if (change.object && change.type != &each.configurable->type()) {
+      one.value = runnel::ToText(*change.type, change.object.get());
+      one.object.reset();
+    }
+    if (auto set = Check(one); !set) return set;
+  }
+  return {};
+}
+
+// The module is made anew by its own type, and keeps what fits: connections of ports that it has no more are cut.
+Result<void> Plan::CheckStatic(const FrameworkElement& element, const Configurable& parameter,
+                               const void* value) {
+  const FrameworkElement* const module = FindModuleAround(element);
+  const std::string type = module != nullptr ? FindModuleType(*module) : "";
+  if (type.empty()) {
+    return Error{.message = "can be set only before its module is ready",
+                 .path = element.path(),
+                 .hint = "its module was made by code, of a class that no change can make anew"};
+  }
+  const std::string text = runnel::ToText(parameter.type(), value);
+  if (text == parameter.ToText()) return {};
+  return CheckReplacement({module->path(), type, {{element.name(), text}}}, Misfits::kAreCut);
 }
 
 // Cuts the connections of `ports`, which nothing takes over.

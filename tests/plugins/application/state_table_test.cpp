@@ -21,74 +21,13 @@
 #include "core/port/hand_slot.h"
 #include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
-#include "plugins/application/application.h"
-#include "plugins/recording/recorder.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/value_by_hand.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/plugins/application/state_trial.h"
 
 namespace runnel::test {
 namespace {
-
-constexpr const char* kText = R"(<application name="app">
-  <load plugin="states"/>
-  <clock type="simulated" speed="0"/>
-  <thread name="fast" period="10ms"/>
-  <thread name="slow" period="20ms"/>
-  <group name="g">
-    <module name="m" type="states/filter"/>
-  </group>
-  <module name="source" type="states/source"/>
-  <module name="sink" type="states/filter"/>
-  <connect from="g/m/out" to="sink/in"/>
-</application>
-)";
-
-/// An application, and where in it is what has been set.
-struct Trial {
-  explicit Trial(const std::filesystem::path& file) : application(Load(file)) {}
-
-  static LoadedApplication Load(const std::filesystem::path& file) {
-    auto loaded = Application::Load(file, {.plugin_folders = {RUNNEL_TEST_STATES_PLUGIN}});
-    if (!loaded) throw std::runtime_error(loaded.diagnostics().ToString());
-    return loaded;
-  }
-
-  template <typename T = FrameworkElement>
-  [[nodiscard]] T& At(const std::string& path) {
-    const std::lock_guard lock(application->runtime().structure_mutex());
-    const auto found = application->runtime().root().Find(path);
-    if (!found) throw std::runtime_error(found.error().ToString());
-    return dynamic_cast<T&>(**found);
-  }
-  [[nodiscard]] FrameworkElement& Module() { return At(module); }
-  [[nodiscard]] Port& In(const std::string& name = "in") { return At<Port>(module + "/input/" + name); }
-  [[nodiscard]] Port& Out() { return At<Port>(module + "/output/out"); }
-
-  void Note(const ChangeOutcome& outcome) {
-    is_refused = is_refused || !outcome;
-    told += outcome.diagnostics.ToString();
-  }
-  void Do(const ChangeSet& changes) { Note(application->Apply(changes)); }
-  void Undo() { Note(application->Undo()); }
-  // A step on the way to what is tried.
-  void Must(const ChangeSet& changes) {
-    const auto outcome = application->Apply(changes);
-    if (!outcome) throw std::runtime_error(outcome.diagnostics.ToString());
-  }
-
-  LoadedApplication application;
-  std::unique_ptr<Recorder> recorder = {};
-  std::string module = "/app/g/m";
-  std::string told = {};
-  bool is_refused = false;
-  TemporaryFolder folder{};
-};
-
-void Require(const Result<void>& result) {
-  if (!result) throw std::runtime_error(result.error().ToString());
-}
 
 struct State {
   std::string name;
@@ -268,7 +207,7 @@ const std::vector<Operation>& Operations() {
 
 class StateTable : public ::testing::Test {
  protected:
-  StateTable() { std::ofstream(file_) << kText; }
+  StateTable() { std::ofstream(file_) << kTrialText; }
 
   // "kept", "told", "refused", or "SILENT", of each of the states.
   std::vector<std::string> Try(const std::vector<const State*>& states, const Operation& operation) {
