@@ -60,6 +60,7 @@ class StopSignal : public std::enable_shared_from_this<StopSignal> {
   void Tell(const Listener& note);
 
   std::atomic<std::int64_t> bar_{kNever};
+  std::mutex releasers_;  // of two, the later one reads the later time
   std::mutex mutex_;
   std::list<Listener> listeners_;  // guarded by mutex_
 };

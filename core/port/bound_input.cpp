@@ -58,7 +58,9 @@ QueueSink* BoundInput::Bind(const std::vector<Source>& sources) {
   const Binding* before = binding_.load(std::memory_order_relaxed);
   replaced_.reserve(replaced_.size() + 1);  // what fails has replaced nothing
   if (!before->links.empty()) last_links_ = before->links;
-  if (sources.empty()) {
+  std::vector<internal::PassedStop> stops;
+  CollectStops(stops);
+  if (sources.empty() && stops.empty()) {
     Replace(&kUnbound);
     return nullptr;
   }
@@ -75,21 +77,20 @@ QueueSink* BoundInput::Bind(const std::vector<Source>& sources) {
   if (sources.size() == 1) {
     next->only = next->links.front().get();
   }
-  BindStops(*before, *next);
+  BindStops(*before, *next, std::move(stops));
   next->ages = ageing() == Ageing::kTimesOut;
   if (next->only != nullptr && !next->pulls && !next->ages && next->stops.empty()) {
     next->channel = next->only->channel;
   }
   if (options.queue > 0) next->queue = KeepOrMakeQueue(*before, *next, options);
-  KeepWaitingValues(*before, *next);
+  if (!sources.empty()) KeepWaitingValues(*before, *next);
   InputQueueBase* const queue = next->queue.get();
   Replace(next.release());
   return queue;
 }
 
-void BoundInput::BindStops(const Binding& before, Binding& next) {
-  std::vector<internal::PassedStop> stops;
-  CollectStops(stops);
+void BoundInput::BindStops(const Binding& before, Binding& next,
+                           std::vector<internal::PassedStop> stops) {
   for (internal::PassedStop& stop : stops) {
     const auto is_it = [&](const auto& link) { return link->Is(stop); };
     if (const auto kept = std::ranges::find_if(before.stops, is_it); kept != before.stops.end()) {
@@ -194,7 +195,7 @@ void BoundInput::Replace(const Binding* next) {
   replaced_.emplace_back();
   // acq_rel: release, pairs with the acquire of readers; acquire for who destroys the old one.
   const Binding* const before = binding_.exchange(next, std::memory_order_acq_rel);
-  if (before->links.empty()) {  // kUnbound
+  if (before == &kUnbound) {
     replaced_.pop_back();
   } else {
     replaced_.back().reset(before);

@@ -56,7 +56,7 @@ class BoundInput : public InputBase {
  private:
   QueueSink* Bind(const std::vector<Source>& sources) override;
   void TellStops(const Subscribers& subscribers) override;
-  void BindStops(const Binding& before, Binding& next);
+  void BindStops(const Binding& before, Binding& next, std::vector<internal::PassedStop> stops);
   void TakeOverBinding(InputBase& from) noexcept override;
   void Bound() override;
 

@@ -58,6 +58,7 @@ class InputBase : public Port {
   /// By the constructor of typed inputs, when their type is known. Throws ElementError if there is no safe value.
   void DeclareDriving();
   [[nodiscard]] bool declares_driving() const noexcept final { return options_.drives; }
+  [[nodiscard]] AnyValue declared_safe_value() const final { return declared_safe_value_; }
 
   Result<void> Prepare() override;
   void Rebind(const std::vector<Source>& sources) final;
@@ -83,6 +84,7 @@ class InputBase : public Port {
   static void UpdateChannel(Port& output);
 
   const InputOptions options_;
+  AnyValue declared_safe_value_;
   Waker* waker_ = nullptr;
   QueueSink* sink_ = nullptr;
   std::unique_ptr<ArrivalEvent> arrival_;  // once the reader waits; made by it, under the lock

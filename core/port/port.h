@@ -112,7 +112,9 @@ class Port : public FrameworkElement {
   /// Threads: locks, allocates. Errors: those of `fill`; a type that only its module can make.
   using Fill = std::function<Result<void>(void* value)>;
   enum class Setter { kPerson, kRule };
-  Result<void> PublishByHand(const Fill& fill, Setter setter = Setter::kPerson);
+  /// `timestamp`: of a value that was set before, and is set again.
+  Result<void> PublishByHand(const Fill& fill, Setter setter = Setter::kPerson,
+                             std::optional<Time> timestamp = {});
   /// Readers find again what is published. False: it was not set by hand.
   bool Release(Setter setter = Setter::kPerson);
   /// Under the structure lock.
@@ -208,6 +210,8 @@ class Port : public FrameworkElement {
 
   /// Whether the module of this port says that something moves by it.
   [[nodiscard]] virtual bool declares_driving() const noexcept { return false; }
+  /// Of one that does: what it finds safe.
+  [[nodiscard]] virtual AnyValue declared_safe_value() const { return {}; }
   /// Of this port; `declared`: none, or what somebody has declared.
   [[nodiscard]] Result<AnyValue> FindSafeValue(const AnyValue& declared) const;
   /// Binds the readers behind it anew. `robot`: nullptr for a port that does not drive.
@@ -235,7 +239,7 @@ class Port : public FrameworkElement {
   [[nodiscard]] Time CoarseTimeOutsideOfCycles(Time timestamp) const noexcept;
   [[nodiscard]] Port* by_hand() const noexcept;
   void TellOfChange();
-  bool ExchangeStops(Port& from) noexcept;
+  [[nodiscard]] std::shared_ptr<const PortStop> StopInPlaceOf(const Port& from) const;
   static Result<void> CheckConnection(const Port& from, const Port& to,
                                       const ConnectOptions& options);
   /// What this port passes on to who is connected to it: itself, or what it receives.

@@ -53,7 +53,7 @@ internal::PortExtras& Port::Extras() {
   return *extras_;
 }
 
-Result<void> Port::PublishByHand(const Fill& fill, Setter setter) {
+Result<void> Port::PublishByHand(const Fill& fill, Setter setter, std::optional<Time> timestamp) {
   const std::lock_guard lock(runtime().structure_mutex());
   const Fill fill_within = [&](void* value) -> Result<void> {
     if (auto filled = fill(value); !filled) return filled;
@@ -64,13 +64,13 @@ Result<void> Port::PublishByHand(const Fill& fill, Setter setter) {
   std::unique_lock publisher = slot ? std::unique_lock(slot->mutex) : std::unique_lock<std::mutex>();
   if (is_set_by_hand(setter)) {
     if (slot) slot->stand_in = extras_->by_hand[SlotOf(setter)].get();
-    const auto published = extras_->by_hand[SlotOf(setter)]->PublishFilled(fill_within);
+    const auto published = extras_->by_hand[SlotOf(setter)]->PublishFilled(fill_within, timestamp);
     return published ? Result<void>() : published.error();
   }
   auto channel = internal::MakeChannelFor(type_);
   if (!channel) return CannotPublish("only a module can make values of its type");
   auto output = std::make_unique<internal::StandIn>(*this, std::move(channel));
-  if (auto published = output->PublishFilled(fill_within); !published) return published.error();
+  if (auto published = output->PublishFilled(fill_within, timestamp); !published) return published.error();
   auto& place = Extras().by_hand[SlotOf(setter)];
   place = std::move(output);
   if (slot) {
@@ -102,8 +102,10 @@ bool Port::Release(Setter setter) {
   }
   if (slot) {
     const std::lock_guard publisher(slot->mutex);
-    slot->stand_in = nullptr;
-    slot->hold.reset();
+    if (slot->stand_in == released.get()) {  // or it is another port's by now
+      slot->stand_in = nullptr;
+      slot->hold.reset();
+    }
   }
   internal::DeleteLater(std::move(released));
   TellOfChange();

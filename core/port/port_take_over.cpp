@@ -48,14 +48,20 @@ void Port::TakeOver(Port& from) {
   const auto possible = CheckTakeOver(*this, from);
   RUNNEL_CHECK(possible, "a port cannot take over from another one");
   const std::vector<Port*> sinks = from.BoundSinks();
+  const std::shared_ptr<const PortStop> before = from.stop();
+  std::shared_ptr<const PortStop> after = StopInPlaceOf(from);
+  if (after) from.Extras();  // which this port has then
   ExchangeConnections(from, sinks);
   try {
     TakeOverFlow(from);
-    if (ExchangeStops(from)) RebindSinks();
+    if (after != before) {
+      extras_->stop = std::move(after);
+      RebindSinks();
+    }
   } catch (...) {
     // Each as it was, and what has been exchanged by then is exchanged again.
+    if (extras_) extras_->stop = before;
     from.ExchangeConnections(*this, sinks);
-    ExchangeStops(from);
     from.TakeOverFlow(*this);
     throw;
   }
@@ -86,17 +92,15 @@ void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noex
   }
 }
 
-// What this port's module has declared comes back to it where the other port brings nothing of the kind. True if
-// something has changed.
-bool Port::ExchangeStops(Port& from) noexcept {
-  if (!declares_driving() || from.declares_driving() || !from.extras_ || stop()) return false;
-  if (extras_) {
-    extras_->stop.swap(from.extras_->stop);
-  } else {
-    extras_.swap(from.extras_);
-    extras_->StandFor(*this);
-  }
-  return true;
+// What stops this port in the place of the other: what its own module declares, with the block of the place. What an
+// application has marked stays as it is.
+std::shared_ptr<const PortStop> Port::StopInPlaceOf(const Port& from) const {
+  const std::shared_ptr<const PortStop> before = from.stop();
+  if (!declares_driving()) return before;
+  if (before && before->robot() && !from.declares_driving()) return before;
+  const auto& robot = runtime().robot_stop().signal();
+  return before ? std::make_shared<PortStop>(declared_safe_value(), robot, before->block())
+                : std::make_shared<PortStop>(declared_safe_value(), robot);
 }
 
 }  // namespace runnel

@@ -5,6 +5,8 @@
 #include "core/base/check.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/stand_in.h"
+#include "core/types/text_format.h"
+#include "core/types/type_info.h"
 
 namespace runnel::internal {
 
@@ -21,6 +23,14 @@ StopLink::StopLink(PassedStop stop, std::unique_ptr<ChannelBase> channel, const 
 }
 
 StopLink::~StopLink() { End(); }
+
+bool StopLink::Is(const PassedStop& stop) const {
+  const AnyValue& own = stop_.safe_value;
+  if (stop_.stop != stop.stop || &own.type() != &stop.safe_value.type()) return false;
+  if (own.get() == stop.safe_value.get()) return true;
+  return own.type().is_transparent() &&
+         ToText(own.type(), own.get()) == ToText(own.type(), stop.safe_value.get());
+}
 
 void StopLink::End() noexcept {
   robot_ = {};

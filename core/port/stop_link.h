@@ -23,9 +23,8 @@ class StopLink {
   StopLink(const StopLink&) = delete;
   StopLink& operator=(const StopLink&) = delete;
 
-  [[nodiscard]] bool Is(const PassedStop& stop) const noexcept {
-    return stop_.stop == stop.stop && stop_.safe_value.get() == stop.safe_value.get();
-  }
+  /// Whether it is that stop, with the same safe value: one that was converted is another object each time.
+  [[nodiscard]] bool Is(const PassedStop& stop) const;
   [[nodiscard]] const PortStop& stop() const noexcept { return *stop_.stop; }
   [[nodiscard]] ChannelBase& channel() const noexcept { return *channel_; }
   [[nodiscard]] InputLink& link() noexcept { return link_; }

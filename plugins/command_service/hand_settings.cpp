@@ -29,8 +29,8 @@ Error At(const Port& port, std::string message) {
 // What a person has set there, what a rule has, and a block.
 bool Free(Port& port) {
   const bool was_by_person = port.Release();
-  const bool was_by_rule = port.Release(Port::Setter::kRule);
-  return port.Unblock() || was_by_person || was_by_rule;
+  if (port.Unblock() || was_by_person) return true;
+  return port.Release(Port::Setter::kRule);  // asked for by itself; a rule keeps what it has set under a person's value
 }
 
 // Nothing else keeps anything there.
@@ -119,17 +119,18 @@ HandSettings::~HandSettings() {
 
 std::vector<std::pair<std::string, HandState>> HandSettings::All() const {
   if (const std::unique_lock structure(runtime_.structure_mutex(), std::try_to_lock); structure) {
-    const std::lock_guard lock(mutex_);
-    told_.clear();
+    std::vector<std::pair<std::string, HandState>> found;  // `mutex_` comes after those of the slots
     runtime_.root().Visit([&](FrameworkElement& element) {
       const auto* const port = dynamic_cast<const Port*>(&element);
       if (port == nullptr) return;
       if (port->is_blocked()) {
-        told_.emplace_back(port->path(), HandState::kStopped);
+        found.emplace_back(port->path(), HandState::kStopped);
       } else if (port->is_set_by_hand()) {
-        told_.emplace_back(port->path(), StateOf(*port));
+        found.emplace_back(port->path(), StateOf(*port));
       }
     });
+    const std::lock_guard lock(mutex_);
+    told_ = std::move(found);
   }
   const std::lock_guard lock(mutex_);
   return told_;
@@ -198,11 +199,19 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
 // By the worker, which no thread of a cycle waits for, and without the structure lock.
 void HandSettings::PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t number, double rate) {
   const Duration period = FromSeconds(1 / rate);
+  const auto& stop = runtime_.robot_stop().signal();
   tasks_.PostSteps([this, slot = std::move(slot), value = std::move(value), number, period,
+                    stop, bar = stop->bar(),
                     due = runtime_.clock().Now() + period]() mutable -> std::optional<Duration> {
     const Time now = runtime_.clock().Now();
     const std::lock_guard lock(slot->mutex);
     if (!slot->hold || HoldOf(*slot).number != number) return {};  // released, or set anew
+    // A command from before a STOP must not become one from after its release.
+    if (stop->bar() != bar) {
+      log_.Add(ApplicationLog::Kind::kWarning,
+               HoldOf(*slot).path + ": its value is not published again, since STOP was pressed or released");
+      return {};
+    }
     if (now >= due) {
       if (!slot->Publish(value)) return {};
       due = std::max(due + period, now);

@@ -72,9 +72,9 @@ std::string StateText(const ServedApplication& application) {
 }
 
 bool Overruns(const ThreadContainer& thread) {
-  constexpr std::uint64_t kTolerated = 50;  // one cycle of so many
+  constexpr std::uint64_t kFew = 10;  // as when an application begins, or the machine has other work
   const CycleStatistics all = thread.statistics();
-  return all.overruns * kTolerated > all.cycles;
+  return all.overruns > kFew && all.overruns * 2 > all.cycles;
 }
 
 std::optional<Time> NewestAt(const Port& port) {

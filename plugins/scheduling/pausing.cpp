@@ -55,7 +55,7 @@ bool Scheduler::IsPaused(FrameworkElement& element, std::string_view but_for) co
 std::string Scheduler::WhyAtRest(const FrameworkElement& element) const {
   const internal::PlannedElement* const around = compiler_.FindAround(element);
   if (around == nullptr) return "";
-  const std::string path = around->element->path();
+  const std::string& path = around->element->path();
   if (around->state->is_stopped()) return path + " has failed";
   if (around->state->is_paused()) return path + " is paused";
   const CycleRunner& runner = *around->thread->runner;

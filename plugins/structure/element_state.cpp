@@ -10,8 +10,8 @@
 #include "core/port/given_limits.h"
 #include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
+#include "core/port/stand_in.h"
 #include "core/types/type_info.h"
-#include "plugins/structure/value_by_hand.h"
 
 namespace runnel::internal {
 
@@ -21,6 +21,7 @@ namespace {
 struct PortState final : Annotation {
   InputLimits limits;
   AnyValue by_hand;  // of a person; rules set again what they have set
+  Time noted{};      // so that it does not become a command from after a STOP
   AnyValue safe_value;
   bool is_driving = false;
   bool is_blocked = false;
@@ -37,7 +38,8 @@ Result<void> GiveTo(Port& port, const PortState& state) {
   if (state.is_blocked) {
     if (auto blocked = port.Block(); !blocked) return blocked;
   }
-  return state.by_hand ? PublishByHand(port, state.by_hand.get()) : Result<void>();
+  if (!state.by_hand) return {};
+  return port.PublishByHand(FillWith(state.by_hand), Port::Setter::kPerson, state.noted);
 }
 
 void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkElement::Inherit how,
@@ -46,6 +48,7 @@ void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkEle
     auto state = std::make_unique<PortState>();
     state->limits = port->limits();
     state->by_hand = port->ValueByHand();
+    state->noted = port->runtime().clock().Now();
     state->is_driving = port->is_driving();
     state->is_blocked = port->is_blocked();
     if (port->stop() != nullptr) state->safe_value = port->stop()->safe_value();

@@ -82,6 +82,7 @@ void StopButton::LookForPort() {
   }
   if (!is_gone_) Press(rule_.port + ", which is gone");
   is_gone_ = true;
+  is_down_ = false;  // letting go counts after a press that has come by the next connection
   const auto found = PathSearch(runtime_).FindPort(rule_.port, PathKind::kOutput);
   if (found && &(*found)->type() == &element_->probe.type()) (void)Port::Connect(**found, element_->probe);
 }

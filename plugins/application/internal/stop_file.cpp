@@ -68,19 +68,21 @@ Result<std::unique_ptr<StopFile>> StopFile::Follow(RobotStop& stop, ApplicationL
     diagnostics.AddWarning(std::move(error));
     return std::unique_ptr<StopFile>();
   }
-  if (auto made = MakeControlFolder(folder); !made) {
-    diagnostics.AddWarning(Telling("a STOP will end with this process", made.error()));
+  std::error_code failure;
+  if (!fs::exists(folder, failure) && access(folder.parent_path().c_str(), W_OK | X_OK) != 0) {
+    Error error{.message = std::strerror(errno), .position = {folder.string()}};
+    diagnostics.AddWarning(Telling("a STOP will end with this process", std::move(error)));
     return std::unique_ptr<StopFile>();
   }
   const std::string identity = fs::absolute(application_file).lexically_normal().string() + "\n" + name;
   const fs::path file = folder / fmt::format("{:016x}.stop", HashOf(identity));
   const auto left_by = LeftBy(file);
-  auto follows = std::make_unique<StopFile>(stop, log, file);
-  if (left_by && clears) {
-    std::error_code failure;
+  if (left_by && clears) {  // before anybody's press is written there
     fs::remove(file, failure);
     if (failure) return Error{.message = "the STOP cannot be cleared: " + failure.message(), .position = {file.string()}};
-  } else if (left_by) {
+  }
+  auto follows = std::make_unique<StopFile>(stop, log, file);
+  if (left_by && !clears) {
     stop.Press(*left_by + ", in a process before this one");
     diagnostics.AddWarning({.message = "the application begins under STOP, pressed by " + stop.state().by,
                             .hint = "'runnel release' ends it; 'runnel run --clear-stop' begins without"});
@@ -89,15 +91,19 @@ Result<std::unique_ptr<StopFile>> StopFile::Follow(RobotStop& stop, ApplicationL
 }
 
 StopFile::StopFile(RobotStop& stop, ApplicationLog& log, fs::path file)
-    : stop_(stop), log_(log), file_(std::move(file)), changes_(stop.signal()->Listen([this] { Note(); })) {}
+    : stop_(stop), log_(log), file_(std::move(file)), changes_(stop.signal()->Listen([this] { Note(); })) {
+  if (stop_.in_force()) Note();  // pressed while the application was loaded
+}
 
-// The signal calls one at a time, and the last one finds the last state.
+// One at a time, and the last one finds the last state.
 void StopFile::Note() noexcept {
   try {
+    const std::lock_guard lock(writing_);
     const auto state = stop_.state();
     Result<void> done;
     if (state.in_force) {
-      done = Write(file_, state.by + "\n");
+      done = MakeControlFolder(file_.parent_path());
+      if (done) done = Write(file_, state.by + "\n");
     } else if (unlink(file_.c_str()) != 0 && errno != ENOENT) {
       done = Error{.message = std::strerror(errno), .position = {file_.string()}};
     }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "core/base/diagnostics.h"
@@ -36,6 +37,7 @@ class StopFile {
   RobotStop& stop_;
   ApplicationLog& log_;
   const std::filesystem::path file_;
+  std::mutex writing_;
   const StopSignal::Subscription changes_;
 };
 

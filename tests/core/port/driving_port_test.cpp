@@ -110,5 +110,61 @@ TEST_F(StopTest, APortWithoutASafeValueDoesNotDrive) {
           .in.is_driving());
 }
 
+TEST_F(StopTest, APortThatWasBlockedOnceDrivesAsTheNextModuleSays) {
+  auto& sender = MakeSender<double>();
+  auto& before = MakeReceiver<double>("before", {.unit = "m/s"});
+  Connect(sender.out, before.in);
+  ASSERT_TRUE(before.in.Block());
+  Press();
+  Release();
+  ASSERT_TRUE(before.in.Unblock());
+  auto& after = MakeReceiver<double>("after", Drives());
+  after.in.TakeOver(before.in);
+  EXPECT_TRUE(after.in.is_driving());
+  Press();
+  sender.out.Publish(3.0);
+  EXPECT_EQ(after.in.Get(), 0.0);
+}
+
+TEST_F(StopTest, TheSafeValueIsTheOneOfTheModuleThatIsThereNow) {
+  auto& sender = MakeSender<double>();
+  auto& before =
+      MakeReceiver<double>("before", {.unit = "m", .drives = true, .safe_value = 1.0});
+  Connect(sender.out, before.in);
+  auto& after = MakeReceiver<double>("after", {.unit = "m", .drives = true, .safe_value = 2.0});
+  after.in.TakeOver(before.in);
+  Press();
+  EXPECT_EQ(after.in.Get(), 2.0);
+  before.in.TakeOver(after.in);
+  EXPECT_EQ(before.in.Get(), 1.0);
+}
+
+TEST_F(StopTest, APortThatIsNotConnectedHasItsSafeValue) {
+  auto& sender = MakeSender<double>();
+  auto& arm = MakeReceiver<double>("arm", {.unit = "m", .drives = true, .safe_value = 0.5});
+  EXPECT_FALSE(arm.in.Read());
+  Connect(sender.out, arm.in);
+  sender.out.Publish(0.7);
+  Press();
+  EXPECT_EQ(arm.in.Get(), 0.5);
+  ASSERT_TRUE(Port::Disconnect(sender.out, arm.in));
+  EXPECT_EQ(arm.in.Get(), 0.5);
+  EXPECT_TRUE(arm.in.is_stopped());
+}
+
+// Behind a conversion the safe value is made anew with each binding.
+TEST_F(StopTest, AShortPressIsNotMissedBehindAConversionThatIsBoundAnew) {
+  auto& sender = MakeSender<Speeds>();
+  auto& queued = MakeReceiver<double>("queued");
+  ASSERT_TRUE(sender.out.SetDriving(true));
+  Connect(sender.out, queued.in, {.queue = 4, .part = "turn"});
+  sender.out.Publish({1, 2});
+  EXPECT_EQ(queued.in.Take().value_or(-1), 2.0);
+  Press();
+  Release();
+  Connect(MakeSender<double>("other").out, queued.in);
+  EXPECT_EQ(queued.in.Take().value_or(-1), 0.0);
+}
+
 }  // namespace
 }  // namespace runnel::test

@@ -116,6 +116,22 @@ TEST_F(KeptStateTest, LeavesNothingToWhoWatchesADeadlineWhenItsPortIsGone) {
   EXPECT_EQ(HandSlot::Find(At<Port>("/app/source/input/extra")), slot);
 }
 
+TEST_F(KeptStateTest, IsNoCommandFromAfterAReleaseThatCameBetween) {
+  ASSERT_TRUE(history.Apply({CreateModule{"/app/driven", "test/other_counter"}}));
+  constexpr const char* kExtra = "/app/driven/input/extra";
+  const int five = 5;
+  ASSERT_TRUE(At<Port>(kExtra).SetDriving(true, 0));
+  ASSERT_TRUE(PublishByHand(At<Port>(kExtra), &five));
+  ASSERT_TRUE(runtime.robot_stop().Press("a test"));
+  ASSERT_TRUE(history.Apply({DeleteElement{"/app/driven"}}));
+  ASSERT_TRUE(runtime.robot_stop().Release("a test"));
+  ASSERT_TRUE(history.Undo());
+  int seen = -1;
+  At<Port>(kExtra).VisitLatest([&](const void* value, ValueTimes) { seen = *static_cast<const int*>(value); });
+  EXPECT_EQ(seen, 0);
+  EXPECT_TRUE(At<Port>(kExtra).is_set_by_hand());
+}
+
 TEST_F(KeptStateTest, GoesWithAnotherName) {
   MustDo({RenameElement{"/app/sink", "drain"}, RenameElement{"/app/source", "well"}});
   EXPECT_EQ(SetAtSink("/app/drain"), kAtSink);
