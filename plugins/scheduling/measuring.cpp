@@ -90,10 +90,8 @@ std::vector<Latency> Scheduler::ReadLatencies() {
   return latencies;
 }
 
-std::vector<std::pair<std::string, CycleStatistics>> Scheduler::ThreadStatistics() const {
-  std::vector<std::pair<std::string, CycleStatistics>> all;
-  for (const auto& runner : runners_) all.emplace_back(runner->path(), runner->statistics());
-  return all;
+void Scheduler::VisitThreadStatistics(const StatisticsVisitor& visit) const {
+  for (const auto& runner : runners_) visit(runner->path(), runner->statistics());
 }
 
 // With full paths, so that one that is asked for twice is known again.

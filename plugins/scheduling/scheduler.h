@@ -196,7 +196,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// Whether cycles leave out any module at or below the element; what this path pauses does not count, if it is given.
   [[nodiscard]] bool IsPaused(FrameworkElement& element, std::string_view but_for = {}) const;
   /// Of the cycles of each thread so far, by its path. Under the structure lock.
-  [[nodiscard]] std::vector<std::pair<std::string, CycleStatistics>> ThreadStatistics() const;
+  using StatisticsVisitor = std::function<void(const std::string& path, const CycleStatistics& all)>;
+  void VisitThreadStatistics(const StatisticsVisitor& visit) const;
   /// Why nothing new comes from the module that has the element, as "/planner is paused": it has failed, or its thread is
   /// stuck. "": it runs. Under the structure lock.
   [[nodiscard]] std::string WhyAtRest(const FrameworkElement& element) const;

@@ -167,22 +167,23 @@ void Supervisor::Shared::KeepSafe(Time now) {
 void Supervisor::Shared::CountOverruns(Time now) {
   if (counted && now < *counted + kCounted) return;
   const std::lock_guard lock(runtime.structure_mutex());
-  for (const auto& [path, all] : scheduler.ThreadStatistics()) {
+  // No larger than what a function keeps without memory of its own: this is looked at between cycles.
+  scheduler.VisitThreadStatistics([this, &now](const std::string& path, const CycleStatistics& all) {
     KnownThread& known = threads[path];
     const std::uint64_t cycles = all.cycles - known.cycles;
     const std::uint64_t overruns = all.overruns - known.overruns;
     const bool was_late = known.is_late;
     const bool is_late = counted && overruns * (was_late ? 10 : 2) > cycles;
-    if (counted && cycles == 0) continue;
+    if (counted && cycles == 0) return;
     known = {all.cycles, all.overruns, is_late};
-    if (is_late == was_late) continue;
+    if (is_late == was_late) return;
     const std::string count =
         std::to_string(overruns) + " of its last " + std::to_string(cycles) + " cycles";
     Note(
         {path,
          is_late ? "overruns: " + count + " took longer than its period" : "keeps its period again",
          now, false, !is_late});
-  }
+  });
   counted = now;
 }
 
