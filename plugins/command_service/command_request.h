@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -67,6 +68,8 @@ struct PublishRequest {
   std::string lease = {};
   /// By the machine's clock, from which the deadline counts; CommandService::Begin() says so.
   std::optional<Time> received = {};
+  /// Of the robot's StopSignal when it was asked for; likewise. A command from before a STOP must not wait until after it.
+  std::optional<std::int64_t> bar = {};
 };
 /// Readers of the port find its safe value until a ReleaseRequest, and nobody may set another one (Port::Block()).
 struct BlockRequest {

@@ -87,6 +87,7 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
   auto pending = std::make_unique<PendingCommand>();
   if (auto* const publish = std::get_if<PublishRequest>(&request)) {
     if (!publish->received) publish->received = hand_settings_.Now();
+    if (!publish->bar) publish->bar = application_.runtime.robot_stop().signal()->bar();
   }
   const std::shared_ptr<CommandAnswer>& answer = pending->answer_;
   if (const auto* const stop = std::get_if<RobotStopRequest>(&request)) {

@@ -173,6 +173,9 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
   std::uint64_t number = 0;
   // Under the slot's mutex: noted first, so that nothing that is thrown leaves a value without its deadline.
   auto done = port.PublishByHand([&](void* to) -> Result<void> {
+    if (request.bar && *request.bar != runtime_.robot_stop().signal()->bar()) {
+      return At(port, "STOP was pressed or released after this was asked for");
+    }
     if (!slot->hold) slot->hold = std::make_unique<HandHold>(ended_);
     HandHold& hold = HoldOf(*slot);
     if (auto allowed = hold.Check(wish, Now()); !allowed) {

@@ -34,6 +34,19 @@ TEST_F(StopAndHand, AValueThatIsPublishedAtARateIsACommandFromBeforeTheRelease) 
   }
 }
 
+TEST_F(StopAndHand, AValueThatHasWaitedOverAStopIsRefused) {
+  auto& wheels = MakeReceiver<double>("wheels", Drives());
+  HandSettings by_hand(runtime, worker, log, &machine);
+  PublishRequest request{"/wheels/in", "0.4"};
+  request.bar = runtime.robot_stop().signal()->bar();
+  Press();
+  Release();
+  EXPECT_FALSE(by_hand.Publish(request));
+  EXPECT_FALSE(wheels.in.is_set_by_hand());
+  request.bar = runtime.robot_stop().signal()->bar();
+  EXPECT_TRUE(by_hand.Publish(request));
+}
+
 TEST_F(StopAndHand, ReleasingWhatAPersonHasSetLeavesWhatARuleHasSet) {
   auto& sender = MakeSender<double>();
   auto& wheels = MakeReceiver<double>("wheels", Drives());

@@ -103,6 +103,7 @@ export class Link {
     for (const number of [...this.#requests.keys()]) this.#answer(number, Lost('the connection was lost before the answer came: it may have been carried out'));
     // Browsers do not say why a WebSocket is refused.
     const refusal = wasOpen ? '' : await Refusal(this.token);
+    if (this.#socket) return undefined; // opened anew meanwhile
     if (refusal) return this.#onState('refused', refusal);
     this.#onState('lost', reason);
     this.#timer = setTimeout(() => this.open(), this.#pause);

@@ -30,10 +30,13 @@ export const CurrentToken = () => Kept(globalThis.localStorage);
 /** What a WebSocket offers to show the token: headers of its own it cannot have, and an address is written down. */
 export const TokenProtocols = (token) => (/^[\w.~-]+$/.test(token) ? [`runnel.token.${token}`] : []);
 
+// A network that is just coming back may answer nothing for minutes, and the page must try again.
+const kAnswer = 2000;
+
 /** Why the server lets nobody talk with this token, in its words; '' if it would, or does not answer. */
 export async function Refusal(token) {
   try {
-    const reply = await fetch('/access', { headers: token ? { Authorization: `Bearer ${token}` } : {}, cache: 'no-store' });
+    const reply = await fetch('/access', { headers: token ? { Authorization: `Bearer ${token}` } : {}, cache: 'no-store', signal: AbortSignal.timeout(kAnswer) });
     return reply.status === 401 || reply.status === 403 ? (await reply.text()).trim() : '';
   } catch {
     return '';

@@ -89,13 +89,15 @@ function WatchKeys() {
 }
 
 function WatchGamepads() {
-  let wasDown = true; // it must have been seen released
+  const wasDown = new Map(); // by pad; a button must have been seen released
   setInterval(() => {
     const pads = [...navigator.getGamepads?.() ?? []].filter((pad) => pad?.connected && pad.mapping === 'standard');
-    if (pads.length === 0) { wasDown = true; return; }
-    const isDown = pads.some((pad) => pad.buttons[kGamepadStop]?.pressed);
-    if (isDown && !wasDown) PressStop();
-    wasDown = isDown;
+    for (const index of [...wasDown.keys()]) if (!pads.some((pad) => pad.index === index)) wasDown.delete(index);
+    for (const pad of pads) {
+      const isDown = Boolean(pad.buttons[kGamepadStop]?.pressed);
+      if (isDown && wasDown.get(pad.index) === false) PressStop();
+      wasDown.set(pad.index, isDown);
+    }
   }, kLook);
 }
 

@@ -18,7 +18,8 @@ export function usePointerHold({ begin, move, end }) {
       if (begin(event) !== false) holder.current = event.pointerId;
       return undefined;
     },
-    onPointerMove: ofHolder((event) => move?.(event)),
+    // Of several buttons of a mouse only the last one that comes up is told as up.
+    onPointerMove: ofHolder((event) => (event.pointerType === 'mouse' && !(event.buttons & 1) ? finish() : move?.(event))),
     onPointerUp: ofHolder(finish), onPointerCancel: ofHolder(finish), onLostPointerCapture: ofHolder(finish),
     onContextMenu: (event) => event.preventDefault(),
   };
