@@ -142,7 +142,7 @@ TEST_F(RunEnd, BySignalAsSoonAsItIsHandledIsInOrder) {
 TEST_F(RunEnd, ByASecondSignalDoesNotWaitForModulesAndByAThirdForNothing) {
   Program program("run " + Write(simulated_, "period='10ms'", R"(
 <module name="a" type="faulty/worker"><parameter name="hangs" value="true"/></module>)"));
-  program.WaitUntilHandles(SIGHUP, true);
+  ASSERT_TRUE(program.WaitFor("has not returned from its cycle"));
   program.Send(SIGTERM);
   program.Send(SIGINT);
   program.WaitUntilHandles(SIGINT, false);
