@@ -12,6 +12,8 @@ import { BlocksOf, FirstMissing, FirstUnknown } from './page_blocks.mjs';
 const kStep = '@@@ step ';
 // Whoever reads takes longer to come to the next command than an application to start.
 const kStarted = 'for attempt in $(seq 600); do runnel ls >/dev/null 2>&1 && break; sleep 0.1; done\n';
+// Less than the test's time-out: whoever waits for ever is named, with what it has printed.
+const kPatience = 540_000;  // ms
 const [folder, ...words] = process.argv.slice(2);
 const beside = words[0] === '--with' ? words.splice(0, 2)[1] : undefined;
 const pages = words;
@@ -45,7 +47,7 @@ writeFileSync(script, `set -eu\ntrap 'kill $(jobs -p) 2>/dev/null || true' EXIT\
 // A folder of its own for sockets: only the page's applications are running then.
 const sockets = mkdtempSync(join(tmpdir(), 'runnel_pages_'));
 const shell = spawnSync('bash', ['-c', `bash '${script}' 2>&1`],
-  { cwd: folder, encoding: 'utf8', maxBuffer: 1 << 26, env: { ...process.env, XDG_RUNTIME_DIR: sockets } });
+  { cwd: folder, encoding: 'utf8', maxBuffer: 1 << 26, timeout: kPatience, killSignal: 'SIGKILL', env: { ...process.env, XDG_RUNTIME_DIR: sockets } });
 rmSync(sockets, { recursive: true, force: true });
 
 const printed = {};
