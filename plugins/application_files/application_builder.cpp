@@ -12,7 +12,6 @@
 #include "core/paths/late_connections.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
-#include "plugins/application_files/application_reader.h"
 #include "plugins/application_files/part_files.h"
 #include "plugins/parameters/configuration_saver.h"
 
