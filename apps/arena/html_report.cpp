@@ -4,7 +4,7 @@
 
 #include "apps/arena/html_page.h"
 #include "apps/arena/html_world.h"
-#include "core/base/markup.h"
+#include "core/base/characters.h"
 
 namespace runnel::arena {
 

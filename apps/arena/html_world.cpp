@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "apps/arena/table.h"
-#include "core/base/markup.h"
+#include "core/base/characters.h"
 #include "modules/simulation/algorithm/outline.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 

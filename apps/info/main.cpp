@@ -11,7 +11,6 @@
 #include "core/base/diagnostics.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_info.h"
-#include "plugins/recording/recording_text.h"
 
 namespace runnel {
 

@@ -3,17 +3,12 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/base/characters.h"
 #include "core/base/replace_file.h"
 
 namespace runnel::new_program {
 
 namespace {
-
-std::string Trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\n");
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\n") - begin + 1);
-}
 
 std::size_t BehindTheIncludes(const std::string& text) {
   const std::size_t last = text.rfind("\n#include ");

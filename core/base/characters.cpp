@@ -1,6 +1,7 @@
 #include "core/base/characters.h"
 
 #include <algorithm>
+#include <array>
 
 namespace runnel {
 
@@ -75,6 +76,13 @@ std::string Shortened(std::string text, std::size_t most) {
   return text + "…";
 }
 
+std::string_view Trimmed(std::string_view text) noexcept {
+  constexpr std::string_view kWhitespace = " \t\r\n\f\v";
+  const std::size_t begin = text.find_first_not_of(kWhitespace);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kWhitespace) - begin + 1);
+}
+
 std::string Quoted(std::string_view text) {
   constexpr std::string_view kMeant = "\"\\\n\t\r", kNames = "\"\\ntr";
   std::string quoted = "\"";
@@ -84,6 +92,17 @@ std::string Quoted(std::string_view text) {
     quoted += escaped != std::string_view::npos ? kNames[escaped] : character;
   }
   return quoted + '"';
+}
+
+std::string EscapedMarkup(std::string_view text) {
+  constexpr std::string_view kMeant = "&<>\"";
+  constexpr std::array kNames{"&amp;", "&lt;", "&gt;", "&quot;"};
+  std::string escaped;
+  for (const char character : text) {
+    const std::size_t named = kMeant.find(character);
+    escaped += named != std::string_view::npos ? kNames[named] : std::string(1, character);
+  }
+  return escaped;
 }
 
 }  // namespace runnel

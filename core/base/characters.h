@@ -29,7 +29,15 @@ namespace runnel {
 /// The text, or so much of it as fits into `most` bytes, and "…".
 [[nodiscard]] std::string Shortened(std::string text, std::size_t most);
 
+/// `text` without the white space at its ends.
+[[nodiscard]] std::string_view Trimmed(std::string_view text) noexcept;
+
 /// `text` in quotation marks, with \" \\ \n \t \r for what cannot stand in them as it is.
 [[nodiscard]] std::string Quoted(std::string_view text);
+
+/// `text` so that it stands for itself between the tags of HTML, SVG and Graphviz labels, and between
+/// double quotes in their tags. For attributes of XML that is read again see core/xml/xml_writing.h,
+/// which keeps line ends, too.
+[[nodiscard]] std::string EscapedMarkup(std::string_view text);
 
 }  // namespace runnel

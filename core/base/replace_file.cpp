@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstring>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -145,6 +146,19 @@ Result<void> ReplaceFile(const fs::path& file, std::string_view text) {
   problem = BringFolderToDisk(folder);
   if (problem != 0) return Failure(file, "has been written, but may not survive a crash", problem);
   return {};
+}
+
+Result<void> KeepBackup(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return {};
+  const fs::path real = fs::canonical(file, error);
+  const fs::path backup = real.string() + "~";
+  // A link of that name would be followed otherwise.
+  if (!error) fs::remove(backup, error);
+  if (!error) fs::copy_file(real, backup, error);
+  if (!error) return {};
+  return Error{.message = "what is in it cannot be kept as " + backup.filename().string() + ": " + error.message(),
+               .position = {file.string()}};
 }
 
 }  // namespace runnel

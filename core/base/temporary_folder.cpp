@@ -31,4 +31,17 @@ TemporaryFolder::~TemporaryFolder() {
   Retry([&] { fs::remove_all(path_, ignored); });
 }
 
+Result<TemporaryCopy> TemporaryCopy::Make(const fs::path& file) {
+  const auto failed = [&](const std::string& why) {
+    return Error{.message = "cannot copy " + file.string() + ": " + why, .hint = "TMPDIR names the folder for the copy"};
+  };
+  Result<TemporaryFolder> folder = TemporaryFolder::Make("copy");
+  if (!folder) return failed(folder.error().message);
+  const fs::path copy = folder->path() / file.filename();
+  std::error_code error;
+  fs::copy_file(file, copy, error);
+  if (error) return failed(error.message());
+  return TemporaryCopy(*std::move(folder), copy);
+}
+
 }  // namespace runnel

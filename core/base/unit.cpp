@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/characters.h"
+
 namespace runnel {
 
 namespace {
@@ -56,12 +58,6 @@ constexpr std::array<UnitPrefix, 10> kUnitPrefixes{{{"k", 1e3, 1},
                                             {"μ", 1, 1e6},  // the Greek letter
                                             {"n", 1, 1e9}}};
 
-std::string_view WithoutWhitespace(std::string_view text) {
-  while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
-  while (text.ends_with(' ') || text.ends_with('\t')) text.remove_suffix(1);
-  return text;
-}
-
 std::optional<Unit> FindUnit(std::string_view name) {
   for (const NamedUnit& each : kUnits) {
     if (each.name == name) return each.unit;
@@ -112,7 +108,7 @@ std::optional<Unit> ParseUnit(std::string_view text) {
   constexpr std::string_view kSigns = "/* ";
   Unit unit;
   bool divides = false;
-  text = WithoutWhitespace(text);
+  text = Trimmed(text);
   while (true) {
     const std::size_t end = std::min(text.find_first_of(kSigns), text.size());
     std::string_view name = text.substr(0, end);

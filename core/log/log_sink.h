@@ -1,12 +1,32 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <string>
 
-#include "core/log/log_message.h"
+#include "core/base/clock.h"
+#include "core/log/log_level.h"
 
 namespace runnel {
 
 class Runtime;
+
+/// What a module has said, as who reads the log sees it.
+struct LogMessage {
+  Time time{};  ///< of the cycle in which it was said, on the application's clock
+  LogLevel level = LogLevel::kInfo;
+  std::string path;  ///< of the element that said it; "" if messages of several are told to be lost
+  std::string text;
+  /// How many messages of this element and level the rate limit has left out since the one before.
+  std::uint64_t left_out = 0;
+
+  /// "no echo for 2.5 s (3 more left out)"
+  [[nodiscard]] std::string TextWithCount() const;
+  /// "/robot/sonar: no echo for 2.5 s (3 more left out)"
+  [[nodiscard]] std::string BodyText() const;
+  /// "warning  /robot/sonar: no echo for 2.5 s (3 more left out)"
+  [[nodiscard]] std::string ToString() const;
+};
 
 /// Reads what the elements of a runtime say, as long as it lives: a terminal, a file, a viewer, a recording.
 ///
@@ -26,7 +46,6 @@ class LogSink {
   ~LogSink();
   LogSink(const LogSink&) = delete;
   LogSink& operator=(const LogSink&) = delete;
-
 };
 
 /// Hands on at once what has been said so far. Any thread, but not within a cycle.

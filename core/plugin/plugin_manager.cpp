@@ -11,10 +11,10 @@
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
 #include "core/base/retry.h"
+#include "core/base/temporary_folder.h"
 #include "core/plugin/abi_difference.h"
 #include "core/plugin/outdated_dependency.h"
 #include "core/plugin/plugin_entry.h"
-#include "core/plugin/temporary_copy.h"
 
 namespace runnel {
 

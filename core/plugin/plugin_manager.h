@@ -10,9 +10,9 @@
 
 #include "core/base/result.h"
 #include "core/base/retry.h"
+#include "core/base/temporary_folder.h"
 #include "core/plugin/module_registry.h"
 #include "core/plugin/plugin_registry.h"
-#include "core/plugin/temporary_copy.h"
 
 namespace runnel {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/base/markup.h"
+#include "core/base/characters.h"
 #include "core/xml/internal/text_cursor.h"
 
 namespace runnel {

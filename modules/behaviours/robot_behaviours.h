@@ -2,12 +2,8 @@
 
 #include <optional>
 
-#include "modules/behaviours/algorithm/avoid_obstacles.h"
-#include "modules/behaviours/algorithm/drive_to_goal.h"
-#include "modules/behaviours/algorithm/emergency_stop.h"
 #include "modules/behaviours/algorithm/escape.h"
-#include "modules/behaviours/algorithm/follow_wall.h"
-#include "modules/behaviours/steering_parameters.h"
+#include "modules/behaviours/algorithm/steering.h"
 #include "modules/types/pose.h"
 #include "modules/types/surroundings.h"
 #include "plugins/behaviours/behaviour.h"
@@ -16,6 +12,43 @@
 // The behaviours of a robot that drives to a goal. Each has its own idea of the motion; a fusion makes them one.
 
 namespace runnel {
+
+namespace internal {
+inline constexpr const char* kObstacles = "what a sensor adaptor knows of the obstacles";
+/// Of an input without which a behaviour cannot tell what to do, and which grows old.
+inline InputOptions Measured(const char* description) {
+  return {.description = description, .required = true, .ageing = Ageing::kTimesOut};
+}
+/// Of a parameter of both behaviours that ask whether the robot is there, since they must agree.
+inline ParameterOptions<double> GoalTolerance(double tolerance, const char* description) {
+  return {.default_value = tolerance, .bounds = {0.01, 10.0}, .unit = "m", .description = description};
+}
+}  // namespace internal
+
+/// The parameters that all driving behaviours have.
+struct SteeringParameters {
+  explicit SteeringParameters(Behaviour* behaviour)
+      : speed(behaviour, "speed",
+              {.default_value = SteeringConfiguration{}.speed,
+               .bounds = {0.01, 10.0},
+               .unit = "m/s",
+               .description = "at most"}),
+        turn_limit(behaviour, "turn_limit",
+                   {.default_value = SteeringConfiguration{}.turn_limit,
+                    .bounds = {0.05, 20.0},
+                    .unit = "rad/s",
+                    .description = "how fast it turns at most"}) {}
+
+  Parameter<double> speed;
+  Parameter<double> turn_limit;
+
+  [[nodiscard]] SteeringConfiguration Get() const {
+    SteeringConfiguration configuration;
+    configuration.speed = speed.Get();
+    configuration.turn_limit = turn_limit.Get();
+    return configuration;
+  }
+};
 
 inline void Describe(TypeBuilder<FirstTurn>& type) {
   type.Name("FirstTurn").Value("left", FirstTurn::kLeft).Value("right", FirstTurn::kRight);
@@ -36,19 +69,15 @@ class DriveToGoalBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Pose2> pose{
-      this, "pose", {.description = "of the robot, world's frame", .required = true, .ageing = Ageing::kTimesOut}};
-  Input<Point2> goal{
-      this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
+  Input<Pose2> pose{this, "pose", internal::Measured("of the robot, world's frame")};
+  Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
   ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
 
   SteeringParameters steering{this};
-  Parameter<double> goal_tolerance{this,
-                                   "goal_tolerance",
-                                   {.default_value = DriveToGoalConfiguration{}.tolerance,
-                                    .bounds = {0.01, 10.0},
-                                    .unit = "m",
-                                    .description = "nearer than this is there"}};
+  Parameter<double> goal_tolerance{
+      this,
+      "goal_tolerance",
+      internal::GoalTolerance(DriveToGoalConfiguration{}.tolerance, "nearer than this is there")};
   InputTimeout pose_timeout{this, pose, {}};
 
  private:
@@ -60,11 +89,7 @@ class AvoidObstaclesBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Surroundings> surroundings{this,
-                                   "surroundings",
-                                   {.description = "what a sensor adaptor knows of the obstacles",
-                                    .required = true,
-                                    .ageing = Ageing::kTimesOut}};
+  Input<Surroundings> surroundings{this, "surroundings", internal::Measured(internal::kObstacles)};
   ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
 
   SteeringParameters steering{this};
@@ -85,11 +110,7 @@ class FollowWallBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Surroundings> surroundings{this,
-                                   "surroundings",
-                                   {.description = "what a sensor adaptor knows of the obstacles",
-                                    .required = true,
-                                    .ageing = Ageing::kTimesOut}};
+  Input<Surroundings> surroundings{this, "surroundings", internal::Measured(internal::kObstacles)};
   ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
 
   SteeringParameters steering{this};
@@ -109,15 +130,9 @@ class EscapeBehaviour final : public Behaviour {
  public:
   explicit EscapeBehaviour(const Placement& placement) : Behaviour(placement) { KeepState(state_); }
 
-  Input<Pose2> pose{
-      this, "pose", {.description = "of the robot, world's frame", .required = true, .ageing = Ageing::kTimesOut}};
-  Input<Point2> goal{
-      this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
-  Input<Surroundings> surroundings{this,
-                                   "surroundings",
-                                   {.description = "what a sensor adaptor knows of the obstacles",
-                                    .required = true,
-                                    .ageing = Ageing::kTimesOut}};
+  Input<Pose2> pose{this, "pose", internal::Measured("of the robot, world's frame")};
+  Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
+  Input<Surroundings> surroundings{this, "surroundings", internal::Measured(internal::kObstacles)};
 
   Parameter<double> patience{this,
                              "patience",
@@ -131,12 +146,10 @@ class EscapeBehaviour final : public Behaviour {
                                   .bounds = {0.0, 10.0},
                                   .unit = "m",
                                   .description = "by which it ends nearer to the goal than it began"}};
-  Parameter<double> goal_tolerance{this,
-                                   "goal_tolerance",
-                                   {.default_value = EscapeConfiguration{}.tolerance,
-                                    .bounds = {0.01, 10.0},
-                                    .unit = "m",
-                                    .description = "nearer than this is there, as drive_to_goal has it"}};
+  Parameter<double> goal_tolerance{
+      this,
+      "goal_tolerance",
+      internal::GoalTolerance(EscapeConfiguration{}.tolerance, "nearer than this is there, as drive_to_goal has it")};
   InputTimeout pose_timeout{this, pose, {}};
   InputTimeout surroundings_timeout{this, surroundings, {}};
 
@@ -153,13 +166,8 @@ class EmergencyStopBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Surroundings> surroundings{this,
-                                   "surroundings",
-                                   {.description = "what a sensor adaptor knows of the obstacles",
-                                    .required = true,
-                                    .ageing = Ageing::kTimesOut}};
-  Input<Twist2> wanted{
-      this, "wanted", {.description = "how the others want to move", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<Surroundings> surroundings{this, "surroundings", internal::Measured(internal::kObstacles)};
+  Input<Twist2> wanted{this, "wanted", internal::Measured("how the others want to move")};
   ControlOutput<Twist2> twist{this, "twist", {.description = "standstill, or turning on the spot"}};
 
   Parameter<double> least_way{this,

@@ -5,9 +5,7 @@
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "modules/signal/algorithm/dead_band.h"
-#include "modules/signal/algorithm/low_pass.h"
-#include "modules/signal/algorithm/rate_limiter.h"
+#include "modules/signal/algorithm/filters.h"
 #include "plugins/parameters/parameter.h"
 
 namespace runnel::signal {

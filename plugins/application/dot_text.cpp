@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/base/characters.h"
-#include "core/base/markup.h"
 #include "core/element/runtime.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"

@@ -7,7 +7,7 @@
 #include "core/base/diagnostics.h"
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
-#include "core/log/log_message.h"
+#include "core/log/log_sink.h"
 #include "core/module/run_monitor.h"
 #include "plugins/scheduling/fault.h"
 #include "plugins/supervision/supervision_rules.h"

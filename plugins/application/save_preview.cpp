@@ -6,7 +6,7 @@
 
 #include "core/element/runtime.h"
 #include "core/xml/xml_document.h"
-#include "plugins/application_files/application_source.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/application_files/saving/saving.h"
 
 namespace runnel {

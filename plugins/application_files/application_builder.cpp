@@ -5,13 +5,14 @@
 #include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/nearest_name.h"
 #include "core/element/source_place.h"
-#include "plugins/application_files/application_reader.h"
-#include "plugins/application_files/application_source.h"
+#include "core/paths/late_connections.h"
+#include "core/port/port.h"
+#include "core/types/type_info.h"
 #include "plugins/application_files/part_files.h"
-#include "plugins/application_files/required_inputs.h"
 #include "plugins/parameters/configuration_saver.h"
 
 namespace runnel {
@@ -79,6 +80,23 @@ BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path&
   return outcome;
 }
 
+constexpr std::size_t kMostOutputsNamed = 3;
+
+std::string Hint(const Port& input, FrameworkElement& application) {
+  std::vector<std::string> outputs;
+  application.Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr || port->is_proxy()) return;
+    if (port->direction() != Port::Direction::kOutput || &port->type() != &input.type()) return;
+    if (outputs.size() < kMostOutputsNamed) outputs.push_back(port->path());
+  });
+  const std::string type = input.type().name();
+  if (outputs.empty()) return "the application has no output of type " + type;
+  std::string hint = "connect it to an output of type " + type + ", like ";
+  for (std::size_t i = 0; i < outputs.size(); ++i) hint += (i > 0 ? ", " : "") + outputs[i];
+  return hint;
+}
+
 }  // namespace
 
 Result<void> MakeApplicationReady(FrameworkElement& application) {
@@ -135,6 +153,21 @@ Result<ApplicationFile> ApplicationFile::Read(const std::filesystem::path& file)
   auto document = XmlDocument::Parse(*text, file.string());
   if (!document) return document.error();
   return ApplicationFile{file, std::move(*text), std::move(*document)};
+}
+
+void CheckRequiredInputs(FrameworkElement& application, BuildContext& context) {
+  std::vector<Port*> unconnected;
+  application.Visit([&](FrameworkElement& element) {
+    auto* const port = dynamic_cast<Port*>(&element);
+    if (port == nullptr || !port->is_required() || !port->Sources().empty()) return;
+    if (LateConnections::Awaits(*port)) return;
+    if (context.IsUnfedUnnoticed(*port)) unconnected.push_back(port);
+  });
+  for (Port* port : unconnected) {
+    context.Report({.message = "nothing is connected to this input, which its module requires",
+                    .hint = Hint(*port, application)},
+                   FindSourcePlace(*port), *port);
+  }
 }
 
 }  // namespace runnel

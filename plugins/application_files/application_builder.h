@@ -1,14 +1,28 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "core/base/diagnostics.h"
 #include "core/base/result.h"
+#include "core/element/annotation.h"
 #include "core/xml/xml_document.h"
 #include "plugins/application_files/build_context.h"
 
 namespace runnel {
+
+/// Kept with an application that came from a file: what the file said, so that it can be saved again
+/// with what has changed, and with nothing else.
+struct ApplicationSource final : Annotation {
+  std::filesystem::path file;
+  std::string text;  ///< of the file, byte for byte
+  /// Of the files that describe the inside of its groups, by the names that errors have for them.
+  std::map<std::string, std::string> parts;
+  /// What the parameters that the file names came to, by their paths, in text format. It may be from
+  /// the command line or a configuration; as long as it stays so, it is not the file's business.
+  std::map<std::string, std::string, std::less<>> values;
+};
 
 enum class BuildMode {
   kRun,        ///< the application is there and ready afterwards
@@ -60,5 +74,20 @@ struct ApplicationFile {
 /// For builders: what is left to be done in `mode` with an application that has been read. Not under
 /// the structure lock.
 void FinishBuild(BuildOutcome& outcome, BuildMode mode);
+
+/// Reports each input at or below `application` that has to be connected and is not, unless a
+/// connection meant for it failed and that was reported.
+void CheckRequiredInputs(FrameworkElement& application, BuildContext& context);
+
+/// Goes through an application file once, from top to bottom: checks every tag against what the
+/// registry knows, and has those that are right handled. Of a tag that is wrong the first mistake is
+/// told; it is not handled, and what is in it is checked only.
+///
+/// What the root tag has made; nullptr if it could not. Errors: all go to the context.
+[[nodiscard]] FrameworkElement* ReadApplication(XmlElement root, BuildContext& context);
+
+/// Makes in `group` what the file says that `tag` names as its type. Errors: it cannot be read.
+[[nodiscard]] Result<void> ReadGroupType(const XmlAttribute& type, XmlElement tag,
+                                         FrameworkElement& group, BuildContext& context);
 
 }  // namespace runnel

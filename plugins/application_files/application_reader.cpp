@@ -1,4 +1,4 @@
-#include "plugins/application_files/application_reader.h"
+#include "plugins/application_files/application_builder.h"
 
 #include <algorithm>
 #include <memory>

@@ -5,7 +5,7 @@
 
 #include "core/base/characters.h"
 #include "core/base/nearest_name.h"
-#include "plugins/application_files/attribute_rule.h"
+#include "plugins/application_files/xml_tag.h"
 
 namespace runnel {
 

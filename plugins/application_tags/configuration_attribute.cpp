@@ -7,7 +7,7 @@
 #include "core/paths/path_search.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_tags/tag_list.h"
-#include "plugins/parameters/configuration_entry.h"
+#include "plugins/parameters/configuration.h"
 #include "plugins/parameters/file_path.h"
 
 namespace runnel {

@@ -11,7 +11,7 @@
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "plugins/application_files/saving/file_update.h"
-#include "plugins/application_tags/connect_paths.h"
+#include "plugins/application_tags/tag_list.h"
 
 namespace runnel::internal {
 

@@ -14,7 +14,6 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_tags/tag_list.h"
-#include "plugins/application_tags/connect_paths.h"
 
 namespace runnel {
 

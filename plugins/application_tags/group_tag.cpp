@@ -4,7 +4,7 @@
 #include "core/element/source_place.h"
 #include "core/module/group.h"
 #include "core/plugin/module_type_name.h"
-#include "plugins/application_files/application_reader.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/application_files/saving/saving.h"
 #include "plugins/application_tags/tag_list.h"
 

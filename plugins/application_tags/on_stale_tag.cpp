@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/saturating_sum.h"
+#include "core/base/clock.h"
 #include "core/types/duration_text.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"

@@ -12,7 +12,6 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_tags/tag_list.h"
-#include "plugins/application_tags/parameter_value.h"
 #include "plugins/parameters/file_path.h"
 
 namespace runnel {

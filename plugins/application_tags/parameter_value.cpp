@@ -1,6 +1,6 @@
 // Where the value of a parameter comes from, and which of several wins.
 
-#include "plugins/application_tags/parameter_value.h"
+#include "plugins/application_tags/tag_list.h"
 
 #include <filesystem>
 #include <map>
@@ -14,7 +14,7 @@
 #include "core/plugin/module_type_name.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
-#include "plugins/parameters/configuration_entry.h"
+#include "plugins/parameters/configuration.h"
 #include "plugins/parameters/file_path.h"
 
 namespace runnel::internal {

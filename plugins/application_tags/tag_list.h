@@ -1,9 +1,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "core/element/framework_element.h"
 #include "core/port/port.h"
 #include "core/types/any_value.h"
+#include "plugins/application_files/path_use.h"
 #include "plugins/application_files/xml_tag.h"
 #include "plugins/supervision/supervision_rules.h"
 
@@ -58,6 +61,23 @@ namespace internal {
 /// What the tags directly within `xml` say is to be done; mistakes are reported. Paths start at
 /// `base`. When connections have been made.
 [[nodiscard]] Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& context);
+
+/// Sets the parameter that a <parameter> names, of `module`, to the strongest of what the tag says. `scope`: what `from`
+/// is looked up from, upwards. All that it says is checked, so that a mistake shows even when it is overridden.
+/// `may_wait`: a parameter that stands for what is not there yet may be set once it is.
+void SetValue(const TagUse& use, const FrameworkElement& module, const FrameworkElement& scope,
+              bool may_wait = true);
+
+/// Takes the part of the values that is meant off the path of a port: "x" off "world/pose.x".
+[[nodiscard]] std::string TakePart(PathUse& use);
+/// From the root, also if nothing is there.
+[[nodiscard]] std::string AbsolutePath(const PathUse& use);
+
+// Saving of <connect>.
+
+void UpdateConnect(XmlElement tag, FrameworkElement& group, FileUpdate& update);
+/// Of the connections that no tag says yet; those of one port together.
+[[nodiscard]] std::vector<NewElement> MissingConnections(FrameworkElement& home, Saving& saving);
 
 }  // namespace internal
 

@@ -11,7 +11,7 @@
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/behaviours/behaviour_group.h"
-#include "plugins/behaviours/spin.h"
+#include "plugins/behaviours/promela.h"
 
 namespace runnel {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
-#include "core/log/log_message.h"
+#include "core/log/log_sink.h"
 
 namespace runnel {
 

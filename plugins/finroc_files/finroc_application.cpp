@@ -6,7 +6,7 @@
 
 #include "core/element/source_place.h"
 #include "core/module/group.h"
-#include "plugins/application_files/required_inputs.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/finroc_files/finroc_reader.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugins/application_files/attribute_rule.h"
+#include "plugins/application_files/xml_tag.h"
 #include "plugins/network/network_options.h"
 #include "plugins/structure/change.h"
 

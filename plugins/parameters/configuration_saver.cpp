@@ -8,14 +8,13 @@
 #include <utility>
 
 #include "core/base/characters.h"
-#include "core/base/file_backup.h"
 #include "core/base/replace_file.h"
 #include "core/element/configurable.h"
 #include "core/element/element_path.h"
 #include "core/element/runtime.h"
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_editor.h"
-#include "plugins/parameters/configuration_entry.h"
+#include "plugins/parameters/configuration.h"
 #include "plugins/parameters/file_path.h"
 
 namespace runnel {

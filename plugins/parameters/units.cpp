@@ -4,17 +4,12 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/base/characters.h"
 #include "core/base/unit.h"
 
 namespace runnel {
 
 namespace {
-
-std::string_view WithoutWhitespace(std::string_view text) {
-  while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
-  while (text.ends_with(' ') || text.ends_with('\t')) text.remove_suffix(1);
-  return text;
-}
 
 std::string NumberText(double number) {
   std::array<char, 400> digits{};  // the largest number has 309
@@ -26,12 +21,12 @@ std::string NumberText(double number) {
 }  // namespace
 
 Result<std::string> NumberInUnit(std::string_view text, std::string_view unit) {
-  const std::string_view all = WithoutWhitespace(text);
+  const std::string_view all = Trimmed(text);
   const std::string_view digits = all.substr(all.starts_with('+') ? 1 : 0);
   double number = 0;
   const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   const std::string_view own =
-      WithoutWhitespace(digits.substr(static_cast<std::size_t>(read.ptr - digits.data())));
+      Trimmed(digits.substr(static_cast<std::size_t>(read.ptr - digits.data())));
   if (read.ec != std::errc() || !std::isfinite(number) || own.empty()) return std::string(text);
   if (own == unit)
     return std::string(digits.substr(0, static_cast<std::size_t>(read.ptr - digits.data())));

@@ -1,17 +1,140 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/plugin/plugin_entry.h"
+#include "core/port/port.h"
 #include "core/xml/xml_reading.h"
+#include "plugins/application/application.h"
+#include "plugins/application/application_extension.h"
 #include "plugins/application/extension_registry.h"
-#include "plugins/recording/application_recording.h"
 #include "plugins/recording/application_replay.h"
+#include "plugins/recording/recorder.h"
 #include "plugins/recording/recorder_module.h"
+#include "plugins/recording/recording_info.h"
+#include "plugins/recording/recording_names.h"
 
 namespace runnel {
 
 namespace {
+
+// "recorded 1234 values of 5 ports, 1.2 MB, to run.mcap", with what was lost, and an end of line.
+std::string RecordingText(const std::string& file, const RecordingStatus& status) {
+  std::string text = "recorded " + std::to_string(status.values) + " values of " +
+                     std::to_string(status.ports) + (status.ports == 1 ? " port, " : " ports, ") +
+                     SizeText(status.bytes) + ", to " + file;
+  if (status.dropped > 0) {
+    text += "; " + std::to_string(status.dropped) + " came too fast and are not in it";
+  }
+  if (!status.left_out.empty()) {
+    text += "; not recorded, because their values have no form to be written in:";
+    for (const std::string& path : status.left_out) text += " " + ShortPortPath(path);
+  }
+  if (!status.idle_patterns.empty()) {
+    text += "; no port has fitted";
+    for (const std::string& pattern : status.idle_patterns) text += " '" + pattern + "'";
+  }
+  return text + "\n";
+}
+
+// One that a client has begun.
+class RecordingOfClient final : public ClientRecording {
+ public:
+  explicit RecordingOfClient(std::unique_ptr<Recorder> recorder) : recorder_(std::move(recorder)) {}
+
+  std::string Progress() override { return Line(); }
+  std::optional<Error> Failure() override { return recorder_->TakeFailure(); }
+  Result<std::string> Finish() override {
+    if (auto finished = recorder_->Finish(); !finished) return finished.error();
+    return Line();
+  }
+
+ private:
+  // Without its end, which the command adds.
+  std::string Line() const {
+    std::string text = RecordingText(recorder_->file(), recorder_->status());
+    text.pop_back();
+    return text;
+  }
+
+  const std::unique_ptr<Recorder> recorder_;
+};
+
+// What a recording says of an application.
+RecordedApplication AboutApplication(Application& application) {
+  RecordedApplication about{.name = application.name(),
+                            .file = application.file(),
+                            .text = application.text(),
+                            .version = Application::Version()};
+  for (const std::string& file : application.options().configurations) {
+    about.settings += (about.settings.empty() ? "--config " : " --config ") + file;
+  }
+  for (const ApplicationSetting& each : application.options().settings) {
+    about.settings += (about.settings.empty() ? "" : " ") + each.text;
+  }
+  return about;
+}
+
+/// Records ports of an application into a file, from the first cycle on; and has its clients record others.
+///
+///     auto application = Application::Load(
+///         "robot.xml", {.extensions_by_name = {{"recording", {{{"record", "run.mcap"}}}}}});
+///
+/// Errors: of loading: see Recorder::Start(). Later ones are events of the application, which goes on.
+class ApplicationRecording final : public ApplicationExtension {
+ public:
+  /// Without a file, for clients only.
+  explicit ApplicationRecording(RecorderOptions options = {}) : options_(std::move(options)) {}
+
+  void AddHooks(Application& application, ServiceHooks& hooks) override;
+  Result<void> Begin(Application& application, Diagnostics& diagnostics) override;
+  std::optional<Error> TakeFailure() override;
+  std::string Finish(Diagnostics& problems) override;
+  void OnCrash() override {
+    if (recorder_ != nullptr) recorder_->FinishFile();
+  }
+  void End() noexcept override { recorder_.reset(); }
+
+ private:
+  RecorderOptions options_;
+  std::unique_ptr<Recorder> recorder_;
+};
+
+void ApplicationRecording::AddHooks(Application& application, ServiceHooks& hooks) {
+  hooks.record = [&runtime = application.runtime(), &scheduler = application.scheduler(),
+                  about = AboutApplication(application)](
+                     const RecordingRequest& request) -> Result<std::unique_ptr<ClientRecording>> {
+    auto recorder = Recorder::Start(runtime, &scheduler,
+                                    {.file = request.file,
+                                     .ports = request.ports,
+                                     .compression = request.compression,
+                                     .about = about});
+    if (!recorder) return recorder.error();
+    return std::unique_ptr<ClientRecording>(
+        std::make_unique<RecordingOfClient>(std::move(*recorder)));
+  };
+}
+
+Result<void> ApplicationRecording::Begin(Application& application, Diagnostics& /*diagnostics*/) {
+  if (options_.file.empty()) return {};
+  options_.about = AboutApplication(application);
+  auto recorder = Recorder::Start(application.runtime(), &application.scheduler(), options_);
+  if (!recorder) return recorder.error();
+  recorder_ = std::move(*recorder);
+  return {};
+}
+
+std::optional<Error> ApplicationRecording::TakeFailure() {
+  return recorder_ != nullptr ? recorder_->TakeFailure() : std::nullopt;
+}
+
+std::string ApplicationRecording::Finish(Diagnostics& problems) {
+  if (recorder_ == nullptr) return {};
+  if (const auto finished = recorder_->Finish(); !finished) problems.Add(finished.error());
+  (void)recorder_->TakeFailure();  // the same
+  return RecordingText(recorder_->file(), recorder_->status());
+}
 
 // nullopt: not given.
 Result<std::optional<Duration>> ReadSeconds(const ExtensionArguments& arguments,

@@ -1,4 +1,4 @@
-#include "plugins/recording/played_calls.h"
+#include "plugins/recording/recording_player.h"
 
 #include <algorithm>
 #include <optional>

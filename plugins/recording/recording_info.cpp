@@ -4,6 +4,8 @@
 #include <map>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "core/base/number_text.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_names.h"
@@ -115,6 +117,14 @@ std::string RecordingInfoJson(const RecordingInfo& info) {
       channel.Add("is_view", each.is_view);
     }
   });
+}
+
+std::string SizeText(std::uint64_t bytes) {
+  const auto size = static_cast<double>(bytes);
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  if (bytes < 1'000'000) return fmt::format("{:.1f} kB", size / 1e3);
+  if (bytes < 1'000'000'000) return fmt::format("{:.1f} MB", size / 1e6);
+  return fmt::format("{:.2f} GB", size / 1e9);
 }
 
 }  // namespace runnel

@@ -53,4 +53,7 @@ struct RecordingInfo {
 /// As one JSON object.
 [[nodiscard]] std::string RecordingInfoJson(const RecordingInfo& info);
 
+/// "1.2 MB".
+[[nodiscard]] std::string SizeText(std::uint64_t bytes);
+
 }  // namespace runnel

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <optional>
 
+#include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "plugins/ros_messages/message_definition.h"
 #include "plugins/ros_messages/names.h"
@@ -10,19 +11,11 @@ namespace runnel {
 
 namespace {
 
-constexpr std::string_view kSpaces = " \t\r\f\v";
-
 constexpr MessageType kNumbersAndTexts[] = {
     MessageType::kInt8,    MessageType::kUint8,   MessageType::kInt16, MessageType::kUint16,
     MessageType::kInt32,   MessageType::kUint32,  MessageType::kInt64, MessageType::kUint64,
     MessageType::kFloat32, MessageType::kFloat64, MessageType::kBool,  MessageType::kByte,
     MessageType::kString,  MessageType::kWideString};
-
-std::string_view Trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kSpaces);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kSpaces) + 1 - begin);
-}
 
 // Up to a '#' that stands in no text.
 std::string_view WithoutComment(std::string_view line) {

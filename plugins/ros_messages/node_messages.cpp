@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/log/log_message.h"
+#include "core/log/log_sink.h"
 #include "core/types/type_of.h"
 
 namespace runnel {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/check.h"
-#include "core/base/saturating_sum.h"
+#include "core/base/clock.h"
 #include "core/lockfree/backoff.h"
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/scheduling/cycle_runner.h"

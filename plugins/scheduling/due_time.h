@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/clock.h"
-#include "core/base/saturating_sum.h"
 #include "plugins/scheduling/thread_options.h"
 
 namespace runnel {

@@ -4,8 +4,8 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/clock.h"
 #include "core/base/exception_text.h"
-#include "core/base/saturating_sum.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/log/logger.h"
 #include "core/port/port.h"

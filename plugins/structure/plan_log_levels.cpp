@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/element/element_path.h"
-#include "core/log/log_levels.h"
+#include "core/log/log_level.h"
 #include "plugins/structure/plan.h"
 
 namespace runnel::internal {

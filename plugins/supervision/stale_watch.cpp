@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/saturating_sum.h"
+#include "core/base/clock.h"
 #include "core/port/port.h"
 
 namespace runnel::internal {

@@ -1,6 +1,6 @@
 #include "plugins/values/foxglove_log.h"
 
-#include "core/log/log_message.h"
+#include "core/log/log_sink.h"
 #include "plugins/values/internal/drawing.h"
 #include "plugins/values/internal/message_parts.h"
 

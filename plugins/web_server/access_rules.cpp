@@ -9,6 +9,7 @@
 #include <boost/asio/ip/host_name.hpp>
 #include <unistd.h>
 
+#include "core/base/characters.h"
 #include "core/base/number_text.h"
 
 namespace runnel {
@@ -19,12 +20,6 @@ constexpr std::string_view kTokenProtocol = "runnel.token.";
 
 std::string Lower(std::string_view text) {
   return boost::algorithm::to_lower_copy(std::string(text), std::locale::classic());
-}
-
-std::string_view Trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
 /// What follows `start` in the first of the parts between separators that begins so; "" if none does.

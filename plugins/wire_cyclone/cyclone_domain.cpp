@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/markup.h"
+#include "core/base/characters.h"
 #include "plugins/wire/own_interfaces.h"
 #include "plugins/wire/reach_filter.h"
 

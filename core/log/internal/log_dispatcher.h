@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/base/clock.h"
-#include "core/log/log_levels.h"
-#include "core/log/log_message.h"
+#include "core/log/log_level.h"
+#include "core/log/log_sink.h"
 #include "core/log/logger.h"
 
 namespace runnel {

@@ -6,7 +6,31 @@
 namespace runnel {
 
 namespace {
+
 constexpr double kWidthTolerance = 0.05;  // m
+
+constexpr double kStraightAhead = 0.1;  // rad
+constexpr double kSideways = 1.0;       // rad, where it looks which side is freer
+
+// +1: to the left.
+double FreerSide(const Surroundings& surroundings) {
+  const double radius = PassingRadius(surroundings);
+  return FreeRange(surroundings, kSideways, radius) >= FreeRange(surroundings, -kSideways, radius) ? 1.0 : -1.0;
+}
+
+// rad, as if the wall were on the right: where that is looked for.
+constexpr double kHandMiddle = -1.05;
+constexpr double kHandHalfWidth = 1.75;
+constexpr double kBeside = 1.0;  // m; what is further away is not beside it
+constexpr double kLookStep = 0.05;  // rad
+
+// Where the wall is, as if that were on the right; the nearest one if none is on that hand.
+double WallBearing(const Surroundings& surroundings, double hand) {
+  const BoundaryPoint on_hand = NearestBoundary(surroundings, hand * kHandMiddle, kHandHalfWidth);
+  if (on_hand.distance <= kBeside) return hand * on_hand.bearing;
+  return hand * NearestBoundary(surroundings).bearing;
+}
+
 }  // namespace
 
 Twist2 Steer(const SteeringConfiguration& configuration, double bearing, double free) {
@@ -18,6 +42,51 @@ Twist2 Steer(const SteeringConfiguration& configuration, double bearing, double 
 
 double PassingRadius(const Surroundings& surroundings) {
   return std::max(0.0, double{surroundings.safe_distance} - kWidthTolerance);
+}
+
+Wish DriveToGoal(const SteeringConfiguration& steering, const DriveToGoalConfiguration& configuration,
+                 const Pose2& pose, Point2 goal) {
+  const Point2 to_goal = ToBody(pose, goal);
+  const double distance = std::hypot(to_goal.x, to_goal.y);
+  if (distance <= configuration.tolerance) return {};
+  const double bearing = std::atan2(to_goal.y, to_goal.x);
+  return {Steer(steering, bearing, distance), std::min(1.0, distance / configuration.far_distance)};
+}
+
+Wish AvoidObstacles(const SteeringConfiguration& steering, const AvoidObstaclesConfiguration& configuration,
+                    const Surroundings& surroundings) {
+  const BoundaryPoint nearest = NearestBoundary(surroundings, 0.0, configuration.view_half_width);
+  const double safe = surroundings.safe_distance;
+  const double room = std::max(configuration.near_distance - safe, 1e-3);
+  const double nearness = std::clamp((safe + room - nearest.distance) / room, 0.0, 1.0);
+  if (nearness <= 0.0) return {};
+  const bool is_ahead = std::abs(nearest.bearing) < kStraightAhead;
+  const double away = is_ahead ? FreerSide(surroundings) : (nearest.bearing > 0.0 ? -1.0 : 1.0);
+  return {{steering.speed * (1.0 - nearness), away * steering.turn_limit}, nearness};
+}
+
+Wish FollowWall(const SteeringConfiguration& steering, const FollowWallConfiguration& configuration,
+                const Surroundings& surroundings) {
+  const double hand = configuration.first_turn == FirstTurn::kLeft ? 1.0 : -1.0;  // +1: the wall is on the right
+  const double radius = PassingRadius(surroundings);
+  const double wall = WallBearing(surroundings, hand);
+  double bearing = hand * kPi;  // nowhere: it turns round
+  for (double look = wall; look < wall + 2 * kPi; look += kLookStep) {
+    if (FreeRange(surroundings, hand * look, radius) < configuration.look_ahead) continue;
+    bearing = WrapAngle(hand * look);
+    break;
+  }
+  const double ahead = FreeRange(surroundings, 0.0, radius);
+  const double beside = NearestBoundary(surroundings, -hand * kPi / 2, kPi / 2).distance;
+  const double error = std::abs(beside - radius) / std::max(radius, 1e-3);
+  return {Steer(steering, bearing, ahead), std::min(1.0, error)};
+}
+
+Wish EmergencyStop(const EmergencyStopConfiguration& configuration, const Surroundings& surroundings,
+                   const Twist2& wanted) {
+  const double free = FreeRange(surroundings, 0.0, PassingRadius(surroundings));
+  const bool is_too_near = free < configuration.least_way && wanted.forward > 0.0;
+  return {{0.0, wanted.turn}, is_too_near ? 1.0 : 0.0};
 }
 
 }  // namespace runnel

@@ -22,4 +22,49 @@ struct SteeringConfiguration {
 /// possible at all.
 [[nodiscard]] double PassingRadius(const Surroundings& surroundings);
 
+/// What a behaviour of the robot wants, and how much.
+struct Wish {
+  Twist2 twist = {};
+  double rating = 0.0;  ///< within [0, 1]; 0: it is content
+};
+
+struct DriveToGoalConfiguration {
+  double tolerance = 0.1;     ///< m; nearer than this it is content
+  double far_distance = 1.0;  ///< m; from here on it is as far from content as can be
+};
+
+/// Straight to the goal, whatever is in the way.
+[[nodiscard]] Wish DriveToGoal(const SteeringConfiguration& steering, const DriveToGoalConfiguration& configuration,
+                               const Pose2& pose, Point2 goal);
+
+struct AvoidObstaclesConfiguration {
+  double near_distance = 0.8;    ///< m; what is nearer disturbs it, and at the safe distance as much as can be
+  double view_half_width = 1.3;  ///< rad, to both sides of the way ahead
+};
+
+/// Turns away from the nearest obstacle ahead, and drives the slower the nearer it is.
+[[nodiscard]] Wish AvoidObstacles(const SteeringConfiguration& steering, const AvoidObstaclesConfiguration& configuration,
+                                  const Surroundings& surroundings);
+
+/// Which way it turns where it meets a wall, which is then on its other hand.
+enum class FirstTurn { kLeft, kRight };
+
+struct FollowWallConfiguration {
+  FirstTurn first_turn = FirstTurn::kLeft;
+  double look_ahead = 0.5;  ///< m; a way that is free so far is a way
+};
+
+/// Along the wall on its hand: from there, swings the gaze round to the first way that is free. Where there is no wall
+/// it turns to where one should be. Its rating: how far it is from driving beside a wall.
+[[nodiscard]] Wish FollowWall(const SteeringConfiguration& steering, const FollowWallConfiguration& configuration,
+                              const Surroundings& surroundings);
+
+struct EmergencyStopConfiguration {
+  double least_way = 0.05;  ///< m; with less free way ahead it stops
+};
+
+/// Stands still before it is too late, and lets nothing pass of what is `wanted` but turning on the spot.
+[[nodiscard]] Wish EmergencyStop(const EmergencyStopConfiguration& configuration, const Surroundings& surroundings,
+                                 const Twist2& wanted);
+
 }  // namespace runnel

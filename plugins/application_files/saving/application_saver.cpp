@@ -5,7 +5,6 @@
 #include <thread>
 #include <utility>
 
-#include "core/base/file_backup.h"
 #include "core/base/replace_file.h"
 #include "core/base/retry.h"
 #include "core/element/runtime.h"
@@ -13,7 +12,6 @@
 #include "core/port/proxy_port.h"
 #include "core/xml/xml_editor.h"
 #include "plugins/application_files/application_builder.h"
-#include "plugins/application_files/application_source.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_files/saving/saving.h"
 #include "plugins/structure/plan.h"

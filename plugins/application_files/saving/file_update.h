@@ -12,7 +12,7 @@
 
 #include "core/port/port.h"
 #include "core/xml/xml_editor.h"
-#include "plugins/application_files/application_source.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/application_files/saving/saving.h"
 
 namespace runnel::internal {

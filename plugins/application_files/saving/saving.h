@@ -14,7 +14,7 @@
 #include "core/port/port.h"
 #include "core/xml/xml_writing.h"
 #include "plugins/application_files/saving/application_saver.h"
-#include "plugins/parameters/moved_file_name.h"
+#include "plugins/parameters/file_path.h"
 #include "plugins/structure/tag_name.h"
 
 namespace runnel::internal {

@@ -7,7 +7,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/log/log_levels.h"
+#include "core/log/log_level.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/request_table.h"

@@ -140,9 +140,22 @@ test('a gamepad begins by a shoulder that has been seen released, of the standar
   await seen('Pad');
   await page.waitForTimeout(200); // several looks: what must not happen has no sign
   await isFree('gamepad');
-  await set([pad(-1)]);
-  await page.waitForTimeout(100);
-  await set([pad(6)]);
+  const pressAnew = async () => {
+    await set([pad(-1)]);
+    await page.waitForTimeout(100);
+    await set([pad(6)]);
+  };
+  /** However it ends, nothing takes hold while its cause goes on. */
+  const endsBy = async (cause) => {
+    await pressAnew();
+    await holds('gamepad');
+    await cause();
+    await ends('gamepad');
+    await pressAnew();
+    await page.waitForTimeout(200);
+    await isFree('gamepad');
+  };
+  await pressAnew();
   await holds('gamepad');
 
   await t.test('unplugged', async () => {
@@ -154,17 +167,7 @@ test('a gamepad begins by a shoulder that has been seen released, of the standar
     await isFree('gamepad');
   });
   await t.test('without the focus, and pressed again', async () => {
-    await set([pad(-1)]);
-    await page.waitForTimeout(100);
-    await set([pad(6)]);
-    await holds('gamepad');
-    await page.evaluate(() => { document.hasFocus = () => false; window.dispatchEvent(new Event('blur')); });
-    await ends('gamepad');
-    await set([pad(-1)]);
-    await page.waitForTimeout(100);
-    await set([pad(6)]);
-    await page.waitForTimeout(200);
-    await isFree('gamepad');
+    await endsBy(() => page.evaluate(() => { document.hasFocus = () => false; window.dispatchEvent(new Event('blur')); }));
     await page.evaluate(() => { delete document.hasFocus; });
   });
   await t.test('of another layout', async () => {
@@ -174,19 +177,7 @@ test('a gamepad begins by a shoulder that has been seen released, of the standar
     await page.waitForTimeout(200);
     await isFree('gamepad');
   });
-  await t.test('while the panel is arranged', async () => {
-    await set([pad(-1)]);
-    await page.waitForTimeout(100);
-    await set([pad(6)]);
-    await holds('gamepad');
-    await page.locator('#edit').click();
-    await ends('gamepad');
-    await set([pad(-1)]);
-    await page.waitForTimeout(100);
-    await set([pad(6)]);
-    await page.waitForTimeout(200);
-    await isFree('gamepad');
-  });
+  await t.test('while the panel is arranged', () => endsBy(() => page.locator('#edit').click()));
 });
 
 test('a process that hangs: all that is shown is old, and the hold has ended', async (t) => {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/saturating_sum.h"
 
 namespace runnel {
 namespace {

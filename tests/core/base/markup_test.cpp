@@ -1,4 +1,4 @@
-#include "core/base/markup.h"
+#include "core/base/characters.h"
 
 #include <gtest/gtest.h>
 

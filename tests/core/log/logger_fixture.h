@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
-#include "core/log/log_levels.h"
+#include "core/log/log_level.h"
 #include "core/log/log_sink.h"
 #include "core/log/logger.h"
 #include "core/port/cycle.h"

@@ -81,17 +81,28 @@ TEST_F(StopTest, GoesOverToAPortThatTakesThePlace) {
   EXPECT_EQ(before.in.Get(), 0.0);
 }
 
-TEST_F(StopTest, APortDrivesAsItsModuleSaysAlsoInThePlaceOfOneThatDidNot) {
-  auto& sender = MakeSender<double>();
-  auto& before = MakeReceiver<double>("before");
-  Connect(sender.out, before.in);
-  auto& after = MakeReceiver<double>("after", Drives());
-  after.in.TakeOver(before.in);
-  EXPECT_TRUE(after.in.is_driving());
-  Press();
-  sender.out.Publish(3.0);
-  EXPECT_EQ(after.in.Get(), 0.0);
-  EXPECT_FALSE(after.in.SetDriving(false));
+TEST_F(StopTest, APortDrivesAsItsModuleSaysAlsoInThePlaceOfOneThatDidNotOrWasBlocked) {
+  for (const bool was_blocked : {false, true}) {
+    SCOPED_TRACE(was_blocked);
+    const std::string name = was_blocked ? "blocked" : "free";
+    auto& sender = MakeSender<double>(name + "_sender");
+    auto& before = MakeReceiver<double>(name + "_before", {.unit = "m/s"});
+    Connect(sender.out, before.in);
+    if (was_blocked) {
+      ASSERT_TRUE(before.in.Block());
+      Press();
+      Release();
+      ASSERT_TRUE(before.in.Unblock());
+    }
+    auto& after = MakeReceiver<double>(name + "_after", Drives());
+    after.in.TakeOver(before.in);
+    EXPECT_TRUE(after.in.is_driving());
+    Press();
+    sender.out.Publish(3.0);
+    EXPECT_EQ(after.in.Get(), 0.0);
+    EXPECT_FALSE(after.in.SetDriving(false));
+    Release();
+  }
 }
 
 TEST_F(StopTest, APortWithoutASafeValueDoesNotDrive) {
@@ -108,22 +119,6 @@ TEST_F(StopTest, APortWithoutASafeValueDoesNotDrive) {
   EXPECT_TRUE(
       MakeReceiver<double>("arm", {.unit = "m", .limits = {.default_value = 2.0}, .drives = true})
           .in.is_driving());
-}
-
-TEST_F(StopTest, APortThatWasBlockedOnceDrivesAsTheNextModuleSays) {
-  auto& sender = MakeSender<double>();
-  auto& before = MakeReceiver<double>("before", {.unit = "m/s"});
-  Connect(sender.out, before.in);
-  ASSERT_TRUE(before.in.Block());
-  Press();
-  Release();
-  ASSERT_TRUE(before.in.Unblock());
-  auto& after = MakeReceiver<double>("after", Drives());
-  after.in.TakeOver(before.in);
-  EXPECT_TRUE(after.in.is_driving());
-  Press();
-  sender.out.Publish(3.0);
-  EXPECT_EQ(after.in.Get(), 0.0);
 }
 
 TEST_F(StopTest, TheSafeValueIsTheOneOfTheModuleThatIsThereNow) {

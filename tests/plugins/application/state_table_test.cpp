@@ -16,7 +16,7 @@
 
 #include "core/element/robot_stop.h"
 #include "core/element/tags.h"
-#include "core/log/log_levels.h"
+#include "core/log/log_level.h"
 #include "core/port/given_limits.h"
 #include "core/port/hand_slot.h"
 #include "core/port/port_stop.h"

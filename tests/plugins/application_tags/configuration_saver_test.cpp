@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "core/module/group_parameter.h"
-#include "plugins/application_files/application_source.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/structure/structure_editor.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/log/log_levels.h"
+#include "core/log/log_level.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 
 namespace runnel::testing {

@@ -11,8 +11,10 @@
 #include <gmock/gmock.h>
 
 #include "core/module/module.h"
+#include "core/port/input.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/command_service/command_service.h"
+#include "plugins/command_service/hand_settings.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/testing/fault_injection.h"
 
@@ -141,6 +143,70 @@ TEST(ServiceFaults, WhatCouldNotBeAskedForIsNotDone) {
         tasks = std::make_unique<TaskGroup>(world->service.worker());
       });
   EXPECT_GT(points, 2u);
+}
+
+class Base final : public Module {
+ public:
+  using Module::Module;
+  Input<double> speed{this, "speed", {.limits = {.default_value = 0.0}}};
+
+ private:
+  void Update() override {}
+};
+
+/// A base that is driven by hand with a deadline, by a clock that only a test moves.
+struct Driven {
+  Driven() { (void)runtime.MakeReady(runtime.root()); }
+  void Drive() {
+    const std::chrono::milliseconds deadline(250);
+    (void)by_hand.Publish({"/base/input/speed", "0.3", {}, Duration(deadline), "hold"});
+  }
+  void LetTheDeadlinePass() { machine.Advance(std::chrono::seconds(1)); }
+
+  Runtime runtime;
+  Base& base = runtime.Create<Base>(runtime.root(), "base");
+  ApplicationLog log{runtime.clock()};
+  CommandWorker worker;
+  ManualClock machine;
+  HandSettings by_hand{runtime, worker, log, &machine};
+};
+
+TEST(DrivingFaults, WhatIsPublishedHasItsDeadline) {
+  auto robot = std::make_unique<Driven>();
+  const std::size_t points = AtEachPoint(
+      InjectedFault::kAllocation,
+      [&] {
+        try {
+          robot->Drive();
+        } catch (const std::bad_alloc&) {
+        }
+      },
+      [&](bool has_struck) {
+        ASSERT_TRUE(has_struck || robot->base.speed.Get() == 0.3);
+        robot->LetTheDeadlinePass();
+        robot->by_hand.LookAtDeadlines();
+        ASSERT_EQ(robot->base.speed.Get(), 0.0);
+        robot = std::make_unique<Driven>();
+      });
+  EXPECT_GT(points, 2u);
+}
+
+TEST(DrivingFaults, WhoWatchesTheDeadlinesGoesOn) {
+  auto robot = std::make_unique<Driven>();
+  const auto begin = [&] {
+    robot = std::make_unique<Driven>();
+    robot->Drive();
+    robot->LetTheDeadlinePass();
+  };
+  begin();
+  const std::size_t points = AtEachPoint(
+      InjectedFault::kAllocation, [&] { ASSERT_NO_THROW(robot->by_hand.LookAtDeadlines()); },
+      [&](bool) {
+        robot->by_hand.LookAtDeadlines();
+        ASSERT_EQ(robot->base.speed.Get(), 0.0);
+        begin();
+      });
+  EXPECT_GT(points, 0u);
 }
 
 }  // namespace

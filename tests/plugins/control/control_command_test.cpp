@@ -1,4 +1,4 @@
-#include "core/log/log_levels.h"
+#include "core/log/log_level.h"
 #include "tests/plugins/control/control_fixture.h"
 
 namespace runnel::test {

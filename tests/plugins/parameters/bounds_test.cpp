@@ -1,4 +1,4 @@
-#include "plugins/parameters/bounds.h"
+#include "plugins/parameters/parameter_base.h"
 
 #include <limits>
 

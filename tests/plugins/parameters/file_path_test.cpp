@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/parameters/moved_file_name.h"
 
 namespace runnel {
 namespace {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
-#include "core/log/log_message.h"
+#include "core/log/log_sink.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/ros_messages/discovery_info.h"

@@ -10,12 +10,7 @@
 namespace runnel {
 namespace {
 
-using namespace std::chrono_literals;
 using testing::AllocationsOfThisThread;
-using testing::At;
-using testing::Doing;
-using testing::MustSucceed;
-using testing::Relay;
 using test::WaitUntil;
 
 // A periodic thread with a loop and a thread that waits for its data.

@@ -12,11 +12,6 @@
 namespace runnel {
 namespace {
 
-using namespace std::chrono_literals;
-using testing::At;
-using testing::Doing;
-using ::testing::ElementsAre;
-using testing::MustSucceed;
 using OnOverrun = ThreadOptions::OnOverrun;
 
 TEST(DueTime, GoesFromPeriodToPeriodWithoutDrift) {

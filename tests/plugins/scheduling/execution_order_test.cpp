@@ -13,14 +13,8 @@ namespace {
 
 using ::testing::AllOf;
 using testing::Base;
-using ::testing::ElementsAre;
 using testing::ExecutionOrder;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using testing::MustSucceed;
 using testing::OrderTasks;
-using testing::Relay;
-using ::testing::SizeIs;
 
 class OrderOfTasks : public ::testing::Test {
  protected:

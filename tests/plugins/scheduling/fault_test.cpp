@@ -7,15 +7,7 @@
 namespace runnel {
 namespace {
 
-using namespace std::chrono_literals;
-using testing::At;
 using testing::Base;
-using testing::Doing;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using testing::MustSucceed;
-using ::testing::SizeIs;
 
 class FaultOf : public ::testing::Test {
  protected:

@@ -9,12 +9,6 @@
 namespace runnel {
 namespace {
 
-using namespace std::chrono_literals;
-using testing::At;
-using testing::Doing;
-using testing::MustSucceed;
-using ::testing::HasSubstr;
-
 struct Follower {
   explicit Follower(const std::string& port = "")
       : scheduler(runtime, {.clock = SchedulerOptions::ClockKind::kSimulated,

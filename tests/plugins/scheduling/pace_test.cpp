@@ -11,11 +11,6 @@
 namespace runnel {
 namespace {
 
-using namespace std::chrono_literals;
-using testing::At;
-using testing::Doing;
-using ::testing::HasSubstr;
-using testing::MustSucceed;
 using StepResult = Scheduler::StepResult;
 
 constexpr auto kSimulated = SchedulerOptions::ClockKind::kSimulated;

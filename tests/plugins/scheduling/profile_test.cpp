@@ -11,10 +11,7 @@ namespace runnel {
 namespace {
 
 using testing::AllocationsOfThisThread;
-using testing::At;
 using testing::Base;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 /// Sensor, relay and actuator in two threads of simulated time: 10 ms, and 10 ms half a period later by its place.
 class Measured : public ::testing::Test {

@@ -10,13 +10,7 @@
 
 namespace runnel {
 
-using namespace std::chrono_literals;
 using test::WaitUntil;
-using testing::Doing;
-using ::testing::IsEmpty;
-using testing::MustSucceed;
-using testing::Relay;
-using ::testing::SizeIs;
 
 /// Runs the threads as long as it lives: shorter than what the modules refer to.
 class Running {

@@ -8,17 +8,6 @@
 namespace runnel {
 namespace {
 
-using namespace std::chrono_literals;
-using testing::At;
-using testing::Diary;
-using testing::Doing;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using testing::MustSucceed;
-using testing::Relay;
-using ::testing::SizeIs;
-
 class Simulated : public ::testing::Test {
  protected:
   template <typename T>

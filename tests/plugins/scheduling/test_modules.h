@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
+
 #include "core/element/runtime.h"
 #include "core/module/group.h"
 #include "core/module/module.h"
@@ -80,3 +82,21 @@ inline void MustSucceed(const Result<void>& result) {
 inline Time At(std::int64_t milliseconds) { return Time(std::chrono::milliseconds(milliseconds)); }
 
 }  // namespace runnel::testing
+
+namespace runnel {
+namespace {
+
+// What most tests with these modules name.
+using namespace std::chrono_literals;
+using testing::At;
+using testing::Diary;
+using testing::Doing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::MustSucceed;
+using testing::Relay;
+using ::testing::SizeIs;
+
+}  // namespace
+}  // namespace runnel

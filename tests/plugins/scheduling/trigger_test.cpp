@@ -7,17 +7,6 @@
 namespace runnel {
 namespace {
 
-using namespace std::chrono_literals;
-using testing::At;
-using testing::Diary;
-using testing::Doing;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using testing::MustSucceed;
-using testing::Relay;
-using ::testing::SizeIs;
-
 class Triggered : public ::testing::Test {
  protected:
   Triggered() {

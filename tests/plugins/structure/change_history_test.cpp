@@ -1,5 +1,5 @@
 #include "core/element/tags.h"
-#include "core/log/log_levels.h"
+#include "core/log/log_level.h"
 #include "core/paths/late_connections.h"
 #include "plugins/structure/change_history.h"
 

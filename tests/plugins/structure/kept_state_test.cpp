@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/element/tags.h"
-#include "core/log/log_levels.h"
+#include "core/log/log_level.h"
 #include "core/port/given_limits.h"
 #include "core/port/hand_slot.h"
 #include "core/port/port_stop.h"

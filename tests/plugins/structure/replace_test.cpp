@@ -1,3 +1,4 @@
+#include "core/module/hand_over.h"
 #include "tests/plugins/structure/editor_fixture.h"
 #include "tests/support/schedule_order.h"
 
@@ -23,6 +24,31 @@ TEST_F(ReplaceTest, TheNewModuleGoesOnWhereTheOldOneStopped) {
   auto& counter = At<OtherCounter>("/app/counter");
   EXPECT_EQ(counter.step.Get(), 2) << "a value of the same name";
   EXPECT_EQ(counter.own.Get(), 7);
+}
+
+/// Something of it goes on beside its cycles until it is told to come to an end, as codels of a component do.
+class Winding final : public Counter {
+ public:
+  explicit Winding(const Placement& placement) : Counter(placement) {
+    Annotate(std::make_unique<BeforeHandOver>([this] {
+      if (cannot_end) throw std::runtime_error("one of its helpers does not come back");
+      out.Publish(count.value += 100);
+    }));
+  }
+  bool cannot_end = false;
+};
+
+TEST_F(ReplaceTest, WhatGoesOnBesideCyclesEndsBeforePortsAndStateAreHandedOver) {
+  ASSERT_TRUE(modules.Add(TypeCalled<Winding>("test/winding")));
+  Must({ReplaceModule{"/app/counter", "test/winding"}});
+  Steps(2);
+  At<Winding>("/app/counter").cannot_end = true;
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/counter"}}), HasSubstr("does not come back"));
+  Steps(1);
+  At<Winding>("/app/counter").cannot_end = false;
+  Must({ReplaceModule{"/app/counter", "test/counter"}});
+  Steps(1);
+  EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4, 6, 106, 108));
 }
 
 TEST_F(ReplaceTest, SettingsComeLast) {

@@ -15,10 +15,7 @@
 namespace runnel::testing {
 namespace {
 
-using namespace std::chrono_literals;
 using test::WaitUntil;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 /// Nothing runs but the button: what it is fed with is the test's.
 class StopButtonTest : public ::testing::Test {

@@ -13,16 +13,7 @@
 
 namespace runnel::supervised {
 
-using namespace std::chrono_literals;
 using test::WaitUntil;
-using testing::At;
-using testing::Doing;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using testing::MustSucceed;
-using testing::Relay;
-using ::testing::SizeIs;
 
 inline ChangeSet Switch(const Port& input, const Port& from, const Port& to) {
   return {DisconnectPorts{from.path(), input.path()}, ConnectPorts{to.path(), input.path()}};

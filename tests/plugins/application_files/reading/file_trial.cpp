@@ -9,7 +9,7 @@
 #include "core/base/characters.h"
 #include "core/element/source_place.h"
 #include "core/types/type_info.h"
-#include "plugins/application_files/application_source.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/application_tags/run_description.h"
 #include "plugins/structure/type_names.h"
 #include "plugins/finroc_files/finroc_application.h"

@@ -8,7 +8,7 @@
 
 #include "core/module/group.h"
 #include "core/port/proxy_port.h"
-#include "plugins/application_files/application_source.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/scheduling/thread_container.h"
 #include "tests/plugins/application_files/saving/loaded_file.h"
 

@@ -2,7 +2,7 @@
 
 #include <new>
 
-#include "plugins/application_files/application_source.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/testing/fault_injection.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 
