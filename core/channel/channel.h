@@ -161,6 +161,8 @@ class Channel final : public ChannelBase {
     }
   }
   [[nodiscard]] bool can_be_filled() const noexcept override { return kCanPull; }
+  static constexpr bool kGivesCopies = kLiesInQueuesAsCopy<T>;
+  [[nodiscard]] bool gives_copies() const noexcept override { return kGivesCopies; }
   /// An empty one; nullptr if only a module can make such values.
   [[nodiscard]] static std::unique_ptr<ChannelBase> Make() {
     if constexpr (std::is_default_constructible_v<T>) {

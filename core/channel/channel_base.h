@@ -58,6 +58,8 @@ class ChannelBase {
                                                      void* context, ValueTimes times) = 0;
   /// Whether others than the module that publishes can make values: T{}, or what lies in a buffer.
   [[nodiscard]] virtual bool can_be_filled() const noexcept = 0;
+  /// Whether readers can hold a value that lies in no buffer.
+  [[nodiscard]] virtual bool gives_copies() const noexcept = 0;
   /// Whether a queue that refuses is full.
   [[nodiscard]] bool WouldRefuse() const noexcept;
   /// Has the provider, if there is one and nobody is publishing just now, make

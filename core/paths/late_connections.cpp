@@ -51,10 +51,6 @@ const std::string& PathOfSource(const Port& port) {
   return distant.empty() ? port.path() : distant;
 }
 
-bool AreConnected(const Port& from, const Port& to) {
-  return std::ranges::find(from.outgoing(), &to, &Connection::to) != from.outgoing().end();
-}
-
 // Whether an input is missing that a connection has to go with.
 bool IsOver(Runtime& runtime, const LateConnection& late) {
   return late.is_of_its_input() && !PathSearch(runtime).FindPort(late.to, PathKind::kInput);
@@ -137,7 +133,7 @@ bool LateConnections::Remove(std::string_view from, std::string_view to) {
   const LateConnection* const found = Find(from, to);
   if (found == nullptr) return false;
   const Ends ends = FindEnds(runtime_, found->from, found->to);
-  const bool is_connected = ends.missing.empty() && AreConnected(*ends.from, *ends.to);
+  const bool is_connected = ends.missing.empty() && ends.from->ConnectionTo(*ends.to) != nullptr;
   all_.erase(all_.begin() + (found - all_.data()));
   if (is_connected) (void)Port::Disconnect(*ends.from, *ends.to);
   runtime_.ForEachListener([](ElementListener&) {});
@@ -163,12 +159,9 @@ void LateConnections::OnConnected(FrameworkElement& from, FrameworkElement& to) 
   const auto& output = dynamic_cast<const Port&>(from);
   const std::string& path = PathOfSource(output);
   std::erase_if(cuts_, [&](const Cut& cut) { return cut.from == path && cut.to == to.path(); });
-  const auto& outgoing = output.outgoing();
-  const auto edge = std::ranges::find(outgoing, &to, [](const Connection& each) -> FrameworkElement* {
-    return each.to;
-  });
+  const Connection* const edge = output.ConnectionTo(dynamic_cast<const Port&>(to));
   LateConnection* const known = FindOwn(path, to.path());
-  if (edge == outgoing.end() || (known == nullptr && !edge->options.when_present)) return;
+  if (edge == nullptr || (known == nullptr && !edge->options.when_present)) return;
   if (known == nullptr) {
     all_.push_back({path, to.path(), edge->options, {}});
   } else {
@@ -197,7 +190,7 @@ void LateConnections::LookAgain() {
     const Ends ends = FindEnds(runtime_, cut.from, cut.to);
     const bool are_the_same =
         ends.missing.empty() && ends.from->id() == cut.from_id && ends.to->id() == cut.to_id;
-    if (are_the_same && !AreConnected(*ends.from, *ends.to)) {
+    if (are_the_same && ends.from->ConnectionTo(*ends.to) == nullptr) {
       std::erase_if(all_, [&](const LateConnection& each) {
         return each.from == cut.from && each.to == cut.to;
       });

@@ -36,7 +36,7 @@ std::uint64_t BoundInput::publications() const noexcept {
   const EpochGuard guard;
   std::uint64_t sum = 0;
   for (const auto& link : binding()->links) sum += link->channel->publications();
-  for (const auto& stop : binding()->stops) sum += stop->channel().publications();
+  for (const auto& stop : binding()->stops) sum += stop->publications();
   return sum;
 }
 
@@ -103,9 +103,8 @@ void BoundInput::BindStops(const Binding& before, Binding& next,
 }
 
 void BoundInput::TellStops(const Subscribers& subscribers) {
-  for (const auto& stop : binding_.load(std::memory_order_relaxed)->stops) {
-    stop->channel().SetSubscribers(subscribers);
-  }
+  const Binding& binding = *binding_.load(std::memory_order_relaxed);
+  for (const auto& stop : binding.stops) stop->SetSubscribers(subscribers, binding.queue != nullptr);
 }
 
 std::shared_ptr<internal::InputLink> BoundInput::KeepOrMakeLink(const Binding& before,

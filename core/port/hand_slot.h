@@ -11,7 +11,8 @@ namespace runnel {
 class Port;
 
 /// What a person's value by hand has besides the value (Port::PublishByHand(), Setter::kPerson): who has to be heard of for
-/// it, and what readers find if he is not. Kept with the port, and goes along to one that takes its place.
+/// it, and what readers find if he is not. Kept with the port (PortExtras), and goes along to one that takes its place;
+/// what an undo brings back has a new one, as nobody drives it.
 ///
 /// Threads:    any, under `mutex`, which comes after the structure lock. PublishByHand() calls `fill` under it.
 /// Ownership:  shared: who watches a deadline holds on to it without the structure lock.

@@ -101,13 +101,14 @@ class Input final : public BoundInput {
   }
 
   /// Whether readers find the safe value because of a stop, or because nothing has come since: who ramps or
-  /// integrates begins from a standstill then. Any thread.
+  /// integrates begins from a standstill then. Not while a port that brakes is on its way there. Any thread.
   [[nodiscard]] bool is_stopped() const noexcept {
     const EpochGuard guard;
     const Binding& binding = *this->binding();
     const Link* link = nullptr;
     const Lease<T> newest = Newest(binding, link);
-    return std::ranges::any_of(binding.stops, [&](const auto& stop) { return link == &stop->link(); });
+    return std::ranges::any_of(
+        binding.stops, [&](const auto& stop) { return link == &stop->link() && !stop->is_braking(); });
   }
 
   bool VisitLatest(const Visitor& visit) const override {
@@ -141,7 +142,7 @@ class Input final : public BoundInput {
     const Link* link = nullptr;
     Lease<T> lease = Newest(binding, link);
     if (lease) lease.last_ = const_cast<Link*>(link)->Note(lease.sequence());
-    if (lease && binding.ages) internal::AgeCycle(lease.timestamp());
+    if (lease) binding.NoteRead(&*lease, lease.times());
     return lease;
   }
   [[gnu::noinline]] bool CopyOutsideOfGuards(T& value) const noexcept {
@@ -160,7 +161,7 @@ class Input final : public BoundInput {
     const Link* link = nullptr;
     const Lease<T> newest = Newest(binding, link);
     if (newest) value = *newest;
-    if (newest && binding.ages) internal::AgeCycle(newest.timestamp());
+    if (newest) binding.NoteRead(&value, newest.times());
     return newest.has_value();
   }
   // The type is that of the input: connecting has checked it.
@@ -211,6 +212,13 @@ class Input final : public BoundInput {
     if (stop == nullptr) return;
     lease.held_ = Typed(stop->channel()).Read();
     newest = &stop->link();
+    if constexpr (Channel<T>::kGivesCopies) {
+      if (!stop->brakes()) return;
+      T value = lease.held_.value();
+      Publication publication = lease.held_.publication();
+      stop->Brake(&value, publication);
+      lease.held_ = internal::HeldValue<T>(value, publication);
+    }
   }
   bool HasNew() const override {
     const EpochGuard guard;
@@ -255,7 +263,7 @@ class Input final : public BoundInput {
       if (link != nullptr && sequence <= link->taken) continue;
       lease.last_ = link != nullptr ? std::exchange(link->taken, sequence) : 0;
       if (!binding->stops.empty() && binding->StopBefore(lease.times()) != nullptr) continue;
-      if (binding->ages) internal::AgeCycle(lease.timestamp());
+      binding->NoteRead(&*lease, lease.times());
       return;
     }
     lease.held_ = {};  // what had been taken already

@@ -55,10 +55,10 @@ void InputBase::DeclareDriving() {
   const auto safe =
       FindSafeValue(declared.safe_value ? declared.safe_value : declared.limits.default_value);
   if (!safe) throw ElementError(safe.error());
-  declared_safe_value_ = *safe;
-  if (auto set = SetStop(*safe, runtime().robot_stop().signal()); !set) {
+  if (auto set = SetStop(*safe, declared.brake, runtime().robot_stop().signal()); !set) {
     throw ElementError(set.error());
   }
+  declared_stop_ = stop();
 }
 
 Result<void> InputBase::Prepare() {

@@ -57,8 +57,8 @@ class InputBase : public Port {
   [[nodiscard]] const std::vector<Source>& sources() const noexcept { return sources_; }
   /// By the constructor of typed inputs, when their type is known. Throws ElementError if there is no safe value.
   void DeclareDriving();
-  [[nodiscard]] bool declares_driving() const noexcept final { return options_.drives; }
-  [[nodiscard]] AnyValue declared_safe_value() const final { return declared_safe_value_; }
+  [[nodiscard]] bool declares_driving() const noexcept { return options_.drives; }
+  [[nodiscard]] const PortStop* declared_stop() const noexcept final { return declared_stop_.get(); }
 
   Result<void> Prepare() override;
   void Rebind(const std::vector<Source>& sources) final;
@@ -84,7 +84,7 @@ class InputBase : public Port {
   static void UpdateChannel(Port& output);
 
   const InputOptions options_;
-  AnyValue declared_safe_value_;
+  std::shared_ptr<const PortStop> declared_stop_;
   Waker* waker_ = nullptr;
   QueueSink* sink_ = nullptr;
   std::unique_ptr<ArrivalEvent> arrival_;  // once the reader waits; made by it, under the lock

@@ -48,6 +48,10 @@ StopLink* InputBinding::StopToTake() const noexcept {
   return nullptr;
 }
 
+void InputBinding::NoteForStops(const void* value, ValueTimes times) const noexcept {
+  for (const auto& each : stops) each->NoteRead(value, times);
+}
+
 std::shared_ptr<InputLink> InputBinding::LinkOf(const ChannelBase& source) const noexcept {
   for (const auto& link : links) {
     if (link->channel == &source) return link;

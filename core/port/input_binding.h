@@ -10,6 +10,7 @@
 #include "core/channel/input_queue_base.h"
 #include "core/channel/value_times.h"
 #include "core/lockfree/publication.h"
+#include "core/port/cycle.h"
 
 namespace runnel::internal {
 
@@ -75,6 +76,11 @@ struct InputBinding {
   /// The stop whose safe value readers find instead of what was published at these times, or instead of nothing;
   /// nullptr: none. Of several the one that was released last.
   [[nodiscard]] StopLink* StopBefore(std::optional<ValueTimes> times) const noexcept;
+  /// What has been read at these times.
+  void NoteRead(const void* value, ValueTimes times) const noexcept {
+    if (ages) AgeCycle(times.timestamp);
+    if (!stops.empty()) NoteForStops(value, times);
+  }
   /// The first one whose safe value has to be taken (Input::Take()); nullptr: none.
   [[nodiscard]] StopLink* StopToTake() const noexcept;
   [[nodiscard]] std::shared_ptr<Link> LinkOf(const ChannelBase& source) const noexcept;
@@ -85,6 +91,7 @@ struct InputBinding {
   }
 
  private:
+  void NoteForStops(const void* value, ValueTimes times) const noexcept;
   [[nodiscard]] Link* FindLinkOfSeveral(std::uint64_t number) const noexcept;
 };
 

@@ -12,11 +12,8 @@
 #include "core/element/runtime.h"
 #include "core/channel/channel_base.h"
 #include "core/port/connection_rules.h"
-#include "core/port/connection_search.h"
 #include "core/conversion/conversion.h"
 #include "core/port/converted_flow.h"
-#include "core/port/late_edge.h"
-#include "core/port/hand_slot.h"
 #include "core/port/port_extras.h"
 #include "core/port/typed_ports.h"
 #include "core/types/type_info.h"
@@ -24,8 +21,6 @@
 namespace runnel {
 
 thread_local constinit Cycle* internal::current_cycle = nullptr;
-
-using internal::FindConnection;
 
 namespace {
 
@@ -45,8 +40,7 @@ bool IsConnected(const Port& from, const Port& to) {
   if (to.incoming().size() < from.outgoing().size()) {
     return std::ranges::find(to.incoming(), &from) != to.incoming().end();
   }
-  return std::ranges::any_of(from.outgoing(),
-                             [&](const Connection& each) { return each.to == &to; });
+  return from.ConnectionTo(to) != nullptr;
 }
 
 // Only interface ports pass data on, so only through them a cycle can close.
@@ -95,12 +89,6 @@ Error CannotBePulled(const Port& output) {
 
 }  // namespace
 
-bool IsLate(const Port& from, const Port& to) {
-  if (!some_are_late.load(std::memory_order_relaxed)) return false;
-  const auto edge = FindConnection(from.outgoing(), to);
-  return edge != from.outgoing().end() && edge->options.late;
-}
-
 std::string Connection::SourceText() const {
   const std::string& part = options.part;
   return from->path() + (part.empty() || part.front() == '[' ? "" : ".") + part;
@@ -118,12 +106,24 @@ Port::Port(const Placement& placement, Direction direction, const TypeInfo& type
       type_(type),
       description_(std::move(description)) {}
 
-// Who watches a deadline holds on to the slot, which another port may have by now.
-Port::~Port() {
-  const auto slot = extras_ && extras_->by_hand.front() ? HandSlot::Find(*this) : nullptr;
-  if (!slot) return;
-  const std::lock_guard lock(slot->mutex);
-  if (slot->stand_in == extras_->by_hand.front().get()) slot->stand_in = nullptr;
+Port::~Port() = default;
+
+// From the end: what has been connected last is asked for most.
+const Connection* Port::ConnectionTo(const Port& to) const noexcept {
+  const auto is_it = [&](const Connection& each) { return each.to == &to; };
+  const auto found = std::find_if(outgoing_.rbegin(), outgoing_.rend(), is_it);
+  return found == outgoing_.rend() ? nullptr : &*found;
+}
+
+ConnectOptions Port::OptionsTo(const Port& to) const {
+  const Connection* const edge = ConnectionTo(to);
+  return edge != nullptr ? edge->options : ConnectOptions{};
+}
+
+bool Port::IsLateTo(const Port& to) const noexcept {
+  if (!some_are_late.load(std::memory_order_relaxed)) return false;
+  const Connection* const edge = ConnectionTo(to);
+  return edge != nullptr && edge->options.late;
 }
 
 Result<void> Port::CheckEnds(const Port& from, const Port& to, const ConnectOptions& options) {
@@ -191,9 +191,9 @@ Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) 
 }
 
 bool Port::RemoveEdge(Port& from, Port& to) {
-  const auto connection = FindConnection(from.outgoing_, to);
-  if (connection == from.outgoing_.end()) return false;
-  from.outgoing_.erase(connection);
+  const Connection* const edge = from.ConnectionTo(to);
+  if (edge == nullptr) return false;
+  from.outgoing_.erase(from.outgoing_.begin() + (edge - from.outgoing_.data()));
   from.NoteOutgoing();
   std::erase(to.incoming_, &from);
   return true;
@@ -201,9 +201,9 @@ bool Port::RemoveEdge(Port& from, Port& to) {
 
 Result<void> Port::Disconnect(Port& from, Port& to) {
   const std::lock_guard lock(from.runtime().structure_mutex());
-  const auto edge = FindConnection(from.outgoing_, to);
-  if (edge == from.outgoing_.end()) return Refusal(from, "is not connected to " + to.path());
-  const auto outgoing_place = edge - from.outgoing_.begin();
+  const Connection* const edge = from.ConnectionTo(to);
+  if (edge == nullptr) return Refusal(from, "is not connected to " + to.path());
+  const auto outgoing_place = edge - from.outgoing_.data();
   const auto incoming_place = std::ranges::find(to.incoming_, &from) - to.incoming_.begin();
   const Connection removed = *edge;
   RemoveEdge(from, to);

@@ -18,6 +18,7 @@
 namespace runnel {
 
 class ChannelBase;
+struct HandSlot;
 class Port;
 class PortStop;
 class StopSignal;
@@ -25,6 +26,7 @@ class TypeInfo;
 
 namespace internal {
 class ConvertedFlow;
+struct HeldToLimits;
 struct PassedStop;
 struct PortExtras;
 }  // namespace internal
@@ -78,6 +80,13 @@ class Port : public FrameworkElement {
 
   [[nodiscard]] const std::vector<Connection>& outgoing() const noexcept { return outgoing_; }
   [[nodiscard]] const std::vector<Port*>& incoming() const noexcept { return incoming_; }
+  /// How this port is connected to `to`, with nothing in between; nullptr: not at all.
+  [[nodiscard]] const Connection* ConnectionTo(const Port& to) const noexcept;
+  /// Its options, or the usual ones if there is none.
+  [[nodiscard]] ConnectOptions OptionsTo(const Port& to) const;
+  /// Whether values come one cycle late by it (ConnectOptions::late), so that it does not say which of the two modules
+  /// runs first. Quick as long as no connection of the process is late.
+  [[nodiscard]] bool IsLateTo(const Port& to) const noexcept;
 
   /// The ends of the flow through this port: the outputs that feed it (itself, if it is an output
   /// that publishes), and the inputs that it feeds. In the order of connecting.
@@ -119,16 +128,24 @@ class Port : public FrameworkElement {
   bool Release(Setter setter = Setter::kPerson);
   /// Under the structure lock.
   [[nodiscard]] bool is_set_by_hand(Setter setter = Setter::kPerson) const noexcept;
-  /// A copy of what is set by hand; none if nothing is, or if values of its type cannot be copied. Under the structure lock.
-  [[nodiscard]] AnyValue ValueByHand(Setter setter = Setter::kPerson) const;
+  /// A copy of what is set by hand, with its own timestamp; none if nothing is, or if values of its type cannot be
+  /// copied. Under the structure lock.
+  struct HandValue {
+    AnyValue value;
+    Time timestamp;
+  };
+  [[nodiscard]] std::optional<HandValue> ValueByHand(Setter setter = Setter::kPerson) const;
 
   /// That something moves by what is read here: readers find the safe value while the robot is stopped, whatever is
   /// published or set by hand, and after that until a value comes that is stamped and published later than the release.
   /// Inputs: this one; outputs and interface ports: all that reads from them. A module may say so of its inputs
   /// (InputOptions::drives). Stopping takes no lock (RobotStop). It goes over to a port that takes the place of this one.
   /// `safe_value`: of the port's type; without one, the default value of its limits, or zero of a velocity.
-  /// Threads: locks, allocates. Errors: there is no safe value; the module says that something moves by it.
-  Result<void> SetDriving(bool drives, AnyValue safe_value = {});
+  /// Threads: locks, allocates. Errors: there is no safe value; the module says that something moves by it; it is to
+  /// brake, and is not made of numbers alone.
+  /// `brake`: how long the way from the value read last to the safe one takes (PortStop::brake()); nothing: as its
+  /// module declares, or no time.
+  Result<void> SetDriving(bool drives, AnyValue safe_value = {}, std::optional<Duration> brake = {});
   /// Stops this port alone, as the robot's STOP would; of ports that do not drive, too.
   /// Errors: there is no safe value. Locks.
   Result<void> Block();
@@ -208,14 +225,12 @@ class Port : public FrameworkElement {
   /// Gives derived ports access to one another's channel.
   static ChannelBase* ChannelOf(Port& port) noexcept { return port.channel(); }
 
-  /// Whether the module of this port says that something moves by it.
-  [[nodiscard]] virtual bool declares_driving() const noexcept { return false; }
-  /// Of one that does: what it finds safe.
-  [[nodiscard]] virtual AnyValue declared_safe_value() const { return {}; }
+  /// What the module of this port declares; nullptr: not that something moves by it.
+  [[nodiscard]] virtual const PortStop* declared_stop() const noexcept { return nullptr; }
   /// Of this port; `declared`: none, or what somebody has declared.
   [[nodiscard]] Result<AnyValue> FindSafeValue(const AnyValue& declared) const;
   /// Binds the readers behind it anew. `robot`: nullptr for a port that does not drive.
-  Result<void> SetStop(AnyValue safe_value, std::shared_ptr<StopSignal> robot);
+  Result<void> SetStop(AnyValue safe_value, Duration brake, std::shared_ptr<StopSignal> robot);
   /// Of this port and of all that feeds it.
   void CollectStops(std::vector<internal::PassedStop>& stops) const;
   internal::PortExtras& Extras();
@@ -233,6 +248,7 @@ class Port : public FrameworkElement {
 
  private:
   friend class internal::ConvertedFlow;
+  friend struct HandSlot;
   enum class Links { kKeep, kMake };
 
   [[nodiscard]] Time TimeOutsideOfCycles() const noexcept;
@@ -251,6 +267,7 @@ class Port : public FrameworkElement {
   static void CollectBound(const Port& port, const Port& source, std::vector<Port*>& sinks);
   /// What takes the values of `source` for this input: itself, or what looks whether they are in its limits.
   [[nodiscard]] Port* TakerOf(const Port& source) const;
+  void ExchangeLimits(std::unique_ptr<internal::HeldToLimits> limits);
   void HoldToLimits(Links links, std::vector<Source>& sources) const;
   void PruneConversions() const;
   /// Ports without values of their own: whose values they show.

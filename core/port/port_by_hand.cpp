@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/element/runtime.h"
-#include "core/port/hand_slot.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/types/type_info.h"
@@ -33,19 +32,33 @@ bool Port::is_set_by_hand(Setter setter) const noexcept {
   return extras_ && extras_->by_hand[SlotOf(setter)];
 }
 
-AnyValue Port::ValueByHand(Setter setter) const {
+std::optional<Port::HandValue> Port::ValueByHand(Setter setter) const {
   if (!is_set_by_hand(setter) || !type_.is_transparent()) return {};
-  if (const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr) {
+  const std::shared_ptr<void> copy = type_.Make();
+  std::optional<HandValue> found;
+  extras_->by_hand[SlotOf(setter)]->VisitLatest([&](const void* value, ValueTimes times) {
+    if (copy != nullptr && CopyValue(type_, value, copy.get())) found = {AnyValue(type_, copy), times.timestamp};
+  });
+  if (const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr; slot && found) {
     // Whoever takes the value elsewhere, an undo, takes no person along who is heard of: it is at rest there.
     const std::lock_guard publisher(slot->mutex);
-    if (slot->hold && slot->hold->safe_value) return slot->hold->safe_value;
+    if (slot->hold && slot->hold->safe_value) found->value = slot->hold->safe_value;
   }
-  const std::shared_ptr<void> copy = type_.Make();
-  bool is_copied = false;
-  extras_->by_hand[SlotOf(setter)]->VisitLatest([&](const void* value, ValueTimes) {
-    is_copied = copy != nullptr && CopyValue(type_, value, copy.get());
-  });
-  return is_copied ? AnyValue(type_, copy) : AnyValue();
+  return found;
+}
+
+std::shared_ptr<HandSlot> HandSlot::Find(const Port& port) { return port.extras_ ? port.extras_->hand_slot : nullptr; }
+
+std::shared_ptr<HandSlot> HandSlot::Of(Port& port) {
+  auto& slot = port.Extras().hand_slot;
+  if (!slot) slot = std::make_shared<HandSlot>();
+  return slot;
+}
+
+Result<void> HandSlot::Publish(const AnyValue& value) const {
+  if (stand_in == nullptr) return {};
+  const auto published = stand_in->PublishFilled(internal::FillWith(value));
+  return published ? Result<void>() : published.error();
 }
 
 internal::PortExtras& Port::Extras() {
@@ -63,7 +76,6 @@ Result<void> Port::PublishByHand(const Fill& fill, Setter setter, std::optional<
   const auto slot = setter == Setter::kPerson ? HandSlot::Of(*this) : nullptr;
   std::unique_lock publisher = slot ? std::unique_lock(slot->mutex) : std::unique_lock<std::mutex>();
   if (is_set_by_hand(setter)) {
-    if (slot) slot->stand_in = extras_->by_hand[SlotOf(setter)].get();
     const auto published = extras_->by_hand[SlotOf(setter)]->PublishFilled(fill_within, timestamp);
     return published ? Result<void>() : published.error();
   }
@@ -102,10 +114,8 @@ bool Port::Release(Setter setter) {
   }
   if (slot) {
     const std::lock_guard publisher(slot->mutex);
-    if (slot->stand_in == released.get()) {  // or it is another port's by now
-      slot->stand_in = nullptr;
-      slot->hold.reset();
-    }
+    slot->stand_in = nullptr;
+    slot->hold.reset();
   }
   internal::DeleteLater(std::move(released));
   TellOfChange();

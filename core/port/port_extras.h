@@ -4,8 +4,10 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 
 #include "core/port/converted_flow.h"
+#include "core/port/hand_slot.h"
 #include "core/port/port_options.h"
 #include "core/port/port_stop.h"
 #include "core/port/stand_in.h"
@@ -26,7 +28,18 @@ struct PortExtras {
   std::unique_ptr<HeldToLimits> limits;
   // What readers find instead of what is published: by Port::Setter, of which the first that is there counts.
   std::array<std::unique_ptr<StandIn>, 2> by_hand;
+  std::shared_ptr<HandSlot> hand_slot;  // of the first of them, once somebody has needed it
   std::shared_ptr<const PortStop> stop;
+
+  PortExtras() = default;
+  PortExtras(const PortExtras&) = delete;
+  PortExtras& operator=(const PortExtras&) = delete;
+  // Who watches a deadline holds on to the slot.
+  ~PortExtras() {
+    if (!hand_slot) return;
+    const std::lock_guard lock(hand_slot->mutex);
+    hand_slot->stand_in = nullptr;
+  }
 
   /// `port` has them now.
   void StandFor(const Port& port) const noexcept {

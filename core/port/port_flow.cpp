@@ -4,15 +4,12 @@
 #include <unordered_set>
 #include <utility>
 
-#include "core/port/connection_search.h"
 #include "core/port/converted_flow.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/port/proxy_port.h"
 
 namespace runnel {
-
-using internal::FindConnection;
 
 namespace {
 
@@ -26,8 +23,9 @@ void CollectSinks(const Port& port, std::vector<Port*>& sinks) {
   }
 }
 
-// Keeps the first of each.
-void DropRepetitions(std::vector<Port*>& ports) {
+// Of what is found by `ways`: keeps the first of each. Only through an interface port there are two ways to one.
+void DropRepetitions(const std::vector<Connection>& ways, std::vector<Port*>& ports) {
+  if (std::ranges::none_of(ways, [](const Connection& each) { return each.to->is_proxy(); })) return;
   std::unordered_set<const Port*> seen;
   std::erase_if(ports, [&](const Port* port) { return !seen.insert(port).second; });
 }
@@ -58,7 +56,7 @@ void Port::CollectPassedOn(const ConnectOptions& options, Links links,
 void Port::CollectSources(const ConnectOptions& options, Links links,
                           std::vector<Source>& sources) const {
   for (Port* from : incoming_) {
-    const auto edge = FindConnection(from->outgoing_, *this);
+    const Connection* const edge = from->ConnectionTo(*this);
     const ConnectOptions stronger = Stronger(options, edge->options);
     if (!edge->converted) {
       from->CollectPassedOn(stronger, links, sources);
@@ -96,12 +94,15 @@ void Port::RebindSinks() {
 
 // Of conversions on the way from here to the inputs, the links of sources that do not reach them any more.
 void Port::PruneConversions() const {
+  const auto keep = [](internal::ConvertedFlow& flow, const std::vector<Source>& sources) {
+    std::vector<Port*> outputs;
+    for (const Source& source : sources) outputs.push_back(source.output);
+    flow.KeepOnly(outputs);
+  };
   if (extras_ && extras_->limits) {
     std::vector<Source> sources;
     if (by_hand() == nullptr) CollectSources({}, Links::kKeep, sources);
-    std::vector<Port*> outputs;
-    for (const Source& source : sources) outputs.push_back(source.output);
-    extras_->limits->flow->KeepOnly(outputs);
+    keep(*extras_->limits->flow, sources);
   }
   for (const Connection& each : outgoing_) {
     // Those behind it first: they may take the values of one that goes.
@@ -109,9 +110,7 @@ void Port::PruneConversions() const {
     if (!each.converted) continue;
     std::vector<Source> sources;
     CollectPassedOn({}, Links::kKeep, sources);
-    std::vector<Port*> outputs;
-    for (const Source& source : sources) outputs.push_back(source.output);
-    each.converted->KeepOnly(outputs);
+    keep(*each.converted, sources);
   }
 }
 
@@ -142,9 +141,7 @@ std::vector<Port*> Port::BoundSinks() const {
   }
   std::vector<Port*> sinks;
   CollectBound(*at, *this, sinks);
-  const bool has_detours = std::ranges::any_of(
-      at->outgoing_, [](const Connection& each) { return each.to->is_proxy(); });
-  if (has_detours) DropRepetitions(sinks);
+  DropRepetitions(at->outgoing_, sinks);
   return sinks;
 }
 
@@ -190,9 +187,7 @@ std::vector<Port*> Port::Sinks() const {
   if (!is_proxy() && direction_ == Direction::kInput) return {const_cast<Port*>(this)};
   std::vector<Port*> sinks;
   CollectSinks(*this, sinks);
-  const bool has_detours =
-      std::ranges::any_of(outgoing_, [](const Connection& each) { return each.to->is_proxy(); });
-  if (has_detours) DropRepetitions(sinks);
+  DropRepetitions(outgoing_, sinks);
   return sinks;
 }
 

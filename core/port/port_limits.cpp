@@ -69,11 +69,7 @@ std::string BoundsText(const InputLimits& limits) {
 Result<void> Port::SetLimits(InputLimits limits) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (!limits.has_some()) {
-    if (!extras_ || !extras_->limits) return {};
-    const auto before = std::move(extras_->limits);
-    RebindSinks();
-    before->flow->KeepOnly({});
-    if (before->default_value) internal::DeleteLater(std::move(before->default_value));
+    if (extras_ && extras_->limits) ExchangeLimits(nullptr);
     return {};
   }
   if (auto good = CheckLimits(*this, limits); !good) return good;
@@ -83,11 +79,7 @@ Result<void> Port::SetLimits(InputLimits limits) {
   auto conversion = Conversion::Of(
       type_, [limits = held->limits, count = held->out_of_bounds, &type = type_](const void* from,
                                                                                 void* to) {
-        const auto copy = [&](const void* value) {
-          if (type.kind() != TypeKind::kLeaf) return CopyValue(type, value, to);
-          type.leaf().copy(to, value);
-          return true;
-        };
+        const auto copy = [&](const void* value) { return CopyValue(type, value, to); };
         if (!limits.has_bounds()) return copy(from);
         const double number = internal::NumberIn(type, from);
         if (IsWithin(limits, number)) return copy(from);
@@ -101,13 +93,16 @@ Result<void> Port::SetLimits(InputLimits limits) {
       });
   held->flow = std::make_unique<internal::ConvertedFlow>(std::move(conversion), *this,
                                                          held->limits.default_value);
-  const auto before = std::exchange(Extras().limits, std::move(held));
-  RebindSinks();
-  if (before) {
-    before->flow->KeepOnly({});
-    if (before->default_value) internal::DeleteLater(std::move(before->default_value));
-  }
+  ExchangeLimits(std::move(held));
   return {};
+}
+
+void Port::ExchangeLimits(std::unique_ptr<internal::HeldToLimits> limits) {
+  const auto before = std::exchange(Extras().limits, std::move(limits));
+  RebindSinks();
+  if (!before) return;
+  before->flow->KeepOnly({});
+  if (before->default_value) internal::DeleteLater(std::move(before->default_value));
 }
 
 const InputLimits& Port::limits() const noexcept {

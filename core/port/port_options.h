@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/clock.h"
 #include "core/channel/channel_options.h"
 #include "core/lockfree/buffer_pool.h"
 #include "core/types/any_value.h"
@@ -73,6 +74,9 @@ struct InputOptions {
   bool drives = false;
   /// Of the input's type; without one, the default value of the limits, or zero of a velocity.
   AnyValue safe_value = {};
+  /// How long it takes from the value read last to the safe one when the robot is stopped; 0: the safe one at once. Of
+  /// types that are made of numbers alone.
+  Duration brake{};
   Ageing ageing = Ageing::kUnspecified;
 };
 

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "core/element/runtime.h"
-#include "core/port/connection_search.h"
 #include "core/port/converted_flow.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
+#include "core/port/stop_link.h"
 #include "core/types/type_info.h"
 
 namespace runnel {
@@ -42,15 +42,18 @@ Result<AnyValue> Port::FindSafeValue(const AnyValue& declared) const {
   return AnyValue(type_, zero);
 }
 
-Result<void> Port::SetDriving(bool drives, AnyValue safe_value) {
+Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Duration> brake) {
   const std::lock_guard lock(runtime().structure_mutex());
-  if (!drives && declares_driving()) {
+  const PortStop* const declared = declared_stop();
+  if (!drives && declared != nullptr) {
     return Error{.message = "its module says that something moves by it", .path = path()};
   }
   if (!drives && !is_driving()) return {};
+  if (!safe_value && declared != nullptr) safe_value = declared->safe_value();
   auto safe = FindSafeValue(safe_value);
   if (!safe) return safe.error();
-  return SetStop(std::move(*safe), drives ? runtime().robot_stop().signal() : nullptr);
+  if (!brake) brake = declared != nullptr ? declared->brake() : Duration{};
+  return SetStop(std::move(*safe), *brake, drives ? runtime().robot_stop().signal() : nullptr);
 }
 
 Result<void> Port::Block() {
@@ -58,7 +61,7 @@ Result<void> Port::Block() {
   if (!extras_ || !extras_->stop) {
     auto safe = FindSafeValue({});
     if (!safe) return safe.error();
-    if (auto set = SetStop(std::move(*safe), nullptr); !set) return set;
+    if (auto set = SetStop(std::move(*safe), Duration{}, nullptr); !set) return set;
   }
   if (extras_->stop->block()->Press()) TellOfChange();
   return {};
@@ -82,15 +85,16 @@ std::shared_ptr<const PortStop> Port::stop() const noexcept {
   return extras_ ? extras_->stop : nullptr;
 }
 
-Result<void> Port::SetStop(AnyValue safe_value, std::shared_ptr<StopSignal> robot) {
+Result<void> Port::SetStop(AnyValue safe_value, Duration brake, std::shared_ptr<StopSignal> robot) {
   // Readers must be able to hold a value of the type.
-  if (!internal::MakeChannelFor(type_)) {
-    return CannotPublish("only a module can make values of its type");
+  const auto channel = internal::MakeChannelFor(type_);
+  if (!channel) return CannotPublish("only a module can make values of its type");
+  if (brake > Duration{} && !internal::StopLink::CanBrake(safe_value, *channel)) {
+    return Error{.message = "cannot brake: a " + type_.name() + " has no values between two others",
+                 .path = path(),
+                 .hint = "leave out how long it brakes; its safe value is in force at once then"};
   }
-  auto stop = extras_ && extras_->stop
-                  ? std::make_shared<PortStop>(std::move(safe_value), std::move(robot),
-                                               extras_->stop->block())
-                  : std::make_shared<PortStop>(std::move(safe_value), std::move(robot));
+  auto stop = std::make_shared<PortStop>(std::move(safe_value), brake, std::move(robot), this->stop().get());
   auto before = std::exchange(Extras().stop, std::move(stop));
   try {
     RebindSinks();
@@ -111,7 +115,7 @@ void Port::CollectStops(std::vector<internal::PassedStop>& stops) const {
     stops.push_back({extras_->stop, extras_->stop->safe_value()});
   }
   for (const Port* from : incoming_) {
-    const auto edge = internal::FindConnection(from->outgoing_, *this);
+    const Connection* const edge = from->ConnectionTo(*this);
     std::vector<internal::PassedStop> passed;
     from->CollectStops(passed);
     for (auto& each : passed) {

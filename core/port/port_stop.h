@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/clock.h"
 #include "core/channel/value_times.h"
 #include "core/element/stop_signal.h"
 #include "core/types/any_value.h"
@@ -20,12 +21,16 @@ class Port;
 /// Threads:  any; LetsPass() is wait-free. What it refers to outlives the runtime.
 class PortStop {
  public:
-  /// `robot`: nullptr for a port that does not drive. `block`: of a PortStop before, or a new one.
-  PortStop(AnyValue safe_value, std::shared_ptr<StopSignal> robot,
-           std::shared_ptr<StopSignal> block = std::make_shared<StopSignal>())
-      : safe_value_(std::move(safe_value)), robot_(std::move(robot)), block_(std::move(block)) {}
+  /// `robot`: nullptr for a port that does not drive. `before`: whose block it keeps; nullptr: it has a new one.
+  PortStop(AnyValue safe_value, Duration brake, std::shared_ptr<StopSignal> robot, const PortStop* before = nullptr)
+      : safe_value_(std::move(safe_value)),
+        brake_(brake),
+        robot_(std::move(robot)),
+        block_(before != nullptr ? before->block_ : std::make_shared<StopSignal>()) {}
 
   [[nodiscard]] const AnyValue& safe_value() const noexcept { return safe_value_; }
+  /// How long readers find values between the one that they have read last and the safe one; 0: the safe one at once.
+  [[nodiscard]] Duration brake() const noexcept { return brake_; }
   [[nodiscard]] const std::shared_ptr<StopSignal>& robot() const noexcept { return robot_; }
   [[nodiscard]] const std::shared_ptr<StopSignal>& block() const noexcept { return block_; }
 
@@ -44,6 +49,7 @@ class PortStop {
 
  private:
   const AnyValue safe_value_;
+  const Duration brake_;
   const std::shared_ptr<StopSignal> robot_;
   const std::shared_ptr<StopSignal> block_;
 };

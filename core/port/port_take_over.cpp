@@ -96,11 +96,10 @@ void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noex
 // application has marked stays as it is.
 std::shared_ptr<const PortStop> Port::StopInPlaceOf(const Port& from) const {
   const std::shared_ptr<const PortStop> before = from.stop();
-  if (!declares_driving()) return before;
-  if (before && before->robot() && !from.declares_driving()) return before;
-  const auto& robot = runtime().robot_stop().signal();
-  return before ? std::make_shared<PortStop>(declared_safe_value(), robot, before->block())
-                : std::make_shared<PortStop>(declared_safe_value(), robot);
+  const PortStop* const declared = declared_stop();
+  if (declared == nullptr) return before;
+  if (before && before->robot() && from.declared_stop() == nullptr) return before;
+  return std::make_shared<PortStop>(declared->safe_value(), declared->brake(), declared->robot(), before.get());
 }
 
 }  // namespace runnel

@@ -25,11 +25,7 @@ StandIn::~StandIn() = default;
 
 Port::Fill FillWith(const AnyValue& value) {
   return [value](void* to) -> Result<void> {
-    const TypeInfo& type = value.type();
-    const bool is_copied = type.kind() == TypeKind::kLeaf
-                               ? (type.leaf().copy(to, value.get()), true)
-                               : CopyValue(type, value.get(), to);
-    return is_copied ? Result<void>() : Error{.message = "the value cannot be copied"};
+    return CopyValue(value.type(), value.get(), to) ? Result<void>() : Error{.message = "the value cannot be copied"};
   };
 }
 

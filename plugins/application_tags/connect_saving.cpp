@@ -118,10 +118,7 @@ bool SaysConnection(XmlElement tag, const PathUse& from_use, const std::string& 
     return awaited != nullptr && each.from_path == awaited->from && each.to_path == awaited->to;
   });
   // One that leads out of the application is left to whoever wrote it.
-  if (edge == edges.end() && is_there &&
-      std::ranges::find(from->outgoing(), to, &Connection::to) != from->outgoing().end()) {
-    return true;
-  }
+  if (edge == edges.end() && is_there && from->ConnectionTo(*to) != nullptr) return true;
   if (edge == edges.end() || edge->is_saved) {
     update.Touch(from);
     update.Touch(to);

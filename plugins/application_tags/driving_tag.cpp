@@ -1,12 +1,14 @@
 // Ports by which something moves, though no module says so of them: <driving port="drive/twist" safe="…"/>.
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/port/port.h"
+#include "core/types/duration_text.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"
@@ -23,11 +25,12 @@ using internal::Saving;
 
 /// Kept with the port, for files.
 struct DrivingMark final : Annotation {
-  explicit DrivingMark(AnyValue safe_value) : safe(std::move(safe_value)) {}
+  DrivingMark(AnyValue safe_value, std::string time) : safe(std::move(safe_value)), brake(std::move(time)) {}
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
-    return std::make_unique<DrivingMark>(safe);
+    return std::make_unique<DrivingMark>(safe, brake);
   }
-  AnyValue safe;  // none: the port has one by itself
+  AnyValue safe;      // none: the port has one by itself
+  std::string brake;  // as the file says it; "": so
 };
 
 /// The ports that one saving has found marked in the file.
@@ -51,13 +54,15 @@ void MarkDriving(const TagUse& use) {
     safe = internal::ReadValue(use, *text, *port);
     if (!safe) return;
   }
-  if (auto set = port->SetDriving(true, safe); !set) {
-    if (set.error().hint.empty()) return use.Report(set.error(), use.xml.position());
+  const XmlAttribute* const brake = use.Find("brake");
+  const auto time = brake != nullptr ? std::optional(ParseDuration(brake->value).value()) : std::nullopt;
+  if (auto set = port->SetDriving(true, safe, time); !set) {
     Error error = set.error();
-    error.hint = "add safe=\"…\": the " + port->type().name() + " at which it stands still";
+    const bool lacks_safe_value = !time && !error.hint.empty();
+    if (lacks_safe_value) error.hint = "add safe=\"…\": the " + port->type().name() + " at which it stands still";
     return use.Report(std::move(error), use.xml.position());
   }
-  port->Annotate(std::make_unique<DrivingMark>(std::move(safe)));
+  port->Annotate(std::make_unique<DrivingMark>(std::move(safe), brake != nullptr ? brake->value : ""));
 }
 
 void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update) {
@@ -79,6 +84,7 @@ std::vector<NewElement> MissingMarks(FrameworkElement& home, Saving& saving) {
     NewElement& made = elements.emplace_back(
         NewElement{.name = "driving", .attributes = {{"port", port->path().substr(home.path().size() + 1)}}});
     if (mark->safe) made.attributes.emplace_back("safe", ToText(port->type(), mark->safe.get()));
+    if (!mark->brake.empty()) made.attributes.emplace_back("brake", mark->brake);
   });
   return elements;
 }
@@ -91,7 +97,10 @@ XmlTag DrivingTag() {
           .parents = {"application", "group"},
           .attributes = {PathRule("port", true, "an input of a module, or a port of a group; an output: all that read from it"),
                          {.name = "safe",
-                          .summary = "the value at which it stands still; if left out, the input's default, or zero of a velocity"}},
+                          .summary = "the value at which it stands still; if left out, the input's default, or zero of a velocity"},
+                         {.name = "brake",
+                          .kind = AttributeKind::kDuration,
+                          .summary = "how long the way there takes from the value read last; if left out, no time"}},
           .handle = [](const TagUse& use) -> FrameworkElement* {
             use.context.Defer(BuildStage::kChecks, [use] { MarkDriving(use); });
             return &use.parent;

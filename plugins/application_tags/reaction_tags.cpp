@@ -24,15 +24,9 @@ struct ReactionUse : TagUse {
   }
 };
 
-// How the input is connected to `from` now, so that a switch keeps its queue, or that it pulls.
-ConnectOptions OptionsOf(const Port& from, const Port& input) {
-  const auto found = std::ranges::find(from.outgoing(), &input, &Connection::to);
-  return found == from.outgoing().end() ? ConnectOptions{} : found->options;
-}
-
 bool CanFeed(const Port& source, const Port& input, const XmlAttribute& at, const ReactionUse& use) {
   // What the connection that is left, or is there already, makes of the values.
-  const ConnectOptions options = OptionsOf(source, input);
+  const ConnectOptions options = source.OptionsTo(input);
   const auto possible = Port::CheckEnds(source, input, {.part = options.part, .convert = options.convert});
   if (!possible) use.Report(possible.error(), at.value_position);
   return possible.has_value();
@@ -55,7 +49,7 @@ void ReadSwitch(const ReactionUse& use) {
   if (to != nullptr && !CanFeed(*to, *input, *to_name, use)) return;
   ConnectOptions options;
   for (const Port* source : input->incoming()) {
-    const ConnectOptions each = OptionsOf(*source, *input);
+    const ConnectOptions each = source->OptionsTo(*input);  // a switch keeps its queue, or that it pulls
     if (each.queue >= options.queue) options = each;
   }
   if (from != nullptr) use.reaction.changes.push_back(DisconnectPorts{from->path(), input->path()});

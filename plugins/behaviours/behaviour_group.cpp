@@ -16,10 +16,6 @@ std::vector<Port*> SignalsOf(Behaviour& behaviour) {
   return signals;
 }
 
-bool Leads(const Port& from, const Port& to) {
-  return std::ranges::any_of(from.outgoing(), [&](const Connection& each) { return each.to == &to; });
-}
-
 Result<void> CheckSignal(const FrameworkElement& group, const Port& signal) {
   const auto* const port = dynamic_cast<const Port*>(group.FindChild(signal.name()));
   const bool is_input = signal.direction() == Port::Direction::kInput;
@@ -29,7 +25,7 @@ Result<void> CheckSignal(const FrameworkElement& group, const Port& signal) {
                  .path = group.path(),
                  .hint = "add " + tag};
   }
-  if (is_input ? Leads(*port, signal) : Leads(signal, *port)) return {};
+  if ((is_input ? port->ConnectionTo(signal) : signal.ConnectionTo(*port)) != nullptr) return {};
   return Error{.message = "is not connected with " + signal.path() + ", which speaks for the group",
                .path = port->path(),
                .hint = "add a <connect> of the two"};

@@ -33,8 +33,7 @@ bool IsFedBy(const Port& port, const Port& source) {
 // Whether a connection by which `source` feeds the port, through whatever groups, is late.
 bool IsLate(const Port& port, const Port& source) {
   for (const Port* const from : port.incoming()) {
-    const auto edge = std::ranges::find(from->outgoing(), &port, [](const Connection& each) -> const Port* { return each.to; });
-    const bool is_late = edge != from->outgoing().end() && edge->options.late;
+    const bool is_late = from->IsLateTo(port);
     if ((from == &source && is_late) || (from->is_proxy() && IsFedBy(*from, source) && (is_late || IsLate(*from, source)))) return true;
   }
   return false;

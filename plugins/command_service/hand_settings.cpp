@@ -49,7 +49,7 @@ Result<AnyValue> SafeAnyValueOf(const Port& port) {
   if (auto good = internal::CheckWithin(port, port.limits(), safe->get()); !good) {
     return At(port, "has no safe value for the end of a deadline; declare a default");
   }
-  return AnyValue(port.type(), *safe);
+  return safe;
 }
 
 Result<void> CheckRequest(const PublishRequest& request) {
@@ -157,7 +157,7 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
   }
   const auto made = ValueOf(port, request.value);
   if (!made) return made.error();
-  const AnyValue value(port.type(), *made);
+  const AnyValue& value = *made;
   if (auto good = internal::CheckWithin(port, port.limits(), value.get()); !good) return good.error();
   // Who asks for a deadline is told at once if nothing could be done when it has passed.
   AnyValue safe;

@@ -146,8 +146,7 @@ std::string PortText(const Port& port, const ListingOptions& options) {
     text += ", " + RateText(static_cast<double>(passed) / ToSeconds(options.since)) + " Hz";
   }
   for (const Port* from : port.incoming()) {
-    const auto edge = std::ranges::find(from->outgoing(), &port, &Connection::to);
-    text += ", from " + edge->SourceText();
+    text += ", from " + from->ConnectionTo(port)->SourceText();
   }
   for (const Connection& each : port.outgoing()) {
     const auto words = SplitPath(each.to->path());

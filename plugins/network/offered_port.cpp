@@ -83,7 +83,8 @@ OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, cons
       bell_(std::make_shared<OfferBell>(std::move(wake), [this](OfferBell::By by) { SendBy(by); })) {
   // A command of motion stops whoever moves by it elsewhere, whether or not anybody has marked it here.
   if (const std::shared_ptr<const void> zero = IsVelocity(type) ? type.Make() : nullptr) {
-    command_stop_ = std::make_shared<PortStop>(AnyValue(type, zero), beside.runtime().robot_stop().signal());
+    const auto& robot = beside.runtime().robot_stop().signal();
+    command_stop_ = std::make_shared<PortStop>(AnyValue(type, zero), Duration{}, robot);
   }
   reader_ = std::make_unique<Reader>(beside, name, type, *this);
   if (options_.quality == ValueQuality::kEach) {

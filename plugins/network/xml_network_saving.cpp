@@ -117,7 +117,8 @@ class TakeTags {
     std::size_t count = 0;
     for (const PathUse& each : PathsIn(to, application_)) {
       const Port* const port = FindPort(each, PathKind::kInput);
-      const bool is_there = take != network_.takes().end() && port != nullptr && IsConnected(*take->output, *port);
+      const bool is_known = take != network_.takes().end() && port != nullptr;
+      const bool is_there = is_known && take->output->ConnectionTo(*port) != nullptr;
       if (!is_there || !said_.insert({take->output, port}).second) gone.insert(count);
       ++count;
     }
@@ -157,9 +158,6 @@ class TakeTags {
   }
 
  private:
-  static bool IsConnected(const Port& output, const Port& to) {
-    return std::ranges::find(output.outgoing(), &to, &Connection::to) != output.outgoing().end();
-  }
   // "live" may be said of all.
   [[nodiscard]] Words Wanted(const TakeOptions& take) const {
     Words words = MapOf(take);

@@ -5,7 +5,6 @@
 
 #include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/late_edge.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/cycle_runner.h"
 #include "plugins/scheduling/internal/pause_mark.h"
@@ -48,7 +47,7 @@ Found Search(FrameworkElement& top) {
 bool FeedsInTime(const Port& output, const Port& input) {
   return std::ranges::any_of(input.incoming(), [&](const Port* from) {
     const bool is_on_the_way = from == &output || (from->is_proxy() && FeedsInTime(output, *from));
-    return is_on_the_way && !IsLate(*from, input);
+    return is_on_the_way && !from->IsLateTo(input);
   });
 }
 

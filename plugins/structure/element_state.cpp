@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/element/not_saved.h"
@@ -20,10 +21,10 @@ namespace {
 /// Of a port, among what is noted.
 struct PortState final : Annotation {
   InputLimits limits;
-  AnyValue by_hand;  // of a person; rules set again what they have set
-  Time noted{};      // so that it does not become a command from after a STOP
-  AnyValue safe_value;
-  bool is_driving = false;
+  // Of a person, with its own stamp, so that it does not become a command from after a STOP. Rules set again what they
+  // have set.
+  std::optional<Port::HandValue> by_hand;
+  std::shared_ptr<const PortStop> stop;
   bool is_blocked = false;
 };
 
@@ -32,14 +33,14 @@ Result<void> GiveTo(Port& port, const PortState& state) {
   if (is_input) {
     if (auto set = port.SetLimits(state.limits); !set) return set;
   }
-  if (state.is_driving) {
-    if (auto set = port.SetDriving(true, state.safe_value); !set) return set;
+  if (state.stop && state.stop->robot()) {
+    if (auto set = port.SetDriving(true, state.stop->safe_value(), state.stop->brake()); !set) return set;
   }
   if (state.is_blocked) {
     if (auto blocked = port.Block(); !blocked) return blocked;
   }
   if (!state.by_hand) return {};
-  return port.PublishByHand(FillWith(state.by_hand), Port::Setter::kPerson, state.noted);
+  return port.PublishByHand(FillWith(state.by_hand->value), Port::Setter::kPerson, state.by_hand->timestamp);
 }
 
 void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkElement::Inherit how,
@@ -48,10 +49,8 @@ void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkEle
     auto state = std::make_unique<PortState>();
     state->limits = port->limits();
     state->by_hand = port->ValueByHand();
-    state->noted = port->runtime().clock().Now();
-    state->is_driving = port->is_driving();
+    state->stop = port->stop();
     state->is_blocked = port->is_blocked();
-    if (port->stop() != nullptr) state->safe_value = port->stop()->safe_value();
     noted.Annotate(std::move(state));
   }
   if (below == ElementState::Below::kLeftOut) return;

@@ -14,27 +14,11 @@
 
 namespace runnel::internal {
 
-namespace {
-
-ConnectOptions OptionsOf(const Port& from, const Port& to) {
-  const auto found = std::ranges::find(from.outgoing(), &to, &Connection::to);
-  return found != from.outgoing().end() ? found->options : ConnectOptions{};
-}
-
-// nullptr if it is the last.
 const FrameworkElement* NextSibling(const FrameworkElement& element) {
   const auto& siblings = element.parent()->children();
   const auto next = std::next(std::ranges::find(siblings, &element));
   return next == siblings.end() ? nullptr : *next;
 }
-
-// What takes a step back succeeds, but for lack of memory; then it is tried again.
-template <typename Outcome>
-void Must(const Outcome& outcome) {
-  if (!outcome) throw ElementError(outcome.error());
-}
-
-}  // namespace
 
 std::vector<Connection> ExternalConnectionsOf(FrameworkElement& element) {
   std::vector<Connection> ties;
@@ -45,7 +29,7 @@ std::vector<Connection> ExternalConnectionsOf(FrameworkElement& element) {
       if (!edge.to->IsAtOrBelow(element)) ties.push_back(edge);
     }
     for (Port* from : port->incoming()) {
-      if (!from->IsAtOrBelow(element)) ties.push_back({from, port, OptionsOf(*from, *port)});
+      if (!from->IsAtOrBelow(element)) ties.push_back({from, port, from->OptionsTo(*port)});
     }
   });
   return ties;

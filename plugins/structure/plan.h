@@ -37,6 +37,14 @@ using New = std::shared_ptr<UnlistedElement>;
 /// The connections between what is at or below `element` and the rest. Under the structure lock.
 [[nodiscard]] std::vector<Connection> ExternalConnectionsOf(FrameworkElement& element);
 
+/// nullptr if it is the last.
+[[nodiscard]] const FrameworkElement* NextSibling(const FrameworkElement& element);
+
+/// What takes a step back succeeds, but for lack of memory; then it is tried again.
+void Must(const auto& outcome) {
+  if (!outcome) throw ElementError(outcome.error());
+}
+
 /// A change set that has been checked against the structure, with everything made that it needs: all that
 /// is left is to carry it out, between two cycles, and quickly.
 ///

@@ -249,9 +249,7 @@ void Plan::AddExchange(FrameworkElement& before, UnlistedElement after) {
   done->after = std::move(after);
   steps_.push_back({[=, this, &before]() -> Result<void> {
                       removed_.reserve(removed_.size() + 1);
-                      const auto& siblings = before.parent()->children();
-                      const auto behind = std::next(std::ranges::find(siblings, &before));
-                      done->place = behind == siblings.end() ? nullptr : *behind;
+                      done->place = NextSibling(before);
                       auto taken = runtime_.Unlist(before);
                       if (!taken) return taken.error();
                       removed_.push_back(std::move(*taken));
@@ -262,8 +260,7 @@ void Plan::AddExchange(FrameworkElement& before, UnlistedElement after) {
                     [=, this, &next] {
                       if (!done->is_removed) return;
                       if (!done->after) done->after = runtime_.Unlist(next).value();
-                      if (auto listed = runtime_.List(std::move(removed_.back()), done->place); !listed)
-                        throw ElementError(listed.error());
+                      Must(runtime_.List(std::move(removed_.back()), done->place));
                       removed_.pop_back();
                       done->is_removed = false;
                     },

@@ -11,21 +11,6 @@
 
 namespace runnel::internal {
 
-namespace {
-
-ConnectOptions TieOptions(const Port& from, const Port& to) {
-  const auto found = std::ranges::find(from.outgoing(), &to, &Connection::to);
-  return found != from.outgoing().end() ? found->options : ConnectOptions{};
-}
-
-// What takes a step back succeeds, but for lack of memory; then it is tried again.
-template <typename Outcome>
-void MustTie(const Outcome& outcome) {
-  if (!outcome) throw ElementError(outcome.error());
-}
-
-}  // namespace
-
 Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string& to,
                                 const std::optional<ConnectOptions>& wanted) {
   const auto [from, part] = SplitPortPath(from_path);
@@ -51,7 +36,7 @@ Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string&
                       return tied;
                     },
                     [=] {
-                      if (*is_done) MustTie(tie(before));
+                      if (*is_done) Must(tie(before));
                       *is_done = false;
                     },
                     [=, from = from](auto&) -> ChangeSet {
@@ -107,18 +92,18 @@ Result<void> Plan::CheckTie(Port& from, Port& to, const std::optional<ConnectOpt
   };
   auto done = std::make_shared<Done>();
   steps_.push_back({[=, &from, &to] {
-                      if (!wanted) done->before = TieOptions(from, to);
+                      if (!wanted) done->before = from.OptionsTo(to);
                       auto tied = tie(wanted);
                       done->is_done = tied.has_value();
                       return tied;
                     },
                     [=] {
-                      if (done->is_done) MustTie(tie(done->before));
+                      if (done->is_done) Must(tie(done->before));
                       done->is_done = false;
                     },
                     [=, &from, &to](auto&) -> ChangeSet {
                       if (wanted) return {DisconnectPorts{LastingPath(from), LastingPath(to)}};
-                      return {ConnectPorts{LastingPath(from), LastingPath(to), TieOptions(from, to)}};
+                      return {ConnectPorts{LastingPath(from), LastingPath(to), from.OptionsTo(to)}};
                     }});
   return {};
 }

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/port/port_stop.h"
-#include "core/types/any_value.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "core/types/value_copy.h"
@@ -18,7 +17,7 @@ Error At(const Port& port, std::string message) {
 
 }  // namespace
 
-Result<std::shared_ptr<const void>> ValueOf(const Port& port, const std::string& text) {
+Result<AnyValue> ValueOf(const Port& port, const std::string& text) {
   const TypeInfo& type = port.type();
   if (!type.is_transparent()) {
     return At(port, "values of type " + type.name() + " have no text format");
@@ -30,7 +29,7 @@ Result<std::shared_ptr<const void>> ValueOf(const Port& port, const std::string&
     if (error.path.empty()) error.path = port.path();
     return error;
   }
-  return std::shared_ptr<const void>(value);
+  return AnyValue(type, value);
 }
 
 Result<void> PublishByHand(Port& port, const void* value, Port::Setter setter) {
@@ -41,18 +40,12 @@ Result<void> PublishByHand(Port& port, const void* value, Port::Setter setter) {
   return port.PublishByHand(fill, setter);
 }
 
-Result<std::shared_ptr<const void>> SafeValueOf(const Port& port) {
-  if (const auto stop = port.stop()) {
-    return std::shared_ptr<const void>(stop, stop->safe_value().get());
-  }
-  if (const AnyValue& value = port.limits().default_value) {
-    // The limits may be set anew while it is used: the value is shared.
-    const auto kept = std::make_shared<AnyValue>(value);
-    return std::shared_ptr<const void>(kept, kept->get());
-  }
+Result<AnyValue> SafeValueOf(const Port& port) {
+  if (const auto stop = port.stop()) return stop->safe_value();
+  if (const AnyValue& value = port.limits().default_value) return value;
   const std::shared_ptr<const void> value = port.type().Make();
   if (!value) return At(port, "only a module can make values of type " + port.type().name());
-  return value;
+  return AnyValue(port.type(), value);
 }
 
 }  // namespace runnel

@@ -1,21 +1,21 @@
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "core/base/result.h"
 #include "core/port/port.h"
+#include "core/types/any_value.h"
 
 namespace runnel {
 
 /// Values that somebody other than a module has readers of a port find (Port::PublishByHand()): a person, a rule of the
 /// file. All under the structure lock.
 
-/// An object of the port's type, from its text format; what the text leaves out keeps the type's defaults.
-Result<std::shared_ptr<const void>> ValueOf(const Port& port, const std::string& text);
-/// What readers shall find when nobody says anything better: the safe value of a port that drives, else the port's default (InputLimits), else what its type begins
-/// with, a command of no motion.
-Result<std::shared_ptr<const void>> SafeValueOf(const Port& port);
+/// A value of the port's type, from its text format; what the text leaves out keeps the type's defaults.
+Result<AnyValue> ValueOf(const Port& port, const std::string& text);
+/// What readers shall find when nobody says anything better: the safe value of a port that drives, else the port's
+/// default (InputLimits), else what its type begins with, a command of no motion.
+Result<AnyValue> SafeValueOf(const Port& port);
 /// `value`: an object of the port's type.
 Result<void> PublishByHand(Port& port, const void* value,
                            Port::Setter setter = Port::Setter::kPerson);

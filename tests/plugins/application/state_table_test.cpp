@@ -57,8 +57,8 @@ const std::vector<State>& States() {
   static const std::vector<State> states{
       {"value by hand", "value by hand", [](Trial& trial) { Require(PublishByHand(trial.In(), &five)); },
        [](Trial& trial) {
-         const AnyValue value = trial.In().ValueByHand();
-         return value && *static_cast<const double*>(value.get()) == five;
+         const auto found = trial.In().ValueByHand();
+         return found && *static_cast<const double*>(found->value.get()) == five;
        }},
       {"deadline of it", "value by hand",
        [](Trial& trial) {
@@ -69,8 +69,8 @@ const std::vector<State>& States() {
        },
        // In force, or as if it had passed.
        [](Trial& trial) {
-         const AnyValue value = trial.In("late").ValueByHand();
-         return value && *static_cast<const double*>(value.get()) == 0.0;
+         const auto found = trial.In("late").ValueByHand();
+         return found && *static_cast<const double*>(found->value.get()) == 0.0;
        }},
       {"block of the port", "block", [](Trial& trial) { Require(trial.In().Block()); },
        [](Trial& trial) { return trial.In().is_blocked(); }},

@@ -48,7 +48,7 @@ const char* const kDrivingText = R"(<application name="demo">
   <group name="g">
     <module name="motor" type="test/motor"/>
     <driving port="motor/speed"/>
-    <driving  port="motor/angle" safe="0.5"/> <!-- folded -->
+    <driving  port="motor/angle" safe="0.5" brake="0.3 s"/> <!-- folded -->
   </group>
   <module name="source" type="test/source"/>
   <driving port="source/value" safe="1"/>
@@ -62,6 +62,8 @@ TEST_F(Driving, MarksInputsAndOutputs) {
   EXPECT_TRUE(At("/demo/g/motor/input/speed").is_driving());
   EXPECT_EQ(SafeOf(At("/demo/g/motor/input/speed")), 0.0);
   EXPECT_EQ(SafeOf(At("/demo/g/motor/input/angle")), 0.5);
+  EXPECT_EQ(At("/demo/g/motor/input/angle").stop()->brake(), std::chrono::milliseconds(300));
+  EXPECT_EQ(At("/demo/g/motor/input/speed").stop()->brake(), Duration{});
   EXPECT_EQ(SafeOf(At("/demo/source/output/value")), 1.0);
   EXPECT_FALSE(At("/demo/source/output/label").is_driving());
   EXPECT_EQ(Text(), kDrivingText);
@@ -75,12 +77,21 @@ TEST_F(Driving, NeedsASafeValueThatIsOne) {
                                HasSubstr("add safe=\"…\""), HasSubstr("app.xml:4:"), HasSubstr("did you mean 'speed'?")));
 }
 
+TEST_F(Driving, BrakesOnlyWhereThereAreValuesOnTheWay) {
+  EXPECT_THAT(shop_.Errors("<application name='a'>\n<module name='s' type='test/source'/>\n"
+                           "<driving port='s/label' safe='stand' brake='1 s'/>\n"
+                           "<driving port='s/value' safe='0' brake='soon'/>\n"
+                           "</application>"),
+              ::testing::AllOf(HasSubstr("app.xml:3:1: error: /a/s/output/label: cannot brake"),
+                               HasSubstr("leave out how long it brakes"), HasSubstr("app.xml:4:")));
+}
+
 TEST_F(Driving, GoesWithAnotherName) {
   Load(kDrivingText);
   Must({RenameElement{"/demo/g/motor", "wheel"}});
   EXPECT_TRUE(At("/demo/g/wheel/input/angle").is_driving());
   const std::string text = Text();
-  EXPECT_THAT(text, HasSubstr("<driving  port=\"wheel/angle\" safe=\"0.5\"/> <!-- folded -->"));
+  EXPECT_THAT(text, HasSubstr("<driving  port=\"wheel/angle\" safe=\"0.5\" brake=\"0.3 s\"/> <!-- folded -->"));
   EXPECT_THAT(text, HasSubstr("<driving port=\"wheel/speed\"/>"));
 }
 
@@ -89,12 +100,13 @@ TEST_F(Driving, GoesWithItsModuleAndIsSavedOfACopy) {
   Must({CopyElement{"/demo/g/motor", "second"}, DeleteElement{"/demo/g/motor"}});
   const std::string text = Text();
   EXPECT_THAT(text, ::testing::Not(HasSubstr("port=\"motor")));
-  EXPECT_THAT(text, HasSubstr("<driving port=\"g/second/input/angle\" safe=\"0.5\"/>"));
+  EXPECT_THAT(text, HasSubstr("<driving port=\"g/second/input/angle\" safe=\"0.5\" brake=\"0.3 s\"/>"));
   SavingWorkshop other;
   other.Add<Motor>("test/motor");
   WriteAll(folder_ / "again.xml", text);
   ASSERT_NE(other.Load(folder_ / "again.xml"), nullptr);
   EXPECT_EQ(SafeOf(other.Get<Port>("/demo/g/second/input/angle")), 0.5);
+  EXPECT_EQ(other.Get<Port>("/demo/g/second/input/angle").stop()->brake(), std::chrono::milliseconds(300));
   EXPECT_TRUE(other.Get<Port>("/demo/g/second/input/speed").is_driving());
 }
 

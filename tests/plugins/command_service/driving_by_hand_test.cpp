@@ -143,7 +143,7 @@ TEST_F(DrivingByHand, WhatADrivenPortLeavesBehindIsItsSafeValue) {
   EXPECT_EQ(Publish(by_hand, {kMotion, "{forward: 0.3}"}), "");
   const auto left = [&] {
     const std::lock_guard lock(runtime.structure_mutex());
-    return *static_cast<const Motion*>(base.motion.ValueByHand().get());
+    return *static_cast<const Motion*>(base.motion.ValueByHand()->value.get());
   };
   EXPECT_EQ(left(), (Motion{0.3, 0}));
   EXPECT_EQ(Drive(by_hand, "{forward: 0.3}"), "");

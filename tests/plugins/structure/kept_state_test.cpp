@@ -90,7 +90,7 @@ TEST_F(KeptStateTest, IsThatOfACopyToo) {
 
 TEST_F(KeptStateTest, IsAStopThatIsBackWhenADeletionIsUndone) {
   Port& side = At<Port>("/app/sink/input/side");
-  ASSERT_TRUE(side.SetDriving(true, AnyValue(1)));
+  ASSERT_TRUE(side.SetDriving(true, AnyValue(1), std::chrono::milliseconds(300)));
   ASSERT_TRUE(side.Block());
   MustDo({DeleteElement{"/app/sink"}});
   MustBe(history.Undo());
@@ -100,6 +100,7 @@ TEST_F(KeptStateTest, IsAStopThatIsBackWhenADeletionIsUndone) {
     EXPECT_TRUE(again.is_blocked()) << path;
     EXPECT_TRUE(again.is_driving()) << path;
     EXPECT_EQ(*static_cast<const int*>(again.stop()->safe_value().get()), 1);
+    EXPECT_EQ(again.stop()->brake(), std::chrono::milliseconds(300));
   }
   MustDo({RenameElement{"/app/sink", "drain"}});
   EXPECT_TRUE(At<Port>("/app/drain/input/side").is_blocked());
@@ -112,24 +113,34 @@ TEST_F(KeptStateTest, LeavesNothingToWhoWatchesADeadlineWhenItsPortIsGone) {
   MustDo({DeleteElement{"/app/source"}});
   EXPECT_EQ(slot->stand_in, nullptr);
   MustBe(history.Undo());
-  EXPECT_NE(slot->stand_in, nullptr);
-  EXPECT_EQ(HandSlot::Find(At<Port>("/app/source/input/extra")), slot);
+  EXPECT_EQ(slot->stand_in, nullptr) << "who drove the port before drives it no more";
+  EXPECT_NE(HandSlot::Find(At<Port>("/app/source/input/extra"))->stand_in, nullptr);
+  MustDo({RenameElement{"/app/source", "well"}});
+  EXPECT_NE(HandSlot::Find(At<Port>("/app/well/input/extra"))->stand_in, nullptr) << "another name has no part in it";
 }
 
-TEST_F(KeptStateTest, IsNoCommandFromAfterAReleaseThatCameBetween) {
+TEST_F(KeptStateTest, IsNoCommandFromAfterAReleaseThatItCameBefore) {
   ASSERT_TRUE(history.Apply({CreateModule{"/app/driven", "test/other_counter"}}));
   constexpr const char* kExtra = "/app/driven/input/extra";
-  const int five = 5;
-  ASSERT_TRUE(At<Port>(kExtra).SetDriving(true, 0));
-  ASSERT_TRUE(PublishByHand(At<Port>(kExtra), &five));
-  ASSERT_TRUE(runtime.robot_stop().Press("a test"));
-  ASSERT_TRUE(history.Apply({DeleteElement{"/app/driven"}}));
-  ASSERT_TRUE(runtime.robot_stop().Release("a test"));
-  ASSERT_TRUE(history.Undo());
-  int seen = -1;
-  At<Port>(kExtra).VisitLatest([&](const void* value, ValueTimes) { seen = *static_cast<const int*>(value); });
-  EXPECT_EQ(seen, 0);
-  EXPECT_TRUE(At<Port>(kExtra).is_set_by_hand());
+  const auto seen = [&] {
+    int newest = -1;
+    At<Port>(kExtra).VisitLatest([&](const void* value, ValueTimes) { newest = *static_cast<const int*>(value); });
+    return newest;
+  };
+  for (const bool is_deleted_in_between : {true, false}) {
+    const int five = 5;
+    ASSERT_TRUE(At<Port>(kExtra).SetDriving(true, 0));
+    ASSERT_TRUE(PublishByHand(At<Port>(kExtra), &five));
+    EXPECT_EQ(seen(), 5);
+    ASSERT_TRUE(runtime.robot_stop().Press("a test"));
+    if (is_deleted_in_between) ASSERT_TRUE(history.Apply({DeleteElement{"/app/driven"}}));
+    ASSERT_TRUE(runtime.robot_stop().Release("a test"));
+    Steps(1);
+    if (!is_deleted_in_between) ASSERT_TRUE(history.Apply({DeleteElement{"/app/driven"}}));
+    ASSERT_TRUE(history.Undo());
+    EXPECT_EQ(seen(), 0);
+    EXPECT_TRUE(At<Port>(kExtra).is_set_by_hand());
+  }
 }
 
 TEST_F(KeptStateTest, GoesWithAnotherName) {
