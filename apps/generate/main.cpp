@@ -8,7 +8,7 @@
 
 #include "apps/generate/component_check.h"
 #include "apps/generate/package_flags.h"
-#include "plugins/genom_description/description_json.h"
+#include "plugins/genom_description/description.h"
 #include "plugins/genom_templates/template_run.h"
 #include "plugins/genom_templates/template_search.h"
 

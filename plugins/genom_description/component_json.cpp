@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plugins/genom_description/conflicts.h"
-#include "plugins/genom_description/digest.h"
+#include "plugins/genom_description/component.h"
+#include "plugins/genom_description/component_rules.h"
 
 namespace runnel::genom {
 

@@ -1,10 +1,22 @@
 #pragma once
 
+#include <vector>
+
+#include "plugins/genom_description/component.h"
 #include "plugins/genom_description/description.h"
-#include "plugins/genom_description/property_rules.h"
 #include "plugins/genom_text/token.h"
 
 namespace runnel::genom {
+
+/// Of what properties are said.
+enum class PropertyOwner { kComponent, kInterface, kPort, kTask, kAttribute, kFunction, kActivity };
+
+[[nodiscard]] std::string_view NameOf(PropertyOwner owner);
+[[nodiscard]] PropertyOwner OwnerOf(ServiceKind kind);
+
+/// Adds what is said of the owner to what has been said before: some properties add up, of some the first holds, and
+/// some may be said only once. Tells what may not be said.
+bool AddProperty(Properties& properties, Property property, PropertyOwner owner, Problems& problems);
 
 /// Puts components together of what the parser has read, and holds that against the rules. Whatever is against one is
 /// told and left out; the rest stays.
@@ -74,5 +86,16 @@ void CheckTimes(Component& component, Problems& problems);
 void WarnOfCodelNames(const Component& component, Problems& problems);
 /// Asynchronous codels exclude nothing.
 void CheckAsyncCodels(const Component& component, Problems& problems);
+
+/// The codels of its component that must not run while this one does: those that use what it uses, where one of the
+/// two writes, and that can run at the same time.
+[[nodiscard]] std::vector<const Codel*> ConflictingCodels(const Codel& codel);
+/// The attributes that must not be set or read meanwhile.
+[[nodiscard]] std::vector<const Service*> ConflictingServices(const Codel& codel);
+/// The codels that must not run while a service's parameters are set or read.
+[[nodiscard]] std::vector<const Codel*> ConflictingCodels(const Service& service);
+
+/// Whether a service interrupts another of its component.
+[[nodiscard]] bool Interrupts(const Service& service, const Service& other);
 
 }  // namespace runnel::genom

@@ -1,8 +1,6 @@
-#include "plugins/genom_description/conflicts.h"
+#include "plugins/genom_description/component_rules.h"
 
 #include <algorithm>
-
-#include "plugins/genom_description/component_rules.h"
 
 namespace runnel::genom {
 

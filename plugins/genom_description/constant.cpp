@@ -1,10 +1,8 @@
-#include "plugins/genom_description/constant.h"
+#include "plugins/genom_description/type.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
-
-#include "plugins/genom_description/type.h"
 
 namespace runnel::genom {
 

@@ -1,4 +1,4 @@
-#include "plugins/genom_description/constant_rules.h"
+#include "plugins/genom_description/component.h"
 
 #include "core/base/nearest_name.h"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "plugins/genom_description/component.h"
-#include "plugins/genom_text/preprocessor.h"
 #include "plugins/genom_description/scopes.h"
+#include "plugins/genom_text/preprocessor.h"
 
 namespace runnel::genom {
 
@@ -44,5 +44,9 @@ class Description {
 [[nodiscard]] std::unique_ptr<Description> ReadDescriptionText(const std::string& text, const std::string& name,
                                                                const PreprocessorOptions& options,
                                                                Diagnostics& diagnostics);
+
+/// The whole description as JSON: types with their layout, interfaces, components with ports, tasks, services, codels and
+/// what these exclude. What each field is, says the README.
+[[nodiscard]] std::string DescriptionJson(const Description& description);
 
 }  // namespace runnel::genom

@@ -1,4 +1,4 @@
-#include "plugins/genom_description/description_json.h"
+#include "plugins/genom_description/description.h"
 
 #include "plugins/genom_description/component_json.h"
 

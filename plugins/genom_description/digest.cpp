@@ -1,4 +1,4 @@
-#include "plugins/genom_description/digest.h"
+#include "plugins/genom_description/component.h"
 
 #include <algorithm>
 #include <set>

@@ -1,4 +1,4 @@
-#include "plugins/genom_description/layout.h"
+#include "plugins/genom_description/component_json.h"
 
 #include <algorithm>
 #include <limits>

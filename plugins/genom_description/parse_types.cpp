@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "plugins/genom_description/constant_rules.h"
+#include "plugins/genom_description/component.h"
 #include "plugins/genom_description/parser.h"
 
 namespace runnel::genom {

@@ -1,4 +1,4 @@
-#include "plugins/genom_description/property_rules.h"
+#include "plugins/genom_description/component_rules.h"
 
 #include <algorithm>
 #include <array>

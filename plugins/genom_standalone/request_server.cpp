@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/nearest_name.h"
-#include "plugins/genom_standalone/value_memory.h"
 
 namespace runnel::genom_standalone {
 
@@ -26,12 +25,12 @@ Json Words(const genom_execution::Outcome& outcome) {
 }
 
 // The details of exceptions that every component has, by their names.
-const ValueType kCode{.kind = ValueKind::kLong, .size = 4};
-const ValueType kWords{.kind = ValueKind::kText, .size = 128, .length = 128};
+const ValueType kCode{.kind = ValueKind::kLong};
+const ValueType kWords{.kind = ValueKind::kText, .length = 128};
 const ValueMember kCodeMember[] = {{"code", 0, &kCode}};
 const ValueMember kWhatMember[] = {{"what", 0, &kWords}};
-const ValueType kSystemError{.kind = ValueKind::kStruct, .size = 4, .members = kCodeMember};
-const ValueType kUnknown{.kind = ValueKind::kStruct, .size = 128, .members = kWhatMember};
+const ValueType kSystemError{.kind = ValueKind::kStruct, .members = kCodeMember};
+const ValueType kUnknown{.kind = ValueKind::kStruct, .members = kWhatMember};
 
 const ValueType* DetailType(const StandaloneComponent& component, genom_execution::Event exception) {
   for (const StandaloneDetail& each : component.details) {
@@ -172,13 +171,9 @@ Result<Json> RequestServer::Put(const Json& values) {
     const auto port = FindPort(name, true);
     if (!port) return port.error();
     if (!(*port)->is_input()) return Error{.message = "is an output", .path = name};
-    const ValueType& type = (*port)->type();
-    std::vector<std::byte> value(type.size);
-    Initialise(type, value.data());
-    const auto read = FromJson(type, json, value.data(), name);
-    if (read) (*port)->Put(value.data());
-    Release(type, value.data());
-    if (!read) return read.error();
+    OwnedValue value((*port)->type());
+    if (auto read = FromJson((*port)->type(), json, value.data(), name); !read) return read.error();
+    (*port)->Put(value.data());
   }
   return Json::object();
 }

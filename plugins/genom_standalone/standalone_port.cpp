@@ -1,24 +1,11 @@
 #include "plugins/genom_standalone/standalone_port.h"
 
-#include "plugins/genom_standalone/value_memory.h"
-
 namespace runnel::genom_standalone {
-
-StandalonePort::StandalonePort(const ValueType& type, bool is_input)
-    : type_(type), is_input_(is_input), data_(type.size), has_data_(!is_input), newest_(type.size) {
-  Initialise(type, data_.data());
-  Initialise(type, newest_.data());
-}
-
-StandalonePort::~StandalonePort() {
-  Release(type_, data_.data());
-  Release(type_, newest_.data());
-}
 
 void StandalonePort::Fetch() {
   const std::lock_guard lock(mutex_);
   if (!has_newest_) return;
-  Copy(type_, data_.data(), newest_.data());
+  data_.Set(newest_.data());
   has_data_ = true;
 }
 
@@ -26,7 +13,7 @@ void StandalonePort::Write() { Put(data_.data()); }
 
 void StandalonePort::Put(const void* value) {
   const std::lock_guard lock(mutex_);
-  Copy(type_, newest_.data(), value);
+  newest_.Set(value);
   has_newest_ = true;
 }
 

@@ -10,15 +10,29 @@
 
 namespace runnel::genom_standalone {
 
+/// A value, as in the beginning.
+class OwnedValue {
+ public:
+  explicit OwnedValue(const ValueType& type) : memory_(type.memory), bytes_(memory_.size) { memory_.make(data()); }
+  ~OwnedValue() { memory_.destroy(data()); }
+  OwnedValue(const OwnedValue&) = delete;
+  OwnedValue& operator=(const OwnedValue&) = delete;
+
+  [[nodiscard]] void* data() noexcept { return bytes_.data(); }
+  void Set(const void* value) { memory_.copy(data(), value); }
+
+ private:
+  const ValueMemory& memory_;
+  std::vector<std::byte> bytes_;
+};
+
 /// A port: what codels have of it, and what is exchanged with clients.
 ///
 /// Threads: data(), Fetch() and Write() by codels, which exclude each other; the rest by any.
 class StandalonePort {
  public:
-  StandalonePort(const ValueType& type, bool is_input);
-  ~StandalonePort();
-  StandalonePort(const StandalonePort&) = delete;
-  StandalonePort& operator=(const StandalonePort&) = delete;
+  StandalonePort(const ValueType& type, bool is_input)
+      : type_(type), is_input_(is_input), data_(type), has_data_(!is_input), newest_(type) {}
 
   /// Of an input: what was fetched last, nullptr before the first. Of an output: the component's own.
   [[nodiscard]] void* data() noexcept { return has_data_ ? data_.data() : nullptr; }
@@ -39,10 +53,10 @@ class StandalonePort {
  private:
   const ValueType& type_;
   const bool is_input_;
-  std::vector<std::byte> data_;
+  OwnedValue data_;
   bool has_data_;
   std::mutex mutex_;
-  std::vector<std::byte> newest_;
+  OwnedValue newest_;
   bool has_newest_ = false;
 };
 

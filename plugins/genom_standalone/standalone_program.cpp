@@ -10,7 +10,6 @@
 
 #include "plugins/genom_standalone/request_server.h"
 #include "plugins/genom_standalone/task_threads.h"
-#include "plugins/genom_standalone/value_memory.h"
 
 namespace runnel::genom_standalone {
 

@@ -1,56 +1,78 @@
 #include "plugins/genom_standalone/value_json.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "core/base/nearest_name.h"
-#include "plugins/genom_standalone/value_memory.h"
 
 namespace runnel::genom_standalone {
 
 namespace {
 
-const std::byte* At(const void* value, std::size_t offset) { return static_cast<const std::byte*>(value) + offset; }
 std::byte* At(void* value, std::size_t offset) { return static_cast<std::byte*>(value) + offset; }
 
 Error Wrong(const std::string& path, const std::string& message, std::string hint = {}) {
   return Error{.message = message, .path = path, .hint = std::move(hint)};
 }
 
-struct Limits {
-  std::int64_t least, most;
-};
-
-Limits LimitsOf(ValueKind kind) {
+// Calls `use` with the number that the value is, or that stands for it.
+template <typename Use>
+auto WithNumber(ValueKind kind, void* value, Use use) {
+  const auto as = [&]<typename Number>(std::type_identity<Number>) { return use(*static_cast<Number*>(value)); };
   switch (kind) {
-    case ValueKind::kOctet: return {0, 255};
-    case ValueKind::kCharacter: return {std::numeric_limits<char>::min(), std::numeric_limits<char>::max()};
-    case ValueKind::kShort: return {-32768, 32767};
-    case ValueKind::kUnsignedShort: return {0, 65535};
-    case ValueKind::kLong: return {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()};
-    case ValueKind::kUnsignedLong: return {0, std::numeric_limits<std::uint32_t>::max()};
-    default: return {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()};
+    case ValueKind::kBoolean: return as(std::type_identity<bool>());
+    case ValueKind::kOctet: return as(std::type_identity<std::uint8_t>());
+    case ValueKind::kCharacter: return as(std::type_identity<char>());
+    case ValueKind::kShort: return as(std::type_identity<std::int16_t>());
+    case ValueKind::kUnsignedShort: return as(std::type_identity<std::uint16_t>());
+    case ValueKind::kLong: return as(std::type_identity<std::int32_t>());
+    case ValueKind::kLongLong: return as(std::type_identity<std::int64_t>());
+    case ValueKind::kUnsignedLongLong: return as(std::type_identity<std::uint64_t>());
+    case ValueKind::kFloat: return as(std::type_identity<float>());
+    case ValueKind::kDouble: return as(std::type_identity<double>());
+    default: return as(std::type_identity<std::uint32_t>());  // enumerators, too
   }
 }
 
-Result<void> WholeFromJson(const ValueType& type, const Json& json, void* value, const std::string& path) {
-  if (type.kind == ValueKind::kCharacter && json.is_string() && json.get_ref<const std::string&>().size() == 1) {
-    SetWholeNumber(type, value, json.get_ref<const std::string&>()[0]);
-    return {};
+// Of a union: which member is set, nullptr if none.
+const ValueMember* ChosenMember(const ValueType& type, void* value) {
+  const auto chosen = WithNumber(type.element->kind, value, [](auto number) { return static_cast<std::int64_t>(number); });
+  const ValueMember* otherwise = nullptr;
+  for (const ValueMember& each : type.members) {
+    if (std::ranges::find(each.labels, chosen) != each.labels.end()) return &each;
+    if (each.labels.empty()) otherwise = &each;
   }
-  if (!json.is_number_integer()) return Wrong(path, "is no whole number");
-  if (type.kind == ValueKind::kUnsignedLongLong) {
-    if (!json.is_number_unsigned()) return Wrong(path, "is negative");
-    SetWholeNumber(type, value, static_cast<std::int64_t>(json.get<std::uint64_t>()));
-    return {};
+  return otherwise;
+}
+
+void Choose(const ValueType& type, const ValueMember& member, void* value) {
+  type.memory.destroy(value);
+  type.memory.make(value);
+  WithNumber(type.element->kind, value,
+             [&]<typename Number>(Number& number) { number = static_cast<Number>(member.label); });
+  member.type->memory.make(At(value, member.offset));
+}
+
+template <typename Number>
+Result<void> NumberFromJson(const Json& json, Number& number, const std::string& path) {
+  if constexpr (std::is_same_v<Number, bool>) {
+    if (!json.is_boolean()) return Wrong(path, "is neither true nor false");
+  } else if constexpr (std::is_floating_point_v<Number>) {
+    if (!json.is_number()) return Wrong(path, "is no number");
+  } else {
+    if (std::is_same_v<Number, char> && json.is_string() && json.get_ref<const std::string&>().size() == 1) {
+      number = static_cast<Number>(json.get_ref<const std::string&>()[0]);
+      return {};
+    }
+    if (!json.is_number_integer()) return Wrong(path, "is no whole number");
+    using Limits = std::numeric_limits<Number>;
+    const bool fits = json.is_number_unsigned() ? std::cmp_less_equal(json.get<std::uint64_t>(), +Limits::max())
+                                                : std::cmp_greater_equal(json.get<std::int64_t>(), +Limits::min());
+    if (!fits) return Wrong(path, json.dump() + " does not fit");
   }
-  const Limits limits = LimitsOf(type.kind);
-  const bool is_too_large = json.is_number_unsigned() && json.get<std::uint64_t>() > static_cast<std::uint64_t>(limits.most);
-  if (is_too_large || json.get<std::int64_t>() < limits.least) return Wrong(path, json.dump() + " does not fit");
-  SetWholeNumber(type, value, json.get<std::int64_t>());
+  number = json.get<Number>();
   return {};
 }
 
@@ -61,7 +83,7 @@ Result<void> EnumFromJson(const ValueType& type, const Json& json, void* value, 
   if (found == type.names.end()) {
     return Wrong(path, "there is no '" + name + "'", NearestNameHint(name, std::vector<std::string>(type.names.begin(), type.names.end())));
   }
-  SetWholeNumber(type, value, found - type.names.begin());
+  *static_cast<std::uint32_t*>(value) = static_cast<std::uint32_t>(found - type.names.begin());
   return {};
 }
 
@@ -78,22 +100,18 @@ Result<void> TextFromJson(const ValueType& type, const Json& json, void* value, 
     *static_cast<std::string*>(value) = text;
     return {};
   }
-  char* owned = nullptr;
-  std::memcpy(&owned, value, sizeof(owned));
-  std::free(owned);
-  owned = strdup(text.c_str());
-  std::memcpy(value, &owned, sizeof(owned));
+  static_cast<genom_execution::OwnedText*>(value)->Set(text);
   return {};
 }
 
 Result<void> ListFromJson(const ValueType& type, const Json& json, void* value, const std::string& path) {
   if (!json.is_array()) return Wrong(path, "is no list");
-  const bool is_array = type.kind == ValueKind::kArray;
-  const bool fits = is_array ? json.size() <= type.length : json.size() < 100'000'000 && Resize(type, value, static_cast<std::uint32_t>(json.size()));
-  if (!fits) return Wrong(path, "has more than " + std::to_string(type.length) + " elements");
+  if (json.size() >= 100'000'000 || !type.list->resize(value, json.size())) {
+    return Wrong(path, "has more than " + std::to_string(type.length) + " elements");
+  }
   Result<void> result;
   std::size_t i = 0;
-  ForEachElement(type, value, [&](void* element) {
+  type.list->for_each(value, [&](void* element) {
     if (i >= json.size()) return false;  // what is not said of an array
     result = FromJson(*type.element, json[i], element, path + "[" + std::to_string(i) + "]");
     ++i;
@@ -110,11 +128,7 @@ Result<void> MembersFromJson(const ValueType& type, const Json& json, void* valu
     if (found == type.members.end()) {
       return Wrong(path, "there is no '" + name + "'", NearestNameHint(name, NamesOf(type.members, &ValueMember::name)));
     }
-    if (type.kind == ValueKind::kUnion) {
-      Release(type, value);
-      SetWholeNumber(*type.element, value, found->label);
-      Initialise(*found->type, At(value, found->offset));
-    }
+    if (type.kind == ValueKind::kUnion) Choose(type, *found, value);
     auto read = FromJson(*found->type, part, At(value, found->offset), path.empty() ? name : path + "." + name);
     if (!read) return read;
   }
@@ -123,44 +137,29 @@ Result<void> MembersFromJson(const ValueType& type, const Json& json, void* valu
 
 }  // namespace
 
-Json ToJson(const ValueType& type, const void* value) {
+Json ToJson(const ValueType& type, const void* from) {
+  void* const value = const_cast<void*>(from);  // it is not changed
   switch (type.kind) {
-    case ValueKind::kBoolean: return WholeNumber(type, value) != 0;
-    case ValueKind::kUnsignedLongLong: return static_cast<std::uint64_t>(WholeNumber(type, value));
-    case ValueKind::kFloat: {
-      float number;
-      std::memcpy(&number, value, sizeof(number));
-      return number;
-    }
-    case ValueKind::kDouble: {
-      double number;
-      std::memcpy(&number, value, sizeof(number));
-      return number;
-    }
     case ValueKind::kEnum: {
-      const auto number = static_cast<std::size_t>(WholeNumber(type, value));
+      const auto number = *static_cast<std::uint32_t*>(value);
       return number < type.names.size() ? Json(type.names[number]) : Json(number);
     }
     case ValueKind::kText: {
       const auto* const text = static_cast<const char*>(value);
       return std::string(text, strnlen(text, type.length));
     }
-    case ValueKind::kOwnedText: {
-      const char* text = nullptr;
-      std::memcpy(&text, value, sizeof(text));
-      return text != nullptr ? text : "";
-    }
-    case ValueKind::kString: return *static_cast<const std::string*>(value);
-    case ValueKind::kArray: case ValueKind::kSequence: case ValueKind::kOwnedSequence: case ValueKind::kList: {
+    case ValueKind::kOwnedText: return static_cast<genom_execution::OwnedText*>(value)->view();
+    case ValueKind::kString: return *static_cast<std::string*>(value);
+    case ValueKind::kList: {
       Json list = Json::array();
-      ForEachElement(type, const_cast<void*>(value), [&](void* element) {
+      type.list->for_each(value, [&](void* element) {
         list.push_back(ToJson(*type.element, element));
         return true;
       });
       return list;
     }
     case ValueKind::kOptional:
-      return *static_cast<const bool*>(value) ? ToJson(*type.element, At(value, type.element_offset)) : Json(nullptr);
+      return *static_cast<bool*>(value) ? ToJson(*type.element, At(value, type.element_offset)) : Json(nullptr);
     case ValueKind::kStruct: {
       Json object = Json::object();
       for (const ValueMember& each : type.members) object[each.name] = ToJson(*each.type, At(value, each.offset));
@@ -171,32 +170,15 @@ Json ToJson(const ValueType& type, const void* value) {
       return chosen != nullptr ? Json{{chosen->name, ToJson(*chosen->type, At(value, chosen->offset))}} : Json::object();
     }
     case ValueKind::kNative: return nullptr;
-    default: return WholeNumber(type, value);
+    default: return WithNumber(type.kind, value, [](auto number) -> Json { return number; });
   }
 }
 
 Result<void> FromJson(const ValueType& type, const Json& json, void* value, const std::string& path) {
   switch (type.kind) {
-    case ValueKind::kBoolean:
-      if (!json.is_boolean()) return Wrong(path, "is neither true nor false");
-      SetWholeNumber(type, value, json.get<bool>());
-      return {};
-    case ValueKind::kFloat: {
-      if (!json.is_number()) return Wrong(path, "is no number");
-      const float number = json.get<float>();
-      std::memcpy(value, &number, sizeof(number));
-      return {};
-    }
-    case ValueKind::kDouble: {
-      if (!json.is_number()) return Wrong(path, "is no number");
-      const double number = json.get<double>();
-      std::memcpy(value, &number, sizeof(number));
-      return {};
-    }
     case ValueKind::kEnum: return EnumFromJson(type, json, value, path);
     case ValueKind::kText: case ValueKind::kOwnedText: case ValueKind::kString: return TextFromJson(type, json, value, path);
-    case ValueKind::kArray: case ValueKind::kSequence: case ValueKind::kOwnedSequence: case ValueKind::kList:
-      return ListFromJson(type, json, value, path);
+    case ValueKind::kList: return ListFromJson(type, json, value, path);
     case ValueKind::kOptional: {
       const bool is_present = !json.is_null();
       *static_cast<bool*>(value) = is_present;
@@ -204,7 +186,7 @@ Result<void> FromJson(const ValueType& type, const Json& json, void* value, cons
     }
     case ValueKind::kStruct: case ValueKind::kUnion: return MembersFromJson(type, json, value, path);
     case ValueKind::kNative: return Wrong(path, "is of the component alone");
-    default: return WholeFromJson(type, json, value, path);
+    default: return WithNumber(type.kind, value, [&](auto& number) { return NumberFromJson(json, number, path); });
   }
 }
 

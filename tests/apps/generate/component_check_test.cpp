@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/genom_description/description_json.h"
+#include "plugins/genom_description/description.h"
 #include "plugins/genom_templates/template_run.h"
 #include "plugins/model_checker/spin.h"
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/genom_description/conflicts.h"
+#include "plugins/genom_description/component_rules.h"
 #include "plugins/genom_description/description.h"
 #include "tests/plugins/genom_description/verdict.h"
 

@@ -2,7 +2,6 @@
 #include <nlohmann/json.hpp>
 
 #include "plugins/genom_description/description.h"
-#include "plugins/genom_description/description_json.h"
 #include "tests/plugins/genom_description/verdict.h"
 
 namespace runnel::test {

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "plugins/genom_description/description.h"
-#include "plugins/genom_description/description_json.h"
 #include "tests/plugins/genom_description/mutation.h"
 #include "tests/plugins/genom_description/verdict.h"
 

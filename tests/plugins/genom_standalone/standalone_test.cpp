@@ -46,6 +46,19 @@ TEST(StandaloneTest, AnswersRequests) {
             Json::parse(R"({"gain":3.0,"list":[],"name":"","which":"right","mark":{"word":"hill"},"best":2.5})"));
 }
 
+TEST(StandaloneTest, UnionsOwnWhatIsSet) {
+  StandaloneProcess meter(kMeter);
+  const auto said = [&](const std::string& what) {
+    const Json value = Json::parse(what);
+    EXPECT_EQ(meter.Ask({{"call", "say"}, {"with", {{"said", value}}}}), Json::parse(R"({"done":{}})"));
+    return meter.Ask({{"call", "get_said"}})["done"]["said"];
+  };
+  for (const std::string value : {R"({"text":"a text that is longer than any place"})", R"({"numbers":[1,2,3]})", R"({"text":"b"})"}) {
+    EXPECT_EQ(said(value), Json::parse(value));
+    EXPECT_EQ(said(value), Json::parse(value));
+  }
+}
+
 TEST(StandaloneTest, SaysWhatIsWrong) {
   StandaloneProcess meter(kMeter, {"--stepped"});
   const auto error = [&](const std::string& line) {

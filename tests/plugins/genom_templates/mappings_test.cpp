@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "plugins/genom_description/description_json.h"
+#include "plugins/genom_description/description.h"
 #include "plugins/genom_templates/template_run.h"
 #include "tests/support/temporary_folder.h"
 

@@ -10,7 +10,6 @@
 #include <gmock/gmock.h>
 
 #include "plugins/genom_description/description.h"
-#include "plugins/genom_description/description_json.h"
 #include "plugins/genom_templates/file_text.h"
 #include "plugins/genom_templates/template_run.h"
 #include "tests/support/temporary_folder.h"

@@ -35,6 +35,18 @@ function execution.owns(type)
   return execution.has(type, function(each) return (each.kind == "string" or each.kind == "sequence") and not has(each, "length") end)
 end
 
+-- What _d is for a label.
+function execution.label_number(switch, label)
+  if switch.kind == "enum" then
+    for index, each in ipairs(declared[switch.name].enumerators) do
+      if each == label or each:match("([%w_]+)$") == label then return index - 1 end
+    end
+  end
+  if label == true then return 1 elseif label == false then return 0 end
+  if math.type(label) then return math.floor(label) end
+  return tostring(label):byte()
+end
+
 -- Codels by their owners, numbered as in the tables; each with what it is called in them.
 function execution.codels(component)
   local all, index = {}, {}
