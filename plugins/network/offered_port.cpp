@@ -6,6 +6,7 @@
 #include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/lockfree/wake_event.h"
+#include "core/port/driving_ports.h"
 #include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/names.h"
 
@@ -84,6 +85,7 @@ OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, cons
   // A command of motion stops whoever moves by it elsewhere, whether or not anybody has marked it here.
   if (const std::shared_ptr<const void> zero = IsVelocity(type) ? type.Make() : nullptr) {
     command_stop_ = std::make_shared<PortStop>(AnyValue(type, zero), beside.runtime().robot_stop().signal());
+    AddWhatDrives(beside.runtime(), topic_ + " (in the network)", command_stop_);
   }
   reader_ = std::make_unique<Reader>(beside, name, type, *this);
   if (options_.quality == ValueQuality::kEach) {
