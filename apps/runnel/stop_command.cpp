@@ -18,22 +18,30 @@ namespace {
 
 constexpr Duration kPatience = std::chrono::seconds(2);
 
-// What has come of the STOP of one application. Text: its answer; "": it is another application than the one that is meant.
-Result<std::string> StopOne(const std::filesystem::path& socket, const std::string& wanted) {
+// What has come of the STOP of one application; neither code nor text: it is another application than the one that is meant.
+struct Stopped {
+  std::string text = {};
+  ExitCode code = ExitCode::kDone;
+};
+Result<Stopped> StopOne(const std::filesystem::path& socket, const std::string& wanted) {
   auto client = ControlClient::Connect(socket, kPatience);
   if (!client) return client.error();
   const Hello& hello = client->hello();
-  if (!wanted.empty() && wanted != hello.application && wanted != std::to_string(hello.process)) return std::string();
+  if (!wanted.empty() && wanted != hello.application && wanted != std::to_string(hello.process)) return Stopped();
   client->SetPatience(kPatience);
-  std::string text;
-  const auto keep = [&text](std::string_view more) {
-    text += more;
-    return true;
-  };
-  const auto code = client->Ask("stop", keep, keep);
   const std::string name = hello.application + " (" + std::to_string(hello.process) + "): ";
-  if (code && *code == 0) return name + text;
-  return Error{.message = name + (code ? text : code.error().message)};
+  std::string text;
+  std::string problems;
+  const auto keep_in = [](std::string& kept) {
+    return [&kept](std::string_view more) {
+      kept += more;
+      return true;
+    };
+  };
+  const auto code = client->Ask("stop", keep_in(text), keep_in(problems));
+  if (!code) return Error{.message = name + code.error().message};
+  if (text.empty()) return Error{.message = name + problems};
+  return Stopped{name + text + problems, *code == 0 ? ExitCode::kDone : ExitCode::kRunFailed};
 }
 
 }  // namespace
@@ -51,8 +59,9 @@ ExitCode Stop(const ControlArguments& arguments) {
     const auto told = StopOne(socket, arguments.application);
     const std::lock_guard lock(mutex);
     if (told) {
-      std::cout << Coloured(*told, STDOUT_FILENO) << std::flush;
-      if (!told->empty()) ++stopped;
+      std::cout << Coloured(told->text, STDOUT_FILENO) << std::flush;
+      if (!told->text.empty()) ++stopped;
+      if (told->code != ExitCode::kDone) code = told->code;
       return;
     }
     PrintError({.message = "the STOP is not confirmed: " + told.error().message, .position = {socket.string()}});

@@ -113,6 +113,7 @@ Result<void> Application::Parts::Begin(Application& application, Diagnostics& di
     auto follows = StopFile::Follow(runtime().robot_stop(), *log, file(), name(), options().clears_stop, diagnostics);
     if (!follows) return follows.error();
     stop_file = std::move(*follows);
+    if (stop_file) hooks.is_stop_kept = [file = stop_file.get()] { return file->IsKept(); };
   }
   if (options().has_control) {
     auto server =
@@ -128,6 +129,8 @@ Result<void> Application::Parts::Begin(Application& application, Diagnostics& di
   for (const auto& extension : extensions()) {
     if (auto begun = extension->Begin(application, diagnostics); !begun) return begun;
   }
+  const auto* const rules = element_->FindAnnotation<RunRules>();
+  if (rules != nullptr && rules->operators_timeout) application.service().operators().Begin(*rules->operators_timeout);
   return {};
 }
 

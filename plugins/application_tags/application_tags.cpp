@@ -26,7 +26,7 @@ XmlTagRegistry ApplicationTags() {
   XmlTagRegistry tags;
   for (const auto& make : {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag,
                            ModuleTag, ParameterTag, InputTag, DrivingTag, GroupTag, ConnectTag, LogTag, OnFaultTag,
-                           OnStaleTag, OnStuckTag, OnPauseTag, StopButtonTag, LatencyTag, ProfileTag, OtherwiseTag}) {
+                           OnStaleTag, OnStuckTag, OnPauseTag, StopButtonTag, OperatorsTag, LatencyTag, ProfileTag, OtherwiseTag}) {
     tags.AddTag(make());
   }
   for (XmlTag& tag : internal::ReactionTags()) tags.AddTag(std::move(tag));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace runnel {
 
 // What an application file says of how the application is run. It has been checked; paths in it are absolute.
 
-/// Kept with the application by <on_fault>, <on_stale>, <on_stuck>, <on_pause>, <stop_button>, <latency> and <profile>; in the order of the file.
+/// Kept with the application by <on_fault>, <on_stale>, <on_stuck>, <on_pause>, <stop_button>, <operators>,
+/// <latency> and <profile>; in the order of the file.
 struct RunRules final : Annotation {
   std::vector<FaultRule> fault_rules;
   std::vector<FaultReaction> fault_reactions;
@@ -26,6 +28,8 @@ struct RunRules final : Annotation {
   /// Of the application and of threads; the path of the application is left out.
   std::vector<std::pair<std::string, Duration>> stuck_limits;
   bool is_profiled = false;
+  /// So long all operators may be silent (OperatorWatch); nothing: for ever.
+  std::optional<Duration> operators_timeout;
 };
 
 /// What <clock> says; without it, the defaults of SchedulerOptions.

@@ -29,6 +29,7 @@ namespace runnel {
 [[nodiscard]] XmlTag LatencyTag();
 [[nodiscard]] XmlTag OnPauseTag();
 [[nodiscard]] XmlTag OnStuckTag();
+[[nodiscard]] XmlTag OperatorsTag();
 [[nodiscard]] XmlTag ProfileTag();
 [[nodiscard]] XmlTag StopButtonTag();
 [[nodiscard]] XmlTag OtherwiseTag();

@@ -51,6 +51,21 @@ void AddStopButton(const TagUse& use) {
   internal::RunRulesAround(use.parent).stop_buttons.push_back({port->path(), releases && releases->value == "true"});
 }
 
+// Nobody changes it while the application runs, so the file keeps it.
+FrameworkElement* WatchOperators(const TagUse& use) {
+  constexpr Duration kShortest = std::chrono::milliseconds(200);
+  constexpr Duration kLongest = std::chrono::minutes(10);
+  RunRules& rules = internal::RunRulesAround(use.parent);
+  const Duration timeout = ParseDuration(use.Get("timeout").value).value();
+  if (rules.operators_timeout) {
+    use.Report({.message = "how long operators may be silent is said twice"}, use.xml.position());
+  } else if (timeout < kShortest || timeout > kLongest) {
+    use.Report({.message = "operators may be silent for 200ms to 10min"}, use.Get("timeout").value_position);
+  }
+  rules.operators_timeout = timeout;
+  return &use.parent;
+}
+
 void BeginProfile(const TagUse& use) { internal::RunRulesAround(use.parent).is_profiled = true; }
 
 // Of a thread or of the whole application. Nobody changes it while the application runs, so the file keeps it.
@@ -102,6 +117,17 @@ XmlTag StopButtonTag() {
                           .summary = "whether letting go of the button releases the STOP; else somebody has to do so",
                           .choices = {"false", "true"}}},
           .handle = InTheEnd<AddStopButton>};
+}
+XmlTag OperatorsTag() {
+  return {.name = "operators",
+          .summary = "an operator must be heard: else the STOP of the robot is pressed; operators are pages, terminals, "
+                     "Python and Foxglove that may drive",
+          .parents = {"application"},
+          .attributes = {{.name = "timeout",
+                          .kind = AttributeKind::kDuration,
+                          .required = true,
+                          .summary = "so long all of them may be silent, from the start on; by the machine's clock"}},
+          .handle = WatchOperators};
 }
 XmlTag LatencyTag() {
   return {.name = "latency",

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,8 @@
 
 #include "core/base/clock.h"
 #include "core/base/diagnostics.h"
+#include "core/base/result.h"
+#include "core/element/robot_stop.h"
 #include "plugins/structure/change_text.h"
 
 namespace runnel {
@@ -49,6 +52,23 @@ struct LogLevelRequest {
   std::string path = {};  ///< "" or "/": all
   std::string level;      ///< as LogLevelName() says it, or "inherit": as above it
 };
+/// For a command that has to wait before it is carried out: one from before a STOP must not become one from after its
+/// release. Threads: any; it outlives the runtime.
+class CommandBar {
+ public:
+  /// It has been asked for now.
+  explicit CommandBar(const RobotStop& stop) : signal_(stop.signal()), bar_(signal_->bar()) {}
+  /// Whether it may still be carried out.
+  [[nodiscard]] Result<void> Check() const {
+    if (signal_->bar() == bar_) return {};
+    return Error{.message = "STOP was pressed or released after this was asked for"};
+  }
+
+ private:
+  std::shared_ptr<const StopSignal> signal_;
+  std::int64_t bar_;
+};
+
 /// Sets the value at a port by hand: readers find it instead of what is published, until a ReleaseRequest.
 struct PublishRequest {
   static constexpr double kSlowestRate = 0.001;
@@ -68,8 +88,7 @@ struct PublishRequest {
   std::string lease = {};
   /// By the machine's clock, from which the deadline counts; CommandService::Begin() says so.
   std::optional<Time> received = {};
-  /// Of the robot's StopSignal when it was asked for; likewise. A command from before a STOP must not wait until after it.
-  std::optional<std::int64_t> bar = {};
+  std::optional<CommandBar> bar = {};  ///< likewise
 };
 /// Readers of the port find its safe value until a ReleaseRequest, and nobody may set another one (Port::Block()).
 struct BlockRequest {
@@ -120,6 +139,7 @@ struct CommandAnswer {
   std::string client = {};  ///< of what was undone or redone: who had wanted it
   /// What has to be said besides for it to be done: "overwrite", "yes"; "": that would not help.
   std::string needs = {};
+  bool stops_nothing = false;  ///< the STOP is in force, and nothing is marked as driving
 
   explicit operator bool() const noexcept { return outcome == Outcome::kDone; }
 

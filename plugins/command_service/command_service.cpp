@@ -7,6 +7,7 @@
 
 #include "core/plugin/module_type_name.h"
 #include "core/paths/path_search.h"
+#include "core/port/driving_ports.h"
 #include "core/types/duration_text.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/change_task.h"
@@ -74,7 +75,8 @@ CommandService::CommandService(ServedApplication application)
         const auto state = application_.runtime.robot_stop().state();
         application_.log.Add(ApplicationLog::Kind::kWarning,
                              (state.in_force ? "STOP is in force, pressed by " : "STOP is released by ") + state.by);
-      })) {}
+      })),
+      operators_(application_.runtime.robot_stop()) {}
 
 CommandAnswer PendingCommand::Take() {
   if (task_->failure()) return CommandAnswer::Failed(*task_->failure());
@@ -87,7 +89,7 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
   auto pending = std::make_unique<PendingCommand>();
   if (auto* const publish = std::get_if<PublishRequest>(&request)) {
     if (!publish->received) publish->received = hand_settings_.Now();
-    if (!publish->bar) publish->bar = application_.runtime.robot_stop().signal()->bar();
+    if (!publish->bar) publish->bar.emplace(application_.runtime.robot_stop());
   }
   const std::shared_ptr<CommandAnswer>& answer = pending->answer_;
   if (const auto* const stop = std::get_if<RobotStopRequest>(&request)) {
@@ -162,13 +164,28 @@ CommandAnswer CommandService::Do(const QuitRequest&) const {
 
 CommandAnswer CommandService::Do(const RobotStopRequest& request) const {
   RobotStop& stop = application_.runtime.robot_stop();
+  CommandAnswer answer;
   if (request.is_pressed) {
     const char* const since = stop.Press(request.by) ? "" : " already";
-    return CommandAnswer::Done(std::string("STOP is in force") + since + "; 'runnel release' ends it");
+    answer = CommandAnswer::Done(std::string("STOP is in force") + since + "; 'runnel release' ends it");
+  } else {
+    const std::string pressed_by = stop.state().by;
+    if (!stop.Release(request.by)) return CommandAnswer::Refused({.message = "STOP is not in force"});
+    answer = CommandAnswer::Done("released the STOP that " + pressed_by + " had pressed");
   }
-  const std::string pressed_by = stop.state().by;
-  if (stop.Release(request.by)) return CommandAnswer::Done("released the STOP that " + pressed_by + " had pressed");
-  return CommandAnswer::Refused({.message = "STOP is not in force"});
+  if (application_.hooks.is_stop_kept && !application_.hooks.is_stop_kept()) {
+    answer.text += "; the file by which the next process knows of it is not written yet";
+  }
+  const auto drives = FindWhatDrives(application_.runtime);
+  if (!drives) {
+    answer.text += "; what drives cannot be told while the structure is being changed";
+  } else if (!drives->empty()) {
+    answer.text += "; what drives: " + *drives;
+  } else if (request.is_pressed) {
+    answer.stops_nothing = true;
+    answer.diagnostics.AddWarning(NothingDrives());
+  }
+  return answer;
 }
 
 CommandAnswer CommandService::Do(const BlockRequest& request) {

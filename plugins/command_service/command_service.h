@@ -13,6 +13,7 @@
 #include "plugins/command_service/command_request.h"
 #include "plugins/command_service/command_worker.h"
 #include "plugins/command_service/hand_settings.h"
+#include "plugins/command_service/operator_watch.h"
 #include "plugins/structure/structure_editor.h"
 
 namespace runnel {
@@ -74,6 +75,8 @@ struct ServiceHooks {
   /// Ends the run, or ends it and runs the application again from its file, and says so; both after the answer.
   std::function<Result<std::string>()> quit = {};
   std::function<Result<std::string>()> restart = {};
+  /// Whether the next process of the application will find what has become of STOP. Waits a moment for that; any thread.
+  std::function<bool()> is_stop_kept = {};
   /// Records ports until the client goes.
   RecordingHook record = {};
 };
@@ -132,6 +135,8 @@ class CommandService {
   [[nodiscard]] CommandWorker& worker() noexcept { return worker_; }
   /// What clients have set by hand. Any thread.
   [[nodiscard]] const HandSettings& hand_settings() const noexcept { return hand_settings_; }
+  /// Transports tell it whom they hear. Any thread.
+  [[nodiscard]] OperatorWatch& operators() noexcept { return operators_; }
 
   /// Carries it out behind what was asked for before. `on_done` is called by the worker when the answer is
   /// there; without it, that of the tasks. A RobotStopRequest is carried out, and `on_done` called, before this returns.
@@ -157,6 +162,7 @@ class CommandService {
   CommandWorker worker_;                             // its tasks use the rest
   HandSettings hand_settings_;                       // first to go: tasks of the worker
   const StopSignal::Subscription stop_;              // logs what becomes of the robot's STOP
+  OperatorWatch operators_;
 };
 
 }  // namespace runnel

@@ -106,16 +106,8 @@ HandSettings::HandSettings(Runtime& runtime, CommandWorker& worker, ApplicationL
       log_(log),
       clock_(watched_clock != nullptr ? *watched_clock : machine_clock_),
       watches_(watched_clock == nullptr),
+      lookout_([this] { return LookAtDeadlines(); }),
       tasks_(worker) {}
-
-HandSettings::~HandSettings() {
-  {
-    const std::lock_guard lock(mutex_);
-    ends_ = true;
-  }
-  has_changed_.notify_all();
-  if (watch_.joinable()) watch_.join();
-}
 
 std::vector<std::pair<std::string, HandState>> HandSettings::All() const {
   if (const std::unique_lock structure(runtime_.structure_mutex(), std::try_to_lock); structure) {
@@ -173,8 +165,8 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
   std::uint64_t number = 0;
   // Under the slot's mutex: noted first, so that nothing that is thrown leaves a value without its deadline.
   auto done = port.PublishByHand([&](void* to) -> Result<void> {
-    if (request.bar && *request.bar != runtime_.robot_stop().signal()->bar()) {
-      return At(port, "STOP was pressed or released after this was asked for");
+    if (auto counts = request.bar ? request.bar->Check() : Result<void>(); !counts) {
+      return At(port, counts.error().message);
     }
     if (!slot->hold) slot->hold = std::make_unique<HandHold>(ended_);
     HandHold& hold = HoldOf(*slot);
@@ -202,15 +194,13 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
 // By the worker, which no thread of a cycle waits for, and without the structure lock.
 void HandSettings::PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t number, double rate) {
   const Duration period = FromSeconds(1 / rate);
-  const auto& stop = runtime_.robot_stop().signal();
   tasks_.PostSteps([this, slot = std::move(slot), value = std::move(value), number, period,
-                    stop, bar = stop->bar(),
+                    bar = CommandBar(runtime_.robot_stop()),
                     due = runtime_.clock().Now() + period]() mutable -> std::optional<Duration> {
     const Time now = runtime_.clock().Now();
     const std::lock_guard lock(slot->mutex);
     if (!slot->hold || HoldOf(*slot).number != number) return {};  // released, or set anew
-    // A command from before a STOP must not become one from after its release.
-    if (stop->bar() != bar) {
+    if (!bar.Check()) {
       log_.Add(ApplicationLog::Kind::kWarning,
                HoldOf(*slot).path + ": its value is not published again, since STOP was pressed or released");
       return {};
@@ -230,27 +220,11 @@ Result<std::string> HandSettings::Release(const ReleaseRequest& request) {
 
 // Under the slot's mutex.
 void HandSettings::WatchOver(const Slot& slot) {
-  const std::lock_guard lock(mutex_);
-  if (std::ranges::find(driven_, slot) == driven_.end()) driven_.push_back(slot);
-  must_look_ = true;
-  if (watches_ && !watch_.joinable()) watch_ = std::thread([this] { Watch(); });
-  has_changed_.notify_all();
-}
-
-void HandSettings::Watch() {
-  std::unique_lock lock(mutex_);
-  while (!ends_) {
-    must_look_ = false;
-    lock.unlock();
-    const auto next = LookAtDeadlines();
-    lock.lock();
-    const auto shall_look = [&] { return must_look_ || ends_; };
-    if (next) {
-      has_changed_.wait_for(lock, *next - Now(), shall_look);
-    } else {
-      has_changed_.wait(lock, shall_look);
-    }
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::ranges::find(driven_, slot) == driven_.end()) driven_.push_back(slot);
   }
+  if (watches_) lookout_.Ask();
 }
 
 std::optional<Time> HandSettings::LookAtDeadlines() {

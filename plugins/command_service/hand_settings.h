@@ -1,13 +1,11 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -19,6 +17,7 @@
 #include "plugins/command_service/command_request.h"
 #include "plugins/command_service/command_worker.h"
 #include "plugins/command_service/hand_leases.h"
+#include "plugins/command_service/lookout.h"
 
 namespace runnel {
 
@@ -46,7 +45,6 @@ class HandSettings {
   /// `watched_clock`: for tests, of a machine whose deadlines only LookAtDeadlines() looks at.
   HandSettings(Runtime& runtime, CommandWorker& worker, ApplicationLog& log,
                const Clock* watched_clock = nullptr);
-  ~HandSettings();
 
   struct Published {
     std::string port;
@@ -69,7 +67,6 @@ class HandSettings {
   void WatchOver(const Slot& slot);
   std::optional<Time> LookAt(const Slot& slot);
   void TellFailure(HandHold& hold, const Error& error);
-  void Watch();
 
   Runtime& runtime_;
   ApplicationLog& log_;
@@ -78,13 +75,10 @@ class HandSettings {
   const bool watches_;
   const std::shared_ptr<EndedLeases> ended_ = std::make_shared<EndedLeases>();
   mutable std::mutex mutex_;  // comes after the structure lock and after a slot's mutex
-  std::condition_variable has_changed_;
   std::vector<Slot> driven_;                                     // guarded by mutex_: those with a deadline
   mutable std::vector<std::pair<std::string, HandState>> told_;  // so: by All()
-  bool must_look_ = false;                                       // so
-  bool ends_ = false;                                            // so
   std::atomic<std::uint64_t> count_{0};
-  std::thread watch_;  // made by the worker
+  Lookout lookout_;
   TaskGroup tasks_;  // first to go: its tasks use the rest
 };
 

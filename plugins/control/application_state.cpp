@@ -2,33 +2,29 @@
 
 #include <algorithm>
 #include <mutex>
+#include <thread>
 
 #include <fmt/format.h>
 
 #include "core/element/runtime.h"
 #include "core/paths/late_connections.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/driving_ports.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel {
 
+namespace {
+constexpr int kTries = 10;
+}  // namespace
+
 std::string StopText(Runtime& runtime) {
   const RobotStop::State stop = runtime.robot_stop().state();
   if (!stop.in_force) return {};
-  return fmt::format("STOP in force for {:.0f} s, by {}", ToSeconds(runtime.clock().Now() - stop.since), stop.by);
-}
-
-std::string DrivingText(Runtime& runtime) {
-  const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
-  if (!lock) return "which ports drive cannot be told while the structure is being changed";
-  std::string paths;
-  runtime.root().Visit([&](FrameworkElement& each) {
-    const auto* const port = dynamic_cast<const Port*>(&each);
-    if (port != nullptr && port->is_driving()) paths += (paths.empty() ? "" : ", ") + port->path();
-  });
-  return paths.empty() ? "warning: no port of this application is marked as driving, so nothing has its safe value" : "what drives: " + paths;
+  const char* const but = FindWhatDrives(runtime) == "" ? ", but NO PORT DRIVES" : "";
+  return fmt::format("STOP in force for {:.0f} s, by {}{}", ToSeconds(runtime.clock().Now() - stop.since), stop.by, but);
 }
 
 std::string StateText(const ServedApplication& application) {
@@ -36,8 +32,14 @@ std::string StateText(const ServedApplication& application) {
   if (application.pace != nullptr && application.pace->is_paused()) text = "paused";
   if (application.pace != nullptr && application.pace->has_ended()) text = "ended, held";
   if (const std::string stop = StopText(application.runtime); !stop.empty()) text += ", " + stop;
-  const std::unique_lock lock(application.runtime.structure_mutex(), std::try_to_lock);
-  if (!lock || application.scheduler == nullptr) return text;
+  // Others have it for a moment again and again.
+  std::unique_lock lock(application.runtime.structure_mutex(), std::try_to_lock);
+  for (int tries = 0; !lock && tries < kTries; ++tries) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    lock.try_lock();
+  }
+  if (!lock) return text + ", BUSY changing its structure: nothing else can be told of it";
+  if (application.scheduler == nullptr) return text;
   FrameworkElement& root = application.runtime.root();
   const Time now = application.runtime.clock().Now();
   std::size_t paused = 0;

@@ -13,14 +13,12 @@ class Port;
 class ThreadContainer;
 
 /// How an application is, for people: "running", and all that somebody should know, as "running, STOP in force for 4 s,
-/// by a terminal, 1 module PAUSED". Does not wait: what needs the structure lock is left out while somebody else has it.
+/// by a terminal, 1 module PAUSED". Waits for 10 ms at most: what needs the structure lock is left out while somebody else
+/// has it, which is said.
 [[nodiscard]] std::string StateText(const ServedApplication& application);
 
-/// "STOP in force for 4 s, by a terminal"; "" if it is not. Any thread.
+/// "STOP in force for 4 s, by a terminal", and whether that stops nothing; "" if it is not. Any thread.
 [[nodiscard]] std::string StopText(Runtime& runtime);
-
-/// "what drives: /drive/input/twist", or that nothing is marked so; as StateText() while the structure is locked.
-[[nodiscard]] std::string DrivingText(Runtime& runtime);
 
 /// Whether its cycles often take longer than their period.
 [[nodiscard]] bool Overruns(const ThreadContainer& thread);

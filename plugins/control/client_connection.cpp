@@ -106,6 +106,7 @@ void ClientConnection::Begin(CommandService& service, TaskGroup& tasks) {
   if ((*frame)->kind != "request") {
     return Refuse({.message = "a frame '" + (*frame)->kind + "' where a 'request' should be"});
   }
+  service.operators().Hear("a terminal");
   if (why_only_stop_ && (*frame)->payload != "stop") return Refuse(*why_only_stop_);
   auto command = MakeCommand((*frame)->payload, service, tasks);
   if (command) {

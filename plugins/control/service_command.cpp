@@ -4,7 +4,6 @@
 
 #include "core/paths/distant_ports.h"
 #include "plugins/command_service/request_table.h"
-#include "plugins/control/application_state.h"
 #include "plugins/control/command.h"
 #include "plugins/structure/change_text.h"
 
@@ -96,16 +95,15 @@ CommandResult MakeServiceCommand(const Request& request, const CommandContext& c
   if (!wanted) return wanted.error();
   const std::shared_ptr<PendingCommand> pending =
       context.service.Begin(std::move(*wanted), context.tasks);
-  const bool is_of_robot = request.command == "stop" || (request.command == "release" && request.arguments.empty());
-  return Command([pending, is_of_robot, &runtime = context.application.runtime](Answer& answer) -> CommandStep {
+  return Command([pending](Answer& answer) -> CommandStep {
     if (!pending->is_done()) return std::shared_ptr<const WorkerTask>(pending->task());
     const CommandAnswer done = pending->Take();
     const std::string diagnostics = DiagnosticsText(done.diagnostics);
     if (!diagnostics.empty()) answer.WriteError(diagnostics);
     if (done.outcome == CommandAnswer::Outcome::kRefused) return ControlCode::kBadInput;
     if (done.outcome == CommandAnswer::Outcome::kFailed) return ControlCode::kFailed;
-    answer.Write(done.text + (is_of_robot ? "; " + DrivingText(runtime) : "") + "\n");
-    return ControlCode::kDone;
+    answer.Write(done.text + "\n");
+    return done.stops_nothing ? ControlCode::kFailed : ControlCode::kDone;
   });
 }
 

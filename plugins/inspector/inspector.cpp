@@ -15,7 +15,8 @@ WebProtocol Inspector::Protocol() {
   return {.names = {"runnel.inspector.v1", internal::ViewerSession::kStopProtocol},
           .start = [shared = shared_.get()](WebClient& client) -> std::unique_ptr<WebSession> {
             return std::make_unique<internal::ViewerSession>(*shared, client);
-          }};
+          },
+          .kept_name = internal::ViewerSession::kStopProtocol};
 }
 
 void Inspector::NoteEnd(std::string verdict) { shared_->NoteEnd(std::move(verdict)); }

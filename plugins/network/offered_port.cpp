@@ -6,6 +6,7 @@
 #include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/lockfree/wake_event.h"
+#include "core/port/driving_ports.h"
 #include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/names.h"
 
@@ -85,6 +86,7 @@ OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, cons
   if (const std::shared_ptr<const void> zero = IsVelocity(type) ? type.Make() : nullptr) {
     const auto& robot = beside.runtime().robot_stop().signal();
     command_stop_ = std::make_shared<PortStop>(AnyValue(type, zero), Duration{}, robot);
+    AddWhatDrives(beside.runtime(), topic_ + " (in the network)", command_stop_);
   }
   reader_ = std::make_unique<Reader>(beside, name, type, *this);
   if (options_.quality == ValueQuality::kEach) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/port/driving_ports.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/names.h"
@@ -12,9 +13,9 @@ namespace {
 constexpr std::uint32_t kStopIdentity = 0x80000100u;  // beyond those of parameters
 }  // namespace
 
-Result<std::unique_ptr<StopService>> StopService::Start(RobotStop& stop, bool may_release, const std::string& node,
+Result<std::unique_ptr<StopService>> StopService::Start(Runtime& runtime, bool may_release, const std::string& node,
                                                         WireParticipant& participant, ServiceDialect dialect) {
-  std::unique_ptr<StopService> made(new StopService(stop, may_release, (node == "/" ? "" : node) + "/stop"));
+  std::unique_ptr<StopService> made(new StopService(runtime, may_release, (node == "/" ? "" : node) + "/stop"));
   auto endpoints = ServiceEndpoints::Start(ServiceEndpoints::Side::kServer,
                                            {.service = made->name_,
                                             .request_type = DdsType("std_srvs/srv/SetBool_Request"),
@@ -51,9 +52,15 @@ StopService::Answer StopService::Do(const ServiceMessage& request) {
   bool is_press = false;
   if (!from || !from->Get(is_press)) return {false, "the request is no std_srvs/srv/SetBool"};
   const std::string by = "the service " + name_;
-  if (is_press) return {true, stop_.Press(by) ? "the robot is stopped" : "the robot was stopped already"};
+  RobotStop& stop = runtime_.robot_stop();
+  if (is_press) {
+    std::string done = stop.Press(by) ? "the robot is stopped" : "the robot was stopped already";
+    if (FindWhatDrives(runtime_) != "") return {true, std::move(done)};
+    const Error why = NothingDrives();
+    return {false, "STOP is in force, but " + why.message + "; " + why.hint};
+  }
   if (!may_release_) return {false, "the STOP is not released by this service: its file does not say <ros stop_releases=\"true\">"};
-  return {true, stop_.Release(by) ? "the STOP is released" : "the robot was not stopped"};
+  return {true, stop.Release(by) ? "the STOP is released" : "the robot was not stopped"};
 }
 
 }  // namespace runnel

@@ -6,27 +6,27 @@
 #include <string>
 #include <vector>
 
-#include "core/element/robot_stop.h"
+#include "core/element/runtime.h"
 #include "plugins/ros_services/service_endpoints.h"
 
 namespace runnel {
 
 /// The STOP of the robot as a service of its node, `~/stop` (std_srvs/srv/SetBool): true presses it, false releases it if
-/// that is allowed. Its answer says what has happened.
+/// that is allowed. Its answer says what has happened; without success also where STOP is in force and stops nothing.
 ///
 /// Threads:  requests are served by a thread of the engine, so nothing that the application does delays them; the rest any.
-/// Ownership: participant and `stop` must outlive it.
+/// Ownership: participant and runtime must outlive it.
 class StopService {
  public:
   /// Errors: of the engine.
-  static Result<std::unique_ptr<StopService>> Start(RobotStop& stop, bool may_release, const std::string& node,
+  static Result<std::unique_ptr<StopService>> Start(Runtime& runtime, bool may_release, const std::string& node,
                                                     WireParticipant& participant, ServiceDialect dialect);
 
   [[nodiscard]] const ServiceEndpoints& endpoints() const noexcept { return *endpoints_; }
 
  private:
-  StopService(RobotStop& stop, bool may_release, std::string name)
-      : stop_(stop), may_release_(may_release), name_(std::move(name)) {}
+  StopService(Runtime& runtime, bool may_release, std::string name)
+      : runtime_(runtime), may_release_(may_release), name_(std::move(name)) {}
   void Serve() noexcept;
   struct Answer {
     bool success;
@@ -34,7 +34,7 @@ class StopService {
   };
   Answer Do(const ServiceMessage& request);
 
-  RobotStop& stop_;
+  Runtime& runtime_;
   const bool may_release_;
   const std::string name_;  // "/base/stop"
   std::mutex serving_;

@@ -14,7 +14,7 @@ namespace runnel {
 struct WebLimits {
   std::size_t header_bytes = 8 * 1024;
   std::size_t message_bytes = 1 << 20;  ///< of one message from a client
-  std::size_t clients = 64;             ///< WebSockets at once; a page has one for its STOP, too
+  std::size_t clients = 64;             ///< WebSockets at once, and as many more for those of WebProtocol::kept_name
   std::size_t visitors = 64;            ///< plain connections at once; the oldest makes room
   double messages_per_second = 200;     ///< of one client, each 4 kB counting as one; more waits
   std::size_t waiting_bytes = 8 << 20;  ///< for one client that does not read

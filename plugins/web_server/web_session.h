@@ -49,6 +49,9 @@ class WebSession {
   virtual ~WebSession() = default;
   virtual void OnText(std::string_view message) = 0;
   virtual void OnBinary(std::string_view message) = 0;
+  /// Whether the message is handed over as soon as it has been read, before what its client has said earlier and must not say
+  /// so fast, and does not count. Of very few.
+  [[nodiscard]] virtual bool OutranksLimits(std::string_view /*message*/, bool /*is_text*/) const { return false; }
   /// At the start, whenever due, after each message, and when its client's Waker() is called. Returns when
   /// it wants the next turn.
   virtual SteadyTime OnPoll() = 0;
@@ -59,6 +62,8 @@ struct WebProtocol {
   std::vector<std::string> names;
   /// The client outlives the session.
   std::function<std::unique_ptr<WebSession>(WebClient& client)> start;
+  /// One of the names, "" if none: as many more sessions by this name may be there at once, which make room for no others.
+  std::string kept_name = {};
 };
 
 }  // namespace runnel

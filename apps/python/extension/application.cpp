@@ -10,6 +10,7 @@
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/ports.h"
 #include "core/paths/path_search.h"
+#include "core/port/driving_ports.h"
 #include "plugins/application/run_report.h"
 #include "plugins/command_service/application_log.h"
 
@@ -63,6 +64,7 @@ Result<void> SetStop(Application& application, bool is_pressed) {
   RobotStop& stop = application.runtime().robot_stop();
   if (is_pressed) {
     stop.Press("Python");
+    if (FindWhatDrives(application.runtime()) == "") return NothingDrives();
   } else if (!stop.Release("Python")) {
     return Error{.message = "STOP is not in force"};
   }

@@ -1,6 +1,8 @@
 #include "plugins/application/internal/stop_file.h"
 
+#include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -8,12 +10,16 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
+#include "core/base/folder_names.h"
 #include "plugins/control/control_folder.h"
 
 namespace runnel {
@@ -36,23 +42,45 @@ Error Telling(const std::string& what, Error error) {
   return error;
 }
 
-// Who pressed STOP; nothing if it was not in force. What cannot be looked at counts as a STOP.
-std::optional<std::string> LeftBy(const fs::path& file) {
-  std::error_code failure;
-  if (fs::symlink_status(file, failure).type() == fs::file_type::not_found) return {};
+Error SystemError(const fs::path& file) { return {.message = std::strerror(errno), .position = {file.string()}}; }
+
+bool IsHeld(int descriptor) { return descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0; }
+
+int Open(const fs::path& file, int how = O_RDONLY) { return open(file.c_str(), how | O_NOFOLLOW | O_CLOEXEC, 0600); }
+
+// Who pressed STOP there.
+std::string PressedBy(const fs::path& file) {
   std::string by;
   std::ifstream stream(file);
   std::getline(stream, by);
-  return by.empty() ? "somebody" : by.substr(0, kLongestBy);
+  const int descriptor = Open(file);
+  const bool is_held = IsHeld(descriptor);
+  if (descriptor >= 0) close(descriptor);
+  return (by.empty() ? "somebody" : by.substr(0, kLongestBy)) + (is_held ? ", in another process that runs" : ", in a process before this one");
 }
 
-Result<void> Write(const fs::path& file, const std::string& text) {
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0600);
-  const bool is_written = descriptor >= 0 && write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  const int problem = errno;
-  if (descriptor >= 0) close(descriptor);
-  if (is_written) return {};
-  return Error{.message = std::strerror(problem), .position = {file.string()}};
+// `name`: how the names of all files of one application begin.
+std::vector<fs::path> FilesOf(const fs::path& folder, const std::string& name) {
+  std::vector<fs::path> files;
+  for (const std::string& each : NamesInFolder(folder)) {
+    if (each.starts_with(name)) files.push_back(folder / each);
+  }
+  return files;
+}
+
+Result<void> RemoveLeft(const fs::path& folder, const std::string& name) {
+  Result<void> done;
+  for (const fs::path& each : FilesOf(folder, name)) {
+    const int descriptor = Open(each);
+    if (!IsHeld(descriptor) && unlink(each.c_str()) != 0 && errno != ENOENT) done = SystemError(each);
+    if (descriptor >= 0) close(descriptor);
+  }
+  return done;
+}
+
+std::string OwnName() {
+  static std::atomic<int> number{0};
+  return fmt::format("{}-{}.stop", getpid(), ++number);
 }
 
 }  // namespace
@@ -75,44 +103,87 @@ Result<std::unique_ptr<StopFile>> StopFile::Follow(RobotStop& stop, ApplicationL
     return std::unique_ptr<StopFile>();
   }
   const std::string identity = fs::absolute(application_file).lexically_normal().string() + "\n" + name;
-  const fs::path file = folder / fmt::format("{:016x}.stop", HashOf(identity));
-  const auto left_by = LeftBy(file);
-  if (left_by && clears) {  // before anybody's press is written there
-    fs::remove(file, failure);
-    if (failure) return Error{.message = "the STOP cannot be cleared: " + failure.message(), .position = {file.string()}};
+  const std::string file_name = fmt::format("{:016x}-", HashOf(identity));
+  if (clears) {
+    if (auto removed = RemoveLeft(folder, file_name); !removed) return Telling("the STOP cannot be cleared", removed.error());
   }
-  auto follows = std::make_unique<StopFile>(stop, log, file);
-  if (left_by && !clears) {
-    stop.Press(*left_by + ", in a process before this one");
-    diagnostics.AddWarning({.message = "the application begins under STOP, pressed by " + stop.state().by,
-                            .hint = "'runnel release' ends it; 'runnel run --clear-stop' begins without"});
-  }
+  const auto left = clears ? std::vector<fs::path>() : FilesOf(folder, file_name);
+  auto follows = std::make_unique<StopFile>(stop, log, folder, file_name);
+  if (left.empty()) return follows;
+  stop.Press(PressedBy(left.front()));
+  diagnostics.AddWarning({.message = "the application begins under STOP, pressed by " + stop.state().by,
+                          .hint = "'runnel release' ends it; 'runnel run --clear-stop' begins without"});
   return follows;
 }
 
-StopFile::StopFile(RobotStop& stop, ApplicationLog& log, fs::path file)
-    : stop_(stop), log_(log), file_(std::move(file)), changes_(stop.signal()->Listen([this] { Note(); })) {
-  if (stop_.in_force()) Note();  // pressed while the application was loaded
+StopFile::StopFile(RobotStop& stop, ApplicationLog& log, fs::path folder, std::string name)
+    : stop_(stop),
+      log_(log),
+      folder_(std::move(folder)),
+      name_(std::move(name)),
+      file_(folder_ / (name_ + OwnName())),
+      lookout_([this]() -> std::optional<Time> {
+        Write();
+        return {};
+      }),
+      changes_(stop.signal()->Listen([this] { lookout_.Ask(); })) {
+  lookout_.Ask();  // it may have been pressed while the application was loaded
 }
 
-// One at a time, and the last one finds the last state.
-void StopFile::Note() noexcept {
+StopFile::Held::~Held() { Close(); }
+
+void StopFile::Held::Close() {
+  if (descriptor >= 0) close(std::exchange(descriptor, -1));
+}
+
+bool StopFile::IsKept() {
+  constexpr auto kPatience = std::chrono::milliseconds(50);
+  const std::uint64_t last = stop_.state().changes;
+  std::unique_lock lock(mutex_);
+  return has_written_.wait_for(lock, kPatience, [&] { return written_ >= last; }) && !has_failed_;
+}
+
+// The last one finds the last state.
+void StopFile::Write() noexcept {
   try {
-    const std::lock_guard lock(writing_);
     const auto state = stop_.state();
-    Result<void> done;
-    if (state.in_force) {
-      done = MakeControlFolder(file_.parent_path());
-      if (done) done = Write(file_, state.by + "\n");
-    } else if (unlink(file_.c_str()) != 0 && errno != ENOENT) {
-      done = Error{.message = std::strerror(errno), .position = {file_.string()}};
+    const auto done = state.changes == 0 ? Result<void>() : Follow(state);
+    if (!done) {
+      log_.Add(ApplicationLog::Kind::kWarning,
+               Telling(state.in_force ? "STOP will end with this process" : "the next process will begin under STOP", done.error())
+                   .ToString());
     }
-    if (done) return;
-    log_.Add(ApplicationLog::Kind::kWarning,
-             Telling(state.in_force ? "STOP will end with this process" : "the next process will begin under STOP", done.error())
-                 .ToString());
+    const std::lock_guard lock(mutex_);
+    written_ = state.changes;
+    has_failed_ = !done;
   } catch (...) {
     // Out of memory: STOP is in force without the file, which is what matters now.
+  }
+  has_written_.notify_all();
+}
+
+Result<void> StopFile::Follow(const RobotStop::State& state) {
+  if (state.in_force && held_.descriptor < 0) {
+    if (auto made = MakeControlFolder(folder_); !made) return made;
+    if (auto held = Hold(state.by + "\n"); !held) return held;
+  } else if (!state.in_force && held_.descriptor >= 0) {
+    if (unlink(file_.c_str()) != 0 && errno != ENOENT) return SystemError(file_);
+    held_.Close();
+  }
+  return RemoveLeft(folder_, name_);
+}
+
+Result<void> StopFile::Hold(const std::string& text) {
+  for (;;) {
+    held_.descriptor = Open(file_, O_WRONLY | O_CREAT | O_TRUNC);
+    struct stat status {};
+    const bool is_mine = held_.descriptor >= 0 && flock(held_.descriptor, LOCK_EX) == 0 && fstat(held_.descriptor, &status) == 0;
+    const bool is_there = is_mine && status.st_nlink > 0;
+    if (is_there && write(held_.descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size())) return {};
+    Error error = SystemError(file_);
+    held_.Close();
+    if (!is_mine || is_there) return error;
+    // Who looked whether anybody holds it has removed it meanwhile.
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <condition_variable>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -9,17 +11,22 @@
 #include "core/base/result.h"
 #include "core/element/robot_stop.h"
 #include "plugins/command_service/application_log.h"
+#include "plugins/command_service/lookout.h"
 
 namespace runnel {
 
-/// Keeps the STOP of an application across its processes: while STOP is in force there is a file of it in the folder of the
-/// control sockets. It is named after the application's file and name, so two applications of one name have two.
+/// Keeps the STOP of an application across its processes: while STOP is in force there is a file of this process in the folder
+/// of the control sockets, named after the application's file and name, and after the process. Who has it holds a lock
+/// on it, which ends with the process. A file that nobody holds was left by a process that has ended: the next one takes it over,
+/// and a release removes it. A file that another process holds is that one's, and stays.
 ///
 /// Ownership:  the STOP and the log outlive it.
-/// Threads:    made by one; who presses or releases writes the file, after that is in force.
+/// Threads:    made by one; one of its own writes, so no disk delays who presses. IsKept() by any. A process that is killed
+///             before that thread has written leaves no STOP.
 class StopFile {
  public:
-  /// Presses STOP if a process before this one left it in force, and says so as a warning, or, if `clears`, forgets it.
+  /// Presses STOP if another process has left it in force, or has it in force now, and says so as a warning; if `clears`,
+  /// it is not pressed, and what was left is forgotten.
   /// Follows STOP from then on. Warnings: there can be no such folder. Errors: others can write into the folder, so whether
   /// STOP was in force cannot be known; with `clears`, a warning.
   static Result<std::unique_ptr<StopFile>> Follow(RobotStop& stop, ApplicationLog& log,
@@ -27,18 +34,39 @@ class StopFile {
                                                   const std::string& name, bool clears,
                                                   Diagnostics& diagnostics);
 
-  StopFile(RobotStop& stop, ApplicationLog& log, std::filesystem::path file);
+  /// `name`: how the names of all files of the application begin.
+  StopFile(RobotStop& stop, ApplicationLog& log, std::filesystem::path folder, std::string name);
   StopFile(const StopFile&) = delete;
   StopFile& operator=(const StopFile&) = delete;
 
+  /// Whether the last press or release has been written. Waits for that for 50 ms at most.
+  [[nodiscard]] bool IsKept();
+
  private:
-  void Note() noexcept;
+  struct Held {
+    Held() = default;
+    ~Held();
+    Held(const Held&) = delete;
+    Held& operator=(const Held&) = delete;
+    void Close();
+    int descriptor = -1;
+  };
+  Result<void> Follow(const RobotStop::State& state);
+  Result<void> Hold(const std::string& text);
+  void Write() noexcept;
 
   RobotStop& stop_;
   ApplicationLog& log_;
-  const std::filesystem::path file_;
-  std::mutex writing_;
-  const StopSignal::Subscription changes_;
+  const std::filesystem::path folder_;
+  const std::string name_;
+  const std::filesystem::path file_;  // of this process
+  Held held_;                         // the file while STOP is in force; of the thread that writes
+  std::mutex mutex_;
+  std::condition_variable has_written_;
+  std::uint64_t written_ = 0;  // guarded by mutex_: which change of the STOP
+  bool has_failed_ = false;    // guarded by mutex_
+  Lookout lookout_;
+  const StopSignal::Subscription changes_;  // first to go: it asks the lookout
 };
 
 }  // namespace runnel

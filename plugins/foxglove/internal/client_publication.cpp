@@ -91,7 +91,7 @@ bool ClientPublication::Continue() {
 
 Result<void> ClientPublication::Publish(std::string_view json) {
   waiting_ = json;
-  waiting_bar_ = shared_.runtime().robot_stop().signal()->bar();
+  bar_.emplace(shared_.runtime().robot_stop());
   if (task_) return {};
   return PublishWaiting();
 }
@@ -103,9 +103,9 @@ Result<void> ClientPublication::PublishWaiting() {
     Runtime& runtime = shared_.runtime();
     const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
     if (!lock) return {};  // it goes on waiting
-    if (runtime.robot_stop().signal()->bar() != waiting_bar_) {
+    if (auto counts = bar_->Check(); !counts) {
       waiting_ = std::nullopt;
-      return Error{.message = "STOP was pressed or released after this was sent", .path = pending_->path};
+      return counts;
     }
     const auto found = runtime.root().Find(pending_->path);
     if (!found || *found != pending_->place) {

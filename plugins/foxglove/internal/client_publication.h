@@ -50,7 +50,7 @@ class ClientPublication {
   std::shared_ptr<WorkerTask> task_;  // until it is done
   bool is_made_ = false;
   std::optional<std::string> waiting_;
-  std::int64_t waiting_bar_ = 0;  // of the STOP when it came
+  std::optional<CommandBar> bar_;  // of what waits
   std::optional<Error> error_;
   std::string usual_;  // the value that T{} has, as JSON
 };

@@ -17,6 +17,9 @@ constexpr auto kBetweenTimes = std::chrono::milliseconds(50);
 constexpr auto kSoon = std::chrono::milliseconds(5);
 constexpr std::size_t kChannelsInMessage = 50;
 constexpr std::size_t kMostPublications = 100;
+// Of binary messages: what it is, and the channel or service.
+constexpr std::size_t kHead = 5;
+constexpr char kMessageData = 1, kServiceCall = 2;
 
 }  // namespace
 
@@ -43,7 +46,20 @@ bool FoxgloveSession::MayDo(WebRole needed, std::string_view what) {
   return false;
 }
 
+void FoxgloveSession::Hear() {
+  if (shared_->RoleOf(client_) >= WebRole::kDrive) shared_->application.service.operators().Hear("Foxglove");
+}
+
+bool FoxgloveSession::OutranksLimits(std::string_view message, bool is_text) const {
+  if (is_text || message.size() < kHead) return false;
+  const std::uint32_t id = ReadNumber(message, 1);
+  if (message[0] == kServiceCall) return calls_.IsStop(id);
+  const auto found = message[0] == kMessageData ? publications_.find(id) : publications_.end();
+  return found != publications_.end() && found->second.path == kStopName;
+}
+
 void FoxgloveSession::OnText(std::string_view message) {
+  Hear();
   const auto parsed = ParseClientMessage(message);
   if (!parsed) return SendError(parsed.error());
   std::visit(
@@ -54,8 +70,7 @@ void FoxgloveSession::OnText(std::string_view message) {
 }
 
 void FoxgloveSession::OnBinary(std::string_view message) {
-  constexpr std::size_t kHead = 5;
-  constexpr char kMessageData = 1, kServiceCall = 2;
+  Hear();
   if (!message.empty() && message[0] == kServiceCall) {
     return calls_.Begin(message, shared_->RoleOf(client_) >= WebRole::kDrive);
   }

@@ -24,9 +24,11 @@ class FoxgloveSession final : public WebSession {
 
   void OnText(std::string_view message) override;
   void OnBinary(std::string_view message) override;
+  bool OutranksLimits(std::string_view message, bool is_text) const override;
   SteadyTime OnPoll() override;
 
  private:
+  void Hear();
   void Handle(const SubscribeMessage& message);
   void Handle(const UnsubscribeMessage& message);
   void Handle(const AdvertiseMessage& message);

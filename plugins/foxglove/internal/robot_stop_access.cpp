@@ -51,8 +51,10 @@ std::string SetStop(FoxgloveShared& shared, std::string_view name, std::string_v
   if (is_release || !SaysFalse(json)) {
     answer = shared.application.service.Begin(RobotStopRequest{!is_release, "Foxglove"}, *shared.tasks)->Take();
   }
-  const std::string text = answer ? answer.text : answer.diagnostics.ToString();
-  return JsonObjectText([&](JsonObject& reply) { reply.Add("success", static_cast<bool>(answer)).Add("message", text); });
+  const std::string problems = answer.diagnostics.ToString();
+  const std::string text = answer.text + (answer.text.empty() || problems.empty() ? "" : "\n") + problems;
+  const bool has_stopped = answer && !answer.stops_nothing;
+  return JsonObjectText([&](JsonObject& reply) { reply.Add("success", has_stopped).Add("message", text); });
 }
 
 }  // namespace runnel::internal

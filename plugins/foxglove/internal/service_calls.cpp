@@ -40,12 +40,17 @@ void ServiceCalls::Follow(const DirectoryContent& content, bool may_call) {
   if (!fresh.empty()) send_queue_.Send(AdvertiseServicesMessage(fresh));
 }
 
+bool ServiceCalls::IsStop(std::uint32_t service) const {
+  const auto found = advertised_.find(service);
+  return found != advertised_.end() && found->second == kStopName;
+}
+
 void ServiceCalls::Begin(std::string_view message, bool may_call) {
   const auto call = ReadServiceCall(message);
   if (!call) return send_queue_.Send(StatusMessage(StatusLevel::kError, call.error().ToString()));
   Pending pending{.service = call->service, .call = call->call, .path = {}, .json = call->payload, .begun = {}};
   const auto found = advertised_.find(call->service);
-  if (found != advertised_.end() && (found->second == kStopName || (may_call && found->second == kReleaseName))) {
+  if (IsStop(call->service) || (found != advertised_.end() && may_call && found->second == kReleaseName)) {
     const std::string reply = SetStop(shared_, found->second, call->payload);
     if (!client_.SendBinary(ServiceReplyMessage(call->service, call->call, reply))) {
       Fail(pending, {.message = "done, but the reply was lost, as too much waits for this viewer"});

@@ -29,6 +29,8 @@ class ServiceCalls {
 
   /// Tells of services that have come and gone; who may not call is told of the STOP alone.
   void Follow(const DirectoryContent& content, bool may_call);
+  /// Whether calling it is a STOP of the robot.
+  [[nodiscard]] bool IsStop(std::uint32_t service) const;
   /// A binary message: a call. `may_call`: else it is refused, but for the STOP.
   void Begin(std::string_view message, bool may_call);
   /// Answers what can be answered. When it wants to be called again.

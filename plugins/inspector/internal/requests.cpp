@@ -47,10 +47,11 @@ std::string ReplyTo(std::optional<std::uint64_t> request, const CommandAnswer& a
   if (!answer) return Refusal(request, ErrorsOf(answer.diagnostics), answer.needs);
   std::string text = answer.text;
   for (const Error& warning : answer.diagnostics.warnings()) text += "\n" + warning.ToString();
-  if (answer.client.empty()) return Reply(request, text);
   return JsonObjectText([&](JsonObject& json) {
     AddHead(request, true, json);
-    json.Add("text", text).Add("client", answer.client);
+    json.Add("text", text);
+    if (!answer.client.empty()) json.Add("client", answer.client);
+    if (answer.stops_nothing) json.Add("stops_nothing", true);
   });
 }
 
@@ -297,7 +298,7 @@ std::span<const Operation> AllOperations() {
   using Message = ViewerMessage;
   static constexpr std::array kAll{
       Operation("watch", kLook, nullptr), Operation("unwatch", kLook, nullptr),
-      Operation("watch_rates", kLook, nullptr),
+      Operation("watch_rates", kLook, nullptr), Operation("alive", kLook, nullptr),
       Operation("compatible", kLook, ByWorker<FindCompatible>),
       Operation("conversions", kLook, ByWorker<FindConversions>),
       Operation("panel", kLook, ByWorker<ReadPanel>),

@@ -23,6 +23,8 @@ using std::chrono::milliseconds;
 
 constexpr std::size_t kMostWatches = 500;
 constexpr std::size_t kMostPending = 64;
+constexpr std::size_t kMostReplies = 1000;
+constexpr std::size_t kLongestStop = 1000;  // of its message
 constexpr std::size_t kMostLogEntries = 500;
 // A viewer for which more is waiting gets no values, rates and states until it has taken it.
 constexpr std::size_t kSlow = 1 << 20;
@@ -75,7 +77,9 @@ WebSession::SteadyTime ViewerSession::SendAlive() {
     told.Add("since", ToSeconds(stop.since - inspection_.start()));
   }));
   if (is_sent) told_stop_ = stop.changes;
-  return alive_due_ = now + kAlive;
+  // Pages answer it, by which operators are heard.
+  const Duration silence = inspection_.service().operators().timeout();
+  return alive_due_ = now + (silence > Duration() ? std::min<Duration>(kAlive, silence / 4) : kAlive);
 }
 
 WebSession::SteadyTime ViewerSession::OnPoll() {
@@ -180,6 +184,7 @@ void ViewerSession::SendReplies() {
     return true;
   });
   while (!replies_.empty() && client_.SendText(replies_.front())) replies_.pop_front();
+  if (replies_.size() > kMostReplies) client_.Close("too many replies wait to be read");
 }
 
 void ViewerSession::SendLog() {
@@ -239,7 +244,14 @@ void ViewerSession::OnBinary(std::string_view /*message*/) {
   client_.Close("messages of this protocol are text");
 }
 
+bool ViewerSession::OutranksLimits(std::string_view message, bool is_text) const {
+  if (!is_text || message.size() > kLongestStop || message.find("\"stop\"") == message.npos) return false;
+  const auto parsed = ParseViewerMessage(message);
+  return parsed && parsed->op == "stop";
+}
+
 void ViewerSession::OnText(std::string_view text) {
+  if (role() >= WebRole::kDrive) inspection_.service().operators().Hear(name_);
   std::optional<std::uint64_t> request;
   auto parsed = ParseViewerMessage(text, &request);
   if (!parsed) {
@@ -253,6 +265,7 @@ void ViewerSession::OnText(std::string_view text) {
                             .hint = NearestNameHint(message.op,
                                                     NamesOf(AllOperations(), &Operation::name))});
   }
+  if (message.op == "alive") return;  // that was heard
   if (is_for_stop_ && message.op != "stop" &&
       (message.op != "release" || message.path != kRobotStopName)) {
     return Refuse(message, {.message = "this connection knows no '" + message.op + "'",

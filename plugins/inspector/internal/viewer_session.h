@@ -29,6 +29,7 @@ class ViewerSession final : public WebSession {
 
   void OnText(std::string_view message) override;
   void OnBinary(std::string_view message) override;
+  bool OutranksLimits(std::string_view message, bool is_text) const override;
   SteadyTime OnPoll() override;
 
  private:

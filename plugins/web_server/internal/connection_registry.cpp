@@ -65,16 +65,19 @@ void ConnectionRegistry::EvictOldest() {
   Remove(oldest);
 }
 
-bool ConnectionRegistry::MakeRoomFor(WebRole role) {
-  if (sessions_.load() < limits().clients) return true;
+bool ConnectionRegistry::MakeRoomFor(WebRole role, bool is_kept) {
+  std::size_t alike = 0;
   std::shared_ptr<WebConnection> least;
   for (const auto& each : connections_) {
-    if (!each->is_session() || each->role() >= role) continue;
+    if (!each->is_session() || each->is_kept() != is_kept) continue;
+    ++alike;
+    if (each->role() >= role) continue;
     if (least == nullptr || std::pair(each->role(), each->since()) <
                                 std::pair(least->role(), least->since())) {
       least = each;
     }
   }
+  if (alike < limits().clients) return true;
   if (least == nullptr) return false;
   least->End("somebody who may do more needs the place");
   least->Detach();

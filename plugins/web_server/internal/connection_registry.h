@@ -37,14 +37,17 @@ class WebConnection {
   [[nodiscard]] bool is_session() const noexcept { return role_.has_value(); }
   /// Of a session.
   [[nodiscard]] WebRole role() const noexcept { return role_.value_or(WebRole::kLook); }
+  /// Of a session whose place is kept for those like it.
+  [[nodiscard]] bool is_kept() const noexcept { return is_kept_; }
   [[nodiscard]] SteadyTime since() const noexcept { return since_; }
 
  protected:
   /// `role`: of a session; nothing: it is none.
-  explicit WebConnection(std::optional<WebRole> role) : role_(role) {}
+  explicit WebConnection(std::optional<WebRole> role, bool is_kept = false) : role_(role), is_kept_(is_kept) {}
 
  private:
   const std::optional<WebRole> role_;
+  const bool is_kept_;
   const SteadyTime since_ = std::chrono::steady_clock::now();
 };
 
@@ -67,8 +70,9 @@ class ConnectionRegistry {
   void Remove(const std::shared_ptr<WebConnection>& connection) noexcept;
   /// The plain connection that has been there for the longest time goes, if there are too many.
   void EvictOldest();
-  /// Whether there is a place for one more session; if there is none, the oldest that may do less makes room.
-  bool MakeRoomFor(WebRole role);
+  /// Whether there is a place for one more session; if there is none, the oldest that may do less makes room. Of those whose
+  /// places are kept, or of the others.
+  bool MakeRoomFor(WebRole role, bool is_kept);
   [[nodiscard]] std::size_t sessions() const noexcept { return sessions_.load(); }
   [[nodiscard]] std::size_t connections() const noexcept { return connections_.size(); }
 

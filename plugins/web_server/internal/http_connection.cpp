@@ -130,10 +130,9 @@ class HttpConnection final : public WebConnection,
     for (const auto& each : http::token_list(request_[http::field::sec_websocket_protocol])) {
       const WebProtocol* const protocol = registry_.FindProtocol(View(each));
       if (protocol == nullptr) continue;
-      if (!registry_.MakeRoomFor(role)) {
-        return Refuse(http::status::service_unavailable, "there are " +
-                                                             std::to_string(registry_.sessions()) +
-                                                             " clients already; close one of them");
+      if (!registry_.MakeRoomFor(role, View(each) == protocol->kept_name)) {
+        return Refuse(http::status::service_unavailable,
+                      "there are " + std::to_string(registry_.limits().clients) + " clients already; close one of them");
       }
       std::string name(View(each));
       const auto self = shared_from_this();

@@ -70,7 +70,7 @@ class WebSocketConnection final : public WebConnection,
  public:
   WebSocketConnection(ConnectionRegistry& registry, tcp::socket socket, HttpRequest request,
                       const WebProtocol& protocol, std::string name, WebRole role)
-      : WebConnection(role),
+      : WebConnection(role, name == protocol.kept_name),
         registry_(registry),
         request_(std::move(request)),
         start_(protocol.start),
@@ -171,26 +171,54 @@ class WebSocketConnection final : public WebConnection,
       buffer_.clear();
       return Read();
     }
-    const std::string message = beast::buffers_to_string(buffer_.data());
+    Message message{beast::buffers_to_string(buffer_.data()), socket_.got_text()};
     buffer_.clear();
     buffer_.shrink_to_fit();
-    bucket_.Consume(message.size(), Now());
+    bool outranks = false;
+    Attempt([&] { outranks = session_->OutranksLimits(message.bytes, message.is_text); });
+    if (outranks) {
+      HandOver(message);
+    } else {
+      early_bytes_ += CostOf(message);
+      early_.push_back(std::move(message));
+    }
+    HandOverEarly();
+    if (HasRoom()) Read();
+  }
+
+  void HandOver(const Message& message) {
+    if (is_closing_) return;
     Attempt([&] {
-      if (socket_.got_text()) {
-        session_->OnText(message);
+      if (message.is_text) {
+        session_->OnText(message.bytes);
       } else {
-        session_->OnBinary(message);
+        session_->OnBinary(message.bytes);
       }
     });
     Poll();
-    const auto wait = bucket_.Wait();
-    if (wait == std::chrono::nanoseconds()) return Read();
-    // What the client sends meanwhile waits in its own socket.
-    read_timer_.expires_after(wait);
-    read_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
-      if (!cancelled) self->Read();
+  }
+
+  // What has come too soon waits; when that is much, what the client sends meanwhile waits in its own socket.
+  void HandOverEarly() {
+    while (!early_.empty() && Now() >= next_at_) {
+      const Message message = std::move(early_.front());
+      early_.pop_front();
+      early_bytes_ -= CostOf(message);
+      bucket_.Consume(message.bytes.size(), Now());
+      next_at_ = Now() + bucket_.Wait();
+      HandOver(message);
+    }
+    if (early_.empty()) return;
+    read_timer_.expires_at(next_at_);
+    read_timer_.async_wait([self = shared_from_this(), had_room = HasRoom()](beast::error_code cancelled) {
+      if (cancelled || self->is_removed_) return;
+      self->HandOverEarly();
+      if (!had_room && self->HasRoom()) self->Read();
     });
   }
+
+  [[nodiscard]] bool HasRoom() const { return early_bytes_ <= registry_.limits().message_bytes; }
+  static std::size_t CostOf(const Message& message) { return sizeof message + message.bytes.size(); }
 
   bool Send(Message message) {
     if (is_closing_) return false;
@@ -274,6 +302,9 @@ class WebSocketConnection final : public WebConnection,
   boost::asio::steady_timer write_timer_;
   beast::flat_buffer buffer_;
   TokenBucket bucket_;
+  SteadyTime next_at_{};       // the next message may be handed over
+  std::deque<Message> early_;  // that have been read and not handed over yet
+  std::size_t early_bytes_ = 0;
   std::deque<Message> waiting_;
   std::size_t waiting_bytes_ = 0;
   bool is_accepted_ = false;

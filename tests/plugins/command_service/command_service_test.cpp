@@ -1,3 +1,4 @@
+#include "core/port/driving_ports.h"
 #include "plugins/command_service/command_service.h"
 
 #include <atomic>
@@ -143,6 +144,31 @@ TEST_F(CommandServiceTest, StopIsInForceWhileTheWorkerAndTheStructureLockAreTake
   EXPECT_FALSE(slow->is_done());
   may_end.set_value();
   EXPECT_THAT(log.ReadEntries(0, 9).entries.back().text, HasSubstr("STOP is released by a test"));
+}
+
+TEST_F(CommandServiceTest, SaysWhatStopHoldsOrThatItStopsNothing) {
+  CommandService service(application);
+  const CommandAnswer nothing = Ask(service, RobotStopRequest{true, "a test"});
+  EXPECT_TRUE(nothing.stops_nothing);
+  EXPECT_THAT(nothing.diagnostics.ToString(), HasSubstr("STOP stops nothing, and the robot may move"));
+  EXPECT_TRUE(runtime.robot_stop().in_force()) << "for ports that come later";
+  EXPECT_FALSE(Ask(service, RobotStopRequest{false, "a test"}).stops_nothing);
+  auto elsewhere = std::make_shared<PortStop>(AnyValue(), runtime.robot_stop().signal());
+  AddWhatDrives(runtime, "/cmd_vel (in the network)", elsewhere);
+  const CommandAnswer answer = Ask(service, RobotStopRequest{true, "a test"});
+  EXPECT_FALSE(answer.stops_nothing);
+  EXPECT_THAT(answer.text, HasSubstr("what drives: /cmd_vel (in the network)"));
+  elsewhere.reset();
+  EXPECT_TRUE(Ask(service, RobotStopRequest{true, "a test"}).stops_nothing);
+}
+
+TEST_F(CommandServiceTest, SaysWhereTheNextProcessWillNotKnowOfAStopYet) {
+  bool is_kept = false;
+  application.hooks.is_stop_kept = [&] { return is_kept; };
+  CommandService service(application);
+  EXPECT_THAT(Ask(service, RobotStopRequest{true, "a test"}).text, HasSubstr("is not written yet"));
+  is_kept = true;
+  EXPECT_THAT(Ask(service, RobotStopRequest{true, "a test"}).text, ::testing::Not(HasSubstr("is not written yet")));
 }
 
 TEST_F(CommandServiceTest, ConfinesWhereClientsOfOthersMaySave) {

@@ -38,12 +38,12 @@ TEST_F(StopAndHand, AValueThatHasWaitedOverAStopIsRefused) {
   auto& wheels = MakeReceiver<double>("wheels", Drives());
   HandSettings by_hand(runtime, worker, log, &machine);
   PublishRequest request{"/wheels/in", "0.4"};
-  request.bar = runtime.robot_stop().signal()->bar();
+  request.bar.emplace(runtime.robot_stop());
   Press();
   Release();
   EXPECT_FALSE(by_hand.Publish(request));
   EXPECT_FALSE(wheels.in.is_set_by_hand());
-  request.bar = runtime.robot_stop().signal()->bar();
+  request.bar.emplace(runtime.robot_stop());
   EXPECT_TRUE(by_hand.Publish(request));
 }
 

@@ -48,12 +48,26 @@ TEST_F(StatesTest, TheStopOfTheRobotIsToldWithWhoPressedIt) {
   }
   EXPECT_THAT(Ask("ls /b").output, AllOf(HasSubstr(", driving"), Not(HasSubstr("STOP"))));
   runtime.robot_stop().Press("a terminal");
-  EXPECT_THAT(State(), ::testing::ContainsRegex("running, STOP in force for [0-9]+ s, by a terminal"));
+  EXPECT_THAT(State(), ::testing::MatchesRegex("running, STOP in force for [0-9]+ s, by a terminal"));
   EXPECT_THAT(Ask("ls /b").output, AllOf(HasSubstr("by a terminal: all that drives has its safe value\n"),
                                          HasSubstr(", driving, IN STOP")));
   runtime.robot_stop().Release("a terminal");
   EXPECT_EQ(State(), "running");
   EXPECT_THAT(Ask("ls /b").output, Not(HasSubstr("STOP")));
+}
+
+TEST_F(StatesTest, AStopThatStopsNothingIsToldAsThat) {
+  const Told told = Ask("stop");
+  EXPECT_EQ(told.code, 1);
+  EXPECT_THAT(told.output, HasSubstr("STOP is in force"));
+  EXPECT_THAT(told.errors, AllOf(HasSubstr("STOP stops nothing, and the robot may move"), HasSubstr("<driving port=")));
+  EXPECT_THAT(State(), ::testing::EndsWith(", by a terminal, but NO PORT DRIVES"));
+  EXPECT_EQ(Ask("release").code, 0);
+}
+
+TEST_F(StatesTest, WhoHasTheStructureIsTold) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  EXPECT_THAT(State(), ::testing::StartsWith("running, BUSY changing its structure"));
 }
 
 TEST_F(StatesTest, WhatIsPausedByHandOrBlockedIsCounted) {
@@ -89,13 +103,12 @@ TEST_F(StatesTest, StopIsPressedWhoeverHasTheStructureAndTheWorker) {
   goes_on = true;
 }
 
-TEST_F(StatesTest, WhatDrivesIsNamedOrThatNothingDoes) {
-  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force; 'runnel release' ends it; warning: no port of this application is marked as driving"));
+TEST_F(StatesTest, WhatDrivesIsNamed) {
   {
     const std::lock_guard lock(runtime.structure_mutex());
     EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
   }
-  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force already; 'runnel release' ends it; what drives: /app/b/input/in\n"));
+  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force; 'runnel release' ends it; what drives: /app/b/input/in\n"));
   EXPECT_THAT(Ask("release").output, HasSubstr("released the STOP that a terminal had pressed; what drives: /app/b/input/in\n"));
   const Told again = Ask("release");
   EXPECT_EQ(again.code, 2);
@@ -106,6 +119,15 @@ TEST_F(StatesTest, TheWordsOfBeforeAreRefusedWithThoseOfNow) {
   EXPECT_THAT(Ask("stop /app/a").errors, AllOf(HasSubstr("it is the STOP of the robot"), HasSubstr("'pause PATH'")));
   EXPECT_THAT(Ask("publish /b/in stop=yes").errors, HasSubstr("'block PORT'"));
   EXPECT_FALSE(runtime.robot_stop().in_force());
+}
+
+TEST_F(StatesTest, ATerminalIsHeardByItsRequests) {
+  service->operators().Begin(std::chrono::hours(1));
+  const auto begun = service->operators().Look();
+  EXPECT_EQ(State(), "running") << "who only looks who runs is not heard";
+  EXPECT_EQ(service->operators().Look(), begun);
+  EXPECT_EQ(Ask("ls").code, 0);
+  EXPECT_GT(service->operators().Look(), begun);
 }
 
 TEST_F(StatesTest, QuitEndsTheRunAndNotTheRobot) {

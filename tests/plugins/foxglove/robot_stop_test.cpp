@@ -7,6 +7,11 @@ namespace {
 
 class FoxgloveStop : public FoxgloveTest {
  protected:
+  FoxgloveStop() { Mark(true); }
+  void Mark(bool drives) {
+    const std::lock_guard lock(runtime.structure_mutex());
+    EXPECT_TRUE(robot.speed.SetDriving(drives, AnyValue(0.0)));
+  }
   static std::string Word(std::uint32_t number) {
     std::string bytes;
     for (int i = 0; i < 4; ++i) bytes += static_cast<char>(number >> (8 * i) & 0xff);
@@ -46,6 +51,43 @@ TEST_F(FoxgloveStop, IsPressedByWhoeverMayLookWhileTheStructureIsLocked) {
   }
   EXPECT_EQ(Call("/stop", R"({"data":false})")["success"], true);
   EXPECT_TRUE(in_force()) << "false does not release";
+}
+
+TEST_F(FoxgloveStop, IsNoSuccessWhereItStopsNothing) {
+  Mark(false);
+  Begin();
+  const Json reply = Call("/stop", R"({"data":true})");
+  EXPECT_EQ(reply["success"], false);
+  EXPECT_THAT(reply["message"].get<std::string>(), testing::AllOf(HasSubstr("STOP is in force"), HasSubstr("STOP stops nothing")));
+  EXPECT_TRUE(in_force()) << "for ports that come later";
+}
+
+TEST_F(FoxgloveStop, OvertakesWhatIsSaidTooFast) {
+  client.its_role = WebRole::kLook;
+  Begin();
+  EXPECT_EQ(Call("/stop", "{}")["success"], true);
+  const auto call = [&](const std::string& name) { return "\x02" + Word(services.at(name)) + Word(1) + Word(4) + "json{}"; };
+  EXPECT_TRUE(session->OutranksLimits(call("/stop"), false));
+  EXPECT_FALSE(session->OutranksLimits(call("/stop"), true));
+  EXPECT_FALSE(session->OutranksLimits("\x02" + Word(12345) + Word(1), false));
+  Say({{"op", "advertise"}, {"channels", {{{"id", 3}, {"topic", "/stop"}, {"encoding", "json"}}}}});
+  EXPECT_TRUE(session->OutranksLimits("\x01" + Word(3) + "{}", false));
+  EXPECT_FALSE(session->OutranksLimits("\x01" + Word(4) + "{}", false));
+  EXPECT_FALSE(session->OutranksLimits("\x01", false));
+}
+
+TEST_F(FoxgloveStop, WhoMayDriveIsHeard) {
+  service.operators().Begin(std::chrono::hours(1));
+  Begin();
+  const auto begun = service.operators().Look();
+  client.its_role = WebRole::kLook;
+  Say({{"op", "subscribeConnectionGraph"}});
+  EXPECT_EQ(service.operators().Look(), begun);
+  client.its_role = WebRole::kDrive;
+  WaitUntil("it is heard", [&] {
+    Publish(3, "{}");
+    return service.operators().Look() > begun;
+  });
 }
 
 TEST_F(FoxgloveStop, IsPressedByACallThatSaysNothing) {

@@ -4,6 +4,7 @@
 
 #include "core/element/robot_stop.h"
 #include "tests/plugins/inspector/inspector_fixture.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
@@ -87,6 +88,86 @@ TEST_F(ViewersStop, NeedsNeitherWorkerNorStructureNorRoomForRequests) {
   EXPECT_EQ(stop.Ask({{"op", "stop"}})["ok"], true);
   EXPECT_TRUE(in_force());
   may_end.set_value();
+}
+
+TEST_F(ViewersStop, AnswersWhereItStopsNothing) {
+  Start();
+  Viewer viewer = View();
+  const Json nothing = viewer.Ask({{"op", "stop"}});
+  EXPECT_EQ(nothing["ok"], true) << "it is in force";
+  EXPECT_EQ(nothing["stops_nothing"], true);
+  EXPECT_THAT(nothing["text"], HasSubstr("STOP stops nothing"));
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+  }
+  EXPECT_FALSE(viewer.Ask({{"op", "stop"}}).contains("stops_nothing"));
+}
+
+// Without the rule of the server the STOP would wait for half a minute.
+TEST_F(ViewersStop, OvertakesWhatItsConnectionHasSaidTooFast) {
+  Start();
+  Viewer viewer = View();
+  std::string flood;
+  const Json request{{"op", "preview"}, {"file", "x"}};
+  for (int i = 0; i < 6000; ++i) flood += RawClient::Frame(1, request.dump());
+  viewer.raw().Send(flood);
+  const Json reply = viewer.Ask({{"op", "stop"}});
+  EXPECT_EQ(reply["ok"], true);
+  EXPECT_TRUE(in_force());
+}
+
+TEST_F(ViewersStop, WhatOnlySpeaksOfAStopOvertakesNothing) {
+  Start();
+  Viewer viewer = View();
+  viewer.Send({{"op", "unwatch"}, {"path", "stop"}});
+  viewer.Send({{"op", "release"}, {"path", "stop"}});
+  viewer.Next([](const Json& each) { return each["op"] == "reply" && each["ok"] == false; }, "refusal");
+  EXPECT_FALSE(in_force());
+}
+
+TEST_F(ViewersStop, ItsConnectionsAreNoneOfTheOthers) {
+  WebServerOptions options = LookAndDrive();
+  options.limits.clients = 2;
+  Start({}, options);
+  Viewer stop = Connect("runnel.stop.v1", WebRole::kLook);
+  std::vector<Viewer> drivers;
+  for (int i = 0; i < 2; ++i) drivers.push_back(Connect("runnel.inspector.v1", WebRole::kDrive));
+  Viewer another = Connect("runnel.stop.v1", WebRole::kLook);
+  const std::string token = "runnel.token.secret-of-drive";
+  EXPECT_THAT(RawClient(server->port()).Upgrade("runnel.inspector.v1, " + token), HasSubstr("503 "));
+  for (Viewer* const each : {&stop, &another}) EXPECT_EQ(each->Ask({{"op", "stop"}})["ok"], true);
+}
+
+TEST_F(ViewersStop, WhoMayDriveIsHeardAndWhoLooksIsNot) {
+  Start({}, LookAndDrive());
+  OperatorWatch& operators = service->operators();
+  operators.Begin(1h);
+  Viewer looks = Connect("runnel.stop.v1", WebRole::kLook);
+  Viewer drives = Connect("runnel.stop.v1", WebRole::kDrive);
+  const auto due = [&] { return operators.Look(); };
+  const auto begun = due();
+  looks.Send({{"op", "alive"}});
+  looks.Ask({{"op", "stop"}});
+  EXPECT_EQ(due(), begun);
+  drives.Send({{"op", "alive"}});
+  drives.Next("alive");
+  WaitUntil("it is heard", [&] { return due() > begun; });
+}
+
+TEST_F(ViewersStop, GivesASignOfLifeAsOftenAsItMustBeAnswered) {
+  Start();
+  service->operators().Begin(200ms);
+  Viewer viewer(server->port(), "", "runnel.stop.v1");
+  WaitUntil("nobody is heard", [&] { return in_force(); });
+  EXPECT_EQ(viewer.Ask({{"op", "release"}, {"path", "stop"}})["ok"], true);
+  const auto begun = std::chrono::steady_clock::now();
+  // It goes on longer than a sign of life a second would let it.
+  while (!in_force() && std::chrono::steady_clock::now() - begun < 1500ms) {
+    viewer.Next("alive");
+    viewer.Send({{"op", "alive"}});
+  }
+  EXPECT_FALSE(in_force()) << runtime.robot_stop().state().by;
 }
 
 TEST_F(ViewersStop, ItsOwnConnectionKnowsNothingElse) {

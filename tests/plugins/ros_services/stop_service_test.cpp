@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
+#include "core/port/driving_ports.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_services/stop_service.h"
@@ -23,7 +24,8 @@ struct NobodyThere final : WireDiscovery {
 class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
  protected:
   void Begin(bool may_release) {
-    service_ = std::move(*StopService::Start(stop_, may_release, "/base", *there_, GetParam()));
+    AddWhatDrives(runtime_, "the wheels", wheels_);
+    service_ = std::move(*StopService::Start(runtime_, may_release, "/base", *there_, GetParam()));
     client_ = std::move(*ServiceEndpoints::Start(ServiceEndpoints::Side::kClient,
                                                  {.service = "/base/stop",
                                                   .request_type = "std_srvs::srv::dds_::SetBool_Request_",
@@ -49,6 +51,7 @@ class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
 
   Runtime runtime_;
   RobotStop& stop_ = runtime_.robot_stop();
+  std::shared_ptr<PortStop> wheels_ = std::make_shared<PortStop>(AnyValue(), stop_.signal());
   NobodyThere nobody_;
   const std::shared_ptr<WireEngine> engine_ = MakeFakeWire();
   std::unique_ptr<WireParticipant> near_ = std::move(*engine_->Join({.name = "near"}, nobody_));
@@ -65,6 +68,13 @@ TEST_P(StopServiceTest, TrueStopsTheRobotAndFalseDoesNothing) {
   EXPECT_EQ(stop_.state().by, "the service /base/stop");
   EXPECT_THAT(Call(true), testing::Pair(true, "the robot was stopped already"));
   EXPECT_THAT(Call(false), testing::Pair(false, HasSubstr("stop_releases")));
+  EXPECT_TRUE(stop_.in_force());
+}
+
+TEST_P(StopServiceTest, IsNoSuccessWhereNothingDrives) {
+  Begin(false);
+  wheels_.reset();
+  EXPECT_THAT(Call(true), testing::Pair(false, HasSubstr("STOP is in force, but no port of this application is marked")));
   EXPECT_TRUE(stop_.in_force());
 }
 

@@ -159,6 +159,30 @@ TEST_F(HostileWebClient, AFloodOfMessagesIsReadAtTheRateThatIsAllowed) {
   EXPECT_GE(took, 1900ms);
 }
 
+TEST_F(HostileWebClient, WhatOutranksTheRateComesBeforeWhatWasSaidTooFast) {
+  Start({.limits = {.messages_per_second = 1}});
+  RawClient client = Talker();
+  std::string flood;
+  for (int i = 0; i < 5000; ++i) flood += RawClient::Frame(1, "x");
+  client.Send(flood);
+  client.SendText("at once");
+  int before = 0;
+  while (client.Receive(1).value().payload == "x") ++before;
+  EXPECT_LT(before, 1000) << "one a second";
+  EXPECT_EQ(client.Receive(1).value().payload, "x") << "which go on as before";
+}
+
+// What has been read and may not be handed over yet has a bound; the rest waits in the client's socket.
+TEST_F(HostileWebClient, AFloodBeyondWhatMayWaitIsReadLaterAndWhole) {
+  Start({.limits = {.message_bytes = 1000, .messages_per_second = 500}});
+  RawClient client = Talker();
+  std::string flood;
+  for (int i = 0; i < 1000; ++i) flood += RawClient::Frame(1, std::to_string(i));
+  client.Send(flood);
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(client.Receive(1).value().payload, std::to_string(i));
+  ExpectThatOthersAreServed();
+}
+
 TEST_F(HostileWebClient, AFloodOfPingsEndsTheSession) {
   Start({.limits = {.messages_per_second = 10}});
   RawClient client = Talker();

@@ -74,6 +74,7 @@ class Echo final : public WebSession {
     client_.SendText(std::string(message));
   }
   void OnBinary(std::string_view message) override { client_.SendBinary(std::string(message)); }
+  bool OutranksLimits(std::string_view message, bool is_text) const override { return is_text && message == "at once"; }
   SteadyTime OnPoll() override {
     ++met_.turns;
     const auto now = std::chrono::steady_clock::now();
@@ -93,8 +94,8 @@ class WebServerTest : public ::testing::Test {
     auto started = WebServer::Start(
         options,
         {{"/", "text/html", "<p>page</p>"}, {"/page.js", "text/javascript", "let page = 1"}},
-        {{{"echo.v1", "echo.v2"},
-          [this](WebClient& client) { return std::make_unique<Echo>(client, met); }}});
+        {{{"echo.v1", "echo.v2", "echo.kept"},
+          [this](WebClient& client) { return std::make_unique<Echo>(client, met); }, "echo.kept"}});
     ASSERT_TRUE(started) << started.error().ToString();
     server = std::move(*started);
   }

@@ -240,6 +240,24 @@ TEST_F(WebSessions, ThatMayDoMoreFindAPlace) {
   EXPECT_TRUE(lookers[1].Receive(1));
 }
 
+TEST_F(WebSessions, WhosePlacesAreKeptMakeRoomForNoOthers) {
+  Start({.tokens = {{WebRole::kChange, "open-sesame"}, {WebRole::kLook, "just-look-7"}}, .limits = {.clients = 1}});
+  const auto connect = [this](const char* protocol, const char* token) {
+    RawClient client = Client();
+    const std::string answer = client.Upgrade(protocol, "", std::string("/?token=") + token);
+    return std::pair(std::move(client), answer);
+  };
+  auto [kept, answer] = connect("echo.kept", "just-look-7");
+  EXPECT_THAT(answer, HasSubstr("101 "));
+  auto [other, other_answer] = connect("echo.v1", "just-look-7");
+  EXPECT_THAT(other_answer, HasSubstr("101 "));
+  EXPECT_THAT(connect("echo.kept", "just-look-7").second, HasSubstr("503 ")) << "they have a limit, too";
+  EXPECT_THAT(connect("echo.v1", "open-sesame").second, HasSubstr("101 "));
+  EXPECT_EQ(other.Receive(8).value().reason(), "somebody who may do more needs the place");
+  kept.SendText("still there");
+  EXPECT_EQ(kept.Receive(1).value().payload, "still there");
+}
+
 TEST_F(WebSessions, AreLimitedInNumber) {
   Start({.limits = {.clients = 2}});
   RawClient first = Talker();

@@ -89,6 +89,7 @@ export class Link {
 
   #receive(text) {
     const message = JSON.parse(text);
+    if (message.op === 'alive') this.send({ op: 'alive' }); // by which an operator is heard
     if (message.op === 'reply') this.#answer(message.request, message);
     else this.#onMessage(message);
   }

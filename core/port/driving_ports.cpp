@@ -1,0 +1,52 @@
+#include "core/port/driving_ports.h"
+
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "core/element/annotation.h"
+#include "core/element/runtime.h"
+#include "core/port/port.h"
+
+namespace runnel {
+
+namespace {
+
+// With the root.
+struct DrivingBeside final : Annotation {
+  std::vector<std::pair<std::string, std::weak_ptr<const PortStop>>> all;
+};
+
+}  // namespace
+
+std::optional<std::string> FindWhatDrives(Runtime& runtime) {
+  const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
+  if (!lock) return {};
+  std::string names;
+  const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  runtime.root().Visit([&](FrameworkElement& each) {
+    const auto* const port = dynamic_cast<const Port*>(&each);
+    if (port != nullptr && port->is_driving()) add(port->path());
+  });
+  if (const auto* const beside = runtime.root().FindAnnotation<DrivingBeside>()) {
+    for (const auto& [name, stop] : beside->all) {
+      if (!stop.expired()) add(name);
+    }
+  }
+  return names;
+}
+
+Error NothingDrives() {
+  return {.message = "no port of this application is marked as driving, so STOP stops nothing, and the robot may move",
+          .hint = "use its own stop; mark what something moves by: <driving port=\"…\"/>"};
+}
+
+void AddWhatDrives(Runtime& runtime, std::string name, const std::shared_ptr<const PortStop>& stop) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  auto* known = runtime.root().FindAnnotation<DrivingBeside>();
+  if (known == nullptr) known = &runtime.root().Annotate(std::make_unique<DrivingBeside>());
+  std::erase_if(known->all, [](const auto& each) { return each.second.expired(); });
+  known->all.emplace_back(std::move(name), stop);
+}
+
+}  // namespace runnel

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/port/port_stop.h"
+
+namespace runnel {
+
+class Runtime;
+
+/// What the STOP of the robot holds, as paths with ", " between them; "": it holds nothing. Nothing while somebody else has
+/// the structure lock, which is not waited for.
+[[nodiscard]] std::optional<std::string> FindWhatDrives(Runtime& runtime);
+/// Why a STOP that is in force stops nothing, with the cure.
+[[nodiscard]] Error NothingDrives();
+
+/// For what is told there, too, although it is no port of the tree: commands of motion that leave over a network. As long as
+/// `stop` lives. Locks.
+void AddWhatDrives(Runtime& runtime, std::string name, const std::shared_ptr<const PortStop>& stop);
+
+}  // namespace runnel
