@@ -147,6 +147,35 @@ test('a refused STOP, and one that nobody confirms, are red, and say so', async 
   });
 });
 
+test('what was said long ago and comes only now is no sign of life, and confirms nothing', async (t) => {
+  const drives = { target: '/mock/world/twist', forward: 0.4, turn: 1 };
+  const { application, page } = await OpenMockPanel(t, { widgets: [{ id: 'keys', kind: 'keys', x: 0, y: 0, w: 3, h: 4, ...drives },
+    { id: 'speed', kind: 'gauge', x: 3, y: 0, w: 3, h: 4, target: '/mock/world/twist', field: 'forward', minimum: -1, maximum: 1 }] });
+  await page.keyboard.down('w');
+  await page.locator('[data-driving="mine"]').waitFor();
+  application.saidAt = performance.now() / 1000;
+  await page.locator('#connection-state', { hasText: 'silent' }).waitFor();
+  await page.locator('#lost', { hasText: 'no sign of life' }).waitFor();
+  await page.locator('[data-widget="speed"] .gauge.old').waitFor();
+  await page.locator('[data-driving="unknown"]', { hasText: 'not known who drives' }).waitFor();
+  await page.locator('.widget-problem', { hasText: 'this hold has ended' }).waitFor();
+  await Stands(page, 'unknown');
+  await page.locator('#stop-button').click();
+  await page.locator('#stop-banner[data-stop="unconfirmed"]').waitFor();
+  application.stop = { in_force: true, by: 'somebody, before', since: 1 }; // told at once, as of then
+  await page.waitForTimeout(1500);
+  await Stands(page, 'unconfirmed');
+  await page.locator('[data-driving="unconfirmed"]', { hasText: 'not confirmed' }).waitFor();
+  application.stop = { in_force: false, by: '', since: 0 };
+  application.saidAt = null;
+  await Stands(page, 'in_force');
+  await page.locator('[data-driving="stopped"]', { hasText: /^STOP$/ }).waitFor();
+  application.saidAt = performance.now() / 1000;
+  await Stands(page, 'unknown');
+  await page.locator('[data-driving="unconfirmed"]', { hasText: 'not confirmed' }).waitFor();
+  await page.keyboard.up('w');
+});
+
 test('pressed without a connection it is sent as soon as there is one', async (t) => {
   const { application, server, page } = await OpenMockPanel(t, { widgets: [kText], lost: true });
   await server.away(async () => {
