@@ -32,6 +32,8 @@ test('it is on each page, in the same place, shows the same, and is released by 
   const { page: phone } = await OpenPage(t, server.url, { width: 390, height: 844, touch: true });
   const { page: small } = await OpenPanel(t, server.url, { width: 390, height: 844, touch: true, shows: '[data-widget]' });
   const all = [page, panel, phone, small];
+  const heights = () => small.locator('.column .card').evaluateAll((cards) => cards.map(({ clientHeight }) => clientHeight));
+  const before = await heights();
   for (const each of all) {
     await Stands(each, 'free');
     assert.match(await each.locator('#stop-spoken').textContent(), /not in force/);
@@ -41,6 +43,7 @@ test('it is on each page, in the same place, shows the same, and is released by 
       assert.match(await other.locator('#stop-spoken[aria-live="assertive"]').textContent(), /STOP is in force/);
     }
     const box = await each.locator('#stop-button').boundingBox();
+    assert.deepEqual(await heights(), before, 'what is on a phone is scrolled, and not pressed together, by the banner');
     await Releases(all[(all.indexOf(each) + 1) % all.length]);
     await Stands(each, 'free');
     assert.deepEqual(await each.locator('#stop-button').boundingBox(), box, 'it stands where it stood');

@@ -60,7 +60,7 @@ export class Link {
     const now = performance.now();
     this.#offset = Math.min(this.#offset + kDrift * (now - this.#given), now - message.at * 1000);
     const given = message.at * 1000 + this.#offset;
-    if (now - given > kSilent) return;
+    if (!(now - given <= kSilent)) return; // nor what does not say when it was
     this.#hear(given);
     this.#onMessage({ ...message, given });
   }
