@@ -64,12 +64,26 @@ Load::Step Save(Robot& robot, TaskGroup& tasks) {
   return [&] { Carry(robot, tasks, SaveRequest{}); };
 }
 
-// No file of this process grows further than a disk that is full would let it.
+/// As long as one lives, no file of this process grows further than a disk that is full would let it.
+class FullDisk {
+ public:
+  FullDisk() {
+    std::signal(SIGXFSZ, SIG_IGN);
+    Limit(kDisk);
+  }
+  ~FullDisk() { Limit(RLIM_INFINITY); }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  static void Limit(rlim_t octets) {
+    const rlimit limit{octets, RLIM_INFINITY};
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) Fail("cannot limit the size of files");
+  }
+};
+
 Load::Step RecordToFullDisk(Robot& robot, TaskGroup& /*tasks*/) {
-  std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit limit{kDisk, kDisk};
-  if (setrlimit(RLIMIT_FSIZE, &limit) != 0) Fail("cannot limit the size of files");
-  return [&] {
+  return [&, disk = std::make_shared<const FullDisk>()] {
     const std::string file = robot.folder / "full.mcap";
     auto recorder = Recorder::Start(robot.runtime, nullptr,
                                     {.file = file, .ports = {"/planner/output/picture"}, .compression = "none"});
