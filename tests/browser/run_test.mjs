@@ -3,25 +3,19 @@
 
 import { spawnSync } from 'node:child_process';
 import { existsSync } from 'node:fs';
-import { delimiter, join } from 'node:path';
+import { FindBrowser } from './support/find_browser.mjs';
 
 const [kind, file] = process.argv.slice(2);
-const kBrowsers = ['chromium', 'chromium-browser', 'google-chrome'];
 
 function Skip(reason) {
   console.log(`skipped: ${reason}`);
   process.exit(77);
 }
 
-function Find(names) {
-  const folders = (process.env.PATH ?? '').split(delimiter);
-  return names.flatMap((name) => folders.map((folder) => join(folder, name))).find(existsSync);
-}
-
 if (!existsSync(file)) Skip('npm could not get the packages of the tests; build again with a network');
 const environment = { ...process.env };
 if (kind === 'browser') {
-  environment.RUNNEL_BROWSER ??= Find(kBrowsers);
+  environment.RUNNEL_BROWSER = FindBrowser() ?? '';
   if (!environment.RUNNEL_BROWSER) Skip('chromium is not here (apt-get install chromium)');
 }
 // A network of its own, in which there is nothing but the loopback interface, so that no other test is heard; where the system

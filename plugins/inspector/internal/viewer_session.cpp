@@ -72,7 +72,7 @@ WebSession::SteadyTime ViewerSession::SendAlive() {
   const auto stop = inspection_.application().runtime.robot_stop().state();
   if (now < alive_due_ && told_stop_ == stop.changes) return alive_due_;
   const bool is_sent = client_.SendText(JsonObjectText([&](JsonObject& json) {
-    JsonObject told(json.Add("op", "alive").Key("stop"));
+    JsonObject told(json.Add("op", "alive").Add("at", ToSeconds(now.time_since_epoch())).Key("stop"));
     told.Add("in_force", stop.in_force).Add("by", stop.by);
     told.Add("since", ToSeconds(stop.since - inspection_.start()));
   }));

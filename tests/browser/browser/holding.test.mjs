@@ -180,6 +180,18 @@ test('a gamepad begins by a shoulder that has been seen released, of the standar
   await t.test('while the panel is arranged', () => endsBy(() => page.locator('#edit').click()));
 });
 
+test('answers that come later and later end the hold', async (t) => {
+  const { application, page, holds, isFree } = await Open(t);
+  let delay = 0;
+  application.answers.publish = (reply) => { setTimeout(() => reply({ ok: true, text: '' }), delay); delay += 50; };
+  await page.keyboard.down('w');
+  await holds('keys');
+  await page.locator('[data-widget="keys"] .widget-problem', { hasText: 'this hold has ended' }).waitFor();
+  assert.ok(delay < 2500, `answers came ${delay} ms late before it ended`);
+  await page.keyboard.up('w');
+  await isFree('keys');
+});
+
 test('a process that hangs: all that is shown is old, and the hold has ended', async (t) => {
   const { file } = await DemoFile(t);
   const application = await RunApplication(t, file, { options: ['--speed', '1'] });

@@ -32,6 +32,8 @@ test('it is on each page, in the same place, shows the same, and is released by 
   const { page: phone } = await OpenPage(t, server.url, { width: 390, height: 844, touch: true });
   const { page: small } = await OpenPanel(t, server.url, { width: 390, height: 844, touch: true, shows: '[data-widget]' });
   const all = [page, panel, phone, small];
+  const heights = () => small.locator('.column .card').evaluateAll((cards) => cards.map(({ clientHeight }) => clientHeight));
+  const before = await heights();
   for (const each of all) {
     await Stands(each, 'free');
     assert.match(await each.locator('#stop-spoken').textContent(), /not in force/);
@@ -41,6 +43,7 @@ test('it is on each page, in the same place, shows the same, and is released by 
       assert.match(await other.locator('#stop-spoken[aria-live="assertive"]').textContent(), /STOP is in force/);
     }
     const box = await each.locator('#stop-button').boundingBox();
+    assert.deepEqual(await heights(), before, 'what is on a phone is scrolled, and not pressed together, by the banner');
     await Releases(all[(all.indexOf(each) + 1) % all.length]);
     await Stands(each, 'free');
     assert.deepEqual(await each.locator('#stop-button').boundingBox(), box, 'it stands where it stood');
@@ -145,6 +148,35 @@ test('a refused STOP, and one that nobody confirms, are red, and say so', async 
     application.answers = {};
     await Releases(page);
   });
+});
+
+test('what was said long ago and comes only now is no sign of life, and confirms nothing', async (t) => {
+  const drives = { target: '/mock/world/twist', forward: 0.4, turn: 1 };
+  const { application, page } = await OpenMockPanel(t, { widgets: [{ id: 'keys', kind: 'keys', x: 0, y: 0, w: 3, h: 4, ...drives },
+    { id: 'speed', kind: 'gauge', x: 3, y: 0, w: 3, h: 4, target: '/mock/world/twist', field: 'forward', minimum: -1, maximum: 1 }] });
+  await page.keyboard.down('w');
+  await page.locator('[data-driving="mine"]').waitFor();
+  application.saidAt = performance.now() / 1000;
+  await page.locator('#connection-state', { hasText: 'silent' }).waitFor();
+  await page.locator('#lost', { hasText: 'no sign of life' }).waitFor();
+  await page.locator('[data-widget="speed"] .gauge.old').waitFor();
+  await page.locator('[data-driving="unknown"]', { hasText: 'not known who drives' }).waitFor();
+  await page.locator('.widget-problem', { hasText: 'this hold has ended' }).waitFor();
+  await Stands(page, 'unknown');
+  await page.locator('#stop-button').click();
+  await page.locator('#stop-banner[data-stop="unconfirmed"]').waitFor();
+  application.stop = { in_force: true, by: 'somebody, before', since: 1 }; // told at once, as of then
+  await page.waitForTimeout(1500);
+  await Stands(page, 'unconfirmed');
+  await page.locator('[data-driving="unconfirmed"]', { hasText: 'not confirmed' }).waitFor();
+  application.stop = { in_force: false, by: '', since: 0 };
+  application.saidAt = null;
+  await Stands(page, 'in_force');
+  await page.locator('[data-driving="stopped"]', { hasText: /^STOP$/ }).waitFor();
+  application.saidAt = performance.now() / 1000;
+  await Stands(page, 'unknown');
+  await page.locator('[data-driving="unconfirmed"]', { hasText: 'not confirmed' }).waitFor();
+  await page.keyboard.up('w');
 });
 
 test('pressed without a connection it is sent as soon as there is one', async (t) => {

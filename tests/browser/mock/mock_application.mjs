@@ -13,6 +13,7 @@ export class MockApplication {
     this.panel = '';  // the operator's, as it is saved
     this.delay = 0;   // ms, before the structure is told
     this.isFrozen = false; // says nothing any more, and what is asked waits
+    this.saidAt = null; // it is frozen, and a slow network still brings what it said then (s of the machine's time); null: it is not
     this.asked = [];  // all requests
     this.stop = { in_force: false, by: '', since: 0 };
     this.isHanging = false; // the main connections say nothing more, those of the STOP do

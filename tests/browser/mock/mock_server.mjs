@@ -60,6 +60,10 @@ export async function ServeMock(application, { page, port = 0, readOnly = false 
   };
 }
 
+function IsDeaf({ isFrozen, saidAt }) {
+  return isFrozen || saidAt !== null;
+}
+
 /** Tells each second, and when it has changed, how it stands with the STOP. */
 class LifeSign {
   #turns = 0;
@@ -73,8 +77,13 @@ class LifeSign {
     const { stop } = this.client.application;
     if (++this.#turns % 20 !== 1 && this.#told === JSON.stringify(stop)) return;
     this.#told = JSON.stringify(stop);
-    this.client.send({ op: 'alive', stop });
+    this.client.send({ op: 'alive', at: Now(this.client.application), stop });
   }
+}
+
+/** When what is sent now was said, in seconds of the machine's time. */
+function Now({ saidAt }) {
+  return saidAt ?? performance.now() / 1000;
 }
 
 function AnswerStop(application, op, { path }, by, reply) {
@@ -94,7 +103,7 @@ class StopClient {
   }
 
   #read() {
-    while (!this.application.isFrozen && this.backlog.length > 0) this.#answer(JSON.parse(this.backlog.shift()));
+    while (!IsDeaf(this.application) && this.backlog.length > 0) this.#answer(JSON.parse(this.backlog.shift()));
   }
 
   #answer({ op, request, ...asked }) {
@@ -154,7 +163,7 @@ class Client {
   }
 
   get isStuck() {
-    return this.application.isFrozen || this.application.isHanging;
+    return IsDeaf(this.application) || this.application.isHanging;
   }
 
   #read() {
@@ -168,7 +177,7 @@ class Client {
   turn() {
     const { application } = this;
     this.#read();
-    if (!this.isTold || this.isStuck) return;
+    if (!this.isTold || application.isFrozen || application.isHanging) return;
     this.alive.turn();
     const state = JSON.stringify(application.state);
     if (state !== this.#lastState) this.send({ op: 'state', ...application.state });

@@ -75,7 +75,7 @@ class Panel {
   }
 }
 
-/** A network between a page and its application, which can be stuck: nothing passes, and nothing is closed. */
+/** A network between a page and its application, which can be stuck (nothing passes, and nothing is closed) or drop its connections. */
 export async function Network(t, url) {
   const target = Number(new URL(url).port);
   const sockets = new Set();
@@ -97,5 +97,6 @@ export async function Network(t, url) {
     url: `http://127.0.0.1:${server.address().port}/`,
     stick() { for (const socket of sockets) socket.pause(); },
     loosen() { for (const socket of sockets) socket.resume(); },
+    drop() { for (const socket of sockets) socket.destroy(); },
   };
 }

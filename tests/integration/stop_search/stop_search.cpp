@@ -21,6 +21,7 @@
 #include "plugins/parameters/configuration.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/structure/change_text.h"
+#include "plugins/structure/reload.h"
 #include "plugins/structure/structure_editor.h"
 
 namespace runnel::test {
@@ -43,7 +44,7 @@ class Search {
  private:
   using Action = std::pair<int, std::function<void()>>;  // how often, and what
 
-  // Begins anew, under STOP if it was under STOP.
+  // Runs it again from its file, under STOP if it was under STOP.
   void Build() {
     history_.reset();
     editor_.reset();
@@ -183,6 +184,12 @@ class Search {
            if (auto* part = OneOf(Parts())) Change({CopyElement{part->path()}});
          }},
         {3, [&] { MakeAnew(); }},
+        {1, [&] { Reload(); }},
+        {1,
+         [&] {
+           last_ = "run again";
+           Build();
+         }},
         {5,
          [&] {
            last_ = "undo";
@@ -210,6 +217,13 @@ class Search {
     const bool is_planner = type.starts_with("planning/");
     Change({ReplaceModule{part->path(),
                           is_planner ? std::string("planning/") + kPlanners[Below(4)] : type}});
+  }
+  void Reload() {
+    static const char* const kPlugins[] = {"motion", "planning", "simulation", "adaptors"};
+    const std::string plugin = kPlugins[Below(4)];
+    last_ = "reload " + plugin;
+    if (!ReloadPlugin(plugins_, *editor_, *runtime_, plugin)) ++result_.refused;
+    ++result_.reloads;
   }
   void Press() {
     last_ = "press";

@@ -10,6 +10,7 @@ namespace runnel::test {
 struct StopSearchResult {
   std::uint64_t steps = 0;
   std::uint64_t presses = 0;
+  std::uint64_t reloads = 0;
   std::uint64_t refused = 0;  ///< changes that the editor refused: of what was not there any more
   std::uint64_t checks = 0;   ///< driving ports looked at
   std::uint64_t checks_in_force = 0;  ///< of those, while STOP was in force
@@ -19,7 +20,8 @@ struct StopSearchResult {
 };
 
 /// Runs xml/apps/bug_demo.xml on simulated time and does something at random in each step: press, release, block,
-/// set by hand, by a rule, rename, delete, undo, redo, swap, make anew, copy, cut and mend connections, run cycles.
+/// set by hand, by a rule, rename, delete, undo, redo, swap, make anew, copy, cut and mend connections, reload a plugin, run the
+/// application again from its file, run cycles.
 /// After each of them no driving port may have another value than its safe one while STOP is in force, and after
 /// that none that was measured or published before the release. The same seed does the same.
 [[nodiscard]] StopSearchResult SearchForWaysAroundStop(std::uint64_t seed, std::uint64_t steps);

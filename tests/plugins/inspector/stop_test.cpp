@@ -1,6 +1,7 @@
 // The STOP of the robot by viewers: whoever looks presses, whatever else goes on, and all are told.
 
 #include <future>
+#include <utility>
 
 #include "core/element/robot_stop.h"
 #include "tests/plugins/inspector/inspector_fixture.h"
@@ -179,7 +180,12 @@ TEST_F(ViewersStop, ItsOwnConnectionKnowsNothingElse) {
   EXPECT_EQ(stop.Ask({{"op", 7}})["ok"], false);
   EXPECT_EQ(stop.Ask({{"op", "release"}, {"path", "/app/a/output/out"}})["ok"], false);
   EXPECT_FALSE(in_force());
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(stop.Next("alive")["stop"]["in_force"], false);
+  double before = 0;
+  for (int i = 0; i < 2; ++i) {
+    const Json alive = stop.Next("alive");
+    EXPECT_EQ(alive["stop"]["in_force"], false);
+    EXPECT_GT(alive["at"].get<double>(), std::exchange(before, alive["at"].get<double>())) << "old ones are told by it";
+  }
 }
 
 }  // namespace

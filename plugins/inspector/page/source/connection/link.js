@@ -5,8 +5,9 @@ import { Refusal, TokenProtocols } from './token.js';
 const kViewer = 'runnel.inspector.v1';
 const kFirstPause = 250;   // ms before the next attempt
 const kLongestPause = 2000;
-const kSilent = 2000;      // ms without a word of the server, which gives a sign of life each second
+const kSilent = 2000;      // ms since the server has given the newest sign of life, of which it gives one each second
 const kGivenUp = 10000;    // ms of it after which another connection is tried
+const kDrift = 5e-4;       // two clocks do not run apart faster
 const kLook = 250;
 
 export class Link {
@@ -17,12 +18,13 @@ export class Link {
   #onMessage;
   #onState;
   #timer = null;
-  #heard = 0; // when something came last
+  #given = 0; // when the newest sign of life was given, by this page's clock
+  #offset = 0; // of the server's clock to this page's, as of the sign of life that was quickest on its way
   #isSilent = false;
 
   /**
-   * `onState` is told 'connecting', 'open', 'silent' (nothing has come for a while; 'open' again when something does), 'lost' or
-   * 'refused' (then it is for show() to go on), and why.
+   * `onState` is told 'connecting', 'open', 'silent' (there is no fresh sign of life; 'open' again when there is one), 'lost' or
+   * 'refused' (then it is for show() to go on), and why. Of signs of life `onMessage` gets those that are fresh, with `given`.
    */
   constructor(url, token, { protocol = kViewer, onMessage, onState }) {
     this.protocol = protocol;
@@ -38,23 +40,34 @@ export class Link {
     this.#onState('connecting', '');
     const socket = new WebSocket(this.url, [this.protocol, ...TokenProtocols(this.token)]);
     this.#socket = socket;
-    this.#heard = performance.now();
+    this.#given = performance.now();
+    this.#offset = Infinity;
     this.#isSilent = false;
     let wasOpen = false;
-    socket.onopen = () => { wasOpen = true; this.#pause = kFirstPause; this.#hear('open'); };
-    socket.onmessage = (event) => { this.#hear(); this.#receive(event.data); };
+    socket.onopen = () => { wasOpen = true; this.#pause = kFirstPause; this.#hear(performance.now(), 'open'); };
+    socket.onmessage = (event) => this.#receive(event.data);
     socket.onclose = (event) => { if (this.#socket === socket) this.#lost(event.reason, wasOpen); };
   }
 
-  #hear(state = this.#isSilent ? 'open' : '') {
-    this.#heard = performance.now();
+  #hear(given, state = this.#isSilent ? 'open' : '') {
+    this.#given = given;
     this.#isSilent = false;
     if (state) this.#onState(state, '');
   }
 
+  /** What was said long ago and comes only now says nothing of how the server is. */
+  #takeLife(message) {
+    const now = performance.now();
+    this.#offset = Math.min(this.#offset + kDrift * (now - this.#given), now - message.at * 1000);
+    const given = message.at * 1000 + this.#offset;
+    if (!(now - given <= kSilent)) return; // nor what does not say when it was
+    this.#hear(given);
+    this.#onMessage({ ...message, given });
+  }
+
   #listen() {
     if (this.#socket === null) return;
-    const silence = performance.now() - this.#heard;
+    const silence = performance.now() - this.#given;
     if (silence > kGivenUp) {
       const socket = this.#socket;
       this.#lost('no sign of life', true);
@@ -91,6 +104,7 @@ export class Link {
     const message = JSON.parse(text);
     if (message.op === 'alive') this.send({ op: 'alive' }); // by which an operator is heard
     if (message.op === 'reply') this.#answer(message.request, message);
+    else if (message.op === 'alive') this.#takeLife(message);
     else this.#onMessage(message);
   }
 

@@ -89,7 +89,7 @@ function OnState(state, reason) {
 
 const kReceivers = {
   hello: OnHello,
-  alive: ({ stop }) => { if (stop) TakeFromOther(stop); },
+  alive: TakeFromOther,
   catalogue: (message) => { catalogue.value = new Catalogue(message); },
   structure: OnStructure,
   structure_change: OnStructureChange,

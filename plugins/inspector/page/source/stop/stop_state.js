@@ -8,7 +8,7 @@ const kConfirmed = 1000; // ms within which the robot confirms; then it is asked
 
 /** {in_force, by, since} as the robot told it last; null: never yet. */
 export const told = signal(null);
-/** What this page has pressed and the robot has not confirmed: {isLate, problem: why it was refused}; null: nothing. */
+/** What this page has pressed and the robot has not confirmed: {since, isLate, problem: why it was refused}; null: nothing. */
 export const pressed = signal(null);
 export const releaseProblem = signal('');
 const ownState = signal('connecting');
@@ -18,6 +18,8 @@ const isOwnHeard = computed(() => ownState.value === 'open');
 export const isHeard = computed(() => isOwnHeard.value || otherState.value === 'open');
 /** As the robot has confirmed it, whether or not it can be heard now. */
 export const isInForce = computed(() => told.value?.in_force === true);
+/** In force, as far as anybody can know now. */
+export const isConfirmed = computed(() => isInForce.value && isHeard.value && !pressed.value?.isLate);
 
 let own = null;
 let other = null;
@@ -26,7 +28,7 @@ const asked = new Set(); // links of which an answer to a press is awaited
 
 /** Opens the connection that bears nothing else. */
 export function StartStop(url) {
-  own = new Link(url, CurrentToken(), { protocol: 'runnel.stop.v1', onMessage: ({ op, stop }) => { if (op === 'alive') Take(stop); },
+  own = new Link(url, CurrentToken(), { protocol: 'runnel.stop.v1', onMessage: (message) => { if (message.op === 'alive') Take(message); },
     onState: (state) => { ownState.value = state; Resend(); } });
   own.open();
 }
@@ -42,17 +44,18 @@ export function OtherIs(state) {
 }
 
 /** As the other connection tells it: it may carry so much that this comes late. */
-export function TakeFromOther(stop) {
-  if (!isOwnHeard.value) Take(stop);
+export function TakeFromOther(message) {
+  if (!isOwnHeard.value) Take(message);
 }
 
 export function ShowToken(token) {
   own?.show(token);
 }
 
-function Take(stop) {
+/** What was said before it was pressed does not confirm it. */
+function Take({ stop, given }) {
   told.value = stop;
-  if (stop.in_force) Confirmed();
+  if (stop.in_force && !(given < pressed.value?.since)) Confirmed();
   else releaseProblem.value = '';
 }
 
@@ -63,7 +66,7 @@ function Confirmed() {
 
 /** One message; what is not confirmed is sent again, also when there is a connection again. */
 export function PressStop() {
-  pressed.value = { isLate: false, problem: '' };
+  pressed.value = { since: performance.now(), isLate: false, problem: '' };
   releaseProblem.value = '';
   clearInterval(timer);
   timer = setInterval(() => {
@@ -82,11 +85,11 @@ async function Send(link) {
   asked.add(link);
   const reply = await link.request({ op: 'stop' });
   asked.delete(link);
-  if (reply.ok && link === own && !isInForce.value) Take({ in_force: true, by: '', since: 0 }); // who it was comes at once
+  if (reply.ok && link === own && !isInForce.value) Take({ stop: { in_force: true, by: '', since: 0 } }); // who it was comes at once
   if (reply.ok) return Confirmed();
   if (reply.lost || !pressed.value) return undefined; // sent again
   clearInterval(timer);
-  pressed.value = { isLate: true, problem: reply.errors?.[0]?.message ?? 'no reason was given' };
+  pressed.value = { ...pressed.value, isLate: true, problem: reply.errors?.[0]?.message ?? 'no reason was given' };
   return undefined;
 }
 

@@ -2,7 +2,7 @@
 
 import { computed, effect, signal } from '@preact/signals';
 import { ErrorText, Release } from '../../../page/source/state/actions.js';
-import { Request, canDrive, run } from '../../../page/source/state/store.js';
+import { Request, canDrive, isConnected, run } from '../../../page/source/state/store.js';
 import { isInForce, pressed } from '../../../page/source/stop/stop_state.js';
 import { isEditing } from '../panel_state.js';
 import { Hold } from './hold.js';
@@ -29,10 +29,7 @@ export function Drive(port, widget, text, rest) {
   }
   if (!port || !MayBegin()) return false;
   Note(problems, widget, undefined);
-  const onEnd = (errors) => {
-    Forget(port);
-    Note(problems, widget, errors.map(ErrorText).join('\n') || 'it was refused');
-  };
+  const onEnd = (errors) => Ended(port, widget, errors.map(ErrorText).join('\n') || 'it was refused');
   holds.set(port, { widget, hold: new Hold(port, text, { rest, request: Request, onEnd }) });
   Note(held, port, widget);
   return true;
@@ -47,6 +44,12 @@ export function LetGo(port, widget) {
 
 export function LetGoOfAll() {
   for (const [port, { widget }] of [...holds]) LetGo(port, widget);
+}
+
+/** By itself. */
+function Ended(port, widget, why) {
+  Forget(port);
+  Note(problems, widget, why);
 }
 
 function Forget(port) {
@@ -71,4 +74,11 @@ export function WatchThePage() {
   document.addEventListener('visibilitychange', () => { if (document.hidden) LetGoOfAll(); });
   effect(() => { if (isEditing.value) LetGoOfAll(); });
   effect(() => { if (isInForce.value || pressed.value) LetGoOfAll(); });
+  effect(() => {
+    if (isConnected.value) return;
+    for (const [port, { widget, hold }] of [...holds]) {
+      hold.end();
+      Ended(port, widget, 'the application is not heard of any more: this hold has ended');
+    }
+  });
 }

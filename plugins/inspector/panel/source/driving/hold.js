@@ -6,7 +6,7 @@ export const kPeriod = 50;     // ms, between two values
 export const kDeadline = 0.25; // s, without a value, after which the server has the robot rest
 const kRate = 20;              // Hz of the application's time: what looks at the age of commands has a fresh one
 const kUnanswered = 4;         // values on their way: more would come late, all at once, when a network is back
-export const kPatience = 20;   // periods without an answer: nobody says any more that the robot does what is wanted
+export const kPatience = 20;   // periods, answers included that are older: nobody says any more that the robot does what is wanted
 
 export class Hold {
   #port;
@@ -17,7 +17,7 @@ export class Hold {
   #lease;
   #timer = 0;
   #unanswered = 0;
-  #silent = 0; // periods since the last answer
+  #heard = performance.now(); // when that was sent of which the answer came last
 
   /** `rest` is the last value, which stays until the port is released; `onEnd` is told why the hold has ended by itself. */
   constructor(port, text, { rest, request, onEnd }) {
@@ -50,8 +50,7 @@ export class Hold {
 
   #turn() {
     if (this.#timer === 0) return undefined;
-    this.#silent += 1;
-    if (this.#silent <= kPatience) return this.#send();
+    if (performance.now() - this.#heard <= kPatience * kPeriod) return this.#send();
     this.end();
     this.#onEnd([{ message: `the application has not answered for ${kPatience * kPeriod / 1000} s: this hold has ended` }]);
     return undefined;
@@ -60,10 +59,11 @@ export class Hold {
   async #send() {
     if (this.#unanswered >= kUnanswered) return;
     this.#unanswered += 1;
+    const sent = performance.now();
     const reply = await this.#request({ op: 'publish', path: this.#port, value: this.#text, rate: kRate,
       deadline: kDeadline, lease: this.#lease });
     this.#unanswered -= 1;
-    this.#silent = 0;
+    this.#heard = sent;
     if (reply.ok || this.#timer === 0) return;
     this.#stop();
     this.#onEnd(reply.errors ?? []);

@@ -2,8 +2,8 @@
 
 import { html } from 'htm/preact';
 import { FormatNumber } from '../../../page/source/model/value_format.js';
-import { canDrive, catalogue, role, revision, structure } from '../../../page/source/state/store.js';
-import { isInForce } from '../../../page/source/stop/stop_state.js';
+import { canDrive, catalogue, isConnected, role, revision, structure } from '../../../page/source/state/store.js';
+import { isConfirmed, isInForce, pressed } from '../../../page/source/stop/stop_state.js';
 import { GiveBack, hands, held, problems } from '../driving/driving.js';
 import { AxesOf } from '../model/twist.js';
 
@@ -19,14 +19,20 @@ export function DriveOf({ target }) {
 
 const kTexts = { driven: 'you drive', set: 'at rest, by hand', lost: 'link lost: at rest', stopped: 'blocked' };
 
+/** As long as nobody has confirmed it, it may drive. */
+function StopChip() {
+  if (isConfirmed.value) return ['stopped', 'STOP'];
+  return isInForce.value || pressed.value?.isLate ? ['unconfirmed', 'STOP: not confirmed'] : null;
+}
+
 export function DrivingState({ widget, problem, motion }) {
   const port = widget.target;
   const mine = held.value[port] === widget.id;
   const state = hands.value[port];
   const told = problem ?? problems.value[widget.id];
-  const text = isInForce.value ? 'STOP' : role.value === 'look' ? 'read-only' : mine ? kTexts.driven
-    : state === 'driven' ? 'somebody drives' : kTexts[state] ?? 'the application drives';
-  const kind = isInForce.value ? 'stopped' : mine ? 'mine' : state ?? 'free';
+  const [kind, text] = StopChip() ?? (!isConnected.value ? ['unknown', 'not known who drives']
+    : mine ? ['mine', kTexts.driven] : [state ?? 'free', role.value === 'look' ? 'read-only'
+      : state === 'driven' ? 'somebody drives' : kTexts[state] ?? 'the application drives']);
   return html`
     <div class="driving-state">
       <span class=${`driving-chip ${kind}`} data-driving=${kind}>${text}</span>

@@ -1,4 +1,4 @@
-// A random search for a way around STOP, longer than the one of the tests: bench_stop_search --seed 7 --steps 10000
+// The part of bench/stop_search that is done in one process; the tests do the same for a short while.
 
 #include <cstdint>
 #include <cstdio>
@@ -15,9 +15,9 @@ int main(int argc, char** argv) {
   app.add_option("--steps", steps, "How many things are done.");
   CLI11_PARSE(app, argc, argv);
   const auto found = runnel::test::SearchForWaysAroundStop(seed, steps);
-  std::printf("seed %llu: %llu steps, %llu presses, %llu changes refused\n",
+  std::printf("seed %llu: %llu steps, %llu presses, %llu plugins reloaded, %llu changes refused\n",
               static_cast<unsigned long long>(seed), static_cast<unsigned long long>(found.steps),
-              static_cast<unsigned long long>(found.presses),
+              static_cast<unsigned long long>(found.presses), static_cast<unsigned long long>(found.reloads),
               static_cast<unsigned long long>(found.refused));
   std::printf("%llu times a driving port was looked at, %llu times under STOP, %llu times it moved\n",
               static_cast<unsigned long long>(found.checks),
