@@ -70,10 +70,11 @@ test('what is no number is neither a rate nor a priority, and a field that is le
   await inspector.select('/mock/threads/control');
   const priority = page.locator('#thread-priority');
   const before = await priority.inputValue();
-  for (const leave of ['Tab', 'Escape']) {
-    await priority.fill('');
+  assert.equal(before, '20');
+  for (const [text, leave] of [['', 'Tab'], ['7', 'Tab'], ['7', 'Escape']]) {
+    await priority.fill(text);
     await priority.press(leave);
-    await inspector.until('as it was', (text) => document.querySelector('#thread-priority').value === text, before);
+    await inspector.until('as it was', (known) => document.querySelector('#thread-priority').value === known, before);
   }
   await priority.fill('fast');
   await priority.press('Enter');

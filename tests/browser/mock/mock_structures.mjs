@@ -38,7 +38,7 @@ const kModules = [
 
 export const kCatalogue = { modules: kModules, types: kTypes };
 const Connection = (from, to) => ({ from, to, queue: 0, on_full: 'drop_oldest', pull: false });
-const Thread = (root, name, period, order) => ({ path: `${root}/threads/${name}`, kind: 'thread', name, period, order });
+const Thread = (root, name, period, order) => ({ path: `${root}/threads/${name}`, kind: 'thread', name, period, priority: 20, order });
 
 export function RobotStructure() {
   const root = '/mock';
