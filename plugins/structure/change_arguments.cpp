@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/characters.h"
+#include "core/base/result.h"
 
 namespace runnel::internal {
 

@@ -87,24 +87,9 @@ void ChangeHistory::Add(Entries& to, Entries& entry) {
   if (to.size() > most_entries_) to.pop_front();
 }
 
-std::optional<std::string> ChangeHistory::NextUndo() const {
+std::optional<std::string> ChangeHistory::LastOf(const Entries& entries, std::string Entry::*part) const {
   const std::lock_guard lock(entries_);
-  return done_.empty() ? std::nullopt : std::optional(done_.back().label);
-}
-
-std::optional<std::string> ChangeHistory::NextRedo() const {
-  const std::lock_guard lock(entries_);
-  return undone_.empty() ? std::nullopt : std::optional(undone_.back().label);
-}
-
-std::string ChangeHistory::UndoClient() const {
-  const std::lock_guard lock(entries_);
-  return done_.empty() ? "" : done_.back().client;
-}
-
-std::string ChangeHistory::RedoClient() const {
-  const std::lock_guard lock(entries_);
-  return undone_.empty() ? "" : undone_.back().client;
+  return entries.empty() ? std::nullopt : std::optional(entries.back().*part);
 }
 
 }  // namespace runnel

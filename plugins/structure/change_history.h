@@ -44,11 +44,11 @@ class ChangeHistory {
   ChangeOutcome Redo();
 
   /// What Undo() would take back, and Redo() do again; nullopt: nothing.
-  [[nodiscard]] std::optional<std::string> NextUndo() const;
-  [[nodiscard]] std::optional<std::string> NextRedo() const;
+  [[nodiscard]] std::optional<std::string> NextUndo() const { return LastOf(done_, &Entry::label); }
+  [[nodiscard]] std::optional<std::string> NextRedo() const { return LastOf(undone_, &Entry::label); }
   /// Who wanted that; "": nothing, or nobody has said so.
-  [[nodiscard]] std::string UndoClient() const;
-  [[nodiscard]] std::string RedoClient() const;
+  [[nodiscard]] std::string UndoClient() const { return LastOf(done_, &Entry::client).value_or(""); }
+  [[nodiscard]] std::string RedoClient() const { return LastOf(undone_, &Entry::client).value_or(""); }
 
  private:
   struct Entry {
@@ -60,6 +60,7 @@ class ChangeHistory {
 
   ChangeOutcome Take(Entries& from, Entries& to, const char* what);
   void Add(Entries& to, Entries& entry);
+  [[nodiscard]] std::optional<std::string> LastOf(const Entries& entries, std::string Entry::*part) const;
 
   StructureEditor& editor_;
   const std::size_t most_entries_;

@@ -8,7 +8,6 @@
 #include "core/base/nearest_name.h"
 #include "core/types/duration_text.h"
 #include "plugins/scheduling/thread_container.h"
-#include "plugins/structure/argument_reading.h"
 #include "plugins/structure/change_arguments.h"
 
 namespace runnel {

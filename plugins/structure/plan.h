@@ -10,12 +10,13 @@
 
 #include "core/base/diagnostics.h"
 #include "core/element/configurable.h"
+#include "core/element/runtime.h"
 #include "core/element/unlisted_element.h"
 #include "core/plugin/module_registry.h"
 #include "plugins/structure/change.h"
 #include "plugins/structure/inverse.h"
+#include "plugins/structure/replacement.h"
 #include "plugins/structure/structure_overlay.h"
-#include "plugins/structure/workshop.h"
 
 namespace runnel {
 class GroupParameter;
@@ -29,6 +30,43 @@ struct Replaced {
   std::string path;
   std::uint64_t id = 0;  // of the new module
   std::uint64_t probation_cycles = 0;
+};
+
+/// What one change set makes beside the tree, by what it is and where it goes: kept from one attempt to the next, as
+/// others may change the structure while a slow module is made, and it is to be made once.
+///
+/// Threads: one.
+class Workshop {
+ public:
+  struct Work {
+    std::shared_ptr<UnlistedElement> element;
+    Values values = {};  // of the module whose place it takes, when it was made
+  };
+  /// Thrown when others have changed the structure meanwhile: the attempt is to begin anew.
+  struct Overtaken {};
+
+  /// What has been made for `key`, or what `make` makes.
+  const Result<Work>& Get(const std::string& key, const std::function<Result<Work>()>& make) {
+    const auto known = works_.find(key);
+    return known != works_.end() ? known->second : works_.emplace(key, make()).first->second;
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return works_.size(); }
+
+ private:
+  std::map<std::string, Result<Work>>
+      works_;  // a group comes before what is in it: it is asked for first
+};
+
+/// While one lives, the thread that holds the structure lock does not. Precondition: it has taken it once.
+class Unlocked {
+ public:
+  explicit Unlocked(Runtime& runtime) : mutex_(runtime.structure_mutex()) { mutex_.unlock(); }
+  ~Unlocked() { mutex_.lock(); }
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+ private:
+  OrderedMutex& mutex_;
 };
 
 /// Made beside the tree, until it is listed.

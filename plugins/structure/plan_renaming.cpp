@@ -17,6 +17,7 @@
 #include "plugins/structure/element_state.h"
 #include "plugins/structure/name_in_file.h"
 #include "plugins/structure/plan.h"
+#include "plugins/structure/renamed_text.h"
 
 namespace runnel::internal {
 
@@ -48,20 +49,6 @@ std::optional<std::string> Moved(const std::string& path, const std::string& fro
                                  const std::string& to) {
   if (!IsAtOrBelow(path, from)) return {};
   return to + path.substr(from.size());
-}
-
-// A target of a group's parameter, which may name the renamed element on its way.
-std::string MovedTarget(FrameworkElement& group, const std::string& target,
-                        const FrameworkElement& renamed, const std::string& name) {
-  std::string moved;
-  for (std::size_t begin = 0; begin <= target.size();) {
-    const std::size_t end = std::min(target.find('/', begin), target.size());
-    const auto found = PathSearch(group).Find(target.substr(0, end));
-    const bool is_it = end > begin && found && *found == &renamed;
-    moved += (begin > 0 ? "/" : "") + (is_it ? name : target.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return moved;
 }
 
 // Where in the file it stands.
@@ -221,7 +208,7 @@ Result<void> Plan::MoveTargets(const FrameworkElement& renamed, const std::strin
   for (GroupParameter* before : all) {
     std::vector<std::string> targets;
     for (const std::string& each : before->targets()) {
-      targets.push_back(MovedTarget(*before->parent(), each, renamed, name));
+      targets.push_back(RenamedPath(each, before->parent()->path(), {{renamed.path(), name}}));
     }
     if (targets == before->targets()) continue;
     UnlistedElement made(std::make_unique<GroupParameter>(

@@ -79,9 +79,7 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
   const ChangeScope all_at_once(runtime_);
   FrameworkElement* const after = Successor(waiting);
   if (after == nullptr) return std::move(waiting.replaced.before);
-  const auto& siblings = after->parent()->children();
-  const auto next = std::next(std::ranges::find(siblings, after));
-  const FrameworkElement* const place = next == siblings.end() ? nullptr : *next;
+  const FrameworkElement* const place = NextSibling(*after);
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
   const PortMatch match =
       MatchPorts(*after, *waiting.replaced.before, [](const Port&) { return false; });
@@ -94,9 +92,7 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
       to->TakeOver(*from);
       ++moved;
     }
-    if (auto listed = runtime_.List(std::move(waiting.replaced.before), place); !listed) {
-      throw ElementError(listed.error());
-    }
+    Must(runtime_.List(std::move(waiting.replaced.before), place));
     return gone;
   } catch (...) {
     Retry([&] {

@@ -6,7 +6,6 @@
 #include "core/element/element_path.h"
 #include "core/xml/xml_editor.h"
 #include "plugins/structure/name_in_file.h"
-#include "plugins/structure/tag_name.h"
 
 namespace runnel {
 

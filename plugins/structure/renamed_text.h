@@ -12,6 +12,14 @@
 
 namespace runnel {
 
+namespace internal {
+/// The first attribute that says what `tag` is called; "" if there is none.
+[[nodiscard]] inline std::string NameOf(XmlElement tag) {
+  const XmlAttribute* const name = tag.Attribute("name");
+  return name != nullptr ? name->value : "";
+}
+}  // namespace internal
+
 /// An attribute by which a tag of an application file names elements, or makes one.
 struct PathAttribute {
   enum class Kind { kNewName, kPath, kPathList };

@@ -41,10 +41,6 @@ Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkE
                         : "disconnect it first"};
 }
 
-}  // namespace
-
-namespace {
-
 bool StandsForOthers(const ConfigurableElement& parameter) {
   return dynamic_cast<const GroupParameter*>(parameter.element) != nullptr;
 }

@@ -173,17 +173,8 @@ std::vector<std::pair<Port*, Port*>> StructureOverlay::EdgesOf(Port& port) const
 }
 
 bool StructureOverlay::HasSource(const Port& port) const {
-  const auto feeds = [&](const std::vector<Port*>& sources) {
-    return std::ranges::any_of(sources, [&](Port* source) {
-      const Port& now = NowFor(*source);
-      return !IsGone(now) && std::ranges::count(Targets(now), &port) > 0;
-    });
-  };
-  if (feeds(port.incoming())) return true;
-  for (const auto& [before, after] : replaced_) {
-    if (&NowFor(*after) == &port && feeds(before->incoming())) return true;
-  }
-  return std::ranges::any_of(connected_, [&](const Edge& edge) { return edge.second == &port; });
+  const std::vector<Edge> edges = EdgesOf(const_cast<Port&>(port));
+  return std::ranges::any_of(edges, [&](const Edge& edge) { return edge.second == &port; });
 }
 
 }  // namespace runnel::internal

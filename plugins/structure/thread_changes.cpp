@@ -18,6 +18,13 @@ std::string PathOfThread(const std::string& name) {
   return name.find('/') != std::string::npos ? name : std::string(kThreads) + "/" + name;
 }
 
+Result<ThreadContainer*> FindThread(const StructureOverlay& overlay, const std::string& name) {
+  const auto found = overlay.Find(PathOfThread(name));
+  if (!found) return found.error();
+  if (auto* const thread = dynamic_cast<ThreadContainer*>(*found)) return thread;
+  return Error{.message = (*found)->path() + " is not a thread", .path = (*found)->path()};
+}
+
 // Whether any other thread begins cycles by itself.
 bool IsLastToBegin(const ThreadContainer& thread) {
   bool is_last = true;
@@ -49,12 +56,9 @@ Result<void> Plan::Check(const AddThread& change) {
 }
 
 Result<void> Plan::Check(const ScheduleThread& change) {
-  const auto found = overlay_.Find(PathOfThread(change.thread));
+  const auto found = FindThread(overlay_, change.thread);
   if (!found) return found.error();
-  auto* const thread = dynamic_cast<ThreadContainer*>(*found);
-  if (thread == nullptr) {
-    return Error{.message = (*found)->path() + " is not a thread", .path = (*found)->path()};
-  }
+  ThreadContainer* const thread = *found;
   ThreadOptions wanted = thread->options();
   wanted.period = change.period.value_or(wanted.period);
   wanted.priority = change.priority.value_or(wanted.priority);
@@ -109,14 +113,9 @@ Result<void> Plan::Check(const AssignToThread& change) {
   FrameworkElement& element = **found;
   ThreadContainer* thread = nullptr;
   if (!change.thread.empty()) {
-    const std::string path =
-        change.thread.front() == '/' ? change.thread : "/threads/" + change.thread;
-    const auto named = overlay_.Find(path);
+    const auto named = FindThread(overlay_, change.thread);
     if (!named) return named.error();
-    thread = dynamic_cast<ThreadContainer*>(*named);
-    if (thread == nullptr) {
-      return Error{.message = (*named)->path() + " is not a thread", .path = element.path()};
-    }
+    thread = *named;
   }
   if (element.kind() != ElementKind::kModule && element.kind() != ElementKind::kGroup) {
     return Error{.message = "is neither a module nor a group, and no thread runs it",

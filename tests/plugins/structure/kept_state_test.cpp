@@ -133,10 +133,14 @@ TEST_F(KeptStateTest, IsNoCommandFromAfterAReleaseThatItCameBefore) {
     ASSERT_TRUE(PublishByHand(At<Port>(kExtra), &five));
     EXPECT_EQ(seen(), 5);
     ASSERT_TRUE(runtime.robot_stop().Press("a test"));
-    if (is_deleted_in_between) ASSERT_TRUE(history.Apply({DeleteElement{"/app/driven"}}));
+    if (is_deleted_in_between) {
+      ASSERT_TRUE(history.Apply({DeleteElement{"/app/driven"}}));
+    }
     ASSERT_TRUE(runtime.robot_stop().Release("a test"));
     Steps(1);
-    if (!is_deleted_in_between) ASSERT_TRUE(history.Apply({DeleteElement{"/app/driven"}}));
+    if (!is_deleted_in_between) {
+      ASSERT_TRUE(history.Apply({DeleteElement{"/app/driven"}}));
+    }
     ASSERT_TRUE(history.Undo());
     EXPECT_EQ(seen(), 0);
     EXPECT_TRUE(At<Port>(kExtra).is_set_by_hand());
