@@ -6,19 +6,10 @@
 
 namespace runnel {
 
-OperatorWatch::OperatorWatch(RobotStop& stop, const Clock* watched_clock)
-    : stop_(stop),
-      clock_(watched_clock != nullptr ? *watched_clock : machine_clock_),
-      watches_(watched_clock == nullptr),
-      lookout_([this] { return Look(); }) {}
-
 void OperatorWatch::Begin(Duration timeout) {
-  {
-    const std::lock_guard lock(mutex_);
-    heard_ = clock_.Now();
-  }
   timeout_.store(timeout.count(), std::memory_order_relaxed);
-  if (!watches_) return;
+  Hear("");
+  if (watched_clock_ != nullptr) return;
   lookout_.Ask();
   changes_ = stop_.signal()->Listen([this] { lookout_.Ask(); });
 }
@@ -26,7 +17,7 @@ void OperatorWatch::Begin(Duration timeout) {
 void OperatorWatch::Hear(std::string_view name) {
   if (timeout() == Duration::zero()) return;
   const std::lock_guard lock(mutex_);
-  heard_ = clock_.Now();
+  heard_ = Now();
   last_ = name;
 }
 
@@ -35,7 +26,7 @@ std::optional<Time> OperatorWatch::Look() {
   {
     const std::lock_guard lock(mutex_);
     const Time due = heard_ + timeout();
-    if (clock_.Now() < due) return due;
+    if (Now() < due) return due;
     why += last_.empty() ? "nor before" : "the last one was " + last_;
   }
   stop_.Press(std::move(why));

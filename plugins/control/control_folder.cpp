@@ -170,7 +170,8 @@ Result<int> ConnectToSocket(const fs::path& path) {
   if (descriptor < 0) return SystemError("no socket can be made", path);
   SetPatience(descriptor, kPatience);  // many may be waiting there already
   if (Connect(descriptor, *address) != 0) {
-    Error error = SystemError("cannot be reached", path);
+    Error error = errno == EAGAIN ? Error{.message = "it does not answer: too many wait there already", .position = {path.string()}}
+                                  : SystemError("cannot be reached", path);
     close(descriptor);
     return error;
   }

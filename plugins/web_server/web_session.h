@@ -62,7 +62,7 @@ struct WebProtocol {
   std::vector<std::string> names;
   /// The client outlives the session.
   std::function<std::unique_ptr<WebSession>(WebClient& client)> start;
-  /// One of the names, "" if none: as many more sessions by this name may be there at once, which make room for no others.
+  /// One of the names, "" if none: as many more sessions by this name may be there at once; they make room for their like only.
   std::string kept_name = {};
 };
 

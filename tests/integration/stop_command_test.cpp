@@ -1,10 +1,16 @@
 // The STOP of the robot from a terminal: at once, whatever goes on, in all applications, and no one drives on by himself.
 
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
+
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 
@@ -91,6 +97,43 @@ TEST_F(StopCommand, StopsAllApplicationsAndSaysOfEachWhetherItHas) {
   second.Send(SIGCONT);
   EXPECT_THAT(Runnel("release --app first").text, HasSubstr("released the STOP"));
   EXPECT_EQ(Runnel("release").code, kRunFailed) << "of which one must be said";
+}
+
+TEST_F(StopCommand, WhereNothingDrivesItDoesNotSucceedAndSaysWhy) {
+  const std::string file = folder_ / "still.xml";
+  std::ofstream(file) << R"(<application name="still"> <load plugin="faulty"/> <clock type="real"/> <thread name="main" period="5ms"/>
+  <module name="commander" type="faulty/counter"/> </application>)";
+  Program program("run --quiet " + file);
+  WaitUntil("it runs", [&] { return Runnel("ps").text.find("still") != std::string::npos; });
+  const Ended stopped = Runnel("stop");
+  EXPECT_EQ(stopped.code, kRunFailed);
+  EXPECT_THAT(stopped.text, AllOf(HasSubstr("STOP is in force;"), HasSubstr("STOP stops nothing, and the robot may move; use its own stop"),
+                                  HasSubstr("<driving port=")));
+  EXPECT_THAT(Runnel("ps").text, HasSubstr("but NO PORT DRIVES"));
+}
+
+// Nobody takes the connections that wait there, and there is no room for another one.
+TEST_F(StopCommand, DoesNotWaitLongForAProcessThatHangs) {
+  Program program(Write("robot"));
+  ASSERT_TRUE(program.WaitFor("/robot/motor: moves"));
+  program.Send(SIGSTOP);
+  std::filesystem::path socket;
+  for (const auto& each : std::filesystem::directory_iterator(folder_ / "runnel")) {
+    if (each.path().extension() == ".sock") socket = each.path();
+  }
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  socket.string().copy(address.sun_path, sizeof address.sun_path - 1);
+  std::vector<int> waiting;
+  do {
+    waiting.push_back(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  } while (connect(waiting.back(), reinterpret_cast<sockaddr*>(&address), sizeof address) == 0);
+  EXPECT_EQ(errno, EAGAIN);
+  const Ended stopped = Runnel("stop");
+  EXPECT_EQ(stopped.code, kRunFailed);
+  EXPECT_THAT(stopped.text, AllOf(HasSubstr("the STOP is not confirmed"), HasSubstr("it does not answer")));
+  for (const int each : waiting) close(each);
+  program.Send(SIGCONT);
 }
 
 TEST_F(StopCommand, NeedsNothingThatIsInstalledAndSaysWhenNothingRuns) {

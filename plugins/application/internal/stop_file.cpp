@@ -122,18 +122,19 @@ StopFile::StopFile(RobotStop& stop, ApplicationLog& log, fs::path folder, std::s
       folder_(std::move(folder)),
       name_(std::move(name)),
       file_(folder_ / (name_ + OwnName())),
-      lookout_([this]() -> std::optional<Time> {
-        Write();
-        return {};
-      }),
-      changes_(stop.signal()->Listen([this] { lookout_.Ask(); })) {
-  lookout_.Ask();  // it may have been pressed while the application was loaded
+      lookout_(std::in_place,
+               [this]() -> std::optional<Time> {
+                 Write();
+                 return {};
+               }),
+      changes_(stop.signal()->Listen([this] { lookout_->Ask(); })) {
+  lookout_->Ask();  // it may have been pressed while the application was loaded
 }
 
-StopFile::Held::~Held() { Close(); }
-
-void StopFile::Held::Close() {
-  if (descriptor >= 0) close(std::exchange(descriptor, -1));
+StopFile::~StopFile() {
+  changes_ = {};
+  lookout_.reset();
+  if (held_ >= 0) close(held_);
 }
 
 bool StopFile::IsKept() {
@@ -163,25 +164,28 @@ void StopFile::Write() noexcept {
 }
 
 Result<void> StopFile::Follow(const RobotStop::State& state) {
-  if (state.in_force && held_.descriptor < 0) {
+  if (state.in_force && held_ < 0) {
     if (auto made = MakeControlFolder(folder_); !made) return made;
     if (auto held = Hold(state.by + "\n"); !held) return held;
-  } else if (!state.in_force && held_.descriptor >= 0) {
+  } else if (!state.in_force && held_ >= 0) {
     if (unlink(file_.c_str()) != 0 && errno != ENOENT) return SystemError(file_);
-    held_.Close();
+    close(std::exchange(held_, -1));
   }
   return RemoveLeft(folder_, name_);
 }
 
 Result<void> StopFile::Hold(const std::string& text) {
   for (;;) {
-    held_.descriptor = Open(file_, O_WRONLY | O_CREAT | O_TRUNC);
+    const int descriptor = Open(file_, O_WRONLY | O_CREAT | O_TRUNC);
     struct stat status {};
-    const bool is_mine = held_.descriptor >= 0 && flock(held_.descriptor, LOCK_EX) == 0 && fstat(held_.descriptor, &status) == 0;
+    const bool is_mine = descriptor >= 0 && flock(descriptor, LOCK_EX) == 0 && fstat(descriptor, &status) == 0;
     const bool is_there = is_mine && status.st_nlink > 0;
-    if (is_there && write(held_.descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size())) return {};
+    if (is_there && write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size())) {
+      held_ = descriptor;
+      return {};
+    }
     Error error = SystemError(file_);
-    held_.Close();
+    if (descriptor >= 0) close(descriptor);
     if (!is_mine || is_there) return error;
     // Who looked whether anybody holds it has removed it meanwhile.
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "core/base/diagnostics.h"
@@ -36,6 +37,7 @@ class StopFile {
 
   /// `name`: how the names of all files of the application begin.
   StopFile(RobotStop& stop, ApplicationLog& log, std::filesystem::path folder, std::string name);
+  ~StopFile();
   StopFile(const StopFile&) = delete;
   StopFile& operator=(const StopFile&) = delete;
 
@@ -43,14 +45,6 @@ class StopFile {
   [[nodiscard]] bool IsKept();
 
  private:
-  struct Held {
-    Held() = default;
-    ~Held();
-    Held(const Held&) = delete;
-    Held& operator=(const Held&) = delete;
-    void Close();
-    int descriptor = -1;
-  };
   Result<void> Follow(const RobotStop::State& state);
   Result<void> Hold(const std::string& text);
   void Write() noexcept;
@@ -60,13 +54,13 @@ class StopFile {
   const std::filesystem::path folder_;
   const std::string name_;
   const std::filesystem::path file_;  // of this process
-  Held held_;                         // the file while STOP is in force; of the thread that writes
+  int held_ = -1;                     // the file, while STOP is in force; of the thread that writes
   std::mutex mutex_;
   std::condition_variable has_written_;
   std::uint64_t written_ = 0;  // guarded by mutex_: which change of the STOP
   bool has_failed_ = false;    // guarded by mutex_
-  Lookout lookout_;
-  const StopSignal::Subscription changes_;  // first to go: it asks the lookout
+  std::optional<Lookout> lookout_;
+  StopSignal::Subscription changes_;
 };
 
 }  // namespace runnel

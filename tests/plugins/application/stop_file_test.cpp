@@ -4,10 +4,16 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <gmock/gmock.h>
 
 #include "plugins/application/application.h"
+#include "plugins/application/internal/stop_file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
@@ -36,6 +42,12 @@ class StopFileTest : public testing::Test {
     return application->runtime().robot_stop().in_force();
   }
   [[nodiscard]] fs::path Folder() const { return run_time.path() / "runnel"; }
+  [[nodiscard]] std::size_t Files() const {
+    std::error_code none;
+    std::size_t count = 0;
+    for (const auto& each : fs::directory_iterator(Folder(), none)) count += each.path().string().find(".stop") != std::string::npos;
+    return count;
+  }
 
   TemporaryFolder run_time;
   TemporaryFolder files;
@@ -72,6 +84,60 @@ TEST_F(StopFileTest, ClearedItBeginsWithoutAndWritesItAgain) {
   EXPECT_TRUE(IsStopped(Run()));
 }
 
+// Each has its own file: the STOP of the one is neither lost nor cleared by what becomes of the other.
+TEST_F(StopFileTest, TwoProcessesOfOneApplicationKeepTheirOwn) {
+  auto first = std::make_unique<LoadedApplication>(Run());
+  (*first)->runtime().robot_stop().Press("a viewer");
+  WaitUntil("it is written", [&] { return Files() == 1; });
+  {
+    const auto second = Run();
+    EXPECT_TRUE(IsStopped(second));
+    EXPECT_THAT(second.diagnostics().ToString(), HasSubstr("pressed by a viewer, in another process that runs"));
+    EXPECT_TRUE(second->runtime().robot_stop().Release("a person"));
+  }
+  EXPECT_EQ(Files(), 1u) << "of the first one";
+  EXPECT_FALSE(IsStopped(Run("a", true))) << "cleared for this process";
+  EXPECT_EQ(Files(), 1u);
+  first.reset();
+  EXPECT_TRUE(IsStopped(Run())) << "the first one has ended under it";
+  EXPECT_TRUE(Run()->runtime().robot_stop().Release("a person"));
+  EXPECT_EQ(Files(), 0u);
+}
+
+// As a process that was killed leaves it.
+TEST_F(StopFileTest, WhatSeveralHaveLeftIsTakenOverAndReleasedByOne) {
+  Run()->runtime().robot_stop().Press("a viewer");
+  const fs::path left = *fs::directory_iterator(Folder());
+  for (const char* number : {"1", "2"}) fs::copy_file(left, left.string() + number);
+  const auto next = Run();
+  EXPECT_TRUE(IsStopped(next));
+  WaitUntil("the others' are gone", [&] { return Files() == 1; });
+  EXPECT_TRUE(next->runtime().robot_stop().Release("a person"));
+  WaitUntil("nothing is left", [&] { return Files() == 0; });
+}
+
+// A pipe that nobody reads is as a disk that does not answer.
+TEST_F(StopFileTest, ADiskThatHangsDelaysNeitherTheStopNorItsAnswer) {
+  Runtime runtime;
+  ApplicationLog log(runtime.clock());
+  RobotStop& stop = runtime.robot_stop();
+  fs::create_directory(Folder());
+  fs::permissions(Folder(), fs::perms::owner_all);
+  StopFile file(stop, log, Folder(), "hangs-");
+  stop.Press("a viewer");
+  WaitUntil("it is written", [&] { return Files() == 1; });
+  const fs::path name = *fs::directory_iterator(Folder());
+  stop.Release("a viewer");
+  WaitUntil("it is gone", [&] { return Files() == 0; });
+  ASSERT_EQ(mkfifo(name.c_str(), 0600), 0);
+  EXPECT_TRUE(stop.Press("a viewer"));  // in this thread
+  EXPECT_TRUE(stop.in_force());
+  EXPECT_FALSE(file.IsKept());
+  const int reader = open(name.c_str(), O_RDONLY);
+  WaitUntil("it is written", [&] { return file.IsKept(); });
+  close(reader);
+}
+
 TEST_F(StopFileTest, WhoDoesNotKeepItNeitherLooksNorWrites) {
   Run("a", false, false)->runtime().robot_stop().Press("a viewer");
   EXPECT_FALSE(fs::exists(Folder()));
@@ -94,6 +160,15 @@ TEST_F(StopFileTest, WhereThereCanBeNoFolderItSaysThatStopEndsWithTheProcess) {
   const auto application = Run();
   ASSERT_TRUE(application);
   EXPECT_THAT(application.diagnostics().ToString(), HasSubstr("a STOP will end with this process"));
+}
+
+// Nobody is there who could be heard.
+TEST_F(StopFileTest, WhereOperatorsMustBeHeardItIsPressedFromTheStartOn) {
+  const auto application = Application::LoadText("<application name=\"robot\"><operators timeout=\"200ms\"/></application>", {});
+  ASSERT_TRUE(application) << application.diagnostics().ToString();
+  WaitUntil("it is pressed", [&] { return IsStopped(application); });
+  WaitUntil("it is noted by whom",
+            [&] { return application->runtime().robot_stop().state().by == "<operators>: none of them has been heard for 200ms, nor before"; });
 }
 
 TEST_F(StopFileTest, ASavedFileNeverHasIt) {

@@ -1,6 +1,7 @@
 // A stop goes over the network: what drives, or is a velocity, sends its safe value, and everything else goes on.
 #include <algorithm>
 
+#include "core/port/driving_ports.h"
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {
@@ -128,6 +129,9 @@ TEST_P(StopSendingTest, VelocitiesStopUnmarkedAndMeasurementsGoOn) {
   WaitUntil("both are read", [&] { return IsConnected(speed) && IsConnected(planner_.module.place); });
   speed.Publish({1});
   WaitUntil("it has come", [&] { return wanted.Get().forward == 1; });
+  std::optional<std::string> drives;
+  WaitUntil("what drives can be told", [&] { return (drives = FindWhatDrives(planner_.runtime)).has_value(); });
+  EXPECT_EQ(drives, "/speed (in the network)");
   ASSERT_TRUE(stop_.Press("a test"));
   WaitUntil("it stands", [&] { return wanted.Get().forward == 0; });
   speed.Publish({2});

@@ -107,6 +107,20 @@ TEST_F(StopButtonTest, GoesWithItsPortAndPressesWhenThatIsGone) {
   });
 }
 
+TEST(OperatorsTag, IsReadAndItsTimeChecked) {
+  const auto errors = [](const std::string& words) {
+    Workshop workshop;
+    return workshop.Errors("<application name=\"demo\">" + words + "</application>");
+  };
+  EXPECT_THAT(errors("<operators timeout=\"199ms\"/>"), HasSubstr("operators may be silent for 200ms to 10min"));
+  EXPECT_THAT(errors("<operators timeout=\"601s\"/>"), HasSubstr("operators may be silent for 200ms to 10min"));
+  EXPECT_THAT(errors("<operators/>"), HasSubstr("timeout"));
+  EXPECT_THAT(errors("<operators timeout=\"2s\"/><operators timeout=\"3s\"/>"), HasSubstr("said twice"));
+  Workshop workshop;
+  EXPECT_THAT(workshop.Errors("<application name=\"demo\"><operators timeout=\"2s\"/></application>"), IsEmpty());
+  EXPECT_EQ((*workshop.runtime.root().Find("/demo"))->FindAnnotation<RunRules>()->operators_timeout, Duration(2s));
+}
+
 TEST(StopButtonTag, IsReadWithItsPortAndRefusesWhatIsNoNumber) {
   Workshop workshop;
   const auto errors = [&](const std::string& words) {
