@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/channel/value_times.h"
 #include "core/element/stop_signal.h"
@@ -58,6 +59,9 @@ struct PassedStop {
   std::shared_ptr<const PortStop> stop;
   AnyValue safe_value;
 };
+
+/// Those of the port and of all that feeds it, as its readers find them. Under the structure lock.
+[[nodiscard]] std::vector<PassedStop> PassedStops(const Port& port);
 
 }  // namespace internal
 

@@ -10,7 +10,6 @@
 namespace runnel {
 
 class Port;
-class ThreadContainer;
 
 /// How an application is, for people: "running", and all that somebody should know, as "running, STOP in force for 4 s,
 /// by a terminal, 1 module PAUSED". Does not wait: what needs the structure lock is left out while somebody else has it.
@@ -21,12 +20,6 @@ class ThreadContainer;
 
 /// "what drives: /drive/input/twist", or that nothing is marked so; as StateText() while the structure is locked.
 [[nodiscard]] std::string DrivingText(Runtime& runtime);
-
-/// Whether its cycles often take longer than their period.
-[[nodiscard]] bool Overruns(const ThreadContainer& thread);
-
-/// When the newest value came there. Under the structure lock.
-[[nodiscard]] std::optional<Time> NewestAt(const Port& port);
 
 /// Whether nothing feeds the input although its module requires it.
 [[nodiscard]] bool LacksSource(const Port& port);
