@@ -58,8 +58,7 @@ QueueSink* BoundInput::Bind(const std::vector<Source>& sources) {
   const Binding* before = binding_.load(std::memory_order_relaxed);
   replaced_.reserve(replaced_.size() + 1);  // what fails has replaced nothing
   if (!before->links.empty()) last_links_ = before->links;
-  std::vector<internal::PassedStop> stops;
-  CollectStops(stops);
+  std::vector<internal::PassedStop> stops = internal::PassedStops(*this);
   if (sources.empty() && stops.empty()) {
     Replace(&kUnbound);
     return nullptr;

@@ -107,29 +107,24 @@ Result<void> Port::SetStop(AnyValue safe_value, Duration brake, std::shared_ptr<
 }
 
 // Also of what is covered by a value by hand: that does not take a stop away.
-void Port::CollectStops(std::vector<internal::PassedStop>& stops) const {
-  const auto is_known = [&](const auto& stop) {
-    return std::ranges::find(stops, stop, &internal::PassedStop::stop) != stops.end();
-  };
-  if (extras_ && extras_->stop && !is_known(extras_->stop)) {
-    stops.push_back({extras_->stop, extras_->stop->safe_value()});
-  }
-  for (const Port* from : incoming_) {
-    const Connection* const edge = from->ConnectionTo(*this);
-    std::vector<internal::PassedStop> passed;
-    from->CollectStops(passed);
-    for (auto& each : passed) {
-      if (is_known(each.stop)) continue;
+std::vector<internal::PassedStop> internal::PassedStops(const Port& port) {
+  std::vector<PassedStop> stops;
+  if (auto own = port.stop()) stops.push_back({own, own->safe_value()});
+  for (const Port* from : port.incoming()) {
+    const Connection* const edge = from->ConnectionTo(port);
+    for (PassedStop& each : PassedStops(*from)) {
+      if (std::ranges::find(stops, each.stop, &PassedStop::stop) != stops.end()) continue;
       if (edge->converted) {
-        const std::shared_ptr<void> value = type_.Make();
+        const std::shared_ptr<void> value = port.type().Make();
         if (!value) continue;
         // What becomes nothing leaves the value as it is made.
         (void)edge->converted->conversion()(each.safe_value.get(), value.get());
-        each.safe_value = AnyValue(type_, value);
+        each.safe_value = AnyValue(port.type(), value);
       }
       stops.push_back(std::move(each));
     }
   }
+  return stops;
 }
 
 }  // namespace runnel

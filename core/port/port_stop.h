@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/clock.h"
 #include "core/channel/value_times.h"
@@ -64,6 +65,9 @@ struct PassedStop {
   std::shared_ptr<const PortStop> stop;
   AnyValue safe_value;
 };
+
+/// Those of the port and of all that feeds it, as its readers find them. Under the structure lock.
+[[nodiscard]] std::vector<PassedStop> PassedStops(const Port& port);
 
 }  // namespace internal
 

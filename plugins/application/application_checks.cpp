@@ -21,7 +21,7 @@ std::function<void()> ApplicationChecks::SetAside(std::string_view plugin) {
 
 void ApplicationChecks::Run(const ApplicationCheckUse& use) const {
   const std::lock_guard lock(use.application.runtime().structure_mutex());
-  WarnOfUnmarkedMotion(use);
+  CheckMotion(use);
   for (const PluginCheck& each : checks_) {
     try {
       each.check(use);

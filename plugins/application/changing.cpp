@@ -11,9 +11,9 @@
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "plugins/application/internal/application_parts.h"
-#include "plugins/application/save_preview.h"
 #include "plugins/application_files/application_builder.h"
 #include "plugins/application_files/saving/application_saver.h"
+#include "plugins/application_files/saving/saving.h"
 #include "plugins/command_service/hand_settings.h"
 #include "plugins/parameters/configuration_saver.h"
 #include "plugins/parameters/file_path.h"
@@ -21,7 +21,6 @@
 #include "plugins/structure/change_text.h"
 #include "plugins/structure/element_state.h"
 #include "plugins/structure/reload.h"
-#include "plugins/structure/renamed_text.h"
 
 namespace runnel {
 
@@ -64,6 +63,29 @@ std::optional<Error> FindOverwritten(const FrameworkElement& application, const 
   const auto* const source = application.FindAnnotation<ApplicationSource>();
   const bool is_own = source != nullptr && Whole(source->file) == Whole(file);
   return is_own || file.empty() ? std::nullopt : WhatIsLost(file);
+}
+
+// What SaveApplication() with the same arguments would write, and what it would replace; whether the text would load is
+// not tried.
+Result<ServiceHooks::SaveDifference> PreviewSave(FrameworkElement& application, const SaveTools& tools,
+                                                 const std::filesystem::path& chosen) {
+  const auto* const source = application.FindAnnotation<ApplicationSource>();
+  if (chosen.empty() && source == nullptr) {
+    return Error{.message = "the application was built by code, and has no file yet",
+                 .path = application.path(),
+                 .hint = "name one"};
+  }
+  const std::filesystem::path file = chosen.empty() ? source->file : chosen;
+  auto text = internal::TextOfApplication(application, tools, file.parent_path());
+  if (!text) return text.error();
+  ServiceHooks::SaveDifference difference{file.string(), {}, std::move(text->text)};
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) {
+    auto before = XmlDocument::ReadText(file);
+    if (!before) return before.error();
+    difference.before = std::move(*before);
+  }
+  return difference;
 }
 
 // "planning" of "planning/bug1"; "" if there is none.
@@ -286,29 +308,16 @@ CommandService& Application::service() {
     const std::string passing = found ? WhatPasses(**found, *parts_->scheduler) : "";
     return passing.empty() ? done : done + "\n" + passing;
   };
-  using SaveDifference = ServiceHooks::SaveDifference;
-  hooks.preview_save = [this](const std::string& file) -> Result<SaveDifference> {
+  hooks.preview_save = [this](const std::string& file) {
     const std::lock_guard lock(parts_->runtime().structure_mutex());
     const auto found = parts_->FindAgain();
-    if (!found) return found.error();
-    auto preview = PreviewSave(**found, {parts_->plugins(), parts_->tags()}, file);
-    if (!preview) return preview.error();
-    return SaveDifference{preview->file.string(), std::move(preview->before),
-                          std::move(preview->after)};
+    return found ? PreviewSave(**found, {parts_->plugins(), parts_->tags()}, file) : found.error();
   };
   hooks.find_overwritten = [this](const SaveRequest& request) -> std::optional<Error> {
     const std::lock_guard lock(parts_->runtime().structure_mutex());
     const auto found = parts_->FindAgain();
     if (!found) return {};
     return request.is_configuration ? WhatIsLost(request.file) : FindOverwritten(**found, request.file);
-  };
-  hooks.find_rules = [this](const std::string& path) -> std::vector<Error> {
-    const std::lock_guard lock(parts_->runtime().structure_mutex());
-    const auto found = PathSearch(parts_->runtime()).Find(path);
-    const auto application = parts_->FindAgain();
-    const auto* const source = application ? (*application)->FindAnnotation<ApplicationSource>() : nullptr;
-    if (!found || source == nullptr) return {};
-    return RulesThatName(**found, source->text, source->file.string(), PathAttributesIn(parts_->tags()));
   };
   hooks.save_configuration = [this](const std::string& file) { return SaveConfiguration(file); };
   hooks.set_paused = [this](const std::string& path, bool is_paused) {

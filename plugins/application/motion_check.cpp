@@ -1,13 +1,60 @@
+#include <map>
+#include <set>
 #include <string>
 
 #include "core/element/source_place.h"
+#include "core/module/executable.h"
+#include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "core/port/port_stop.h"
 #include "plugins/application/application_checks.h"
+#include "plugins/application_tags/run_description.h"
+#include "plugins/scheduling/thread_container.h"
 
 namespace runnel {
 
-void WarnOfUnmarkedMotion(const ApplicationCheckUse& use) {
+namespace {
+
+// Whoever finds the safe value there has to run to do so, and waits for all that its thread runs before.
+void WarnOfSharedThreads(const ApplicationCheckUse& use) {
+  std::set<const FrameworkElement*> driving;
+  std::map<std::uint64_t, const ThreadContainer*> threads;
+  std::map<std::uint64_t, std::size_t> others;  // by thread: modules by which nothing moves
+  FrameworkElement& root = use.application.runtime().root();
+  root.Visit([&](FrameworkElement& element) {
+    if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) threads[thread->id()] = thread;
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr || !port->is_driving()) return;
+    for (const Port* sink : port->Sinks()) {
+      if (const FrameworkElement* const module = FindOwner(*sink)) driving.insert(module);
+    }
+  });
+  // What is assigned to none runs where the first thread does.
+  const auto thread_of = [&](const FrameworkElement& module) {
+    const std::uint64_t assigned = AssignedThread(module);
+    return threads.contains(assigned) || threads.empty() ? assigned : threads.begin()->first;
+  };
+  root.Visit([&](FrameworkElement& element) {
+    if (element.FindAnnotation<Executable>() != nullptr && !driving.contains(&element)) ++others[thread_of(element)];
+  });
+  for (const FrameworkElement* module : driving) {
+    const std::uint64_t id = thread_of(*module);
+    const std::size_t count = others[id];
+    if (count == 0) continue;
+    const std::string name = threads.contains(id) ? threads[id]->name() : "main";
+    use.diagnostics.AddWarning({.message = "something moves by it, and the thread '" + name + "' runs " + std::to_string(count) +
+                                           (count == 1 ? " other module" : " other modules") +
+                                           ": while one of them does not return, a STOP does not reach it",
+                                .path = module->path(),
+                                .position = FindSourcePlace(*module),
+                                .hint = "give it a thread of its own: <thread name=\"drive\" period=\"…\"/>, and "
+                                        "thread=\"drive\" at the module"});
+  }
+}
+
+}  // namespace
+
+void CheckMotion(const ApplicationCheckUse& use) {
   const Port* moves = nullptr;
   bool is_marked = false;
   use.application.Visit([&](FrameworkElement& element) {
@@ -18,6 +65,9 @@ void WarnOfUnmarkedMotion(const ApplicationCheckUse& use) {
     const bool is_read = !port->is_proxy() && port->direction() == Port::Direction::kInput;
     if (moves == nullptr && is_read && IsVelocity(port->type(), port->unit())) moves = port;
   });
+  // On a simulated clock one thread runs everything, whatever the file says.
+  const bool is_real = SchedulerOptionsOf(use.application).clock == SchedulerOptions::ClockKind::kReal;
+  if (is_marked && is_real) WarnOfSharedThreads(use);
   if (moves == nullptr || is_marked) return;
   use.diagnostics.AddWarning({.message = "takes velocities, and no port of the application is marked as driving: a STOP stops nothing",
                               .path = moves->path(),

@@ -225,10 +225,8 @@ PathAttributesOf PathAttributesIn(const XmlTagRegistry& tags) {
     for (const AttributeRule& rule : known != nullptr ? tags.Rules(*known) : std::vector<AttributeRule>()) {
       const bool is_other = tag.name() == "load" || rule.name == "type" || rule.name == "config";  // of a file
       if (rule.kind == AttributeKind::kNewName) found.push_back({rule.name, kNewName});
-      // What is compared with the application when it is saved goes along with new names, too.
-      const bool is_rule = rule.names_element && !known->update;
-      if (rule.kind == AttributeKind::kPathList) found.push_back({rule.name, kPathList, is_rule});
-      if (rule.kind == AttributeKind::kPath && !is_other) found.push_back({rule.name, kPath, is_rule});
+      if (rule.kind == AttributeKind::kPathList) found.push_back({rule.name, kPathList});
+      if (rule.kind == AttributeKind::kPath && !is_other) found.push_back({rule.name, kPath});
     }
     return found;
   };

@@ -5,6 +5,7 @@
 #include "core/module/group.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/application_files/application_builder.h"
+#include "plugins/application_files/build_context.h"
 #include "plugins/application_files/saving/saving.h"
 #include "plugins/application_tags/tag_list.h"
 
@@ -49,6 +50,21 @@ std::vector<SavedTag> SavedGroups(FrameworkElement& parent) {
 }
 
 }  // namespace
+
+XmlTag ApplicationTag() {
+  return {.name = "application",
+          .summary = "a group that holds everything",
+          .parents = {},
+          .attributes = {{.name = "name",
+                          .kind = AttributeKind::kNewName,
+                          .required = true,
+                          .summary = "the first part of all paths"}},
+          .is_structure = true,
+          .handle = [](const TagUse& use) -> FrameworkElement* {
+            if (!use.HasFreeName(use.parent)) return nullptr;
+            return &use.context.runtime().Create<Group>(use.parent, use.Get("name").value);
+          }};
+}
 
 XmlTag GroupTag() {
   return {.name = "group",

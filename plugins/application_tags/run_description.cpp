@@ -9,17 +9,9 @@ Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler,
   const auto* const rules = application.FindAnnotation<RunRules>();
   if (rules == nullptr) return {};
   for (const auto& [of, after] : rules->stuck_limits) (void)scheduler.SetStuckLimit(of, after);
-  for (const FaultRule& rule : rules->fault_rules) scheduler.AddFaultRule(rule);
-  for (const auto& [rule, position] : rules->stale_rules) {
-    if (auto added = supervisor.Add(rule); !added) {
-      Error error = added.error();
-      error.position = position;
-      return error;
-    }
+  for (const SupervisionRule& rule : rules->rules) {
+    if (auto added = supervisor.Add(rule); !added) return added;
   }
-  for (const FaultReaction& reaction : rules->fault_reactions) supervisor.Add(reaction);
-  for (const StuckReaction& reaction : rules->stuck_reactions) supervisor.Add(reaction);
-  for (const PauseReaction& reaction : rules->pause_reactions) supervisor.Add(reaction);
   for (const StopButtonRule& rule : rules->stop_buttons) {
     if (auto added = supervisor.Add(rule); !added) return added;
   }

@@ -4,10 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/error.h"
+#include "core/base/result.h"
 #include "core/element/annotation.h"
 #include "core/element/framework_element.h"
-#include "plugins/scheduling/fault.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/supervision/supervisor.h"
 
@@ -18,11 +17,7 @@ namespace runnel {
 /// Kept with the application by <on_fault>, <on_stale>, <on_stuck>, <on_pause>, <stop_button>, <operators>,
 /// <latency> and <profile>; in the order of the file.
 struct RunRules final : Annotation {
-  std::vector<FaultRule> fault_rules;
-  std::vector<FaultReaction> fault_reactions;
-  std::vector<StuckReaction> stuck_reactions;
-  std::vector<std::pair<StaleRule, SourcePosition>> stale_rules;
-  std::vector<PauseReaction> pause_reactions;
+  std::vector<SupervisionRule> rules;
   std::vector<StopButtonRule> stop_buttons;
   std::vector<LatencyRequest> latencies;
   /// Of the application and of threads; the path of the application is left out.

@@ -1,5 +1,8 @@
-// What is done about modules that are stuck or paused, and what is measured of them.
+// What is done about inputs that fall silent and modules that fail, are stuck or paused, and what is measured of them.
 
+#include <utility>
+
+#include "core/base/clock.h"
 #include "core/types/duration_text.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_tags/run_description.h"
@@ -16,21 +19,83 @@ FrameworkElement* InTheEnd(const TagUse& use) {
   return &use.parent;
 }
 
-void AddWatch(const TagUse& use) {
-  const FrameworkElement* const of = SearchElement(PathIn(use.Get("of"), use.parent), use.context);
-  const Reaction first = internal::ReadReaction(use.xml, use.parent, use.context);
-  Reaction otherwise;
+using When = SupervisionRule::When;
+
+// What it watches; "" after reporting what is wrong with it.
+std::string WatchedBy(const TagUse& use, When when) {
+  if (when != When::kStale) {
+    const FrameworkElement* const of = SearchElement(PathIn(use.Get("of"), use.parent), use.context);
+    return of != nullptr ? of->path() : "";
+  }
+  const XmlAttribute& input = use.Get("input");
+  const Port* const port = SearchPort(PathIn(input, use.parent), PathKind::kInput, use.context);
+  if (port == nullptr) return "";
+  if (!port->Sources().empty()) return port->path();
+  if (!use.context.ok() && !use.context.IsUnfedUnnoticed(*port)) return "";
+  use.context.Report({.message = "cannot become stale, as nothing is connected to it",
+                      .path = port->path(),
+                      .hint = "connect it, or leave out <on_stale>"},
+                     input.value_position, use.parent);
+  return "";
+}
+
+// What the attributes of <on_fault> say is to be done.
+void ReadFaultAttributes(const TagUse& use, Reaction& reaction) {
+  const XmlAttribute* const set = use.Find("set");
+  const XmlAttribute* const value = use.Find("value");
+  reaction.stops_application = reaction.stops_application || use.Find("action") != nullptr;
+  if (set == nullptr || value == nullptr) return;
+  const FrameworkElement* const target = SearchSettable(*set, *value, use.parent, use.context);
+  if (target == nullptr) return;
+  reaction.changes.push_back(SetParameter{target->path(), value->value});
+  reaction.description = "set " + target->path() + " to " + value->value;
+}
+
+template <When kWhen>
+void AddRule(const TagUse& use) {
+  SupervisionRule rule;
+  rule.when = kWhen;
+  rule.position = use.xml.position();
+  if (const XmlAttribute* const after = use.Find("after")) rule.after = ParseDuration(after->value).value();
+  const XmlAttribute* const fresh_after = use.Find("fresh_after");
+  rule.fresh_after = fresh_after ? ParseDuration(fresh_after->value).value()
+                                 : SaturatingSum(Time(rule.after), rule.after).time_since_epoch();
+  rule.reaction = internal::ReadReaction(use.xml, use.parent, use.context);
+  if (kWhen == When::kFault) ReadFaultAttributes(use, rule.reaction);
   for (const XmlElement child : use.xml.children()) {
-    if (child.name() == "otherwise") otherwise = internal::ReadReaction(child, use.parent, use.context);
+    if (child.name() == "otherwise") rule.otherwise = internal::ReadReaction(child, use.parent, use.context);
   }
-  if (of == nullptr) return;
-  otherwise.TakeBack(first);
-  RunRules& rules = internal::RunRulesAround(use.parent);
-  if (const XmlAttribute* const after = use.Find("after")) {
-    rules.stuck_reactions.push_back({of->path(), ParseDuration(after->value).value(), first, otherwise});
-  } else {
-    rules.pause_reactions.push_back({of->path(), first, otherwise});
+  rule.otherwise.TakeBack(rule.reaction);
+  rule.of = WatchedBy(use, kWhen);
+  if (!rule.of.empty()) internal::RunRulesAround(use.parent).rules.push_back(std::move(rule));
+}
+
+FrameworkElement* HandleOnStale(const TagUse& use) {
+  if (use.xml.children().empty()) {
+    use.context.Report({.message = "<on_stale> does not say what is to be done",
+                        .hint = "put <publish>, <switch>, <set>, <replace> or <stop> into it"},
+                       use.xml.position(), use.parent);
   }
+  return InTheEnd<AddRule<When::kStale>>(use);
+}
+
+FrameworkElement* HandleOnFault(const TagUse& use) {
+  const bool acts = use.Find("action") != nullptr;
+  const bool sets = use.Find("set") != nullptr;
+  const bool has_value = use.Find("value") != nullptr;
+  const bool has_tags = !use.xml.children().empty();
+  if (acts + sets + has_tags != 1) {
+    use.Report({.message = "<on_fault> must say one thing that is to be done",
+                .hint = "write either action=\"stop_application\" or set=\"…\" value=\"…\""},
+               use.xml.position());
+  }
+  if (sets != has_value) {
+    use.Report(
+        {.message = sets ? "<on_fault> does not say to which value" : "'value' needs a 'set'",
+         .hint = sets ? "add value=\"…\"" : "add set=\"…\", or leave out value"},
+        use.xml.position());
+  }
+  return InTheEnd<AddRule<When::kFault>>(use);
 }
 
 void AddLatency(const TagUse& use) {
@@ -87,6 +152,39 @@ AddedAttribute StuckAfterAttribute(std::string tag) {
           .handle = LimitStuck};
 }
 
+XmlTag OnFaultTag() {
+  return {.name = "on_fault",
+          .summary = "what happens when a module has thrown and has been stopped",
+          .parents = {"application", "group"},
+          .attributes = {PathRule("of", true, "a module, or a group of which any module may fail"),
+                         {.name = "action",
+                          .kind = AttributeKind::kChoice,
+                          .choices = {"stop_application"}},
+                         PathRule("set", false, "a parameter that may be set at run time"),
+                         {.name = "value", .summary = "what it is set to"}},
+          .handle = HandleOnFault};
+}
+XmlTag OnStaleTag() {
+  return {.name = "on_stale",
+          .summary = "what happens when an input brings nothing new for too long",
+          .parents = {"application", "group"},
+          .attributes = {PathRule("input", true, "what feeds it when the run begins is watched"),
+                         {.name = "after",
+                          .kind = AttributeKind::kDuration,
+                          .required = true,
+                          .summary = "the longest time without anything new, by the application's "
+                                     "clock"},
+                         {.name = "fresh_after",
+                          .kind = AttributeKind::kDuration,
+                          .summary = "how long values must come again before <otherwise> is done; "
+                                     "twice 'after' if left out"}},
+          .handle = HandleOnStale};
+}
+XmlTag OtherwiseTag() {
+  return {.name = "otherwise",
+          .summary = "what happens when the input is fresh again, the module has returned or goes on",
+          .parents = {"on_stale", "on_stuck", "on_pause"}};
+}
 XmlTag OnStuckTag() {
   return {
       .name = "on_stuck",
@@ -98,14 +196,14 @@ XmlTag OnStuckTag() {
                       .kind = AttributeKind::kDuration,
                       .required = true,
                       .summary = "the longest time in one cycle, by the machine's clock"}},
-      .handle = InTheEnd<AddWatch>};
+      .handle = InTheEnd<AddRule<When::kStuck>>};
 }
 XmlTag OnPauseTag() {
   return {.name = "on_pause",
           .summary = "what happens when somebody pauses modules, once they stand still",
           .parents = {"application", "group"},
           .attributes = {PathRule("of", true, "a module, or a group of which any module may be paused")},
-          .handle = InTheEnd<AddWatch>};
+          .handle = InTheEnd<AddRule<When::kPaused>>};
 }
 XmlTag StopButtonTag() {
   return {.name = "stop_button",

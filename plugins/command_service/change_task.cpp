@@ -107,7 +107,6 @@ struct ChangeTask {
   [[nodiscard]] bool IsMeant();
   void Apply();
   void FindSwaps();
-  [[nodiscard]] std::vector<Error> FindRules() const;
   void LookAfterProbation();
   [[nodiscard]] bool IsOver() const;
   void Conclude();
@@ -169,15 +168,11 @@ void ChangeTask::Apply() {
   try {
     LoadMissingPlugins(placed.changes, application);
     FindSwaps();
-    const std::vector<Error> rules = FindRules();
     outcome = application.history != nullptr
                   ? application.history->Apply(placed.changes, placed.positions, request.label, request.client)
                   : application.editor.Apply(placed.changes, placed.positions);
     answer->outcome = outcome ? CommandAnswer::Outcome::kDone : CommandAnswer::Outcome::kRefused;
     answer->diagnostics = std::move(outcome.diagnostics);
-    for (const Error& each : rules) {
-      if (outcome) answer->diagnostics.AddWarning(each);
-    }
   } catch (...) {
     *answer = CommandAnswer::Failed(CaughtError());
   }
@@ -185,17 +180,6 @@ void ChangeTask::Apply() {
   if (*answer) answer->text = DoneText(outcome.hold_time, std::move(text));
   application.log.Add(ApplicationLog::Kind::kChange,
                       *answer ? std::move(entry) : "refused: " + entry);
-}
-
-std::vector<Error> ChangeTask::FindRules() const {
-  std::vector<Error> all;
-  for (const Change& each : request.placed.changes) {
-    const auto* const rename = std::get_if<RenameElement>(&each);
-    if (rename == nullptr || !application.hooks.find_rules) continue;
-    const std::vector<Error> found = application.hooks.find_rules(rename->path);
-    all.insert(all.end(), found.begin(), found.end());
-  }
-  return all;
 }
 
 void ChangeTask::FindSwaps() {

@@ -64,8 +64,6 @@ struct ServiceHooks {
   std::function<Result<std::string>(const std::string& file)> save_configuration = {};
   /// What would be lost by saving like that; nothing if the file is the application's own, or not there.
   std::function<std::optional<Error>(const SaveRequest& request)> find_overwritten = {};
-  /// What else goes on with the name of before when what is at the path is renamed, as warnings.
-  std::function<std::vector<Error>(const std::string& path)> find_rules = {};
   /// Loads a plugin anew, makes its modules anew, and says what was done.
   std::function<Result<std::string>(const std::string& plugin)> reload = {};
   /// The library of a plugin that is loaded; "" if that is unknown.

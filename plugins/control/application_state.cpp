@@ -13,6 +13,7 @@
 #include "core/port/port.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/values/publication_rate.h"
 
 namespace runnel {
 
@@ -48,14 +49,16 @@ std::string StateText(const ServedApplication& application) {
   std::size_t unfed = 0;
   std::size_t silent = 0;
   std::size_t overrunning = 0;
+  std::size_t unreached = 0;
   root.Visit([&](FrameworkElement& each) {
     if (IsModule(each) && application.scheduler->IsPaused(each)) ++paused;
     const auto* const thread = dynamic_cast<const ThreadContainer*>(&each);
-    if (thread != nullptr && Overruns(*thread)) ++overrunning;
+    if (thread != nullptr && thread->statistics().is_late) ++overrunning;
     const auto* const port = dynamic_cast<const Port*>(&each);
     if (port == nullptr) return;
     if (port->is_set_by_hand() || port->is_set_by_hand(Port::Setter::kRule)) ++by_hand;
     if (port->is_blocked()) ++blocked;
+    if (!application.scheduler->WhyUnreached(*port).empty()) ++unreached;
     if (LacksSource(*port)) ++unfed;
     if (SilentFor(*port, application.log.start(), now)) ++silent;
   });
@@ -64,6 +67,7 @@ std::string StateText(const ServedApplication& application) {
   };
   add(StoppedModules(root, *application.scheduler, nullptr).size(), " module FAILED", " modules FAILED");
   add(application.scheduler->StuckModules().size(), " module STUCK", " modules STUCK");
+  add(unreached, " driving port CANNOT BE REACHED", " driving ports CANNOT BE REACHED");
   add(paused, " module PAUSED", " modules PAUSED");
   add(blocked, " port BLOCKED", " ports BLOCKED");
   add(by_hand, " port set by hand", " ports set by hand");
@@ -71,21 +75,6 @@ std::string StateText(const ServedApplication& application) {
   add(silent, " output SILENT", " outputs SILENT");
   add(unfed, " required input NOT CONNECTED", " required inputs NOT CONNECTED");
   return text;
-}
-
-bool Overruns(const ThreadContainer& thread) {
-  constexpr std::uint64_t kFew = 10;  // as when an application begins, or the machine has other work
-  const CycleStatistics all = thread.statistics();
-  return all.overruns > kFew && all.overruns * 2 > all.cycles;
-}
-
-std::optional<Time> NewestAt(const Port& port) {
-  std::optional<Time> published;
-  for (const auto* const shown : port.ShownPorts()) {
-    shown->VisitLatest([&](const void*, ValueTimes times) { published = times.publication_time; });
-    if (published) break;
-  }
-  return published;
 }
 
 std::optional<Duration> SilentFor(const Port& port, Time began, Time now) {
@@ -96,7 +85,7 @@ std::optional<Duration> SilentFor(const Port& port, Time began, Time now) {
   const std::uint64_t count = port.publications();
   // What nobody is connected to may well be published only while somebody looks on.
   if (port.outgoing().empty() || port.direction() != Port::Direction::kOutput || count < kSteadyValues) return {};
-  const auto newest = NewestAt(port);
+  const auto newest = Publications::Of(port).newest;
   if (!newest || *newest - began < kSteady) return {};
   const Duration period = (*newest - began) / static_cast<Duration::rep>(count);
   const Duration silent = now - *newest;

@@ -10,7 +10,6 @@
 namespace runnel {
 
 class Port;
-class ThreadContainer;
 
 /// How an application is, for people: "running", and all that somebody should know, as "running, STOP in force for 4 s,
 /// by a terminal, 1 module PAUSED". Waits for 10 ms at most: what needs the structure lock is left out while somebody else
@@ -19,12 +18,6 @@ class ThreadContainer;
 
 /// "STOP in force for 4 s, by a terminal", and whether that stops nothing; "" if it is not. Any thread.
 [[nodiscard]] std::string StopText(Runtime& runtime);
-
-/// Whether its cycles often take longer than their period.
-[[nodiscard]] bool Overruns(const ThreadContainer& thread);
-
-/// When the newest value came there. Under the structure lock.
-[[nodiscard]] std::optional<Time> NewestAt(const Port& port);
 
 /// Whether nothing feeds the input although its module requires it.
 [[nodiscard]] bool LacksSource(const Port& port);

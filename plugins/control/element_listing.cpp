@@ -23,6 +23,7 @@
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/services/callable.h"
+#include "plugins/values/watched_port.h"
 
 namespace runnel {
 
@@ -62,7 +63,7 @@ std::string ThreadText(const ThreadContainer& thread, bool is_long) {
   const ThreadOptions& options = thread.options();
   std::string text = ActivationText(options);
   if (options.priority > 0) text += ", priority " + std::to_string(options.priority);
-  if (Overruns(thread)) text += ", OVERRUNS";
+  if (thread.statistics().is_late) text += ", OVERRUNS";
   if (!is_long) return text;
   const CycleStatistics all = thread.statistics();
   return text + ", " + std::to_string(all.cycles) + " cycles, " + std::to_string(all.overruns) +
@@ -77,9 +78,7 @@ std::string ThreadText(const ThreadContainer& thread, bool is_long) {
 std::string HandValue(const Port& port) {
   if (!port.type().is_transparent()) return {};
   std::string text;
-  const auto shown = port.ShownPorts();
-  if (shown.empty()) return {};
-  shown.front()->VisitLatest([&](const void* value, ValueTimes) {
+  VisitShown(port, [&](const void* value, ValueTimes) {
     text = " = " + Shortened(ToText(port.type(), value), kLongestValue);
   });
   return text;
@@ -116,13 +115,6 @@ std::string AwaitedText(const Port& port) {
   return text;
 }
 
-// ", newest 3.2 s old"; "" if there is none.
-std::string AgeText(const Port& port, Time now) {
-  const auto published = NewestAt(port);
-  if (!published) return {};
-  return fmt::format(", newest {:.3g} s old", std::max(0.0, ToSeconds(now - *published)));
-}
-
 std::string PortText(const Port& port, const ListingOptions& options) {
   std::string text = port.type().name();
   if (!port.unit().empty()) text += " in " + port.unit();
@@ -131,19 +123,21 @@ std::string PortText(const Port& port, const ListingOptions& options) {
     text += fmt::format(", SILENT for {:.3g} s", ToSeconds(*silent));
   }
   if (port.is_driving()) text += port.runtime().robot_stop().in_force() ? ", driving, IN STOP" : ", driving";
+  const std::string unreached = options.scheduler != nullptr ? options.scheduler->WhyUnreached(port) : "";
+  if (!unreached.empty()) text += ", CANNOT BE REACHED: " + unreached;
   if (port.is_blocked()) text += ", BLOCKED";
   if (port.is_set_by_hand()) text += ", set by hand" + HandValue(port);
   if (port.is_set_by_hand(Port::Setter::kRule)) text += ", set by a rule" + HandValue(port);
   text += LimitsText(port) + AwaitedText(port);
   if (!options.is_long) return text + (port.is_required() && !LacksSource(port) ? ", required" : "");
-  const std::uint64_t count = port.publications();
-  text += ", " + std::to_string(count) + " values";
-  if (count > 0) text += AgeText(port, options.now);
-  const auto before = options.before.find(port.path());
-  if (before != options.before.end() && options.since > Duration{}) {
-    // A port that was made anew since counts from 0 again.
-    const std::uint64_t passed = count >= before->second ? count - before->second : count;
-    text += ", " + RateText(static_cast<double>(passed) / ToSeconds(options.since)) + " Hz";
+  const Publications publications = Publications::Of(port);
+  text += ", " + std::to_string(publications.count) + " values";
+  if (publications.newest) {
+    text += fmt::format(", newest {:.3g} s old", std::max(0.0, ToSeconds(options.now - *publications.newest)));
+  }
+  if (const auto known = options.rates.find(port.path()); known != options.rates.end()) {
+    PublicationRate rate = known->second;
+    text += ", " + RateText(rate.Look(publications, options.now)) + " Hz";
   }
   for (const Port* from : port.incoming()) {
     text += ", from " + from->ConnectionTo(port)->SourceText();
@@ -226,14 +220,14 @@ std::string RateText(double hertz) {
   return hertz >= 10'000 ? fmt::format("{:.0f}", hertz) : fmt::format("{:.5g}", hertz);
 }
 
-PublicationCounts CountPublications(FrameworkElement& start) {
-  PublicationCounts counts;
+PublicationRates LookAtRates(FrameworkElement& start) {
+  PublicationRates rates;
   start.Visit([&](FrameworkElement& element) {
     if (const auto* const port = dynamic_cast<const Port*>(&element)) {
-      counts.emplace(port->path(), port->publications());
+      rates[port->path()].Look(Publications::Of(*port), element.runtime().clock().Now());
     }
   });
-  return counts;
+  return rates;
 }
 
 std::string ListElements(FrameworkElement& start, const ListingOptions& options) {

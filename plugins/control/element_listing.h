@@ -7,12 +7,13 @@
 
 #include "core/base/clock.h"
 #include "core/element/framework_element.h"
+#include "plugins/values/publication_rate.h"
 
 namespace runnel {
 
-/// How many values have passed each port at and below `start`, by path. Under the structure lock.
-using PublicationCounts = std::map<std::string, std::uint64_t, std::less<>>;
-[[nodiscard]] PublicationCounts CountPublications(FrameworkElement& start);
+/// What has been seen of each port at and below `start`, by path. Under the structure lock.
+using PublicationRates = std::map<std::string, PublicationRate, std::less<>>;
+[[nodiscard]] PublicationRates LookAtRates(FrameworkElement& start);
 
 class ApplicationLog;
 class Scheduler;
@@ -24,9 +25,8 @@ struct ListingOptions {
   Time now{};                           ///< by the application's clock, for how old values are
   Time began{};                         ///< when it began, for outputs that have fallen silent
   bool is_long = false;  ///< connections, threads, counts, rates, statistics
-  /// Counts of a moment ago, for rates; empty: no rates.
-  PublicationCounts before = {};
-  Duration since{};  ///< how long ago, on the application's clock
+  /// As of a moment ago; empty: no rates.
+  PublicationRates rates = {};
 };
 
 /// `start` and all below it as a tree, one line each. Under the structure lock.

@@ -7,6 +7,7 @@
 #include "core/types/type_info.h"
 #include "plugins/control/command.h"
 #include "plugins/control/readable_text.h"
+#include "plugins/values/watched_port.h"
 
 namespace runnel {
 
@@ -26,10 +27,7 @@ Result<std::string> ValueOf(Runtime& runtime, const std::string& path) {
                  .path = port.path()};
   }
   std::optional<std::string> text;
-  for (const auto* const shown : port.ShownPorts()) {
-    shown->VisitLatest([&](const void* value, ValueTimes) { text = ToText(port.type(), value); });
-    if (text) return *text;
-  }
+  if (VisitShown(port, [&](const void* value, ValueTimes) { text = ToText(port.type(), value); })) return *text;
   return Error{.message = "nothing has been published there yet", .path = port.path()};
 }
 

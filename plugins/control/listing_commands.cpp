@@ -1,5 +1,4 @@
 #include <functional>
-#include <optional>
 #include <utility>
 
 #include "core/paths/distant_ports.h"
@@ -36,17 +35,14 @@ CommandResult MakeListCommand(const Request& request, const CommandContext& cont
                                           .log = &context.application.log,
                                           .began = context.application.log.start(),
                                           .is_long = request.Has("long")},
-                 counted_at = std::optional<Time>()](Answer& answer) mutable -> CommandStep {
+                 has_looked = false](Answer& answer) mutable -> CommandStep {
                   const auto start = PathSearch(runtime).Find(path);
                   if (!start) return Refuse(answer, start.error());
-                  const Time now = runtime.clock().Now();
-                  if (options.is_long && !counted_at) {
-                    counted_at = now;
-                    options.before = CountPublications(**start);
+                  if (options.is_long && !std::exchange(has_looked, true)) {
+                    options.rates = LookAtRates(**start);
                     return kRateWindow;
                   }
-                  if (counted_at) options.since = now - *counted_at;
-                  options.now = now;
+                  options.now = runtime.clock().Now();
                   answer.Write(ListElements(**start, options));
                   return ControlCode::kDone;
                 }));

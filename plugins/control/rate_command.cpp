@@ -16,7 +16,7 @@ namespace {
 constexpr Duration kWindow = std::chrono::seconds(1);
 
 struct Sample {
-  std::uint64_t count;
+  Publications publications;
   Time time;     // of the application
   Time machine;  // of the machine
 };
@@ -59,24 +59,23 @@ class Intervals {
   double most_ = 0;
 };
 
-std::string LineOf(const Sample& before, const Sample& now, const std::string& intervals) {
+// `hertz`: of the application's time.
+std::string LineOf(const Sample& before, const Sample& now, double hertz, const std::string& intervals) {
   // A module that was made anew counts from 0 again.
-  const std::uint64_t passed = now.count >= before.count ? now.count - before.count : now.count;
+  const std::uint64_t count = now.publications.count;
+  const std::uint64_t passed = count >= before.publications.count ? count - before.publications.count : count;
   const double simulated = ToSeconds(now.time - before.time);
   const double real = ToSeconds(now.machine - before.machine);
-  const auto rate = [&](double seconds) {
-    return RateText(seconds > 0 ? static_cast<double>(passed) / seconds : 0) + " Hz";
-  };
-  const std::string values = ", " + std::to_string(passed) + " values" + intervals + "\n";
-  const bool is_real = std::abs(simulated - real) < 0.01 * real;
-  return is_real ? rate(real) + values
-                 : rate(simulated) + " of the application's time (" + rate(real) +
-                       " of real time)" + values;
+  std::string text = RateText(hertz) + " Hz";
+  if (std::abs(simulated - real) >= 0.01 * real) {
+    text += " of the application's time (" + RateText(hertz * simulated / real) + " Hz of real time)";
+  }
+  return text + ", " + std::to_string(passed) + " values" + intervals + "\n";
 }
 
 }  // namespace
 
-// Counts at the publisher: nothing is subscribed or copied. Intervals are those of values that are seen one by one, up to
+// Looks at the publisher: nothing is subscribed or copied. Intervals are those of values that are seen one by one, up to
 // about 200 Hz.
 CommandResult MakeRateCommand(const Request& request, const CommandContext& context) {
   const auto count = ReadCountOption(request);
@@ -84,26 +83,20 @@ CommandResult MakeRateCommand(const Request& request, const CommandContext& cont
   return Command(UnderLock(
       context.application.runtime,
       [&runtime = context.application.runtime, path = request.arguments[0], left = *count,
-       last = std::optional<Sample>(), intervals = Intervals()](Answer& answer) mutable -> CommandStep {
+       last = std::optional<Sample>(), rate = PublicationRate(), intervals = Intervals()](Answer& answer) mutable -> CommandStep {
         const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
         if (!found) {
           const ControlCode code = Refuse(answer, found.error());
           return last ? ControlCode::kFailed : code;
         }
-        const Port& port = **found;
-        const Sample now{port.publications(), runtime.clock().Now(), SteadyClock().Now()};
-        for (const auto* const shown : port.ShownPorts()) {
-          std::optional<Time> published;
-          shown->VisitLatest([&](const void*, ValueTimes times) { published = times.publication_time; });
-          if (!published) continue;
-          intervals.Add(port.publications(), *published);
-          break;
-        }
-        if (!last) last = now;
-        if (now.machine - last->machine < kWindow) return kLookAgain;
-        answer.Write(LineOf(*last, now, intervals.Take()));
+        const Sample now{Publications::Of(**found), runtime.clock().Now(), SteadyClock().Now()};
+        if (now.publications.newest) intervals.Add(now.publications.count, *now.publications.newest);
+        if (last && now.machine - last->machine < kWindow) return kLookAgain;
+        const double hertz = rate.Look(now.publications, now.time);
+        const auto before = std::exchange(last, now);
+        if (!before) return kLookAgain;
+        answer.Write(LineOf(*before, now, hertz, intervals.Take()));
         if (left && --*left == 0) return ControlCode::kDone;
-        last = now;
         return kLookAgain;
       }));
 }

@@ -82,7 +82,11 @@ void AddService(Callable& callable, JsonObject& json) {
   }
 }
 
-void AddPort(const Port& port, JsonObject& json) {
+std::string WhyUnreached(const Port& port, const ElementSurroundings& around) {
+  return around.scheduler != nullptr ? around.scheduler->WhyUnreached(port) : "";
+}
+
+void AddPort(const Port& port, const ElementSurroundings& around, JsonObject& json) {
   const FrameworkElement* const owner = FindOwner(port);
   json.Add("kind", "port").Add("name", port.name());
   json.Add("direction", port.direction() == Port::Direction::kInput ? "input" : "output");
@@ -91,6 +95,7 @@ void AddPort(const Port& port, JsonObject& json) {
   json.Add("description", port.description()).Add("unit", port.unit());
   json.Add("by_hand", port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule));
   json.Add("driving", port.is_driving()).Add("blocked", port.is_blocked());
+  if (const std::string why = WhyUnreached(port, around); !why.empty()) json.Add("unreached", why);
   const InputLimits& limits = port.limits();
   json.Add("bounds", BoundsText(limits));
   json.AddTextOrNull("default", limits.default_value ? ToText(limits.default_value.type(),
@@ -163,7 +168,7 @@ std::string ElementJson(const FrameworkElement& element, const ElementSurroundin
     const std::string tags = TagsText(element);
     if (!tags.empty()) json.Add("tags", tags);
     if (const auto* const port = dynamic_cast<const Port*>(&element)) {
-      AddPort(*port, json);
+      AddPort(*port, around, json);
     } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
       AddParameter(element, *parameter, json);
     } else if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) {
@@ -182,6 +187,7 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
     if (port == nullptr) return hash;
     Mix(port->is_set_by_hand() || port->is_set_by_hand(Port::Setter::kRule) ? 1 : 0, hash);
     Mix((port->is_driving() ? 1 : 0) + (port->is_blocked() ? 2 : 0), hash);
+    Mix(WhyUnreached(*port, around), hash);
     Mix(BoundsText(port->limits()), hash);
     MixAwaited(AwaitedBy(*port), hash);
     return hash;

@@ -10,12 +10,14 @@
 #include "core/element/framework_element.h"
 #include "core/plugin/module_registry.h"
 #include "core/port/port.h"
+#include "plugins/scheduling/scheduler.h"
 
 namespace runnel::internal {
 
 /// What there is to know of elements besides themselves.
 struct ElementSurroundings {
   const ModuleRegistry* modules = nullptr;                 ///< their summaries
+  const Scheduler* scheduler = nullptr;                    ///< who says why a driving port cannot be reached
   std::map<std::uint64_t, std::string> thread_names;       ///< by id
   std::uint64_t default_thread = 0;                        ///< for what is assigned to none
   std::unordered_map<std::uint64_t, std::string> stopped;  ///< modules, and what they threw

@@ -42,6 +42,7 @@ StructureMirror::StructureMirror(Runtime& runtime, const ModuleRegistry& modules
                                  const Scheduler& scheduler, const ApplicationLog& log)
     : runtime_(runtime), scheduler_(scheduler), log_(log), walk_(runtime) {
   around_.modules = &modules;
+  around_.scheduler = &scheduler;
 }
 
 bool StructureMirror::Look() {
@@ -294,7 +295,7 @@ std::optional<CountSample> StructureMirror::Count() const {
   CountSample sample{
       .of = metered_, .publications = {}, .threads = {}, .time = runtime_.clock().Now()};
   sample.publications.reserve(ports_.size());
-  for (const Port* port : ports_) sample.publications.push_back(port->publications());
+  for (const Port* port : ports_) sample.publications.push_back(Publications::Of(*port));
   for (const ThreadContainer* thread : threads_) sample.threads.push_back(thread->statistics());
   return sample;
 }

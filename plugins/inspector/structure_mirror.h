@@ -14,6 +14,7 @@
 #include "plugins/inspector/element_json.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/values/publication_rate.h"
 
 namespace runnel::internal {
 
@@ -26,15 +27,20 @@ struct MeteredElements {
 /// The counts at one moment.
 struct CountSample {
   std::shared_ptr<const MeteredElements> of;
-  std::vector<std::uint64_t> publications;
+  std::vector<Publications> publications;
   std::vector<CycleStatistics> threads;
   Time time{};  ///< on the application's clock
 };
 
 /// What has been published and run between two samples of the same elements, as the protocol has it.
 /// `told`: the rates that were told last, of which only other ones are told; kept up to date.
+struct ToldRate {
+  static constexpr double kNever = -1;
+  PublicationRate rate = {};
+  double told = kNever;
+};
 [[nodiscard]] std::string RateMessage(const CountSample& before, const CountSample& now,
-                                      double time, std::vector<double>& told);
+                                      double time, std::vector<ToldRate>& told);
 
 /// What has been measured of modules, as the protocol has it; `measured`: for how long, if it is.
 [[nodiscard]] std::string ProfileMessage(const Profile& profile, std::optional<Duration> measured);

@@ -60,9 +60,7 @@ class OfferedPort::Reader final : public InputBase {
 
  private:
   QueueSink* Bind(const std::vector<Source>& from) override {
-    std::vector<internal::PassedStop> stops;
-    CollectStops(stops);
-    offered_.SetBinding(from.empty() ? nullptr : from.front().output, std::move(stops));
+    offered_.SetBinding(from.empty() ? nullptr : from.front().output, internal::PassedStops(*this));
     return nullptr;
   }
   void TakeOverBinding(InputBase&) noexcept override {}

@@ -9,7 +9,7 @@
 #include "plugins/mcap/mcap_writer.h"
 #include "plugins/recording/recorder.h"
 #include "plugins/recording/recording_names.h"
-#include "plugins/values/foxglove_log.h"
+#include "plugins/values/foxglove_channel.h"
 
 namespace runnel {
 

@@ -203,4 +203,11 @@ void CycleRunner::Activate() noexcept {
   if (!IsToldAtTheEnd(*this)) event_.Notify();
 }
 
+// The element stays while the thread is in its cycle.
+const char* RunningModulePath() noexcept {
+  const CycleRunner* const runner = CycleRunner::OfThisThread();
+  const ScheduledElement* const element = runner != nullptr ? runner->running().element() : nullptr;
+  return element != nullptr ? element->path().c_str() : nullptr;
+}
+
 }  // namespace runnel

@@ -54,6 +54,11 @@ bool CycleWatchdog::has_rules() const {
   return !rules_.empty();
 }
 
+void CycleWatchdog::MovePaths(const std::function<void(std::string& path)>& move) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& each : rules_) move(each->rule.of);
+}
+
 void CycleWatchdog::Change() {
   {
     const std::lock_guard lock(mutex_);
@@ -198,11 +203,11 @@ std::vector<StuckModule> CycleWatchdog::Stuck() const {
   return stuck;
 }
 
-bool CycleWatchdog::IsStuck(const CycleRunner& runner) const {
+bool CycleWatchdog::IsStuck(const CycleRunner& runner, Duration patience) const {
   const std::lock_guard lock(mutex_);
   return std::ranges::any_of(watched_, [&](const Watched& each) {
-    return each.runner.get() == &runner && !each.fired.empty() &&
-           runner.running().Look() == each.state;
+    const bool takes_long = each.state.element != nullptr && (!each.fired.empty() || Now() - each.seen > patience);
+    return each.runner.get() == &runner && takes_long && runner.running().Look() == each.state;
   });
 }
 

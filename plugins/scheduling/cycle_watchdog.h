@@ -59,6 +59,7 @@ class CycleWatchdog {
   /// All of the rules, those of SetLimit() too.
   [[nodiscard]] std::vector<StuckRule> rules() const;
   [[nodiscard]] bool has_rules() const;
+  void MovePaths(const std::function<void(std::string& path)>& move);
 
   /// Whom to look at.
   void Follow(Runners runners);
@@ -67,7 +68,8 @@ class CycleWatchdog {
   void End();
 
   [[nodiscard]] std::vector<StuckModule> Stuck() const;
-  [[nodiscard]] bool IsStuck(const CycleRunner& runner) const;
+  /// `patience`: also where no rule says so, if one run of a task has taken longer.
+  [[nodiscard]] bool IsStuck(const CycleRunner& runner, Duration patience = Duration::max()) const;
 
  private:
   struct KnownRule {
@@ -81,7 +83,7 @@ class CycleWatchdog {
     RunningTask::State state = {};
     Time seen{};  // first
     std::string path = {};
-    std::vector<std::shared_ptr<const KnownRule>> fired = {};
+    std::vector<std::shared_ptr<KnownRule>> fired = {};
   };
 
   void Run();
@@ -101,7 +103,7 @@ class CycleWatchdog {
   mutable std::mutex mutex_;  // a leaf but for the dispatcher's
   std::condition_variable has_changed_;
   // Guarded by mutex_:
-  std::vector<std::shared_ptr<const KnownRule>> rules_;
+  std::vector<std::shared_ptr<KnownRule>> rules_;
   std::vector<Watched> watched_;
   bool is_running_ = false;
   bool looks_anew_ = false;

@@ -131,6 +131,11 @@ void FaultDispatcher::AddRule(FaultRule rule) {
   rules_.push_back(std::move(rule));
 }
 
+void FaultDispatcher::MovePaths(const std::function<void(std::string& path)>& move) {
+  const std::lock_guard lock(mutex_);
+  for (FaultRule& rule : rules_) move(rule.of);
+}
+
 void FaultDispatcher::Log(Fault fault) {
   const std::lock_guard lock(mutex_);
   log_.push_back(std::move(fault));

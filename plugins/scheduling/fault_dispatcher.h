@@ -63,6 +63,7 @@ class FaultDispatcher {
   void SetHandler(Handler handler);
 
   void AddRule(FaultRule rule);
+  void MovePaths(const std::function<void(std::string& path)>& move);
 
   void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_release); }
   void StopForFault() noexcept {

@@ -11,6 +11,16 @@
 
 namespace runnel {
 
+void Scheduler::UpdateInstruments() {
+  std::uint8_t instruments = options_.tracer != nullptr ? Instruments::kTrace : 0;
+  if (options_.notes_running_tasks || cycle_watchdog_.has_rules()) {
+    instruments |= Instruments::kRunning;
+  }
+  if (profile_began_) instruments |= Instruments::kProfile;
+  if (!chains_.empty()) instruments |= Instruments::kLatency;
+  for (const auto& runner : runners_) runner->set_instruments(instruments);
+}
+
 // What is measured from now on begins at nothing.
 void Scheduler::SetProfiled(bool is_profiled) {
   const std::lock_guard lock(runtime_.structure_mutex());

@@ -31,7 +31,7 @@ void Scheduler::LookAtClockPort() {
   std::optional<Time> time;
   {
     const std::lock_guard lock(runtime_.structure_mutex());
-    const auto found = PathSearch(runtime_).FindPort(options_.clock_port, PathKind::kOutput);
+    const auto found = PathSearch(runtime_).FindPort(clock_port_, PathKind::kOutput);
     if (found) time = TimeAt(**found);
   }
   if (!time || time == pace_.outside_time()) return;

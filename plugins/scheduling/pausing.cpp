@@ -52,16 +52,35 @@ bool Scheduler::IsPaused(FrameworkElement& element, std::string_view but_for) co
   return compiler_.IsPaused(element, left_out);
 }
 
-std::string Scheduler::WhyAtRest(const FrameworkElement& element) const {
+std::string Scheduler::WhyAtRest(const FrameworkElement& element, Duration patience) const {
   const internal::PlannedElement* const around = compiler_.FindAround(element);
   if (around == nullptr) return "";
   const std::string& path = around->element->path();
   if (around->state->is_stopped()) return path + " has failed";
   if (around->state->is_paused()) return path + " is paused";
   const CycleRunner& runner = *around->thread->runner;
-  return cycle_watchdog_.IsStuck(runner)
+  return cycle_watchdog_.IsStuck(runner, patience)
              ? "a module of " + runner.path() + ", which runs " + path + ", does not return"
              : "";
+}
+
+std::string Scheduler::WhyUnreached(const Port& port) const {
+  std::string why;
+  if (!port.is_driving()) return why;
+  for (const Port* sink : port.Sinks()) {
+    if (why.empty()) why = WhyAtRest(*sink, kUnreachedAfter);
+  }
+  return why;
+}
+
+void Scheduler::MovePaths(const std::function<void(std::string& path)>& move) {
+  faults_.MovePaths(move);
+  cycle_watchdog_.MovePaths(move);
+  move(clock_port_);
+  for (const auto& chain : chains_) {
+    move(chain->request.from);
+    move(chain->request.to);
+  }
 }
 
 Result<void> Scheduler::CheckPaused(std::string_view path) const {

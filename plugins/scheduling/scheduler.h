@@ -133,6 +133,10 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// that are missing. Brings the schedules up to date.
   [[nodiscard]] std::vector<Error> Warnings();
 
+  /// Has rules and measurements lead where they have led before, as something has got another name: `move` is called with
+  /// each path. Under the structure lock.
+  void MovePaths(const std::function<void(std::string& path)>& move);
+
   /// Keeps the threads that run anything at or below one of `paths` between two of their cycles, so
   /// that what is changed until the hold goes takes effect as a whole. Errors, threads: see CycleHold;
   /// not under the structure lock. A thread that a StuckRule has found stuck is not waited for: an error if it runs
@@ -200,7 +204,11 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void VisitThreadStatistics(const StatisticsVisitor& visit) const;
   /// Why nothing new comes from the module that has the element, as "/planner is paused": it has failed, or its thread is
   /// stuck. "": it runs. Under the structure lock.
-  [[nodiscard]] std::string WhyAtRest(const FrameworkElement& element) const;
+  [[nodiscard]] std::string WhyAtRest(const FrameworkElement& element, Duration patience = Duration::max()) const;
+  /// Why nobody reads a driving port, so that no STOP reaches it either: as WhyAtRest() of a module that reads it, but for
+  /// a thread that is stuck at once after kUnreachedAfter. "": it is read. Under the structure lock.
+  static constexpr Duration kUnreachedAfter = std::chrono::milliseconds(500);
+  [[nodiscard]] std::string WhyUnreached(const Port& port) const;
   /// Errors: no such element; it is not this path that has been paused.
   [[nodiscard]] Result<void> CheckPaused(std::string_view path) const;
 
@@ -303,6 +311,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   std::atomic<bool> has_changes_{true};
   bool outside_clock_has_begun_ = false;
   bool outside_clock_went_back_ = false;
+  std::string clock_port_ = options_.clock_port;  // under the structure lock, as it is called now
 
   Watchdog watchdog_;
   Time next_watch_{};  // by it

@@ -1,5 +1,5 @@
 // What the Scheduler does between cycles: attends to faults, brings up to date what could not be at
-// once, and looks out.
+// once, looks out, and has the watchdog name who does not return.
 
 #include <exception>
 #include <mutex>
@@ -78,6 +78,29 @@ void Scheduler::RunWatchdog() noexcept {
     ReportException("the watchdog failed: ", std::current_exception(), faults_, runtime_);
     next_watch_ = now + std::chrono::seconds(1);
   }
+}
+
+void Scheduler::AddStuckRule(StuckRule rule) {
+  cycle_watchdog_.Add(std::move(rule));
+  const std::lock_guard lock(runtime_.structure_mutex());
+  UpdateInstruments();
+}
+
+void Scheduler::SetStuckListener(std::function<void()> listener) {
+  cycle_watchdog_.SetListener([this, listener = std::move(listener)] {
+    faults_.Dispatch();
+    if (listener) listener();
+  });
+}
+
+Result<void> Scheduler::SetStuckLimit(const std::string& of, Duration after) {
+  if (after < Duration::zero()) {
+    return Error{.message = "a time that a module may take is positive", .path = of};
+  }
+  cycle_watchdog_.SetLimit(of, after);
+  const std::lock_guard lock(runtime_.structure_mutex());
+  UpdateInstruments();
+  return {};
 }
 
 }  // namespace runnel

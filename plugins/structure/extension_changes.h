@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/element/annotation.h"
@@ -31,6 +32,16 @@ struct ExtensionChanges final : Annotation {
   std::map<std::string, Check> verbs = {};
   /// What follows when something is renamed; its inverse is that of the renaming.
   std::function<ExtensionStep(const std::string& from, const std::string& to)> rename = {};
+};
+
+/// Who keeps paths, as rules do, is told when something gets another name, and when that is taken back. Kept with the root
+/// of the tree.
+///
+/// Threads: under the structure lock.
+struct PathFollowers final : Annotation {
+  /// Has a path, or the paths in a text, lead where it has led before.
+  using Move = std::function<void(std::string& path)>;
+  std::vector<std::function<void(const Move& move)>> all = {};
 };
 
 }  // namespace runnel

@@ -6,6 +6,28 @@
 
 namespace runnel::internal {
 
+namespace {
+
+// All paths at or below `from` in the text go on below `to`. What stands between paths is no part of any name.
+void MovePaths(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+    const std::size_t end = at + from.size();
+    const bool begins = at == 0 || text[at - 1] == ' ';
+    const bool ends = end == text.size() || text[end] == '/' || text[end] == ' ' || text[end] == ',';
+    if (begins && ends) text.replace(at, from.size(), to);
+    at += begins && ends ? to.size() : 1;
+  }
+}
+
+void TellFollowers(const FrameworkElement& root, const std::string& from, const std::string& to) {
+  const auto* const followers = root.FindAnnotation<PathFollowers>();
+  if (followers == nullptr) return;
+  const auto move = [&](std::string& text) { MovePaths(text, from, to); };
+  for (const auto& each : followers->all) each(move);
+}
+
+}  // namespace
+
 Result<void> Plan::Check(const ExtensionChange& change) {
   const auto* const known = runtime_.root().FindAnnotation<ExtensionChanges>();
   const auto found = known != nullptr ? known->verbs.find(change.verb) : decltype(known->verbs.find(""))();
@@ -25,9 +47,17 @@ Result<void> Plan::Check(const ExtensionChange& change) {
 }
 
 void Plan::MoveExtensions(const FrameworkElement& renamed, const std::string& name) {
+  const std::string from = renamed.path();
+  const std::string to = renamed.parent()->path() + "/" + name;
+  steps_.push_back({[=, this]() -> Result<void> {
+                      TellFollowers(runtime_.root(), from, to);
+                      return {};
+                    },
+                    [=, this] { TellFollowers(runtime_.root(), to, from); },
+                    [](auto&) { return ChangeSet(); }});
   const auto* const known = runtime_.root().FindAnnotation<ExtensionChanges>();
   if (known == nullptr || !known->rename) return;
-  const ExtensionStep step = known->rename(renamed.path(), renamed.parent()->path() + "/" + name);
+  const ExtensionStep step = known->rename(from, to);
   if (step.apply) steps_.push_back({step.apply, step.undo, [](auto&) { return ChangeSet(); }});
 }
 

@@ -111,29 +111,4 @@ Result<std::string> RenamedText(const std::string& text, const std::string& file
   return editor.Finish();
 }
 
-std::vector<Error> RulesThatName(const FrameworkElement& element, const std::string& text,
-                                 const std::string& file, const PathAttributesOf& attributes) {
-  const auto document = XmlDocument::Parse(text, file);
-  if (!document) return {};
-  const std::string wanted = PathInFile(element);
-  std::vector<Error> warnings;
-  VisitPaths(document->root(), "", attributes,
-             [&](XmlElement tag, const PathAttribute& known, const XmlAttribute& attribute,
-                 const std::string& base) {
-               bool is_named = false;
-               const auto look = [&](const std::string& path) {
-                 is_named = is_named || path == wanted;
-                 return std::string();
-               };
-               (void)ForEachWord(attribute.value, [&](const std::string& word) { return Followed(word, base, look); });
-               if (!known.is_rule || !is_named) return;
-               warnings.push_back({.message = "<" + tag.name() + " " + known.name + "=\"" + attribute.value +
-                                              "\"> keeps to the name of before as long as this run lasts",
-                                   .path = element.path(),
-                                   .position = attribute.value_position,
-                                   .hint = "saved, it has the new one, and is right at the next start"});
-             });
-  return warnings;
-}
-
 }  // namespace runnel

@@ -26,7 +26,6 @@ struct PathAttribute {
 
   std::string name;
   Kind kind = Kind::kPath;
-  bool is_rule = false;  ///< what the tag says is made once, when the application is loaded, and keeps to its paths
 };
 using PathAttributesOf = std::function<std::vector<PathAttribute>(XmlElement tag)>;
 
@@ -44,11 +43,5 @@ void ForgetNewNames(FrameworkElement& application);
 [[nodiscard]] Result<std::string> RenamedText(const std::string& text, const std::string& file,
                                               const NewNames& names,
                                               const PathAttributesOf& attributes);
-
-/// Rules in the text which name the element or something below it: what has been made of them goes on with the name
-/// of before. As warnings with their places.
-[[nodiscard]] std::vector<Error> RulesThatName(const FrameworkElement& element, const std::string& text,
-                                               const std::string& file,
-                                               const PathAttributesOf& attributes);
 
 }  // namespace runnel

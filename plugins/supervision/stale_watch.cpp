@@ -18,8 +18,8 @@ StaleWatch::Turn StaleWatch::Look(Runtime& runtime, Time now) {
   Hear(runtime);
   const Turn turn = Judge(now);
   next_look_ = is_stale_
-                   ? now + std::max(std::min(rule_.after, rule_.fresh_after) / 4, kShortestWait)
-                   : SaturatingSum(SaturatingSum(*heard_, rule_.after), Duration(1));
+                   ? now + std::max(std::min(rule_->after, rule_->fresh_after) / 4, kShortestWait)
+                   : SaturatingSum(SaturatingSum(*heard_, rule_->after), Duration(1));
   return turn;
 }
 
@@ -37,7 +37,7 @@ void StaleWatch::Hear(Runtime& runtime) {
 }
 
 StaleWatch::Turn StaleWatch::Judge(Time now) {
-  const bool is_silent = now - *heard_ > rule_.after;
+  const bool is_silent = now - *heard_ > rule_->after;
   if (!is_stale_) {
     is_stale_ = is_silent;
     return is_silent ? Turn::kStale : Turn::kNone;
@@ -47,7 +47,7 @@ StaleWatch::Turn StaleWatch::Judge(Time now) {
     return Turn::kNone;
   }
   if (!well_since_) well_since_ = *heard_;
-  if (*heard_ - *well_since_ < rule_.fresh_after) return Turn::kNone;
+  if (*heard_ - *well_since_ < rule_->fresh_after) return Turn::kNone;
   well_since_.reset();
   is_stale_ = false;
   return Turn::kFresh;

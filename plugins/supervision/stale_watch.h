@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,17 +10,19 @@
 
 namespace runnel::internal {
 
-/// Follows one StaleRule through time.
+/// Follows one rule of silence through time.
 ///
 /// Threads: one at a time.
 class StaleWatch {
  public:
   enum class Turn { kNone, kStale, kFresh };
 
-  StaleWatch(StaleRule rule, std::vector<std::string> outputs)
+  StaleWatch(std::shared_ptr<const SupervisionRule> rule, std::vector<std::string> outputs)
       : rule_(std::move(rule)), outputs_(std::move(outputs)) {}
 
-  [[nodiscard]] const StaleRule& rule() const noexcept { return rule_; }
+  /// Under the structure lock, as the next one.
+  [[nodiscard]] const SupervisionRule& rule() const noexcept { return *rule_; }
+  [[nodiscard]] std::vector<std::string>& outputs() noexcept { return outputs_; }
 
   /// Looks at the outputs; says if the input has become stale or fresh. Under the structure lock.
   [[nodiscard]] Turn Look(Runtime& runtime, Time now);
@@ -32,8 +35,8 @@ class StaleWatch {
   void Hear(Runtime& runtime);
   [[nodiscard]] Turn Judge(Time now);
 
-  const StaleRule rule_;
-  const std::vector<std::string> outputs_;  // by path: modules may be replaced meanwhile
+  const std::shared_ptr<const SupervisionRule> rule_;
+  std::vector<std::string> outputs_;  // by path: modules may be replaced meanwhile
   std::optional<Time> heard_;               // the newest timestamp, or the first look
   std::optional<Time> well_since_;          // while stale: since when values come again
   bool is_stale_ = false;

@@ -12,22 +12,20 @@ namespace runnel::internal {
 
 namespace {
 
-// That the value in the port's slot of rules is of here, and when its source was last seen at rest.
-struct HeldMark final : Annotation {
-  explicit HeldMark(std::optional<Time> when) : rested(when) {}
+// What has been done here, and told, of the port.
+struct RestMark final : Annotation {
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
-    return std::make_unique<HeldMark>(rested);
+    return std::make_unique<RestMark>(*this);
   }
-  const std::optional<Time> rested;  // nullopt: it is not
+  std::optional<Time> rested;  // the value in the slot of rules is of here: when its source was last seen at rest
+  bool is_unreached = false;
 };
 
-std::optional<Time> HeldAt(const Port& port) {
-  const auto* const mark = port.FindAnnotation<HeldMark>();
-  return mark != nullptr ? mark->rested : std::nullopt;
-}
+const RestMark* MarkOf(const Port& port) { return port.FindAnnotation<RestMark>(); }
 
-void Mark(Port& port, std::optional<Time> rested) {
-  port.Annotate(std::make_unique<HeldMark>(rested));
+RestMark& Mark(Port& port) {
+  auto* const mark = port.FindAnnotation<RestMark>();
+  return mark != nullptr ? *mark : port.Annotate(std::make_unique<RestMark>());
 }
 
 bool HasPublishedSince(const Port& source, Time since) {
@@ -37,6 +35,14 @@ bool HasPublishedSince(const Port& source, Time since) {
   return has_published;
 }
 
+std::string WhyAtRest(const std::vector<Port*>& ports, const Scheduler& scheduler, Duration patience) {
+  std::string why;
+  for (const Port* each : ports) {
+    if (why.empty()) why = scheduler.WhyAtRest(*each, patience);
+  }
+  return why;
+}
+
 }  // namespace
 
 void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, const Tell& tell) {
@@ -44,28 +50,43 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
     driven_.clear();
     runtime.root().Visit([this](FrameworkElement& element) {
       auto* const port = dynamic_cast<Port*>(&element);
-      if (port != nullptr && (port->is_driving() || HeldAt(*port)))
-        driven_.push_back({port, port->Sources()});
+      if (port != nullptr && (port->is_driving() || MarkOf(*port) != nullptr))
+        driven_.push_back({port, port->Sources(), port->Sinks()});
     });
   }
-  for (const Driven& each : driven_) Look(each, scheduler, now, tell);
+  for (const Driven& each : driven_) {
+    LookAtReaders(each, scheduler, tell);
+    LookAtSources(each, scheduler, now, tell);
+  }
 }
 
-void Standstill::Look(const Driven& driven, const Scheduler& scheduler, Time now,
-                      const Tell& tell) {
+// Who does not run reads no safe value either.
+void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler, const Tell& tell) {
   Port& port = *driven.port;
-  const auto held = HeldAt(port);
-  std::string why;
-  for (const Port* source : driven.sources) {
-    if (why.empty() && port.is_driving()) why = scheduler.WhyAtRest(*source);
-  }
+  const std::string why =
+      port.is_driving() ? WhyAtRest(driven.sinks, scheduler, Scheduler::kUnreachedAfter) : "";
+  if (why.empty() && MarkOf(port) == nullptr) return;
+  if (std::exchange(Mark(port).is_unreached, !why.empty()) == !why.empty()) return;
+  tell(port,
+       why.empty() ? "can be reached again"
+                   : "cannot be reached: " + why + "; until it runs, no STOP counts there but the time-out of what it moves",
+       why.empty());
+}
+
+void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell) {
+  Port& port = *driven.port;
+  const auto held = MarkOf(port) != nullptr ? MarkOf(port)->rested : std::nullopt;
+  const std::string why = port.is_driving() ? WhyAtRest(driven.sources, scheduler, Duration::max()) : "";
   const bool is_set = port.is_set_by_hand(Port::Setter::kRule);
   if (!why.empty()) {
-    if (is_set) return held ? Mark(port, now) : void();  // a rule may have been first
+    if (is_set) {  // a rule may have been first
+      if (held) Mark(port).rested = now;
+      return;
+    }
     const auto safe = SafeValueOf(port);
     const auto set = safe ? PublishByHand(port, safe->get(), Port::Setter::kRule) : safe.error();
     if (!set && held) return;  // it has been told
-    Mark(port, now);
+    Mark(port).rested = now;
     return tell(port,
                 set ? "has its safe value: " + why
                     : why + ", and it has no safe value: " + set.error().message,
@@ -75,12 +96,12 @@ void Standstill::Look(const Driven& driven, const Scheduler& scheduler, Time now
   const bool is_fed = std::ranges::any_of(
       driven.sources, [&](const Port* each) { return HasPublishedSince(*each, *held); });
   if (!is_fed && !driven.sources.empty()) return;
-  Mark(port, {});
+  Mark(port).rested.reset();
   if (port.Release(Port::Setter::kRule)) tell(port, "is driven again: what feeds it runs", true);
 }
 
 void Standstill::LeaveToRule(Port& port) {
-  if (HeldAt(port)) Mark(port, {});
+  if (MarkOf(port) != nullptr) Mark(port).rested.reset();
 }
 
 }  // namespace runnel::internal

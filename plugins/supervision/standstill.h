@@ -11,7 +11,8 @@
 namespace runnel::internal {
 
 /// Has ports that drive read their safe value while a module that feeds them does not run: it is paused, has failed, or its
-/// thread is stuck. By the slot of rules, and until the module has published again.
+/// thread is stuck. By the slot of rules, and until the module has published again. Tells where the module that drives does
+/// not run itself, so that neither this nor a STOP reaches it.
 ///
 /// Threads: all under the structure lock.
 class Standstill {
@@ -27,8 +28,10 @@ class Standstill {
   struct Driven {
     Port* port;
     std::vector<Port*> sources;
+    std::vector<Port*> sinks;
   };
-  void Look(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell);
+  static void LookAtReaders(const Driven& driven, const Scheduler& scheduler, const Tell& tell);
+  static void LookAtSources(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell);
 
   std::vector<Driven> driven_;  // as of the structure's revision
   std::uint64_t revision_ = ~std::uint64_t{};

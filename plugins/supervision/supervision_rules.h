@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/base/error.h"
 #include "plugins/structure/change.h"
 
 namespace runnel {
@@ -27,41 +29,30 @@ struct Reaction {
   [[nodiscard]] bool is_empty() const noexcept {
     return published.empty() && released.empty() && changes.empty() && !stops_application;
   }
+  /// `move` is called with each path, and with the description.
+  void MovePaths(const std::function<void(std::string& path)>& move);
   /// Has this one, which is done when all is well again, release what the first one publishes.
   void TakeBack(const Reaction& first) {
     for (const SafeValue& each : first.published) released.push_back(each.port);
   }
 };
 
-/// An input that brings nothing new for a while. Watched are the outputs that feed it when the rule is
-/// added, so that the rule can switch it to others and still sees the first ones come back.
-struct StaleRule {
-  std::string input;       ///< path of the port; of an output, that output itself is watched
-  Duration after{};        ///< stale when nothing new has come for longer; > 0
+/// What is watched, and what is done about it.
+struct SupervisionRule {
+  enum class When {
+    kStale,   ///< an input brings nothing new. Watched are the outputs that feed it when the rule is added, so that the
+              ///< rule can switch it to others and still sees the first ones come back; of an output, that output itself
+    kFault,   ///< a module has thrown and has been stopped
+    kStuck,   ///< a module does not return from its cycle; it goes on when it returns
+    kPaused,  ///< somebody has paused modules (Supervisor::SetPaused()): done once they stand still
+  };
+  When when = When::kStale;
+  std::string of;          ///< path of the port, or of the element with all below it; of what is paused, or is run by it
+  Duration after{};        ///< stale: nothing new has come for longer; stuck: by the machine's clock, one run takes longer
   Duration fresh_after{};  ///< fresh again when values have come that long without such a gap
-  Reaction on_stale;
-  Reaction on_fresh = {};
-};
-
-/// A module that has thrown and has been stopped.
-struct FaultReaction {
-  std::string of;  ///< path: faults of this element and of all below it
-  Reaction reaction;
-};
-
-/// A module that does not return from its cycle. It goes on when it returns.
-struct StuckReaction {
-  std::string of;    ///< path: this element and all below it
-  Duration after{};  ///< stuck when one run of a task takes longer, on the machine's clock; > 0
-  Reaction on_stuck = {};
-  Reaction on_return = {};
-};
-
-/// Modules that somebody has paused (Supervisor::SetPaused()): safe values, once they stand still.
-struct PauseReaction {
-  std::string of;  ///< path; done when what is paused is at or above it, or its thread is
-  Reaction on_pause = {};
-  Reaction on_resume = {};
+  Reaction reaction = {};
+  Reaction otherwise = {};  ///< when all is well again; never after a fault
+  SourcePosition position = {};
 };
 
 /// A port by which somebody presses the STOP of the robot: each value but 0 and false does.

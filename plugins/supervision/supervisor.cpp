@@ -1,15 +1,16 @@
 #include "plugins/supervision/supervisor.h"
 
 #include <algorithm>
-#include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
 #include "plugins/structure/change_text.h"
+#include "plugins/structure/extension_changes.h"
 #include "plugins/structure/structure_request.h"
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/stale_watch.h"
@@ -22,14 +23,34 @@ using internal::StaleWatch;
 
 namespace {
 
-// For so long cycles are counted before it is told that they come late, or come in time again.
-constexpr Duration kCounted = std::chrono::seconds(1);
 // How often modules are asked for what they want.
 constexpr Duration kLookForRequests = std::chrono::milliseconds(50);
 
+// Those that reactions are made of.
+void MovePathsOf(Change& change, const std::function<void(std::string& path)>& move) {
+  const auto move_ends = [&](auto& tie) {
+    move(tie.from);
+    move(tie.to);
+  };
+  if (auto* const cut = std::get_if<DisconnectPorts>(&change)) move_ends(*cut);
+  if (auto* const tie = std::get_if<ConnectPorts>(&change)) move_ends(*tie);
+  if (auto* const set = std::get_if<SetParameter>(&change)) move(set->path);
+  if (auto* const replace = std::get_if<ReplaceModule>(&change)) move(replace->path);
+}
+
 }  // namespace
 
+void Reaction::MovePaths(const std::function<void(std::string& path)>& move) {
+  for (SafeValue& each : published) move(each.port);
+  for (std::string& each : released) move(each);
+  for (Change& each : changes) MovePathsOf(each, move);
+  move(description);
+}
+
 struct Supervisor::Shared {
+  struct KnownRule : SupervisionRule {
+    bool is_applied = false;  // kPaused
+  };
   Shared(Runtime& of_runtime, Scheduler& of_scheduler, Perform how)
       : runtime(of_runtime), scheduler(of_scheduler), perform(std::move(how)) {}
 
@@ -37,39 +58,39 @@ struct Supervisor::Shared {
     const std::lock_guard lock(mutex);
     notices.push_back(std::move(notice));
   }
+  void MovePaths(const PathFollowers::Move& move);
+  // `reaction`: as it is now, for paths change under the structure lock.
   void React(const Reaction& reaction, const std::string& path, const std::string& why, Time now, bool is_recovery = false);
   Result<void> Publish(const SafeValue& safe);
   Result<void> Release(const std::string& port);
   Time Watch(Time now);
+  Result<void> AddWatch(const std::shared_ptr<KnownRule>& rule);
   void ServeRequests(Time now);
   void KeepSafe(Time now);
-  void CountOverruns(Time now);
+  void TellOverruns(Time now);
 
   Runtime& runtime;
   Scheduler& scheduler;
   const Perform perform;
-  // Whether a rule of modules that are paused has been applied.
-  struct KnownPause {
-    PauseReaction rule;
-    bool is_applied = false;
-  };
 
   internal::Standstill standstill;  // under the structure lock
-  // What has been counted of a thread, and told.
-  struct KnownThread {
-    std::uint64_t cycles = 0;
-    std::uint64_t overruns = 0;
-    bool is_late = false;
-  };
-  std::map<std::string, KnownThread>
-      threads;  // by path; of the thread that looks out, as the next ones
-  std::optional<Time> counted;
-  std::vector<StaleWatch> watches;  // of the thread that looks out
-  std::mutex pausing;               // one after the other; before all others
-  std::vector<KnownPause> pauses;   // guarded by pausing
+  std::set<std::string> late;       // threads of which that has been told; of the thread that looks out, as the next one
+  std::vector<StaleWatch> watches;
+  std::vector<std::shared_ptr<KnownRule>> rules;  // their paths are guarded by the structure lock
+  std::mutex pausing;  // one after the other; before all others
   OrderedMutex mutex{LockLevel::kLeaf};
   std::vector<Notice> notices;  // guarded by mutex
 };
+
+void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
+  for (const auto& each : rules) {
+    move(each->of);
+    each->reaction.MovePaths(move);
+    each->otherwise.MovePaths(move);
+  }
+  for (StaleWatch& each : watches) std::ranges::for_each(each.outputs(), move);
+  scheduler.MovePaths(move);
+}
 
 Result<void> Supervisor::Shared::Publish(const SafeValue& safe) {
   const std::lock_guard lock(runtime.structure_mutex());
@@ -163,57 +184,55 @@ void Supervisor::Shared::KeepSafe(Time now) {
                   });
 }
 
-// Told once when most cycles of a thread take longer than its period, and once when hardly any does so any more.
-void Supervisor::Shared::CountOverruns(Time now) {
-  if (counted && now < *counted + kCounted) return;
+// Told once when it begins, and once when it ends.
+void Supervisor::Shared::TellOverruns(Time now) {
   const std::lock_guard lock(runtime.structure_mutex());
   // No larger than what a function keeps without memory of its own: this is looked at between cycles.
   scheduler.VisitThreadStatistics([this, &now](const std::string& path, const CycleStatistics& all) {
-    KnownThread& known = threads[path];
-    const std::uint64_t cycles = all.cycles - known.cycles;
-    const std::uint64_t overruns = all.overruns - known.overruns;
-    const bool was_late = known.is_late;
-    const bool is_late = counted && overruns * (was_late ? 10 : 2) > cycles;
-    if (counted && cycles == 0) return;
-    known = {all.cycles, all.overruns, is_late};
-    if (is_late == was_late) return;
+    if (all.is_late == late.contains(path)) return;
+    if (all.is_late) {
+      late.insert(path);
+    } else {
+      late.erase(path);
+    }
     const std::string count =
-        std::to_string(overruns) + " of its last " + std::to_string(cycles) + " cycles";
-    Note(
-        {path,
-         is_late ? "overruns: " + count + " took longer than its period" : "keeps its period again",
-         now, false, !is_late});
+        std::to_string(all.recent_overruns) + " of its last " + std::to_string(all.recent_cycles) + " cycles";
+    Note({path, all.is_late ? "overruns: " + count + " took longer than its period" : "keeps its period again", now,
+          false, !all.is_late});
   });
-  counted = now;
 }
 
 Time Supervisor::Shared::Watch(Time now) {
   ServeRequests(now);
   KeepSafe(now);
-  CountOverruns(now);
-  std::vector<std::pair<const StaleWatch*, StaleWatch::Turn>> turns;
+  TellOverruns(now);
+  struct Due {
+    Reaction reaction;
+    std::string path;
+    std::string why;
+    bool is_recovery;
+  };
+  std::vector<Due> due;
   Time next = now + kLookForRequests;
   if (!watches.empty()) {
     const std::lock_guard lock(runtime.structure_mutex());
     for (StaleWatch& watch : watches) {
       const auto turn = watch.Look(runtime, now);
-      if (turn != StaleWatch::Turn::kNone) turns.emplace_back(&watch, turn);
+      const SupervisionRule& rule = watch.rule();
+      if (turn == StaleWatch::Turn::kStale) {
+        due.push_back({rule.reaction, rule.of,
+                       "nothing new for " + DurationText(now - watch.silent_since()) + ", at most " +
+                           DurationText(rule.after) + " is allowed",
+                       false});
+      } else if (turn == StaleWatch::Turn::kFresh) {
+        due.push_back(
+            {rule.otherwise, rule.of, "values come again, for " + DurationText(rule.fresh_after) + " now", true});
+      }
       next = std::min(next, watch.next_look());
     }
   }
   // Reactions take the lock for as long as they need it.
-  for (const auto& [watch, turn] : turns) {
-    const StaleRule& rule = watch->rule();
-    if (turn == StaleWatch::Turn::kStale) {
-      React(rule.on_stale, rule.input,
-            "nothing new for " + DurationText(now - watch->silent_since()) + ", at most " +
-                DurationText(rule.after) + " is allowed",
-            now);
-    } else {
-      React(rule.on_fresh, rule.input,
-            "values come again, for " + DurationText(rule.fresh_after) + " now", now, true);
-    }
-  }
+  for (const Due& each : due) React(each.reaction, each.path, each.why, now, each.is_recovery);
   return next;
 }
 
@@ -221,48 +240,68 @@ Supervisor::Supervisor(Runtime& runtime, Scheduler& scheduler, Perform perform)
     : scheduler_(scheduler),
       shared_(std::make_shared<Shared>(runtime, scheduler, std::move(perform))) {
   scheduler_.SetWatchdog([shared = shared_](Time now) { return shared->Watch(now); });
+  const std::lock_guard lock(runtime.structure_mutex());
+  auto* followers = runtime.root().FindAnnotation<PathFollowers>();
+  if (followers == nullptr) followers = &runtime.root().Annotate(std::make_unique<PathFollowers>());
+  followers->all.push_back([shared = std::weak_ptr(shared_)](const PathFollowers::Move& move) {
+    if (const auto there = shared.lock()) there->MovePaths(move);
+  });
 }
 
 Supervisor::~Supervisor() { scheduler_.SetWatchdog({}); }
 
-Result<void> Supervisor::Add(StaleRule rule) {
-  const std::lock_guard lock(shared_->runtime.structure_mutex());
-  const auto found = shared_->runtime.root().Find(rule.input);
+Result<void> Supervisor::Shared::AddWatch(const std::shared_ptr<KnownRule>& rule) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto refuse = [&](const char* message, const char* hint = "") {
+    return Error{.message = message, .path = rule->of, .position = rule->position, .hint = hint};
+  };
+  const auto found = runtime.root().Find(rule->of);
   if (!found) return found.error();
   const auto* const port = dynamic_cast<const Port*>(*found);
-  if (port == nullptr) return Error{.message = "is not a port", .path = rule.input};
-  if (rule.after <= Duration::zero() || rule.fresh_after < Duration::zero()) {
-    return Error{.message = "a time-out must be positive", .path = rule.input};
+  if (port == nullptr) return refuse("is not a port");
+  if (rule->after <= Duration::zero() || rule->fresh_after < Duration::zero()) {
+    return refuse("a time-out must be positive");
   }
   std::vector<std::string> outputs;
   for (const Port* output : port->Sources()) outputs.push_back(output->path());
   if (outputs.empty()) {
-    return Error{.message = "cannot become stale, as nothing is connected to it",
-                 .path = rule.input,
-                 .hint = "connect it, or leave out the rule"};
+    return refuse("cannot become stale, as nothing is connected to it", "connect it, or leave out the rule");
   }
-  shared_->watches.emplace_back(std::move(rule), std::move(outputs));
+  watches.emplace_back(rule, std::move(outputs));
   return {};
 }
 
 // Weakly, for the scheduler keeps its rules longer than this.
-std::function<void(const Fault&)> Supervisor::CallOf(const Reaction& reaction,
-                                                     const std::string& why) const {
-  return [shared = std::weak_ptr(shared_), reaction, why](const Fault& fault) {
-    if (const auto there = shared.lock()) there->React(reaction, fault.path, why, fault.time);
+std::function<void(const Fault&)> Supervisor::CallOf(std::shared_ptr<const SupervisionRule> rule,
+                                                     Reaction SupervisionRule::*which, std::string why) const {
+  if (((*rule).*which).is_empty()) return {};  // it is told of by the fault alone
+  return [shared = std::weak_ptr(shared_), rule, which, why](const Fault& fault) {
+    const auto there = shared.lock();
+    if (there == nullptr) return;
+    Reaction now;
+    {
+      const std::lock_guard lock(there->runtime.structure_mutex());
+      now = (*rule).*which;
+    }
+    there->React(now, fault.path, why, fault.time);
   };
 }
 
-void Supervisor::Add(FaultReaction rule) {
-  scheduler_.AddFaultRule({.of = rule.of, .call = CallOf(rule.reaction, "has failed")});
-}
-
-// One without a reaction is told of by the fault alone.
-void Supervisor::Add(StuckReaction rule) {
-  StuckRule watched{.of = rule.of, .after = rule.after};
-  if (!rule.on_stuck.is_empty()) watched.on_stuck = CallOf(rule.on_stuck, "is stuck");
-  if (!rule.on_return.is_empty()) watched.on_return = CallOf(rule.on_return, "has returned");
-  scheduler_.AddStuckRule(std::move(watched));
+Result<void> Supervisor::Add(SupervisionRule rule) {
+  using When = SupervisionRule::When;
+  const auto known = std::make_shared<Shared::KnownRule>(Shared::KnownRule{std::move(rule)});
+  if (known->when == When::kStale) {
+    if (auto added = shared_->AddWatch(known); !added) return added;
+  } else if (known->when == When::kFault && !known->reaction.is_empty()) {
+    scheduler_.AddFaultRule({.of = known->of, .call = CallOf(known, &SupervisionRule::reaction, "has failed")});
+  } else if (known->when == When::kStuck) {
+    scheduler_.AddStuckRule({.of = known->of,
+                             .after = known->after,
+                             .on_stuck = CallOf(known, &SupervisionRule::reaction, "is stuck"),
+                             .on_return = CallOf(known, &SupervisionRule::otherwise, "has returned")});
+  }
+  shared_->rules.push_back(known);
+  return {};
 }
 
 Result<void> Supervisor::Add(StopButtonRule rule) {
@@ -275,11 +314,6 @@ Result<void> Supervisor::Add(StopButtonRule rule) {
   return {};
 }
 
-void Supervisor::Add(PauseReaction rule) {
-  const std::lock_guard lock(shared_->pausing);
-  shared_->pauses.push_back({std::move(rule)});
-}
-
 // Who goes on finds what the rules have taken back.
 Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
   const std::lock_guard lock(shared_->pausing);
@@ -289,18 +323,22 @@ Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
     return known;
   }
   Runtime& runtime = shared_->runtime;
-  for (Shared::KnownPause& each : shared_->pauses) {
+  for (const auto& each : shared_->rules) {
+    if (each->when != SupervisionRule::When::kPaused) continue;
     bool applies = false;
+    Reaction reaction;
+    std::string of;
     {
       const std::lock_guard structure(runtime.structure_mutex());
-      const auto found = runtime.root().Find(each.rule.of);
+      const auto found = runtime.root().Find(each->of);
       if (!found) continue;  // it stays as it is
       applies = scheduler_.IsPaused(**found, is_paused ? "" : path);
+      reaction = applies ? each->reaction : each->otherwise;
+      of = each->of;
     }
-    if (applies == std::exchange(each.is_applied, applies)) continue;
-    const Reaction& reaction = applies ? each.rule.on_pause : each.rule.on_resume;
+    if (applies == std::exchange(each->is_applied, applies)) continue;
     if (reaction.is_empty()) continue;
-    shared_->React(reaction, each.rule.of, applies ? "is paused" : "goes on", runtime.clock().Now());
+    shared_->React(reaction, of, applies ? "is paused" : "goes on", runtime.clock().Now());
   }
   if (is_paused) KeepSafe();
   return is_paused ? Result<void>() : scheduler_.SetPaused(path, false);

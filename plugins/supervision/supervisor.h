@@ -37,14 +37,10 @@ class Supervisor {
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// Errors: no such port; nothing is connected to it; a time-out that is not positive.
-  Result<void> Add(StaleRule rule);
-  void Add(FaultReaction rule);
-  /// What is to be done must not delete or replace what the thread that is stuck runs: that fails, as it would have to
-  /// wait for it.
-  void Add(StuckReaction rule);
-
-  void Add(PauseReaction rule);
+  /// What is to be done about a module that is stuck must not delete or replace what its thread runs: that fails, as it
+  /// would have to wait for it. Errors, of rules of silence: no such port; nothing is connected to it; a time-out that is
+  /// not positive.
+  Result<void> Add(SupervisionRule rule);
   /// From now on, in a thread of its own. Errors: no such port, or another type.
   Result<void> Add(StopButtonRule rule);
   /// As Scheduler::SetPaused(), and then what the rules say. Errors: the same.
@@ -59,8 +55,8 @@ class Supervisor {
 
  private:
   struct Shared;
-  [[nodiscard]] std::function<void(const Fault&)> CallOf(const Reaction& reaction,
-                                                         const std::string& why) const;
+  [[nodiscard]] std::function<void(const Fault&)> CallOf(std::shared_ptr<const SupervisionRule> rule,
+                                                         Reaction SupervisionRule::*which, std::string why) const;
 
   Scheduler& scheduler_;
   const std::shared_ptr<Shared> shared_;  // with the rules that the scheduler keeps

@@ -2,14 +2,23 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace runnel {
+
+namespace {
+
+constexpr Duration kSecond = std::chrono::seconds(1);
+constexpr std::uint64_t kFewest = 10;
+
+}  // namespace
 
 void CycleMeter::Add(const CycleMeasurement& cycle) noexcept {
   CycleStatistics& sums = sums_.of;
   ++sums.cycles;
   if (sums.cycles == 1) {
     sums_.first_start = cycle.start;
+    sums_.second_start = cycle.start;
   } else {
     const Duration period = cycle.start - sums_.last_start;
     sums.period_min = sums.cycles == 2 ? period : std::min(sums.period_min, period);
@@ -22,7 +31,18 @@ void CycleMeter::Add(const CycleMeasurement& cycle) noexcept {
   sums.jitter_max = std::max(sums.jitter_max, jitter);
   sums.execution_mean += cycle.execution;
   sums.execution_max = std::max(sums.execution_max, cycle.execution);
+  if (cycle.start - sums_.second_start >= kSecond && sums.cycles - sums_.cycles_before >= kFewest) [[unlikely]] {
+    EndSecond(cycle.start);
+  }
   shown_.Publish(sums_, 0);
+}
+
+void CycleMeter::EndSecond(Time now) noexcept {
+  CycleStatistics& sums = sums_.of;
+  sums.recent_cycles = sums.cycles - std::exchange(sums_.cycles_before, sums.cycles);
+  sums.recent_overruns = sums.overruns - std::exchange(sums_.overruns_before, sums.overruns);
+  sums.is_late = sums.recent_overruns * (sums.is_late ? 10 : 2) > sums.recent_cycles;
+  sums_.second_start = now;
 }
 
 CycleStatistics CycleMeter::statistics() const noexcept {

@@ -20,6 +20,10 @@ struct CycleStatistics {
   /// What the modules take, on the machine's clock; of free-running threads from start to start.
   Duration execution_mean{};
   Duration execution_max{};
+  /// Of the last whole second, and of ten cycles at least.
+  std::uint64_t recent_cycles = 0;
+  std::uint64_t recent_overruns = 0;
+  bool is_late = false;  ///< most of these; once that was so, until hardly any is
 };
 
 /// What is measured of one cycle.
@@ -46,7 +50,12 @@ class CycleMeter {
     CycleStatistics of;
     Time first_start{};
     Time last_start{};
+    // With which the second that is under way began.
+    Time second_start{};
+    std::uint64_t cycles_before = 0;
+    std::uint64_t overruns_before = 0;
   };
+  void EndSecond(Time now) noexcept;
 
   Sums sums_;  // the writer's own
   LatestValue<Sums> shown_;

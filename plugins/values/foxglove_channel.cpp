@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "core/log/log_sink.h"
 #include "core/types/type_info.h"
 #include "plugins/values/internal/drawing.h"
+#include "plugins/values/internal/message_parts.h"
 #include "plugins/values/json_reader.h"
 #include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"
@@ -65,6 +67,31 @@ FoxgloveChannel DrawnChannel(const Drawing& drawing, const TypeInfo& type, std::
           }};
 }
 
+// By the numbers of foxglove.LogLevel, of which 5 is fatal.
+int NumberOf(LogLevel level) {
+  switch (level) {
+    case LogLevel::kDebug:
+      return 1;
+    case LogLevel::kInfo:
+      return 2;
+    case LogLevel::kWarning:
+      return 3;
+    case LogLevel::kError:
+      return 4;
+    case LogLevel::kOff:
+      break;
+  }
+  return 0;
+}
+
+// Where in a source it was said is not known.
+void AppendLog(const LogMessage& said, Time timestamp, std::string& json) {
+  JsonObject message(json);
+  internal::AppendTime(timestamp, message.Key("timestamp"));
+  message.Add("level", NumberOf(said.level)).Add("message", said.TextWithCount());
+  message.Add("name", said.path).Add("file", "").Add("line", 0);
+}
+
 }  // namespace
 
 std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view topic,
@@ -93,6 +120,13 @@ std::optional<FoxgloveChannel> TransformChannelFor(const TypeInfo& type,
   const Drawing& drawing = internal::kTransformDrawing;
   if (drawing.tag != type.semantic_tag() || !drawing.fits(type)) return std::nullopt;
   return DrawnChannel(drawing, type, "/tf", options);
+}
+
+FoxgloveChannel LogChannel() {
+  return {"/log", "foxglove.Log", internal::FoxgloveSchema("Log"),
+          [](const void* value, Time timestamp, std::string& json) {
+            AppendLog(*static_cast<const LogMessage*>(value), timestamp, json);
+          }};
 }
 
 }  // namespace runnel

@@ -59,4 +59,8 @@ Result<void> SetFromMessage(const TypeInfo& type, std::string_view json, void* v
 [[nodiscard]] std::optional<FoxgloveChannel> TransformChannelFor(
     const TypeInfo& type, const FoxgloveOptions& options = {});
 
+/// What modules say, in Foxglove's schema for it, foxglove.Log, under the topic "/log". Its values are
+/// LogMessages; the time that is given with one counts.
+[[nodiscard]] FoxgloveChannel LogChannel();
+
 }  // namespace runnel

@@ -17,6 +17,34 @@ std::uint64_t CountOf(const std::vector<const Port*>& ports) {
   return count;
 }
 
+// Inputs look at their stops by themselves.
+std::vector<internal::PassedStop> StopsOf(const Port& port) {
+  const bool looks_itself = !port.is_proxy() && port.direction() == Port::Direction::kInput;
+  return looks_itself ? std::vector<internal::PassedStop>() : internal::PassedStops(port);
+}
+
+// The safe value is as new as the look.
+bool Visit(const std::vector<const Port*>& sources, const std::vector<internal::PassedStop>& stops, const Clock& clock,
+           const Port::Visitor& look) {
+  const auto pass = [&](const void* value, ValueTimes times) {
+    const auto holds = [&](const auto& each) { return !each.stop->LetsPass(times); };
+    const auto stop = std::ranges::find_if(stops, holds);
+    if (stop == stops.end()) return look(value, times);
+    look(stop->safe_value.get(), ValueTimes::Of(clock.Now()));
+  };
+  if (std::ranges::any_of(sources, [&](const Port* source) { return source->VisitLatest(pass); })) return true;
+  const auto stop = std::ranges::find_if(stops, [](const auto& each) { return each.stop->in_force(); });
+  if (stop != stops.end()) look(stop->safe_value.get(), ValueTimes::Of(clock.Now()));
+  return stop != stops.end();
+}
+
+// Changes whenever other values may pass.
+std::int64_t BarOf(const std::vector<internal::PassedStop>& stops) {
+  std::int64_t bar = StopSignal::kNever;
+  for (const auto& each : stops) bar = std::max(bar, each.stop->bar());
+  return bar;
+}
+
 // What changes when other values are read there, which may be as many as those before.
 std::vector<std::uint64_t> IdsOf(Runtime& runtime, const Port& port) {
   std::vector<std::uint64_t> ids{port.id()};
@@ -31,8 +59,13 @@ std::vector<std::uint64_t> IdsOf(Runtime& runtime, const Port& port) {
 
 }  // namespace
 
+bool VisitShown(const Port& port, const Port::Visitor& look) {
+  return Visit(port.ShownPorts(), StopsOf(port), port.runtime().clock(), look);
+}
+
 Result<void> WatchedPort::Find(Runtime& runtime) {
   sources_.clear();
+  stops_.clear();
   input_ = nullptr;
   const auto found = runtime.root().Find(path_);
   if (!found) return found.error();
@@ -45,24 +78,25 @@ Result<void> WatchedPort::Find(Runtime& runtime) {
   type_ = &port->type();
   input_ = dynamic_cast<const InputBase*>(port);
   sources_ = port->ShownPorts();
+  stops_ = StopsOf(*port);
+  clock_ = &runtime.clock();
   return {};
 }
 
 std::optional<std::uint64_t> WatchedPort::VisitIfNew(const Port::Visitor& look) {
   for (const Port* source : sources_) source->NoteLook();
   std::uint64_t count = CountOf(sources_);
-  if (shown_ == count) return {};
+  const std::int64_t bar = BarOf(stops_);
+  if (shown_ == std::pair(count, bar)) return {};
   for (int looks = kLooks; looks > 0; --looks) {
-    const bool has_value = std::ranges::any_of(
-        sources_, [&](const Port* source) { return source->VisitLatest(look); });
-    if (!has_value) return {};
+    if (!Visit(sources_, stops_, *clock_, look)) return {};
     const std::uint64_t after = CountOf(sources_);
     if (after == count) break;
     // What was published meanwhile may have been shown, or not. After the last look, the count of before:
     // what may be shown twice is never missed.
     if (looks > 1) count = after;
   }
-  shown_ = count;
+  shown_ = {count, bar};
   return count;
 }
 

@@ -3,15 +3,21 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/element/runtime.h"
 #include "core/port/port.h"
+#include "core/port/port_stop.h"
 
 namespace runnel {
 
 class InputBase;
+
+/// Shows what readers of the port find now: what is published, or the safe value while it is stopped. False: nothing.
+/// Under the structure lock.
+bool VisitShown(const Port& port, const Port::Visitor& look);
 
 /// A port that somebody looks at now and then, by its path: modules may come and go meanwhile.
 /// Publishers do not notice; nothing is subscribed or copied.
@@ -38,7 +44,7 @@ class WatchedPort {
   /// Of the port that was found.
   [[nodiscard]] const TypeInfo& type() const noexcept { return *type_; }
 
-  /// Shows the newest value, unless it has been shown already; returns how many have been published so
+  /// Shows what readers find there now, unless it has been shown already; returns how many values have been published so
   /// far. `look` is called again, for a newer one, if something is published meanwhile. Of a group's interface port: the first that there is among its sources'. Not under the
   /// structure lock.
   std::optional<std::uint64_t> VisitIfNew(const Port::Visitor& look);
@@ -53,7 +59,9 @@ class WatchedPort {
   const InputBase* input_ = nullptr;  // the port that was found, if it is one
   const TypeInfo* type_ = nullptr;
   std::vector<std::uint64_t> ids_;  // of the port that was found last, and of those whose values it showed
-  std::optional<std::uint64_t> shown_;
+  std::vector<internal::PassedStop> stops_;
+  const Clock* clock_ = nullptr;
+  std::optional<std::pair<std::uint64_t, std::int64_t>> shown_;  // how many, and what let them pass
 };
 
 }  // namespace runnel

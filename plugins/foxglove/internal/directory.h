@@ -15,7 +15,6 @@
 #include "core/port/port.h"
 #include "plugins/command_service/structure_walk.h"
 #include "plugins/values/foxglove_channel.h"
-#include "plugins/values/foxglove_log.h"
 
 namespace runnel::internal {
 

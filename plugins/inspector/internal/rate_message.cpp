@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include "plugins/inspector/structure_mirror.h"
 #include "plugins/values/json_writer.h"
@@ -6,8 +7,6 @@
 namespace runnel::internal {
 
 namespace {
-
-constexpr double kNever = -1;
 
 // Four digits: what differs in the fifth is no news.
 double Rounded(double number) {
@@ -29,21 +28,15 @@ void AppendThread(const CycleStatistics& statistics, std::string& text) {
       .Add("max", Milliseconds(statistics.execution_max));
 }
 
-void AppendPorts(const CountSample& before, const CountSample& now, std::vector<double>& told,
+void AppendPorts(const CountSample& before, const CountSample& now, std::vector<ToldRate>& told,
                  std::string& text) {
   const std::vector<std::string>& paths = now.of->ports;
-  if (told.size() != paths.size()) told.assign(paths.size(), kNever);
-  const double seconds = ToSeconds(now.time - before.time);
+  if (told.size() != paths.size()) told.assign(paths.size(), {});
   JsonObject json(text);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    // A port that was made anew counts from 0 again.
-    const std::uint64_t count = now.publications[i];
-    const std::uint64_t passed =
-        count >= before.publications[i] ? count - before.publications[i] : count;
-    const double rate = seconds > 0 ? Rounded(static_cast<double>(passed) / seconds) : 0;
-    if (rate == told[i]) continue;
-    told[i] = rate;
-    json.Add(paths[i], rate);
+    if (told[i].told == ToldRate::kNever) told[i].rate.Look(before.publications[i], before.time);
+    const double rate = Rounded(told[i].rate.Look(now.publications[i], now.time));
+    if (std::exchange(told[i].told, rate) != rate) json.Add(paths[i], rate);
   }
 }
 
@@ -59,7 +52,7 @@ void AppendThreads(const CountSample& before, const CountSample& now, std::strin
 }  // namespace
 
 std::string RateMessage(const CountSample& before, const CountSample& now, double time,
-                        std::vector<double>& told) {
+                        std::vector<ToldRate>& told) {
   return JsonObjectText([&](JsonObject& json) {
     json.Add("op", "rates").Add("time", time);
     AppendPorts(before, now, told, json.Key("ports"));

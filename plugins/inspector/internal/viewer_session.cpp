@@ -224,7 +224,11 @@ void ViewerSession::SendRates(SteadyTime now) {
     return;
   }
   std::string text = RateMessage(*counted_, *sample, ToSeconds(inspection_.running_for()), rates_);
-  if (client_.SendText(std::move(text))) counted_ = std::move(sample);
+  if (client_.SendText(std::move(text))) {
+    counted_ = std::move(sample);
+  } else {
+    rates_.clear();  // all of them are told anew
+  }
   SendProfile();
 }
 

@@ -94,7 +94,7 @@ class ViewerSession final : public WebSession {
   SteadyTime rates_due_{};
   std::optional<CountSample> counted_;
   bool has_profile_ = false;  // that the viewer has been told
-  std::vector<double> rates_;  // as they were told, of counted_
+  std::vector<ToldRate> rates_;  // as they were told, of counted_
 };
 
 }  // namespace runnel::internal

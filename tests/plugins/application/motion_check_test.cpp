@@ -32,5 +32,26 @@ TEST(MotionCheck, IsContentWithAMarkAndWhereNothingMoves) {
   EXPECT_EQ(Checked("<module name='m' type='states/source'/>"), "");
 }
 
+constexpr const char* kShared =
+    "<thread name='control' period='10ms'/>\n"
+    "<module name='s' type='states/source'/>\n"
+    "<module name='t' type='states/source'/>\n"
+    "<module name='m' type='states/filter'/><driving port='m/queued'/>";
+
+TEST(MotionCheck, NamesAModuleThatDrivesAndSharesItsThread) {
+  EXPECT_THAT(Checked(kShared),
+              ::testing::AllOf(::testing::HasSubstr("app.xml:6:1: warning: /app/m: something moves by it, and the thread "
+                                                    "'control' runs 2 other modules"),
+                               ::testing::HasSubstr("give it a thread of its own: <thread name=\"drive\"")));
+}
+
+TEST(MotionCheck, IsContentWithAThreadOfItsOwnAndOnASimulatedClock) {
+  EXPECT_EQ(Checked("<thread name='control' period='10ms'/><thread name='drive' period='10ms'/>\n"
+                    "<module name='s' type='states/source' thread='control'/>\n"
+                    "<module name='m' type='states/filter' thread='drive'/><driving port='m/queued'/>"),
+            "");
+  EXPECT_EQ(Checked(std::string("<clock type='simulated'/>") + kShared), "");
+}
+
 }  // namespace
 }  // namespace runnel::test

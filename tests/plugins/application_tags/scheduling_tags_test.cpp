@@ -7,6 +7,7 @@
 #include "plugins/application_tags/run_description.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/structure/structure_editor.h"
 #include "tests/plugins/application_files/reading/test_application.h"
 
 namespace runnel::testing {
@@ -37,6 +38,22 @@ struct SchedulingTags : ::testing::Test, Workshop {
     Add<Counter>("test/counter");
     Add<Bomb>("test/bomb");
   }
+};
+
+/// Does what the application's rules say.
+struct Supervision {
+  Supervision(Workshop& shop, const FrameworkElement& application)
+      : scheduler(shop.runtime, SchedulerOptionsOf(application)),
+        editor(shop.runtime, shop.plugins.modules(), &scheduler),
+        supervisor(shop.runtime, scheduler, [this](const ChangeSet& changes) -> Result<void> {
+          const ChangeOutcome outcome = editor.Apply(changes);
+          return outcome ? Result<void>() : outcome.diagnostics.errors().front();
+        }) {
+    EXPECT_TRUE(AddRules(application, scheduler, supervisor));
+  }
+  Scheduler scheduler;
+  StructureEditor editor;
+  Supervisor supervisor;
 };
 
 TEST_F(SchedulingTags, MakeThreadsBelowTheApplication) {
@@ -171,12 +188,12 @@ TEST_F(SchedulingTags, SayWhatHappensOnFaults) {
   ASSERT_TRUE(application) << diagnostics.ToString();
   const auto* const rules = application->FindAnnotation<RunRules>();
   ASSERT_TRUE(rules);
-  ASSERT_EQ(rules->fault_rules.size(), 2u);
-  EXPECT_EQ(rules->fault_rules[0].of, "/demo/robot/bomb");
-  EXPECT_EQ(rules->fault_rules[1].of, "/demo/robot");
+  ASSERT_EQ(rules->rules.size(), 2u);
+  EXPECT_EQ(rules->rules[0].of, "/demo/robot/bomb");
+  EXPECT_EQ(rules->rules[1].of, "/demo/robot");
 
-  Scheduler scheduler(runtime, SchedulerOptionsOf(*application));
-  for (const FaultRule& rule : rules->fault_rules) scheduler.AddFaultRule(rule);
+  Supervision supervision(*this, *application);
+  Scheduler& scheduler = supervision.scheduler;
   EXPECT_FALSE(scheduler.RunUntil(Time(std::chrono::seconds(1))));
   EXPECT_TRUE(scheduler.stop_requested());
   EXPECT_EQ(Get<Source>("/demo/source").gain.Get(), 7.0);
@@ -191,15 +208,14 @@ TEST_F(SchedulingTags, AFaultRuleWhoseParameterIsGoneIsReported) {
     <on_fault of="bomb" set="source/gain" value="7"/>
   </application>)");
   ASSERT_TRUE(application) << diagnostics.ToString();
-  Scheduler scheduler(runtime, SchedulerOptionsOf(*application));
-  scheduler.AddFaultRule(application->FindAnnotation<RunRules>()->fault_rules.at(0));
+  Supervision supervision(*this, *application);
   ASSERT_TRUE(runtime.Delete(Get<Source>("/demo/source")));
-  scheduler.RunUntil(Time(std::chrono::seconds(1)));
-  const auto faults = scheduler.TakeFaults();
-  ASSERT_EQ(faults.size(), 2u);
-  EXPECT_EQ(faults[1].path, "/demo/bomb");
-  EXPECT_EQ(faults[1].message.find("the fault rule failed: "), 0u) << faults[1].message;
-  EXPECT_NE(faults[1].message.find("no 'source' in /demo"), std::string::npos) << faults[1].message;
+  supervision.scheduler.RunUntil(Time(std::chrono::seconds(1)));
+  const auto notices = supervision.supervisor.TakeNotices();
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_EQ(notices[0].path, "/demo/bomb");
+  EXPECT_TRUE(notices[0].is_failure);
+  EXPECT_NE(notices[0].message.find("no 'source' in /demo"), std::string::npos) << notices[0].message;
 }
 
 TEST_F(SchedulingTags, TellWhatIsWrongWithFaultRules) {

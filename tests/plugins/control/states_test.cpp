@@ -153,6 +153,16 @@ TEST_F(StatesTest, AModuleThatDoesNotReturnIsTold) {
   WaitUntil("it is well again", [&] { return State().find("STUCK") == std::string::npos; });
 }
 
+TEST_F(StatesTest, ADrivingPortThatNoStopReachesIsTold) {
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+  }
+  ASSERT_TRUE(scheduler.SetPaused("/app/b", true));
+  EXPECT_EQ(State(), "running, 1 driving port CANNOT BE REACHED, 1 module PAUSED");
+  EXPECT_THAT(Ask("ls /b").output, HasSubstr(", driving, CANNOT BE REACHED: /app/b is paused"));
+}
+
 TEST_F(StatesTest, AThreadThatOverrunsIsTold) {
   Register<Slow>("test/slow");
   ASSERT_EQ(Change("create thread busy period=1ms\ncreate /slow test/slow\nmove /slow to busy").code, 0);

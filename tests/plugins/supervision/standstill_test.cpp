@@ -55,8 +55,9 @@ TEST_F(Driven, WhatAPersonHasSetStaysAndWhatIsReleasedMeanwhileIsSafeAgain) {
 }
 
 TEST_F(Driven, WhatARuleHasSetIsTheRulesToTakeBack) {
-  robot.supervisor.Add(
-      PauseReaction{.of = "/infrared", .on_pause = {.published = {{"/reader/in", "5"}}}});
+  MustSucceed(robot.supervisor.Add(SupervisionRule{.when = SupervisionRule::When::kPaused,
+                                                   .of = "/infrared",
+                                                   .reaction = {.published = {{"/reader/in", "5"}}}}));
   MustSucceed(robot.supervisor.SetPaused("/laser", true));
   MustSucceed(robot.supervisor.SetPaused("/infrared", true));
   RunOn();
@@ -86,6 +87,46 @@ TEST(StandstillInRealTime, APortHasItsSafeValueWhileTheThreadOfWhatFeedsItIsStuc
   hangs = false;
   hangs.notify_all();
   WaitUntil("the laser is seen again", [&] { return robot.seen == 1; });
+  robot.scheduler.Stop();
+}
+
+TEST_F(Driven, ThatNoStopReachesAPortIsToldWhileItsOwnModuleIsPausedAndThatOneDoesAgain) {
+  MustSucceed(robot.supervisor.SetPaused("/reader", true));
+  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("cannot be reached: /reader is paused; until it runs, no STOP counts there")));
+  RunOn();
+  EXPECT_THAT(robot.Messages(), IsEmpty());
+  MustSucceed(robot.supervisor.SetPaused("/reader", false));
+  RunOn();
+  EXPECT_THAT(robot.Messages(), ElementsAre("can be reached again"));
+}
+
+// Long before a rule would tell that the module is stuck.
+TEST(StandstillInRealTime, ThatNoStopReachesAPortIsToldWhileItsThreadIsStuck) {
+  Robot robot(SchedulerOptions::ClockKind::kReal);
+  std::atomic<bool> hangs{false};
+  auto& other = robot.runtime.Create<Doing>(robot.runtime.root(), "other");
+  other.action = [&](Doing&) { hangs.wait(true); };
+  auto& apart = CreateThread(robot.runtime, "apart", {.period = 10ms});
+  AssignThread(other, apart);
+  AssignThread(robot.reader, apart);
+  MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+  MustSucceed(robot.scheduler.SetStuckLimit("", 1h));
+  MustSucceed(robot.scheduler.Start());
+  WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
+  hangs = true;
+  std::vector<std::string> told;
+  WaitUntil("it is told", [&] { return !(told = robot.Messages()).empty(); });
+  EXPECT_THAT(told, ElementsAre(HasSubstr("cannot be reached: a module of /threads/apart, which runs /reader, does not return")));
+  {
+    const std::lock_guard lock(robot.runtime.structure_mutex());
+    EXPECT_THAT(robot.scheduler.WhyUnreached(robot.reader.in), HasSubstr("does not return"));
+    EXPECT_EQ(robot.scheduler.WhyUnreached(robot.laser.in), "");
+  }
+  hangs = false;
+  hangs.notify_all();
+  WaitUntil("it is well again", [&] { return !(told = robot.Messages()).empty(); });
+  EXPECT_THAT(told, ElementsAre("can be reached again"));
   robot.scheduler.Stop();
 }
 

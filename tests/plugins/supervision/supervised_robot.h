@@ -31,13 +31,13 @@ struct Robot {
     MustSucceed(Port::Connect(laser.out, reader.in));
     MustSucceed(runtime.MakeReady(runtime.root()));
   }
-  StaleRule SwitchingRule() {
-    return {.input = reader.in.path(),
+  SupervisionRule SwitchingRule() {
+    return {.of = reader.in.path(),
             .after = 30ms,
             .fresh_after = 50ms,
-            .on_stale = {.changes = Switch(reader.in, laser.out, infrared.out),
+            .reaction = {.changes = Switch(reader.in, laser.out, infrared.out),
                          .description = "switched to infrared"},
-            .on_fresh = {.changes = Switch(reader.in, infrared.out, laser.out),
+            .otherwise = {.changes = Switch(reader.in, infrared.out, laser.out),
                          .description = "switched to the laser"}};
   }
   std::vector<std::string> Messages() {

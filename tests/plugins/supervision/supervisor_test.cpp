@@ -60,10 +60,11 @@ TEST_F(Supervised, InputsAreNotFreshBeforeTheyHaveBeenForAWhile) {
 }
 
 TEST_F(Supervised, AModuleThatThrowsIsAnsweredAtOnce) {
-  robot.supervisor.Add(
-      FaultReaction{robot.laser.path(),
-                    {.changes = Switch(robot.reader.in, robot.laser.out, robot.infrared.out),
-                     .description = "switched to infrared"}});
+  MustSucceed(robot.supervisor.Add(
+      SupervisionRule{.when = SupervisionRule::When::kFault,
+                      .of = robot.laser.path(),
+                      .reaction = {.changes = Switch(robot.reader.in, robot.laser.out, robot.infrared.out),
+                                   .description = "switched to infrared"}}));
   robot.scheduler.RunUntil(At(50));
   robot.laser_throws = true;
   robot.scheduler.RunUntil(At(70));
@@ -73,8 +74,8 @@ TEST_F(Supervised, AModuleThatThrowsIsAnsweredAtOnce) {
 }
 
 TEST_F(Supervised, AReactionMayEndTheRun) {
-  StaleRule rule = robot.SwitchingRule();
-  rule.on_stale = {.stops_application = true};
+  SupervisionRule rule = robot.SwitchingRule();
+  rule.reaction = {.stops_application = true};
   MustSucceed(robot.supervisor.Add(rule));
   robot.laser_works = false;
   EXPECT_FALSE(robot.scheduler.RunUntil(At(1000)));
@@ -83,8 +84,8 @@ TEST_F(Supervised, AReactionMayEndTheRun) {
 }
 
 TEST_F(Supervised, WhatCannotBeDoneIsToldAndTheRestRunsOn) {
-  StaleRule rule = robot.SwitchingRule();
-  rule.on_stale.changes = {ConnectPorts{"/infrared/nothing", robot.reader.in.path()}};
+  SupervisionRule rule = robot.SwitchingRule();
+  rule.reaction.changes = {ConnectPorts{"/infrared/nothing", robot.reader.in.path()}};
   MustSucceed(robot.supervisor.Add(rule));
   robot.laser_works = false;
   EXPECT_TRUE(robot.scheduler.RunUntil(At(200)));
@@ -95,10 +96,10 @@ TEST_F(Supervised, WhatCannotBeDoneIsToldAndTheRestRunsOn) {
 }
 
 TEST_F(Supervised, RulesForWhatIsNotThereAreRefused) {
-  StaleRule rule = robot.SwitchingRule();
-  rule.input = "/reader/inn";
+  SupervisionRule rule = robot.SwitchingRule();
+  rule.of = "/reader/inn";
   EXPECT_FALSE(robot.supervisor.Add(rule));
-  rule.input = robot.infrared.in.path();  // nothing feeds it
+  rule.of = robot.infrared.in.path();  // nothing feeds it
   const auto added = robot.supervisor.Add(rule);
   ASSERT_FALSE(added);
   EXPECT_THAT(added.error().message, HasSubstr("nothing is connected"));
@@ -108,7 +109,7 @@ TEST_F(Supervised, RulesForWhatIsNotThereAreRefused) {
 }
 
 TEST_F(Supervised, ATimeOutOfCenturiesNeverComes) {
-  StaleRule rule = robot.SwitchingRule();
+  SupervisionRule rule = robot.SwitchingRule();
   rule.after = Duration::max();
   MustSucceed(robot.supervisor.Add(rule));
   robot.scheduler.RunUntil(At(100));
@@ -119,10 +120,10 @@ TEST_F(Supervised, ATimeOutOfCenturiesNeverComes) {
 }
 
 TEST_F(Supervised, ARuleThatTakesItsValueBackLeavesWhatAPersonHasSet) {
-  StaleRule rule = robot.SwitchingRule();
-  rule.on_stale = {.published = {{robot.reader.in.path(), "5"}}};
-  rule.on_fresh = {};
-  rule.on_fresh.TakeBack(rule.on_stale);
+  SupervisionRule rule = robot.SwitchingRule();
+  rule.reaction = {.published = {{robot.reader.in.path(), "5"}}};
+  rule.otherwise = {};
+  rule.otherwise.TakeBack(rule.reaction);
   MustSucceed(robot.supervisor.Add(rule));
   robot.laser_works = false;
   robot.scheduler.RunUntil(At(100));
@@ -141,9 +142,9 @@ TEST_F(Supervised, ARuleThatTakesItsValueBackLeavesWhatAPersonHasSet) {
 }
 
 TEST_F(Supervised, ARuleThatCannotTakeItsValueBackSaysSo) {
-  StaleRule rule = robot.SwitchingRule();
-  rule.on_stale = {.published = {{robot.reader.in.path(), "5"}}};
-  rule.on_fresh = {.released = {"/was_renamed/in"}};
+  SupervisionRule rule = robot.SwitchingRule();
+  rule.reaction = {.published = {{robot.reader.in.path(), "5"}}};
+  rule.otherwise = {.released = {"/was_renamed/in"}};
   MustSucceed(robot.supervisor.Add(rule));
   robot.laser_works = false;
   robot.scheduler.RunUntil(At(100));
@@ -185,10 +186,10 @@ TEST_F(Supervised, AModuleThatRunsOnDataIsSetOffByTheSourceThatItIsSwitchedTo) {
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
   latched.out.Publish(3);
   MustSucceed(robot.supervisor.Add(
-      {.input = listener.in.path(),
-       .after = 30ms,
-       .fresh_after = 50ms,
-       .on_stale = {.changes = Switch(listener.in, robot.laser.out, latched.out)}}));
+      SupervisionRule{.of = listener.in.path(),
+                      .after = 30ms,
+                      .fresh_after = 50ms,
+                      .reaction = {.changes = Switch(listener.in, robot.laser.out, latched.out)}}));
   robot.scheduler.RunUntil(At(95));
   robot.laser_works = false;
   const int runs_then = runs;

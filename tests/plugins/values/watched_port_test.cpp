@@ -119,6 +119,34 @@ TEST_F(WatchedPortTest, ShowsTheSafeValueOfAnInputThatIsStopped) {
   EXPECT_EQ(Look(input), 3);
 }
 
+// As its readers find it; and so does who looks behind it.
+TEST_F(WatchedPortTest, ShowsTheSafeValueOfAnOutputThatIsStopped) {
+  auto& border = runtime.Create<ProxyPort>(app, "border", Port::Direction::kOutput, TypeOf<int>());
+  ASSERT_TRUE(Port::Connect(source.out, border));
+  ASSERT_TRUE(source.out.SetDriving(true, AnyValue(-1)));
+  WatchedPort output("/app/source/output/out");
+  WatchedPort behind("/app/border");
+  const auto look = [&] { return std::array{Look(output), Look(behind)}; };
+  const auto shown = [&] {
+    const std::lock_guard lock(runtime.structure_mutex());
+    int found = 0;
+    EXPECT_TRUE(VisitShown(source.out, [&](const void* value, Time) { found = *static_cast<const int*>(value); }));
+    return found;
+  };
+  ASSERT_TRUE(runtime.robot_stop().Press("a test"));
+  EXPECT_THAT(look(), Each(Optional(-1))) << "before anything has been published";
+  source.out.Publish(1);
+  EXPECT_THAT(look(), Each(Optional(-1)));
+  EXPECT_EQ(shown(), -1);
+  ASSERT_TRUE(runtime.robot_stop().Release("a test"));
+  EXPECT_THAT(look(), Each(Optional(-1))) << "what is from before the release does not count";
+  source.out.Publish(2);
+  EXPECT_THAT(look(), Each(Optional(2)));
+  EXPECT_EQ(shown(), 2);
+  ASSERT_TRUE(runtime.robot_stop().Press("a test"));
+  EXPECT_THAT(look(), Each(Optional(-1))) << "at once, though nothing new is published";
+}
+
 TEST_F(WatchedPortTest, ShowsTheValueOfAnotherSource) {
   Source& other = runtime.Create<Source>(app, "other");
   Input<int> in(app, "in");

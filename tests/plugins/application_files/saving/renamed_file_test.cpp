@@ -61,15 +61,5 @@ TEST_F(RenamedFile, WhatIsRenamedIsRenamedInPlaceWithAllThatNamesIt) {
   EXPECT_EQ(Text(), With("from=\"origin/", "from=\"source/", With("name=\"origin\"", "name=\"source\"", wanted)));
 }
 
-TEST_F(RenamedFile, RulesThatNameWhatIsRenamedAreTold) {
-  Load();
-  const std::lock_guard lock(shop_.runtime.structure_mutex());
-  const auto rules = RulesThatName(Get<FrameworkElement>("/demo/inner"), kFile, "app.xml", PathAttributesIn(shop_.tags));
-  ASSERT_EQ(rules.size(), 1U);
-  EXPECT_THAT(rules[0].message, HasSubstr("<on_fault of=\"inner/filter\">"));
-  EXPECT_EQ(rules[0].position.line, 22);
-  EXPECT_TRUE(RulesThatName(Get<FrameworkElement>("/demo/source"), kFile, "app.xml", PathAttributesIn(shop_.tags)).empty());
-}
-
 }  // namespace
 }  // namespace runnel::testing

@@ -48,6 +48,7 @@ export function PortDetails({ element }) {
       ['topic', element.topic], ['state', element.far && element.state], ['why', element.misfit], ['heard', element.master],
       ...(element.offers ?? []).map(({ topic, readers, misfit, is_stopped }) => ['offered', `${topic}${readers.length > 0 ? `, read by ${readers.join(', ')}` : ''}${is_stopped ? ', STOPPED: its safe value is sent' : ''}${misfit ? `; ${misfit}` : ''}`]),
       ['drives', element.driving ? 'something moves by it: under the STOP of the robot' : ''],
+      ['CANNOT BE REACHED', element.unreached ? `no STOP counts there: ${element.unreached}` : ''],
       ['blocked', element.blocked ? 'readers find its safe value, until it is released' : ''],
       ['set by hand', element.by_hand ? 'what is published is not read' : ''],
     ]} />
