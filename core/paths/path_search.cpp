@@ -6,6 +6,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
+#include "core/element/former_name.h"
 #include "core/paths/distant_ports.h"
 
 namespace runnel {
@@ -126,7 +127,7 @@ PathEnd PathSearch::FollowShort(FrameworkElement& module, std::string_view name,
   const std::vector<FrameworkElement*> parts = PartsOf(module, kind);
   std::vector<FrameworkElement*> called = parts;
   std::erase_if(called, [&](const auto* part) { return part->name() != name; });
-  if (called.empty() && kind == PathKind::kInput) {
+  if (called.empty() && kind != PathKind::kOutput) {
     if (const auto fed = FindConfigurable(module, name)) return {fed.element, fed.element};
   }
   if (called.empty()) return Missing(module, name, NamesOf(parts, kind));
@@ -215,6 +216,10 @@ std::vector<ConfigurableElement> ConfigurablesOf(const FrameworkElement& module)
 ConfigurableElement FindConfigurable(const FrameworkElement& module, std::string_view name) {
   for (const ConfigurableElement& each : ConfigurablesOf(module)) {
     if (each.element->name() == name) return each;
+  }
+  for (const ConfigurableElement& each : ConfigurablesOf(module)) {
+    const auto* const former = each.element->FindAnnotation<FormerName>();
+    if (former != nullptr && former->name == name) return each;
   }
   return {};
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/element/former_name.h"
 #include "core/module/group_parameter.h"
 #include "core/paths/path_search.h"
 #include "plugins/application_files/build_context.h"
@@ -21,8 +22,8 @@ const FrameworkElement* NearestSection(const FrameworkElement& element) {
 }
 
 // "/car/left/motor/radius" of /robot/left/motor/parameter/radius, if /robot/left has the section /car/left.
-std::string EntryOf(const FrameworkElement& parameter, const FrameworkElement& section) {
-  std::string path = "/" + parameter.name();
+std::string EntryOf(const FrameworkElement& parameter, const std::string& name, const FrameworkElement& section) {
+  std::string path = "/" + name;
   for (const FrameworkElement* at = parameter.parent(); at != &section; at = at->parent()) {
     if (at->kind() != ElementKind::kPortGroup) path = "/" + at->name() + path;
   }
@@ -33,7 +34,12 @@ std::string EntryOf(const FrameworkElement& parameter, const FrameworkElement& s
 void TakeEntry(FrameworkElement& element, Configurable& parameter, const FrameworkElement& section,
                BuildContext& context) {
   if (element.FindAnnotation<ConfigurationEntry>() != nullptr) return;
-  const std::string path = EntryOf(element, section);
+  std::string path = EntryOf(element, element.name(), section);
+  const auto* const former = element.FindAnnotation<FormerName>();
+  if (former != nullptr && context.configuration().FindEntry(path) == nullptr) {
+    const std::string old_path = EntryOf(element, former->name, section);
+    if (context.configuration().FindEntry(old_path) != nullptr) path = old_path;
+  }
   element.Annotate(std::make_unique<ConfigurationEntry>(path));
   if (context.IsFromCommandLine(element)) return;
   const Configuration::Entry* const entry = context.configuration().FindEntry(path);

@@ -169,9 +169,9 @@ bool IsAsLoaded(const ConfigurableElement& parameter, const std::string* loaded)
   return text == (loaded != nullptr ? *loaded : parameter.configurable->info().default_value);
 }
 
-bool HasTag(XmlElement module_tag, const std::string& name) {
+bool HasTag(XmlElement module_tag, const FrameworkElement& module, const FrameworkElement& parameter) {
   return std::ranges::any_of(module_tag.children(), [&](XmlElement child) {
-    return child.name() == "parameter" && internal::NameOf(child) == name;
+    return child.name() == "parameter" && FindConfigurable(module, internal::NameOf(child)).element == &parameter;
   });
 }
 
@@ -194,7 +194,7 @@ std::vector<NewElement> MissingGroupParameters(const XmlElement* tag, FrameworkE
   for (const FrameworkElement* child : group.children()) {
     const auto* const parameter = dynamic_cast<const GroupParameter*>(child);
     if (parameter == nullptr) continue;
-    if (tag != nullptr && HasTag(*tag, child->name())) continue;
+    if (tag != nullptr && HasTag(*tag, group, *parameter)) continue;
     std::string targets;
     for (const std::string& each : parameter->targets())
       targets += (targets.empty() ? "" : " ") + each;
@@ -209,6 +209,8 @@ void UpdateParameter(XmlElement tag, FrameworkElement& module, internal::FileUpd
   const ConfigurableElement parameter = FindConfigurable(module, internal::NameOf(tag));
   if (!parameter) return update.editor().Remove(tag);
   const std::string path = parameter.element->path();
+  const std::string& name = parameter.element->name();
+  if (name != internal::NameOf(tag) && !update.is_of_part()) update.editor().SetAttribute(tag, "name", name);
   const std::string* const loaded = update.LoadedValue(path);
   update.saving().values[path] = parameter.configurable->ToText();
   if (loaded == nullptr || !IsAsLoaded(parameter, loaded)) {
@@ -229,7 +231,7 @@ std::vector<NewElement> MissingParameters(const XmlElement* tag, FrameworkElemen
   if (!IsModule(module)) return MissingGroupParameters(tag, module);
   std::vector<NewElement> missing;
   for (const ConfigurableElement& each : ConfigurablesOf(module)) {
-    if (tag != nullptr && HasTag(*tag, each.element->name())) continue;
+    if (tag != nullptr && HasTag(*tag, module, *each.element)) continue;
     const std::string path = each.element->path();
     // It may have been set from outside of the part that the module is in.
     const std::string* const loaded = update != nullptr ? update->LoadedValue(path) : nullptr;

@@ -28,7 +28,13 @@ constexpr auto kNameOfDeclared = &std::pair<const std::string, TagUse>::first;
 
 Configurable* FindParameter(const TagUse& use, const FrameworkElement& module) {
   const XmlAttribute& name = use.Get("name");
-  if (const auto found = FindConfigurable(module, name.value)) return found.configurable;
+  if (const auto found = FindConfigurable(module, name.value)) {
+    if (found.element->name() != name.value) {
+      use.context.Warn({.message = "'" + name.value + "' is called '" + found.element->name() + "' now"},
+                       name.value_position, module);
+    }
+    return found.configurable;
+  }
   const auto name_of = [](const auto& each) { return each.element->name(); };
   use.context.Report(
       {.message = "there is no parameter '" + name.value + "'",

@@ -5,6 +5,8 @@
 
 namespace runnel::genom_execution {
 
+class Request;
+
 /// What a codel returns: the address of a name, nullptr for "done". Two events are the same if their addresses are.
 using Event = const char*;
 
@@ -15,6 +17,7 @@ struct CodelContext {
   Event (*raise)(Event exception, const void* detail, std::size_t size, const CodelContext* self);
   /// The exception that a remote's call has raised last, and its detail.
   const void* (*raised)(Event* exception, const CodelContext* self);
+  Request* request = nullptr;  ///< of whose activity the codel is; nullptr: of a permanent one. Codels in C do not see it
 };
 
 /// What the engine itself raises. Their details are words: see Outcome.

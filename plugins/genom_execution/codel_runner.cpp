@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "plugins/genom_execution/engine.h"
+#include "plugins/genom_execution/request.h"
 
 namespace runnel::genom_execution {
 
@@ -71,7 +72,7 @@ bool CodelRunner::Enter(std::size_t unit) noexcept {
   return true;
 }
 
-bool CodelRunner::Run(std::size_t codel, void* data, Event& event) {
+bool CodelRunner::Run(std::size_t codel, Request* request, Event& event) {
   const CodelTable& table = engine_.component().codels[codel];
   const AsyncWork::State async = work_.state_.load(std::memory_order_acquire);
   if (async == AsyncWork::State::kGiven) return false;
@@ -79,6 +80,8 @@ bool CodelRunner::Run(std::size_t codel, void* data, Event& event) {
     if (!Enter(codel)) return false;
     raising_.exception = nullptr;
     raising_.size = 0;
+    raising_.context.request = request;
+    void* const data = request != nullptr ? request->data() : nullptr;
     const Invocation invocation{engine_.options().ids, data, &raising_.context};
     if (!table.is_async || engine_.options().run_async == nullptr) {
       const Leaving leaving(*this);

@@ -42,7 +42,8 @@ class CodelRunner {
 
   /// Runs the codel if it may, and says what it returned. False: it may not run yet, or is being run by another
   /// thread; the same call is to be made again later, and nothing else meanwhile.
-  [[nodiscard]] bool Run(std::size_t codel, void* data, Event& event);
+  /// `request`: of whose activity it is; nullptr for permanent ones.
+  [[nodiscard]] bool Run(std::size_t codel, Request* request, Event& event);
   /// The same for an attribute's values.
   [[nodiscard]] bool Assign(const ServiceTable& attribute, void* data);
   /// The exception that the last codel has returned, with its detail, if it is one of these; else false.

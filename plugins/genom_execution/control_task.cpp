@@ -168,7 +168,7 @@ bool ControlTask::RunCodels(std::span<const std::uint16_t> codels) {
   Request& request = *request_;
   while (request.outcome().is_success() && position_ < codels.size()) {
     Event event = nullptr;
-    if (!runner_.Run(codels[position_], request.data(), event)) return false;
+    if (!runner_.Run(codels[position_], &request, event)) return false;
     ++position_;
     if (event == nullptr) continue;
     if (!runner_.TakeException(event, request.service().throws, request.outcome_)) {

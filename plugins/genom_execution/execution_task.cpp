@@ -112,8 +112,7 @@ bool ExecutionTask::RunCodels() {
     // acquire: the control task may just be making it.
     if (slot.phase.load(std::memory_order_acquire) != Phase::kRunning || slot.is_paused) continue;
     Event event = nullptr;
-    void* const data = slot.request != nullptr ? slot.request->data() : nullptr;
-    if (!runner_.Run(slot.machine->states[slot.state].codel, data, event)) return false;
+    if (!runner_.Run(slot.machine->states[slot.state].codel, slot.request, event)) return false;
     Follow(slot, event);
   }
   goes_on_ = false;

@@ -7,12 +7,14 @@
 #include "core/base/exception_text.h"
 #include "core/element/runtime.h"
 #include "core/module/hand_over.h"
+#include "core/port/cycle.h"
 
 namespace runnel::genom_modules {
 
 using genom_execution::Engine;
 using genom_execution::ExecutionTask;
 using genom_execution::Pass;
+using genom_execution::Request;
 
 namespace {
 
@@ -131,6 +133,18 @@ void ComponentModule::Update() {
   if (const auto* failure = engine_->failure()) {
     throw std::runtime_error("a permanent activity has ended by " + failure->Text(component_));
   }
+}
+
+Time ComponentModule::StampFor(const Request* writer) const noexcept {
+  const Cycle* const cycle = CurrentCycle();
+  Time oldest = cycle != nullptr ? std::min(cycle->now, cycle->stamp) : now();
+  for (const PortReading* each : readings_) {
+    const Request* const reader = each->reader.load(std::memory_order_relaxed);
+    const bool is_under_way = reader != nullptr && reader->state() == Request::State::kAccepted;
+    if (reader != nullptr && reader != writer && (writer != nullptr || !is_under_way)) continue;
+    oldest = std::min(oldest, each->measured.load(std::memory_order_relaxed));
+  }
+  return oldest;
 }
 
 void ComponentModule::RunOwnTask(std::size_t task, Time time) noexcept {

@@ -19,6 +19,13 @@
 
 namespace runnel::genom_modules {
 
+/// Of an input: when the value that codels have of it was measured, and who has read it. Threads: any.
+struct PortReading {
+  // relaxed, both: each tells of itself.
+  std::atomic<Time> measured{Time::max()};
+  std::atomic<const genom_execution::Request*> reader{nullptr};
+};
+
 /// A component as a module: what the template `runnel` makes derives from it and adds ids, ports, services and
 /// parameters. Tasks run in the cycle of the module, each at its ticks, so the period of the module's thread divides
 /// theirs; or in cycles of other threads of the application, which the parameters thread_of_TASK name (TaskModule). A
@@ -37,6 +44,11 @@ class ComponentModule : public Module {
   [[nodiscard]] const genom_execution::ComponentTable& table() const noexcept { return component_; }
   [[nodiscard]] genom_execution::Engine& engine() noexcept { return *engine_; }
   void AddPart(ModulePart& part) { parts_.push_back(&part); }
+  /// In constructors.
+  void AddReading(const PortReading& reading) { readings_.push_back(&reading); }
+  /// What a codel of `writer` publishes now is as old as the oldest measurement that it may have part in: read by its
+  /// own activity or by a permanent one, in this cycle or before; for a permanent one, by any that is under way.
+  [[nodiscard]] Time StampFor(const genom_execution::Request* writer) const noexcept;
   /// A call of a service has been successful.
   void AfterCall(genom_execution::Request& request) {
     for (ModulePart* part : parts_) part->AfterCall(request);
@@ -81,6 +93,7 @@ class ComponentModule : public Module {
   std::deque<StaticParameter<std::string>> thread_names_;  // by tasks
   std::optional<genom_execution::Engine> engine_;
   std::vector<ModulePart*> parts_;
+  std::vector<const PortReading*> readings_;
   // By tasks: what wakes those that other threads run; none of those that run in the cycle of the module.
   std::vector<std::unique_ptr<WakeTarget>> own_tasks_;
   OwnPart own_part_{*this};

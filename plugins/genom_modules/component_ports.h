@@ -11,8 +11,16 @@
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "plugins/genom_modules/codel_values.h"
+#include "plugins/genom_modules/component_module.h"
 
 namespace runnel::genom_modules {
+
+/// That a port is of, or a group of ports below it.
+inline ComponentModule& ComponentOf(const FrameworkElement& port) {
+  FrameworkElement* at = port.parent();
+  while (dynamic_cast<ComponentModule*>(at) == nullptr) at = at->parent();
+  return dynamic_cast<ComponentModule&>(*at);
+}
 
 /// `port in`: read() fetches, data() has what was fetched last. What codels have is the view itself, or made of it.
 /// Threads: the codels', one at a time.
@@ -21,10 +29,14 @@ class InPort {
  public:
   template <typename Owner>
   InPort(Owner&& owner, const std::string& name, const std::string& description)
-      : input_(owner, name, {.description = description, .ageing = Ageing::kTimesOut}) {}
+      : input_(owner, name, {.description = description, .ageing = Ageing::kTimesOut}) {
+    ComponentOf(input_).AddReading(reading_);
+  }
 
-  void Fetch() {
+  void Fetch(const genom_execution::CodelContext& context) {
     fetched_ = input_.Read();
+    reading_.reader.store(context.request, std::memory_order_relaxed);
+    reading_.measured.store(fetched_ ? fetched_.timestamp() : Time::max(), std::memory_order_relaxed);
     if constexpr (!is_view) {
       if (fetched_) ToCodel(value_, *fetched_);
     }
@@ -42,6 +54,7 @@ class InPort {
   struct Nothing {};
   Input<View> input_;
   Lease<View> fetched_;
+  PortReading reading_;
   [[no_unique_address]] std::conditional_t<is_view, Nothing, Value> value_{};
 };
 
@@ -51,11 +64,11 @@ class OutPort {
  public:
   template <typename Owner>
   OutPort(Owner&& owner, const std::string& name, const std::string& description)
-      : output_(owner, name, {.description = description}) {}
+      : output_(owner, name, {.description = description}), component_(ComponentOf(output_)) {}
 
-  void Write() {
+  void Write(const genom_execution::CodelContext& context) {
     if constexpr (!is_view) ToView(view_, value_);
-    output_.Publish(view_);
+    output_.Publish(view_, component_.StampFor(context.request));
   }
   [[nodiscard]] Value* data() noexcept {
     if constexpr (is_view) {
@@ -68,6 +81,7 @@ class OutPort {
  private:
   struct Nothing {};
   Output<View> output_;
+  const ComponentModule& component_;
   View view_{};
   [[no_unique_address]] std::conditional_t<is_view, Nothing, Value> value_{};
 };

@@ -35,6 +35,8 @@ class FileUpdate {
 
   [[nodiscard]] Saving& saving() noexcept { return saving_; }
   [[nodiscard]] XmlEditor& editor() noexcept { return editor_; }
+  /// Whether the text is that of a group in several applications, in which nothing is changed.
+  [[nodiscard]] bool is_of_part() const noexcept { return part_ != nullptr; }
   /// What a parameter came to when the text was loaded; nullptr if it does not name it.
   [[nodiscard]] const std::string* LoadedValue(const std::string& path) const;
   /// The name of a file, which may have to be written otherwise, as the text goes to another folder.

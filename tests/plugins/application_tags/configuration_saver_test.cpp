@@ -74,6 +74,12 @@ TEST_F(ConfigurationSaver, SectionsAreForAllWithin) {
   EXPECT_EQ(Gain("/demo/engine"), 2);
 }
 
+TEST_F(ConfigurationSaver, EntriesMayHaveTheNameThatAParameterHadBefore) {
+  Load(kCar, R"(<configuration><section name="car"><section name="left"><section name="motor">
+    <value name="boost">7</value></section></section></section></configuration>)");
+  EXPECT_EQ(Gain("/demo/left/motor"), 7);
+}
+
 TEST_F(ConfigurationSaver, BoundsHoldForEntriesOfSections) {
   WriteAll(entries,
            R"(<configuration><section name="car"><section name="left"><section name="motor">

@@ -50,6 +50,12 @@ TEST_F(ParameterValues, ComeFromTheAuthorIfNobodySaysOtherwise) {
 
 TEST_F(ParameterValues, InTheFileBeatTheDefault) { EXPECT_EQ(BuiltGain(), 2.0); }
 
+TEST_F(ParameterValues, MayStandUnderTheNameThatTheParameterHadBefore) {
+  EXPECT_THAT(Said("<application name='demo'>\n<module name='a' type='test/source'>\n<parameter name='boost' value='4'/></module></application>"),
+              HasSubstr("app.xml:3:18: warning: /demo/a: 'boost' is called 'gain' now"));
+  EXPECT_EQ(workshop_.Get<Source>("/demo/a").gain.Get(), 4.0);
+}
+
 TEST_F(ParameterValues, MayHaveUnitsWhereverTheyStand) {
   const auto gain_of = [&](const std::string& value) {
     return Said(

@@ -56,6 +56,25 @@ TEST_F(ComponentTest, ReadsAndWritesItsPortsInItsPasses) {
   EXPECT_THAT(Newest("echo"), HasSubstr("x: 6"));
 }
 
+TEST_F(ComponentTest, PublishesWhatIsAsOldAsWhatItsActivityHasRead) {
+  const auto aimed_at = [&] {
+    Time stamp{};
+    PortAt("aimed").VisitLatest([&](const void*, ValueTimes times) { stamp = times.timestamp; });
+    return stamp;
+  };
+  const Time measured = rig.now();
+  rig.Feed("sighted", 2.5);
+  rig.RunCycles(2);
+  const auto look = Begin("look");
+  rig.RunCycles(6);
+  EXPECT_EQ(aimed_at(), measured) << "it was read in a cycle before, by another codel";
+  EXPECT_TRUE(ServiceAt("look").Abort());
+  rig.RunCycles(4);
+  const auto guess = Begin("guess");
+  rig.RunCycles(6);
+  EXPECT_GE(aimed_at() + 20ms, rig.now()) << "what has ended does not age what others do";
+}
+
 TEST_F(ComponentTest, HasMultiplePortsOfTheNamesThatAreGiven) {
   rig.Set("many", "[left, right]");
   rig.Set("copies", "[a]");

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/element/former_name.h"
 #include "core/element/runtime.h"
 #include "core/module/module.h"
 #include "core/port/input.h"
@@ -18,7 +19,9 @@ namespace runnel::testing {
 
 class Source final : public Module {
  public:
-  using Module::Module;
+  explicit Source(const Placement& placement) : Module(placement) {
+    gain.Annotate(std::make_unique<FormerName>("boost"));
+  }
   Output<double> value{this, "value"};
   Output<std::string> label{this, "label"};
   Parameter<double> gain{this, "gain", {.default_value = 1.0, .bounds = {0.0, 10.0}, .unit = "m"}};

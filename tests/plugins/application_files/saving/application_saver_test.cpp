@@ -41,6 +41,13 @@ TEST_F(ApplicationSaver, RewritesAChangedValueWithinItsQuotes) {
   EXPECT_EQ(Text(), With("'2.50'", "'3.5'"));
 }
 
+TEST_F(ApplicationSaver, WritesAParameterUnderItsNameOfToday) {
+  Load(With("'gain'", "'boost'"));
+  EXPECT_EQ(Text(), With("'gain'", "'gain'"));
+  ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
+  EXPECT_EQ(Text(), With("'2.50'", "'3.5'")) << "once";
+}
+
 TEST_F(ApplicationSaver, AddsAValueThatWasNotThere) {
   Load(With("    <parameter name='gain'   value='2.50'/>\n", ""));
   ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));

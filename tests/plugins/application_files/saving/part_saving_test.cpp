@@ -76,6 +76,16 @@ TEST_F(PartSaving, WritesAValueWithinAGroupForThatGroup) {
   EXPECT_EQ(second.Text(*again, folder_.path()), text);
 }
 
+TEST_F(PartSaving, LeavesNamesThatParametersHadBefore) {
+  std::string part = kPart;
+  part.replace(part.find("\"gain\" from"), 6, "\"boost\"");
+  WriteAll(folder_ / "part.xml", part);
+  SavingWorkshop second;
+  FrameworkElement* const again = second.Load(folder_ / "app.xml");
+  ASSERT_NE(again, nullptr);
+  EXPECT_EQ(second.Text(*again, folder_.path()), kApplication);
+}
+
 TEST_F(PartSaving, RefusesOtherChangesWithin) {
   ASSERT_TRUE(Port::Disconnect(shop_.Get<Port>("/demo/right/source/output/value"),
                                shop_.Get<Port>("/demo/right/sink/input/value")));

@@ -69,6 +69,21 @@ genom_event do_copy(const char from[8], const char to[8], double *value, const p
   return probe_ether;
 }
 
+genom_event do_look(const probe_sighted *sighted, const genom_context self) {
+  sighted->read(self);
+  return probe_aim;
+}
+
+genom_event do_aim(const probe_aimed *aimed, const genom_context self) {
+  aimed->write(self);
+  return probe_pause_aim;
+}
+
+genom_event do_guess(const probe_aimed *aimed, const genom_context self) {
+  aimed->write(self);
+  return probe_pause_start;
+}
+
 genom_event do_first(uint32_t turns, uint32_t *left, const genom_context self) {
   (void)self;
   *left = turns;
