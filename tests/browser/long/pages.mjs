@@ -8,7 +8,7 @@ const kLook = 20; // ms
 const kClaims = {
   // What a page says of STOP: 'free', 'in_force', or nothing that it claims to know.
   'the button': ({ stop }) => ({ free: 'free', in_force: 'in_force', nothing: 'in_force' })[stop],
-  'the stick': ({ chip }) => (chip === 'stopped' ? 'in_force' : ['unconfirmed', 'unknown', ''].includes(chip) ? undefined : 'free'),
+  'the stick': ({ chip }) => (chip === 'STOP' ? 'in_force' : chip === '' || /not (confirmed|known)/.test(chip) ? undefined : 'free'),
   'the values': ({ fresh }) => (fresh ? 'heard' : undefined),
 };
 
@@ -25,7 +25,7 @@ function Record() {
     const gap = Date.now() - ticked;
     ticked = Date.now();
     const text = (id) => document.querySelector(id)?.textContent ?? '';
-    const shows = { stop: document.querySelector('#stop-button')?.dataset.stop ?? '', chip: document.querySelector('[data-driving]')?.dataset.driving ?? '',
+    const shows = { stop: document.querySelector('#stop-button')?.dataset.stop ?? '', chip: text('[data-driving]'),
       fresh: /^connected/.test(text('#connection-state')) && !document.querySelector('.stale') };
     if (gap < 500 && JSON.stringify(shows) === last) return;
     last = JSON.stringify(shows);

@@ -30,7 +30,10 @@ namespace {
 
 class Search {
  public:
-  Search(std::uint64_t seed, std::uint64_t steps) : random_(seed), steps_(steps) { Build(); }
+  Search(std::uint64_t seed, std::uint64_t steps) : random_(seed), steps_(steps) {
+    plugins_.registry().Offer(tags_);
+    Build();
+  }
 
   StopSearchResult Run() {
     for (; result_.steps < steps_ && result_.violations.size() < 10; ++result_.steps) {
@@ -55,8 +58,6 @@ class Search {
     const auto folder = std::filesystem::path(RUNNEL_XML) / "apps";
     auto document = XmlDocument::Load((folder / "bug_demo.xml").string());
     if (!document) throw std::runtime_error(document.error().ToString());
-    XmlTagRegistry tags = ApplicationTags();
-    plugins_.registry().Offer(tags);
     Configuration configuration;
     for (const std::string argument : {"picture=", "world=" RUNNEL_XML "/worlds/rooms.xml"}) {
       if (auto added = configuration.AddArgument(argument); !added) {
@@ -64,7 +65,7 @@ class Search {
       }
     }
     const BuildOutcome built = BuildApplication(
-        *document, folder, {*runtime_, plugins_, tags, configuration}, BuildMode::kConstruct);
+        *document, folder, {*runtime_, plugins_, tags_, configuration}, BuildMode::kConstruct);
     if (built.application == nullptr) throw std::runtime_error(built.diagnostics.ToString());
     SchedulerOptions options = SchedulerOptionsOf(*built.application);
     options.speed = 0;
@@ -270,6 +271,7 @@ class Search {
   bool is_stopped_ = false;  // as it has to be, whatever the robot says
   std::optional<Time> released_at_;
 
+  XmlTagRegistry tags_ = ApplicationTags();
   PluginManager plugins_;
   std::optional<Runtime> runtime_;
   std::optional<Scheduler> scheduler_;
