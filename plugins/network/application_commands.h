@@ -1,22 +1,23 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "plugins/command_service/command_service.h"
 #include "plugins/network/network_link.h"
+#include "plugins/ros_services/service_endpoints.h"
 
 namespace runnel {
 
-/// Changes that one application has another one make, where that one's file allows it: lines of the language of changes, of
-/// which each answers by a text. "/<name>/runnel_commands" has a reader only in applications that allow something.
+/// Changes that one application has another one make, where that one's file allows it: the service "/<name>/runnel_commands",
+/// which takes a line of the language of changes and answers by a text. Only applications that allow something offer it.
 ///
 /// Threads:  Ask() under the structure lock; the rest, and destroying, by who made it. Changes are made by the worker of
 ///           the service, as those of terminals.
@@ -31,35 +32,37 @@ class ApplicationCommands {
   Result<std::optional<std::string>> Ask(const std::string& change);
 
  private:
-  /// One that has been asked, and what for.
-  struct Question;
+  /// One that has been asked.
+  struct Question {
+    std::chrono::steady_clock::time_point asked;  // by a client, last
+    std::unique_ptr<ServiceEndpoints> endpoints;
+  };
   /// One that is being carried out here.
   struct Errand {
-    std::string id;
+    CallId id;
     std::string text;  // "//planner has it done: set …"
     std::unique_ptr<PendingCommand> command;
   };
 
   ApplicationCommands(NetworkLink& link, NetworkElement& element, CommandService& service)
       : link_(link), element_(element), application_(element.parent()->path()), service_(service), tasks_(service.worker()) {}
-  void Hear(const std::string& message);
-  void Reply(const std::string& id, const CommandAnswer& answer);
-  void Tend();
-  [[nodiscard]] bool IsKnown(const std::string& id);
+  Result<std::unique_ptr<ServiceEndpoints>> Open(ServiceEndpoints::Side side, const std::string& name, std::function<void()> on_news);
+  Result<std::unique_ptr<ServiceEndpoints>> Begin(const std::string& name, const std::string& path, const Change& change);
+  void Serve();
+  void Begin(const ServiceMessage& request);
+  void Reply(const CallId& id, const CommandAnswer& answer);
   [[nodiscard]] std::optional<Error> WhyRefused(const ChangeSet& changes) const;
 
   NetworkLink& link_;
   NetworkElement& element_;
   const std::string application_;
   CommandService& service_;
+  std::uint32_t opened_ = 0;
+  std::map<std::string, Question> questions_;  // by their changes
   std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<Question>> questions_;  // by their changes; guarded by mutex_
-  std::uint64_t asked_ = 0;                                     // guarded by mutex_
-  std::deque<Errand> errands_;                                  // guarded by mutex_
-  std::mutex replying_;
-  std::deque<std::string> told_;  // the last replies; guarded by replying_, as the writer is
-  std::unique_ptr<WireWriter> replies_;
-  std::unique_ptr<WireReader> reader_;
+  std::unique_ptr<ServiceEndpoints> offered_;  // guarded by mutex_, as the rest
+  std::deque<CallId> known_;                   // the last that have come
+  std::deque<Errand> errands_;
   TaskGroup tasks_;
 };
 

@@ -17,7 +17,6 @@
 #include "plugins/network/network_engines.h"
 #include "plugins/network/network_link.h"
 #include "plugins/network/xml_network_tags.h"
-#include "plugins/network/xml_security_tag.h"
 #include "plugins/wire_shared_memory/shared_memory_wire.h"
 
 namespace runnel {

@@ -10,6 +10,7 @@
 #include "core/port/typed_ports.h"
 #include "core/types/type_info.h"
 #include "plugins/network/network_ports.h"
+#include "plugins/ros_messages/message_library.h"
 
 namespace runnel {
 
@@ -25,6 +26,15 @@ class TopicGroup final : public FrameworkElement {
 std::string HintFor(const TakeOptions& known, const TakeOptions& take, std::string otherwise) {
   if (known.field == take.field) return otherwise;
   return "of one topic one field is taken, or all of the message: 'runnel ros2 import' makes a type for that";
+}
+
+// Of the client itself, or of the first that an interface port passes on to.
+std::shared_ptr<const CallForm> FormOf(const Port& to) {
+  if (const auto* const form = to.FindAnnotation<ClientForm>()) return form->form;
+  for (const Port* const each : to.Sinks()) {
+    if (const auto* const form = each->FindAnnotation<ClientForm>()) return form->form;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -70,7 +80,7 @@ Result<void> NetworkElement::CheckIsOwn(const Port& port) const {
 Result<std::shared_ptr<const ValueForm>> NetworkElement::ValueFormOf(const TakeOptions& take, const TypeInfo& type) const {
   auto form = ValueForm::Make(type, take.as, {}, {}, options_.messages.get(), take.field);
   if (!form) return form.error();
-  if (const std::string why = (*form)->WhyNoReading(); !why.empty()) return Error{.message = why};
+  if (const std::string why = (*form)->codec->why_no_decoding(); !why.empty()) return Error{.message = why};
   return form;
 }
 
@@ -163,6 +173,36 @@ Result<UnlistedElement> NetworkElement::DropTake(Port& output) {
   if (gone) std::erase_if(takes_, [&](const Take& each) { return each.output == &output; });
   if (on_change_) on_change_();
   return gone;
+}
+
+void NetworkElement::AddServiceOffer(ServiceOfferOptions offer) {
+  options_.services.push_back(std::move(offer));
+  if (on_change_) on_change_();
+}
+
+Result<Port*> NetworkElement::AddServiceTake(const ServiceTakeOptions& take, const Port& client) {
+  const auto known =
+      std::ranges::find(service_takes_, take.service, [](const ServiceTake& each) { return each.options.service; });
+  if (known != service_takes_.end()) {
+    if (&known->output->type() == &client.type()) return known->output;
+    return Error{.message = "'" + take.service + "' is taken as " + known->output->type().name() + " already, and cannot be " +
+                            client.type().name() + " as well",
+                 .path = known->path};
+  }
+  auto calls = FormOf(client);
+  if (calls == nullptr) {
+    return Error{.message = "calls no service", .path = client.path(), .hint = "values of a topic: <take topic=\"…\" to=\"…\"/>"};
+  }
+  const MessageLibrary& messages = options_.messages != nullptr ? *options_.messages : MessageLibrary::Standard();
+  auto form = ServiceForm::Make(calls->arguments(), calls->reply(), take.as, messages);
+  if (!form) return form.error();
+  const auto output = MakeOutput(take.service, client.type());
+  if (!output) return output.error();
+  const auto service = std::make_shared<DistantService>(std::move(calls), std::move(*form));
+  DistantService::PublishBy(**output, service);
+  service_takes_.push_back({take, *output, (*output)->path(), service});
+  if (on_change_) on_change_();
+  return *output;
 }
 
 }  // namespace runnel

@@ -8,7 +8,7 @@
 #include "core/paths/path_search.h"
 #include "core/types/type_info.h"
 #include "plugins/network/network_link.h"
-#include "plugins/network_discovery/topic_names.h"
+#include "plugins/network_discovery/distant_type.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {

@@ -12,7 +12,7 @@
 #include "core/element/runtime.h"
 #include "plugins/network/network_ports.h"
 #include "plugins/network_discovery/distant_type.h"
-#include "plugins/wire/own_interfaces.h"
+#include "plugins/wire/reach_filter.h"
 
 namespace runnel {
 

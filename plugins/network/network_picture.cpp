@@ -4,7 +4,7 @@
 #include <map>
 
 #include "plugins/network/network_link.h"
-#include "plugins/network_discovery/topic_names.h"
+#include "plugins/network_discovery/distant_type.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel {

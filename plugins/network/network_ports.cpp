@@ -9,7 +9,7 @@
 #include "core/port/probe_port.h"
 #include "core/types/signal.h"
 #include "core/types/type_of.h"
-#include "plugins/network_discovery/topic_names.h"
+#include "plugins/network_discovery/distant_type.h"
 
 namespace runnel {
 
@@ -50,7 +50,7 @@ OfferedType NetworkPorts::Ask(const std::string& path, const TypeInfo* expected)
   OfferedType offered = find_type_(path, expected);
   if (expected == nullptr || offered.message.empty() || network_ == nullptr) return offered;
   const auto form = ValueForm::Make(*expected, offered.message, {}, {}, network_->options().messages.get());
-  if (form && (*form)->WhyNoReading().empty()) offered.type.type = expected;
+  if (form && (*form)->codec->why_no_decoding().empty()) offered.type.type = expected;
   return offered;
 }
 

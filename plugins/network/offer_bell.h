@@ -5,13 +5,12 @@
 #include <memory>
 #include <utility>
 
-#include "core/module/after_cycle.h"
 #include "core/channel/waker.h"
+#include "core/lockfree/wake_event.h"
+#include "core/module/after_cycle.h"
 #include "plugins/network/sending_turns.h"
 
 namespace runnel {
-
-class WakeEvent;
 
 /// Rung by who publishes values of a port that is offered: has them sent by the network's thread, or by the thread
 /// whose cycle it was in, when that has ended. Both send in turn (SendingTurns).
@@ -28,9 +27,15 @@ class OfferBell final : public Waker, private AfterCycleWork {
   OfferBell(std::shared_ptr<WakeEvent> wake, Send send) : wake_(std::move(wake)), send_(std::move(send)) {}
 
   /// A few nanoseconds, and a call of the system if the network's thread sleeps and is to send.
-  void Wake() noexcept override;
+  void Wake() noexcept override {
+    if (is_sent_after_cycles_.load(std::memory_order_relaxed) && DoAfterCycle()) return;
+    Ring();
+  }
   /// That the network's thread is to look at it again. Any thread.
-  void Ring() noexcept;
+  void Ring() noexcept {
+    turns_.Ring();
+    wake_->Notify();
+  }
   [[nodiscard]] bool has_rung() const noexcept { return turns_.has_rung(); }
   [[nodiscard]] bool Answer() noexcept { return turns_.Answer(); }
 
@@ -46,7 +51,15 @@ class OfferBell final : public Waker, private AfterCycleWork {
 
  private:
   void RunAfterCycle() noexcept override { TakeTurn(By::kCycle); }
-  void TakeTurn(By by) noexcept;
+  void TakeTurn(By by) noexcept {
+    // Who has come meanwhile may have stopped the robot. The network's thread may wait for the structure lock, so who has the
+    // turn sends the safe value before it lets go.
+    const auto look_again = [&] {
+      send_(By::kStop);
+      Ring();
+    };
+    turns_.Send([&] { send_(by); }, look_again);
+  }
 
   const std::shared_ptr<WakeEvent> wake_;
   const Send send_;

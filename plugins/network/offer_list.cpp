@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/element/element_path.h"
-#include "plugins/network_discovery/topic_names.h"
+#include "plugins/network_discovery/distant_type.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {

@@ -108,9 +108,9 @@ OfferedPort::~OfferedPort() {
 
 WireEndpointOptions OfferedPort::endpoint() const {
   WireEndpointOptions endpoint{.topic = DdsTopic(topic_),
-                               .type = form_->wire_type(),
+                               .type = form_->codec->dds_type(),
                                .qos = QosOf(options_.quality),
-                               .user_data = form_->user_data() + UnitText(options_.unit)};
+                               .user_data = form_->user_data + UnitText(options_.unit)};
   endpoint.qos.is_exclusive = options_.strength.has_value();
   endpoint.qos.strength = options_.strength.value_or(0);
   return endpoint;
@@ -206,7 +206,7 @@ void OfferedPort::SendBy(OfferBell::By by) {
 
 bool OfferedPort::Encode(const void* value, Time stamp, Octets& octets) {
   try {
-    form_->Write(value, stamp, octets);
+    form_->codec->Encode(value, stamp, octets);
   } catch (...) {
     Fail({.message = "a value cannot be sent: " + DescribeException()});
     octets.clear();

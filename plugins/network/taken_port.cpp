@@ -1,6 +1,7 @@
 #include "plugins/network/taken_port.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/base/exception_text.h"
@@ -11,6 +12,10 @@
 
 namespace runnel {
 
+namespace {
+constexpr std::size_t kMostGone = 64;
+}  // namespace
+
 TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock,
                      const DiscoveryTable& table)
     : output_(output),
@@ -18,7 +23,7 @@ TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const Va
       form_(std::move(form)),
       clock_(clock),
       table_(table),
-      endpoint_{.topic = DdsTopic(options_.topic), .type = form_->wire_type(), .user_data = form_->user_data()} {}
+      endpoint_{.topic = DdsTopic(options_.topic), .type = form_->codec->dds_type(), .user_data = form_->user_data} {}
 
 // As much as all of them offer, so that none is left out and nothing that they keep is missed.
 WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
@@ -63,11 +68,15 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
   {
     const std::lock_guard lock(mutex_);
     endpoint_.qos = qos;
-    for (Writer& each : writers_) each.before = each.newest;
+    MarkAsDelivered();
   }
   auto reader = participant.MakeReader(
       endpoint_, [this](const WireSample& sample) { Take(sample); },
-      [this](std::size_t count) { matched_.store(count, std::memory_order_relaxed); });
+      [this](std::size_t count) {
+        if (count >= matched_.exchange(count, std::memory_order_relaxed)) return;
+        const std::lock_guard lock(mutex_);
+        MarkAsDelivered();
+      });
   if (!reader) return reader.error();
   reader_ = std::move(*reader);
   return {};
@@ -77,10 +86,18 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
 TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
   auto known = std::ranges::find(writers_, handle, &Writer::handle);
   if (known != writers_.end() && known->is_looked_up) return *known;
-  if (known == writers_.end()) known = writers_.insert(known, Writer{handle});
+  const auto endpoint = table_.FindWriter(handle);
+  if (known == writers_.end()) {
+    ForgetGone(table_.Partners(endpoint_.topic, true));
+    Writer writer{handle};
+    const auto before = endpoint ? std::ranges::find(gone_, endpoint->id, &Writer::id) : gone_.end();
+    if (before != gone_.end()) writer.before = writer.newest = before->newest;
+    known = writers_.insert(writers_.end(), std::move(writer));
+  }
   Writer& writer = *known;
   writer.is_looked_up = true;
-  if (const auto endpoint = table_.FindWriter(handle)) {
+  if (endpoint) {
+    writer.id = endpoint->id;
     writer.fits = TypeMisfit(endpoint->options.user_data, endpoint_.user_data).empty();
     writer.has_simulated_time = table_.HasSimulatedTime(endpoint->participant);
     writer.application = table_.ApplicationName(endpoint->participant);
@@ -88,11 +105,18 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
   return writer;
 }
 
-// Under mutex_, as the next one.
+// Under mutex_, as the next two. What writers keep is delivered again to a reader that is made anew, and when a link comes back.
+void TakenPort::MarkAsDelivered() {
+  for (Writer& each : writers_) each.before = each.newest;
+}
+
 void TakenPort::ForgetGone(const std::vector<WireEndpoint>& writers) {
   const auto is_gone = [&](std::uint64_t handle) { return std::ranges::find(writers, handle, &WireEndpoint::handle) == writers.end(); };
   if (is_gone(chosen_)) chosen_ = 0;
-  std::erase_if(writers_, [&](const Writer& each) { return is_gone(each.handle); });
+  const auto has_gone = [&](const Writer& each) { return is_gone(each.handle); };
+  std::ranges::copy_if(writers_, std::front_inserter(gone_), has_gone);
+  gone_.resize(std::min(gone_.size(), kMostGone));
+  std::erase_if(writers_, has_gone);
   if (writers.size() < 2) come_in_turn_ = is_turn_told_ = false;
 }
 
@@ -137,7 +161,7 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       const std::lock_guard lock(mutex_);
       Writer& writer = Find(sample.writer);
       if (!writer.fits) return;
-      // What a writer keeps is delivered again to a reader that has been made anew.
+      // It has come before: it keeps the stamp, or arrival, that it had then.
       if (endpoint_.qos.is_latched && sample.source_time <= writer.before) return;
       writer.newest = std::max(writer.newest, sample.source_time);
       if (!IsHeard(sample.writer)) return;
@@ -150,7 +174,7 @@ void TakenPort::Take(const WireSample& sample) noexcept {
     const auto timestamp = options_.keeps_stamps && is_comparable ? std::optional(std::min(sent, now)) : std::nullopt;
     const auto published = output_.PublishFilled(
         [&](void* value) -> Result<void> {
-          const auto read = form_->Read(sample.octets, value, sample.holder);
+          const auto read = form_->codec->Decode(sample.octets, value, sample.holder);
           return read ? Result<void>() : read.error();
         },
         timestamp);

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -81,20 +82,22 @@ class TakenPort {
   static constexpr std::int64_t kNoTime = std::numeric_limits<std::int64_t>::min();
   /// What is known of who writes.
   struct Writer {
-    std::uint64_t handle;
+    std::uint64_t handle = 0;
+    WireId id = {};
     bool fits = true;                 // by its type
     bool has_simulated_time = false;  // which says nothing here
     std::string application = {};     // of Runnel that has it; else ""
     WriterClock clock = {};
     bool is_looked_up = true;         // since Follow()
     std::int64_t newest = kNoTime;    // by its own time: of what has come
-    std::int64_t before = kNoTime;    // of that, by the reader of before
+    std::int64_t before = kNoTime;    // of that, by the reader of before, or before the link was lost
   };
   [[nodiscard]] Writer& Find(std::uint64_t handle);
   void Take(const WireSample& sample) noexcept;
   [[nodiscard]] bool ChoosesItself() const noexcept { return options_.is_exclusive && !endpoint_.qos.is_exclusive; }
   [[nodiscard]] bool IsHeard(std::uint64_t writer);
   void ForgetGone(const std::vector<WireEndpoint>& writers);
+  void MarkAsDelivered();
   [[nodiscard]] WireQos WantedQos(const std::vector<WireEndpoint>& writers) const;
   void Refuse(Error error);
 
@@ -110,6 +113,7 @@ class TakenPort {
   std::atomic<std::uint64_t> refused_{0};
   mutable std::mutex mutex_;
   std::vector<Writer> writers_;         // that values have come of; guarded by mutex_
+  std::deque<Writer> gone_;             // likewise: of those that are not there now the last first
   std::uint64_t last_writer_ = 0;       // likewise
   std::uint64_t writer_before_ = 0;     // likewise: before the last one, another one
   bool come_in_turn_ = false;           // likewise

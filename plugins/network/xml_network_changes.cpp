@@ -1,4 +1,4 @@
-#include "plugins/network/xml_network_changes.h"
+#include "plugins/network/xml_network_words.h"
 
 #include <algorithm>
 #include <memory>
@@ -6,10 +6,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
-#include "plugins/network/network_element.h"
 #include "plugins/network/offer_list.h"
-#include "plugins/network/xml_network_checks.h"
-#include "plugins/network/xml_network_words.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/structure/extension_changes.h"
 

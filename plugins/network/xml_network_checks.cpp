@@ -1,4 +1,4 @@
-#include "plugins/network/xml_network_checks.h"
+#include "plugins/network/xml_network_words.h"
 
 #include <algorithm>
 
@@ -9,7 +9,6 @@
 #include "core/element/runtime.h"
 #include "core/paths/path_search.h"
 #include "plugins/application_files/build_context.h"
-#include "plugins/ros_messages/names.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {
@@ -103,9 +102,9 @@ Result<void> CheckTopicType(const NetworkElement& network, const Port& port, con
     const auto other = PathSearch(network.runtime()).FindPort(each.port, PathKind::kOutput);
     if (!other) continue;
     const auto its = ValueForm::Make((*other)->type(), each.as, each.frame, each.child_frame, options.messages.get());
-    if (!its || (*its)->wire_type() == form.wire_type()) continue;
+    if (!its || (*its)->codec->dds_type() == form.codec->dds_type()) continue;
     return Error{.message = "the topic " + offer.topic + " has values of " + each.port + " already, of another type (" +
-                            RosType((*its)->wire_type()) + ", and not " + RosType(form.wire_type()) + ")",
+                            (*its)->codec->ros_type() + ", and not " + form.codec->ros_type() + ")",
                  .path = port.path(),
                  .hint = "say another topic of one of them"};
   }

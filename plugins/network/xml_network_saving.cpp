@@ -1,4 +1,4 @@
-#include "plugins/network/xml_network_saving.h"
+#include "plugins/network/xml_network_words.h"
 
 #include <algorithm>
 #include <map>
@@ -7,8 +7,6 @@
 
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
-#include "plugins/network/network_element.h"
-#include "plugins/network/xml_network_words.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {

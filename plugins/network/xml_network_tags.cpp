@@ -12,11 +12,7 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/network_engines.h"
-#include "plugins/network/xml_network_changes.h"
-#include "plugins/network/xml_network_checks.h"
-#include "plugins/network/xml_network_saving.h"
 #include "plugins/network/xml_network_words.h"
-#include "plugins/network/xml_service_tags.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/structure/type_names.h"
@@ -237,7 +233,16 @@ FrameworkElement* HandleRos(const TagUse& use) {
   }
   if (const auto checked = CheckRosName(ros.node); !checked) use.Report(checked.error(), use.Get("node").value_position);
   const char* const environment = std::getenv("ROS_DISTRO");
-  if (ros.distribution.empty() && environment != nullptr) ros.distribution = environment;
+  if (ros.distribution.empty() && environment != nullptr && *environment != 0) {
+    const auto& known = RosDistributions();
+    if (std::ranges::find(known, environment) != known.end()) {
+      ros.distribution = environment;
+    } else {
+      use.context.Warn({.message = "ROS_DISTRO names no distribution of ROS 2: '" + std::string(environment) + "'",
+                        .hint = NearestNameHint(environment, known)},
+                       use.xml.position(), use.parent);
+    }
+  }
   if (ros.distribution.empty()) {
     use.context.Warn({.message = "the application is in no list of nodes, as nobody says of which ROS 2 the others are",
                       .hint = "distribution=\"jazzy\", or ROS_DISTRO; others than those that are there end for want of memory"},
@@ -295,7 +300,7 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                .parents = {"network"},
                .attributes = {Choice("distribution",
                                      "of the other nodes, which decides how a node is told; ROS_DISTRO if left out",
-                                     {"humble", "iron", "jazzy"}),
+                                     RosDistributions()),
                               {.name = "node", .summary = "name of the node: /base; /<name of the application> by default"},
                               Choice("clock",
                                      "true: publishes the application's time on /clock; follow: the application, which has "

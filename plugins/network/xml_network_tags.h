@@ -12,5 +12,8 @@ namespace runnel {
 ///       <take topic="/cmd_vel" as="geometry_msgs/msg/Twist" to="drive/twist"/>
 ///     </network>
 void AddNetworkTags(XmlTagRegistry& tags);
+/// … of keys, within <network>: <security keys="keys/robot"/>, a folder with the six files of SROS 2, each of which an
+/// attribute may name instead.
+void AddSecurityTag(XmlTagRegistry& tags);
 
 }  // namespace runnel

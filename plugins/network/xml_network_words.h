@@ -6,11 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/xml/xml_document.h"
 #include "plugins/application_files/xml_tag.h"
-#include "plugins/network/network_options.h"
+#include "plugins/network/network_element.h"
 #include "plugins/structure/change.h"
 
 namespace runnel {
+
+namespace internal {
+class FileUpdate;
+}
 
 // The words of <offer> and <take>, which files, terminals and browsers have in common.
 
@@ -28,5 +33,28 @@ using SaidOf = std::function<std::string(const char* name)>;
 /// The same as words, without those that are usual: what a file or a change says besides ports and topic of a take.
 [[nodiscard]] std::vector<Setting> WordsOf(const OfferOptions& offer);
 [[nodiscard]] std::vector<Setting> WordsOf(const TakeOptions& take);
+
+// What <network> and its tags say that would do nothing, or not what is meant, without anybody being told.
+
+/// Reports addresses that are none; warns of names that nobody knows here, and of peers out of reach.
+void CheckPeers(const TagUse& use, const WireMemberOptions& member);
+/// Warns of <ros> where no node that is set as usual can be met.
+void CheckReachOfNodes(const TagUse& use, const WireMemberOptions& member);
+/// Warns of patterns of <offer ports="…"> that mean no port.
+void CheckPatterns(const TagUse& use, const OfferOptions& offer);
+/// Errors: the topic that is said has values of another type already, of another port.
+Result<void> CheckTopicType(const NetworkElement& network, const Port& port, const OfferOptions& offer, const ValueForm& form);
+
+// What tags of files do.
+
+/// <offer port="mapper/save" service="/save_map"/>: whether the port is a service, or was to be one. Mistakes are reported.
+bool OfferService(const TagUse& use, const Port& port);
+/// <take service="/save_map" to="planner/save"/>.
+FrameworkElement* TakeService(const TagUse& use);
+/// Brings <network> of a file, and what is offered and taken there, up to what it is now (XmlTag::update).
+void UpdateNetworkTag(XmlElement tag, FrameworkElement& application, internal::FileUpdate& update);
+/// Lets what is offered and taken be changed while the application runs, by the changes `offer` and `take`
+/// (ExtensionChanges), which can be undone. Under the structure lock.
+void AddNetworkChanges(Runtime& runtime);
 
 }  // namespace runnel

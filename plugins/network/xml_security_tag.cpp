@@ -1,4 +1,4 @@
-#include "plugins/network/xml_security_tag.h"
+#include "plugins/network/xml_network_tags.h"
 
 #include <array>
 #include <fstream>

@@ -1,12 +1,11 @@
-#include "plugins/network/xml_service_tags.h"
+#include "plugins/network/xml_network_words.h"
 
 #include <string>
 #include <utility>
 
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
-#include "plugins/network/network_element.h"
-#include "plugins/network_discovery/topic_names.h"
+#include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
 

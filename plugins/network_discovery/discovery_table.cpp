@@ -6,38 +6,27 @@
 
 namespace runnel {
 
+template <typename Do>
+void DiscoveryTable::Change(const Do& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    change();
+  }
+  on_change_();
+}
+
 void DiscoveryTable::OnMember(const WireMember& member) {
-  {
-    const std::lock_guard lock(mutex_);
-    members_[member.id] = member;
-  }
-  on_change_();
+  Change([&] { members_[member.id] = member; });
 }
-
 void DiscoveryTable::OnMemberGone(const WireId& id) {
-  {
-    const std::lock_guard lock(mutex_);
-    members_.erase(id);
-  }
-  on_change_();
+  Change([&] { members_.erase(id); });
 }
-
 void DiscoveryTable::OnEndpoint(const WireEndpoint& endpoint) {
-  {
-    const std::lock_guard lock(mutex_);
-    endpoints_[endpoint.id] = endpoint;
-  }
-  on_change_();
+  Change([&] { endpoints_[endpoint.id] = endpoint; });
 }
-
 void DiscoveryTable::OnEndpointGone(const WireId& id) {
-  {
-    const std::lock_guard lock(mutex_);
-    endpoints_.erase(id);
-  }
-  on_change_();
+  Change([&] { endpoints_.erase(id); });
 }
-
 void DiscoveryTable::OnRefused(const std::string& why) {
   constexpr std::size_t kMost = 16;
   {
@@ -84,27 +73,28 @@ std::optional<WireEndpoint> DiscoveryTable::FindWriter(std::uint64_t handle) con
   return {};
 }
 
-std::string DiscoveryTable::NameOf(const WireId& member) const {
+WireMember DiscoveryTable::FindMember(const WireId& id) const {
   const std::lock_guard lock(mutex_);
-  const auto found = members_.find(member);
-  return found == members_.end() || found->second.name.empty() ? "somebody" : found->second.name;
+  const auto found = members_.find(id);
+  return found != members_.end() ? found->second : WireMember{};
+}
+
+std::string DiscoveryTable::NameOf(const WireId& member) const {
+  const WireMember found = FindMember(member);
+  return found.name.empty() ? "somebody" : found.name;
 }
 
 std::string DiscoveryTable::ApplicationName(const WireId& member) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = members_.find(member);
-  const bool is_one = found != members_.end() && found->second.user_data.find(kIsApplication) != std::string::npos;
-  return is_one ? found->second.name : "";
+  const WireMember found = FindMember(member);
+  return found.user_data.find(kIsApplication) != std::string::npos ? found.name : "";
 }
 
 bool DiscoveryTable::HasSimulatedTime(const WireId& member) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = members_.find(member);
-  return found != members_.end() && found->second.user_data.find(kSimulatedTime) != std::string::npos;
+  return FindMember(member).user_data.find(kSimulatedTime) != std::string::npos;
 }
 
 bool IsInternalTopic(std::string_view topic) {
-  return topic.ends_with("/runnel_structure") || topic.ends_with("/runnel_commands") || topic.ends_with("/runnel_replies");
+  return topic.ends_with("/runnel_structure") || topic.ends_with("/runnel_commandsRequest") || topic.ends_with("/runnel_commandsReply");
 }
 
 std::string Misfit(const WireEndpointOptions& writer, const WireEndpointOptions& reader) {

@@ -40,6 +40,10 @@ class DiscoveryTable final : public WireDiscovery {
   [[nodiscard]] bool HasSimulatedTime(const WireId& member) const;
 
  private:
+  template <typename Do>
+  void Change(const Do& change);
+  [[nodiscard]] WireMember FindMember(const WireId& id) const;  // without a name, if it has gone
+
   const std::function<void()> on_change_;
   mutable std::mutex mutex_;
   std::map<WireId, WireMember> members_;

@@ -8,10 +8,10 @@
 #include "core/port/typed_ports.h"
 #include "core/types/type_info.h"
 #include "plugins/network_discovery/discovery_table.h"
-#include "plugins/network_discovery/topic_names.h"
 #include "plugins/network_discovery/value_form.h"
-#include "plugins/ros_messages/described_message.h"
+#include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
+#include "plugins/values/port_patterns.h"
 
 namespace runnel {
 
@@ -104,6 +104,20 @@ OfferedType FindDistantType(const DiscoveryTable& table, const std::string& path
                               topic + "\" as=\"" + name + "\" to=\"…\"/> in the file"},
           .is_offered = true,
           .message = name};
+}
+
+std::string TopicOfPort(const std::string& network_name, std::string_view port_path) {
+  return NearestRosName("/" + network_name + ShortPortPath(port_path));
+}
+
+std::string TopicOfDistantPath(std::string_view path) {
+  path.remove_prefix(1);
+  return NearestRosName(PlainPortPath(path));
+}
+
+std::string ReadableTopic(std::string_view wire_topic) {
+  const std::string topic = RosTopic(wire_topic);
+  return topic.empty() ? std::string(wire_topic) : topic;
 }
 
 }  // namespace runnel

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/types/type_info.h"
-#include "plugins/ros_messages/message_codec.h"
 #include "plugins/ros_messages/message_library.h"
 
 namespace runnel {
@@ -47,26 +46,6 @@ void AppendDescription(const TypeInfo& type, int depth, std::string& text) {
       text += type.name();
   }
 }
-
-class MessageForm final : public ValueForm {
- public:
-  MessageForm(std::shared_ptr<const MessageCodec> codec, std::string description) : codec_(std::move(codec)) {
-    wire_type_ = codec_->dds_type();
-    user_data_ = std::string(kHash) + codec_->type_hash() + ";" + std::move(description);
-  }
-
-  void Write(const void* value, Time stamp, Octets& octets) const override { codec_->Encode(value, stamp, octets); }
-  Result<std::optional<Time>> Read(std::span<const std::byte> octets, void* value,
-                                   std::shared_ptr<const void> holder) const override {
-    const auto decoded = codec_->Decode(octets, value, std::move(holder));
-    if (!decoded) return decoded.error();
-    return decoded->stamp;
-  }
-  [[nodiscard]] std::string WhyNoReading() const override { return codec_->why_no_decoding(); }
-
- private:
-  const std::shared_ptr<const MessageCodec> codec_;
-};
 
 std::string_view PartOf(std::string_view user_data, std::string_view key) {
   const std::size_t begin = user_data.find(key);
@@ -119,8 +98,9 @@ Result<std::shared_ptr<const ValueForm>> ValueForm::Make(const TypeInfo& type, c
   auto codec = MessageCodec::Make(type, {.as = as, .by_description = as.empty(), .frame = frame, .child_frame = child_frame, .field = field},
                                   messages != nullptr ? *messages : MessageLibrary::Standard());
   if (!codec) return codec.error();
-  std::string description = as.empty() ? std::string(kKey) + DescriptionText(type) + ";" : std::string();
-  return std::shared_ptr<const ValueForm>(std::make_shared<MessageForm>(std::move(*codec), std::move(description)));
+  std::string user_data = std::string(kHash) + (*codec)->type_hash() + ";";
+  if (as.empty()) user_data += std::string(kKey) + DescriptionText(type) + ";";
+  return std::make_shared<const ValueForm>(ValueForm{std::move(*codec), std::move(user_data)});
 }
 
 }  // namespace runnel

@@ -1,24 +1,14 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 
-#include "core/base/clock.h"
-#include "core/base/result.h"
-#include "plugins/wire/wire.h"
+#include "plugins/ros_messages/message_codec.h"
 
 namespace runnel {
 
-class MessageLibrary;
-class TypeInfo;
-
 /// Values of one type as octets on the wire, and back.
-///
-/// Threads: any number at once, each with a value of its own.
-class ValueForm {
- public:
+struct ValueForm {
   /// `as`: "sensor_msgs/msg/LaserScan"; "": by the type's own description. Errors: there is no such message; the type
   /// cannot become it; a part of the type is opaque. `messages`: which there are; nullptr: those of ROS 2.
   /// `field`: of the message, of which alone values are made (MessageOptions); nothing can be written then.
@@ -27,25 +17,10 @@ class ValueForm {
                                                        const std::string& child_frame = {},
                                                        const MessageLibrary* messages = nullptr,
                                                        const std::string& field = {});
-  virtual ~ValueForm() = default;
 
-  /// By which the wire knows the type.
-  [[nodiscard]] const std::string& wire_type() const noexcept { return wire_type_; }
+  std::shared_ptr<const MessageCodec> codec;
   /// What is told of the type besides its name: two of one name fit only if this is the same, or unknown.
-  [[nodiscard]] const std::string& user_data() const noexcept { return user_data_; }
-
-  /// `stamp`: since 1970, for headers.
-  virtual void Write(const void* value, Time stamp, Octets& octets) const = 0;
-  /// Returns the stamp of the message's own header, if it has one. Large lists may refer to the octets, which stay as they
-  /// are as long as anybody has `holder`. Errors: what is wrong with the octets; the value may then be half set.
-  virtual Result<std::optional<Time>> Read(std::span<const std::byte> octets, void* value,
-                                           std::shared_ptr<const void> holder = {}) const = 0;
-  /// Why messages cannot become values; "" if they can.
-  [[nodiscard]] virtual std::string WhyNoReading() const = 0;
-
- protected:
-  std::string wire_type_;
-  std::string user_data_;
+  std::string user_data;
 };
 
 /// What is inside of values, in one line: "{x:double[m],y:double[m]}".

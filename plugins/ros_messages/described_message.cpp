@@ -1,4 +1,3 @@
-#include "plugins/ros_messages/described_message.h"
 
 #include <algorithm>
 #include <vector>

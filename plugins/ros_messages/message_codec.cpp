@@ -5,11 +5,9 @@
 
 #include "core/types/type_info.h"
 #include "plugins/cdr_values/cdr_values.h"
-#include "plugins/ros_messages/described_message.h"
 #include "plugins/ros_messages/internal/binding.h"
 #include "plugins/ros_messages/internal/mapping_rules.h"
 #include "plugins/ros_messages/internal/message_leaf.h"
-#include "plugins/ros_messages/internal/messages_by_steps.h"
 #include "plugins/ros_messages/internal/occupancy_grid.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"

@@ -29,7 +29,7 @@ class MessageLibrary {
   Result<void> Read(const std::filesystem::path& file_or_folder);
   /// Errors: there is another of that name.
   Result<void> Add(MessageDefinition definition);
-  /// The message that describes a type of Runnel (described_message.h), and those inside. Errors: a part is opaque, or there is
+  /// The message that describes a type of Runnel (MessageNameOf()), and those inside. Errors: a part is opaque, or there is
   /// another of a name.
   Result<const MessageDefinition*> AddDescribed(const TypeInfo& type);
 
@@ -53,5 +53,14 @@ class MessageLibrary {
 /// "RIHS01_" and 64 digits: the hash by which ROS 2 tells versions of a message apart. Precondition: the messages
 /// inside are known.
 [[nodiscard]] std::string TypeHashOf(const MessageDefinition& definition, const MessageLibrary& library);
+
+/// What a type of Runnel is called as a message, of which the package is `runnel_msgs`: "runnel_msgs/msg/PlannerStatus" for
+/// "PlannerStatus", "runnel_msgs/msg/Pose2List" for "Pose2[]". A type whose name is that of a message
+/// ("sensor_msgs/msg/Imu") keeps it, and numbers and texts are those of std_msgs.
+///
+/// The fields are those of the description, with the same octets as WriteCdr() has (plugins/cdr_values): enumerations are
+/// numbers, lists in lists are messages of their own, units and meanings stand in comments.
+/// MessageLibrary::AddDescribed() makes it.
+[[nodiscard]] std::string MessageNameOf(const TypeInfo& type);
 
 }  // namespace runnel

@@ -8,7 +8,8 @@
 
 namespace runnel {
 
-std::uint8_t RosLevel(LogLevel level) {
+// Of a message of ROS 2.
+static std::uint8_t RosLevel(LogLevel level) {
   switch (level) {
     case LogLevel::kDebug:
       return 10;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/base/clock.h"
-#include "core/log/log_level.h"
 #include "core/types/type_builder.h"
 
 namespace runnel {
@@ -26,8 +25,6 @@ struct RosLog {
   std::string function;
   std::uint32_t line = 0;
 };
-/// What `level` of such a message is.
-[[nodiscard]] std::uint8_t RosLevel(LogLevel level);
 [[nodiscard]] RosLog ToRosLog(const LogMessage& said, Time stamp);
 
 struct RosHeader {

@@ -143,12 +143,6 @@ std::string RosParameterName(std::string_view application, std::string_view path
   return name;
 }
 
-std::string RosParameterPath(std::string_view application, std::string_view name) {
-  std::string path(name);
-  std::ranges::replace(path, '.', '/');
-  return std::string(application) + "/" + path;
-}
-
 RosParameterDescriptor DescribeRosParameter(std::string name, const Configurable& parameter) {
   const ConfigurableInfo& info = parameter.info();
   const std::shared_ptr<const void> value = parameter.Value();

@@ -53,9 +53,8 @@ struct RosParameterValue {
 /// Errors: it is not set; an array that the type is not.
 [[nodiscard]] Result<std::string> TextOf(const RosParameterValue& value, const TypeInfo& type);
 
-/// "planner.distance" for the path "/robot/planner/distance" of the application "/robot", and back.
+/// "planner.distance" for the path "/robot/planner/distance" of the application "/robot".
 [[nodiscard]] std::string RosParameterName(std::string_view application, std::string_view path);
-[[nodiscard]] std::string RosParameterPath(std::string_view application, std::string_view name);
 
 /// rcl_interfaces/msg/Parameter.
 struct RosParameter {

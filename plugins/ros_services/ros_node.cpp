@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "core/log/logger.h"
+#include "core/types/type_of.h"
 #include "plugins/cdr_values/cdr_reader.h"
+#include "plugins/cdr_values/cdr_values.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/node_messages.h"
 #include "plugins/ros_services/ros_time.h"
@@ -16,11 +18,13 @@ namespace runnel {
 namespace {
 
 constexpr auto kClockPeriod = std::chrono::milliseconds(10);
+constexpr std::string_view kLastWithLongIds = "humble";
 
-void PutTime(CdrWriter& to, Time time) {
-  const std::int64_t count = time.time_since_epoch().count();
-  to.Put(static_cast<std::int32_t>(count / 1'000'000'000));
-  to.Put(static_cast<std::uint32_t>(count % 1'000'000'000));
+template <typename T>
+void Write(WireWriter& to, const T& message) {
+  const auto octets = std::make_shared<Octets>();
+  WriteCdr(TypeOf<T>(), &message, *octets);
+  (void)to.Write(octets, SinceEpoch().time_since_epoch().count());
 }
 
 // Up to Humble they have 24 octets, the last of which are 0.
@@ -30,7 +34,16 @@ void PutId(CdrWriter& to, const WireId& id, bool is_long) {
   if (is_long) to.PutPlain(kRest.data(), 1, kRest.size());
 }
 
+constexpr auto kPeriod = std::chrono::seconds(1);
+// So often it is looked whether it is better or worse.
+constexpr auto kLook = std::chrono::milliseconds(100);
+
 }  // namespace
+
+const std::vector<std::string>& RosDistributions() {
+  static const std::vector<std::string> names = {"foxy", "galactic", "humble", "iron", "jazzy", "kilted", "rolling"};
+  return names;
+}
 
 const std::vector<std::string>& RosParameterUses() {
   static const std::vector<std::string> names = {"none", "read", "write"};
@@ -125,7 +138,8 @@ void RosNode::Tell(std::vector<WireId> readers, std::vector<WireId> writers) {
   has_told_ = true;
   readers_ = std::move(readers);
   writers_ = std::move(writers);
-  const bool is_long = options_.distribution == "humble";
+  const auto& distributions = RosDistributions();
+  const bool is_long = std::ranges::find(distributions, options_.distribution) <= std::ranges::find(distributions, kLastWithLongIds);
   const std::size_t slash = options_.node.rfind('/');
   auto octets = std::make_shared<Octets>();
   CdrWriter to(*octets);
@@ -151,26 +165,49 @@ std::optional<Time> RosNode::SendClock(Time now) {
   const Time time = clock_.Now();
   if (time != last_time_) {
     last_time_ = time;
-    auto octets = std::make_shared<Octets>();
-    CdrWriter to(*octets);
-    PutTime(to, time);
-    (void)time_->Write(octets, SinceEpoch().time_since_epoch().count());
+    Write(*time_, time);
   }
   return now + kClockPeriod;
 }
 
 void RosNode::Say(const LogMessage& message, bool is_simulated) {
-  auto octets = std::make_shared<Octets>();
-  CdrWriter to(*octets);
   const Duration offset = is_simulated ? Duration() : SinceEpoch() - clock_.Now();
-  PutTime(to, message.time + offset);
-  to.Put(RosLevel(message.level));
-  to.PutText(message.path);
-  to.PutText(message.text);
-  to.PutText("");
-  to.PutText("");
-  to.Put(std::uint32_t{0});
-  (void)log_->Write(octets, SinceEpoch().time_since_epoch().count());
+  Write(*log_, ToRosLog(message, message.time + offset));
+}
+
+Result<std::unique_ptr<DiagnosticsTopic>> DiagnosticsTopic::Start(WireParticipant& participant, const Clock& clock,
+                                                                  bool is_simulated, Health health,
+                                                                  std::function<void()> on_news) {
+  std::unique_ptr<DiagnosticsTopic> topic(new DiagnosticsTopic(clock, is_simulated, std::move(health)));
+  auto writer = participant.MakeWriter({.topic = "rt/diagnostics",
+                                        .type = "diagnostic_msgs::msg::dds_::DiagnosticArray_",
+                                        .qos = {.depth = 10}},
+                                       [listeners = topic->listeners_, on_news = std::move(on_news)](std::size_t count) {
+                                         listeners->store(count, std::memory_order_relaxed);
+                                         on_news();
+                                       });
+  if (!writer) return writer.error();
+  topic->writer_ = std::move(*writer);
+  return topic;
+}
+
+std::optional<Time> DiagnosticsTopic::Send(Time now) {
+  if (listeners_->load(std::memory_order_relaxed) == 0) {
+    told_at_.reset();  // who comes is told at once
+    return {};
+  }
+  const Time time = clock_.Now();
+  RosDiagnostics diagnostics;
+  diagnostics.status = health_();
+  std::vector<RosHealth> health;
+  for (const RosDiagnosticStatus& each : diagnostics.status) health.push_back(each.level);
+  if (!told_at_ || time - *told_at_ >= kPeriod || health != told_) {
+    diagnostics.header.stamp = is_simulated_ ? time : SinceEpoch();
+    Write(*writer_, diagnostics);
+    told_at_ = time;
+    told_ = std::move(health);
+  }
+  return now + kLook;
 }
 
 }  // namespace runnel

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,7 +10,7 @@
 #include "core/base/clock.h"
 #include "core/element/runtime.h"
 #include "core/log/log_sink.h"
-#include "plugins/ros_services/diagnostics_topic.h"
+#include "plugins/ros_messages/node_messages.h"
 #include "plugins/ros_services/parameter_services.h"
 #include "plugins/ros_services/stop_service.h"
 #include "plugins/wire/wire.h"
@@ -17,6 +19,38 @@ namespace runnel {
 
 class Logger;
 
+/// How an application is, told on /diagnostics once a second of its time, and at once when it has got better or worse.
+///
+/// Threads: one at a time.
+class DiagnosticsTopic {
+ public:
+  /// Called several times a second, while somebody listens. Not under the structure lock.
+  using Health = std::function<std::vector<RosDiagnosticStatus>()>;
+
+  /// `clock`: the application's. Errors: of the engine.
+  static Result<std::unique_ptr<DiagnosticsTopic>> Start(WireParticipant& participant, const Clock& clock, bool is_simulated,
+                                                         Health health, std::function<void()> on_news);
+
+  /// Tells what is due. When it wants to be called again, by the steady clock; nothing: when there are news.
+  std::optional<Time> Send(Time now);
+  [[nodiscard]] const WireId& id() const noexcept { return writer_->id(); }
+
+ private:
+  DiagnosticsTopic(const Clock& clock, bool is_simulated, Health health)
+      : clock_(clock), is_simulated_(is_simulated), health_(std::move(health)) {}
+
+  const Clock& clock_;
+  const bool is_simulated_;
+  const Health health_;
+  std::shared_ptr<std::atomic<std::size_t>> listeners_ = std::make_shared<std::atomic<std::size_t>>(0);
+  std::vector<RosHealth> told_;
+  std::optional<Time> told_at_;  // of the application
+  std::unique_ptr<WireWriter> writer_;
+};
+
+/// The names that ROS_DISTRO may have, by their age.
+[[nodiscard]] const std::vector<std::string>& RosDistributions();
+
 /// What nodes of ROS 2 may do with parameters. In the order of RosParameterUses().
 enum class RosParameterUse { kNone, kRead, kWrite };
 /// none, read, write.
@@ -24,7 +58,7 @@ enum class RosParameterUse { kNone, kRead, kWrite };
 
 /// What nodes of ROS 2 are told besides.
 struct RosOptions {
-  std::string distribution = {};  ///< humble, iron, jazzy: "" if the application is to be no node
+  std::string distribution = {};  ///< of RosDistributions(): "" if the application is to be no node
   std::string node = {};          ///< "/base"
   bool sends_clock = false;       ///< on /clock
   bool follows_clock = false;     ///< the application's time is that of /clock

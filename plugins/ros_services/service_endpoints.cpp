@@ -1,8 +1,11 @@
 #include "plugins/ros_services/service_endpoints.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
+#include "plugins/cdr_values/cdr_reader.h"
+#include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/ros_time.h"
 
@@ -32,6 +35,9 @@ WireId Folded(const WireId& id) {
   return folded;
 }
 
+// Of eight octets each: what follows is aligned as without it.
+constexpr std::size_t kIdSize = sizeof(std::uint64_t) + sizeof(CallId::number);
+
 }  // namespace
 
 void ServiceInbox::Put(ServiceMessage message) {
@@ -58,7 +64,7 @@ Result<std::unique_ptr<ServiceEndpoints>> ServiceEndpoints::Start(Side side, con
   ServiceEndpoints& self = *made;
   const WireEndpointOptions request{.topic = DdsRequestTopic(topics.service),
                                     .type = topics.request_type,
-                                    .qos = {.depth = topics.depth},
+                                    .qos = {.is_latched = topics.is_latched, .depth = topics.depth},
                                     .user_data = UserData(side, participant.id(), identity)};
   WireEndpointOptions reply = request;
   reply.topic = DdsReplyTopic(topics.service);
@@ -139,6 +145,30 @@ Result<void> ServiceEndpoints::Reply(const CallId& id, std::span<const std::byte
   const auto octets = std::make_shared<const Octets>(message.begin(), message.end());
   const auto written = writer_->WriteRelated(octets, now, {.writer = id.client, .number = id.number});
   return written ? Result<void>() : written.error();
+}
+
+Octets WithCallId(const CallId& id, std::span<const std::byte> message) {
+  Octets octets;
+  CdrWriter writer(octets);
+  std::uint64_t client;
+  std::memcpy(&client, id.client.data(), sizeof client);
+  writer.Put(client);
+  writer.Put(id.number);
+  const auto rest = message.subspan(std::min(message.size(), CdrWriter::kHeader));
+  octets.insert(octets.end(), rest.begin(), rest.end());
+  return octets;
+}
+
+std::optional<ServiceMessage> SplitCallId(std::span<const std::byte> octets) {
+  ServiceMessage split;
+  auto reader = CdrReader::Begin(octets);
+  std::uint64_t client = 0;
+  if (!reader || !reader->Get(client) || !reader->Get(split.id.number)) return {};
+  std::memcpy(split.id.client.data(), &client, sizeof client);
+  const auto header = octets.first(CdrWriter::kHeader), rest = octets.subspan(CdrWriter::kHeader + kIdSize);
+  split.message.assign(header.begin(), header.end());
+  split.message.insert(split.message.end(), rest.begin(), rest.end());
+  return split;
 }
 
 }  // namespace runnel

@@ -7,11 +7,33 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 
-#include "plugins/ros_services/service_messages.h"
+#include "plugins/wire/wire.h"
 
 namespace runnel {
+
+/// Which call a request or a reply belongs to: who calls, and its how manyth call it is.
+struct CallId {
+  WireId client = {};  ///< of rmw_cyclonedds only the first eight octets
+  std::int64_t number = 0;
+
+  friend bool operator==(const CallId&, const CallId&) = default;
+};
+
+/// A request or a reply: which one, and the message as it is without that.
+struct ServiceMessage {
+  CallId id;
+  Octets message;
+  std::uint64_t writer = 0;  ///< WireEndpoint::handle
+};
+
+/// As rmw_cyclonedds has it: the call stands in front of the message. `message`: with the encapsulation, of this machine's order
+/// of octets.
+[[nodiscard]] Octets WithCallId(const CallId& id, std::span<const std::byte> message);
+/// Nothing if the octets, which may be anything, are too short.
+[[nodiscard]] std::optional<ServiceMessage> SplitCallId(std::span<const std::byte> octets);
 
 /// How requests and replies say which call they belong to. Nodes of the two do not understand one another.
 enum class ServiceDialect {
@@ -26,6 +48,7 @@ struct ServiceTopics {
   std::string response_type = {};  ///< "std_srvs::srv::dds_::SetBool_Response_"
   std::uint32_t depth = 10;        ///< newest requests and replies that are kept
   ServiceDialect dialect = ServiceDialect::kInFront;
+  bool is_latched = false;  ///< what is said before the other end has come is heard by it, too
 
   friend bool operator==(const ServiceTopics&, const ServiceTopics&) = default;
 };

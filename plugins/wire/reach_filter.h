@@ -1,7 +1,11 @@
 #pragma once
 
+#include <string>
+
 #include "core/base/result.h"
 #include "plugins/wire/wire.h"
+
+struct sockaddr;
 
 namespace runnel {
 
@@ -16,5 +20,14 @@ namespace runnel {
 /// so that others could send to them, whatever they are told to use. What had come before is out of the sockets when it returns: until then an engine is not to
 /// listen. Errors: there is no such interface; the system does not do it.
 Result<void> KeepWithinReach(const WireMemberOptions& options);
+
+/// "192.168.1.5" of an IPv4 address.
+[[nodiscard]] std::string AddressText(const sockaddr& address);
+
+/// Whether an interface besides the loopback's has an address now, so that there is somebody to be reached. Calls the system.
+[[nodiscard]] bool IsInNetwork();
+
+/// "192.168.1.5" of an interface that is said by its name or its address. Errors: there is none; the hint says which there are.
+[[nodiscard]] Result<std::string> AddressOfInterface(const std::string& interface);
 
 }  // namespace runnel

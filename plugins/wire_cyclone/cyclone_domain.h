@@ -6,6 +6,7 @@
 
 #include <dds/dds.h>
 
+#include "core/base/result.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {
@@ -38,5 +39,9 @@ class CycloneDomain {
 
 /// What Cyclone calls the mistake.
 [[nodiscard]] Error CycloneError(const std::string& what, dds_return_t code);
+
+/// Has a participant of these policies know others by their certificates, and encrypt. Errors: the library has come without
+/// its plugins for that.
+Result<void> SetSecurity(dds_qos_t& qos, const WireSecurity& security);
 
 }  // namespace runnel

@@ -6,10 +6,8 @@
 
 #include <dds/dds.h>
 
-#include "plugins/wire/key_files.h"
 #include "plugins/wire_cyclone/cyclone_discovery.h"
 #include "plugins/wire_cyclone/cyclone_domain.h"
-#include "plugins/wire_cyclone/cyclone_security.h"
 #include "plugins/wire_cyclone/octets_type.h"
 
 namespace runnel {

@@ -1,6 +1,7 @@
 #include "plugins/wire_fast/fast_endpoints.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -9,11 +10,12 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fastdds/rtps/common/SerializedPayload.h>
 
 #include "plugins/wire_fast/fast_log.h"
 #include "plugins/wire_fast/fast_settings.h"
-#include "plugins/wire_fast/octets_type.h"
 
 namespace runnel {
 
@@ -23,6 +25,44 @@ namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::uint32_t kUsualSize = 256;  // room grows where values are larger
+constexpr std::size_t kEncapsulation = 4;
+
+/// A type of which only the name is known: what is written is `const Octets`, what is read `Octets`.
+class OctetsType final : public dds::TopicDataType {
+ public:
+  explicit OctetsType(const std::string& name) {
+    setName(name.c_str());
+    m_typeSize = kUsualSize;
+    m_isGetKeyDefined = false;
+    auto_fill_type_object(false);
+    auto_fill_type_information(false);
+  }
+
+  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+    const auto& octets = *static_cast<const Octets*>(data);
+    if (octets.size() < kEncapsulation || octets.size() > payload->max_size) return false;
+    std::memcpy(payload->data, octets.data(), octets.size());
+    payload->length = static_cast<std::uint32_t>(octets.size());
+    payload->encapsulation = octets[1] == std::byte{1} ? CDR_LE : CDR_BE;
+    return true;
+  }
+  // The length is read once: in memory that processes share it may change meanwhile.
+  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
+    const std::uint32_t length = payload->length;
+    if (length < kEncapsulation || length > payload->max_size) return false;
+    const auto* const begin = reinterpret_cast<const std::byte*>(payload->data);
+    static_cast<Octets*>(data)->assign(begin, begin + length);
+    return true;
+  }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
+    return [size = static_cast<std::uint32_t>(static_cast<const Octets*>(data)->size())] { return size; };
+  }
+  void* createData() override { return new Octets; }
+  void deleteData(void* data) override { delete static_cast<Octets*>(data); }
+  // Values without keys are all of one instance.
+  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+};
 
 WireId IdOfHandle(const rtps::InstanceHandle_t& handle) {
   WireId id;

@@ -1,28 +1,74 @@
 #include "plugins/wire_fast/fast_settings.h"
 
+#include <atomic>
+#include <chrono>
 #include <memory>
+#include <utility>
 
 #include <arpa/inet.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
+#include <fastdds/rtps/transport/TransportReceiverInterface.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
-#include "plugins/wire/own_interfaces.h"
 #include "plugins/wire/reach_filter.h"
-#include "plugins/wire_fast/reach_transport.h"
 
 namespace runnel {
 
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
-using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
+using namespace eprosima::fastdds::rtps;
 using eprosima::fastrtps::Duration_t;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
+using eprosima::fastrtps::rtps::octet;
+using eprosima::fastrtps::rtps::SenderResource;
+
+/// Sockets as those of `low`, which hear nothing until the filters of the member's reach are at them (KeepWithinReach()).
+struct ReachDescriptor final : ChainingTransportDescriptor {
+  ReachDescriptor(std::shared_ptr<TransportDescriptorInterface> low, const WireMemberOptions& said)
+      : ChainingTransportDescriptor(std::move(low)), options(said) {}
+  TransportInterface* create_transport() const override;
+
+  const WireMemberOptions options;
+};
+
+class ReachTransport final : public ChainingTransport {
+ public:
+  explicit ReachTransport(const ReachDescriptor& descriptor) : ChainingTransport(descriptor), descriptor_(descriptor) {}
+
+  TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+
+  bool OpenInputChannel(const Locator_t& locator, TransportReceiverInterface* receiver, std::uint32_t most) override {
+    hears_ = false;
+    const bool is_open = ChainingTransport::OpenInputChannel(locator, receiver, most);
+    (void)KeepWithinReach(descriptor_.options);  // what is wrong is told by who joins
+    hears_ = true;
+    return is_open;
+  }
+  bool send(SenderResource* low, const octet* octets, std::uint32_t size, LocatorsIterator* begin, LocatorsIterator* end,
+            const std::chrono::steady_clock::time_point& latest) override {
+    return low->send(octets, size, begin, end, latest);
+  }
+  void receive(TransportReceiverInterface* next, const octet* octets, std::uint32_t size, const Locator_t& local,
+               const Locator_t& remote) override {
+    // relaxed: it guards no memory.
+    if (hears_.load(std::memory_order_relaxed)) next->OnDataReceived(octets, size, local, remote);
+  }
+
+ private:
+  ReachDescriptor descriptor_;
+  std::atomic<bool> hears_{false};
+};
+
+TransportInterface* ReachDescriptor::create_transport() const { return new ReachTransport(*this); }
 
 constexpr std::uint32_t kRoom = 4'194'304;          // of sockets: for images
 constexpr std::uint32_t kProcessesOfAMachine = 120;  // that are asked one by one
@@ -102,7 +148,7 @@ Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options) {
   }
   qos.transport().use_builtin_transports = false;
   if (HasBoundedReach(options)) {
-    qos.transport().user_transports.push_back(WithinReach(udp, options));
+    qos.transport().user_transports.push_back(std::make_shared<ReachDescriptor>(udp, options));
   } else {
     qos.transport().user_transports.push_back(udp);
   }

@@ -7,7 +7,6 @@
 #include <fastrtps/attributes/LibrarySettingsAttributes.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
-#include "plugins/wire/key_files.h"
 #include "plugins/wire/reach_filter.h"
 #include "plugins/wire_fast/fast_discovery.h"
 #include "plugins/wire_fast/fast_endpoints.h"

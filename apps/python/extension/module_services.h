@@ -8,8 +8,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "plugins/services/client_at_run_time.h"
-#include "plugins/services/service_at_run_time.h"
+#include "plugins/services/services_at_run_time.h"
 
 namespace runnel::python {
 

@@ -7,7 +7,6 @@
 #include "core/base/nearest_name.h"
 #include "core/types/type_of.h"
 #include "plugins/cdr_values/cdr_values.h"
-#include "plugins/ros_messages/internal/default_steps.h"
 #include "plugins/ros_messages/internal/mapping_rules.h"
 #include "plugins/ros_messages/internal/message_leaf.h"
 

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/clock.h"
 #include "core/base/result.h"
 #include "core/types/type_info.h"
+#include "plugins/cdr_values/cdr_reader.h"
+#include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/message_codec.h"
 #include "plugins/ros_messages/message_library.h"
 
@@ -46,6 +50,25 @@ struct Step {
 
 /// The fewest octets that it takes in a message.
 [[nodiscard]] std::size_t FewestOctets(const Step& step);
+
+// Steps of what the value does not have.
+
+/// What the message has by default. Errors: a nested message is not known.
+Result<Step> DefaultStep(const MessageField& field, const MessageLibrary& library);
+Step NumberStep(MessageType type, long double number);
+Step TextStep(std::string text);
+Step StampStep(bool is_own);
+/// Stamp and frame.
+Step HeaderStep(bool is_own, const std::string& frame);
+
+/// One element of a list.
+[[nodiscard]] MessageField One(MessageField field);
+
+void WriteBySteps(const Step& root, const void* value, Time stamp, CdrWriter& writer);
+
+/// `fresh`: a value as the type makes it, for what is missing at the end. `stamp` is set if the message has one.
+Result<void> ReadBySteps(const Step& root, CdrReader& reader, const void* fresh, void* value,
+                         std::optional<Time>& stamp);
 
 /// How all of a message is made of a value and the other way round.
 struct Binding {

@@ -1,4 +1,4 @@
-#include "plugins/ros_messages/internal/default_steps.h"
+#include "plugins/ros_messages/internal/binding.h"
 
 #include <algorithm>
 #include <cctype>

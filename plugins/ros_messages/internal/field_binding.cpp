@@ -6,7 +6,6 @@
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 #include "plugins/ros_messages/internal/binding.h"
-#include "plugins/ros_messages/internal/default_steps.h"
 
 namespace runnel::internal {
 

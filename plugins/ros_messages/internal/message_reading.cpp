@@ -5,8 +5,8 @@
 #include "core/types/value_copy.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/cdr_values/cdr_walk.h"
+#include "plugins/ros_messages/internal/binding.h"
 #include "plugins/ros_messages/internal/message_number.h"
-#include "plugins/ros_messages/internal/messages_by_steps.h"
 
 namespace runnel::internal {
 

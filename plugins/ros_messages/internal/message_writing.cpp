@@ -3,8 +3,8 @@
 
 #include "core/types/type_of.h"
 #include "plugins/cdr_values/cdr_values.h"
+#include "plugins/ros_messages/internal/binding.h"
 #include "plugins/ros_messages/internal/message_number.h"
-#include "plugins/ros_messages/internal/messages_by_steps.h"
 
 namespace runnel::internal {
 

@@ -2,7 +2,6 @@
 
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/ros_messages/internal/binding.h"
-#include "plugins/ros_messages/internal/default_steps.h"
 #include "plugins/ros_messages/internal/message_leaf.h"
 
 namespace runnel::internal {

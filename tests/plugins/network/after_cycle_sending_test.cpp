@@ -181,6 +181,22 @@ TEST_F(AfterCycleSending, ACycleDoesNotWaitForWhoIsSendingAndItsValueIsSentNext)
   }
 }
 
+// Who stops the robot waits for nobody; nor does the safe value wait for the network's thread, which may wait for a lock.
+TEST_F(AfterCycleSending, AStopThatFindsAnotherThreadSendingIsSentInTheSameTurn) {
+  std::vector<OfferBell::By> sent;
+  OfferBell bell(std::make_shared<WakeEvent>(), [&](OfferBell::By by) {
+    sent.push_back(by);
+    gate_.Pass();
+  });
+  gate_.Close();
+  std::thread sender([&] { bell.SendByNetwork(); });
+  WaitUntil("it is sending", [&] { return gate_.arrived() == 1; });
+  bell.SendStop();
+  gate_.Open();
+  sender.join();
+  EXPECT_THAT(sent, testing::ElementsAre(OfferBell::By::kNetwork, OfferBell::By::kStop));
+}
+
 TEST_F(AfterCycleSending, AnOfferThatEndsWaitsForACycleThatIsSending) {
   Begin();
   SendFirst();

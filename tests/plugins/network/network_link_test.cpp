@@ -1,6 +1,6 @@
 // Applications in a network of this process: what is offered and taken, without an engine that needs a network.
 #include "plugins/cdr_values/cdr_writer.h"
-#include "plugins/network_discovery/topic_names.h"
+#include "plugins/network_discovery/distant_type.h"
 #include "plugins/testing/allocation_guard.h"
 #include "tests/plugins/network/network_member.h"
 
@@ -136,7 +136,7 @@ TEST_F(NetworkLinkTest, AnotherTypeUnderTheSameNameIsToldWithBothSidesWords) {
   const auto other = Must(engine_->Join({.name = "other"}, nobody));
   const auto of_other_version = Must(other->MakeWriter(
       {.topic = "rt/a/place",
-       .type = Must(ValueForm::Make(TypeOf<Place>(), "", ""))->wire_type(),
+       .type = Must(ValueForm::Make(TypeOf<Place>(), "", ""))->codec->dds_type(),
        .user_data = "runnel_type={x:double[m],y:float[m]};"},
       {}));
   b.WaitFor("y:float[m]");
@@ -194,7 +194,7 @@ TEST_F(NetworkLinkTest, OctetsThatAreNoValueAreCountedAndChangeNothing) {
   b.Begin();
   DiscoveryTable table([] {});
   const auto other = Must(engine_->Join({.name = "other"}, table));
-  const auto writer = Must(other->MakeWriter({.topic = "rt/a/row", .type = Must(ValueForm::Make(TypeOf<Row>(), "", ""))->wire_type()}, {}));
+  const auto writer = Must(other->MakeWriter({.topic = "rt/a/row", .type = Must(ValueForm::Make(TypeOf<Row>(), "", ""))->codec->dds_type()}, {}));
   WaitUntil("it is read", [&] { return b.Text().find("written by other") != std::string::npos; });
   std::mt19937 random(1);
   for (int i = 0; i < 300; ++i) {

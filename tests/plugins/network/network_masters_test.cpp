@@ -108,12 +108,12 @@ TEST_P(ForeignMastersTest, AHandThatRestsKeepsWhatItHas) {
   };
   const auto make = [&] {
     Node node{.participant = Must(engine_->Join({.name = GetParam(), .user_data = "enclave=/;"}, table)), .writer = {}};
-    node.writer = Must(node.participant->MakeWriter({.topic = "rt/drive", .type = form->wire_type(), .user_data = form->user_data()}, {}));
+    node.writer = Must(node.participant->MakeWriter({.topic = "rt/drive", .type = form->codec->dds_type(), .user_data = form->user_data}, {}));
     return node;
   };
   const auto write = [&](Node& node, double x) {
     auto octets = std::make_shared<Octets>();
-    form->Write(std::make_unique<Place>(Place{x, 0}).get(), Time(), *octets);
+    form->codec->Encode(std::make_unique<Place>(Place{x, 0}).get(), Time(), *octets);
     ASSERT_TRUE(node.writer->Write(octets, 1));
     WaitUntilQuiet(*engine_);
   };
@@ -165,6 +165,35 @@ TEST_F(NetworkMastersTest, WhatIsLatchedComesOnce) {
   other.Begin();
   other.module.place.Publish({10, 0});
   WaitUntil("it is heard", [&] { return robot_.module.goal.Get().x == 10; });
+}
+
+// The engine delivers what its writer keeps again: that is a command of before the link was lost, whatever has been since.
+TEST_F(NetworkMastersTest, WhatIsLatchedComesOnceThoughTheLinkToItsWriterIsLost) {
+  Begin(false);
+  Member planner(*engine_, "planner");
+  planner.Offer({.port = "/application/module/place", .topic = "/drive", .quality = ValueQuality::kLatched});
+  planner.Begin();
+  planner.module.place.Publish({7, 0});
+  WaitUntil("it is heard", [&] { return robot_.module.goal.Get().x == 7; });
+  const auto is_known = [&] { return robot_.Text().find("by planner") != std::string::npos; };
+  ProbePort all(robot_.runtime.root(), "all", TypeOf<Place>());
+  ASSERT_TRUE(Port::Connect(*robot_.network->takes().front().output, all));
+  while (all.Take([](const void*, ValueTimes) {})) {
+  }
+  for (int i = 0; i < 2; ++i) {
+    SetCutOff(*engine_, "planner", true);
+    WaitUntil("it has gone", [&] { return !is_known(); });
+    SetCutOff(*engine_, "planner", false);
+    WaitUntil("it is there again", is_known);
+    WaitUntilQuiet(*engine_);
+    EXPECT_FALSE(all.Take([](const void*, ValueTimes) {}));
+  }
+  // What it says afterwards is new.
+  SetCutOff(*engine_, "planner", true);
+  planner.module.place.Publish({8, 0});
+  WaitUntil("it is sent", [&] { return planner.Text().find("2 sent") != std::string::npos; });
+  SetCutOff(*engine_, "planner", false);
+  WaitUntil("it is heard", [&] { return robot_.module.goal.Get().x == 8; });
 }
 
 TEST_F(NetworkMastersTest, WhoSaysAStrengthCountsMoreThanWhoSaysNone) {

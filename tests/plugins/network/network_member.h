@@ -16,7 +16,7 @@
 #include "core/types/shared_vector_types.h"
 #include "core/types/type_builder.h"
 #include "plugins/network/network_link.h"
-#include "plugins/wire/fake_wire.h"
+#include "tests/support/fake_wire.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {

@@ -50,7 +50,7 @@ class OtherClockTest : public testing::Test {
     robot_.Begin();
     other_ = Must(engine_->Join({.name = "other"}, table_));
     const auto form = Must(ValueForm::Make(TypeOf<Place>(), "", ""));
-    writer_ = Must(other_->MakeWriter({.topic = "rt/a/place", .type = form->wire_type(), .user_data = form->user_data()}, {}));
+    writer_ = Must(other_->MakeWriter({.topic = "rt/a/place", .type = form->codec->dds_type(), .user_data = form->user_data}, {}));
     WaitUntil("it is read", [&] { return robot_.Text().find("written by other") != std::string::npos; });
   }
 

@@ -8,8 +8,6 @@
 #include "modules/types/planner_status.h"
 #include "modules/types/surroundings.h"
 #include "modules/types/world_map.h"
-#include "plugins/ros_messages/described_message.h"
-#include "plugins/ros_messages/internal/sha256.h"
 #include "tests/plugins/values/example_types.h"
 
 namespace runnel::test {
@@ -18,13 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-TEST(Sha256, IsThatOfTheStandard) {
-  EXPECT_EQ(internal::Sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(internal::Sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-  EXPECT_EQ(internal::Sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
-            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-}
 
 // What `ros2 topic info -v` and others show.
 TEST(TypeHash, IsThatOfRos2) {

@@ -1,14 +1,11 @@
 #include "plugins/ros_messages/node_messages.h"
 
-#include <random>
-
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
 #include "core/log/log_sink.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/ros_messages/discovery_info.h"
 #include "plugins/ros_messages/message_codec.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/parameter_messages.h"
@@ -16,9 +13,6 @@
 
 namespace runnel::test {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 using Octets = std::vector<std::byte>;
 
@@ -97,7 +91,6 @@ TEST(RosParameters, AreValuesOfAnyType) {
 
 TEST(RosParameters, HaveNamesWithDots) {
   EXPECT_EQ(RosParameterName("/robot", "/robot/planner/distance"), "planner.distance");
-  EXPECT_EQ(RosParameterPath("/robot", "planner.distance"), "/robot/planner/distance");
 }
 
 TEST(RosParameters, AreDescribed) {
@@ -114,53 +107,6 @@ TEST(RosParameters, AreDescribed) {
   ASSERT_EQ(descriptor.floating_point_range.size(), 1U);
   EXPECT_EQ(descriptor.floating_point_range[0].from_value, 0.2);
   EXPECT_EQ(descriptor.floating_point_range[0].to_value, 3.0);
-}
-
-RosParticipant SomeParticipant(std::size_t nodes) {
-  RosParticipant participant;
-  participant.gid.fill(0xab);
-  for (std::size_t i = 0; i < nodes; ++i) {
-    participant.nodes.push_back({.name_space = "/", .name = "node" + std::to_string(i), .readers = {participant.gid}, .writers = {}});
-  }
-  return participant;
-}
-
-TEST(DiscoveryInfo, IsReadInBothLayouts) {
-  for (const auto layout : {RosGidLayout::kHumble, RosGidLayout::kIron}) {
-    for (const std::size_t nodes : {0, 1, 3}) {
-      Octets octets;
-      WriteDiscoveryInfo(SomeParticipant(nodes), layout, octets);
-      const auto read = ReadDiscoveryInfo(octets);
-      ASSERT_TRUE(read) << read.error().ToString();
-      EXPECT_EQ(read->layout, layout) << nodes;
-      EXPECT_EQ(read->participant, SomeParticipant(nodes));
-    }
-  }
-  Octets octets;
-  WriteDiscoveryInfo(SomeParticipant(0), RosGidLayout::kIron, octets);
-  EXPECT_EQ(octets.size(), 24U);
-  WriteDiscoveryInfo(SomeParticipant(0), RosGidLayout::kHumble, octets);
-  EXPECT_EQ(octets.size(), 32U);
-}
-
-TEST(DiscoveryInfo, OfAnyOctetsDoesNoHarm) {
-  std::mt19937 random(3);
-  Octets whole;
-  WriteDiscoveryInfo(SomeParticipant(3), RosGidLayout::kIron, whole);
-  for (int i = 0; i < 20000; ++i) {
-    Octets octets = whole;
-    for (int change = 0; change < 3; ++change) octets[random() % octets.size()] = static_cast<std::byte>(random());
-    octets.resize(1 + random() % octets.size());
-    const auto read = ReadDiscoveryInfo(octets);
-    EXPECT_TRUE(!read || read->participant.nodes.size() < 100);
-  }
-  EXPECT_THAT(ReadDiscoveryInfo({}).error().message, HasSubstr("4 octets"));
-}
-
-TEST(DiscoveryInfo, HasTheLayoutOfTheDistribution) {
-  EXPECT_EQ(*FindRosGidLayout("humble"), RosGidLayout::kHumble);
-  EXPECT_EQ(*FindRosGidLayout("jazzy"), RosGidLayout::kIron);
-  EXPECT_EQ(FindRosGidLayout("jazy").error().hint, "did you mean 'jazzy'?");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "plugins/services/client.h"
 #include "plugins/services/service.h"
 #include "plugins/testing/allocation_guard.h"
-#include "plugins/wire/fake_wire.h"
+#include "tests/support/fake_wire.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {

@@ -8,7 +8,7 @@
 #include "core/types/type_of.h"
 #include "modules/types/pose.h"
 #include "plugins/ros_messages/message_library.h"
-#include "plugins/ros_services/service_messages.h"
+#include "plugins/ros_services/service_endpoints.h"
 #include "plugins/services/argument_type.h"
 
 namespace runnel::test {

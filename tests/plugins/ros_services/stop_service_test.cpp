@@ -6,7 +6,7 @@
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_services/stop_service.h"
-#include "plugins/wire/fake_wire.h"
+#include "tests/support/fake_wire.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {

@@ -1,8 +1,7 @@
 // Services and clients whose types are known at run time only, among themselves and with those that are compiled.
 
 #include "core/types/text_format.h"
-#include "plugins/services/client_at_run_time.h"
-#include "plugins/services/service_at_run_time.h"
+#include "plugins/services/services_at_run_time.h"
 #include "tests/plugins/services/service_fixture.h"
 
 namespace runnel::test {

@@ -15,10 +15,10 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include "plugins/wire/fake_wire.h"
 #include "plugins/wire/octet_pool.h"
 #include "plugins/wire_shared_memory/shared_memory_wire.h"
 #include "tests/plugins/wire/wire_ends.h"
+#include "tests/support/fake_wire.h"
 #include "tests/support/own_network.h"
 #include "tests/support/wait_until.h"
 #ifdef RUNNEL_HAS_CYCLONE

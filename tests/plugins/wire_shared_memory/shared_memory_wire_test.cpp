@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/wire/fake_wire.h"
 #include "tests/plugins/wire_shared_memory/nobody.h"
+#include "tests/support/fake_wire.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {

@@ -7,8 +7,8 @@
 #include "plugins/application_tags/run_description.h"
 #include "plugins/network/network_engines.h"
 #include "plugins/network/xml_network_tags.h"
-#include "plugins/wire/fake_wire.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
+#include "tests/support/fake_wire.h"
 
 namespace runnel::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "plugins/wire/fake_wire.h"
+#include "tests/support/fake_wire.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -85,6 +85,7 @@ class FakeNetwork final : public WireEngine {
   void AddEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint);
   void RemoveEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint);
   void Deliver(FakeEndpoint& writer, const FakeEndpoint::Value& value);
+  void SetCutOff(const std::string& name, bool is_cut_off);
 
  private:
   void Run();
@@ -98,6 +99,7 @@ class FakeNetwork final : public WireEngine {
   std::uint64_t made_ = 0;
   std::vector<FakeParticipant*> members_;
   std::vector<std::shared_ptr<FakeEndpoint>> endpoints_;
+  std::vector<std::shared_ptr<FakeEndpoint>> cut_off_;
   std::thread thread_;
 };
 
@@ -264,6 +266,7 @@ void FakeNetwork::AddEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint) {
 }
 
 void FakeNetwork::RemoveEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint) {
+  if (std::erase(cut_off_, endpoint) > 0) return;
   std::erase(endpoints_, endpoint);
   for (FakeParticipant* const each : members_) {
     if (each->domain() == endpoint->participant->domain()) {
@@ -278,7 +281,23 @@ void FakeNetwork::Deliver(FakeEndpoint& writer, const FakeEndpoint::Value& value
     writer.kept.push_back(value);
     if (writer.kept.size() > writer.about.options.qos.depth) writer.kept.pop_front();
   }
+  if (std::ranges::any_of(cut_off_, [&](const auto& each) { return each.get() == &writer; })) return;
   ForEachOther(writer, [&](FakeEndpoint& reader) { reader.Take(value, writer.about.handle); });
+}
+
+void FakeNetwork::SetCutOff(const std::string& name, bool is_cut_off) {
+  for (const auto& each : std::vector(is_cut_off ? endpoints_ : cut_off_)) {
+    if (each->participant->about().name != name) continue;
+    if (is_cut_off) {
+      RemoveEndpoint(each);
+      Count(*each, -each->matched);
+      cut_off_.push_back(each);
+    } else {
+      std::erase(cut_off_, each);
+      each->about.handle += std::uint64_t{1} << 32;
+      AddEndpoint(each);
+    }
+  }
 }
 
 Result<std::unique_ptr<WireParticipant>> FakeNetwork::Join(const WireMemberOptions& options,
@@ -289,6 +308,11 @@ Result<std::unique_ptr<WireParticipant>> FakeNetwork::Join(const WireMemberOptio
 }  // namespace
 
 std::shared_ptr<WireEngine> MakeFakeWire() { return std::make_shared<FakeNetwork>(); }
+
+void SetCutOff(WireEngine& fake, const std::string& name, bool is_cut_off) {
+  auto& network = static_cast<FakeNetwork&>(fake);
+  network.Do([&] { network.SetCutOff(name, is_cut_off); });
+}
 
 void WaitUntilQuiet(WireEngine& fake) {
   static_cast<FakeNetwork&>(fake).Do([] {});

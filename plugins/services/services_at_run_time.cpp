@@ -1,4 +1,4 @@
-#include "plugins/services/service_at_run_time.h"
+#include "plugins/services/services_at_run_time.h"
 
 #include <utility>
 
@@ -9,6 +9,12 @@
 namespace runnel {
 
 namespace {
+
+FoundSignature Found(const SignatureTypes& types) {
+  const auto found = SignatureAtRunTime(types);
+  if (!found) throw ElementError(found.error());
+  return *found;
+}
 
 class CallOfOffer final : public OwnCall {
  public:
@@ -56,16 +62,15 @@ class ServiceAtRunTime::Offer final : public Callable {
 ServiceAtRunTime::ServiceAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types,
                                    ServiceOptions options, Extra extra, Handler handler)
     : handler_(std::move(handler)) {
-  const auto found = SignatureAtRunTime(types);
-  if (!found) throw ElementError(found.error());
-  form_ = found->signature->MakeForm(options.arguments);
+  const FoundSignature found = Found(types);
+  form_ = found.signature->MakeForm(options.arguments);
   if (!extra.defaults.empty()) {
     // Once, so that NewCall() need not fail.
-    const auto slots = found->signature->MakeSlots(1);
+    const auto slots = found.signature->MakeSlots(1);
     void* const at = const_cast<void*>(form_->ArgumentsOf(*slots->Acquire()));
     if (auto set = SetFromText(*form_->arguments(), extra.defaults, at); !set) throw ElementError(set.error());
   }
-  port_ = MakeLinkOutput(*found->link, group, name, {.description = options.description});
+  port_ = MakeLinkOutput(*found.link, group, name, {.description = options.description});
   auto endpoint = std::make_unique<ServiceEndpoint>(options.queue);
   const auto published = port_->PublishFilled([&](void* link) -> Result<void> {
     *static_cast<ServiceEndpoint**>(link) = endpoint.get();
@@ -74,8 +79,8 @@ ServiceAtRunTime::ServiceAtRunTime(FrameworkElement& group, const std::string& n
   if (!published) throw ElementError(published.error());
   (void)endpoint.release();  // the channel's from here on
   Open(*port_, extra.is_activity);
-  port_->Annotate<Callable>(std::make_unique<Offer>(*this, *found->signature, options.description, std::move(extra)));
-  records_ = found->signature->MakeRecorder(group, name);
+  port_->Annotate<Callable>(std::make_unique<Offer>(*this, *found.signature, options.description, std::move(extra)));
+  records_ = found.signature->MakeRecorder(group, name);
 }
 
 ServiceAtRunTime::~ServiceAtRunTime() { Close(); }
@@ -87,5 +92,21 @@ CallStatus ServiceAtRunTime::Invoke(CallBase& call, Activity* activity) {
   if (records_ != nullptr) records_->Record(call, status);
   return status;
 }
+
+ClientAtRunTime::ClientAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types,
+                                 const ClientOptions& options, CalledBack called_back)
+    : ClientAtRunTime(group, name, Found(types), options, std::move(called_back)) {}
+
+ClientAtRunTime::ClientAtRunTime(FrameworkElement& group, const std::string& name, FoundSignature found,
+                                 const ClientOptions& options, CalledBack called_back)
+    : ClientBase(options, found.signature->MakeSlots(options.calls)),
+      called_back_(std::move(called_back)),
+      form_(found.signature->MakeForm(options.arguments)),
+      port_(MakeLinkInput(*found.link, group, name, {.description = options.description, .required = options.required})) {
+  Open(*port_);
+  port_->Annotate<ClientForm>(std::make_unique<ClientForm>(form_));
+}
+
+ClientAtRunTime::~ClientAtRunTime() { Close(); }
 
 }  // namespace runnel
