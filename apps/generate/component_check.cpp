@@ -4,7 +4,6 @@
 #include <charconv>
 
 #include "plugins/genom_templates/template_run.h"
-#include "plugins/genom_templates/template_search.h"
 #include "plugins/model_checker/spin.h"
 
 namespace runnel {

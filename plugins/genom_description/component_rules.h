@@ -75,14 +75,14 @@ class ComponentRules {
   std::map<std::string, Codel*, std::less<>> codels_ = {};  // the first of each name
 };
 
-/// The state machines of a component's tasks and activities; see state_machine.cpp.
+/// The state machines of a component's tasks and activities; see closing_checks.cpp.
 void BuildStateMachine(const std::vector<Codel*>& codels, std::map<std::string, Codel*, std::less<>>& states,
                        Problems& problems);
 void CheckStateMachine(const std::map<std::string, Codel*, std::less<>>& states, bool needs_start, Place place,
                        Problems& problems);
 /// Periods, delays and the clock of a component.
 void CheckTimes(Component& component, Problems& problems);
-/// Of codels whose names the headers in C have for something else; see codel_names.cpp.
+/// Of codels whose names the headers in C have for something else.
 void WarnOfCodelNames(const Component& component, Problems& problems);
 /// Asynchronous codels exclude nothing.
 void CheckAsyncCodels(const Component& component, Problems& problems);

@@ -1,5 +1,6 @@
 #include "plugins/genom_description/description.h"
 
+#include "plugins/genom_description/component_json.h"
 #include "plugins/genom_description/parser.h"
 
 namespace runnel::genom {
@@ -49,6 +50,28 @@ std::unique_ptr<Description> ReadDescription(const std::vector<std::string>& fil
 std::unique_ptr<Description> ReadDescriptionText(const std::string& text, const std::string& name,
                                                  const PreprocessorOptions& options, Diagnostics& diagnostics) {
   return ReadBy(options, diagnostics, [&](Preprocessor& preprocessor) { preprocessor.ReadText(text, name); });
+}
+
+std::string DescriptionJson(const Description& description) {
+  Layouts layouts;
+  const JsonWriter writer(description.problems, layouts);
+  Json json;
+  json["notice"] = description.notice;
+  json["files"] = description.problems.files();
+  json["types"] = Json::array();
+  for (const Type& each : description.scopes.types()) {
+    if (JsonWriter::IsDeclared(each)) json["types"].push_back(writer.Declared(each));
+  }
+  json["interfaces"] = Json::array();
+  json["components"] = Json::array();
+  for (const Component& each : description.components) {
+    json[each.is_interface ? "interfaces" : "components"].push_back(writer.ComponentJson(each));
+  }
+  json["masquerades"] = Json::object();
+  for (const auto& [name, types] : description.masquerades) {
+    for (const auto& [type, text] : types) json["masquerades"][name][type->ShownName()] = text;
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace runnel::genom

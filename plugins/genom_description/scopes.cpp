@@ -1,4 +1,4 @@
-#include "plugins/genom_description/scopes.h"
+#include "plugins/genom_description/description.h"
 
 #include "core/base/nearest_name.h"
 

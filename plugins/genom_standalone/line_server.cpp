@@ -1,4 +1,4 @@
-#include "plugins/genom_standalone/line_server.h"
+#include "plugins/genom_standalone/request_server.h"
 
 #include <array>
 #include <cerrno>

@@ -1,15 +1,66 @@
 #pragma once
 
+#include <functional>
 #include <list>
+#include <map>
 #include <memory>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
+#include "core/base/result.h"
 #include "plugins/genom_execution/engine.h"
-#include "plugins/genom_standalone/line_server.h"
 #include "plugins/genom_standalone/standalone_component.h"
-#include "plugins/genom_standalone/value_json.h"
+#include "plugins/genom_standalone/value_type.h"
 
 namespace runnel::genom_standalone {
+
+using Json = nlohmann::ordered_json;
+
+/// Structs as objects, sequences as arrays, an optional without a value as null, a union as an object of what is set,
+/// enumerators and texts as texts.
+[[nodiscard]] Json ToJson(const ValueType& type, const void* value);
+
+/// What is not said stays as it is. Errors: what is of another type, does not fit, or is unknown, with its path; parts may
+/// have been set then.
+[[nodiscard]] Result<void> FromJson(const ValueType& type, const Json& json, void* value, const std::string& path);
+
+/// Lines of text between this process and clients at a Unix socket.
+///
+/// Threads: one, but Wake(), which any may call, also signal handlers.
+class LineServer {
+ public:
+  using Client = int;
+
+  LineServer();
+  /// Ends all sessions, and removes the socket.
+  ~LineServer();
+  LineServer(const LineServer&) = delete;
+  LineServer& operator=(const LineServer&) = delete;
+
+  /// Errors: the path cannot be had, or somebody listens there.
+  [[nodiscard]] Result<void> Listen(const std::string& path);
+  /// Until lines have come, or Wake() was called; each goes to `take`, without its end.
+  void Serve(const std::function<void(Client, const std::string&)>& take, const std::function<void(Client)>& gone);
+  /// To a client that is gone: to nobody.
+  void Send(Client client, const std::string& line);
+  /// What has been sent goes out, for a second at most.
+  void Flush();
+  void Wake() noexcept;
+
+ private:
+  struct Session {
+    std::string received = {}, unsent = {};
+  };
+  void Accept();
+  [[nodiscard]] bool Receive(Client client, Session& session);
+  [[nodiscard]] bool SendMore(Client client, Session& session);
+
+  std::string path_;
+  int listening_ = -1;
+  int woken_ = -1;
+  std::map<Client, Session> sessions_;
+};
 
 /// What clients say, line by line, and what they are answered.
 ///

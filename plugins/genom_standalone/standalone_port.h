@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -36,8 +35,13 @@ class StandalonePort {
 
   /// Of an input: what was fetched last, nullptr before the first. Of an output: the component's own.
   [[nodiscard]] void* data() noexcept { return has_data_ ? data_.data() : nullptr; }
-  void Fetch();
-  void Write();
+  void Fetch() {
+    const std::lock_guard lock(mutex_);
+    if (!has_newest_) return;
+    data_.Set(newest_.data());
+    has_data_ = true;
+  }
+  void Write() { Put(data_.data()); }
   [[nodiscard]] bool is_input() const noexcept { return is_input_; }
   [[nodiscard]] const ValueType& type() const noexcept { return type_; }
 
@@ -48,7 +52,11 @@ class StandalonePort {
     return use(has_newest_ ? newest_.data() : nullptr);
   }
   /// Takes a value's place by a copy.
-  void Put(const void* value);
+  void Put(const void* value) {
+    const std::lock_guard lock(mutex_);
+    newest_.Set(value);
+    has_newest_ = true;
+  }
 
  private:
   const ValueType& type_;
@@ -67,16 +75,26 @@ class StandaloneMultiplePort {
  public:
   StandaloneMultiplePort(const ValueType& type, bool is_input) : type_(type), is_input_(is_input) {}
 
-  [[nodiscard]] StandalonePort* Find(const std::string& name);
-  [[nodiscard]] StandalonePort& Open(const std::string& name);
-  bool Close(const std::string& name);
+  [[nodiscard]] StandalonePort* Find(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    const auto found = ports_.find(name);
+    return found != ports_.end() ? &found->second : nullptr;
+  }
+  [[nodiscard]] StandalonePort& Open(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    return ports_.try_emplace(name, type_, is_input_).first->second;
+  }
+  bool Close(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    return ports_.erase(name) > 0;
+  }
   [[nodiscard]] bool is_input() const noexcept { return is_input_; }
 
  private:
   const ValueType& type_;
   const bool is_input_;
   std::mutex mutex_;
-  std::map<std::string, std::unique_ptr<StandalonePort>> ports_;
+  std::map<std::string, StandalonePort> ports_;
 };
 
 }  // namespace runnel::genom_standalone

@@ -1,15 +1,24 @@
 // The main function of components as processes.
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <deque>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
+#include <vector>
 
+#include <pthread.h>
+#include <sched.h>
+
+#include "core/base/clock.h"
+#include "core/lockfree/wake_event.h"
+#include "plugins/genom_execution/engine.h"
 #include "plugins/genom_standalone/request_server.h"
-#include "plugins/genom_standalone/task_threads.h"
 
 namespace runnel::genom_standalone {
 
@@ -51,6 +60,70 @@ bool Parse(int count, char** words, Arguments& arguments) {
   }
   return true;
 }
+
+// Priority 0 is the highest of a component, 255 the lowest. Who may not have it goes on without, and says so.
+void BecomeRealTime(const genom_execution::TaskTable& task) {
+  sched_param parameters{};
+  parameters.sched_priority = std::clamp(90 - task.priority / 3, 1, 90);
+  const int code = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+  if (code == 0) return;
+  std::cerr << std::string("warning: task '") + task.name + "' gets no real-time priority (SCHED_FIFO " +
+                   std::to_string(parameters.sched_priority) + "): " + std::strerror(code) +
+                   "; permit it by ulimit -r, or as root\n";
+}
+
+// A thread for the control task and one for each other task, by the machine's clock.
+class TaskThreads {
+ public:
+  explicit TaskThreads(std::size_t tasks) : wakes_(tasks + 1) {}
+  // Preconditions: Begin() was called, and the engine ends or has ended.
+  ~TaskThreads() { Join(); }
+  TaskThreads(const TaskThreads&) = delete;
+  TaskThreads& operator=(const TaskThreads&) = delete;
+
+  void Begin(Engine& engine) {
+    threads_.emplace_back([this, &engine] { RunControl(engine); });
+    for (std::size_t i = 0; i < engine.tasks().size(); ++i) {
+      threads_.emplace_back([this, &engine, i] { RunTask(engine, i); });
+    }
+  }
+  // Something has happened: EngineOptions::wake. Any thread.
+  void WakeAll() noexcept {
+    for (WakeEvent& each : wakes_) each.Notify();
+  }
+  void Join() {
+    for (std::thread& each : threads_) each.join();
+    threads_.clear();
+  }
+
+ private:
+  void RunControl(Engine& engine) {
+    while (!engine.is_ended()) {
+      const std::uint64_t changes = engine.changes();
+      (void)engine.RunControl();
+      if (!engine.is_ended() && engine.changes() == changes) wakes_[0].Wait();
+    }
+    WakeAll();
+  }
+  void RunTask(Engine& engine, std::size_t task) {
+    auto& own = engine.tasks()[task];
+    if (own.table().is_real_time) BecomeRealTime(own.table());
+    while (!engine.is_ended()) {
+      const std::uint64_t changes = engine.changes();
+      if (engine.RunTask(task, clock_.Now()) != Pass::kIdle || engine.is_ended()) continue;
+      const Time tick = own.next_tick();
+      if (tick != Time::max() && own.is_periodic()) {
+        wakes_[task + 1].WaitUntil(tick);
+      } else if (engine.changes() == changes) {
+        wakes_[task + 1].Wait();
+      }
+    }
+  }
+
+  SteadyClock clock_;
+  std::deque<WakeEvent> wakes_;  // of the control task, then of the others
+  std::vector<std::thread> threads_;
+};
 
 // As a component does in cycles of Runnel: everything that can be done at this time is done.
 void RunAll(Engine& engine, Time time, bool is_forced) {

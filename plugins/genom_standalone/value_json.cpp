@@ -1,4 +1,4 @@
-#include "plugins/genom_standalone/value_json.h"
+#include "plugins/genom_standalone/request_server.h"
 
 #include <algorithm>
 #include <cstring>

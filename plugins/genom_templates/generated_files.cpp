@@ -2,7 +2,6 @@
 
 #include "core/base/replace_file.h"
 #include "plugins/genom_templates/file_text.h"
-#include "plugins/genom_templates/three_way_merge.h"
 
 namespace runnel::genom {
 

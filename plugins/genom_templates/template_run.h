@@ -31,4 +31,21 @@ struct TemplateLimits {
                                                  const std::map<std::string, std::string>& options,
                                                  const TemplateLimits& limits = {});
 
+/// A template's text as a program in Lua that writes it: what stands in `<% … %>` is run, what stands in `<%= … %>` is
+/// computed and written. A line that holds nothing but scripts leaves no line. Each line of the program is that line of
+/// the template, so that places in Lua's messages are right.
+///
+/// Errors: a marker without its other half; the position has line and column, and no file.
+[[nodiscard]] Result<std::string> ProgramOf(const std::string& text);
+
+/// The folder of a template: one that is named by its path, or one of the name in a folder of RUNNEL_GENOM_TEMPLATES, or one
+/// that comes with Runnel. Errors: none has a file template.lua; the nearest name is told.
+[[nodiscard]] Result<std::filesystem::path> FindTemplate(const std::string& name);
+
+/// Where the templates that come with Runnel are: share/runnel/genom_templates beside the folder of this program.
+[[nodiscard]] std::filesystem::path TemplatesOfRunnel();
+
+/// The names of all that can be found, sorted.
+[[nodiscard]] std::vector<std::string> TemplateNames();
+
 }  // namespace runnel::genom

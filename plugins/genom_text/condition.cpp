@@ -1,7 +1,8 @@
-#include "plugins/genom_text/condition.h"
+#include "plugins/genom_text/macro.h"
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <string_view>
 
 namespace runnel::genom {
@@ -10,14 +11,34 @@ namespace {
 
 using Kind = TextToken::Kind;
 
+using Number = std::uint64_t;  // as #if computes: 64 bits, in two's complement
+std::int64_t Signed(Number number) { return static_cast<std::int64_t>(number); }
+
 struct Operator {
   std::string_view text;
-  int binding;  // the higher, the tighter
+  int binding;                          // the higher, the tighter
+  Number (*apply)(Number a, Number b);  // nullptr: divides
 };
-constexpr std::array<Operator, 18> kOperators = {{{"||", 1}, {"&&", 2}, {"|", 3}, {"^", 4}, {"&", 5},
-                                                  {"==", 6}, {"!=", 6}, {"<=", 7}, {">=", 7}, {"<", 7},
-                                                  {">", 7}, {"<<", 8}, {">>", 8}, {"+", 9}, {"-", 9},
-                                                  {"*", 10}, {"/", 10}, {"%", 10}}};
+// Those of two characters first, for they begin like others.
+constexpr std::array<Operator, 18> kOperators = {
+    {{"||", 1, [](Number a, Number b) -> Number { return a != 0 || b != 0; }},
+     {"&&", 2, [](Number a, Number b) -> Number { return a != 0 && b != 0; }},
+     {"==", 6, [](Number a, Number b) -> Number { return a == b; }},
+     {"!=", 6, [](Number a, Number b) -> Number { return a != b; }},
+     {"<=", 7, [](Number a, Number b) -> Number { return Signed(a) <= Signed(b); }},
+     {">=", 7, [](Number a, Number b) -> Number { return Signed(a) >= Signed(b); }},
+     {"<<", 8, [](Number a, Number b) -> Number { return b < 64 ? a << b : 0; }},
+     {">>", 8, [](Number a, Number b) -> Number { return b < 64 ? a >> b : 0; }},
+     {"|", 3, [](Number a, Number b) { return a | b; }},
+     {"^", 4, [](Number a, Number b) { return a ^ b; }},
+     {"&", 5, [](Number a, Number b) { return a & b; }},
+     {"<", 7, [](Number a, Number b) -> Number { return Signed(a) < Signed(b); }},
+     {">", 7, [](Number a, Number b) -> Number { return Signed(a) > Signed(b); }},
+     {"+", 9, [](Number a, Number b) { return a + b; }},
+     {"-", 9, [](Number a, Number b) { return a - b; }},
+     {"*", 10, [](Number a, Number b) { return a * b; }},
+     {"/", 10, nullptr},
+     {"%", 10, nullptr}}};
 
 class ConditionReader {
  public:
@@ -25,7 +46,7 @@ class ConditionReader {
       : tokens_(tokens), place_(place), problems_(problems) {}
 
   std::optional<bool> Value() {
-    const std::int64_t value = Ternary();
+    const Number value = Ternary();
     if (!is_wrong_ && at_ < tokens_.size()) Fail("this does not belong to the condition");
     if (is_wrong_) return std::nullopt;
     return value != 0;
@@ -39,8 +60,10 @@ class ConditionReader {
     is_wrong_ = true;
     problems_.Add(at_ < tokens_.size() ? tokens_[at_].place : place_, message);
   }
-  [[nodiscard]] bool IsMark(std::size_t at, std::string_view text) const {
-    return at < tokens_.size() && tokens_[at].kind == Kind::kMark && tokens_[at].text == text;
+  bool Accept(std::string_view mark) {
+    const bool is_there = at_ < tokens_.size() && tokens_[at_].kind == Kind::kMark && tokens_[at_].text == mark;
+    if (is_there) ++at_;
+    return is_there;
   }
   // Operators of two characters come as two tokens, but for << and >>.
   [[nodiscard]] const Operator* Next() const {
@@ -48,63 +71,53 @@ class ConditionReader {
     std::string both = tokens_[at_].text;
     if (at_ + 1 < tokens_.size() && !tokens_[at_ + 1].has_space_before) both += tokens_[at_ + 1].text;
     for (const Operator& each : kOperators) {
-      if (each.text.size() == 2 && (both == each.text || tokens_[at_].text == each.text)) return &each;
-    }
-    for (const Operator& each : kOperators) {
-      if (each.text == tokens_[at_].text) return &each;
+      if (each.text == tokens_[at_].text || each.text == both) return &each;
     }
     return nullptr;
   }
 
-  std::int64_t Ternary() {
+  Number Ternary() {
     if (++depth_ > kDeepest) Fail("this condition is nested too deeply");
-    std::int64_t value = is_wrong_ ? 0 : Binary(1);
-    if (!is_wrong_ && IsMark(at_, "?")) {
-      ++at_;
-      const std::int64_t yes = Ternary();
-      if (!IsMark(at_, ":")) Fail("here ':' is missing");
-      ++at_;
-      const std::int64_t no = is_wrong_ ? 0 : Ternary();
+    Number value = is_wrong_ ? 0 : Binary(1);
+    if (!is_wrong_ && Accept("?")) {
+      const Number yes = Ternary();
+      if (!Accept(":")) Fail("here ':' is missing");
+      const Number no = is_wrong_ ? 0 : Ternary();
       value = value != 0 ? yes : no;
     }
     --depth_;
     return value;
   }
 
-  std::int64_t Binary(int binding) {
-    std::int64_t left = Unary();
+  Number Binary(int binding) {
+    Number left = Unary();
     while (!is_wrong_) {
       const Operator* next = Next();
       if (next == nullptr || next->binding < binding) break;
       at_ += next->text.size() == 2 && tokens_[at_].text.size() == 1 ? 2 : 1;
-      left = Apply(next->text, left, Binary(next->binding + 1));
+      const Number right = Binary(next->binding + 1);
+      left = next->apply != nullptr ? next->apply(left, right) : Divided(Signed(left), next->text, Signed(right));
     }
     return left;
   }
 
-  std::int64_t Unary() {
+  Number Unary() {
     if (++depth_ > kDeepest) Fail("this condition is nested too deeply");
-    std::int64_t value = 0;
+    Number value = 0;
     if (is_wrong_) {
     } else if (at_ >= tokens_.size()) {
       Fail("the condition ends too early");
-    } else if (IsMark(at_, "!")) {
-      ++at_;
+    } else if (Accept("!")) {
       value = Unary() == 0 ? 1 : 0;
-    } else if (IsMark(at_, "-")) {
-      ++at_;
-      value = static_cast<std::int64_t>(0 - static_cast<std::uint64_t>(Unary()));
-    } else if (IsMark(at_, "+")) {
-      ++at_;
+    } else if (Accept("-")) {
+      value = 0 - Unary();
+    } else if (Accept("+")) {
       value = Unary();
-    } else if (IsMark(at_, "~")) {
-      ++at_;
+    } else if (Accept("~")) {
       value = ~Unary();
-    } else if (IsMark(at_, "(")) {
-      ++at_;
+    } else if (Accept("(")) {
       value = Ternary();
-      if (!IsMark(at_, ")")) Fail("here ')' is missing");
-      ++at_;
+      if (!Accept(")")) Fail("here ')' is missing");
     } else {
       value = Primary();
     }
@@ -112,7 +125,7 @@ class ConditionReader {
     return value;
   }
 
-  std::int64_t Primary() {
+  Number Primary() {
     const TextToken& token = tokens_[at_];
     if (token.kind == Kind::kWord) {
       ++at_;
@@ -120,54 +133,26 @@ class ConditionReader {
     }
     if (token.kind == Kind::kCharacter && token.text.size() >= 3) {
       ++at_;
-      return token.text[1];
+      return static_cast<Number>(token.text[1]);
     }
-    if (token.kind != Kind::kNumber) {
+    // With a base as in C: what stands behind is u or l.
+    char* end = nullptr;
+    const Number value = token.kind == Kind::kNumber ? std::strtoull(token.text.c_str(), &end, 0) : 0;
+    if (end == nullptr || std::string_view(end).find_first_not_of("uUlL") != std::string_view::npos) {
       Fail("a condition is made of whole numbers, macros and 'defined'");
       return 0;
     }
-    const bool is_hexadecimal = token.text.starts_with("0x") || token.text.starts_with("0X");
-    const int base = is_hexadecimal ? 16 : token.text.starts_with("0") ? 8 : 10;
-    std::uint64_t value = 0;
-    for (std::size_t i = is_hexadecimal ? 2 : 0; i < token.text.size(); ++i) {
-      const char c = static_cast<char>(token.text[i] | 0x20);
-      const int numeral = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : 99;
-      if (numeral >= base) {
-        if (c == 'u' || c == 'l') continue;
-        Fail("a condition is made of whole numbers, macros and 'defined'");
-        return 0;
-      }
-      value = value * static_cast<std::uint64_t>(base) + static_cast<std::uint64_t>(numeral);
-    }
     ++at_;
-    return static_cast<std::int64_t>(value);
+    return value;
   }
 
-  std::int64_t Apply(std::string_view text, std::int64_t a, std::int64_t b) {
-    const auto ua = static_cast<std::uint64_t>(a);
-    const auto ub = static_cast<std::uint64_t>(b);
-    if (text == "||") return a != 0 || b != 0;
-    if (text == "&&") return a != 0 && b != 0;
-    if (text == "|") return a | b;
-    if (text == "^") return a ^ b;
-    if (text == "&") return a & b;
-    if (text == "==") return a == b;
-    if (text == "!=") return a != b;
-    if (text == "<=") return a <= b;
-    if (text == ">=") return a >= b;
-    if (text == "<") return a < b;
-    if (text == ">") return a > b;
-    if (text == "<<") return static_cast<std::int64_t>(ub < 64 ? ua << ub : 0);
-    if (text == ">>") return static_cast<std::int64_t>(ub < 64 ? ua >> ub : 0);
-    if (text == "+") return static_cast<std::int64_t>(ua + ub);
-    if (text == "-") return static_cast<std::int64_t>(ua - ub);
-    if (text == "*") return static_cast<std::int64_t>(ua * ub);
+  Number Divided(std::int64_t a, std::string_view operation, std::int64_t b) {
     if (b == 0) {
       Fail("this condition divides by zero");
       return 0;
     }
-    if (b == -1) return text == "/" ? static_cast<std::int64_t>(0 - ua) : 0;
-    return text == "/" ? a / b : a % b;
+    if (b == -1) return operation == "/" ? 0 - static_cast<Number>(a) : 0;  // the least has no opposite
+    return static_cast<Number>(operation == "/" ? a / b : a % b);
   }
 
   const std::vector<TextToken>& tokens_;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "plugins/genom_text/text_token.h"
+#include "plugins/genom_text/place.h"
 
 namespace runnel::genom {
 
@@ -54,5 +54,10 @@ class MacroTable {
   std::size_t steps_ = 0;
   int depth_ = 0;
 };
+
+/// The value of an expression behind #if, macros expanded and `defined` answered; nullopt if it is wrong, which has then
+/// been told.
+[[nodiscard]] std::optional<bool> ConditionValue(const std::vector<TextToken>& tokens, Place place,
+                                                 Problems& problems);
 
 }  // namespace runnel::genom

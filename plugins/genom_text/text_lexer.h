@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "plugins/genom_text/text_token.h"
+#include "plugins/genom_text/place.h"
 
 namespace runnel::genom {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 
@@ -65,25 +66,12 @@ class NumberCutter {
       PutInteger(length, 16, 2, place);
       return;
     }
-    std::size_t length = 0;
-    while (IsNumeral(At(length))) ++length;
-    const std::size_t whole = length;
-    bool is_real = false;
-    if (At(length) == '.') {
-      is_real = true;
-      ++length;
-      while (IsNumeral(At(length))) ++length;
-    }
-    if (At(length) == 'e' || At(length) == 'E') {
-      const std::size_t sign = At(length + 1) == '+' || At(length + 1) == '-' ? 1 : 0;
-      if (IsNumeral(At(length + 1 + sign))) {
-        is_real = true;
-        length += 1 + sign;
-        while (IsNumeral(At(length))) ++length;
-      }
-    }
-    if (!is_real) {
-      PutInteger(whole, text_[at_] == '0' && whole > 1 ? 8 : 10, 0, place);
+    const char* const begin = text_.data() + at_;
+    double real = 0;
+    const char* const end = std::from_chars(begin, text_.data() + text_.size(), real).ptr;
+    const auto length = static_cast<std::size_t>(end - begin);
+    if (std::string_view(begin, length).find_first_of(".eE") == std::string_view::npos) {
+      PutInteger(length, text_[at_] == '0' && length > 1 ? 8 : 10, 0, place);
       return;
     }
     Token token{.kind = Kind::kReal, .text = text_.substr(at_, length), .place = place};
@@ -96,22 +84,14 @@ class NumberCutter {
     into_.push_back(std::move(token));
   }
 
-  void PutInteger(std::size_t length, unsigned base, std::size_t skip, Place place) {
+  void PutInteger(std::size_t length, int base, std::size_t skip, Place place) {
     Token token{.kind = Kind::kInteger, .text = text_.substr(at_, length), .place = place};
-    bool is_too_large = false;
-    for (std::size_t i = skip; i < length; ++i) {
-      const char c = static_cast<char>(token.text[i] | 0x20);
-      const auto numeral = static_cast<unsigned>(c >= 'a' ? c - 'a' + 10 : token.text[i] - '0');
-      if (numeral >= base) {
-        problems_.Warn(place, "'" + token.text + "' is no octal number: what stands behind the 0 ends before its " +
-                                  token.text[i]);
-        break;
-      }
-      std::uint64_t next = 0;
-      is_too_large |= __builtin_mul_overflow(token.integer, static_cast<std::uint64_t>(base), &next) ||
-                      __builtin_add_overflow(next, static_cast<std::uint64_t>(numeral), &token.integer);
+    const char* const past = token.text.data() + length;
+    const auto [end, error] = std::from_chars(token.text.data() + skip, past, token.integer, base);
+    if (end != past) {
+      problems_.Warn(place, "'" + token.text + "' is no octal number: what stands behind the 0 ends before its " + *end);
     }
-    if (is_too_large) problems_.Add(place, "'" + token.text + "' is too large for 64 bits");
+    if (error == std::errc::result_out_of_range) problems_.Add(place, "'" + token.text + "' is too large for 64 bits");
     at_ += length;
     // "100us" is microseconds: a suffix ends the word.
     std::size_t suffix = 0;

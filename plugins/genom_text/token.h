@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "plugins/genom_text/text_token.h"
+#include "plugins/genom_text/place.h"
 
 namespace runnel::genom {
 

@@ -1,5 +1,7 @@
 #include "plugins/mcap/mcap_bytes.h"
 
+#include <zlib.h>
+
 namespace runnel {
 
 McapBytesWriter& McapBytesWriter::Texts(const McapTexts& texts) {
@@ -17,6 +19,13 @@ McapBytesReader& McapBytesReader::Texts(McapTexts& texts) {
   }
   has_failed_ = has_failed_ || reader.has_failed();
   return *this;
+}
+
+void Checksum::Add(std::string_view bytes) noexcept {
+  // Without bytes zlib would begin anew.
+  if (bytes.empty()) return;
+  value_ = static_cast<std::uint32_t>(
+      crc32_z(value_, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace runnel

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "plugins/mcap/checksum.h"
+#include "plugins/mcap/mcap_bytes.h"
 #include "plugins/mcap/mcap_records.h"
 
 namespace runnel {

@@ -1,4 +1,4 @@
-#include "plugins/genom_templates/template_text.h"
+#include "plugins/genom_templates/template_run.h"
 
 #include <algorithm>
 

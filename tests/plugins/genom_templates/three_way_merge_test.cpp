@@ -1,4 +1,4 @@
-#include "plugins/genom_templates/three_way_merge.h"
+#include "plugins/genom_templates/generated_files.h"
 
 #include <gtest/gtest.h>
 

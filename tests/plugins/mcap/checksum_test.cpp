@@ -1,4 +1,4 @@
-#include "plugins/mcap/checksum.h"
+#include "plugins/mcap/mcap_bytes.h"
 
 #include <string>
 
