@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "modules/behaviours/algorithm/escape.h"
 #include "modules/behaviours/algorithm/steering.h"
 #include "modules/types/pose.h"
 #include "modules/types/surroundings.h"

@@ -11,7 +11,6 @@
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "core/types/type_of.h"
-#include "plugins/behaviours/algorithm/activation.h"
 #include "plugins/behaviours/algorithm/behaviour_rules.h"
 #include "plugins/behaviours/control_output.h"
 #include "plugins/behaviours/meta_signal.h"

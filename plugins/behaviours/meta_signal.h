@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/types/type_of.h"
-#include "plugins/behaviours/algorithm/activation.h"
+#include "plugins/behaviours/algorithm/behaviour_rules.h"
 
 namespace runnel {
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "plugins/behaviours/algorithm/activation.h"
 
 namespace runnel {
 

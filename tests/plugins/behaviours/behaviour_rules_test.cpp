@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/behaviours/algorithm/activation.h"
 #include "plugins/behaviours/algorithm/behaviour_rules.h"
 #include "plugins/testing/allocation_guard.h"
 
