@@ -175,7 +175,7 @@ class EmergencyStopBehaviour final : public Behaviour {
                                .bounds = {0.0, 10.0},
                                .unit = "m",
                                .description = "with less free way ahead it stops"}};
-  InputTimeout surroundings_timeout{this, surroundings, {.name = "timeout"}};
+  InputTimeout surroundings_timeout{this, surroundings, {.former_name = "timeout"}};
   InputTimeout wanted_timeout{this, wanted, {}};
 
  private:

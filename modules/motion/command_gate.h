@@ -1,5 +1,8 @@
 #pragma once
 
+#include <mutex>
+
+#include "core/element/runtime.h"
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
@@ -18,7 +21,7 @@ enum class GateState {
   kContact,     ///< the body touches something
   kStopped,     ///< somebody has closed the gate, or the robot is stopped
   kNotANumber,  ///< the command is none that can be driven
-  kOldContact,  ///< the bumper has fallen silent
+  kOldContact,  ///< the bumper has fallen silent, or has never spoken
 };
 
 inline void Describe(TypeBuilder<GateState>& type) {
@@ -37,7 +40,7 @@ inline void Describe(TypeBuilder<GateState>& type) {
 /// cannot leave the robot driving.
 class CommandGate final : public Module {
  public:
-  using Module::Module;
+  explicit CommandGate(const Placement& placement) : Module(placement) { KeepState(has_bumper_); }
 
   Input<Twist2> wanted{this,
                        "wanted",
@@ -50,28 +53,34 @@ class CommandGate final : public Module {
   Output<Twist2> allowed{this, "allowed", {.description = "the same, or standstill"}};
   Output<GateState> state{this, "state", {.description = "why commands do not pass"}};
 
-  InputTimeout timeout{this, wanted, {.name = "timeout"}};
-  /// A bumper that has spoken once has to go on; one that says only what has changed needs a longer one.
+  InputTimeout wanted_timeout{this, wanted, {.former_name = "timeout"}};
+  /// A bumper that is connected from the beginning has to speak, and one that has spoken has to go on, also if it is
+  /// disconnected or another gate takes the place of this one; one that says only what has changed needs a longer one.
   InputTimeout contact_timeout{this, contact, {}};
   Parameter<bool> stop{
       this, "stop", {.default_value = false, .description = "holds the robot whatever comes"}};
 
  private:
+  Result<void> Prepare() override {
+    const std::lock_guard lock(runtime().structure_mutex());
+    has_bumper_ = !contact.Sources().empty();
+    return {};
+  }
   void Update() override {
-    const auto command = timeout.Read(wanted, now());
+    const auto command = wanted_timeout.Read(wanted, now());
     const auto touch = contact_timeout.Read(contact, now());
-    has_bumper_ = has_bumper_ || touch;
+    has_bumper_ = has_bumper_ || contact_timeout.lack() != InputLack::kNeverCame;
     const GateState verdict = Check(touch);
     allowed.Publish(verdict == GateState::kOpen ? *command : Twist2{});
     state.Publish(verdict);
   }
   [[nodiscard]] GateState Check(const Lease<Contact>& touch) const {
     if (stop.Get() || wanted.is_stopped()) return GateState::kStopped;
-    if (timeout.lack() == InputLack::kNeverCame) return GateState::kNoCommand;
+    if (wanted_timeout.lack() == InputLack::kNeverCame) return GateState::kNoCommand;
     if (has_bumper_ && !touch) return GateState::kOldContact;
     if (touch && touch->is_touching) return GateState::kContact;
-    if (timeout.lack() == InputLack::kNone) return GateState::kOpen;
-    return timeout.lack() == InputLack::kOld ? GateState::kOldCommand : GateState::kNotANumber;
+    if (wanted_timeout.lack() == InputLack::kNone) return GateState::kOpen;
+    return wanted_timeout.lack() == InputLack::kOld ? GateState::kOldCommand : GateState::kNotANumber;
   }
 
   bool has_bumper_ = false;

@@ -58,7 +58,7 @@ class DifferentialDriveModule final : public Module {
                                        .bounds = {0.01, 500.0},
                                        .unit = "rad/s^2",
                                        .description = "of the body"}};
-  InputTimeout timeout{this, twist, {.name = "timeout", .log = &log()}};
+  InputTimeout twist_timeout{this, twist, {.former_name = "timeout", .log = &log()}};
 
  private:
   void Update() override {
@@ -67,12 +67,12 @@ class DifferentialDriveModule final : public Module {
                                   .maximum_speed = maximum_speed.Get(),
                                   .maximum_turn_rate = maximum_turn_rate.Get()};
     const AccelerationLimit limit{.forward = acceleration.Get(), .turn = turn_acceleration.Get()};
-    const auto command = timeout.Read(twist, now());
+    const auto command = twist_timeout.Read(twist, now());
     const Twist2 wanted = WithinLimits(drive, command ? *command : Twist2{});
     const double time_step = ToSeconds(now() - last_.value_or(now()));
     last_ = now();
     // Stopped, or paused for so long that the wheels have come to rest: from a standstill.
-    const bool begins = twist.is_stopped() || time_step > timeout.limit.Get();
+    const bool begins = twist.is_stopped() || time_step > twist_timeout.limit.Get();
     current_ = begins ? Twist2{} : Approach(limit, current_, wanted, time_step);
     wheels.Publish(WheelSpeedsFor(drive, current_));
   }

@@ -67,13 +67,13 @@ void SimulatedWorld::Sense() {
 
 // What is disconnected for less than the time-out, as in a swap that takes several steps, is not noticed.
 void SimulatedWorld::Control() {
-  if (const auto wanted = timeout.Read(wheels, now())) {
+  if (const auto wanted = wheels_timeout.Read(wheels, now())) {
     commanded_ = wanted.timestamp();
     physics_->SetWheelSpeeds(*wanted);
     return;
   }
-  const bool is_gone = timeout.lack() == InputLack::kNeverCame;
-  if (!is_gone || now() - commanded_ > FromSeconds(timeout.limit.Get())) physics_->SetWheelSpeeds({});
+  const bool is_gone = wheels_timeout.lack() == InputLack::kNeverCame;
+  if (!is_gone || now() - commanded_ > FromSeconds(wheels_timeout.limit.Get())) physics_->SetWheelSpeeds({});
 }
 
 void SimulatedWorld::PublishTruth() {

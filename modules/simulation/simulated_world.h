@@ -53,7 +53,7 @@ class SimulatedWorld final : public SenseControlModule {
   Parameter<double> goal_x{this, "goal_x", kGoalOfFile};
   Parameter<double> goal_y{this, "goal_y", kGoalOfFile};
   /// Without newer wheel speeds for so long, the wheels come to rest.
-  InputTimeout timeout{this, wheels, {.name = "timeout"}};
+  InputTimeout wheels_timeout{this, wheels, {.former_name = "timeout"}};
   StaticParameter<double> robot_radius{
       this,
       "robot_radius",

@@ -94,11 +94,12 @@ std::string PluginOf(std::string_view type) {
   return std::string(type.substr(0, slash == std::string_view::npos ? 0 : slash));
 }
 
-// What is set now and no file keeps, as a sentence; "" for nothing. Under the structure lock.
-std::string WhatPasses(FrameworkElement& application, const Scheduler& scheduler) {
+// What is set now and no file keeps, as a sentence; "" for nothing. `has_stop`: whoever comes next has that. Under the
+// structure lock.
+std::string WhatPasses(FrameworkElement& application, const Scheduler& scheduler, bool has_stop) {
   std::string all;
   const auto add = [&](const std::string& what) { all += (all.empty() ? "" : ", ") + what; };
-  if (application.runtime().robot_stop().in_force()) add("the STOP of the robot");
+  if (!has_stop && application.runtime().robot_stop().in_force()) add("the STOP of the robot");
   bool is_recorded = false;
   for (const std::string& path : scheduler.PausedPaths()) add("the pause of " + path);
   application.Visit([&](FrameworkElement& element) {
@@ -110,6 +111,15 @@ std::string WhatPasses(FrameworkElement& application, const Scheduler& scheduler
   });
   if (is_recorded) add("recordings");
   return all.empty() ? "" : "not saved, as it ends with the run: " + all;
+}
+
+// The next process of its file has neither what passes nor what is not saved.
+std::string WhatEnds(FrameworkElement& application, const Scheduler& scheduler, const SaveTools& tools, bool has_stop) {
+  std::string lost = WhatPasses(application, scheduler, has_stop);
+  if (!lost.empty()) lost = "\n" + lost;
+  const auto preview = PreviewSave(application, tools);
+  if (preview && preview->before != preview->after) lost += "\nnot saved: what has been changed in " + preview->file.string();
+  return lost;
 }
 
 }  // namespace
@@ -258,7 +268,7 @@ Result<void> Application::Save(const std::filesystem::path& file, bool overwrite
     if (auto lost = FindOverwritten(**found, file)) return *lost;
   }
   auto saved = SaveApplication(**found, tools, file);
-  const std::string passing = saved ? WhatPasses(**found, *parts_->scheduler) : "";
+  const std::string passing = saved ? WhatPasses(**found, *parts_->scheduler, false) : "";
   if (!passing.empty()) parts_->Add({ApplicationEvent::Kind::kNotice, passing});
   return saved;
 }
@@ -305,7 +315,7 @@ CommandService& Application::service() {
     if (auto saved = Save(file, true); !saved) return saved.error();
     const std::lock_guard lock(parts_->runtime().structure_mutex());
     const auto found = parts_->FindAgain();
-    const std::string passing = found ? WhatPasses(**found, *parts_->scheduler) : "";
+    const std::string passing = found ? WhatPasses(**found, *parts_->scheduler, false) : "";
     return passing.empty() ? done : done + "\n" + passing;
   };
   hooks.preview_save = [this](const std::string& file) {
@@ -327,6 +337,20 @@ CommandService& Application::service() {
     hooks.quit = [this]() -> Result<std::string> {
       RequestStop();
       return std::string("stops");
+    };
+  }
+  for (auto* const ends : {&hooks.quit, &hooks.restart}) {
+    if (!*ends) continue;
+    *ends = [this, end = *ends]() -> Result<std::string> {
+      const auto what_ends = [this]() -> std::string {
+        // Whoever has the lock does not keep the run from its end.
+        const std::unique_lock lock(parts_->runtime().structure_mutex(), std::try_to_lock);
+        const auto found = lock ? parts_->FindAgain() : Error{};
+        return found ? WhatEnds(**found, *parts_->scheduler, {parts_->plugins(), parts_->tags()}, options().keeps_stop) : "";
+      };
+      const std::string lost = what_ends();
+      auto ended = end();
+      return ended ? Result<std::string>(*ended + lost) : ended;
     };
   }
   hooks.reload = [this](const std::string& plugin) -> Result<std::string> {

@@ -178,6 +178,10 @@ void AddNetworkChanges(Runtime& runtime) {
     NetworkElement* const network = FindNetwork(runtime);
     return network != nullptr ? StepOfRenaming(*network, from, to) : ExtensionStep();
   };
+  changes->is_offered = [&runtime](const Port& port) {
+    NetworkElement* const network = FindNetwork(runtime);
+    return network != nullptr && std::ranges::count(network->options().offers, port.path(), &OfferOptions::port) > 0;
+  };
   runtime.root().Annotate(std::move(changes));
 }
 

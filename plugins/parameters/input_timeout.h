@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "core/base/clock.h"
+#include "core/element/former_name.h"
 #include "core/log/logger.h"
 #include "core/port/input.h"
 #include "plugins/parameters/parameter.h"
@@ -46,16 +47,17 @@ class InputTimeout {
  public:
   struct Options {
     double seconds = 0.5;
-    std::string name = {};  ///< of the parameter; "": `<input>_timeout`
-    Logger* log = nullptr;  ///< nullptr: the module itself says what is amiss
+    const char* former_name = nullptr;  ///< of the parameter; nullptr: none
+    Logger* log = nullptr;              ///< nullptr: the module itself says what is amiss
   };
   InputTimeout(FrameworkElement* module, const Port& input, const Options& options)
-      : limit(module, options.name.empty() ? input.name() + "_timeout" : options.name,
+      : limit(module, input.name() + "_timeout",
               {.default_value = options.seconds,
                .bounds = {0.0, 3600.0},
                .unit = "s",
                .description = "a value of " + input.name() + " that is older does not count"}),
         log_(options.log) {
+    if (options.former_name != nullptr) limit.Annotate(std::make_unique<FormerName>(options.former_name));
     constexpr std::array kWords = {"is there again", "has never come", "is old", "is not measured",
                                    "is not a number"};
     for (std::size_t i = 0; i < texts_.size(); ++i) texts_[i] = input.name() + " " + kWords[i];

@@ -13,6 +13,7 @@
 #include "core/port/probe_port.h"
 #include "core/port/stand_in.h"
 #include "core/types/type_info.h"
+#include "plugins/structure/extension_changes.h"
 
 namespace runnel::internal {
 
@@ -95,6 +96,11 @@ bool IsRecorded(const Port& port) {
   });
 }
 
+bool IsOffered(const Port& port) {
+  const auto* const known = port.runtime().root().FindAnnotation<ExtensionChanges>();
+  return known != nullptr && known->is_offered && known->is_offered(port);
+}
+
 std::string WhatIsSetAt(const Port& port) {
   std::string text;
   const auto add = [&](bool is_set, const char* what) {
@@ -106,6 +112,7 @@ std::string WhatIsSetAt(const Port& port) {
   add(port.FindAnnotation<GivenLimits>() != nullptr, "its limits");
   add(!TagsOf(port).empty(), "its tags");
   add(IsRecorded(port), "its recording");
+  add(IsOffered(port), "its offer");
   return text;
 }
 

@@ -45,5 +45,7 @@ class ElementState {
 [[nodiscard]] std::string WhatIsSetAt(const Port& port);
 /// Whether a recorder takes its values.
 [[nodiscard]] bool IsRecorded(const Port& port);
+/// Whether an extension offers it to others, by its name.
+[[nodiscard]] bool IsOffered(const Port& port);
 
 }  // namespace runnel::internal

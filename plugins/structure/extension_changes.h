@@ -32,6 +32,8 @@ struct ExtensionChanges final : Annotation {
   std::map<std::string, Check> verbs = {};
   /// What follows when something is renamed; its inverse is that of the renaming.
   std::function<ExtensionStep(const std::string& from, const std::string& to)> rename = {};
+  /// Whether somebody has offered this very port.
+  std::function<bool(const Port& port)> is_offered = {};
 };
 
 /// Who keeps paths, as rules do, is told when something gets another name, and when that is taken back. Kept with the root

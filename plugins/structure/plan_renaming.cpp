@@ -82,6 +82,11 @@ Result<void> Plan::Check(const CopyElement& change) {
                                     (is_recorded ? ", nor recorded by that name" : ""),
                          .path = Sibling(element, name)});
   }
+  element.Visit([&](const FrameworkElement& each) {
+    const auto* const port = dynamic_cast<const Port*>(&each);
+    if (port == nullptr || !IsOffered(*port)) return;
+    warnings_.push_back({.message = "is not offered, as " + port->path() + " is", .path = Sibling(element, name)});
+  });
   for (const Change& each : changes) {
     const auto check = [this](const auto& one) { return Check(one); };
     if (auto possible = std::visit(check, each); !possible) return possible;

@@ -42,7 +42,7 @@ RunMonitor* FindMonitor(FrameworkElement& application) {
 
 }  // namespace
 
-ApplicationRun RunApplication(const ApplicationChoice& choice) {
+void UseApplication(const ApplicationChoice& choice, const std::function<void(RunningApplication& run)>& use) {
   const std::filesystem::path folder = std::filesystem::path(RUNNEL_XML) / "apps";
   std::string text = TextOfFile(folder / choice.name);
   for (const auto& [from, to] : choice.replace) text = Replaced(std::move(text), from, to);
@@ -82,33 +82,40 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
   auto ready = schedule(*built.application);
   if (ready) ready = MakeApplicationReady(*built.application);
   if (!ready) throw std::runtime_error(ready.error().ToString());
+  ChangeHistory history(*editor);
+  RunningApplication run{runtime, *built.application, *scheduler, history, *supervisor};
+  use(run);
+}
 
-  RunMonitor* const monitor = FindMonitor(*built.application);
-  const auto pose = built.application->Find("world/sensor_output/pose");
-  if (!pose) throw std::runtime_error(pose.error().ToString());
+ApplicationRun RunApplication(const ApplicationChoice& choice) {
   ApplicationRun run;
-  const Time start = runtime.clock().Now();
-  auto change = choice.changes.begin();
-  const auto step = [&] {
-    if (choice.each_step) choice.each_step(*built.application, *scheduler, run.duration);
-    if (choice.before_step) choice.before_step();
-    const bool went_on = scheduler->Step();
-    if (choice.after_step) choice.after_step();
-    return went_on;
-  };
-  while (run.duration < choice.limit && !run.outcome && step()) {
-    for (; change != choice.changes.end() && change->first <= run.duration; ++change) {
-      const ChangeOutcome outcome = editor->Apply(change->second);
-      if (!outcome) throw std::runtime_error(outcome.diagnostics.ToString());
+  UseApplication(choice, [&](RunningApplication& running) {
+    RunMonitor* const monitor = FindMonitor(running.application);
+    const auto pose = running.application.Find("world/sensor_output/pose");
+    if (!pose) throw std::runtime_error(pose.error().ToString());
+    const Time start = running.runtime.clock().Now();
+    auto change = choice.changes.begin();
+    const auto step = [&] {
+      for (; change != choice.changes.end() && change->first <= run.duration; ++change) {
+        const ChangeOutcome outcome = running.history.Apply(change->second);
+        if (!outcome) throw std::runtime_error(outcome.diagnostics.ToString());
+      }
+      if (choice.each_step) choice.each_step(running, run.duration);
+      if (choice.before_step) choice.before_step();
+      const bool went_on = running.scheduler.Step();
+      if (choice.after_step) choice.after_step();
+      return went_on;
+    };
+    while (run.duration < choice.limit && !run.outcome && step()) {
+      dynamic_cast<Port&>(**pose).VisitLatest(
+          [&](const void* value, Time) { run.truth.push_back(*static_cast<const Pose2*>(value)); });
+      if (monitor != nullptr) run.outcome = monitor->Outcome();
+      run.duration = running.runtime.clock().Now() - start;
     }
-    dynamic_cast<Port&>(**pose).VisitLatest(
-        [&](const void* value, Time) { run.truth.push_back(*static_cast<const Pose2*>(value)); });
-    if (monitor != nullptr) run.outcome = monitor->Outcome();
-    run.duration = runtime.clock().Now() - start;
-  }
-  run.faults = scheduler->TakeFaults();
-  run.notices = supervisor->TakeNotices();
-  run.was_stopped = scheduler->stop_requested();
+    run.faults = running.scheduler.TakeFaults();
+    run.notices = running.supervisor.TakeNotices();
+    run.was_stopped = running.scheduler.stop_requested();
+  });
   return run;
 }
 

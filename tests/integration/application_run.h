@@ -7,14 +7,24 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/element/runtime.h"
 #include "core/module/run_monitor.h"
 #include "modules/types/algorithm/pose.h"
 #include "plugins/scheduling/fault.h"
 #include "plugins/scheduling/scheduler.h"
-#include "plugins/structure/change.h"
-#include "plugins/supervision/supervision_rules.h"
+#include "plugins/structure/change_history.h"
+#include "plugins/supervision/supervisor.h"
 
 namespace runnel::test {
+
+/// What those of the tests find who do more to an application than run it.
+struct RunningApplication {
+  Runtime& runtime;
+  FrameworkElement& application;
+  Scheduler& scheduler;
+  ChangeHistory& history;
+  Supervisor& supervisor;
+};
 
 /// An application file, run from the first cycle to its verdict on simulated time.
 struct ApplicationRun {
@@ -26,7 +36,7 @@ struct ApplicationRun {
   Duration duration{};
 };
 
-/// Runs xml/apps/<name>. `replace` puts other words into the file first (a planner in place of
+/// xml/apps/<name>. `replace` puts other words into the file first (a planner in place of
 /// another), `arguments` are those of the command line ("goal_x=4"). Throws
 /// std::runtime_error with all errors if the application cannot be built.
 struct ApplicationChoice {
@@ -37,10 +47,14 @@ struct ApplicationChoice {
   std::function<void()> before_step = {};  ///< of the scheduler: for probes
   std::function<void()> after_step = {};
   /// Before each step, with the time that has passed: for those who do more than change the structure.
-  std::function<void(FrameworkElement& application, Scheduler& scheduler, Duration passed)> each_step = {};
+  std::function<void(RunningApplication& run, Duration passed)> each_step = {};
   /// Applied one after the other, each when so much time has passed. Throws if one is refused.
   std::vector<std::pair<Duration, ChangeSet>> changes = {};
 };
 [[nodiscard]] ApplicationRun RunApplication(const ApplicationChoice& choice);
+
+/// Builds it, makes it ready, and has `use` do what it likes with it; on the clock that its file says, once `replace` has
+/// been done. Throws as RunApplication().
+void UseApplication(const ApplicationChoice& choice, const std::function<void(RunningApplication& run)>& use);
 
 }  // namespace runnel::test

@@ -158,7 +158,7 @@ TEST_F(CommandLine, ModulesListsTypesWithPortsAndParameters) {
   EXPECT_EQ(ended.code, kDone);
   EXPECT_THAT(ended.text,
               AllOf(HasSubstr("motion/command_gate"), HasSubstr("wanted"), HasSubstr("Twist2"),
-                    HasSubstr("timeout"), HasSubstr("0 .. 3600"), Not(HasSubstr("planning/"))));
+                    HasSubstr("wanted_timeout"), HasSubstr("0 .. 3600"), Not(HasSubstr("planning/"))));
 }
 
 TEST_F(CommandLine, ModulesAreToldToProgramsAsJson) {

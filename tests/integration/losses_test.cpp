@@ -1,32 +1,42 @@
-// The table of losses: each value on the way from a sensor to the wheels is lost in each way, in each demonstration that drives
-// by its own clock. The robot stands within the stated time, and goes on when the value is back.
+// The table of losses: each value on the way from a sensor to the wheels is lost in each way, in each demonstration that
+// drives in one process. The robot stands within the stated time, and goes on when the value is back.
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <future>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
 #include "core/plugin/module_registry.h"
+#include "core/plugin/module_type_name.h"
 #include "core/plugin/plugin_manager.h"
 #include "core/port/input_base.h"
 #include "core/port/port.h"
 #include "core/port/port_stop.h"
+#include "core/types/text_format.h"
 #include "core/types/value_copy.h"
 #include "modules/types/algorithm/infrared_ranges.h"
 #include "modules/types/algorithm/pose.h"
 #include "modules/types/algorithm/range_scan.h"
 #include "modules/types/algorithm/surroundings.h"
 #include "modules/types/algorithm/wheel_speeds.h"
+#include "plugins/services/callable.h"
+#include "plugins/services/cycle_work.h"
 #include "tests/integration/application_run.h"
 
 namespace runnel::test {
@@ -53,6 +63,12 @@ void SpoilNumbers(void* value) {
   if constexpr (std::is_same_v<T, RangeScan>)
     std::ranges::fill(spoiled.ranges, static_cast<float>(kNaN));
 }
+// 40 % of the rays, in a row, the middle among them.
+void SpoilPart(void* value) {
+  auto& ranges = static_cast<RangeScan*>(value)->ranges;
+  const auto first = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 4);
+  std::fill_n(first, 2 * ranges.size() / 5, static_cast<float>(kNaN));
+}
 
 /// A value on the way to the wheels.
 struct OnTheWay {
@@ -61,12 +77,16 @@ struct OnTheWay {
   std::string source;  ///< the module that publishes it
   Spoil no_number = nullptr;
   Spoil not_measured = nullptr;
-  bool has_stand_in =
-      false;  ///< after 4 s without coming nearer, another behaviour drives, by measurements of its own
+  Spoil partly = nullptr;  ///< not measured
+  /// After 4 s without coming nearer, another behaviour drives, by measurements of its own.
+  bool has_stand_in = false;
 };
 struct Demo {
   std::string file;
   std::vector<OnTheWay> values;
+  /// Who has to be sent: an activity, and its arguments.
+  std::string activity = {};
+  std::string arguments = {};
 };
 
 std::vector<OnTheWay> BugWay(OnTheWay sensor) {
@@ -76,10 +96,11 @@ std::vector<OnTheWay> BugWay(OnTheWay sensor) {
            Reset<Surroundings>},
           {"/robot/planner/twist", "/robot/gate/wanted", "/robot/planner", SpoilNumbers<Twist2>},
           {"/robot/gate/allowed", "/robot/drive/twist", "/robot/gate", SpoilNumbers<Twist2>},
-          {"/robot/drive/wheels", "/robot/wheels", "/robot/drive", SpoilNumbers<WheelSpeeds>}};
+          {"/robot/drive/wheels", "/robot/wheels", "/robot/drive", SpoilNumbers<WheelSpeeds>},
+          {"/bumper/contact", "/robot/contact", "/bumper"}};
 }
 const OnTheWay kScan{"/laser/scan", "/robot/scan", "/laser", SpoilNumbers<RangeScan>,
-                     Reset<RangeScan>};
+                     Reset<RangeScan>, SpoilPart};
 const OnTheWay kRanges{"/infrared/ranges", "/robot/ranges", "/infrared",
                        SpoilNumbers<InfraredRanges>, Reset<InfraredRanges>};
 
@@ -88,10 +109,10 @@ std::vector<Demo> Demos() {
           {"bug_infrared.xml", BugWay(kRanges)},
           {"behaviour_demo.xml",
            {{"/localisation/pose", "/network/pose", "/localisation", SpoilNumbers<Pose2>},
-            {"/laser/scan", "/eyes/scan", "/laser", SpoilNumbers<RangeScan>, Reset<RangeScan>},
+            {"/laser/scan", "/eyes/scan", "/laser", SpoilNumbers<RangeScan>, Reset<RangeScan>, SpoilPart},
             {"/eyes/surroundings", "/network/surroundings", "/eyes", nullptr, Reset<Surroundings>},
             {"/network/drive/twist", "/network/motion/in1", "/network/drive", SpoilNumbers<Twist2>,
-             nullptr, true},
+             nullptr, nullptr, true},
             {"/network/avoid/activity", "/network/motion/activity2", "/network/avoid"},
             {"/network/emergency_stop/activity", "/network/safe_motion/activity1",
              "/network/emergency_stop"},
@@ -100,21 +121,36 @@ std::vector<Demo> Demos() {
             {"/network/safe_motion/out", "/network/twist", "/network/safe_motion",
              SpoilNumbers<Twist2>},
             {"/gate/allowed", "/wheels/twist", "/gate", SpoilNumbers<Twist2>},
-            {"/wheels/wheels", "/world/wheels", "/wheels", SpoilNumbers<WheelSpeeds>}}}};
+            {"/wheels/wheels", "/world/wheels", "/wheels", SpoilNumbers<WheelSpeeds>},
+            {"/bumper/contact", "/gate/contact", "/bumper"}}},
+          {"genom_demo.xml",
+           {{"/localisation/pose", "/guide/pose", "/localisation", SpoilNumbers<Pose2>},
+            {"/laser/scan", "/eyes/scan", "/laser", SpoilNumbers<RangeScan>, Reset<RangeScan>, SpoilPart},
+            {"/eyes/surroundings", "/guide/surroundings", "/eyes", nullptr, Reset<Surroundings>},
+            {"/guide/twist", "/drive/twist", "/guide", SpoilNumbers<Twist2>},
+            {"/drive/wheels", "/world/wheels", "/drive", SpoilNumbers<WheelSpeeds>}},
+           "guide/output/go_to",
+           "{to: {x: 5.6, y: 0.5}}"}};
 }
 
-enum class Loss { kNeverComes, kCeases, kDisconnected, kStale, kNotMeasured, kNoNumber, kDeleted };
-constexpr std::array kLosses = {Loss::kNeverComes, Loss::kCeases,      Loss::kDisconnected,
-                                Loss::kStale,      Loss::kNotMeasured, Loss::kNoNumber,
-                                Loss::kDeleted};
+enum class Loss { kNeverComes, kCeases, kDisconnected, kStale, kNotMeasured, kPartly, kNoNumber, kDeleted, kSwapped, kStuck };
+constexpr std::array kLosses = {Loss::kNeverComes, Loss::kCeases,   Loss::kDisconnected, Loss::kStale,   Loss::kNotMeasured,
+                                Loss::kPartly,     Loss::kNoNumber, Loss::kDeleted,      Loss::kSwapped, Loss::kStuck};
 
+Spoil SpoilOf(const OnTheWay& value, Loss loss) {
+  if (loss == Loss::kNoNumber) return value.no_number;
+  if (loss == Loss::kPartly) return value.partly;
+  return loss == Loss::kNotMeasured ? value.not_measured : nullptr;
+}
+
+double Moved(const Pose2& before, const Pose2& after) {
+  return std::hypot(after.x - before.x, after.y - before.y) + std::abs(after.heading - before.heading);
+}
 double Moved(const ApplicationRun& run, Duration from, Duration to) {
   double moved = 0;
   const auto cycle = [&](Duration at) { return static_cast<std::size_t>(at / 50ms); };
   for (std::size_t i = cycle(from) + 1; i < std::min(cycle(to), run.truth.size()); ++i) {
-    const Pose2 &before = run.truth[i - 1], &after = run.truth[i];
-    moved += std::hypot(after.x - before.x, after.y - before.y) +
-             std::abs(after.heading - before.heading);
+    moved += Moved(run.truth[i - 1], run.truth[i]);
   }
   return moved;
 }
@@ -125,79 +161,202 @@ Port& PortAt(FrameworkElement& application, const std::string& path) {
   return dynamic_cast<Port&>(**application.Find(full));
 }
 
-/// What is in the cell: "stands, goes on", or what it does instead.
-std::string Try(const Demo& demo, const OnTheWay& value, Loss loss) {
-  const Spoil spoil = loss == Loss::kNoNumber      ? value.no_number
-                      : loss == Loss::kNotMeasured ? value.not_measured
-                                                   : nullptr;
-  if ((loss == Loss::kNoNumber || loss == Loss::kNotMeasured) && spoil == nullptr) return "-";
-  ApplicationChoice choice{.name = demo.file,
-                           .arguments = {"world=" RUNNEL_XML "/worlds/rooms.xml", "picture="},
-                           .limit = kEnd};
-  const Duration lost = loss == Loss::kNeverComes ? Duration{} : kLost;
-  const auto hold = [&](FrameworkElement& application, bool afresh) {
-    Port& port = PortAt(application, value.output);
-    std::shared_ptr<void> last = port.type().Make();
-    port.VisitLatest(
-        [&](const void* now, ValueTimes) { (void)CopyValue(port.type(), now, last.get()); });
+FrameworkElement& ElementAt(FrameworkElement& application, const std::string& path) {
+  return **application.Find(path.substr(1));
+}
+
+/// The call that sends a robot, if it has to be sent.
+class Sending {
+ public:
+  explicit Sending(const Demo& demo) : demo_(demo) {}
+  void Begin(RunningApplication& run) {
+    if (demo_.activity.empty()) return;
+    const std::lock_guard lock(run.runtime.structure_mutex());
+    auto& callable = *(*run.application.Find(demo_.activity))->FindAnnotation<Callable>();
+    call_ = callable.NewCall();
+    (void)SetFromText(*callable.arguments(), demo_.arguments, call_->arguments());
+    if (call_->Begin(run.runtime.clock().Now(), 1h) != CallStatus::kPending) throw std::runtime_error(call_->error());
+  }
+  /// While the application is there.
+  void End() { call_.reset(); }
+
+ private:
+  const Demo& demo_;
+  std::unique_ptr<AnyCall> call_;
+};
+
+/// What is done to the running application, and taken back.
+class Losing {
+ public:
+  Losing(const OnTheWay& value, Loss loss) : value_(value), loss_(loss), spoil_(SpoilOf(value, loss)) {}
+
+  void Begin(RunningApplication& run) {
+    switch (loss_) {
+      case Loss::kNeverComes:
+      case Loss::kDisconnected: return Apply(run, {DisconnectPorts{value_.output, value_.input}});
+      case Loss::kDeleted: return Apply(run, {DeleteElement{value_.source}});
+      case Loss::kSwapped:
+        return Apply(run, {ReplaceModule{.path = value_.source, .type = FindModuleType(ElementAt(run.application, value_.source))}});
+      case Loss::kCeases: return Pause(run, true);
+      default: return Hold(run);
+    }
+  }
+  /// In each cycle, as somebody does who measures nothing, with a new stamp each time.
+  void GoOn(RunningApplication& run) {
+    if (spoil_ != nullptr) Hold(run);
+  }
+  void End(RunningApplication& run) {
+    switch (loss_) {
+      case Loss::kNeverComes:
+      case Loss::kDisconnected: return Apply(run, {ConnectPorts{value_.output, value_.input}});
+      case Loss::kDeleted:
+        if (const auto undone = run.history.Undo(); !undone) throw std::runtime_error(undone.diagnostics.ToString());
+        return;
+      case Loss::kSwapped: return;
+      case Loss::kCeases: return Pause(run, false);
+      default: PortAt(run.application, value_.output).Release();
+    }
+  }
+
+ private:
+  static void Apply(RunningApplication& run, const ChangeSet& changes) {
+    const ChangeOutcome outcome = run.history.Apply(changes);
+    if (!outcome) throw std::runtime_error(outcome.diagnostics.ToString());
+  }
+  void Pause(RunningApplication& run, bool is_paused) {
+    const std::string path = ElementAt(run.application, value_.source).path();
+    if (auto set = run.scheduler.SetPaused(path, is_paused); !set) throw std::runtime_error(set.error().ToString());
+  }
+  void Hold(RunningApplication& run) {
+    Port& port = PortAt(run.application, value_.output);
+    const std::shared_ptr<void> last = port.type().Make();
+    port.VisitLatest([&](const void* now, ValueTimes) { (void)CopyValue(port.type(), now, last.get()); });
     const auto filled = port.PublishByHand([&](void* to) -> Result<void> {
       (void)CopyValue(port.type(), last.get(), to);
-      if (afresh) spoil(to);
+      if (spoil_ != nullptr) spoil_(to);
       return {};
     });
     if (!filled) throw std::runtime_error(filled.error().ToString());
-  };
-  switch (loss) {
-    case Loss::kNeverComes:
-    case Loss::kDisconnected:
-      choice.changes = {{lost, {DisconnectPorts{value.output, value.input}}},
-                        {kBack, {ConnectPorts{value.output, value.input}}}};
-      break;
-    case Loss::kDeleted:
-      choice.changes = {{lost, {DeleteElement{value.source}}}};
-      break;
-    case Loss::kCeases:
-      choice.each_step = [&](FrameworkElement& application, Scheduler& scheduler, Duration passed) {
-        if (passed != kLost && passed != kBack) return;
-        const std::string path = (*application.Find(value.source.substr(1)))->path();
-        if (auto set = scheduler.SetPaused(path, passed == kLost); !set)
-          throw std::runtime_error(set.error().ToString());
-      };
-      break;
-    case Loss::kStale:
-    case Loss::kNotMeasured:
-    case Loss::kNoNumber:
-      choice.each_step = [&](FrameworkElement& application, Scheduler&, Duration passed) {
-        if (passed == kBack) PortAt(application, value.output).Release();
-        if (passed < lost || passed >= kBack || (spoil == nullptr && passed != lost)) return;
-        hold(application, spoil != nullptr);
-      };
-      break;
   }
+
+  const OnTheWay& value_;
+  const Loss loss_;
+  const Spoil spoil_;
+};
+
+ApplicationChoice ChoiceOf(const Demo& demo) {
+  ApplicationChoice choice{.name = demo.file, .arguments = {"world=" RUNNEL_XML "/worlds/rooms.xml"}, .limit = kEnd};
+  if (demo.activity.empty()) choice.arguments.emplace_back("picture=");
+  return choice;
+}
+
+/// What is in the cell: "stands, goes on", or what it does instead.
+std::string Try(const Demo& demo, const OnTheWay& value, Loss loss) {
+  const bool needs_spoil = loss == Loss::kNoNumber || loss == Loss::kPartly || loss == Loss::kNotMeasured;
+  if (needs_spoil && SpoilOf(value, loss) == nullptr) return "-";
+  ApplicationChoice choice = ChoiceOf(demo);
+  const Duration lost = loss == Loss::kNeverComes ? Duration{} : kLost;
+  // What does not know any more where it was going has to be sent anew.
+  const bool is_sent_anew = value.source == "/guide" && (loss == Loss::kDeleted || loss == Loss::kSwapped);
+  Losing losing(value, loss);
+  Sending sending(demo);
+  bool is_lost = false;
+  choice.each_step = [&](RunningApplication& run, Duration passed) {
+    if (passed == lost && !std::exchange(is_lost, true)) losing.Begin(run);  // the first cycle is that of 0 s
+    if (passed > lost && passed < kBack) losing.GoOn(run);
+    if (passed == kBack) losing.End(run);
+    if (passed == 50ms || (is_sent_anew && passed == kBack + 50ms)) sending.Begin(run);
+    if (passed == kEnd - 50ms || (is_sent_anew && passed == kLost - 50ms)) sending.End();
+  };
   const ApplicationRun run = RunApplication(choice);
   if (!run.faults.empty()) return "fault: " + run.faults.front().message;
   if (loss != Loss::kNeverComes && Moved(run, kLost - 1s, kLost) < 0.05)
     return "did not drive before";
   const Duration rested = lost + kStated;
   const Duration stands_until = value.has_stand_in ? std::min(lost + 4s, run.duration) : kBack;
-  if (Moved(run, rested, stands_until) > 1e-6 || run.duration < stands_until) return "DRIVES ON";
-  if (loss == Loss::kDeleted) return "stands";
-  if (value.has_stand_in && Moved(run, stands_until, kBack) > 0.5)
-    return "stands, then drives by another";
+  const bool has_stood = Moved(run, rested, stands_until) <= 1e-6 && run.duration >= stands_until;
+  if (!has_stood && loss != Loss::kSwapped) return "DRIVES ON";
   if (!run.outcome && Moved(run, kBack, kEnd) < 0.5) return "stands for ever";
   if (run.outcome && run.outcome->verdict != "reached") return "is then " + run.outcome->verdict;
+  if (!has_stood) return "goes on";
+  if (value.has_stand_in && Moved(run, stands_until, kBack) > 0.5) return "stands, then drives by another, goes on";
   return "stands, goes on";
 }
 
+/// Has a module not return from its cycle.
+class Stuck final : public CyclePart {
+ public:
+  void BeforeUpdate() override {
+    while (is_stuck) std::this_thread::sleep_for(5ms);
+  }
+  void SetWaker(Waker*) override {}
+  std::atomic<bool> is_stuck{false};
+};
+
+double MovesWithin(RunningApplication& run, Duration time) {
+  const auto& pose = dynamic_cast<const Port&>(**run.application.Find("world/sensor_output/pose"));
+  Pose2 before, now;
+  const auto look = [&] {
+    pose.VisitLatest([&](const void* value, ValueTimes) { now = *static_cast<const Pose2*>(value); });
+    return Moved(std::exchange(before, now), now);
+  };
+  (void)look();
+  double moved = 0;
+  for (; time > Duration{}; time -= 50ms, moved += look()) std::this_thread::sleep_for(50ms);
+  return moved;
+}
+bool Waits(RunningApplication& run, bool drives) {
+  for (int i = 0; i < 120; ++i) {
+    if ((MovesWithin(run, 500ms) > 1e-6) == drives) return true;
+  }
+  return false;
+}
+
+/// The same of a source that is stuck in a thread of its own for 3 s, on the machine's clock.
+std::string TryStuck(const Demo& demo, const OnTheWay& value) {
+  ApplicationChoice choice = ChoiceOf(demo);
+  choice.replace = {{demo.activity.empty() ? "\"simulated\" speed=\"10\"" : "\"simulated\" speed=\"5\"", "\"real\""}};
+  std::string cell;
+  UseApplication(choice, [&](RunningApplication& run) {
+    Stuck stuck;
+    CycleWork* const work = CycleWork::Add(ElementAt(run.application, value.source), stuck);
+    const auto changed = run.history.Apply({AddThread{"own", {.period = 50ms}}, AssignToThread{value.source, "own"}});
+    if (!changed) throw std::runtime_error(changed.diagnostics.ToString());
+    if (auto started = run.scheduler.Start(); !started) throw std::runtime_error(started.error().ToString());
+    Sending sending(demo);
+    sending.Begin(run);
+    cell = [&] {
+      if (!Waits(run, true)) return "did not drive before";
+      stuck.is_stuck = true;
+      if (!Waits(run, false) || MovesWithin(run, 2500ms) > 1e-6) return "DRIVES ON";
+      stuck.is_stuck = false;
+      return Waits(run, true) ? "stands, goes on" : "stands for ever";
+    }();
+    stuck.is_stuck = false;
+    run.scheduler.Stop();
+    sending.End();
+    work->Remove(stuck);
+  });
+  return cell;
+}
+
 std::string Table() {
+  const std::vector<Demo> demos = Demos();
+  std::vector<std::future<std::string>> stuck;  // wait more than they work
+  for (const Demo& demo : demos) {
+    for (const OnTheWay& value : demo.values)
+      stuck.push_back(std::async(std::launch::async, [&] { return TryStuck(demo, value); }));
+  }
   std::ostringstream table;
-  table << "| value | never comes | ceases | disconnected | stale | not measured | no number | "
-           "source deleted |\n"
-           "|---|---|---|---|---|---|---|---|\n";
-  for (const Demo& demo : Demos()) {
+  table << "| value | never comes | ceases | disconnected | stale | not measured | partly not measured | no number | "
+           "source deleted | source swapped | source stuck |\n"
+           "|---|---|---|---|---|---|---|---|---|---|---|\n";
+  auto next_stuck = stuck.begin();
+  for (const Demo& demo : demos) {
     for (const OnTheWay& value : demo.values) {
       table << "| " << demo.file.substr(0, demo.file.find('.')) << value.output << " |";
-      for (const Loss loss : kLosses) table << " " << Try(demo, value, loss) << " |";
+      for (const Loss loss : kLosses)
+        table << " " << (loss == Loss::kStuck ? (next_stuck++)->get() : Try(demo, value, loss)) << " |";
       table << "\n";
     }
   }
@@ -234,6 +393,19 @@ TEST(Losses, ModuleTypesThatCommandAMotionSayWhatGrowsOld) {
   }
   EXPECT_GT(commanding, 10);
   EXPECT_THAT(unsaid, testing::IsEmpty());
+}
+
+// Who drives in the place of another has measurements of its own.
+TEST(Losses, WhoDrivesInsteadStandsWithoutItsMeasurements) {
+  const ApplicationRun run = RunApplication(
+      {.name = "behaviour_demo.xml",
+       .arguments = {"world=" RUNNEL_XML "/worlds/rooms.xml", "picture="},
+       .limit = kBack,
+       .changes = {{kLost, {DisconnectPorts{"/network/drive/twist", "/network/motion/in1"}}},
+                   {20s, {DisconnectPorts{"/eyes/surroundings", "/network/surroundings"}}}}});
+  EXPECT_GT(Moved(run, kLost + 4s, 20s), 0.5);
+  EXPECT_LE(Moved(run, 20s + kStated, kBack), 1e-6);
+  EXPECT_GE(run.duration, kBack) << "nor has it met anything";
 }
 
 TEST(Losses, ARobotThatDoesNotKnowStands) {

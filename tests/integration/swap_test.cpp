@@ -1,5 +1,6 @@
 // Modules are exchanged while the robot drives.
 
+#include <cmath>
 #include <cstring>
 
 #include <gmock/gmock.h>
@@ -46,6 +47,18 @@ TEST(SwapTest, TheSamePlannerMadeAnewAllTheTimeDrivesTheSameWay) {
   EXPECT_EQ(swapped.outcome->verdict, undisturbed.outcome->verdict);
   // A planner does not know how long ago its predecessor ran; that is all it has forgotten.
   EXPECT_NEAR(ToSeconds(swapped.duration), ToSeconds(undisturbed.duration), 5.0);
+}
+
+// Else a swap, or a reload, would open it.
+TEST(SwapTest, AnotherGateKnowsThatThereWasABumper) {
+  const ApplicationRun run = RunApplication({.name = "bug_demo.xml",
+                                             .arguments = {World("rooms"), "picture="},
+                                             .limit = 20s,
+                                             .changes = {{6s, {DisconnectPorts{"/bumper/contact", "/robot/contact"}}},
+                                                         {10s, {ReplaceModule{.path = "/robot/gate", .type = "motion/command_gate"}}}}});
+  ASSERT_GE(run.truth.size(), 400u);
+  EXPECT_GT(std::hypot(run.truth[119].x - run.truth[99].x, run.truth[119].y - run.truth[99].y), 0.05) << "it drives";
+  for (std::size_t i = 160; i < run.truth.size(); ++i) ASSERT_EQ(run.truth[i], run.truth[159]) << i;
 }
 
 TEST(SwapTest, TheSensorIsExchangedWithItsAdaptorWhileTheRobotDrives) {

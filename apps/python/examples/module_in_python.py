@@ -3,6 +3,7 @@
 # A class with ports and parameters drives the robot of an application that is composed here.
 
 # %%
+import numpy
 import runnel
 
 
@@ -16,8 +17,8 @@ class Wanderer(runnel.Module):
 
     def update(self):
         scan = self.scan.new()
-        if scan is None:
-            return
+        if scan is None or scan.ranges.size == 0 or numpy.isnan(scan.ranges).any():
+            return  # nobody knows what is there: the drive stands when its time-out is over
         if scan.ranges.min() > self.distance:
             self.twist.publish(forward=0.4)
         else:

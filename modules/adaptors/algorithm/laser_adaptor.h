@@ -21,7 +21,7 @@ class LaserAdaptor {
       : configuration_(configuration) {}
 
   /// `scan` taken from the body's centre at `pose` (world). Nothing is known (is_measured false) from
-  /// a scan without rays, or of which half are no numbers. Does not allocate.
+  /// a scan without rays, of which half are no numbers, or those of more than 10 degrees in a row. Does not allocate.
   [[nodiscard]] Surroundings Update(const RangeScan& scan, const Pose2& pose);
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -9,7 +10,8 @@ namespace runnel {
 
 /// The median of each value and its `reach` neighbours on either side (fewer at the ends): takes
 /// away single wrong values and leaves edges where they are. `values` and `filtered` have the same
-/// size and do not overlap. Does not allocate. Precondition: reach <= kLargestReach; no NaN.
+/// size and do not overlap. Does not allocate. Precondition: reach <= kLargestReach.
+/// NaN counts as farther than all numbers.
 inline constexpr std::size_t kLargestReach = 7;
 
 inline void MedianFilter(std::span<const float> values, std::size_t reach,
@@ -22,7 +24,8 @@ inline void MedianFilter(std::span<const float> values, std::size_t reach,
     std::ranges::copy(neighbours, window.begin());
     const auto middle = window.begin() + static_cast<std::ptrdiff_t>(on_a_side);
     std::nth_element(window.begin(), middle,
-                     window.begin() + static_cast<std::ptrdiff_t>(neighbours.size()));
+                     window.begin() + static_cast<std::ptrdiff_t>(neighbours.size()),
+                     [](float a, float b) { return a < b || (std::isnan(b) && !std::isnan(a)); });
     filtered[i] = *middle;
   }
 }

@@ -89,9 +89,28 @@ TEST(LaserAdaptor, WhatIsTooNearToMeasureIsABoundary) {
 
 TEST(LaserAdaptor, KnowsNothingWhereHalfOfItsRaysSayNothing) {
   RangeScan scan = Scan(kNothing);
-  for (std::size_t i = 0; i < 80; ++i) scan.ranges[i] = std::nanf("");
+  for (std::size_t i = 1; i < scan.ranges.size(); i += 2) scan.ranges[i] = std::nanf("");
   EXPECT_TRUE(LaserAdaptor().Update(scan, {}).is_measured);
-  for (std::size_t i = 0; i < 100; ++i) scan.ranges[i] = std::nanf("");
+  scan.ranges[0] = std::nanf("");
+  EXPECT_FALSE(LaserAdaptor().Update(scan, {}).is_measured);
+}
+
+// Else 40 % of the rays in a row would be a free way.
+TEST(LaserAdaptor, KnowsNothingWhereItsRaysInARowSayNothing) {
+  for (const std::size_t first : {0u, 80u, 170u}) {
+    RangeScan scan = Scan(kNothing);
+    for (std::size_t i = first; i < first + 10; ++i) scan.ranges[i] = std::nanf("");
+    EXPECT_TRUE(LaserAdaptor().Update(scan, {}).is_measured) << first;
+    scan.ranges[first == 0 ? 10 : first - 1] = std::nanf("");
+    EXPECT_FALSE(LaserAdaptor().Update(scan, {}).is_measured) << first;
+  }
+}
+
+TEST(LaserAdaptor, KnowsNothingWhereAGapLiesAcrossTheSeamOfAWholeTurn) {
+  RangeScan scan{-kPi, kPi / 180, 0.02, 4.0, std::vector<float>(360, kNothing)};
+  for (const std::size_t i : {0u, 1u, 2u, 3u, 4u, 355u, 356u, 357u, 358u, 359u}) scan.ranges[i] = std::nanf("");
+  EXPECT_TRUE(LaserAdaptor().Update(scan, {}).is_measured);
+  scan.ranges[5] = std::nanf("");
   EXPECT_FALSE(LaserAdaptor().Update(scan, {}).is_measured);
 }
 

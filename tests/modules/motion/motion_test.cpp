@@ -52,7 +52,7 @@ TEST(AccelerationLimit, ComesNearerStepByStep) {
 
 TEST(CommandGateModule, StopsWhenWhoeverCommandsFallsSilent) {
   test::ModuleRig<CommandGate> rig(milliseconds(100));
-  ASSERT_TRUE(rig.module.timeout.limit.Set(0.25));
+  ASSERT_TRUE(rig.module.wanted_timeout.limit.Set(0.25));
   ASSERT_TRUE(rig.Prepare());
   rig.RunCycle();
   EXPECT_EQ(rig.Last(rig.module.state), GateState::kNoCommand);
@@ -100,6 +100,19 @@ TEST(CommandGateModule, StopsAtWhatIsNoNumberAndWhenTheBumperFallsSilent) {
   EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
   rig.Feed(rig.module.contact, {});
   EXPECT_EQ(drive(0.3, 1), GateState::kOpen);
+}
+
+TEST(CommandGateModule, WaitsForABumperThatIsConnectedAndHasNotSpoken) {
+  test::ModuleRig<CommandGate> rig;
+  Output<Contact> bumper(rig.runtime.root(), "bumper");
+  ASSERT_TRUE(Port::Connect(bumper, rig.module.contact));
+  rig.Feed(rig.module.wanted, {0.3, 0});
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kOldContact);
+  EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
+  rig.Feed(rig.module.contact, {});
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kOpen);
 }
 
 TEST(CommandGateModule, WhatPassesIsAsOldAsItWas) {
@@ -165,7 +178,7 @@ TEST(DifferentialDriveModule, ComesToAStopWhenNobodyCommands) {
 
 TEST(DifferentialDriveModule, GetsFasterNoFasterThanItMay) {
   test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
-  ASSERT_TRUE(rig.module.timeout.limit.Set(10));
+  ASSERT_TRUE(rig.module.twist_timeout.limit.Set(10));
   ASSERT_TRUE(rig.Prepare());
   rig.Feed(rig.module.twist, {2.0, 0});
   rig.RunCycle();

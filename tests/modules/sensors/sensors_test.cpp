@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -23,6 +24,15 @@ std::vector<float> Filtered(const std::vector<float>& values, std::size_t reach)
 TEST(MedianFilter, TakesAwaySingleWrongValues) {
   EXPECT_THAT(Filtered({2, 2, 9, 2, 2}, 1), ElementsAre(2, 2, 2, 2, 2));
   EXPECT_THAT(Filtered({2, 2, kNothing, 2, 2}, 1), ElementsAre(2, 2, 2, 2, 2));
+}
+
+// REP 117: what says nothing. It counts as farthest, so that all of them are in an order.
+TEST(MedianFilter, MakesNoNumbersOfWhatIsNone) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  const auto filtered = Filtered({2, none, 2, none, none, none, 3, none, 1, none, none, 1, none, 2, 1, 1, 1}, 7);
+  EXPECT_TRUE(std::isnan(Filtered({2, none, none, none, 2}, 1)[2]));
+  EXPECT_THAT(Filtered({2, none, 2}, 1), ElementsAre(2, 2, 2));
+  EXPECT_TRUE(std::isnan(filtered[8])) << "most of the fifteen round it say nothing";
 }
 
 TEST(MedianFilter, LeavesEdgesWhereTheyAre) {

@@ -29,7 +29,7 @@ TEST(SimulatedWorld, LetsTheRobotDriveAndStopsItAtAWall) {
   test::ModuleRig<SimulatedWorld> rig;
   ASSERT_TRUE(rig.module.world.SetFromText(file.path()));
   ASSERT_TRUE(rig.Prepare());
-  ASSERT_TRUE(rig.module.timeout.limit.Set(60));
+  ASSERT_TRUE(rig.module.wheels_timeout.limit.Set(60));
   rig.Feed(rig.module.wheels, {6, 6});
   rig.RunCycle();
   EXPECT_EQ(rig.Last(rig.module.pose), Pose2{}) << "no time has passed yet";

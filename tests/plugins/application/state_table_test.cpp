@@ -2,6 +2,8 @@
 // cell is silent: a state is kept, or whoever does it is told that it is gone, or it is refused. The table stands in
 // apps/documentation/pages/concepts/states.md.
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -21,13 +23,23 @@
 #include "core/port/hand_slot.h"
 #include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
+#include "plugins/mcap/mcap_reader.h"
+#include "plugins/network/network_element.h"
+#include "plugins/network/network_engines.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/value_by_hand.h"
+#include "plugins/wire/fake_wire.h"
 #include "tests/plugins/application/state_trial.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
+
+void Say(Trial& trial, const std::string& change) {
+  const auto outcome = trial.application->Apply(change);
+  if (!outcome) throw std::runtime_error(outcome.diagnostics.ToString());
+}
 
 struct State {
   std::string name;
@@ -37,7 +49,7 @@ struct State {
 };
 
 State OfConnection(const std::string& name, const std::string& input, const ConnectOptions& options) {
-  return {name, "connect",
+  return {name, "connect|has been changed",
           [=](Trial& trial) { trial.Must({ConnectPorts{"/app/source/out", trial.module + "/" + input, options}}); },
           [=](Trial& trial) {
             const Port& to = trial.In(input);
@@ -74,15 +86,12 @@ const std::vector<State>& States() {
        }},
       {"block of the port", "block", [](Trial& trial) { Require(trial.In().Block()); },
        [](Trial& trial) { return trial.In().is_blocked(); }},
-      {"STOP of the robot", "STOP|driving",
-       [](Trial& trial) {
-         Require(trial.In().SetDriving(true));
-         trial.application->runtime().robot_stop().Press("the test");
-       },
+      {"STOP of the robot", "STOP|driving|has been changed",
+       [](Trial& trial) { trial.application->runtime().robot_stop().Press("the test"); },
        [](Trial& trial) {
          return trial.In().is_driving() && trial.application->runtime().robot_stop().in_force();
        }},
-      {"limits", "limits",
+      {"limits", "limits|has been changed",
        [](Trial& trial) {
          const InputLimits limits{.minimum = 0, .maximum = 9};
          Require(trial.In().SetLimits(limits));
@@ -91,18 +100,18 @@ const std::vector<State>& States() {
        [](Trial& trial) { return BoundsText(trial.In().limits()) == "0 .. 9"; }},
       {"paused", "pause", [](Trial& trial) { Require(trial.application->Pause(trial.module)); },
        [](Trial& trial) { return trial.application->scheduler().IsPaused(trial.Module()); }},
-      {"log level", "log", [](Trial& trial) { SetLogLevel(trial.application->runtime(), trial.module, LogLevel::kDebug); },
+      {"log level", "log|has been changed", [](Trial& trial) { SetLogLevel(trial.application->runtime(), trial.module, LogLevel::kDebug); },
        [](Trial& trial) {
          for (const auto& [path, level] : ReadLogLevels(trial.application->runtime())) {
            if (path == trial.module) return level == LogLevel::kDebug;
          }
          return false;
        }},
-      {"tag", "tags", [](Trial& trial) { Require(SetTags(trial.Module(), {"safety"})); },
+      {"tag", "tags|has been changed", [](Trial& trial) { Require(SetTags(trial.Module(), {"safety"})); },
        [](Trial& trial) { return TagsText(trial.Module()) == "safety"; }},
-      {"parameter", "gain", [](Trial& trial) { trial.Must({SetParameter{trial.module + "/gain", "3"}}); },
+      {"parameter", "gain|has been changed", [](Trial& trial) { trial.Must({SetParameter{trial.module + "/gain", "3"}}); },
        [](Trial& trial) { return trial.application->Get(trial.module + "/gain").value() == "3"; }},
-      {"thread", "thread", [](Trial& trial) { trial.Must({AssignToThread{trial.module, "fast"}}); },
+      {"thread", "thread|has been changed", [](Trial& trial) { trial.Must({AssignToThread{trial.module, "fast"}}); },
        [](Trial& trial) {
          const auto* const thread = OwnThread(trial.Module());
          return thread != nullptr && thread->name() != "slow";
@@ -120,6 +129,29 @@ const std::vector<State>& States() {
            if (dynamic_cast<const ProbePort*>(each.to) != nullptr) return true;
          }
          return false;
+       }},
+      {"offered", "offer|has been changed",
+       [](Trial& trial) {
+         const auto connections = [&] {
+           const std::lock_guard lock(trial.application->runtime().structure_mutex());
+           return trial.Out().outgoing().size();
+         };
+         const std::size_t before = connections();
+         Say(trial, "offer " + trial.module + "/out topic=/x qos=latched");
+         WaitUntil("the network's thread has connected it", [&] { return connections() > before; });
+       },
+       [](Trial& trial) {
+         const auto& offers = NetworkElement::FindIn(trial.application->element())->options().offers;
+         return std::ranges::any_of(offers, [&](const OfferOptions& each) {
+           return each.port == trial.Out().path() && each.topic == "/x" && each.quality == ValueQuality::kLatched;
+         });
+       }},
+      {"taken", "take|connect|has been changed", [](Trial& trial) { Say(trial, "take /y " + trial.module + "/taken live=true exclusive=true"); },
+       [](Trial& trial) {
+         const auto& takes = NetworkElement::FindIn(trial.application->element())->takes();
+         return std::ranges::any_of(takes, [&](const NetworkElement::Take& each) {
+           return each.options.topic == "/y" && each.options.is_exclusive && std::ranges::count(trial.In("taken").incoming(), each.output) == 1;
+         });
        }},
       OfConnection("queue option", "queued", {.queue = 4}),
       OfConnection("pulled", "pulled", {.pull = true}),
@@ -188,11 +220,34 @@ const std::vector<Operation>& Operations() {
          trial.recorder.reset();
          trial.application = Trial::Load(file);
        }},
+      {"restart of the application",
+       [](Trial& trial) {
+         const auto ended = trial.application->service().application().hooks.quit();
+         trial.told += ended ? *ended : ended.error().ToString();
+         trial.recorder.reset();
+         trial.application = {};
+         trial.application = Trial::Load(trial.file);
+       }},
+      {"replay",
+       [](Trial& trial) {
+         const std::string file = (trial.folder.path() / "played.mcap").string();
+         auto recorder = Recorder::Start(trial.application->runtime(), nullptr, {.file = file, .ports = {"/app/source/out"}});
+         if (!recorder) throw std::runtime_error(recorder.error().ToString());
+         Require(trial.application->RunCycles(3));
+         recorder->reset();
+         auto reader = McapReader::Open(file);
+         if (!reader) throw std::runtime_error(reader.error().ToString());
+         auto player = Player::Prepare(trial.application->runtime(), std::move(*reader), {});
+         if (!player) throw std::runtime_error(player.error().ToString());
+         trial.player = std::move(*player);
+         trial.player->Start(trial.application->runtime().clock().Now());
+         Require(trial.application->RunCycles(3));
+       }},
       {"reload of the plugin", [](Trial& trial) { trial.Note(trial.application->Reload("states")); }},
       {"restart of the module", [](Trial& trial) { trial.Do({ReplaceModule{trial.module, "states/filter"}}); }},
       {"disconnect + undo", undone([](Trial& trial) {
          ChangeSet changes;
-         for (const char* each : {"in", "queued", "pulled", "late", "rounded"}) {
+         for (const char* each : {"in", "queued", "pulled", "late", "rounded", "taken"}) {
            for (const Port* from : trial.In(each).incoming()) changes.push_back(DisconnectPorts{from->path(), trial.In(each).path()});
          }
          changes.push_back(DisconnectPorts{trial.module + "/out", "/app/sink/in"});
@@ -207,7 +262,12 @@ const std::vector<Operation>& Operations() {
 
 class StateTable : public ::testing::Test {
  protected:
-  StateTable() { std::ofstream(file_) << kTrialText; }
+  StateTable() {
+    std::ofstream(file_) << kTrialText;
+    setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+    AddWireEngine("fake", MakeFakeWire());
+  }
+  ~StateTable() override { unsetenv("XDG_RUNTIME_DIR"); }
 
   // "kept", "told", "refused", or "SILENT", of each of the states.
   std::vector<std::string> Try(const std::vector<const State*>& states, const Operation& operation) {
@@ -279,8 +339,8 @@ TEST_F(StateTable, IsTheSameForTwoStates) {
         const std::string first = alone[{&one, &each}];
         const std::string second = alone[{&other, &each}];
         const bool is_refused = first == "refused" || second == "refused";
-        EXPECT_EQ(cells[0], is_refused ? "refused" : first) << one.name << " beside " << other.name << ", " << each.name;
-        EXPECT_EQ(cells[1], is_refused ? "refused" : second) << other.name << " beside " << one.name << ", " << each.name;
+        EXPECT_EQ(cells[0], is_refused ? "refused" : first) << one.name << " beside " << other.name << ", " << each.name << ": " << last_told_;
+        EXPECT_EQ(cells[1], is_refused ? "refused" : second) << other.name << " beside " << one.name << ", " << each.name << ": " << last_told_;
       }
     }
   }

@@ -7,7 +7,9 @@
 #include <string>
 
 #include "plugins/application/application.h"
+#include "plugins/command_service/command_service.h"
 #include "plugins/recording/recorder.h"
+#include "plugins/recording/recording_player.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
@@ -15,6 +17,7 @@ namespace runnel::test {
 inline constexpr const char* kTrialText = R"(<application name="app">
   <load plugin="states"/>
   <clock type="simulated" speed="0"/>
+  <network name="trial" engine="fake"/>
   <thread name="fast" period="10ms"/>
   <thread name="slow" period="20ms"/>
   <group name="g">
@@ -23,15 +26,16 @@ inline constexpr const char* kTrialText = R"(<application name="app">
   <module name="source" type="states/source"/>
   <module name="sink" type="states/filter"/>
   <connect from="g/m/out" to="sink/in"/>
+  <driving port="g/m/in"/>
 </application>
 )";
 
 /// An application, and where in it is what has been set.
 struct Trial {
-  explicit Trial(const std::filesystem::path& file) : application(Load(file)) {}
+  explicit Trial(const std::filesystem::path& from) : file(from), application(Load(from)) {}
 
   static LoadedApplication Load(const std::filesystem::path& file) {
-    auto loaded = Application::Load(file, {.plugin_folders = {RUNNEL_TEST_STATES_PLUGIN}});
+    auto loaded = Application::Load(file, {.plugin_folders = {RUNNEL_TEST_STATES_PLUGIN, RUNNEL_TEST_PLUGIN_FOLDER}, .keeps_stop = true});
     if (!loaded) throw std::runtime_error(loaded.diagnostics().ToString());
     return loaded;
   }
@@ -59,8 +63,10 @@ struct Trial {
     if (!outcome) throw std::runtime_error(outcome.diagnostics.ToString());
   }
 
+  const std::filesystem::path file;
   LoadedApplication application;
   std::unique_ptr<Recorder> recorder = {};
+  std::unique_ptr<Player> player = {};  // goes before what it plays to
   std::string module = "/app/g/m";
   std::string told = {};
   bool is_refused = false;

@@ -25,6 +25,7 @@ class StatesFilter : public Module {
   Input<double> queued{this, "queued", {.unit = "m/s"}};
   Input<double> pulled{this, "pulled", {.unit = "m/s"}};
   Input<double> late{this, "late", {.unit = "m/s"}};
+  Input<double> taken{this, "taken", {.unit = "m/s"}};
   Input<int> rounded{this, "rounded", {.unit = "m/s"}};
   Output<double> out{this, "out"};
   Parameter<double> gain{this, "gain", {.default_value = 1.0}};
