@@ -1,6 +1,8 @@
 #include "core/port/driving_ports.h"
 
+#include <chrono>
 #include <mutex>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -20,7 +22,12 @@ struct DrivingBeside final : Annotation {
 }  // namespace
 
 std::optional<std::string> FindWhatDrives(Runtime& runtime) {
-  const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
+  // Others have it for a moment again and again.
+  std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
+  for (int tries = 0; !lock && tries < 10; ++tries) {
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+    (void)lock.try_lock();
+  }
   if (!lock) return {};
   std::string names;
   const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };

@@ -12,7 +12,7 @@ namespace runnel {
 class Runtime;
 
 /// What the STOP of the robot holds, as paths with ", " between them; "": it holds nothing. Nothing while somebody else has
-/// the structure lock, which is not waited for.
+/// the structure lock, which is waited for some ms at most.
 [[nodiscard]] std::optional<std::string> FindWhatDrives(Runtime& runtime);
 /// Why a STOP that is in force stops nothing, with the cure.
 [[nodiscard]] Error NothingDrives();

@@ -267,7 +267,9 @@ class Application(_extension.Application):
         self._publish(path, value)
 
     def stop(self):
-        """STOP of the robot: all that moves something has its safe value, until release(). At once, whatever else goes on."""
+        """STOP of the robot: all that moves something has its safe value, until release(). At once, whatever else goes on.
+        Raises also where STOP is in force and nothing is marked as driving.
+        """
         self._robot_stop(True)
 
     def release(self, path=None):

@@ -301,13 +301,16 @@ class Remote:
 
     def stop(self):
         """STOP of the robot: all that moves something has its safe value, until release(). By a connection of its own: no
-        request of another thread delays it.
+        request of another thread delays it. Raises also where STOP is in force and nothing is marked as driving.
         """
         try:
             with contextlib.closing(_Socket(self._path, 5)) as connection:
-                return _outcome(*_exchange(connection, _request("stop", [], {}, "")))
+                code, out, errors = _exchange(connection, _request("stop", [], {}, ""))
+                if not out:
+                    raise _error(errors)
         except (OSError, _extension.Error) as why:
             raise _extension.Error(f"the STOP of {self.name} is not confirmed: {why}") from None
+        return _outcome(code, out, errors)
 
     def release(self, path=None):
         """Ends the STOP; with the path of a port, its block or the value set by hand there."""

@@ -10,7 +10,7 @@ import runnel
 APPLICATION = """
 <application name="base"> <load plugin="motion"/> <clock type="real"/> <thread name="control" period="5ms"/>
   <module name="gate" type="motion/command_gate"/> <module name="after" type="motion/command_gate"/>
-  <connect from="gate/allowed" to="after/wanted"/> <connect from="after/allowed" to="gate/wanted" late="true"/>
+  <driving port="after/wanted"/> <connect from="gate/allowed" to="after/wanted"/> <connect from="after/allowed" to="gate/wanted" late="true"/>
 </application>"""
 
 
@@ -27,6 +27,15 @@ def test_stop_is_in_force_until_it_is_released(base):
     base.release()
     with pytest.raises(runnel.Error, match="not in force"):
         base.release()
+
+
+def test_a_stop_that_stops_nothing_raises_and_is_in_force():
+    application = APPLICATION.replace('<driving port="after/wanted"/>', "")
+    with runnel.load_text(application, control=True) as app, runnel.connect("base") as far:
+        for stop in (app.stop, far.stop):
+            with pytest.raises(runnel.Error, match="STOP stops nothing"):
+                stop()
+            app.release()
 
 
 def test_one_port_is_blocked_until_it_is_released(base):
