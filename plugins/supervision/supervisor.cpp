@@ -13,9 +13,8 @@
 #include "plugins/structure/extension_changes.h"
 #include "plugins/structure/structure_request.h"
 #include "plugins/structure/value_by_hand.h"
-#include "plugins/supervision/stale_watch.h"
-#include "plugins/supervision/standstill.h"
 #include "plugins/supervision/stop_button.h"
+#include "plugins/supervision/watches.h"
 
 namespace runnel {
 

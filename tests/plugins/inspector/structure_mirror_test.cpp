@@ -112,6 +112,24 @@ TEST_F(StructureMirrorTest, TellsOfThreadsThatModulesAreMovedTo) {
   EXPECT_EQ(viewer.elements["/app/a"]["thread"], "main");
 }
 
+TEST_F(StructureMirrorTest, TellsWhyNoStopReachesAPort) {
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+  }
+  const auto told = [&] {
+    LookUntilDone();
+    Followed viewer;
+    viewer.Follow(mirror.Whole());
+    return viewer.elements["/app/b/input/in"].value("unreached", "");
+  };
+  EXPECT_EQ(told(), "");
+  ASSERT_TRUE(scheduler.SetPaused("/app/b", true));
+  EXPECT_EQ(told(), "/app/b is paused");
+  ASSERT_TRUE(scheduler.SetPaused("/app/b", false));
+  EXPECT_EQ(told(), "");
+}
+
 TEST_F(StructureMirrorTest, WhoFollowsTheChangesKnowsTheWhole) {
   std::mt19937 random(11);
   const auto below = [&](int end) { return std::uniform_int_distribution<>(0, end - 1)(random); };
