@@ -10,7 +10,7 @@ process.env.RUNNEL_BROWSER = FindBrowser();
 if (!process.env.RUNNEL_BROWSER) process.exit(77);
 
 const ends = [];
-const { page } = await OpenPage({ after: (end) => ends.push(end) }, url);
+const { page } = await OpenPage({ after: (end) => ends.push(end) }, url, { shows: '#stop-button' });
 const button = page.locator('#stop-button');
 const { x, y, width, height } = await button.boundingBox();
 await page.evaluate(() => {
