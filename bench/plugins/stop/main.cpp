@@ -1,6 +1,6 @@
 // How long it takes until readers of a driving port find its safe value, whatever else goes on: from a request for STOP,
 // by each way, and from the end of a dead-man's deadline. Prints a table for each, in milliseconds; each row has as many
-// tries as are asked for: bench_stop TRIES, 1000 by default.
+// tries as are asked for: bench_stop [TRIES [TEXT]], 1000 by default, and only rows with the text in their name or table's.
 
 #include <algorithm>
 #include <cstdio>
@@ -89,16 +89,20 @@ void MeasureDeadMan(const Load& load, int tries) {
   PrintRow(load, std::move(times));
 }
 
-int Main(int tries) {
+int Main(int tries, const std::string& text) {
   const auto begin = SteadyClock::now();
+  const auto wanted = [&](const std::string& table) {
+    std::vector<Load> rows = Loads();
+    std::erase_if(rows, [&](const Load& each) { return (table + ": " + each.name).find(text) == std::string::npos; });
+    if (!rows.empty()) PrintHead(table);
+    return rows;
+  };
   for (const KindOfWay& kind : KindsOfWays()) {
-    PrintHead("STOP, " + kind.name);
-    for (const Load& load : Loads()) {
+    for (const Load& load : wanted("STOP, " + kind.name)) {
       if (!MeasureStop(kind, load, tries)) break;
     }
   }
-  PrintHead("dead-man, after its deadline");
-  for (const Load& load : Loads()) MeasureDeadMan(load, tries);
+  for (const Load& load : wanted("dead-man, after its deadline")) MeasureDeadMan(load, tries);
   std::printf("\nmeasured for %.0f s\n", Since(begin) / 1000);
   return 0;
 }
@@ -107,5 +111,5 @@ int Main(int tries) {
 }  // namespace runnel::bench
 
 int main(int argc, char** argv) {
-  return runnel::bench::Main(argc > 1 ? std::max(1, std::atoi(argv[1])) : 1000);
+  return runnel::bench::Main(argc > 1 ? std::max(1, std::atoi(argv[1])) : 1000, argc > 2 ? argv[2] : "");
 }

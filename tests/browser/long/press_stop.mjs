@@ -10,7 +10,7 @@ process.env.RUNNEL_BROWSER = FindBrowser();
 if (!process.env.RUNNEL_BROWSER) process.exit(77);
 
 const ends = [];
-const { page } = await OpenPage({ after: (end) => ends.push(end) }, url);
+const { page } = await OpenPage({ after: (end) => ends.push(end) }, url, { shows: '#stop-button' });
 const button = page.locator('#stop-button');
 const { x, y, width, height } = await button.boundingBox();
 await page.evaluate(() => {
@@ -26,11 +26,23 @@ if (saturated) {
   });
 }
 console.log('ready');
+await page.mouse.move(x + width / 2, y + height / 2);
 let presses = 0;
 for await (const _ of createInterface({ input: process.stdin })) {
-  await page.locator('#stop-button[data-stop="free"]').waitFor();
-  if (++presses % 2 === 1) await page.mouse.click(x + width / 2, y + height / 2);
-  else await page.keyboard.press('Control+Space');
+  await page.evaluate(() => new Promise((done) => {
+    const timer = setInterval(() => {
+      if (document.querySelector('#stop-button').dataset.stop !== 'free') return;
+      clearInterval(timer);
+      done();
+    }, 1);
+  }));
+  if (++presses % 2 === 1) {
+    await page.mouse.down();
+    page.mouse.up();
+  } else {
+    await page.keyboard.down('Pause');
+    page.keyboard.up('Pause');
+  }
   console.log(await page.evaluate(() => window.pressed_at));
 }
 for (const end of ends) await end().catch(() => {});

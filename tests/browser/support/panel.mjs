@@ -79,11 +79,13 @@ class Panel {
 export async function Network(t, url) {
   const target = Number(new URL(url).port);
   const sockets = new Set();
+  let isStuck = false;
   const server = createServer((near) => {
     const far = connect(target, '127.0.0.1');
     for (const [from, to] of [[near, far], [far, near]]) {
       sockets.add(from);
       from.pipe(to);
+      if (isStuck) from.pause();
       from.on('error', () => to.destroy());
       from.on('close', () => { sockets.delete(from); to.destroy(); });
     }
@@ -95,8 +97,8 @@ export async function Network(t, url) {
   });
   return {
     url: `http://127.0.0.1:${server.address().port}/`,
-    stick() { for (const socket of sockets) socket.pause(); },
-    loosen() { for (const socket of sockets) socket.resume(); },
+    stick() { isStuck = true; for (const socket of sockets) socket.pause(); },
+    loosen() { isStuck = false; for (const socket of sockets) socket.resume(); },
     drop() { for (const socket of sockets) socket.destroy(); },
   };
 }
