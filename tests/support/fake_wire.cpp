@@ -85,7 +85,7 @@ class FakeNetwork final : public WireEngine {
   void AddEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint);
   void RemoveEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint);
   void Deliver(FakeEndpoint& writer, const FakeEndpoint::Value& value);
-  void SetCutOff(const std::string& name, bool is_cut_off);
+  void SetCutOff(const std::string& name, bool is_cut_off, bool gets_other_handles);
 
  private:
   void Run();
@@ -285,7 +285,7 @@ void FakeNetwork::Deliver(FakeEndpoint& writer, const FakeEndpoint::Value& value
   ForEachOther(writer, [&](FakeEndpoint& reader) { reader.Take(value, writer.about.handle); });
 }
 
-void FakeNetwork::SetCutOff(const std::string& name, bool is_cut_off) {
+void FakeNetwork::SetCutOff(const std::string& name, bool is_cut_off, bool gets_other_handles) {
   for (const auto& each : std::vector(is_cut_off ? endpoints_ : cut_off_)) {
     if (each->participant->about().name != name) continue;
     if (is_cut_off) {
@@ -294,7 +294,7 @@ void FakeNetwork::SetCutOff(const std::string& name, bool is_cut_off) {
       cut_off_.push_back(each);
     } else {
       std::erase(cut_off_, each);
-      each->about.handle += std::uint64_t{1} << 32;
+      if (gets_other_handles) each->about.handle += std::uint64_t{1} << 32;
       AddEndpoint(each);
     }
   }
@@ -309,9 +309,9 @@ Result<std::unique_ptr<WireParticipant>> FakeNetwork::Join(const WireMemberOptio
 
 std::shared_ptr<WireEngine> MakeFakeWire() { return std::make_shared<FakeNetwork>(); }
 
-void SetCutOff(WireEngine& fake, const std::string& name, bool is_cut_off) {
+void SetCutOff(WireEngine& fake, const std::string& name, bool is_cut_off, bool gets_other_handles) {
   auto& network = static_cast<FakeNetwork&>(fake);
-  network.Do([&] { network.SetCutOff(name, is_cut_off); });
+  network.Do([&] { network.SetCutOff(name, is_cut_off, gets_other_handles); });
 }
 
 void WaitUntilQuiet(WireEngine& fake) {

@@ -13,8 +13,8 @@ namespace runnel {
 [[nodiscard]] std::shared_ptr<WireEngine> MakeFakeWire();
 
 /// Cuts the members of that name off from all others, who are told that their endpoints have gone, or connects them again:
-/// then these have other handles, and what a latched writer keeps is delivered again.
-void SetCutOff(WireEngine& fake, const std::string& name, bool is_cut_off);
+/// then what a latched writer keeps is delivered again. The engines differ in whether endpoints have other handles then.
+void SetCutOff(WireEngine& fake, const std::string& name, bool is_cut_off, bool gets_other_handles = true);
 
 /// Waits until all that has been set off so far has been delivered. Not from a callback.
 void WaitUntilQuiet(WireEngine& fake);

@@ -180,10 +180,10 @@ TEST_F(NetworkMastersTest, WhatIsLatchedComesOnceThoughTheLinkToItsWriterIsLost)
   ASSERT_TRUE(Port::Connect(*robot_.network->takes().front().output, all));
   while (all.Take([](const void*, ValueTimes) {})) {
   }
-  for (int i = 0; i < 2; ++i) {
+  for (const bool has_other_handle : {true, false}) {
     SetCutOff(*engine_, "planner", true);
-    WaitUntil("it has gone", [&] { return !is_known(); });
-    SetCutOff(*engine_, "planner", false);
+    if (has_other_handle) WaitUntil("it has gone", [&] { return !is_known(); });
+    SetCutOff(*engine_, "planner", false, has_other_handle);
     WaitUntil("it is there again", is_known);
     WaitUntilQuiet(*engine_);
     EXPECT_FALSE(all.Take([](const void*, ValueTimes) {}));
