@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base/saturating_sum.h"
+#include "core/base/clock.h"
 #include "plugins/structure/value_by_hand.h"
 
 namespace runnel::internal {
