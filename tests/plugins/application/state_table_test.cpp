@@ -29,7 +29,7 @@
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/value_by_hand.h"
-#include "plugins/wire/fake_wire.h"
+#include "tests/support/fake_wire.h"
 #include "tests/plugins/application/state_trial.h"
 #include "tests/support/wait_until.h"
 
