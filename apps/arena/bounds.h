@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/arena/course.h"
-#include "modules/simulation/algorithm/run_result.h"
+#include "modules/simulation/algorithm/path_record.h"
 
 namespace runnel::arena {
 

@@ -1,14 +1,103 @@
-#include "apps/arena/html_report.h"
+#include "apps/arena/report.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
-#include "apps/arena/html_page.h"
-#include "apps/arena/html_world.h"
 #include "core/base/characters.h"
+#include "modules/simulation/algorithm/outline.h"
+#include "modules/simulation/algorithm/world_geometry.h"
+#include "modules/types/algorithm/svg_writer.h"
 
 namespace runnel::arena {
 
 namespace {
+
+constexpr double kAir = 0.6;  // m, round all that is shown
+
+// The y axis is turned over here rather than by a transform, so that a page can be read.
+Point2 OnPage(Point2 point) { return {point.x, -point.y}; }
+
+std::vector<Point2> OnPage(std::vector<Point2> points) {
+  for (Point2& point : points) point = OnPage(point);
+  return points;
+}
+
+std::string Look(const char* name) { return std::string("class=\"") + name + "\""; }
+
+void DrawObstacles(const World& world, const Extent& view, SvgWriter& svg) {
+  const auto draw = [&](std::vector<Ring> rings) {
+    for (Ring& ring : rings) ring = OnPage(std::move(ring));
+    svg.Rings(rings, Look("solid"));
+  };
+  if (world.bounds) {
+    draw({{view.low, {view.high.x, view.low.y}, view.high, {view.low.x, view.high.y}}, *world.bounds});
+  }
+  for (const PolygonObstacle& polygon : world.polygons) {
+    std::vector<Ring> rings{polygon.outline};
+    rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+    draw(std::move(rings));
+  }
+  for (const BoxObstacle& box : world.boxes) draw({CornersOf(box)});
+  for (const CylinderObstacle& cylinder : world.cylinders) {
+    svg.Circle(OnPage(cylinder.centre), cylinder.radius, Look("solid"));
+  }
+  for (const WallObstacle& wall : world.walls) {
+    svg.Polyline(OnPage(wall.points), Look("wall") + " stroke-width=\"" + Fixed(wall.thickness, 3) + "\"");
+  }
+}
+
+std::string ViewBoxText(const Extent& view) {
+  const Point2 size = view.high - view.low;
+  return "viewBox=\"" + Fixed(view.low.x, 2) + " " + Fixed(-view.high.y, 2) + " " +
+         Fixed(size.x, 2) + " " + Fixed(size.y, 2) + "\"";
+}
+
+constexpr std::array<const char*, 3> kLooks{"goal-bound", "following", "returning"};
+
+void DrawPath(const std::vector<PathSample>& path, SvgWriter& svg) {
+  for (std::size_t first = 0; first < path.size();) {
+    std::size_t end = first;
+    std::vector<Point2> line;
+    while (end < path.size() && path[end].mode == path[first].mode) {
+      line.push_back(OnPage(path[end++].position));
+    }
+    if (end < path.size()) line.push_back(OnPage(path[end].position));
+    svg.Polyline(line, Look(kLooks[static_cast<std::size_t>(path[first].mode)]));
+    first = end;
+  }
+}
+
+// What is shown of a world, with some air round it.
+Extent ViewOf(const Course& course) {
+  const Extent extent = ExtentOf(course.world);
+  return {extent.low - Point2{kAir, kAir}, extent.high + Point2{kAir, kAir}};
+}
+
+// The world's obstacles, start, goal and shortest path, as a <symbol> of this id. Drawn in m, y up; colours come from the
+// classes of the page.
+std::string WorldSymbol(const std::string& id, const Course& course, const Extent& view) {
+  SvgWriter svg;
+  DrawObstacles(course.world, view, svg);
+  if (course.shortest) svg.Polyline(OnPage(course.shortest->points), Look("shortest"));
+  const double mark = 0.012 * Norm(view.high - view.low);
+  svg.Circle(OnPage(Position(course.world.start)), mark, Look("start"));
+  svg.Circle(OnPage(course.world.goal), mark, Look("goal"));
+  return "<symbol id=\"" + id + "\" " + ViewBoxText(view) + ">" + svg.Take() + "</symbol>\n";
+}
+
+// One run over the world: an <svg> that uses the symbol.
+std::string RunDrawing(const std::string& world_id, const RunRecord& record, const Extent& view) {
+  const double mark = 0.009 * Norm(view.high - view.low);
+  const Point2 size = view.high - view.low;
+  SvgWriter svg;
+  DrawPath(record.result.path, svg);
+  for (const Point2 hit : record.result.hits) svg.Circle(OnPage(hit), mark, Look("hit"));
+  for (const Point2 leave : record.result.leaves) svg.Circle(OnPage(leave), mark, Look("leave"));
+  return "<svg role=\"img\" aria-label=\"" + EscapedMarkup(TextOf(record.key)) + "\" " + ViewBoxText(view) +
+         "><use href=\"#" + world_id + "\" x=\"" + Fixed(view.low.x, 3) + "\" y=\"" + Fixed(-view.high.y, 3) +
+         "\" width=\"" + Fixed(size.x, 3) + "\" height=\"" + Fixed(size.y, 3) + "\"/>" + svg.Close();
+}
 
 struct Column {
   const char* title;
@@ -131,7 +220,7 @@ std::string HtmlReport(const Matrix& matrix, const std::vector<RunRecord>& recor
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>Runnel arena</title>\n<style>" +
-      std::string(kStyle) + "</style>\n</head>\n<body>\n<h1>Arena</h1>\n";
+      std::string(kPageStyle) + "</style>\n</head>\n<body>\n<h1>Arena</h1>\n";
   text += "<p>" + std::to_string(records.size()) + " runs; noise of the ranges " +
           Fixed(settings.noise, 3) + " m, safe distance " + Fixed(settings.safe_distance, 2) +
           " m; " + TextOf(SpeedOf(records)) + ".</p>\n";
@@ -146,7 +235,7 @@ std::string HtmlReport(const Matrix& matrix, const std::vector<RunRecord>& recor
     }
   }
   text += "<h2>All runs</h2>\n" + RunTable(rows);
-  return text + "<script>" + std::string(kScript) + "</script>\n</body>\n</html>\n";
+  return text + "<script>" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace runnel::arena

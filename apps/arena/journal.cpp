@@ -52,6 +52,22 @@ Result<void> CheckHead(const std::string& line, const RunSettings& settings,
 
 }  // namespace
 
+Result<void> ReadEntries(const std::filesystem::path& file, const std::string& text, const UseJournalEntry& use) {
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  for (int number = 2; std::getline(lines, line); ++number) {
+    if (lines.eof() && !text.ends_with('\n')) break;
+    const auto entry = ParseJournalLine(line);
+    if (!entry) {
+      return ErrorIn(file, number, "this line is broken: " + entry.error().message,
+                     "remove it, and its run will be repeated");
+    }
+    if (auto used = use(*entry, line, number); !used) return used;
+  }
+  return {};
+}
+
 Result<Journal> Journal::Begin(const std::filesystem::path& file, const RunSettings& settings) {
   if (auto written = WriteFile(file, HeadOf(settings) + "\n"); !written) return written.error();
   return Journal(file);
@@ -61,23 +77,16 @@ Result<Journal> Journal::Resume(const std::filesystem::path& file, const RunSett
   if (!std::filesystem::exists(file)) return Begin(file, settings);
   const auto text = ReadFile(file);
   if (!text) return text.error();
-  std::istringstream lines(*text);
-  std::string line;
-  std::getline(lines, line);
-  if (auto checked = CheckHead(line, settings, file); !checked) return checked.error();
+  const std::string head = text->substr(0, text->find('\n'));
+  if (auto checked = CheckHead(head, settings, file); !checked) return checked.error();
   Journal journal(file);
-  std::string whole = line + "\n";
-  for (int number = 2; std::getline(lines, line); ++number) {
-    // The arena may have been killed while it wrote the last line.
-    if (lines.eof() && !text->ends_with('\n')) break;
-    const auto entry = ParseJournalLine(line);
-    if (!entry) {
-      return ErrorIn(file, number, "this line is broken: " + entry.error().message,
-                     "remove it, and its run will be repeated");
-    }
-    journal.finished_.insert_or_assign(entry->record.key, *entry);
+  std::string whole = head + "\n";
+  const auto read = ReadEntries(file, *text, [&](const JournalEntry& entry, const std::string& line, int) -> Result<void> {
+    journal.finished_.insert_or_assign(entry.record.key, entry);
     whole += line + "\n";
-  }
+    return {};
+  });
+  if (!read) return read.error();
   if (whole.size() != text->size()) {
     if (auto written = WriteFile(file, whole); !written) return written.error();
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -33,5 +34,23 @@ class Journal {
   std::filesystem::path file_;
   std::map<RunKey, JournalEntry> finished_;
 };
+
+/// Calls `use` with each run that the text of a journal has, its line and its line's number. The last line is left out if it is
+/// cut off: the arena may have been killed while it wrote it. Errors: a line is broken, or what `use` says.
+using UseJournalEntry = std::function<Result<void>(const JournalEntry& entry, const std::string& line, int number)>;
+Result<void> ReadEntries(const std::filesystem::path& file, const std::string& text, const UseJournalEntry& use);
+
+/// Puts the runs of several arenas into one: `into` and its journal get those of all the `parts`, JSON files that arenas
+/// have written (--json), each with its journal beside it. Parts that were interrupted count as far as they came. How many
+/// runs there are then.
+///
+/// Errors: a part without a journal, journals of other settings, one run made of two different worlds or applications;
+///         `into` is not written then.
+[[nodiscard]] Result<std::size_t> Merge(const std::filesystem::path& into,
+                                        const std::vector<std::filesystem::path>& parts);
+
+/// The words after `runnel arena merge`. Errors: as above, and what the parser says; without a message, help has been
+/// printed.
+[[nodiscard]] Result<void> RunMerge(int count, const char* const* words);
 
 }  // namespace runnel::arena

@@ -6,12 +6,10 @@
 #include <optional>
 
 #include "apps/arena/application_text.h"
-#include "apps/arena/html_report.h"
 #include "apps/arena/journal.h"
-#include "apps/arena/merge.h"
-#include "apps/arena/pictures.h"
 #include "apps/arena/progress.h"
 #include "apps/arena/runner.h"
+#include "apps/arena/report.h"
 #include "core/base/exception_text.h"
 
 namespace runnel::arena {

@@ -1,8 +1,7 @@
-#include "apps/arena/merge.h"
+#include "apps/arena/journal.h"
 
 #include <iostream>
 #include <map>
-#include <sstream>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -26,26 +25,19 @@ struct Merged {
   std::map<RunKey, MergedRun> runs;
 };
 
-Result<void> Add(const std::string& line, const std::filesystem::path& journal, int number, Merged& merged) {
-  auto entry = ParseJournalLine(line);
-  if (!entry) {
-    return Error{.message = "this line is broken: " + entry.error().message,
-                 .position = {journal.string(), number},
-                 .hint = "remove it, and its run will be repeated"};
-  }
-  const RunKey key = entry->record.key;
+Result<void> Add(const JournalEntry& entry, const std::string& line, const std::filesystem::path& journal, int number,
+                 Merged& merged) {
+  const RunKey& key = entry.record.key;
   const auto before = merged.runs.find(key);
   const bool is_there = before != merged.runs.end();
-  if (is_there && before->second.entry.made_of != entry->made_of) {
+  if (is_there && before->second.entry.made_of != entry.made_of) {
     return Error{.message = "the run " + TextOf(key) + " was made of another world or application than in " +
                             before->second.from.string(),
                  .position = {journal.string(), number},
                  .hint = "let one of the two run again"};
   }
   // One that crashed or hung gives way to one that did not.
-  if (!is_there || entry->record.has_ended_by_itself) {
-    merged.runs.insert_or_assign(key, MergedRun{std::move(*entry), line, journal});
-  }
+  if (!is_there || entry.record.has_ended_by_itself) merged.runs.insert_or_assign(key, MergedRun{entry, line, journal});
   return {};
 }
 
@@ -58,23 +50,19 @@ Result<void> AddPart(const std::filesystem::path& part, Merged& merged) {
   }
   const auto text = ReadFile(journal);
   if (!text) return text.error();
-  std::istringstream lines(*text);
-  std::string line;
-  std::getline(lines, line);
+  const std::string head = text->substr(0, text->find('\n'));
   if (merged.head.empty()) {
-    merged.head = line;
+    merged.head = head;
     merged.head_from = journal;
   }
-  if (line != merged.head || !line.starts_with("{\"runnel_arena_journal\"")) {
+  if (head != merged.head || !head.starts_with("{\"runnel_arena_journal\"")) {
     return Error{.message = "the runs here had other settings than those of " + merged.head_from.string(),
                  .position = {journal.string(), 1},
                  .hint = "noise, path step, time limit and safe distance have to be the same"};
   }
-  for (int number = 2; std::getline(lines, line); ++number) {
-    if (lines.eof() && !text->ends_with('\n')) break;  // killed while it wrote the last line
-    if (auto added = Add(line, journal, number, merged); !added) return added;
-  }
-  return {};
+  return ReadEntries(journal, *text, [&](const JournalEntry& entry, const std::string& line, int number) {
+    return Add(entry, line, journal, number, merged);
+  });
 }
 
 }  // namespace

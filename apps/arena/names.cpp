@@ -6,7 +6,7 @@
 #include "core/plugin/plugin_manager.h"
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_writing.h"
-#include "modules/simulation/world_file/world_search.h"
+#include "modules/simulation/world_file/world_file.h"
 
 namespace runnel::arena {
 

@@ -1,4 +1,4 @@
-#include "apps/arena/pictures.h"
+#include "apps/arena/report.h"
 
 #include "apps/arena/application_text.h"
 #include "modules/simulation/algorithm/trajectory_svg.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "modules/simulation/algorithm/run_result.h"
+#include "modules/simulation/algorithm/path_record.h"
 
 namespace runnel::arena {
 

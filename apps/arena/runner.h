@@ -5,6 +5,7 @@
 
 #include "apps/arena/arguments.h"
 #include "apps/arena/matrix.h"
+#include "core/base/result.h"
 
 namespace runnel::arena {
 

@@ -1,4 +1,4 @@
-#include "apps/arena/table.h"
+#include "apps/arena/report.h"
 
 #include <algorithm>
 

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/nearest_name.h"
-#include "modules/simulation/world_file/world_writer.h"
+#include "modules/simulation/world_file/world_file.h"
 
 namespace runnel::world_program {
 

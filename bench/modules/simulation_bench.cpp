@@ -8,7 +8,7 @@
 
 #include "core/base/diagnostics.h"
 #include "modules/simulation/algorithm/physics_world.h"
-#include "modules/simulation/world_file/world_reader.h"
+#include "modules/simulation/world_file/world_file.h"
 #include "tests/integration/application_run.h"
 
 namespace runnel {

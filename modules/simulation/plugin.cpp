@@ -1,10 +1,6 @@
 #include "core/plugin/plugin_entry.h"
-#include "modules/simulation/bumper.h"
-#include "modules/simulation/camera.h"
-#include "modules/simulation/infrared.h"
-#include "modules/simulation/laser.h"
-#include "modules/simulation/localisation.h"
 #include "modules/simulation/referee.h"
+#include "modules/simulation/sensors.h"
 #include "modules/simulation/simulated_world.h"
 
 RUNNEL_PLUGIN(simulation, registry) {

@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "modules/simulation/algorithm/run_result.h"
+#include "modules/simulation/algorithm/path_record.h"
 #include "modules/simulation/algorithm/trajectory_svg.h"
-#include "modules/simulation/run_result_json.h"
 
 namespace runnel {
 

@@ -1,4 +1,4 @@
-#include "modules/simulation/run_result_json.h"
+#include "modules/simulation/referee.h"
 
 #include <cmath>
 #include <limits>

@@ -3,10 +3,9 @@
 #include <cmath>
 
 #include "core/base/diagnostics.h"
-#include "modules/simulation/algorithm/map_of_world.h"
+#include "modules/simulation/algorithm/outline.h"
 #include "modules/simulation/algorithm/world_geometry.h"
-#include "modules/simulation/world_file/world_reader.h"
-#include "modules/simulation/world_file/world_search.h"
+#include "modules/simulation/world_file/world_file.h"
 
 namespace runnel {
 

@@ -6,7 +6,7 @@
 
 #include "plugins/genom_execution/component_table.h"
 #include "plugins/genom_execution/exclusion.h"
-#include "plugins/genom_execution/outcome.h"
+#include "plugins/genom_execution/request.h"
 
 namespace runnel::genom_execution {
 

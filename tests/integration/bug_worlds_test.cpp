@@ -10,7 +10,7 @@
 
 #include "core/base/diagnostics.h"
 #include "modules/simulation/algorithm/world_geometry.h"
-#include "modules/simulation/world_file/world_reader.h"
+#include "modules/simulation/world_file/world_file.h"
 #include "tests/integration/application_run.h"
 
 namespace runnel::test {

@@ -4,6 +4,7 @@
 
 #include "modules/simulation/algorithm/world.h"
 #include "modules/types/algorithm/segment.h"
+#include "modules/types/algorithm/world_map.h"
 
 namespace runnel {
 
@@ -41,5 +42,14 @@ struct Extent {
 
 /// The rectangle that a piece of a wall stands on, without the round ends.
 [[nodiscard]] BoxObstacle StraightPart(const Segment2& piece, double thickness, double height);
+
+/// The world as closed lines: a box as its corners, a cylinder and the round ends and corners of walls
+/// as polygons that touch the circle from within.
+[[nodiscard]] WorldMap MapOf(const World& world);
+
+/// All that is within half a thickness of the open line, as one closed line round it. Where a wall
+/// bends back into itself the line may cross itself; what it winds round at all is wall (the non-zero
+/// rule). Empty for a wall of fewer than two points, which is none.
+[[nodiscard]] Ring LineRound(const WallObstacle& wall);
 
 }  // namespace runnel

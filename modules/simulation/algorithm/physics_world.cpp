@@ -6,11 +6,63 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "modules/simulation/algorithm/internal/bullet_obstacles.h"
-#include "modules/simulation/algorithm/internal/wheel_constraint.h"
 #include "modules/simulation/algorithm/outline.h"
 #include "modules/types/algorithm/angle.h"
 
 namespace runnel {
+
+namespace internal {
+
+/// Two driven wheels as three rows of Bullet's constraint solver: the ground speed of the left
+/// wheel, that of the right one, and no speed sideways.
+class WheelConstraint final : public btTypedConstraint {
+ public:
+  /// `ground` is any fixed body: Bullet's own one is shared by all worlds of the process.
+  WheelConstraint(btRigidBody& body, btRigidBody& ground, const RobotOptions& robot)
+      : btTypedConstraint(D6_CONSTRAINT_TYPE, body, ground), robot_(robot) {}
+
+  /// Within the limits of the robot already.
+  void set_target(const WheelSpeeds& speeds) { target_ = speeds; }
+  /// For one step: the direction in which the wheels roll during it (rad), and its duration (s).
+  void Prepare(double rolling_direction, double step) {
+    rolling_direction_ = rolling_direction;
+    step_ = step;
+  }
+
+  void getInfo1(btConstraintInfo1* info) override {
+    info->m_numConstraintRows = 3;
+    info->nub = 0;
+  }
+  void getInfo2(btConstraintInfo2* info) override {
+    const double c = std::cos(rolling_direction_), s = std::sin(rolling_direction_);
+    const btVector3 ahead(c, s, 0), left(-s, c, 0);
+    const double arm = robot_.track / 2, radius = robot_.wheel_radius;
+    FillRow(info, 0, ahead, -arm, radius * target_.left, robot_.maximum_wheel_force);
+    FillRow(info, 1, ahead, arm, radius * target_.right, robot_.maximum_wheel_force);
+    FillRow(info, 2, left, 0.0, 0.0, robot_.maximum_grip);
+  }
+  void setParam(int, btScalar, int) override {}
+  btScalar getParam(int, int) const override { return 0; }
+
+ private:
+  /// velocity * direction + turn rate * lever shall be `speed`; limits are impulses.
+  void FillRow(btConstraintInfo2* info, int row, const btVector3& direction, double lever,
+               double speed, double force) const {
+    const int first = row * info->rowskip;
+    for (int axis = 0; axis < 3; ++axis) info->m_J1linearAxis[first + axis] = direction[axis];
+    info->m_J1angularAxis[first + 2] = lever;
+    info->m_constraintError[first] = speed;
+    info->m_lowerLimit[first] = -force * step_;
+    info->m_upperLimit[first] = force * step_;
+  }
+
+  const RobotOptions robot_;
+  WheelSpeeds target_;
+  double rolling_direction_ = 0.0;
+  double step_ = 0.0;
+};
+
+}  // namespace internal
 
 namespace {
 

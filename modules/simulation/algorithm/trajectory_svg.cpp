@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "modules/simulation/algorithm/internal/canvas.h"
 #include "modules/simulation/algorithm/internal/drawing.h"
 
 namespace runnel {

@@ -1,4 +1,4 @@
-#include "modules/simulation/world_file/world_reader.h"
+#include "modules/simulation/world_file/world_file.h"
 
 #include <algorithm>
 #include <limits>

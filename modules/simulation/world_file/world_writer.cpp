@@ -1,4 +1,4 @@
-#include "modules/simulation/world_file/world_writer.h"
+#include "modules/simulation/world_file/world_file.h"
 
 #include <charconv>
 #include <string_view>

@@ -1,8 +1,9 @@
 #include "modules/types/algorithm/svg_writer.h"
 
-#include <array>
 #include <charconv>
 #include <utility>
+
+#include "core/base/markup.h"
 
 namespace runnel {
 
@@ -26,17 +27,6 @@ std::string Decimal(double number, int digits) {
   const std::string decimal(text, end);
   const bool is_zero = decimal.find_first_of("123456789") == std::string::npos;
   return is_zero && decimal.front() == '-' ? decimal.substr(1) : decimal;
-}
-
-std::string EscapedXml(std::string_view text) {
-  constexpr std::string_view kMeant = "&<>\"";
-  constexpr std::array kNames{"&amp;", "&lt;", "&gt;", "&quot;"};
-  std::string escaped;
-  for (const char character : text) {
-    const std::size_t named = kMeant.find(character);
-    escaped += named != std::string_view::npos ? kNames[named] : std::string(1, character);
-  }
-  return escaped;
 }
 
 void SvgWriter::Open(double width, double height) {
@@ -77,16 +67,13 @@ void SvgWriter::Rings(const std::vector<std::vector<Point2>>& rings, std::string
 
 void SvgWriter::Text(Point2 place, std::string_view text, std::string_view style) {
   text_ += "<text" + Attribute("x", place.x) + Attribute("y", place.y) + " " + std::string(style) +
-           ">" + EscapedXml(text) + "</text>\n";
+           ">" + EscapedMarkup(text) + "</text>\n";
 }
 
 void SvgWriter::OpenGroup(std::string_view style) { text_ += "<g " + std::string(style) + ">\n"; }
 
 void SvgWriter::CloseGroup() { text_ += "</g>\n"; }
 
-std::string SvgWriter::Close() {
-  text_ += "</svg>\n";
-  return std::exchange(text_, {});
-}
+std::string SvgWriter::Take() { return std::exchange(text_, {}); }
 
 }  // namespace runnel

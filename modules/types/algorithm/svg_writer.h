@@ -11,9 +11,6 @@ namespace runnel {
 /// Two digits after the point, whatever the locale, and never "-0.00".
 [[nodiscard]] std::string Decimal(double number, int digits = 2);
 
-/// Text as it may stand between tags and in attributes.
-[[nodiscard]] std::string EscapedXml(std::string_view text);
-
 /// Writes shapes one after the other. Points are in pixels, x to the right, y down; `style` is more
 /// attributes, as they stand in the file.
 class SvgWriter {
@@ -28,8 +25,10 @@ class SvgWriter {
   void Text(Point2 place, std::string_view text, std::string_view style);
   void OpenGroup(std::string_view style);
   void CloseGroup();
+  /// Gives away what has been written.
+  [[nodiscard]] std::string Take();
   /// Ends the file and gives it away.
-  [[nodiscard]] std::string Close();
+  [[nodiscard]] std::string Close() { return Take() + "</svg>\n"; }
 
  private:
   std::string text_;

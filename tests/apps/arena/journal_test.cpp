@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/arena/application_text.h"
-#include "modules/simulation/run_result_json.h"
+#include "modules/simulation/referee.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::arena {

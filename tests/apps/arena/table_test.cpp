@@ -1,9 +1,8 @@
-#include "apps/arena/table.h"
+#include "apps/arena/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/arena/html_report.h"
 #include "apps/arena/progress.h"
 
 namespace runnel::arena {

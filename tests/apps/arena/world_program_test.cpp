@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "modules/simulation/world_file/world_reader.h"
+#include "modules/simulation/world_file/world_file.h"
 #include "tests/apps/arena/arena_run.h"
 
 namespace runnel::test {

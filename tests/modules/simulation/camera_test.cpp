@@ -1,4 +1,4 @@
-#include "modules/simulation/camera.h"
+#include "modules/simulation/sensors.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "modules/simulation/algorithm/map_of_world.h"
+#include "modules/simulation/algorithm/outline.h"
 
 #include <cmath>
 

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "modules/simulation/algorithm/noise.h"
+#include "modules/simulation/algorithm/random.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 #include "modules/types/algorithm/angle.h"
 #include "tests/modules/simulation/rays.h"

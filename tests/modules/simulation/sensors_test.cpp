@@ -5,9 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "modules/simulation/algorithm/infrared_sensor.h"
-#include "modules/simulation/algorithm/laser_scanner.h"
-#include "modules/simulation/algorithm/noise.h"
+#include "modules/simulation/algorithm/random.h"
+#include "modules/simulation/algorithm/range_sensors.h"
 #include "tests/modules/simulation/rays.h"
 
 namespace runnel {

@@ -2,10 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "modules/simulation/bumper.h"
-#include "modules/simulation/infrared.h"
-#include "modules/simulation/laser.h"
-#include "modules/simulation/localisation.h"
+#include "modules/simulation/sensors.h"
 #include "modules/simulation/simulated_world.h"
 #include "plugins/testing/allocation_guard.h"
 #include "plugins/testing/module_rig.h"

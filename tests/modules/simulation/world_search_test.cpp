@@ -1,4 +1,4 @@
-#include "modules/simulation/world_file/world_search.h"
+#include "modules/simulation/world_file/world_file.h"
 
 #include <fstream>
 

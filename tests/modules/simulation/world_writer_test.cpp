@@ -1,9 +1,8 @@
-#include "modules/simulation/world_file/world_writer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "modules/simulation/world_file/world_reader.h"
+#include "modules/simulation/world_file/world_file.h"
 
 namespace runnel {
 namespace {

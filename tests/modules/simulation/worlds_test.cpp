@@ -8,8 +8,7 @@
 
 #include "modules/simulation/algorithm/robot_options.h"
 #include "modules/simulation/algorithm/world_geometry.h"
-#include "modules/simulation/world_file/world_reader.h"
-#include "modules/simulation/world_file/world_writer.h"
+#include "modules/simulation/world_file/world_file.h"
 
 namespace runnel {
 namespace {

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "apps/arena/course.h"
 #include "apps/arena/matrix.h"
 #include "apps/arena/run_record.h"
+#include "core/base/result.h"
 
 namespace runnel::arena {
 
@@ -54,5 +58,17 @@ struct Speed {
 
 /// With so many digits after the point.
 [[nodiscard]] std::string Fixed(double number, int digits);
+
+/// A page of its own, which needs nothing from elsewhere: a summary of the variants, all paths over
+/// their worlds as small pictures, and a table of all runs that can be sorted by any column. For
+/// light and dark surroundings.
+[[nodiscard]] std::string HtmlReport(const Matrix& matrix, const std::vector<RunRecord>& records,
+                                     const RunSettings& settings);
+/// What page/style.css has: one set of colours for light, one for dark surroundings; and page/script.js.
+extern const std::string_view kPageStyle, kPageScript;
+
+/// Draws the run as the referee does, into <folder>/<world>-<variant>-<sensor>-<direction>-<seed>.svg. Errors: it cannot be written.
+Result<void> WritePicture(const std::filesystem::path& folder, const Course& course,
+                          const RunRecord& record);
 
 }  // namespace runnel::arena

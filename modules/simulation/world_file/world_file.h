@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/diagnostics.h"
+#include "core/base/result.h"
 #include "modules/simulation/algorithm/world.h"
 
 namespace runnel {
@@ -31,5 +33,23 @@ namespace runnel {
 /// `file_name` is what errors call the text.
 [[nodiscard]] std::optional<World> ReadWorld(std::string_view text, std::string file_name,
                                              Diagnostics& diagnostics);
+
+/// The world as XML in the format that ReadWorld reads. Numbers are as short as they can be without
+/// losing a bit, so that reading gives an equal world. Headings of 0 and heights of 1 are left out.
+[[nodiscard]] std::string WriteWorld(const World& world);
+
+/// The folder of the XML files that come with Runnel: share/runnel/xml of the installation that this library belongs
+/// to, or that of the sources from which it has been built.
+[[nodiscard]] std::filesystem::path XmlFolder();
+
+/// The names of the files in the folder that end in .xml, without that, sorted.
+[[nodiscard]] std::vector<std::string> XmlNamesIn(const std::filesystem::path& folder);
+
+/// The world file that people mean by `word`: a file, or else one of the worlds that come with Runnel, "rooms" or
+/// "rooms.xml". A file without ending that is not in its folder ("apps/rooms") may mean one of these, too, since
+/// names in application files are completed by their folder.
+///
+/// Threads: any. Allocates. Errors: neither, with the nearest name.
+[[nodiscard]] Result<std::filesystem::path> FindWorldFile(const std::string& word);
 
 }  // namespace runnel
