@@ -12,49 +12,23 @@
 // description, beside their views.
 namespace runnel::genom_execution {
 
-template <typename View, typename Value>
-void ToView(View& view, const Value& value);
-template <typename E, std::size_t count, typename Value>
-void ToView(std::array<E, count>& view, const Value& value);
-template <typename E, std::size_t most, typename List>
-void ToView(BoundedList<E, most>& view, const List& list);
-template <typename E, typename List>
-void ToView(OwnedList<E>& view, const List& list);
-template <typename E, typename Optional>
-void ToView(Presence<E>& view, const Optional& optional);
-
-template <typename View, typename Value>
-void ToCodel(Value& value, const View& view);
-template <typename E, std::size_t count, typename Value>
-void ToCodel(Value& value, const std::array<E, count>& view);
-template <typename E, std::size_t most, typename List>
-void ToCodel(List& list, const BoundedList<E, most>& view);
-template <typename E, typename List>
-void ToCodel(List& list, const OwnedList<E>& view);
-template <typename E, typename Optional>
-void ToCodel(Optional& optional, const Presence<E>& view);
-
-inline void ToView(OwnedText& view, const std::string& text) { view.Set(text); }
-inline void ToCodel(std::string& text, const OwnedText& view) { text = view.view(); }
-
 namespace internal {
 
-template <typename List, typename Elements>
-void ListToCodel(List& list, const Elements& elements) {
-  list.resize(elements.length);
-  for (std::size_t i = 0; i < elements.length; ++i) {
-    if constexpr (std::is_same_v<typename List::value_type, bool>) {  // those of std::vector<bool> are no lvalues
-      list[i] = elements.buffer[i];
-    } else {
-      ToCodel(list[i], elements.buffer[i]);
-    }
-  }
-}
-template <typename List, typename Elements>
-void ListToView(Elements& elements, const List& list) {
-  if (!elements.Resize(list.size())) return;
-  for (std::size_t i = 0; i < list.size(); ++i) ToView(elements.buffer[i], list[i]);
-}
+template <typename View>
+inline constexpr bool kIsArray = false;
+template <typename E, std::size_t count>
+inline constexpr bool kIsArray<std::array<E, count>> = true;
+
+template <typename View>
+inline constexpr bool kIsList = false;
+template <typename E, std::size_t most>
+inline constexpr bool kIsList<BoundedList<E, most>> = true;
+template <typename E>
+inline constexpr bool kIsList<OwnedList<E>> = true;
+template <typename View>
+inline constexpr bool kIsPresence = false;
+template <typename E>
+inline constexpr bool kIsPresence<Presence<E>> = true;
 
 template <typename View, typename Value>
 void CheckThatTheyAreAlike() {
@@ -65,47 +39,44 @@ void CheckThatTheyAreAlike() {
 
 template <typename View, typename Value>
 void ToView(View& view, const Value& value) {
-  internal::CheckThatTheyAreAlike<View, Value>();
-  std::memcpy(static_cast<void*>(&view), &value, sizeof(view));
+  if constexpr (std::is_same_v<View, OwnedText>) {
+    view.Set(value);
+  } else if constexpr (internal::kIsList<View>) {
+    if (!view.Resize(value.size())) return;
+    for (std::size_t i = 0; i < value.size(); ++i) ToView(view.buffer[i], value[i]);
+  } else if constexpr (internal::kIsPresence<View>) {
+    view.is_present = value._present;
+    ToView(view.value, value._value);
+  } else if constexpr (internal::kIsArray<View>) {
+    for (std::size_t i = 0; i < view.size(); ++i) ToView(view[i], value[i]);
+  } else {
+    internal::CheckThatTheyAreAlike<View, Value>();
+    std::memcpy(static_cast<void*>(&view), &value, sizeof(view));
+  }
 }
+
 template <typename View, typename Value>
 void ToCodel(Value& value, const View& view) {
-  internal::CheckThatTheyAreAlike<View, Value>();
-  std::memcpy(static_cast<void*>(&value), &view, sizeof(value));
-}
-template <typename E, std::size_t count, typename Value>
-void ToView(std::array<E, count>& view, const Value& value) {
-  for (std::size_t i = 0; i < count; ++i) ToView(view[i], value[i]);
-}
-template <typename E, std::size_t count, typename Value>
-void ToCodel(Value& value, const std::array<E, count>& view) {
-  for (std::size_t i = 0; i < count; ++i) ToCodel(value[i], view[i]);
-}
-template <typename E, std::size_t most, typename List>
-void ToView(BoundedList<E, most>& view, const List& list) {
-  internal::ListToView(view, list);
-}
-template <typename E, std::size_t most, typename List>
-void ToCodel(List& list, const BoundedList<E, most>& view) {
-  internal::ListToCodel(list, view);
-}
-template <typename E, typename List>
-void ToView(OwnedList<E>& view, const List& list) {
-  internal::ListToView(view, list);
-}
-template <typename E, typename List>
-void ToCodel(List& list, const OwnedList<E>& view) {
-  internal::ListToCodel(list, view);
-}
-template <typename E, typename Optional>
-void ToView(Presence<E>& view, const Optional& optional) {
-  view.is_present = optional._present;
-  ToView(view.value, optional._value);
-}
-template <typename E, typename Optional>
-void ToCodel(Optional& optional, const Presence<E>& view) {
-  optional._present = view.is_present;
-  ToCodel(optional._value, view.value);
+  if constexpr (std::is_same_v<View, OwnedText>) {
+    value = view.view();
+  } else if constexpr (internal::kIsList<View>) {
+    value.resize(view.length);
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if constexpr (std::is_same_v<typename Value::value_type, bool>) {  // those of std::vector<bool> are no lvalues
+        value[i] = view.buffer[i];
+      } else {
+        ToCodel(value[i], view.buffer[i]);
+      }
+    }
+  } else if constexpr (internal::kIsPresence<View>) {
+    value._present = view.is_present;
+    ToCodel(value._value, view.value);
+  } else if constexpr (internal::kIsArray<View>) {
+    for (std::size_t i = 0; i < view.size(); ++i) ToCodel(value[i], view[i]);
+  } else {
+    internal::CheckThatTheyAreAlike<View, Value>();
+    std::memcpy(static_cast<void*>(&value), &view, sizeof(value));
+  }
 }
 
 }  // namespace runnel::genom_execution

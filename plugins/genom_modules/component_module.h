@@ -11,10 +11,9 @@
 #include "core/port/output.h"
 #include "plugins/genom_modules/async_worker.h"
 #include "plugins/genom_modules/component_service.h"
+#include "plugins/genom_modules/component_service_base.h"
 #include "plugins/genom_modules/component_state.h"
-#include "plugins/genom_modules/module_part.h"
 #include "plugins/genom_modules/task_module.h"
-#include "plugins/genom_modules/wake_target.h"
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel::genom_modules {

@@ -5,10 +5,27 @@
 #include <deque>
 #include <string_view>
 
-#include "plugins/genom_modules/module_part.h"
+#include "core/base/clock.h"
+#include "plugins/genom_execution/engine.h"
 #include "plugins/services/service_base.h"
 
 namespace runnel::genom_modules {
+
+/// What a module has beside its engine, and looks after the engine's requests: a service, a parameter.
+class ModulePart {
+ public:
+  /// Before the first cycle: makes room.
+  virtual void Prepare(genom_execution::Engine& engine) = 0;
+  /// In each cycle, before the passes of the tasks.
+  virtual void BeforePasses(genom_execution::Engine& engine, Time now) = 0;
+  /// And after them: what has been done is answered.
+  virtual void AfterPasses() = 0;
+  /// A call of a service has been successful.
+  virtual void AfterCall(genom_execution::Request& /*request*/) {}
+
+ protected:
+  ~ModulePart() = default;
+};
 
 class ComponentModule;
 

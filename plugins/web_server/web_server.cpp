@@ -11,8 +11,6 @@
 
 #include "plugins/web_server/access_rules.h"
 #include "plugins/web_server/internal/beast_connections.h"
-#include "plugins/web_server/internal/peer_user.h"
-#include "plugins/web_server/internal/tls_relay.h"
 
 namespace runnel {
 

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <utility>
 
-#include "core/base/markup.h"
+#include "core/base/characters.h"
 
 namespace runnel {
 

@@ -5,7 +5,6 @@
 
 #include "core/base/nearest_name.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
-#include "plugins/foxglove/internal/parameter_values.h"
 #include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"
 #include "plugins/values/json_writer.h"

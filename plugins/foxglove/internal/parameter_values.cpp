@@ -1,4 +1,4 @@
-#include "plugins/foxglove/internal/parameter_values.h"
+#include "plugins/foxglove/internal/parameter_handler.h"
 
 #include <cstring>
 #include <memory>

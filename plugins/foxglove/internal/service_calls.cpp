@@ -1,4 +1,4 @@
-#include "plugins/foxglove/internal/service_calls.h"
+#include "plugins/foxglove/internal/foxglove_session.h"
 
 #include <algorithm>
 #include <chrono>

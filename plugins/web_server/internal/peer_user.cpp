@@ -1,4 +1,4 @@
-#include "plugins/web_server/internal/peer_user.h"
+#include "plugins/web_server/internal/beast_connections.h"
 
 #include <cstring>
 

@@ -1,4 +1,4 @@
-#include "plugins/web_server/internal/tls_relay.h"
+#include "plugins/web_server/internal/beast_connections.h"
 
 #include <array>
 #include <cerrno>
@@ -12,8 +12,6 @@
 #include <boost/asio/write.hpp>
 #include <sys/socket.h>
 #include <unistd.h>
-
-#include "plugins/web_server/internal/beast_connections.h"
 
 namespace runnel::internal {
 
