@@ -197,6 +197,23 @@ test('a main connection that is stuck delays it not', async (t) => {
   application.isHanging = false;
 });
 
+test('while neither connection is heard it is sent over both at once', async (t) => {
+  const { application, page } = await OpenMockPanel(t, { widgets: [kText] });
+  application.isOwnSilent = true;
+  application.isHanging = true;
+  await Stands(page, 'unknown');
+  await page.evaluate(() => {
+    window.said = [];
+    new MutationObserver(() => window.said.push(document.querySelector('#stop-button').dataset.stop)).observe(document.querySelector('#stop-button'), { attributes: true });
+  });
+  await page.locator('#stop-button').click();
+  while (Stops(application).length === 0) await page.waitForTimeout(20);
+  assert.ok(!(await page.evaluate(() => window.said)).includes('unconfirmed'), 'the other connection has not been waited for');
+  application.isOwnSilent = false;
+  application.isHanging = false;
+  await Stands(page, 'in_force');
+});
+
 test('of an application in which nothing is marked it is said that it stops nothing', async (t) => {
   const { page } = await OpenMockPanel(t, { widgets: [kText], prepare: (application) => {
     const path = '/mock/world/twist';

@@ -120,7 +120,7 @@ class StopClient {
 
   turn() {
     this.#read();
-    if (!this.application.isFrozen) this.alive.turn();
+    if (!this.application.isFrozen && !this.application.isOwnSilent) this.alive.turn();
   }
 }
 

@@ -64,7 +64,7 @@ function Confirmed() {
   pressed.value = null;
 }
 
-/** One message; what is not confirmed is sent again, also when there is a connection again. */
+/** One message for each connection that is meant; what is not confirmed is sent again, also when there is a connection again. */
 export function PressStop() {
   pressed.value = { since: performance.now(), isLate: false, problem: '' };
   releaseProblem.value = '';
@@ -73,10 +73,15 @@ export function PressStop() {
     if (pressed.value) pressed.value = { ...pressed.value, isLate: true };
     Resend([own, other]);
   }, kConfirmed);
-  Send(isOwnHeard.value ? own : other);
+  Links().forEach(Send);
 }
 
-function Resend(links = [isOwnHeard.value ? own : other]) {
+/** By which it is sent; while the own one is not heard, nobody can say which of both gets through. */
+function Links() {
+  return isOwnHeard.value ? [own] : [own, other];
+}
+
+function Resend(links = Links()) {
   if (pressed.value && !pressed.value.problem) links.forEach(Send);
 }
 
