@@ -95,8 +95,7 @@ void BoundInput::BindStops(const Binding& before, Binding& next,
     if (const auto kept = std::ranges::find_if(before.stops, is_it); kept != before.stops.end()) {
       next.stops.push_back(*kept);
     } else if (auto channel = internal::MakeChannelFor(type())) {
-      next.stops.push_back(std::make_shared<internal::StopLink>(std::move(stop), std::move(channel),
-                                                                runtime().clock()));
+      next.stops.push_back(std::make_shared<internal::StopLink>(std::move(stop), std::move(channel), runtime()));
     }
   }
 }

@@ -9,6 +9,7 @@
 
 #include "core/base/check.h"
 #include "core/conversion/number_conversion.h"
+#include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/stand_in.h"
 #include "core/types/text_format.h"
@@ -57,14 +58,14 @@ struct StopLink::Braking {
   std::atomic<bool> is_possible{true};
 };
 
-StopLink::StopLink(PassedStop stop, std::unique_ptr<ChannelBase> channel, const Clock& clock)
+StopLink::StopLink(PassedStop stop, std::unique_ptr<ChannelBase> channel, const Runtime& runtime)
     : stop_(std::move(stop)),
       channel_(std::move(channel)),
-      clock_(clock),
+      runtime_(runtime),
       braking_(stop_.stop->brake() > Duration{} ? MakeBraking(stop_.safe_value, *channel_) : nullptr) {
   Publish();
   const auto look = [this] {
-    if (braking_) (void)Rest(clock_.Now());
+    if (braking_) (void)Rest(runtime_.clock().Now());
     if (stop_.stop->in_force()) Publish();
   };
   if (stop_.stop->robot()) robot_ = stop_.stop->robot()->Listen(look);
@@ -110,7 +111,7 @@ double StopLink::Rest(Time now) noexcept {
 }
 
 void StopLink::Brake(void* value, Publication& publication) noexcept {
-  const Time now = clock_.Now();
+  const Time now = runtime_.clock().Now();
   const double rest = Rest(now);
   if (braking_->rest.exchange(rest, std::memory_order_relaxed) != rest) {
     braking_->changes.fetch_add(1, std::memory_order_relaxed);
@@ -156,7 +157,7 @@ void StopLink::End() noexcept {
 void StopLink::Publish() {
   const std::lock_guard lock(publisher_);
   const EpochGuard guard;
-  const Time now = clock_.Now();
+  const Time now = runtime_.clock().Now();
   const auto published = channel_->PublishFilled(
       [](void* context, void* value) {
         return FillWith(static_cast<const PassedStop*>(context)->safe_value)(value).has_value();

@@ -9,6 +9,10 @@
 #include "core/port/input_binding.h"
 #include "core/port/port_stop.h"
 
+namespace runnel {
+class Runtime;
+}
+
 namespace runnel::internal {
 
 /// What an input is bound to besides its sources: a stop, with a channel that has the safe value as its newest. A press
@@ -24,7 +28,7 @@ namespace runnel::internal {
 class StopLink {
  public:
   /// `channel`: empty, of the input's type. Throws if the value cannot be copied.
-  StopLink(PassedStop stop, std::unique_ptr<ChannelBase> channel, const Clock& clock);
+  StopLink(PassedStop stop, std::unique_ptr<ChannelBase> channel, const Runtime& runtime);
   ~StopLink();
   StopLink(const StopLink&) = delete;
   StopLink& operator=(const StopLink&) = delete;
@@ -59,7 +63,7 @@ class StopLink {
 
   const PassedStop stop_;
   const std::unique_ptr<ChannelBase> channel_;
-  const Clock& clock_;
+  const Runtime& runtime_;  // its clock is another one when an application runs
   const std::unique_ptr<Braking> braking_;  // nullptr: the safe value is found at once
   InputLink link_{channel_.get()};
   std::mutex publisher_;  // both signals may tell at the same time

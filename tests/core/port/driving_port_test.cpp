@@ -42,6 +42,19 @@ TEST_F(StopTest, PortsThatComeLaterAreStopped) {
   EXPECT_EQ(marked.in.Get(), 0.25);
 }
 
+// An application has its ports connected before it knows by which clock it runs.
+TEST_F(StopTest, ASafeValueIsStampedByTheClockThatTheApplicationRunsBy) {
+  auto& sender = MakeSender<double>();
+  auto& wheels = MakeReceiver<double>("wheels", Drives());
+  Connect(sender.out, wheels.in);
+  ManualClock later;
+  later.Advance(std::chrono::seconds(5000));
+  runtime.set_clock(later);
+  Press();
+  EXPECT_EQ(wheels.in.Read().timestamp(), later.Now());
+  runtime.set_clock(clock);
+}
+
 TEST_F(StopTest, ABlockStopsOnePortAlone) {
   auto& sender = MakeSender<double>("sender", {.unit = "m/s"});
   auto& blocked = MakeReceiver<double>("blocked", {.unit = "m/s"});
