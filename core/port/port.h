@@ -216,8 +216,6 @@ class Port : public FrameworkElement {
   [[nodiscard]] Result<AnyValue> FindSafeValue(const AnyValue& declared) const;
   /// Binds the readers behind it anew. `robot`: nullptr for a port that does not drive.
   Result<void> SetStop(AnyValue safe_value, std::shared_ptr<StopSignal> robot);
-  /// Of this port and of all that feeds it.
-  void CollectStops(std::vector<internal::PassedStop>& stops) const;
   internal::PortExtras& Extras();
 
   /// The times that a value published now by the calling thread bears: in a cycle, it is as old as the oldest

@@ -59,8 +59,7 @@ class OfferedPort::Reader final : public InputBase {
 
  private:
   QueueSink* Bind(const std::vector<Source>& from) override {
-    std::vector<internal::PassedStop> stops;
-    CollectStops(stops);
+    std::vector<internal::PassedStop> stops = internal::PassedStops(*this);
     offered_.SetBinding(from.empty() ? nullptr : from.front().output, std::move(stops));
     return nullptr;
   }
