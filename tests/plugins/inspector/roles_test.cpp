@@ -52,6 +52,7 @@ const std::map<std::string, std::pair<WebRole, WebRole>, std::less<>> kNeeded{
     {"watch", {WebRole::kLook, WebRole::kLook}},
     {"unwatch", {WebRole::kLook, WebRole::kLook}},
     {"watch_rates", {WebRole::kLook, WebRole::kLook}},
+    {"alive", {WebRole::kLook, WebRole::kLook}},
     {"compatible", {WebRole::kLook, WebRole::kLook}},
     {"conversions", {WebRole::kLook, WebRole::kLook}},
     {"panel", {WebRole::kLook, WebRole::kLook}},

@@ -107,7 +107,7 @@ TEST_F(Loading, LeavesNothingOfARefusedPlugin) {
   <ruin/>
 </application>)"),
             "app.xml:2:3: error: /demo: no <ruin> may stand in <application>; there is 'clock', "
-            "'connect', 'driving', 'group', 'latency', 'load', 'log', 'module', 'on_fault', 'on_pause', 'on_stale', 'on_stuck' and 3 more\n");
+            "'connect', 'driving', 'group', 'latency', 'load', 'log', 'module', 'on_fault', 'on_pause', 'on_stale', 'on_stuck' and 4 more\n");
 }
 
 TEST_F(Loading, KeepsThePluginAfterAFailedBuild) {

@@ -75,7 +75,7 @@ TEST(OneMistake, InATagIsNoMistakeOfItsConnections) {
             "'module'?\n");
   EXPECT_EQ(WithSource(R"(<machine name="source" type="test/source"/>)"),
             "app.xml:2:3: error: /demo: no <machine> may stand in <application>; there is "
-             "'clock', 'connect', 'driving', 'group', 'latency', 'load', 'log', 'module', 'on_fault', 'on_pause', 'on_stale', 'on_stuck' and 3 more\n");
+             "'clock', 'connect', 'driving', 'group', 'latency', 'load', 'log', 'module', 'on_fault', 'on_pause', 'on_stale', 'on_stuck' and 4 more\n");
 }
 
 TEST(OneMistake, InANameIsNoMistakeOfItsConnections) {
