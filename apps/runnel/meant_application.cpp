@@ -1,6 +1,7 @@
 #include "apps/runnel/meant_application.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <string_view>
 
 namespace runnel::program {
@@ -65,6 +66,18 @@ std::string ApplicationByWords(const std::vector<RunningApplication>& running, C
     if (found.empty() && !text.empty()) found = ProcessOf(each);
   }
   return found;
+}
+
+namespace fs = std::filesystem;
+
+std::string ApplicationFile(const std::string& word) {
+  std::error_code error;
+  const fs::path path(word);
+  if (word.empty() || path.has_parent_path() || fs::exists(path, error)) return word;
+  // Beside the program, in the build tree as where it is installed.
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
+  const fs::path shipped = folder / "share/runnel/xml/apps" / (path.stem().string() + ".xml");
+  return fs::is_regular_file(shipped, error) ? shipped.string() : word;
 }
 
 }  // namespace runnel::program

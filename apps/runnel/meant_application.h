@@ -16,4 +16,8 @@ namespace runnel::program {
 /// other one, if there is only one other. Looks at what others say of the network; waits for them.
 [[nodiscard]] std::string ApplicationByWords(const std::vector<RunningApplication>& running, ControlArguments& arguments);
 
+/// The file that is meant by `word`: of an application that comes with Runnel, its name is enough (`bug_demo`). Files
+/// that are there come first; a word that means neither is what it was.
+[[nodiscard]] std::string ApplicationFile(const std::string& word);
+
 }  // namespace runnel::program

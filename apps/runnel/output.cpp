@@ -1,15 +1,20 @@
 #include "apps/runnel/output.h"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <mutex>
 #include <utility>
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
+#include "core/element/runtime.h"
 #include "plugins/control/command.h"
+#include "plugins/scheduling/thread_container.h"
 
 namespace runnel::program {
 
@@ -29,6 +34,26 @@ constexpr std::array<std::pair<const char*, const char*>, 9> kColours{{{"error:"
 bool IsReaderGone() {
   pollfd output{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
   return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+double Milliseconds(Duration duration) { return ToSeconds(duration) * 1e3; }
+
+std::string Line(const ThreadContainer& thread, int width) {
+  const CycleStatistics all = thread.statistics();
+  return fmt::format(
+      "{:<{}} {:9} {:8}  {:8.3f} {:8.3f} {:8.3f}  {:8.3f} {:8.3f}  {:8.3f} {:8.3f}\n",
+      thread.path(), width, all.cycles, all.overruns, Milliseconds(all.period_min),
+      Milliseconds(all.period_mean), Milliseconds(all.period_max), Milliseconds(all.jitter_mean),
+      Milliseconds(all.jitter_max), Milliseconds(all.execution_mean),
+      Milliseconds(all.execution_max));
+}
+
+std::string Heading(int width) {
+  return fmt::format(
+      "{:<{}} {:>9} {:>8}  {:>26}  {:>17}  {:>17}\n"
+      "{:<{}} {:>9} {:>8}  {:>8} {:>8} {:>8}  {:>8} {:>8}  {:>8} {:>8}\n",
+      "thread", width, "cycles", "overruns", "period / ms", "jitter / ms", "execution / ms", "",
+      width, "", "", "min", "mean", "max", "mean", "max", "mean", "max");
 }
 
 }  // namespace
@@ -58,6 +83,22 @@ void OutliveReaders() { std::signal(SIGPIPE, SIG_IGN); }
 bool FinishOutput() {
   std::cout.flush();
   return std::cout.good() || IsReaderGone();
+}
+
+std::string StatisticsTable(FrameworkElement& root) {
+  const std::lock_guard lock(root.runtime().structure_mutex());
+  std::string lines;
+  int width = 0;
+  const auto for_each = [&](auto&& use) {
+    root.Visit([&](FrameworkElement& element) {
+      if (const auto* thread = dynamic_cast<const ThreadContainer*>(&element)) use(*thread);
+    });
+  };
+  for_each([&](const ThreadContainer& thread) {
+    width = std::max(width, static_cast<int>(thread.path().size()));
+  });
+  for_each([&](const ThreadContainer& thread) { lines += Line(thread, width); });
+  return Heading(width) + lines;
 }
 
 }  // namespace runnel::program

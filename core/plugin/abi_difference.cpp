@@ -2,7 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <set>
+#include <span>
 #include <vector>
+
+#include <elf.h>
+#include <fcntl.h>
+#include <link.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace runnel {
 
@@ -70,6 +80,112 @@ void Compare(const Flag* plugin, const Flag* core, AbiDifference& difference) {
   }
 }
 
+namespace fs = std::filesystem;
+using Segment = ElfW(Phdr);
+
+// Not by std::memcmp, which AddressSanitizer watches: it would refuse the red zones of the library's own data.
+[[gnu::no_sanitize_address]] bool IsSame(std::span<const char> file, const char* in_memory) {
+  for (std::size_t i = 0; i < file.size(); ++i) {
+    if (file[i] != in_memory[i]) return false;
+  }
+  return true;
+}
+
+/// A library as it is on disk. Whatever is in the file, nothing outside of it is read.
+class LibraryFile {
+ public:
+  // Mapped, since most of a file may be what debuggers read.
+  explicit LibraryFile(const fs::path& file) {
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    struct stat status {};
+    if (fstat(descriptor, &status) == 0 && status.st_size > 0) {
+      const auto size = static_cast<std::size_t>(status.st_size);
+      void* const bytes = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+      if (bytes != MAP_FAILED) bytes_ = {static_cast<const char*>(bytes), size};
+    }
+    close(descriptor);
+  }
+  ~LibraryFile() {
+    if (!bytes_.empty()) munmap(const_cast<char*>(bytes_.data()), bytes_.size());
+  }
+  LibraryFile(const LibraryFile&) = delete;
+  LibraryFile& operator=(const LibraryFile&) = delete;
+
+  /// The names of the libraries that it was linked with.
+  [[nodiscard]] std::vector<std::string> Needed() const {
+    std::vector<std::string> names;
+    for (const Segment& segment : Segments()) {
+      if (segment.p_type != PT_DYNAMIC) continue;
+      std::size_t texts = 0;
+      std::vector<std::size_t> places;
+      for (const auto& entry : All<ElfW(Dyn)>(segment.p_offset, segment.p_filesz)) {
+        if (entry.d_tag == DT_STRTAB) texts = PlaceOf(entry.d_un.d_ptr);
+        if (entry.d_tag == DT_NEEDED) places.push_back(entry.d_un.d_val);
+      }
+      for (const std::size_t place : places) {
+        const auto text = bytes_.substr(std::min(texts + place, bytes_.size()));
+        names.emplace_back(text.substr(0, text.find('\0')));
+      }
+    }
+    return names;
+  }
+
+  /// Whether it is what is in memory. Only what nobody writes to is compared: code, constants, the linker's mark.
+  [[nodiscard]] bool IsLoadedAs(const dl_phdr_info& loaded) const {
+    for (const Segment& segment : std::span(loaded.dlpi_phdr, loaded.dlpi_phnum)) {
+      if (segment.p_type != PT_LOAD || (segment.p_flags & PF_W) != 0) continue;
+      const auto there = All<char>(segment.p_offset, segment.p_filesz);
+      const auto* const in_memory =
+          reinterpret_cast<const char*>(loaded.dlpi_addr + segment.p_vaddr);
+      if (there.size() != segment.p_filesz || !IsSame(there, in_memory)) return false;
+    }
+    return true;
+  }
+
+ private:
+  template <typename T>
+  [[nodiscard]] std::span<const T> All(std::size_t place, std::size_t size) const {
+    if (place > bytes_.size() || size > bytes_.size() - place || place % alignof(T) != 0) return {};
+    return {reinterpret_cast<const T*>(bytes_.data() + place), size / sizeof(T)};
+  }
+  [[nodiscard]] std::span<const Segment> Segments() const {
+    const auto head = All<ElfW(Ehdr)>(0, sizeof(ElfW(Ehdr)));
+    if (head.empty() || std::memcmp(head[0].e_ident, ELFMAG, SELFMAG) != 0) return {};
+    return All<Segment>(head[0].e_phoff, head[0].e_phnum * sizeof(Segment));
+  }
+  // In the file, of what is at `address` in memory.
+  [[nodiscard]] std::size_t PlaceOf(std::size_t address) const {
+    for (const Segment& segment : Segments()) {
+      if (segment.p_type == PT_LOAD && address >= segment.p_vaddr &&
+          address - segment.p_vaddr < segment.p_filesz) {
+        return segment.p_offset + (address - segment.p_vaddr);
+      }
+    }
+    return bytes_.size();
+  }
+
+  std::string_view bytes_;
+};
+
+// The library that others name so, if it is in memory.
+std::optional<dl_phdr_info> FindLoaded(std::string_view name) {
+  struct Search {
+    std::string_view name;
+    std::optional<dl_phdr_info> found;
+  } search{name, {}};
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, std::size_t, void* at) {
+        auto& wanted = *static_cast<Search*>(at);
+        const std::string_view path = info->dlpi_name;
+        if (path.substr(path.rfind('/') + 1) != wanted.name) return 0;
+        wanted.found = *info;
+        return 1;
+      },
+      &search);
+  return search.found;
+}
+
 }  // namespace
 
 AbiDifference FindAbiDifference(std::string_view plugin, std::string_view core) {
@@ -79,6 +195,22 @@ AbiDifference FindAbiDifference(std::string_view plugin, std::string_view core) 
   if (!difference.why.empty() && WithoutFlags(plugin) == WithoutFlags(core)) return difference;
   return {.why = "it was built with '" + std::string(plugin) + "', this core with '" + std::string(core) + "'",
           .cure = "rebuild the plugin with the compiler of the core"};
+}
+
+std::optional<fs::path> FindOutdatedDependency(const fs::path& file) {
+  std::vector<std::string> names = LibraryFile(file).Needed();
+  std::set<std::string> seen;
+  while (!names.empty()) {
+    const std::string name = std::move(names.back());
+    names.pop_back();
+    const auto loaded = FindLoaded(name);
+    if (!loaded || !seen.insert(name).second) continue;
+    const fs::path path = loaded->dlpi_name;
+    const LibraryFile library(path);
+    if (!library.IsLoadedAs(*loaded)) return path;
+    for (std::string& each : library.Needed()) names.push_back(std::move(each));
+  }
+  return {};
 }
 
 }  // namespace runnel

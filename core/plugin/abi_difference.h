@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,5 +16,13 @@ struct AbiDifference {
 /// What differs between the fingerprint of a plugin and that of the core; the compiler, where none of its flags
 /// does. Any thread; allocates.
 [[nodiscard]] AbiDifference FindAbiDifference(std::string_view plugin, std::string_view core);
+
+/// The first of the libraries that the one in `file` needs, itself or by others, that has been built anew since
+/// it was loaded into this process: what was compiled with the new one would be run with the old one, as a
+/// library that is there is never loaded a second time. nullopt: all are as they were.
+///
+/// Effort:  reads all of them from disk.
+[[nodiscard]] std::optional<std::filesystem::path> FindOutdatedDependency(
+    const std::filesystem::path& file);
 
 }  // namespace runnel

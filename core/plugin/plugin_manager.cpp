@@ -13,7 +13,6 @@
 #include "core/base/retry.h"
 #include "core/base/temporary_folder.h"
 #include "core/plugin/abi_difference.h"
-#include "core/plugin/outdated_dependency.h"
 #include "core/plugin/plugin_entry.h"
 
 namespace runnel {

@@ -1,9 +1,5 @@
 #include "core/plugin/plugin_entry.h"
-#include "modules/flow/delay.h"
-#include "modules/flow/gate.h"
-#include "modules/flow/merge.h"
-#include "modules/flow/mux.h"
-#include "modules/flow/sample.h"
+#include "modules/flow/passing_module.h"
 
 RUNNEL_PLUGIN(flow, registry) {
   using namespace runnel::flow;

@@ -2,14 +2,88 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
-#include "modules/planning/algorithm/direction_choice.h"
+#include "modules/planning/algorithm/bug_view.h"
 #include "modules/planning/algorithm/leave_condition.h"
-#include "modules/planning/algorithm/motion_to_goal.h"
-#include "modules/planning/algorithm/revisit.h"
 
 namespace runnel {
+
+/// Where motion to goal steers at.
+struct Waypoint {
+  Point2 point;  ///< m, world
+  /// Of the straight way to the goal, on which a node of the tangent graph lies; nothing if it
+  /// steers at no node.
+  std::optional<BoundaryDirection> node_side;
+};
+
+/// Component of a Bug algorithm: the way the robot takes while nothing is in it. If the way to the
+/// waypoint is blocked, that is a hit. Objects have no state; they outlive the algorithms made of
+/// them.
+class MotionToGoal {
+ public:
+  virtual ~MotionToGoal() = default;
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  [[nodiscard]] virtual Waypoint Target(const BugView& view) const = 0;
+  /// Whether hit and leave points lie on the line from the start to the goal.
+  [[nodiscard]] virtual bool follows_m_line() const { return false; }
+};
+
+enum class MotionKind : std::uint8_t {
+  kStraight,  ///< straight to the goal, from wherever the robot is
+  kMLine,     ///< along the line from the start to the goal, and back to it after an error
+  /// To the goal if the way is free as far as the sensors see; else to the node of the local tangent
+  /// graph with the shortest way through it, of those nearer to the goal than the robot is. Without
+  /// such a node straight on, up to the boundary that it then has to follow.
+  kTangent,
+};
+/// By kind.
+[[nodiscard]] std::span<const MotionToGoal* const> AllMotions();
+
+/// Component of a Bug algorithm: which way the robot turns at a hit point. Objects have no state;
+/// they outlive the algorithms made of them.
+class DirectionChoice {
+ public:
+  virtual ~DirectionChoice() = default;
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  /// `contact_bearing` (rad, body's frame) is that of the boundary point in the way.
+  [[nodiscard]] virtual BoundaryDirection Choose(const BugView& view,
+                                                 double contact_bearing) const = 0;
+};
+
+enum class DirectionKind : std::uint8_t {
+  kLeft,   ///< always
+  kRight,  ///< always
+  /// The side of the tangent node steered at last; if there was none, the side that turns least; if
+  /// both are the same, the first direction configured.
+  kLocal,
+  /// Opposite to the one at the hit point before; the first direction configured at the first.
+  kAlternate,
+};
+/// By kind.
+[[nodiscard]] std::span<const DirectionChoice* const> AllDirections();
+
+/// Component of a Bug algorithm: what the robot does where it has been before. Objects have no
+/// state; they outlive the algorithms made of them.
+class Revisit {
+ public:
+  virtual ~Revisit() = default;
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  /// Whether to go back to the last hit point and round the obstacle the other way. Asked in each
+  /// step along a boundary, until it says so for the first time since the hit.
+  [[nodiscard]] virtual bool ShallReverse(const BugView& view) const = 0;
+};
+
+enum class RevisitKind : std::uint8_t {
+  kNone,
+  /// Reverses where it meets an earlier hit or leave point (Alg1, Sankaranarayanan and Vidyasagar
+  /// 1990). Only points of the lists in BugState are known.
+  kReverseAtVisited,
+};
+/// By kind.
+[[nodiscard]] std::span<const Revisit* const> AllRevisits();
 
 /// A choice of one component of each kind, as data.
 struct BugComposition {

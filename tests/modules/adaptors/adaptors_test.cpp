@@ -3,9 +3,7 @@
 #include <type_traits>
 
 #include "gmock/gmock.h"
-#include "modules/adaptors/algorithm/bumper_adaptor.h"
-#include "modules/adaptors/algorithm/infrared_adaptor.h"
-#include "modules/adaptors/algorithm/laser_adaptor.h"
+#include "modules/adaptors/algorithm/adaptors.h"
 
 namespace runnel {
 namespace {

@@ -2,11 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "modules/flow/delay.h"
-#include "modules/flow/gate.h"
-#include "modules/flow/merge.h"
-#include "modules/flow/mux.h"
-#include "modules/flow/sample.h"
+#include "modules/flow/passing_module.h"
 #include "plugins/testing/matchers.h"
 #include "plugins/testing/module_rig.h"
 

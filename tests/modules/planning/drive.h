@@ -7,9 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "modules/adaptors/algorithm/bumper_adaptor.h"
-#include "modules/adaptors/algorithm/infrared_adaptor.h"
-#include "modules/adaptors/algorithm/laser_adaptor.h"
+#include "modules/adaptors/algorithm/adaptors.h"
 #include "modules/planning/algorithm/bug_algorithm.h"
 #include "modules/planning/algorithm/bug_variants.h"
 #include "tests/modules/planning/test_world.h"
