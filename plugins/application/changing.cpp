@@ -66,9 +66,9 @@ std::optional<Error> FindOverwritten(const FrameworkElement& application, const 
 }
 
 // What SaveApplication() with the same arguments would write, and what it would replace; whether the text would load is
-// not tried.
+// not tried. Under the structure lock.
 Result<ServiceHooks::SaveDifference> PreviewSave(FrameworkElement& application, const SaveTools& tools,
-                                                 const std::filesystem::path& chosen) {
+                                                 const std::filesystem::path& chosen = {}) {
   const auto* const source = application.FindAnnotation<ApplicationSource>();
   if (chosen.empty() && source == nullptr) {
     return Error{.message = "the application was built by code, and has no file yet",
