@@ -14,7 +14,7 @@
 #include "core/base/replace_file.h"
 #include "plugins/application/application_description.h"
 #include "plugins/application/schema.h"
-#include "plugins/manifest/description_json.h"
+#include "plugins/manifest/module_description.h"
 #include "plugins/manifest/plugin_manifest.h"
 
 namespace runnel::program {

@@ -1,4 +1,4 @@
-#include "plugins/command_service/hand_leases.h"
+#include "plugins/command_service/hand_settings.h"
 
 #include <algorithm>
 

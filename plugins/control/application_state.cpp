@@ -13,7 +13,7 @@
 #include "core/port/port.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
-#include "plugins/values/publication_rate.h"
+#include "plugins/values/watched_port.h"
 
 namespace runnel {
 

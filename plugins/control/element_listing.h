@@ -7,7 +7,7 @@
 
 #include "core/base/clock.h"
 #include "core/element/framework_element.h"
-#include "plugins/values/publication_rate.h"
+#include "plugins/values/watched_port.h"
 
 namespace runnel {
 

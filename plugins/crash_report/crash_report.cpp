@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -15,7 +20,6 @@
 
 #include "core/base/call_stack.h"
 #include "core/base/check.h"
-#include "plugins/crash_report/crash_text.h"
 #include "plugins/scheduling/running_task.h"
 #include "core/base/signal_stack.h"
 
@@ -24,6 +28,74 @@
 #else
 #define RUNNEL_CRASHES_ARE_REPORTED 0
 #endif
+
+namespace runnel::internal {
+
+/// A line that is put together where nothing may be allocated: what finds no room is cut off.
+///
+/// Threads: a value. May be used by the handler of a signal.
+class CrashText {
+ public:
+  CrashText& operator<<(std::string_view text) noexcept;
+  CrashText& operator<<(std::uint64_t number) noexcept { return Add(number, 10); }
+  CrashText& Hexadecimal(std::uint64_t number) noexcept { return (*this << "0x").Add(number, 16); }
+
+  [[nodiscard]] std::string_view text() const noexcept { return {bytes_.data(), size_}; }
+  /// Writes it to a file descriptor; negative: nowhere.
+  void WriteTo(int file) const noexcept;
+
+ private:
+  CrashText& Add(std::uint64_t number, unsigned base) noexcept;
+
+  std::array<char, 1024> bytes_{};
+  std::size_t size_ = 0;
+};
+
+CrashText& CrashText::operator<<(std::string_view text) noexcept {
+  const std::size_t count = std::min(text.size(), bytes_.size() - size_);
+  std::memcpy(bytes_.data() + size_, text.data(), count);
+  size_ += count;
+  return *this;
+}
+
+CrashText& CrashText::Add(std::uint64_t number, unsigned base) noexcept {
+  std::array<char, 20> digits{};
+  std::size_t first = digits.size();
+  do {
+    digits[--first] = "0123456789abcdef"[number % base];
+    number /= base;
+  } while (number > 0);
+  return *this << std::string_view(digits.data() + first, digits.size() - first);
+}
+
+void CrashText::WriteTo(int file) const noexcept {
+  if (file < 0) return;
+  for (std::string_view left = text(); !left.empty();) {
+    const ssize_t count = write(file, left.data(), left.size());
+    if (count < 0 && errno != EINTR) return;
+    left.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
+  }
+}
+
+/// "SIGSEGV", of those that a program crashes by.
+const char* SignalName(int signal) noexcept {
+  switch (signal) {
+    case SIGSEGV:
+      return "SIGSEGV";
+    case SIGBUS:
+      return "SIGBUS";
+    case SIGFPE:
+      return "SIGFPE";
+    case SIGILL:
+      return "SIGILL";
+    case SIGABRT:
+      return "SIGABRT";
+    default:
+      return "a signal";
+  }
+}
+
+}  // namespace runnel::internal
 
 namespace runnel {
 

@@ -1,4 +1,4 @@
-#include "plugins/genom_description/token_reader.h"
+#include "plugins/genom_description/parser.h"
 
 namespace runnel::genom {
 

@@ -1,9 +1,9 @@
-#include "plugins/genom_text/macro.h"
-
 #include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
+
+#include "plugins/genom_text/preprocessor.h"
 
 namespace runnel::genom {
 

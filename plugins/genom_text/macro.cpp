@@ -1,9 +1,7 @@
-#include "plugins/genom_text/macro.h"
-
 #include <algorithm>
 #include <set>
 
-#include "plugins/genom_text/text_lexer.h"
+#include "plugins/genom_text/preprocessor.h"
 
 namespace runnel::genom {
 

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "plugins/genom_text/macro.h"
 #include "plugins/genom_text/quoted_words.h"
 
 namespace runnel::genom {

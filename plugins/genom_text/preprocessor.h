@@ -1,15 +1,115 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
-#include "plugins/genom_text/macro.h"
-#include "plugins/genom_text/text_lexer.h"
+#include "plugins/genom_text/place.h"
 
 namespace runnel::genom {
+
+struct Macro {
+  std::string name;
+  Place place = {};
+  bool has_parameters = false;
+  bool is_variadic = false;  ///< the last parameter takes all that remains
+  std::vector<std::string> parameters = {};
+  std::vector<TextToken> body = {};
+};
+
+/// The macros of a description, and their expansion.
+class MacroTable {
+ public:
+  explicit MacroTable(Problems& problems) : problems_(problems) {}
+
+  /// What stands behind #define, without the newline.
+  void Define(const std::vector<TextToken>& line, Place place);
+  /// "NAME" or "NAME=VALUE".
+  void DefineByText(const std::string& text);
+  void Undefine(const std::string& name) { macros_.erase(name); }
+  [[nodiscard]] bool Has(const std::string& name) const;
+
+  /// Gives what follows a word in the file; kEnd when there is nothing more.
+  using Source = std::function<TextToken()>;
+
+  /// What becomes of `word`. Arguments that are not in the expansion itself come from `source`, and a token more may.
+  [[nodiscard]] std::vector<TextToken> Expand(const TextToken& word, const Source& source);
+  [[nodiscard]] std::vector<TextToken> ExpandAll(const std::vector<TextToken>& tokens);
+
+ private:
+  static constexpr std::size_t kMostSteps = 500'000;
+  static constexpr int kDeepest = 64;
+  using Arguments = std::vector<std::vector<TextToken>>;
+  class Stream;
+
+  [[nodiscard]] std::vector<TextToken> ExpandStream(Stream& stream);
+  [[nodiscard]] std::optional<Arguments> ReadArguments(const Macro& macro, Stream& stream, Place place);
+  [[nodiscard]] std::vector<TextToken> Substitute(const Macro& macro, const Arguments& arguments, Place place);
+  [[nodiscard]] std::optional<TextToken> Special(const TextToken& word) const;
+
+  Problems& problems_;
+  std::map<std::string, Macro, std::less<>> macros_ = {};
+  std::size_t steps_ = 0;
+  int depth_ = 0;
+};
+
+/// The value of an expression behind #if, macros expanded and `defined` answered; nullopt if it is wrong, which has then
+/// been told.
+[[nodiscard]] std::optional<bool> ConditionValue(const std::vector<TextToken>& tokens, Place place,
+                                                 Problems& problems);
+
+/// Cuts the text of one file into tokens. Lines that end with a backslash go on in the next one; comments are
+/// blanks; strings may span lines but in directives.
+class TextLexer {
+ public:
+  TextLexer(const std::string& text, int file, Problems& problems);
+
+  /// The next token; kNewline between lines, kEnd at the end and from then on.
+  [[nodiscard]] TextToken Next(bool is_directive = false);
+
+  /// The rest of the line as text without comments, and moves behind it.
+  [[nodiscard]] std::string RestOfLine();
+
+  /// Moves to the next line whose first character but blanks is '#', without looking at what is between. False at the end.
+  [[nodiscard]] bool SkipToDirective();
+
+  /// What follows is said to be line `line` of `file`, as #line wants it.
+  void Renumber(int line, int file);
+  [[nodiscard]] Place here() const;
+
+  /// Text of the first comment that begins with "/*/", "" if there was none.
+  [[nodiscard]] const std::string& notice() const { return notice_; }
+
+ private:
+  [[nodiscard]] char At(std::size_t ahead = 0) const {
+    return position_ + ahead < text_.size() ? text_[position_ + ahead] : '\0';
+  }
+  [[nodiscard]] bool IsAtEnd() const { return position_ >= text_.size(); }
+  bool SkipBlanks();
+  void SkipBlockComment();
+  [[nodiscard]] TextToken Take(TextToken::Kind kind, std::size_t length, Place place);
+  [[nodiscard]] TextToken Quoted(char quote, bool is_directive, Place place);
+  [[nodiscard]] std::size_t WordLength() const;
+  [[nodiscard]] std::size_t NumberLength() const;
+
+  struct LineStart {
+    std::size_t offset;
+    int line;
+    int column;
+  };
+
+  std::string text_;  // without continuations
+  std::vector<LineStart> lines_;
+  int file_;
+  int line_change_ = 0;
+  Problems& problems_;
+  std::size_t position_ = 0;
+  std::string notice_;
+};
 
 /// Where included files are looked for, and what is defined from the start.
 struct PreprocessorOptions {

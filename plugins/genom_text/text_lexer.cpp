@@ -1,9 +1,8 @@
-#include "plugins/genom_text/text_lexer.h"
+#include "plugins/genom_text/preprocessor.h"
 
 #include <algorithm>
 #include <array>
 #include <string_view>
-
 
 namespace runnel::genom {
 

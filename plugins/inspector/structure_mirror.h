@@ -14,7 +14,7 @@
 #include "plugins/inspector/element_json.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
-#include "plugins/values/publication_rate.h"
+#include "plugins/values/watched_port.h"
 
 namespace runnel::internal {
 

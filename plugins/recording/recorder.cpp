@@ -17,7 +17,7 @@
 #include "plugins/mcap/mcap_writer.h"
 #include "plugins/recording/recording_names.h"
 #include "plugins/scheduling/scheduler.h"
-#include "plugins/values/foxglove_topics.h"
+#include "plugins/values/foxglove_channel.h"
 
 namespace runnel {
 

@@ -11,8 +11,8 @@
 #include "core/port/port.h"
 #include "plugins/ros_services/service_endpoints.h"
 #include "plugins/ros_services/service_form.h"
-#include "plugins/services/client_form.h"
 #include "plugins/services/service_endpoint.h"
+#include "plugins/services/service_signature.h"
 
 namespace runnel {
 

@@ -30,7 +30,7 @@ struct CycleMoment {
 /// has come for it. Outlives changes of the schedule.
 ///
 /// Threads:  Fail(), is_stopped() and the note of the pass by the thread whose cycle has it (see
-///           quiescence.h for how it changes); Wake() by any publisher; set_runner() under the
+///           schedule.h for how it changes); Wake() by any publisher; set_runner() under the
 ///           structure lock.
 /// Progress: wait-free. Allocation: in the constructor only.
 class ScheduledElement final : public Waker {

@@ -9,7 +9,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/log/logger.h"
 #include "core/port/port.h"
-#include "plugins/scheduling/realtime_setup.h"
+#include "plugins/scheduling/real_thread.h"
 
 namespace runnel {
 

@@ -8,7 +8,7 @@
 #include "core/base/check.h"
 #include "core/base/exception_text.h"
 #include "core/module/executable.h"
-#include "plugins/scheduling/realtime_setup.h"
+#include "plugins/scheduling/real_thread.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {

@@ -11,7 +11,6 @@
 #include "core/port/input.h"
 #include "core/port/port_owner.h"
 #include "plugins/services/client_base.h"
-#include "plugins/services/client_form.h"
 #include "plugins/services/service_signature.h"
 
 namespace runnel {

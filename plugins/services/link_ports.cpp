@@ -5,7 +5,7 @@
 #include "core/channel/distribution.h"
 #include "core/port/output_base.h"
 #include "core/port/typed_ports.h"
-#include "plugins/services/signature_at_run_time.h"
+#include "plugins/services/services_at_run_time.h"
 
 namespace runnel {
 

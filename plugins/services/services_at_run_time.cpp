@@ -1,12 +1,164 @@
 #include "plugins/services/services_at_run_time.h"
 
+#include <cstring>
+#include <map>
+#include <mutex>
 #include <utility>
 
 #include "core/element/framework_element.h"
 #include "core/types/text_format.h"
-#include "plugins/services/own_call.h"
+#include "core/types/type_builder.h"
+#include "core/types/type_of.h"
+#include "plugins/services/any_call.h"
 
 namespace runnel {
+
+namespace {
+
+/// The arguments of one call, each made by its type.
+struct ArgumentBlock {
+  std::vector<std::shared_ptr<void>> values;
+};
+/// Which of them, in the place of a pointer to a member.
+struct ArgumentNumber {
+  std::ptrdiff_t number;
+};
+std::byte& operator->*(ArgumentBlock* block, ArgumentNumber which) {
+  return *static_cast<std::byte*>(block->values[static_cast<std::size_t>(which.number)].get());
+}
+
+}  // namespace
+
+/// Describes them as a structure.
+template <>
+class TypeBuilder<ArgumentBlock> {
+ public:
+  static void Describe(TypeInfo& type, const std::vector<std::string>& names,
+                       const std::vector<const TypeInfo*>& types) {
+    type.name_ = "arguments";
+    for (std::size_t i = 0; i < types.size(); ++i) {
+      type.AddField(names.empty() ? "argument" + std::to_string(i + 1) : std::string(names[i]), *types[i], {},
+                    FieldAddress(std::type_identity<ArgumentBlock>(), ArgumentNumber{static_cast<std::ptrdiff_t>(i)}));
+    }
+  }
+};
+
+/// The type of ports of such a signature: a name.
+template <>
+class TypeBuilder<FoundSignature> {
+ public:
+  static void Describe(TypeInfo& type, std::string name) { type.name_ = std::move(name); }
+};
+
+namespace {
+
+struct CallAtRunTime final : CallBase {
+  ArgumentBlock arguments;
+  std::shared_ptr<void> reply;
+};
+
+class SlotsAtRunTime final : public CallSlots {
+ public:
+  SlotsAtRunTime(const SignatureTypes& types, std::size_t count) : slots_(std::make_unique<CallAtRunTime[]>(count)) {
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const TypeInfo* each : types.arguments) slots_[i].arguments.values.push_back(each->Make());
+      if (types.reply != nullptr) slots_[i].reply = types.reply->Make();
+      calls_.push_back(&slots_[i]);
+    }
+  }
+
+ private:
+  const std::unique_ptr<CallAtRunTime[]> slots_;
+};
+
+class FormAtRunTime final : public CallForm {
+ public:
+  FormAtRunTime(const SignatureTypes& types, const std::vector<std::string>& names)
+      : types_(types), is_named_(!(names.empty() && types.arguments.size() == 1)) {
+    TypeBuilder<ArgumentBlock>::Describe(type_, names, types.arguments);
+  }
+  [[nodiscard]] const TypeInfo* arguments() const override {
+    if (types_.arguments.empty()) return nullptr;
+    return is_named_ ? &type_ : types_.arguments.front();
+  }
+  [[nodiscard]] const TypeInfo* reply() const override { return types_.reply; }
+  [[nodiscard]] bool is_named() const override { return is_named_; }
+  [[nodiscard]] const void* ArgumentsOf(const CallBase& call) const override {
+    const auto& of = static_cast<const CallAtRunTime&>(call);
+    return is_named_ ? static_cast<const void*>(&of.arguments) : of.arguments.values.front().get();
+  }
+  [[nodiscard]] void* ReplyOf(CallBase& call) const override { return static_cast<CallAtRunTime&>(call).reply.get(); }
+
+ private:
+  const SignatureTypes types_;
+  const bool is_named_;
+  TypeInfo type_{typeid(ArgumentBlock)};
+};
+
+// Such calls are not recorded, as records have types that are compiled.
+class RunTimeSignature final : public ServiceSignature {
+ public:
+  explicit RunTimeSignature(SignatureTypes types) : types_(std::move(types)) {
+    TypeBuilder<FoundSignature>::Describe(link, LinkName(types_));
+  }
+  [[nodiscard]] std::shared_ptr<const CallForm> MakeForm(const std::vector<std::string>& names) const override {
+    return std::make_shared<FormAtRunTime>(types_, names);
+  }
+  [[nodiscard]] std::unique_ptr<CallSlots> MakeSlots(std::size_t count) const override {
+    return std::make_unique<SlotsAtRunTime>(types_, count);
+  }
+  [[nodiscard]] std::unique_ptr<CallRecorder> MakeRecorder(FrameworkElement& /*group*/,
+                                                           const std::string& /*service*/) const override {
+    return nullptr;
+  }
+  void TakeArguments(const CallRecordBase& /*record*/, CallBase& /*call*/) const override {}
+
+  TypeInfo link{typeid(FoundSignature)};
+
+ private:
+  const SignatureTypes types_;
+};
+
+struct Known {
+  std::mutex mutex;
+  std::map<const TypeInfo*, const ServiceSignature*> compiled;
+  std::map<std::string, RunTimeSignature> made;
+};
+Known& All() {
+  static auto* const all = new Known;  // ports look at types to the end
+  return *all;
+}
+
+}  // namespace
+
+void internal::AddServiceSignature(const TypeInfo& link, const ServiceSignature& signature, bool has_records) {
+  Known& all = All();
+  const std::lock_guard lock(all.mutex);
+  const auto known = all.compiled.emplace(&link, &signature);
+  if (has_records) known.first->second = &signature;
+}
+
+std::string LinkName(const SignatureTypes& types) {
+  std::string name = "service " + (types.reply != nullptr ? types.reply->name() : "void") + "(";
+  for (const TypeInfo* each : types.arguments) name += (each == types.arguments.front() ? "" : ", ") + each->name();
+  return name + ")";
+}
+
+Result<FoundSignature> SignatureAtRunTime(const SignatureTypes& types) {
+  internal::MakeServiceSignatureKnown<void(), true>();
+  const std::string name = LinkName(types);
+  const TypeInfo* const compiled = FindType(name);
+  std::vector<const TypeInfo*> all_types = types.arguments;
+  if (types.reply != nullptr) all_types.push_back(types.reply);
+  for (const TypeInfo* each : all_types) {
+    if (each->Make() == nullptr) return Error{.message = "only a module in C++ can make values of type " + each->name()};
+  }
+  Known& all = All();
+  const std::lock_guard lock(all.mutex);
+  if (const auto found = all.compiled.find(compiled); found != all.compiled.end()) return FoundSignature{compiled, found->second};
+  const RunTimeSignature& made = all.made.try_emplace(name, types).first->second;
+  return FoundSignature{&made.link, &made};
+}
 
 namespace {
 

@@ -1,29 +1,71 @@
 // Shows an application to browsers (the inspector) and to whatever speaks Foxglove's protocol, if options or file
 // (`<inspector>`) ask for it.
 
+#include <cerrno>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include "core/base/result.h"
 #include "core/plugin/plugin_entry.h"
 #include "plugins/application/application.h"
+#include "plugins/control/control_folder.h"
 #include "plugins/foxglove/foxglove.h"
 #include "plugins/inspector/inspector.h"
-#include "plugins/inspector/inspector_place.h"
 #include "plugins/inspector/page/inspector_page.h"
 #include "plugins/inspector/xml_inspector_tag.h"
-#include "plugins/viewers/kept_token.h"
 #include "plugins/web_server/access_tokens.h"
 #include "plugins/web_server/web_server.h"
 
 namespace runnel {
 
 namespace {
+
+/// A token in a file that only this user can read, for as long as this lives.
+class KeptToken {
+ public:
+  /// In the folder of the sockets by which this user's applications are reached (plugins/control). Errors: it cannot
+  /// be written there.
+  static Result<std::unique_ptr<KeptToken>> Write(const std::string& token, std::uint16_t port);
+  ~KeptToken();
+  KeptToken(const KeptToken&) = delete;
+  KeptToken& operator=(const KeptToken&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
+
+ private:
+  explicit KeptToken(std::filesystem::path file) : file_(std::move(file)) {}
+
+  const std::filesystem::path file_;
+};
+
+Result<std::unique_ptr<KeptToken>> KeptToken::Write(const std::string& token, std::uint16_t port) {
+  const std::filesystem::path folder = ControlFolder();
+  if (const auto made = MakeControlFolder(folder); !made) return made.error();
+  const std::filesystem::path file = folder / ("inspector-" + std::to_string(port) + ".token");
+  unlink(file.c_str());  // of a process that has not ended in order
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  const std::string text = token + "\n";
+  const bool is_written =
+      descriptor >= 0 && write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const int reason = errno;
+  if (descriptor >= 0) close(descriptor);
+  if (is_written) return std::unique_ptr<KeptToken>(new KeptToken(file));
+  return Error{.message = std::string("the token cannot be written: ") + std::strerror(reason),
+               .position = {file.string()},
+               .hint = "give one, in a file: --inspect-token-file=FILE"};
+}
+
+KeptToken::~KeptToken() { unlink(file_.c_str()); }
 
 constexpr const char* kTokenVariable = "RUNNEL_INSPECT_TOKEN";
 

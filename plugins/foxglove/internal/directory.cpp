@@ -9,7 +9,7 @@
 #include "core/types/type_info.h"
 #include "plugins/foxglove/internal/robot_stop_access.h"
 #include "plugins/services/callable.h"
-#include "plugins/values/foxglove_topics.h"
+#include "plugins/values/foxglove_channel.h"
 
 namespace runnel::internal {
 

@@ -4,6 +4,9 @@
 
 namespace runnel::internal {
 
+/// How values of one port could be passed on to another: parts and conversions. Waits for the structure lock.
+[[nodiscard]] std::string FindConversions(Inspection& inspection, const ViewerMessage& message);
+
 /// Calls a service for a viewer: the reply's text is what the service replies. Given up when the viewer goes.
 [[nodiscard]] ViewerRequest BeginCallRequest(Inspection& inspection, const ViewerMessage& message);
 

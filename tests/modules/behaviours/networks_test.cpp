@@ -12,7 +12,7 @@
 #include "core/element/runtime.h"
 #include "core/module/group.h"
 #include "modules/behaviours/fusion.h"
-#include "plugins/behaviours/control_output.h"
+#include "plugins/behaviours/behaviour.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {

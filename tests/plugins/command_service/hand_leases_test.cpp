@@ -1,6 +1,6 @@
-#include "plugins/command_service/hand_leases.h"
-
 #include <gmock/gmock.h>
+
+#include "plugins/command_service/hand_settings.h"
 
 namespace runnel::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
-#include "plugins/command_service/operator_watch.h"
+#include "plugins/command_service/command_service.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {

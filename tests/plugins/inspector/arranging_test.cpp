@@ -1,8 +1,7 @@
-#include "plugins/inspector/internal/arrangement.h"
-
 #include <fstream>
 #include <iterator>
 
+#include "plugins/inspector/internal/inspection.h"
 #include "tests/plugins/inspector/inspector_fixture.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,6 +1,6 @@
-#include "plugins/inspector/inspector_place.h"
-
 #include <gmock/gmock.h>
+
+#include "plugins/inspector/xml_inspector_tag.h"
 
 namespace runnel::test {
 

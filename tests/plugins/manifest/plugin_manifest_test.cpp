@@ -9,7 +9,7 @@
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "plugins/manifest/description_json.h"
+#include "plugins/manifest/module_description.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 #include "tests/support/temporary_folder.h"

@@ -1,10 +1,9 @@
-#include "plugins/parameters/units.h"
-
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
 #include "core/module/module.h"
 #include "plugins/parameters/parameter.h"
+#include "plugins/parameters/parameter_base.h"
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel {

@@ -9,7 +9,7 @@
 #include "modules/types/pose.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_services/service_endpoints.h"
-#include "plugins/services/argument_type.h"
+#include "plugins/services/service_signature.h"
 
 namespace runnel::test {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include "plugins/scheduling/real_thread.h"
 #include "plugins/timing/cycle_statistics.h"
 #include "plugins/scheduling/due_time.h"
 #include "plugins/timing/pacing.h"
-#include "plugins/scheduling/realtime_setup.h"
 #include "plugins/scheduling/scheduler.h"
 #include "tests/plugins/scheduling/test_modules.h"
 

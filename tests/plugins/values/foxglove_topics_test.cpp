@@ -1,5 +1,3 @@
-#include "plugins/values/foxglove_topics.h"
-
 #include <gtest/gtest.h>
 
 #include "core/element/runtime.h"
@@ -9,6 +7,7 @@
 #include "core/port/output.h"
 #include "core/port/proxy_port.h"
 #include "modules/types/pose.h"
+#include "plugins/values/foxglove_channel.h"
 
 namespace runnel {
 namespace {

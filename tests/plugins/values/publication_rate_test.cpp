@@ -1,13 +1,12 @@
 // How often ports publish, as people are told it.
 
-#include "plugins/values/publication_rate.h"
-
 #include <chrono>
 
 #include <gmock/gmock.h>
 
 #include "core/module/group.h"
 #include "core/port/output.h"
+#include "plugins/values/watched_port.h"
 
 namespace runnel::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "plugins/services/own_call.h"
+#include "plugins/services/any_call.h"
 
 #include <utility>
 
