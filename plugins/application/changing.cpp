@@ -118,7 +118,7 @@ std::string WhatEnds(FrameworkElement& application, const Scheduler& scheduler, 
   std::string lost = WhatPasses(application, scheduler, has_stop);
   if (!lost.empty()) lost = "\n" + lost;
   const auto preview = PreviewSave(application, tools);
-  if (preview && preview->before != preview->after) lost += "\nnot saved: what has been changed in " + preview->file.string();
+  if (preview && preview->before != preview->after) lost += "\nnot saved: what has been changed in " + preview->file;
   return lost;
 }
 
