@@ -34,8 +34,6 @@ namespace runnel {
 
 namespace {
 
-class Application;
-
 /// How an application is, for /diagnostics: modules that a fault has stopped, inputs to which nothing new comes (<on_stale>),
 /// threads whose cycles end too late.
 ///
