@@ -51,7 +51,7 @@ class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
 
   Runtime runtime_;
   RobotStop& stop_ = runtime_.robot_stop();
-  std::shared_ptr<PortStop> wheels_ = std::make_shared<PortStop>(AnyValue(), stop_.signal());
+  std::shared_ptr<PortStop> wheels_ = std::make_shared<PortStop>(AnyValue(), Duration{}, stop_.signal());
   NobodyThere nobody_;
   const std::shared_ptr<WireEngine> engine_ = MakeFakeWire();
   std::unique_ptr<WireParticipant> near_ = std::move(*engine_->Join({.name = "near"}, nobody_));
