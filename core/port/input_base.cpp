@@ -141,7 +141,8 @@ void InputBase::TakeOverFlow(Port& from) {
   const auto is_told = [](const InputBase& input) { return input.waker_ || input.arrival_; };
   // A binding that pulls is another one. Else publishers find the same queue, and need to be told only
   // if somebody else is to be woken.
-  if (strategy() != other.strategy()) {
+  // So is one of an input that ages in another way.
+  if (strategy() != other.strategy() || ageing() != other.ageing()) {
     Rebind(std::vector<Source>(sources_));
   } else if (is_told(*this) || is_told(other)) {
     UpdateChannels();

@@ -53,7 +53,9 @@ Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Du
   auto safe = FindSafeValue(safe_value);
   if (!safe) return safe.error();
   if (!brake) brake = declared != nullptr ? declared->brake() : Duration{};
-  return SetStop(std::move(*safe), *brake, drives ? runtime().robot_stop().signal() : nullptr);
+  auto set = SetStop(std::move(*safe), *brake, drives ? runtime().robot_stop().signal() : nullptr);
+  if (set) extras_->is_marked = drives;
+  return set;
 }
 
 Result<void> Port::Block() {
@@ -90,7 +92,7 @@ Result<void> Port::SetStop(AnyValue safe_value, Duration brake, std::shared_ptr<
   const auto channel = internal::MakeChannelFor(type_);
   if (!channel) return CannotPublish("only a module can make values of its type");
   if (brake > Duration{} && !internal::StopLink::CanBrake(safe_value, *channel)) {
-    return Error{.message = "cannot brake: a " + type_.name() + " has no values between two others",
+    return Error{.message = "cannot brake: a " + type_.name() + " is larger than 32 bytes, or a part of it is no number",
                  .path = path(),
                  .hint = "leave out how long it brakes; its safe value is in force at once then"};
   }

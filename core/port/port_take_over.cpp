@@ -34,6 +34,11 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from) {
     return CannotTakeOver(port, "carries " + port.type().name() + " and cannot take over from " +
                                     from.path() + ", which carries " + from.type().name());
   }
+  // What is connected was converted for the unit of the other one.
+  if (!port.unit().empty() && !from.unit().empty() && port.unit() != from.unit()) {
+    return CannotTakeOver(port, "is in " + port.unit() + " and cannot take over from " + from.path() + ", which is in " +
+                                    from.unit());
+  }
   if (!port.incoming_.empty() || !port.outgoing_.empty()) {
     return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
   }
@@ -98,7 +103,7 @@ std::shared_ptr<const PortStop> Port::StopInPlaceOf(const Port& from) const {
   const std::shared_ptr<const PortStop> before = from.stop();
   const PortStop* const declared = declared_stop();
   if (declared == nullptr) return before;
-  if (before && before->robot() && from.declared_stop() == nullptr) return before;
+  if (before && before->robot() && (from.declared_stop() == nullptr || from.extras_->is_marked)) return before;
   return std::make_shared<PortStop>(declared->safe_value(), declared->brake(), declared->robot(), before.get());
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -44,6 +45,10 @@ bool ForEachNumber(const TypeInfo& type, void* value, const auto& visit) {
 
 }  // namespace
 
+constexpr std::size_t kInlinedBytes = 32;  // as kIsInlined
+// Whoever has not read for longer than this does not move by what it has read.
+constexpr Duration kFollows = std::chrono::milliseconds(500);
+
 // relaxed, all of it: numbers of two values that two threads read at the same time may mix.
 struct StopLink::Braking {
   static constexpr std::int64_t kNotBegun = std::numeric_limits<std::int64_t>::max();
@@ -52,6 +57,8 @@ struct StopLink::Braking {
   explicit Braking(std::size_t numbers) : last(numbers) {}
 
   std::vector<std::atomic<double>> last;     // what was read, and came from no stop
+  std::atomic<std::int64_t> last_stamp{0};   // ns, of what was read
+  std::atomic<std::int64_t> last_read{0};    // ns, when it was
   std::atomic<std::int64_t> begun{kIsOver};  // ns
   std::atomic<double> rest{0};               // at the last read
   std::atomic<std::uint64_t> changes{0};     // of it
@@ -88,7 +95,9 @@ std::unique_ptr<StopLink::Braking> StopLink::MakeBraking(const AnyValue& safe_va
   std::size_t numbers = 0;
   const auto count = [&](const TypeInfo&, void*) { ++numbers; };
   const bool is_of_numbers = ForEachNumber(safe_value.type(), ForLooking(safe_value.get()), count);
-  return is_of_numbers && channel.gives_copies() ? std::make_unique<Braking>(numbers) : nullptr;
+  // Larger ones are read where they lie, and cannot be changed there.
+  const bool is_inlined = channel.gives_copies() && safe_value.type().size() <= kInlinedBytes;
+  return is_of_numbers && is_inlined ? std::make_unique<Braking>(numbers) : nullptr;
 }
 
 bool StopLink::CanBrake(const AnyValue& safe_value, const ChannelBase& channel) {
@@ -105,7 +114,9 @@ double StopLink::Rest(Time now) noexcept {
     braking_->begun.store(Braking::kIsOver, std::memory_order_relaxed);
     return 0;
   }
-  if (braking_->begun.compare_exchange_strong(since, time, std::memory_order_relaxed)) return 1;
+  const bool follows = time - braking_->last_read.load(std::memory_order_relaxed) <= kFollows.count();
+  const std::int64_t begun = follows ? time : Braking::kIsOver;
+  if (braking_->begun.compare_exchange_strong(since, begun, std::memory_order_relaxed)) return follows ? 1 : 0;
   const double whole = static_cast<double>(stop_.stop->brake().count());
   return std::clamp(1 - static_cast<double>(time - since) / whole, 0.0, 1.0);
 }
@@ -118,7 +129,11 @@ void StopLink::Brake(void* value, Publication& publication) noexcept {
   }
   publication.sequence += braking_->changes.load(std::memory_order_relaxed);
   if (rest == 0) return;
-  publication.timestamp = publication.publication_time = now.time_since_epoch().count();
+  // What was old when it was read last has not become a fresh command by the STOP.
+  const std::int64_t time = now.time_since_epoch().count();
+  publication.timestamp = braking_->last_stamp.load(std::memory_order_relaxed) + time -
+                          braking_->begun.load(std::memory_order_relaxed);
+  publication.publication_time = time;
   std::size_t i = 0;
   (void)ForEachNumber(stop_.safe_value.type(), value, [&](const TypeInfo& type, void* number) {
     const double safe = NumberIn(type, number);
@@ -133,6 +148,8 @@ void StopLink::NoteRead(const void* value, ValueTimes times) noexcept {
   (void)ForEachNumber(stop_.safe_value.type(), ForLooking(value), [&](const TypeInfo& type, void* number) {
     braking_->last[i++].store(NumberIn(type, number), std::memory_order_relaxed);
   });
+  braking_->last_stamp.store(times.timestamp.time_since_epoch().count(), std::memory_order_relaxed);
+  braking_->last_read.store(runtime_.clock().Now().time_since_epoch().count(), std::memory_order_relaxed);
   const bool is_possible = braking_->is_possible.load(std::memory_order_relaxed);
   braking_->begun.store(is_possible ? Braking::kNotBegun : Braking::kIsOver, std::memory_order_relaxed);
 }

@@ -37,8 +37,10 @@ Result<void> GiveTo(Port& port, const PortState& state) {
   if (state.stop && state.stop->robot()) {
     if (auto set = port.SetDriving(true, state.stop->safe_value(), state.stop->brake()); !set) return set;
   }
-  if (state.is_blocked) {
+  // What was published before a block was released counts no more afterwards either.
+  if (state.stop && state.stop->block()->bar() != StopSignal::kNever) {
     if (auto blocked = port.Block(); !blocked) return blocked;
+    if (!state.is_blocked) port.Unblock();
   }
   if (!state.by_hand) return {};
   return port.PublishByHand(FillWith(state.by_hand->value), Port::Setter::kPerson, state.by_hand->timestamp);

@@ -1,5 +1,6 @@
 // Ports that say how they brake: what readers find between a press and the safe value.
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -65,6 +66,38 @@ TEST_F(BrakingTest, EachValueOnTheWayIsNewAndTheSafeOneToo) {
     read.push_back(std::round(100 * *next));
   }
   EXPECT_THAT(read, ElementsAre(80, 60, 40, 20, 0));
+}
+
+TEST_F(BrakingTest, WhatWasOldStaysOld) {
+  auto& sender = MakeSender<double>();
+  auto& wheels = MakeReceiver<double>("wheels", Brakes());
+  Connect(sender.out, wheels.in);
+  sender.out.Publish(1.0);
+  Pass(60'000);
+  EXPECT_EQ(wheels.in.Get(), 1.0);
+  Press();
+  Pass(25);
+  EXPECT_EQ(clock.Now() - wheels.in.Read().timestamp(), milliseconds(60'000)) << "a command of that age drives nobody";
+}
+
+TEST_F(BrakingTest, WhoDoesNotReadAnyMoreIsNotSetInMotion) {
+  auto& sender = MakeSender<double>();
+  auto& wheels = MakeReceiver<double>("wheels", Brakes());
+  Connect(sender.out, wheels.in);
+  sender.out.Publish(1.0);
+  EXPECT_EQ(wheels.in.Get(), 1.0);
+  Pass(501);
+  Press();
+  EXPECT_EQ(wheels.in.Get(), 0.0);
+  Pass(25);
+  EXPECT_EQ(wheels.in.Get(), 0.0);
+}
+
+TEST_F(BrakingTest, TypesThatAreReadWhereTheyLieAreRefused) {
+  auto& wheels = MakeReceiver<std::array<double, 6>>("wheels", {});
+  const auto set = wheels.in.SetDriving(true, std::array<double, 6>{}, milliseconds(100));
+  ASSERT_FALSE(set);
+  EXPECT_THAT(set.error().message, HasSubstr("cannot brake"));
 }
 
 TEST_F(BrakingTest, ASecondStopDoesNotBeginAnew) {
