@@ -1,6 +1,5 @@
 // Ports that say how they brake: what readers find between a press and the safe value.
 
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +14,16 @@ namespace {
 using std::chrono::milliseconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
+
+struct ManySpeeds {
+  Speeds front, middle, rear;
+};
+[[maybe_unused]] void Describe(TypeBuilder<ManySpeeds>& type) {
+  type.Name("test::ManySpeeds")
+      .Field("front", &ManySpeeds::front)
+      .Field("middle", &ManySpeeds::middle)
+      .Field("rear", &ManySpeeds::rear);
+}
 
 class BrakingTest : public StopTest {
  protected:
@@ -94,8 +103,8 @@ TEST_F(BrakingTest, WhoDoesNotReadAnyMoreIsNotSetInMotion) {
 }
 
 TEST_F(BrakingTest, TypesThatAreReadWhereTheyLieAreRefused) {
-  auto& wheels = MakeReceiver<std::array<double, 6>>("wheels", {});
-  const auto set = wheels.in.SetDriving(true, std::array<double, 6>{}, milliseconds(100));
+  auto& wheels = MakeReceiver<ManySpeeds>("wheels", {});
+  const auto set = wheels.in.SetDriving(true, ManySpeeds{}, milliseconds(100));
   ASSERT_FALSE(set);
   EXPECT_THAT(set.error().message, HasSubstr("cannot brake"));
 }
