@@ -1,9 +1,8 @@
 #include "modules/types/algorithm/svg_writer.h"
 
+#include <array>
 #include <charconv>
 #include <utility>
-
-#include "core/base/characters.h"
 
 namespace runnel {
 
@@ -16,6 +15,18 @@ std::string Attribute(std::string_view name, double value) {
 std::string Pair(Point2 point) { return Decimal(point.x) + "," + Decimal(point.y); }
 
 std::string End(std::string_view style) { return " " + std::string(style) + "/>\n"; }
+
+// As EscapedMarkup(), of which algorithms know nothing.
+std::string EscapedXml(std::string_view text) {
+  constexpr std::string_view kMeant = "&<>\"";
+  constexpr std::array kNames{"&amp;", "&lt;", "&gt;", "&quot;"};
+  std::string escaped;
+  for (const char character : text) {
+    const std::size_t named = kMeant.find(character);
+    escaped += named != std::string_view::npos ? kNames[named] : std::string(1, character);
+  }
+  return escaped;
+}
 
 }  // namespace
 
@@ -67,7 +78,7 @@ void SvgWriter::Rings(const std::vector<std::vector<Point2>>& rings, std::string
 
 void SvgWriter::Text(Point2 place, std::string_view text, std::string_view style) {
   text_ += "<text" + Attribute("x", place.x) + Attribute("y", place.y) + " " + std::string(style) +
-           ">" + EscapedMarkup(text) + "</text>\n";
+           ">" + EscapedXml(text) + "</text>\n";
 }
 
 void SvgWriter::OpenGroup(std::string_view style) { text_ += "<g " + std::string(style) + ">\n"; }
