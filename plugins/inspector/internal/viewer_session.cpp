@@ -74,6 +74,7 @@ WebSession::SteadyTime ViewerSession::SendAlive() {
   const SteadyTime now = std::chrono::steady_clock::now();
   const auto stop = inspection_.application().runtime.robot_stop().state();
   if (now < alive_due_ && told_stop_ == stop.changes) return alive_due_;
+  if (inspection_.told_stop().changes != stop.changes) inspection_.told_stop() = {stop.changes, now};
   const bool is_sent = client_.SendText(JsonObjectText([&](JsonObject& json) {
     JsonObject told(json.Add("op", "alive").Add("at", ToSeconds(now.time_since_epoch())).Key("stop"));
     told.Add("in_force", stop.in_force).Add("by", stop.by);
@@ -272,14 +273,17 @@ void ViewerSession::OnTooMany(std::string_view message, bool /*is_text*/) {
 
 std::optional<Error> ViewerSession::WhyTooLate(const ViewerMessage& message, WebRole needed) const {
   if (needed == WebRole::kLook) return {};
+  const std::uint64_t changes = inspection_.application().runtime.robot_stop().state().changes;
+  const Error changed{.message = "STOP was pressed or released after it was sent"};
   const auto arrival = client_.arrival();
-  if (arrival && arrival->mark != inspection_.application().runtime.robot_stop().state().changes) {
-    return Error{.message = "STOP was pressed or released after it was sent"};
-  }
+  if (arrival && arrival->mark != changes) return changed;
+  if (message.op != "release" || message.path != kRobotStopName || !message.at) return {};
   const double now = ToSeconds(std::chrono::steady_clock::now().time_since_epoch());
-  if (message.op == "release" && message.path == kRobotStopName && now - message.at.value_or(now) > kOldestRelease) {
+  if (now - *message.at > kOldestRelease) {
     return Error{.message = "this release is too old: STOP may have been pressed again since"};
   }
+  const auto& told = inspection_.told_stop();
+  if (told.changes != changes || *message.at < ToSeconds(told.at.time_since_epoch())) return changed;
   return {};
 }
 
