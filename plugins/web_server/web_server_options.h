@@ -16,7 +16,7 @@ struct WebLimits {
   std::size_t message_bytes = 1 << 20;  ///< of one message from a client
   std::size_t clients = 64;             ///< WebSockets at once, and as many more for those of WebProtocol::kept_name
   std::size_t visitors = 64;            ///< plain connections at once; the oldest makes room
-  double messages_per_second = 200;     ///< of one client, each 4 kB counting as one; more waits
+  double messages_per_second = 200;     ///< of one client, each 4 kB counting as one; more waits or is refused
   std::size_t waiting_bytes = 8 << 20;  ///< for one client that does not read
   Duration request_time =
       std::chrono::seconds(10);                   ///< for a whole request to come, and a handshake

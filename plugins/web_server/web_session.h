@@ -2,8 +2,10 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +13,16 @@
 #include "plugins/web_server/web_role.h"
 
 namespace runnel {
+
+/// What a session says of a message when it has been read.
+struct WebArrival {
+  /// It is handed over at once, before what its client has said earlier and must not say so fast, and does not count.
+  /// Of very few.
+  bool outranks = false;
+  bool may_be_late = false;  ///< others are refused rather than that they wait for long
+  std::uint64_t mark = 0;    ///< the session's own, to find out when it is handed over what has happened meanwhile
+  std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now();
+};
 
 /// One peer at the other end of a WebSocket, as a session sees it.
 ///
@@ -32,6 +44,8 @@ class WebClient {
   [[nodiscard]] virtual const std::string& protocol() const = 0;
   /// What it may do; the session sees to that.
   [[nodiscard]] virtual WebRole role() const = 0;
+  /// Of the message that is being handed over; nothing: none is.
+  [[nodiscard]] virtual std::optional<WebArrival> arrival() const { return {}; }
 
  protected:
   ~WebClient() = default;
@@ -49,9 +63,10 @@ class WebSession {
   virtual ~WebSession() = default;
   virtual void OnText(std::string_view message) = 0;
   virtual void OnBinary(std::string_view message) = 0;
-  /// Whether the message is handed over as soon as it has been read, before what its client has said earlier and must not say
-  /// so fast, and does not count. Of very few.
-  [[nodiscard]] virtual bool OutranksLimits(std::string_view /*message*/, bool /*is_text*/) const { return false; }
+  /// As soon as the message has been read, which may be before those that were read earlier are handed over.
+  [[nodiscard]] virtual WebArrival OnArrival(std::string_view /*message*/, bool /*is_text*/) { return {}; }
+  /// In the place of handing it over: its client says too much.
+  virtual void OnTooMany(std::string_view /*message*/, bool /*is_text*/) {}
   /// At the start, whenever due, after each message, and when its client's Waker() is called. Returns when
   /// it wants the next turn.
   virtual SteadyTime OnPoll() = 0;

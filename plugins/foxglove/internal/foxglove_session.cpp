@@ -40,26 +40,38 @@ void FoxgloveSession::SendStatus(StatusLevel level, const Error& error) {
 
 bool FoxgloveSession::MayDo(WebRole needed, std::string_view what) {
   const WebRole role = shared_->RoleOf(client_);
+  if (role >= needed && needed > WebRole::kLook && IsLate()) {
+    SendError({.message = std::string(what) + ": " + kIsLate});
+    return false;
+  }
   if (role >= needed) return true;
   SendError({.message = std::string(what) + ": viewers may only " + std::string(WebRoleName(role)),
              .hint = "it takes a token for the role '" + std::string(WebRoleName(needed)) + "'"});
   return false;
 }
 
-void FoxgloveSession::Hear() {
-  if (shared_->RoleOf(client_) >= WebRole::kDrive) shared_->application.service.operators().Hear("Foxglove");
+bool FoxgloveSession::IsLate() const {
+  const auto arrival = client_.arrival();
+  return arrival && arrival->mark != shared_->runtime().robot_stop().state().changes;
 }
 
-bool FoxgloveSession::OutranksLimits(std::string_view message, bool is_text) const {
-  if (is_text || message.size() < kHead) return false;
+// A release outranks as well: it must neither wait nor be overtaken by a STOP that was pressed later.
+WebArrival FoxgloveSession::OnArrival(std::string_view message, bool is_text) {
+  if (shared_->RoleOf(client_) >= WebRole::kDrive) shared_->application.service.operators().Hear("Foxglove");
+  WebArrival arrival{.mark = shared_->runtime().robot_stop().state().changes};
+  if (is_text || message.size() < kHead) return arrival;
   const std::uint32_t id = ReadNumber(message, 1);
-  if (message[0] == kServiceCall) return calls_.IsStop(id);
   const auto found = message[0] == kMessageData ? publications_.find(id) : publications_.end();
-  return found != publications_.end() && found->second.path == kStopName;
+  arrival.outranks = message[0] == kServiceCall ? calls_.Is(kStopName, id) || calls_.Is(kReleaseName, id)
+                                                : found != publications_.end() && found->second.path == kStopName;
+  return arrival;
+}
+
+void FoxgloveSession::OnTooMany(std::string_view /*message*/, bool /*is_text*/) {
+  SendError({.message = "too many messages a second: this one is not carried out"});
 }
 
 void FoxgloveSession::OnText(std::string_view message) {
-  Hear();
   const auto parsed = ParseClientMessage(message);
   if (!parsed) return SendError(parsed.error());
   std::visit(
@@ -70,9 +82,8 @@ void FoxgloveSession::OnText(std::string_view message) {
 }
 
 void FoxgloveSession::OnBinary(std::string_view message) {
-  Hear();
   if (!message.empty() && message[0] == kServiceCall) {
-    return calls_.Begin(message, shared_->RoleOf(client_) >= WebRole::kDrive);
+    return calls_.Begin(message, shared_->RoleOf(client_) >= WebRole::kDrive, IsLate());
   }
   if (message.size() < kHead || message[0] != kMessageData) {
     return SendError({.message = "there is no binary message of this kind here",

@@ -33,10 +33,10 @@ class ServiceCalls {
 
   /// Tells of services that have come and gone; who may not call is told of the STOP alone.
   void Follow(const DirectoryContent& content, bool may_call);
-  /// Whether calling it is a STOP of the robot.
-  [[nodiscard]] bool IsStop(std::uint32_t service) const;
-  /// A binary message: a call. `may_call`: else it is refused, but for the STOP.
-  void Begin(std::string_view message, bool may_call);
+  /// Whether calling it is a STOP of the robot, or ends one (kReleaseName).
+  [[nodiscard]] bool Is(std::string_view name, std::uint32_t service) const;
+  /// A binary message: a call. `may_call`: else it is refused, but for the STOP. `is_late`: likewise.
+  void Begin(std::string_view message, bool may_call, bool is_late);
   /// Answers what can be answered. When it wants to be called again.
   SteadyTime Continue(SteadyTime now);
 
@@ -70,11 +70,11 @@ class FoxgloveSession final : public WebSession {
 
   void OnText(std::string_view message) override;
   void OnBinary(std::string_view message) override;
-  bool OutranksLimits(std::string_view message, bool is_text) const override;
+  WebArrival OnArrival(std::string_view message, bool is_text) override;
+  void OnTooMany(std::string_view message, bool is_text) override;
   SteadyTime OnPoll() override;
 
  private:
-  void Hear();
   void Handle(const SubscribeMessage& message);
   void Handle(const UnsubscribeMessage& message);
   void Handle(const AdvertiseMessage& message);
@@ -86,7 +86,9 @@ class FoxgloveSession final : public WebSession {
   /// `may_search`: for the nearest name, which takes time; once in a message.
   void Advertise(const AdvertiseMessage::Channel& channel, bool& may_search);
 
-  /// Whether the client may do what takes `needed`; if not, it is told.
+  /// Whether STOP has been pressed or released since the message came that is being handed over.
+  [[nodiscard]] bool IsLate() const;
+  /// Whether the client may do what takes `needed`, and it is not late; if not, it is told.
   bool MayDo(WebRole needed, std::string_view what);
   void SendStatus(StatusLevel level, const Error& error);
   void SendError(const Error& error) { SendStatus(StatusLevel::kError, error); }

@@ -40,17 +40,17 @@ void ServiceCalls::Follow(const DirectoryContent& content, bool may_call) {
   if (!fresh.empty()) send_queue_.Send(AdvertiseServicesMessage(fresh));
 }
 
-bool ServiceCalls::IsStop(std::uint32_t service) const {
+bool ServiceCalls::Is(std::string_view name, std::uint32_t service) const {
   const auto found = advertised_.find(service);
-  return found != advertised_.end() && found->second == kStopName;
+  return found != advertised_.end() && found->second == name;
 }
 
-void ServiceCalls::Begin(std::string_view message, bool may_call) {
+void ServiceCalls::Begin(std::string_view message, bool may_call, bool is_late) {
   const auto call = ReadServiceCall(message);
   if (!call) return send_queue_.Send(StatusMessage(StatusLevel::kError, call.error().ToString()));
   Pending pending{.service = call->service, .call = call->call, .path = {}, .json = call->payload, .begun = {}};
   const auto found = advertised_.find(call->service);
-  if (IsStop(call->service) || (found != advertised_.end() && may_call && found->second == kReleaseName)) {
+  if (Is(kStopName, call->service) || (may_call && !is_late && Is(kReleaseName, call->service))) {
     const std::string reply = SetStop(shared_, found->second, call->payload);
     if (!client_.SendBinary(ServiceReplyMessage(call->service, call->call, reply))) {
       Fail(pending, {.message = "done, but the reply was lost, as too much waits for this viewer"});
@@ -58,6 +58,7 @@ void ServiceCalls::Begin(std::string_view message, bool may_call) {
     return;
   }
   if (!may_call) return Fail(pending, {.message = "calling takes a token for the role 'drive'"});
+  if (is_late) return Fail(pending, {.message = kIsLate});
   if (found == advertised_.end()) return Fail(pending, {.message = "there is no such service any more"});
   if (call->encoding != "json") {
     return Fail(pending, {.message = "arguments come as 'json' here, not as '" + call->encoding + "'"});

@@ -84,6 +84,12 @@ class Inspection {
   /// Of the server's thread.
   [[nodiscard]] Arrangement& arrangement() noexcept { return arrangement_; }
   [[nodiscard]] TaskGroup& tasks() noexcept { return tasks_; }
+  /// How often the STOP of the robot had changed when viewers were last told of a change, and when the first of them was.
+  struct ToldStop {
+    std::uint64_t changes = 0;
+    SteadyTime at{};
+  };
+  [[nodiscard]] ToldStop& told_stop() noexcept { return told_stop_; }
   /// nullptr until it has been made. Any thread.
   [[nodiscard]] std::shared_ptr<const Catalogue> catalogue() const;
 
@@ -108,6 +114,7 @@ class Inspection {
   StructureMirror mirror_;
   PanelFile panel_;
   Arrangement arrangement_;
+  ToldStop told_stop_;
   std::uint64_t viewers_ = 0;
   SteadyTime look_at_{};
   SteadyTime look_at_registry_{};

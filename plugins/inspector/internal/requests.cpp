@@ -80,6 +80,7 @@ CommandOrErrors MakePublish(ViewerMessage& message) {
   // Of what no duration can hold the service says so.
   if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
   publish.lease = message.lease;
+  publish.received = message.received;
   return CommandRequest(std::move(publish));
 }
 

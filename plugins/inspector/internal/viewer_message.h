@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/clock.h"
 #include "core/base/result.h"
 #include "plugins/structure/change.h"
 #include "plugins/values/json_reader.h"
@@ -27,6 +28,7 @@ struct ViewerMessage {
   std::string path;
   std::string label;
   std::string client;  ///< whose message it is; is never read from it
+  std::optional<Time> received = {};  ///< by the machine's clock; likewise
   ChangeSet changes;
   std::map<std::string, std::string> entries;  ///< of the arrangement
   std::vector<RequestError> wrong_changes;  ///< of what is no change; then `changes` has not all
@@ -41,6 +43,7 @@ struct ViewerMessage {
   std::optional<double> rate;
   std::optional<double> deadline;  ///< s
   std::string lease;
+  std::optional<double> at;  ///< of a release: "at" of the newest `alive`
   std::optional<double> speed;
   std::size_t elements = 12;
   std::uint64_t cycles = 1;

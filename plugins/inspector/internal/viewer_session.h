@@ -29,7 +29,8 @@ class ViewerSession final : public WebSession {
 
   void OnText(std::string_view message) override;
   void OnBinary(std::string_view message) override;
-  bool OutranksLimits(std::string_view message, bool is_text) const override;
+  WebArrival OnArrival(std::string_view message, bool is_text) override;
+  void OnTooMany(std::string_view message, bool is_text) override;
   SteadyTime OnPoll() override;
 
  private:
@@ -68,6 +69,8 @@ class ViewerSession final : public WebSession {
   void BeginRequest(const Operation& operation, ViewerMessage message);
   void Refuse(const ViewerMessage& message, Error error);
   void RefuseRole(const ViewerMessage& message, WebRole needed);
+  // Why it comes too late by what has become of STOP since it was sent, if so.
+  [[nodiscard]] std::optional<Error> WhyTooLate(const ViewerMessage& message, WebRole needed) const;
   [[nodiscard]] bool IsSlow() const;
   [[nodiscard]] WebRole role() const;
 

@@ -20,9 +20,9 @@ class TokenBucket {
     const double seconds = std::chrono::duration<double>(now - then_).count();
     left_ = std::min(rate_, left_ + rate_ * seconds);
     then_ = now;
-    const std::size_t further = bytes / kBytesOfOne;
-    left_ -= 1 + static_cast<double>(further);
+    left_ -= CostOf(bytes);
   }
+  [[nodiscard]] static double CostOf(std::size_t bytes) { return 1 + static_cast<double>(bytes / kBytesOfOne); }
   /// How long it has to be silent now; 0: it may go on.
   [[nodiscard]] std::chrono::nanoseconds Wait() const {
     if (left_ >= 0) return {};

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include <boost/asio/post.hpp>
@@ -30,6 +31,8 @@ using SteadyTime = WebSession::SteadyTime;
 constexpr auto kShortestPause = std::chrono::milliseconds(1);
 // For a client to answer that it ends.
 constexpr auto kTimeToSayGoodbye = std::chrono::milliseconds(1000);
+// Of what has come too soon so much may wait as is handed over in this time; of what may be late, in the other one.
+constexpr double kSecondsOfWaiting = 1, kSecondsOfWaitingLate = 5;
 // What is longer does not fit into a closing frame.
 constexpr std::size_t kLongestReason = 120;
 
@@ -106,6 +109,7 @@ class WebSocketConnection final : public WebConnection,
   [[nodiscard]] std::size_t waiting_bytes() const override { return waiting_bytes_; }
   [[nodiscard]] const std::string& protocol() const override { return name_; }
   [[nodiscard]] WebRole role() const override { return WebConnection::role(); }
+  [[nodiscard]] std::optional<WebArrival> arrival() const override { return arrival_; }
   void Close(std::string reason) override { Close(websocket::close_code::policy_error, reason); }
 
   void Poll() override {
@@ -138,6 +142,7 @@ class WebSocketConnection final : public WebConnection,
   struct Message {
     std::string bytes;
     bool is_text;
+    WebArrival arrival = {};
   };
 
   template <typename Do>
@@ -174,20 +179,22 @@ class WebSocketConnection final : public WebConnection,
     Message message{beast::buffers_to_string(buffer_.data()), socket_.got_text()};
     buffer_.clear();
     buffer_.shrink_to_fit();
-    bool outranks = false;
-    Attempt([&] { outranks = session_->OutranksLimits(message.bytes, message.is_text); });
-    if (outranks) {
+    Attempt([&] { message.arrival = session_->OnArrival(message.bytes, message.is_text); });
+    if (message.arrival.outranks) {
       HandOver(message);
-    } else {
-      early_bytes_ += CostOf(message);
+    } else if (!is_closing_ && HasRoomFor(message)) {
+      early_cost_ += TokenBucket::CostOf(message.bytes.size());
       early_.push_back(std::move(message));
+    } else if (!is_closing_) {
+      Attempt([&] { session_->OnTooMany(message.bytes, message.is_text); });
     }
     HandOverEarly();
-    if (HasRoom()) Read();
+    Read();  // always: what outranks may be behind what is refused
   }
 
   void HandOver(const Message& message) {
     if (is_closing_) return;
+    arrival_ = message.arrival;
     Attempt([&] {
       if (message.is_text) {
         session_->OnText(message.bytes);
@@ -195,30 +202,32 @@ class WebSocketConnection final : public WebConnection,
         session_->OnBinary(message.bytes);
       }
     });
+    arrival_.reset();
     Poll();
   }
 
-  // What has come too soon waits; when that is much, what the client sends meanwhile waits in its own socket.
+  // What has come too soon waits.
   void HandOverEarly() {
     while (!early_.empty() && Now() >= next_at_) {
       const Message message = std::move(early_.front());
       early_.pop_front();
-      early_bytes_ -= CostOf(message);
+      early_cost_ -= TokenBucket::CostOf(message.bytes.size());
       bucket_.Consume(message.bytes.size(), Now());
       next_at_ = Now() + bucket_.Wait();
       HandOver(message);
     }
     if (early_.empty()) return;
     read_timer_.expires_at(next_at_);
-    read_timer_.async_wait([self = shared_from_this(), had_room = HasRoom()](beast::error_code cancelled) {
-      if (cancelled || self->is_removed_) return;
-      self->HandOverEarly();
-      if (!had_room && self->HasRoom()) self->Read();
+    read_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
+      if (!cancelled && !self->is_removed_) self->HandOverEarly();
     });
   }
 
-  [[nodiscard]] bool HasRoom() const { return early_bytes_ <= registry_.limits().message_bytes; }
-  static std::size_t CostOf(const Message& message) { return sizeof message + message.bytes.size(); }
+  [[nodiscard]] bool HasRoomFor(const Message& message) const {
+    const double seconds = message.arrival.may_be_late ? kSecondsOfWaitingLate : kSecondsOfWaiting;
+    const double most = seconds * registry_.limits().messages_per_second;
+    return early_.empty() || early_cost_ + TokenBucket::CostOf(message.bytes.size()) <= most;
+  }
 
   bool Send(Message message) {
     if (is_closing_) return false;
@@ -304,7 +313,8 @@ class WebSocketConnection final : public WebConnection,
   TokenBucket bucket_;
   SteadyTime next_at_{};       // the next message may be handed over
   std::deque<Message> early_;  // that have been read and not handed over yet
-  std::size_t early_bytes_ = 0;
+  double early_cost_ = 0;      // of those
+  std::optional<WebArrival> arrival_;  // of the message that is being handed over
   std::deque<Message> waiting_;
   std::size_t waiting_bytes_ = 0;
   bool is_accepted_ = false;

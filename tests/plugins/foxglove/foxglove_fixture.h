@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <semaphore>
 #include <string>
 #include <thread>
@@ -81,7 +82,9 @@ class FakeWebClient final : public WebClient {
   }
   [[nodiscard]] const std::string& protocol() const override { return name; }
   [[nodiscard]] WebRole role() const override { return its_role; }
+  [[nodiscard]] std::optional<WebArrival> arrival() const override { return its_arrival; }
 
+  std::optional<WebArrival> its_arrival;
   std::counting_semaphore<> wakes{0};
   bool is_slow = false;
   std::size_t waiting = 0;

@@ -67,13 +67,14 @@ TEST_F(FoxgloveStop, OvertakesWhatIsSaidTooFast) {
   Begin();
   EXPECT_EQ(Call("/stop", "{}")["success"], true);
   const auto call = [&](const std::string& name) { return "\x02" + Word(services.at(name)) + Word(1) + Word(4) + "json{}"; };
-  EXPECT_TRUE(session->OutranksLimits(call("/stop"), false));
-  EXPECT_FALSE(session->OutranksLimits(call("/stop"), true));
-  EXPECT_FALSE(session->OutranksLimits("\x02" + Word(12345) + Word(1), false));
+  const auto outranks = [&](const std::string& message) { return session->OnArrival(message, false).outranks; };
+  EXPECT_TRUE(outranks(call("/stop")));
+  EXPECT_FALSE(session->OnArrival(call("/stop"), true).outranks);
+  EXPECT_FALSE(outranks("\x02" + Word(12345) + Word(1)));
   Say({{"op", "advertise"}, {"channels", {{{"id", 3}, {"topic", "/stop"}, {"encoding", "json"}}}}});
-  EXPECT_TRUE(session->OutranksLimits("\x01" + Word(3) + "{}", false));
-  EXPECT_FALSE(session->OutranksLimits("\x01" + Word(4) + "{}", false));
-  EXPECT_FALSE(session->OutranksLimits("\x01", false));
+  EXPECT_TRUE(outranks("\x01" + Word(3) + "{}"));
+  EXPECT_FALSE(outranks("\x01" + Word(4) + "{}"));
+  EXPECT_FALSE(outranks("\x01"));
 }
 
 TEST_F(FoxgloveStop, WhoMayDriveIsHeard) {
@@ -81,11 +82,12 @@ TEST_F(FoxgloveStop, WhoMayDriveIsHeard) {
   Begin();
   const auto begun = service.operators().Look();
   client.its_role = WebRole::kLook;
-  Say({{"op", "subscribeConnectionGraph"}});
+  const auto say = [&] { (void)session->OnArrival(R"({"op":"subscribeConnectionGraph"})", true); };
+  say();
   EXPECT_EQ(service.operators().Look(), begun);
   client.its_role = WebRole::kDrive;
   WaitUntil("it is heard", [&] {
-    Publish(3, "{}");
+    say();
     return service.operators().Look() > begun;
   });
 }
@@ -128,6 +130,27 @@ TEST_F(FoxgloveStop, IsPressedByATopicThatClientsPublish) {
   Say({{"op", "unadvertise"}, {"channelIds", {3}}});
   Publish(3, R"({"data":true})");
   EXPECT_NE(Complaint(), "");
+}
+
+TEST_F(FoxgloveStop, WhatWaitedMeanwhileIsNotCarriedOut) {
+  Begin();
+  Turn();
+  Say({{"op", "advertise"}, {"channels", {{{"id", 3}, {"topic", "/application/robot/input/limit"}, {"encoding", "json"}}}}});
+  ASSERT_EQ(Complaint(), "");
+  client.its_arrival = session->OnArrival("", false);
+  EXPECT_EQ(Call("/stop", "{}")["success"], true) << "the newest STOP counts whatever was before";
+  client.its_arrival = session->OnArrival("", false);
+  runtime.robot_stop().Release("the test");
+  runtime.robot_stop().Press("the test");
+  EXPECT_EQ(Call("/release", "{}"), Json());
+  EXPECT_FALSE(Take("serviceCallFailure").empty());
+  EXPECT_TRUE(in_force());
+  Publish(3, "{}");
+  EXPECT_THAT(Complaint(), HasSubstr("STOP was pressed or released after it was sent"));
+  Say({{"op", "setParameters"}, {"parameters", Json::array()}});
+  EXPECT_THAT(Complaint(), HasSubstr("STOP was pressed or released after it was sent"));
+  session->OnTooMany("", false);
+  EXPECT_THAT(Complaint(), HasSubstr("too many messages a second"));
 }
 
 TEST_F(FoxgloveStop, IsTold) {

@@ -1,7 +1,9 @@
 // The STOP of the robot by viewers: whoever looks presses, whatever else goes on, and all are told.
 
 #include <future>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "core/element/robot_stop.h"
 #include "tests/plugins/inspector/inspector_fixture.h"
@@ -9,6 +11,8 @@
 
 namespace runnel::test {
 namespace {
+
+using ::testing::Not;
 
 WebServerOptions LookAndDrive() {
   WebServerOptions options{.port = 0};
@@ -111,11 +115,100 @@ TEST_F(ViewersStop, OvertakesWhatItsConnectionHasSaidTooFast) {
   Viewer viewer = View();
   std::string flood;
   const Json request{{"op", "preview"}, {"file", "x"}};
-  for (int i = 0; i < 6000; ++i) flood += RawClient::Frame(1, request.dump());
+  for (int i = 0; i < 20'000; ++i) flood += RawClient::Frame(1, request.dump());
   viewer.raw().Send(flood);
   const Json reply = viewer.Ask({{"op", "stop"}});
   EXPECT_EQ(reply["ok"], true);
   EXPECT_TRUE(in_force());
+}
+
+/// Viewers whose messages wait, and what they are answered.
+class ViewersStopOvertakes : public ViewersStop {
+ protected:
+  static constexpr const char* kIn = "/app/b/input/in";
+  void SetUp() override { Start({}, {.limits = {.messages_per_second = 20}}); }
+  /// Behind as many that half a second's worth waits; with numbers from 1.
+  static void SendTooFast(Viewer& viewer, std::vector<Json> messages) {
+    std::string flood;
+    for (int i = 0; i < 30; ++i) flood += RawClient::Frame(1, R"({"op":"alive"})");
+    for (std::size_t i = 0; i < messages.size(); ++i) {
+      messages[i]["request"] = i + 1;
+      flood += RawClient::Frame(1, messages[i].dump());
+    }
+    viewer.raw().Send(flood);
+  }
+  static std::map<int, Json> Replies(Viewer& viewer, std::size_t count) {
+    std::map<int, Json> replies;
+    while (replies.size() < count) {
+      const Json reply = viewer.Next("reply");
+      if (!reply.contains("request")) break;
+      replies[reply["request"]] = reply;
+    }
+    return replies;
+  }
+};
+
+TEST_F(ViewersStopOvertakes, WhatWasSentBeforeItIsNotCarriedOutAfterItsRelease) {
+  Viewer viewer = View();
+  const std::string seven = R"({"op":"publish","path":"/app/b/input/in","value":"7"})";
+  SendTooFast(viewer, {Json::parse(seven), {{"op", "stop"}}, {{"op", "release"}, {"path", "stop"}}});
+  auto replies = Replies(viewer, 3);
+  EXPECT_EQ(replies[2]["ok"], true);
+  EXPECT_EQ(replies[3]["ok"], true);
+  EXPECT_THAT(replies[1]["errors"][0]["message"], HasSubstr("STOP was pressed or released after it was sent"));
+  EXPECT_EQ(viewer.Ask(Json::parse(seven))["ok"], true);
+}
+
+TEST_F(ViewersStopOvertakes, AReleaseThatWasSentBeforeItDoesNotEndIt) {
+  Viewer viewer = View();
+  EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true);
+  SendTooFast(viewer, {{{"op", "release"}, {"path", "stop"}}, {{"op", "stop"}}});
+  auto replies = Replies(viewer, 2);
+  EXPECT_EQ(replies[1]["ok"], true);
+  EXPECT_THAT(replies[2]["text"], Not(HasSubstr("already"))) << "the release came first";
+  EXPECT_TRUE(in_force());
+}
+
+TEST_F(ViewersStopOvertakes, WhoSaysTooMuchIsHeardWhenItComesNotWhenItIsCarriedOut) {
+  OperatorWatch& operators = service->operators();
+  operators.Begin(1h);
+  Viewer viewer = View();
+  SendTooFast(viewer, {{{"op", "panel"}}, {{"op", "stop"}}});
+  viewer.Next([](const Json& each) { return each["op"] == "reply" && each["request"] == 2; }, "STOP");
+  const auto heard = operators.Look();
+  viewer.Next([](const Json& each) { return each["op"] == "reply" && each["request"] == 1; }, "what has waited");
+  EXPECT_EQ(operators.Look(), heard);
+}
+
+TEST_F(ViewersStopOvertakes, AHoldIsNotRenewedByWhatHasWaited) {
+  Viewer viewer = View();
+  SendTooFast(viewer, {{{"op", "publish"}, {"path", kIn}, {"value", "7"}, {"deadline", 0.05}, {"lease", "a"}}});
+  auto replies = Replies(viewer, 1);
+  EXPECT_EQ(replies[1]["ok"], false);
+  EXPECT_THAT(replies[1].dump(), HasSubstr("has waited for longer than its deadline"));
+}
+
+TEST_F(ViewersStopOvertakes, WhatIsTooMuchIsRefusedWithItsNumber) {
+  Viewer viewer = View();
+  std::vector<Json> many(100, Json{{"op", "publish"}, {"path", kIn}, {"value", "7"}});
+  SendTooFast(viewer, std::move(many));
+  auto replies = Replies(viewer, 100);
+  EXPECT_THAT(replies[100]["errors"][0]["message"], HasSubstr("too many requests a second"));
+  EXPECT_EQ(replies[1]["ok"], true);
+}
+
+TEST_F(ViewersStop, IsNotReleasedByAnOldRelease) {
+  Start();
+  Viewer viewer(server->port(), "", "runnel.stop.v1");
+  const double before = viewer.Next("alive")["at"].get<double>();
+  EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true);
+  const double now = ToSeconds(std::chrono::steady_clock::now().time_since_epoch());
+  const auto release = [&](double at) { return viewer.Ask({{"op", "release"}, {"path", "stop"}, {"at", at}}); };
+  EXPECT_THAT(release(now - 3.5)["errors"][0]["message"], HasSubstr("too old: STOP may have been pressed again"));
+  EXPECT_THAT(release(before)["errors"][0]["message"], HasSubstr("STOP was pressed or released after it was sent"));
+  EXPECT_TRUE(in_force());
+  EXPECT_EQ(release(viewer.Next("alive")["at"].get<double>())["ok"], true);
+  EXPECT_FALSE(in_force());
 }
 
 TEST_F(ViewersStop, WhatOnlySpeaksOfAStopOvertakesNothing) {

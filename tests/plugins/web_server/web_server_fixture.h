@@ -31,6 +31,7 @@ struct Met {
   std::atomic<int> turns{0};
   std::atomic<int> messages{0};
   std::atomic<int> refused{0};  // by SendText()
+  std::atomic<int> too_many{0};
 
   void Keep(std::function<void()> waker) {
     const std::lock_guard lock(mutex);
@@ -74,7 +75,10 @@ class Echo final : public WebSession {
     client_.SendText(std::string(message));
   }
   void OnBinary(std::string_view message) override { client_.SendBinary(std::string(message)); }
-  bool OutranksLimits(std::string_view message, bool is_text) const override { return is_text && message == "at once"; }
+  WebArrival OnArrival(std::string_view message, bool is_text) override {
+    return {.outranks = is_text && message == "at once", .may_be_late = message.starts_with("late")};
+  }
+  void OnTooMany(std::string_view /*message*/, bool /*is_text*/) override { ++met_.too_many; }
   SteadyTime OnPoll() override {
     ++met_.turns;
     const auto now = std::chrono::steady_clock::now();
