@@ -21,6 +21,15 @@ async function Presses(application, page, press = () => page.locator('#stop-butt
   assert.equal(Stops(application).at(-1).isOwn, true, 'over a connection of its own');
 }
 
+/** A function that tells what the button has said since. */
+async function Listens(page) {
+  await page.evaluate(() => {
+    window.said = [];
+    new MutationObserver(() => window.said.push(document.querySelector('#stop-button').dataset.stop)).observe(document.querySelector('#stop-button'), { attributes: true });
+  });
+  return () => page.evaluate(() => window.said);
+}
+
 async function Releases(page) {
   await page.locator('#stop-release').click();
   await Stands(page, 'free');
@@ -203,13 +212,10 @@ test('while neither connection is heard it is sent over both at once', async (t)
   application.isOwnSilent = true;
   application.isHanging = true;
   await Stands(page, 'unknown');
-  await page.evaluate(() => {
-    window.said = [];
-    new MutationObserver(() => window.said.push(document.querySelector('#stop-button').dataset.stop)).observe(document.querySelector('#stop-button'), { attributes: true });
-  });
+  const said = await Listens(page);
   await page.locator('#stop-button').click();
   while (Stops(application).length === 0) await page.waitForTimeout(20);
-  assert.ok(!(await page.evaluate(() => window.said)).includes('unconfirmed'), 'the other connection has not been waited for');
+  assert.ok(!(await said()).includes('unconfirmed'), 'the other connection has not been waited for');
   application.isOwnSilent = false;
   application.isHanging = false;
   await Stands(page, 'in_force');
@@ -223,8 +229,10 @@ test('while the own connection is not heard the other one alone confirms it', as
   application.isOwnDeaf = true;
   await page.waitForTimeout(2500); // until it is not heard any more
   await Stands(page, 'free');
+  const said = await Listens(page);
   await page.locator('#stop-button').click();
   await Stands(page, 'in_force');
+  assert.ok(!(await said()).includes('unconfirmed'), 'at once');
   assert.deepEqual(IsByOwn(application), new Set([false]));
 });
 
