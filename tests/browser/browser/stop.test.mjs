@@ -8,6 +8,7 @@ import { OpenPanel } from '../support/panel.mjs';
 
 const kText = { id: 'note', kind: 'text', x: 0, y: 0, w: 3, h: 2, text: 'by hand' };
 const Stops = (application) => application.asked.filter(({ op }) => op === 'stop');
+const IsByOwn = (application) => new Set(Stops(application).map(({ isOwn }) => isOwn === true));
 const Stands = (page, how) => page.locator(`#stop-button[data-stop="${how}"]`).waitFor();
 
 /** Presses, and waits until the robot has confirmed it: by one message over the connection that bears nothing else. */
@@ -18,6 +19,15 @@ async function Presses(application, page, press = () => page.locator('#stop-butt
   await page.locator('#stop-banner[data-stop="in_force"]').waitFor({ state: 'attached' }); // a dialog shows the button alone
   assert.equal(Stops(application).length, before + 1, 'one message');
   assert.equal(Stops(application).at(-1).isOwn, true, 'over a connection of its own');
+}
+
+/** A function that tells what the button has said since. */
+async function Listens(page) {
+  await page.evaluate(() => {
+    window.said = [];
+    new MutationObserver(() => window.said.push(document.querySelector('#stop-button').dataset.stop)).observe(document.querySelector('#stop-button'), { attributes: true });
+  });
+  return () => page.evaluate(() => window.said);
 }
 
 async function Releases(page) {
@@ -202,16 +212,55 @@ test('while neither connection is heard it is sent over both at once', async (t)
   application.isOwnSilent = true;
   application.isHanging = true;
   await Stands(page, 'unknown');
-  await page.evaluate(() => {
-    window.said = [];
-    new MutationObserver(() => window.said.push(document.querySelector('#stop-button').dataset.stop)).observe(document.querySelector('#stop-button'), { attributes: true });
-  });
+  const said = await Listens(page);
   await page.locator('#stop-button').click();
   while (Stops(application).length === 0) await page.waitForTimeout(20);
-  assert.ok(!(await page.evaluate(() => window.said)).includes('unconfirmed'), 'the other connection has not been waited for');
+  assert.ok(!(await said()).includes('unconfirmed'), 'the other connection has not been waited for');
   application.isOwnSilent = false;
   application.isHanging = false;
   await Stands(page, 'in_force');
+  for (let left = 100; IsByOwn(application).size < 2 && left > 0; --left) await page.waitForTimeout(50);
+  assert.deepEqual(IsByOwn(application), new Set([true, false]), 'over both');
+});
+
+test('while the own connection is not heard the other one alone confirms it', async (t) => {
+  const { application, page } = await OpenMockPanel(t, { widgets: [kText] });
+  application.isOwnSilent = true;
+  application.isOwnDeaf = true;
+  await page.waitForTimeout(2500); // until it is not heard any more
+  await Stands(page, 'free');
+  const said = await Listens(page);
+  await page.locator('#stop-button').click();
+  await Stands(page, 'in_force');
+  assert.ok(!(await said()).includes('unconfirmed'), 'at once');
+  assert.deepEqual(IsByOwn(application), new Set([false]));
+});
+
+test('a driving port that no STOP reaches is named in the place of what is said of a STOP in force', async (t) => {
+  const path = '/mock/world/twist';
+  const { application, page } = await OpenMockPanel(t, { widgets: [kText], prepare: (mock) => {
+    mock.elements.set(path, { ...mock.elements.get(path), unreached: 'its cycle hangs' });
+  } });
+  await page.locator('#stop-button').click();
+  await page.locator('#stop-banner[data-stop="unreached"]', { hasText: `does not reach ${path}: its cycle hangs. The robot may move` }).waitFor();
+  assert.match(await page.locator('#stop-spoken').textContent(), /does not reach/);
+  assert.equal(application.stop.in_force, true);
+  await page.locator('#stop-release').click();
+  await Stands(page, 'free');
+});
+
+test('a release says which sign of life it answers, and one that comes too late is refused, and shown', async (t) => {
+  const { application, page } = await OpenMockPanel(t, { widgets: [kText] });
+  await Presses(application, page);
+  application.isOwnDeaf = true; // a slow way there
+  await page.locator('#stop-release').click();
+  await page.waitForTimeout(3500);
+  application.isOwnDeaf = false;
+  await page.locator('.release-problem', { hasText: 'too late' }).waitFor();
+  await Stands(page, 'in_force');
+  await Releases(page);
+  const [late, good] = application.asked.filter(({ op }) => op === 'release');
+  assert.ok(good.at - late.at > 2.5, `${late.at} and ${good.at}`);
 });
 
 test('of an application in which nothing is marked it is said that it stops nothing', async (t) => {

@@ -5,15 +5,17 @@ import { OpenPage } from '../support/browser.mjs';
 import { Network, OpenPanel } from '../support/panel.mjs';
 
 const kLook = 20; // ms
+// What a page says of STOP: 'free', 'in_force'; undefined: that it does not know; null: what would say it is not on the page.
 const kClaims = {
-  // What a page says of STOP: 'free', 'in_force', or nothing that it claims to know.
-  'the button': ({ stop }) => ({ free: 'free', in_force: 'in_force', nothing: 'in_force' })[stop],
-  'the stick': ({ chip }) => (chip === 'STOP' ? 'in_force' : chip === '' || /not (confirmed|known)/.test(chip) ? undefined : 'free'),
+  'the button': ({ stop }) => ({ free: 'free', in_force: 'in_force', nothing: 'in_force', unreached: 'in_force' })[stop],
+  'the stick': ({ chip }) => (chip === 'STOP' ? 'in_force' : chip === '' ? null : /not (confirmed|known)/.test(chip) ? undefined : 'free'),
   'the values': ({ fresh }) => (fresh ? 'heard' : undefined),
 };
 
+/** Of a robot that is away nothing is known; of one that is heard it is said how it is. */
 function IsSo(claim, truth) {
-  return claim === undefined || claim === truth || (claim === 'heard' && truth !== 'away');
+  if (claim === null) return true;
+  return truth === 'away' ? claim === undefined : claim === truth || claim === 'heard';
 }
 
 /** In the page: writes down what it shows whenever that changes. */
@@ -35,7 +37,8 @@ function Record() {
 
 export class Pages {
   looks = 0;
-  longest = 0; // ms that one said otherwise
+  longest = 0; // ms that one said otherwise, or nothing
+  right = Object.fromEntries(Object.keys(kClaims).map((what) => [what, 0]));
   #truths = []; // {at, truth}, not compared yet
   #ends = [];
   #isCut = false;
@@ -82,7 +85,10 @@ export class Pages {
   #compare(state, at) {
     if (!state.shows || !state.truth) return;
     for (const [what, claimOf] of Object.entries(kClaims)) {
-      if (IsSo(claimOf(state.shows), state.truth)) state.lies.delete(what);
+      const claim = claimOf(state.shows);
+      const isSo = IsSo(claim, state.truth);
+      if (isSo && claim) this.right[what] += 1;
+      if (isSo) state.lies.delete(what);
       else if (!state.lies.has(what)) state.lies.set(what, at);
     }
     if (state.lies.size === 0) state.gap = 0;

@@ -16,7 +16,7 @@ const kPlanners = ['bug1', 'bug2', 'tangent_bug', 'dist_bug'];
 
 const random = new Random(Number(asked.seed));
 const found = [];
-const counts = { steps: 0, presses: 0, refused: 0, killed: 0, frozen: 0, restarted: 0, reloaded: 0, cut: 0, held: 0, 'by pages': 0 };
+const counts = { steps: 0, presses: 0, confirmed: 0, refused: 0, killed: 0, frozen: 0, restarted: 0, reloaded: 0, cut: 0, held: 0, 'by pages': 0 };
 let last = '';
 
 function Found(what) {
@@ -42,14 +42,17 @@ async function Press() {
   counts.presses += 1;
   const how = random.below(3);
   last = `press, ${how}`;
-  if (how === 0) return robot.command('stop');
-  return how === 1 ? watcher.stop.ask({ op: 'stop' }) : watcher.ask({ op: 'stop' });
+  const isConfirmed = how === 0 ? await robot.command('stop') === 0
+    : (await (how === 1 ? watcher.stop : watcher).ask({ op: 'stop' })).ok === true;
+  if (!isConfirmed) return;
+  counts.confirmed += 1;
+  watcher.mustBeStopped(['a terminal', 'the connection of STOP', 'the main connection'][how]);
 }
 
 async function Release() {
   last = 'release';
   watcher.mayBeReleased();
-  return random.below(2) === 0 ? robot.command('release') : watcher.ask({ op: 'release', path: 'stop' });
+  return random.below(2) === 0 ? robot.command('release') : watcher.release();
 }
 
 const Part = () => random.of(watcher.parts());
@@ -163,7 +166,11 @@ if (Number(asked.browser) > 0) {
 console.log(`seed ${asked.seed}: ${Object.entries(counts).map(([name, count]) => `${count} ${name}`).join(', ')}`);
 console.log(`${watcher.values} values of driving ports came, ${watcher.stopped} under STOP, ${watcher.moving} that moved`);
 if (pages) console.log(`${pages.looks} looks at pages; the longest that one said otherwise: ${Math.round(pages.longest)} ms`);
+const kNothing = { 'presses were confirmed': counts.confirmed, 'values came under STOP': watcher.stopped, 'values moved': watcher.moving,
+  ...Object.fromEntries(Object.entries(pages?.right ?? {}).map(([what, count]) => [`claims of ${what} were right`, count])) };
+const missing = counts.steps === 0 ? [] : Object.entries(kNothing).filter(([, count]) => count === 0).map(([what]) => what);
+for (const what of missing) console.log(`no ${what}: this search has looked at nothing`);
 console.log(`${found.length} ways around STOP, ${Math.round((performance.now() - begin) / 1000)} s`);
 await pages?.close();
 await robot.end();
-process.exit(found.length > 0 ? 1 : 0);
+process.exit(found.length + missing.length > 0 ? 1 : 0);

@@ -60,6 +60,8 @@ export class Watcher {
   #mayBeReleased = true; // somebody may have asked for the release of the STOP of `#pressedAt`, or of one before it
   #pressedAt = null;
   #told = null;          // {in_force, since} by this connection
+  #at = 0;               // of the newest sign of life, s of the machine's time
+  #mustBeStopped = '';   // how it was pressed, and confirmed; since then nobody has asked for a release
   /** As the robot has told last, by any connection: {in_force, since: when that was heard here first}. */
   truth = { in_force: false, since: 0 };
 
@@ -101,12 +103,23 @@ export class Watcher {
 
   /** From now on it may be released at any time; a STOP that is pressed later may not. */
   mayBeReleased() {
+    this.#mustBeStopped = '';
     this.#mayBeReleased = true;
     this.#pressedAt = this.#told?.since;
   }
 
+  /** The robot has confirmed a press: `how`. */
+  mustBeStopped(how) {
+    this.#mustBeStopped = how;
+  }
+
+  release() {
+    return this.ask({ op: 'release', path: 'stop', at: this.#at });
+  }
+
   #receive(message, from) {
     if (from !== this.main) return;
+    if (message.op === 'alive') this.#at = message.at;
     if (message.op === 'alive') this.#hear(message.stop);
     else if (message.op === 'structure') this.#takeAll(message);
     else if (message.op === 'structure_change') this.#takeChange(message);
@@ -169,6 +182,10 @@ export class Watcher {
     if (this.robot.hasEnded) return;
     if (this.main.socket.readyState !== WebSocket.OPEN || this.stop.socket.readyState !== WebSocket.OPEN) await this.connect();
     await this.ask({ op: 'conversions', from: '/', to: '/' });
+    if (this.#mustBeStopped && this.main.socket.readyState === WebSocket.OPEN) {
+      if (!this.#told.in_force) this.found(`STOP is not in force, and was confirmed to ${this.#mustBeStopped}`);
+      this.#mustBeStopped = '';
+    }
   }
 
   /** Whether there is a robot that is worth looking at. */

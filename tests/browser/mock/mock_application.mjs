@@ -17,6 +17,7 @@ export class MockApplication {
     this.asked = [];  // all requests
     this.stop = { in_force: false, by: '', since: 0 };
     this.isOwnSilent = false; // those of the STOP give no sign of life, and answer
+    this.isOwnDeaf = false;   // they do not even read
     this.isHanging = false; // the main connections say nothing more, those of the STOP do
     this.answers = {}; // op -> function (reply, message, socket), in the place of the mock's own answer
     this.time = 0;

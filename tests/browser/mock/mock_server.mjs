@@ -86,8 +86,14 @@ function Now({ saidAt }) {
   return saidAt ?? performance.now() / 1000;
 }
 
-function AnswerStop(application, op, { path }, by, reply) {
+const kOldestRelease = 3; // s since the sign of life that it answers
+
+function AnswerStop(application, op, { path, at }, by, reply) {
   if (op !== 'stop' && (op !== 'release' || path !== 'stop')) return false;
+  if (op === 'release' && !(performance.now() / 1000 - at <= kOldestRelease)) {
+    reply({ ok: false, errors: [{ message: 'this release comes too late', path: null, hint: null }] });
+    return true;
+  }
   application.stop = { in_force: op === 'stop', by, since: application.time };
   reply({ ok: true, text: '' });
   return true;
@@ -103,7 +109,7 @@ class StopClient {
   }
 
   #read() {
-    while (!IsDeaf(this.application) && this.backlog.length > 0) this.#answer(JSON.parse(this.backlog.shift()));
+    while (!IsDeaf(this.application) && !this.application.isOwnDeaf && this.backlog.length > 0) this.#answer(JSON.parse(this.backlog.shift()));
   }
 
   #answer({ op, request, ...asked }) {

@@ -4,8 +4,10 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <random>
+#include <set>
 #include <stdexcept>
 
 #include "core/element/runtime.h"
@@ -54,6 +56,9 @@ class Search {
     scheduler_.reset();
     runtime_.emplace();
     released_at_.reset();
+    renames_.clear();
+    marked_.clear();
+    blocked_.clear();
     if (is_stopped_) runtime_->robot_stop().Press("the search");
     const auto folder = std::filesystem::path(RUNNEL_XML) / "apps";
     auto document = XmlDocument::Load((folder / "bug_demo.xml").string());
@@ -78,6 +83,7 @@ class Search {
     for (Port* const port :
          Ports([](const Port& port) { return port.name() == "wheels" || port.name() == "twist"; }))
       (void)port->SetDriving(true);
+    NoteMarks();
   }
 
   FrameworkElement* application() {
@@ -94,8 +100,41 @@ class Search {
     });
     return ports;
   }
+  // As they have to be, whatever the ports themselves say.
   std::vector<Port*> DrivingPorts() {
-    return Ports([](const Port& port) { return port.is_driving(); });
+    return Ports([&](const Port& port) { return marked_.contains(port.path()); });
+  }
+  void NoteMarks() {
+    for (Port* const port : Ports([](const Port& port) { return port.is_driving(); }))
+      marked_.insert(port->path());
+  }
+  // What was marked or blocked and is still there has to be so still; what was deleted is not asked for any more.
+  void CheckMarks() {
+    const auto check = [&](std::set<std::string>& paths, bool (Port::*is)() const noexcept, const char* what) {
+      std::set<std::string> there;
+      for (Port* const port : Ports([&](const Port& port) { return paths.contains(port.path()); })) {
+        if ((port->*is)()) {
+          there.insert(port->path());
+        } else {
+          Violate(port->path() + " has lost " + what);
+        }
+      }
+      paths = std::move(there);
+    };
+    check(marked_, &Port::is_driving, "its mark as driving");
+    check(blocked_, &Port::is_blocked, "its block");
+    NoteMarks();  // copies
+  }
+  void Move(const std::string& from, const std::string& to) {
+    for (std::set<std::string>* const paths : {&marked_, &blocked_}) {
+      std::set<std::string> moved;
+      for (const std::string& path : *paths)
+        moved.insert(path.starts_with(from + "/") ? to + path.substr(from.size()) : path);
+      *paths = std::move(moved);
+    }
+  }
+  void Violate(const std::string& what) {
+    result_.violations.push_back("step " + std::to_string(result_.steps) + ", after '" + last_ + "': " + what);
   }
   std::vector<FrameworkElement*> Parts() {
     std::vector<FrameworkElement*> parts;
@@ -115,9 +154,30 @@ class Search {
     return all.empty() ? nullptr : all[Below(all.size())];
   }
 
-  void Change(ChangeSet changes) {
+  bool Change(ChangeSet changes) {
     last_ = ChangeText(changes.front());
-    if (!history_->Apply(changes)) ++result_.refused;
+    const bool is_done = history_->Apply(changes).is_done;
+    if (!is_done) ++result_.refused;
+    return is_done;
+  }
+  void Rename() {
+    FrameworkElement* const part = OneOf(Parts());
+    if (part == nullptr) return;
+    const std::string from = part->path();
+    const std::string name = "part" + std::to_string(++names_);
+    if (!Change({RenameElement{from, name}})) return;
+    const auto& moved = renames_[last_] = {from, from.substr(0, from.rfind('/') + 1) + name};
+    Move(moved.first, moved.second);
+  }
+  void Undo() {
+    last_ = "undo";
+    const auto renamed = renames_.find(history_->NextUndo().value_or(""));
+    if (history_->Undo() && renamed != renames_.end()) Move(renamed->second.second, renamed->second.first);
+  }
+  void Redo() {
+    last_ = "redo";
+    const auto renamed = renames_.find(history_->NextRedo().value_or(""));
+    if (history_->Redo() && renamed != renames_.end()) Move(renamed->second.first, renamed->second.second);
   }
   void SetByHand(Port::Setter setter) {
     Port* const port = OneOf(DrivingPorts());
@@ -139,7 +199,8 @@ class Search {
     Port* const to = OneOf(DrivingPorts());
     if (to == nullptr) return;
     if (!to->incoming().empty()) {
-      return Change({DisconnectPorts{to->incoming().front()->path(), to->path()}});
+      Change({DisconnectPorts{to->incoming().front()->path(), to->path()}});
+      return;
     }
     Port* const from = OneOf(Ports([&](const Port& port) {
       return &port.type() == &to->type() && port.direction() == Port::Direction::kOutput;
@@ -160,22 +221,22 @@ class Search {
         {5, [&] { Release(); }},
         {2,
          [&] {
-           if (Port* port = OneOf(DrivingPorts())) (void)port->Block();
+           Port* const port = OneOf(DrivingPorts());
+           if (port != nullptr && port->Block()) blocked_.insert(port->path());
          }},
         {2,
          [&] {
-           if (Port* port = OneOf(DrivingPorts())) (void)port->Unblock();
+           Port* const port = OneOf(DrivingPorts());
+           if (port == nullptr) return;
+           (void)port->Unblock();
+           blocked_.erase(port->path());
          }},
         {4, [&] { SetByHand(Port::Setter::kPerson); }},
         {2, [&] { SetByHand(Port::Setter::kRule); }},
         {3, [&] { ReleaseByHand(Port::Setter::kPerson); }},
         {2, [&] { ReleaseByHand(Port::Setter::kRule); }},
         {2, [&] { CutOrMend(); }},
-        {3,
-         [&] {
-           if (auto* part = OneOf(Parts()))
-             Change({RenameElement{part->path(), "part" + std::to_string(++names_)}});
-         }},
+        {3, [&] { Rename(); }},
         {1,
          [&] {
            if (auto* part = OneOf(Parts())) Change({DeleteElement{part->path()}});
@@ -191,16 +252,8 @@ class Search {
            last_ = "run again";
            Build();
          }},
-        {5,
-         [&] {
-           last_ = "undo";
-           (void)history_->Undo();
-         }},
-        {2,
-         [&] {
-           last_ = "redo";
-           (void)history_->Redo();
-         }},
+        {5, [&] { Undo(); }},
+        {2, [&] { Redo(); }},
         {14, [&] { RunCycles(1 + Below(4)); }},
     };
     int sum = 0;
@@ -243,6 +296,7 @@ class Search {
     return ToText(port.type(), value) == ToText(port.type(), port.stop()->safe_value().get());
   }
   void Check() {
+    CheckMarks();
     for (Port* const port : DrivingPorts()) {
       for (Port* const reader : port->Sinks()) {
         if (&reader->type() == &port->type()) Check(*port, *reader);
@@ -257,9 +311,8 @@ class Search {
       ++result_.moving;
       const bool is_late_enough = !released_at_ || (times.timestamp > *released_at_ &&
                                                     times.publication_time > *released_at_);
-      if (!is_stopped_ && !port.is_blocked() && is_late_enough) return;
-      result_.violations.push_back("step " + std::to_string(result_.steps) + ", after '" + last_ +
-                                   "': " + reader.path() + " is " + ToText(port.type(), value));
+      if (!is_stopped_ && !blocked_.contains(port.path()) && is_late_enough) return;
+      Violate(reader.path() + " is " + ToText(port.type(), value));
     });
   }
 
@@ -270,6 +323,9 @@ class Search {
   std::uint64_t names_ = 0;
   bool is_stopped_ = false;  // as it has to be, whatever the robot says
   std::optional<Time> released_at_;
+  std::set<std::string> marked_;  // paths of ports that drive, and of those that are blocked
+  std::set<std::string> blocked_;
+  std::map<std::string, std::pair<std::string, std::string>> renames_;  // label of the change -> from, to
 
   XmlTagRegistry tags_ = ApplicationTags();
   PluginManager plugins_;

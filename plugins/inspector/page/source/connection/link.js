@@ -21,6 +21,8 @@ export class Link {
   #given = 0; // when the newest sign of life was given, by this page's clock
   #offset = 0; // of the server's clock to this page's, as of the sign of life that was quickest on its way
   #isSilent = false;
+  /** When the newest sign of life of this connection was said, in seconds of the server's machine; 0: there was none yet. */
+  at = 0;
 
   /**
    * `onState` is told 'connecting', 'open', 'silent' (there is no fresh sign of life; 'open' again when there is one), 'lost' or
@@ -43,6 +45,7 @@ export class Link {
     this.#given = performance.now();
     this.#offset = Infinity;
     this.#isSilent = false;
+    this.at = 0;
     let wasOpen = false;
     socket.onopen = () => { wasOpen = true; this.#pause = kFirstPause; this.#hear(performance.now(), 'open'); };
     socket.onmessage = (event) => this.#receive(event.data);
@@ -62,6 +65,7 @@ export class Link {
     const given = message.at * 1000 + this.#offset;
     if (!(now - given <= kSilent)) return; // nor what does not say when it was
     this.#hear(given);
+    this.at = message.at;
     this.#onMessage({ ...message, given });
   }
 

@@ -129,8 +129,8 @@ function OnStructure(message) {
   structureOf.value = hello.value.run;
   ShowNetwork(structure);
   CountChange(true);
+  link.send({ op: 'watch_rates', rate: 2 }); // before watches, which may be more than the server takes at once
   watches.askAgain();
-  link.send({ op: 'watch_rates', rate: 2 });
 }
 
 function OnStructureChange(message) {

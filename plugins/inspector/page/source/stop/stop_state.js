@@ -24,7 +24,7 @@ export const isConfirmed = computed(() => isInForce.value && isHeard.value && !p
 let own = null;
 let other = null;
 let timer = 0;
-const asked = new Set(); // links of which an answer to a press is awaited
+const asked = new Map(); // link -> `since` of the press of which its answer is awaited
 
 /** Opens the connection that bears nothing else. */
 export function StartStop(url) {
@@ -86,21 +86,23 @@ function Resend(links = Links()) {
 }
 
 async function Send(link) {
-  if (!link || asked.has(link)) return;
-  asked.add(link);
+  const press = pressed.value.since;
+  if (!link || asked.get(link) === press) return;
+  asked.set(link, press);
   const reply = await link.request({ op: 'stop' });
-  asked.delete(link);
+  if (asked.get(link) === press) asked.delete(link);
+  if (press !== pressed.value?.since) return; // an answer to an earlier press says nothing of this one
   if (reply.ok && link === own && !isInForce.value) Take({ stop: { in_force: true, by: '', since: 0 } }); // who it was comes at once
-  if (reply.ok) return Confirmed();
-  if (reply.lost || !pressed.value) return undefined; // sent again
+  if (reply.ok) Confirmed();
+  if (reply.ok || reply.lost) return; // lost: sent again
   clearInterval(timer);
   pressed.value = { ...pressed.value, isLate: true, problem: reply.errors?.[0]?.message ?? 'no reason was given' };
-  return undefined;
 }
 
-/** The second, separate act. */
+/** The second, separate act. It says which sign of life it answers: one that comes late ends no STOP that was pressed meanwhile. */
 export async function ReleaseStop() {
-  const reply = await (isOwnHeard.value ? own : other).request({ op: 'release', path: 'stop' });
+  const link = isOwnHeard.value ? own : other;
+  const reply = await link.request({ op: 'release', path: 'stop', at: link.at });
   const error = reply.errors?.[0];
-  releaseProblem.value = reply.ok ? '' : [error?.message, error?.hint].filter(Boolean).join('; ') || 'it was refused';
+  releaseProblem.value = reply.ok || !isInForce.value ? '' : [error?.message, error?.hint].filter(Boolean).join('; ') || 'it was refused';
 }

@@ -18,6 +18,17 @@ const stopsNothing = computed(() => {
   return structure.root !== null && ![...structure.ofKind('port')].some(({ driving }) => driving);
 });
 
+/** Driving ports that no STOP reaches now, as the robot itself knows. */
+const unreached = computed(() => {
+  shapeRevision.value;
+  return [...structure.ofKind('port')].filter(({ driving, unreached: why }) => driving && why);
+});
+
+function Unreached() {
+  const [{ path, unreached: why }, ...others] = unreached.value;
+  return `STOP is in force and does not reach ${path}${others.length > 0 ? ` and ${others.length} more` : ''}: ${why}. The robot may move: use its own stop.`;
+}
+
 /** How it stands: [name, what is said]; '' says nothing. */
 function Standing() {
   const press = pressed.value;
@@ -26,11 +37,12 @@ function Standing() {
   if (press) return ['pressed', ''];
   if (isInForce.value && !isHeard.value) return ['unknown', 'STOP was in force when the robot was last heard of. It has not been confirmed since: the robot may move.'];
   if (isInForce.value && stopsNothing.value) return ['nothing', 'STOP is in force and stops nothing: no port of this application is marked as one by which something moves (<driving port="…"/>). The robot may move: use its own stop.'];
+  if (isInForce.value && unreached.value.length > 0) return ['unreached', Unreached()];
   if (isInForce.value) return ['in_force', 'STOP is in force: whatever moves has its safe value, whatever anybody sends.'];
   return isHeard.value ? ['free', ''] : ['unknown', ''];
 }
 
-const kLabels = { free: 'STOP', pressed: 'STOP …', in_force: 'STOPPED', unconfirmed: 'STOP ?', unknown: 'STOP ?', refused: 'STOP !', nothing: 'STOP !' };
+const kLabels = { free: 'STOP', pressed: 'STOP …', in_force: 'STOPPED', unconfirmed: 'STOP ?', unknown: 'STOP ?', refused: 'STOP !', nothing: 'STOP !', unreached: 'STOP !' };
 const kSpoken = { free: 'STOP is not in force', pressed: 'STOP has been pressed', unknown: 'Whether STOP is in force is not known' };
 
 /** Pressing is enough: it does not wait until it is let go. A click alone, as some aids send it, does the same. */
