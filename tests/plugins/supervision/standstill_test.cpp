@@ -67,6 +67,24 @@ TEST_F(Driven, WhatARuleHasSetIsTheRulesToTakeBack) {
   EXPECT_EQ(robot.seen, 5);
 }
 
+TEST_F(Driven, ACommandFromBeforeThePauseDoesNotDriveWhenTheRuleTakesItsValueBack) {
+  SupervisionRule rule{.when = SupervisionRule::When::kPaused,
+                       .of = "/laser",
+                       .reaction = {.published = {{"/reader/in", "5"}}}};
+  rule.otherwise.TakeBack(rule.reaction);
+  MustSucceed(robot.supervisor.Add(rule));
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  RunOn();
+  EXPECT_EQ(robot.seen, 5);
+  robot.laser_works = false;
+  MustSucceed(robot.supervisor.SetPaused("/laser", false));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+  robot.laser_works = true;
+  RunOn();
+  EXPECT_EQ(robot.seen, 1);
+}
+
 TEST(StandstillInRealTime, APortHasItsSafeValueWhileTheThreadOfWhatFeedsItIsStuck) {
   Robot robot(SchedulerOptions::ClockKind::kReal);
   std::atomic<bool> hangs{false};
