@@ -3,6 +3,7 @@
 #include "core/port/port_stop.h"
 
 #include <algorithm>
+#include <chrono>
 #include <mutex>
 #include <utility>
 
@@ -14,6 +15,10 @@
 #include "core/types/type_info.h"
 
 namespace runnel {
+
+namespace {
+constexpr Duration kLongestBrake = std::chrono::seconds(10);
+}  // namespace
 
 bool IsVelocity(const TypeInfo& type, const std::string& unit) {
   if (type.semantic_tag() == "twist" || unit == "m/s" || unit == "rad/s") return true;
@@ -91,6 +96,9 @@ Result<void> Port::SetStop(AnyValue safe_value, Duration brake, std::shared_ptr<
   // Readers must be able to hold a value of the type.
   const auto channel = internal::MakeChannelFor(type_);
   if (!channel) return CannotPublish("only a module can make values of its type");
+  if (brake > kLongestBrake) {
+    return Error{.message = "would take longer than 10 s to brake", .path = path(), .hint = "a STOP has to stop; give the time it needs"};
+  }
   if (brake > Duration{} && !internal::StopLink::CanBrake(safe_value, *channel)) {
     return Error{.message = "cannot brake: a " + type_.name() + " is larger than 32 bytes, or a part of it is no number",
                  .path = path(),

@@ -11,6 +11,7 @@
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "plugins/application/internal/application_parts.h"
+#include "plugins/application/what_is_lost.h"
 #include "plugins/application_files/application_builder.h"
 #include "plugins/application_files/saving/application_saver.h"
 #include "plugins/application_files/saving/saving.h"
@@ -43,83 +44,13 @@ Result<void> ResultOf(const ChangeOutcome& outcome) {
   return outcome.diagnostics.errors().front();
 }
 
-// What would be lost if something else were written there; nothing if there is no such file.
-std::optional<Error> WhatIsLost(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return {};
-  std::string what = "is there already";
-  const auto document = XmlDocument::Load(file);
-  if (document && document->root().name() == "application") {
-    const XmlAttribute* const name = document->root().Attribute("name");
-    what = "is the file of the application '" + (name != nullptr ? name->value : "") + "'";
-  }
-  return Error{.message = what + ", and would be lost",
-               .position = {file.string()},
-               .hint = "choose another name, or say --overwrite"};
-}
-
-// The same, unless the application came from it.
-std::optional<Error> FindOverwritten(const FrameworkElement& application, const std::filesystem::path& file) {
-  const auto* const source = application.FindAnnotation<ApplicationSource>();
-  const bool is_own = source != nullptr && Whole(source->file) == Whole(file);
-  return is_own || file.empty() ? std::nullopt : WhatIsLost(file);
-}
-
-// What SaveApplication() with the same arguments would write, and what it would replace; whether the text would load is
-// not tried. Under the structure lock.
-Result<ServiceHooks::SaveDifference> PreviewSave(FrameworkElement& application, const SaveTools& tools,
-                                                 const std::filesystem::path& chosen = {}) {
-  const auto* const source = application.FindAnnotation<ApplicationSource>();
-  if (chosen.empty() && source == nullptr) {
-    return Error{.message = "the application was built by code, and has no file yet",
-                 .path = application.path(),
-                 .hint = "name one"};
-  }
-  const std::filesystem::path file = chosen.empty() ? source->file : chosen;
-  auto text = internal::TextOfApplication(application, tools, file.parent_path());
-  if (!text) return text.error();
-  ServiceHooks::SaveDifference difference{file.string(), {}, std::move(text->text)};
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) {
-    auto before = XmlDocument::ReadText(file);
-    if (!before) return before.error();
-    difference.before = std::move(*before);
-  }
-  return difference;
-}
+// Where another file is written, that one does not begin under it.
+bool KeepsStop(StopFile* file, bool is_own_file = true) { return is_own_file && file != nullptr && file->IsKept(); }
 
 // "planning" of "planning/bug1"; "" if there is none.
 std::string PluginOf(std::string_view type) {
   const std::size_t slash = type.find('/');
   return std::string(type.substr(0, slash == std::string_view::npos ? 0 : slash));
-}
-
-// What is set now and no file keeps, as a sentence; "" for nothing. `has_stop`: whoever comes next has that. Under the
-// structure lock.
-std::string WhatPasses(FrameworkElement& application, const Scheduler& scheduler, bool has_stop) {
-  std::string all;
-  const auto add = [&](const std::string& what) { all += (all.empty() ? "" : ", ") + what; };
-  if (!has_stop && application.runtime().robot_stop().in_force()) add("the STOP of the robot");
-  bool is_recorded = false;
-  for (const std::string& path : scheduler.PausedPaths()) add("the pause of " + path);
-  application.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr) return;
-    if (port->is_blocked()) add("the block of " + port->path());
-    is_recorded = is_recorded || internal::IsRecorded(*port);
-    if (port->is_set_by_hand()) add("the value by hand of " + port->path());
-  });
-  if (is_recorded) add("recordings");
-  return all.empty() ? "" : "not saved, as it ends with the run: " + all;
-}
-
-// The next process of its file has neither what passes nor what is not saved.
-std::string WhatEnds(FrameworkElement& application, const Scheduler& scheduler, const SaveTools& tools, bool has_stop) {
-  std::string lost = WhatPasses(application, scheduler, has_stop);
-  if (!lost.empty()) lost = "\n" + lost;
-  const auto preview = PreviewSave(application, tools);
-  if (preview && preview->before != preview->after) lost += "\nnot saved: what has been changed in " + preview->file;
-  return lost;
 }
 
 }  // namespace
@@ -264,11 +195,13 @@ Result<void> Application::Save(const std::filesystem::path& file, bool overwrite
   const auto found = parts_->FindAgain();
   if (!found) return found.error();
   const SaveTools tools{parts_->plugins(), parts_->tags()};
+  const bool is_own = internal::IsOwnFile(**found, file);
   if (!overwrites) {
-    if (auto lost = FindOverwritten(**found, file)) return *lost;
+    if (auto lost = internal::FindOverwritten(**found, file)) return *lost;
   }
   auto saved = SaveApplication(**found, tools, file);
-  const std::string passing = saved ? WhatPasses(**found, *parts_->scheduler, false) : "";
+  const std::string passing =
+      saved ? internal::WhatPasses(**found, *parts_->scheduler, KeepsStop(parts_->stop_file.get(), is_own)) : "";
   if (!passing.empty()) parts_->Add({ApplicationEvent::Kind::kNotice, passing});
   return saved;
 }
@@ -315,19 +248,23 @@ CommandService& Application::service() {
     if (auto saved = Save(file, true); !saved) return saved.error();
     const std::lock_guard lock(parts_->runtime().structure_mutex());
     const auto found = parts_->FindAgain();
-    const std::string passing = found ? WhatPasses(**found, *parts_->scheduler, false) : "";
+    const std::string passing =
+        found ? internal::WhatPasses(**found, *parts_->scheduler,
+                                     KeepsStop(parts_->stop_file.get(), internal::IsOwnFile(**found, file)))
+              : "";
     return passing.empty() ? done : done + "\n" + passing;
   };
   hooks.preview_save = [this](const std::string& file) {
     const std::lock_guard lock(parts_->runtime().structure_mutex());
     const auto found = parts_->FindAgain();
-    return found ? PreviewSave(**found, {parts_->plugins(), parts_->tags()}, file) : found.error();
+    return found ? internal::PreviewSave(**found, {parts_->plugins(), parts_->tags()}, file) : found.error();
   };
   hooks.find_overwritten = [this](const SaveRequest& request) -> std::optional<Error> {
     const std::lock_guard lock(parts_->runtime().structure_mutex());
     const auto found = parts_->FindAgain();
     if (!found) return {};
-    return request.is_configuration ? WhatIsLost(request.file) : FindOverwritten(**found, request.file);
+    return request.is_configuration ? internal::WhatIsLost(request.file)
+                                     : internal::FindOverwritten(**found, request.file);
   };
   hooks.save_configuration = [this](const std::string& file) { return SaveConfiguration(file); };
   hooks.set_paused = [this](const std::string& path, bool is_paused) {
@@ -342,13 +279,17 @@ CommandService& Application::service() {
   for (auto* const ends : {&hooks.quit, &hooks.restart}) {
     if (!*ends) continue;
     *ends = [this, end = *ends]() -> Result<std::string> {
-      const auto what_ends = [this]() -> std::string {
-        // Whoever has the lock does not keep the run from its end.
+      std::string lost;
+      try {  // a type whose text throws does not keep the run from its end, nor does whoever has the lock
         const std::unique_lock lock(parts_->runtime().structure_mutex(), std::try_to_lock);
         const auto found = lock ? parts_->FindAgain() : Error{};
-        return found ? WhatEnds(**found, *parts_->scheduler, {parts_->plugins(), parts_->tags()}, options().keeps_stop) : "";
-      };
-      const std::string lost = what_ends();
+        if (found) {
+          lost = internal::WhatEnds(**found, *parts_->scheduler, {parts_->plugins(), parts_->tags()},
+                                    KeepsStop(parts_->stop_file.get()));
+        }
+      } catch (...) {
+        lost = "\nwhat is not saved cannot be told";
+      }
       auto ended = end();
       return ended ? Result<std::string>(*ended + lost) : ended;
     };

@@ -100,7 +100,7 @@ XmlTag DrivingTag() {
                           .summary = "the value at which it stands still; if left out, the input's default, or zero of a velocity"},
                          {.name = "brake",
                           .kind = AttributeKind::kDuration,
-                          .summary = "how long the way there takes from the value read last; if left out, no time"}},
+                          .summary = "how long the way there takes from the value read last, 10 s at most; if left out, no time"}},
           .handle = [](const TagUse& use) -> FrameworkElement* {
             use.context.Defer(BuildStage::kChecks, [use] { MarkDriving(use); });
             return &use.parent;

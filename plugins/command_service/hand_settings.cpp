@@ -187,15 +187,17 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
     if (slot->stand_in == nullptr) slot->hold.reset();
     return done.error();
   }
-  if (request.rate) PublishAgainAndAgain(slot, value, number, *request.rate);
+  // A STOP of meanwhile counts, too.
+  if (request.rate) PublishAgainAndAgain(slot, value, number, *request.rate, request.bar.value_or(CommandBar(runtime_.robot_stop())));
   return published;
 }
 
 // By the worker, which no thread of a cycle waits for, and without the structure lock.
-void HandSettings::PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t number, double rate) {
+void HandSettings::PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t number, double rate,
+                                        CommandBar bar) {
   const Duration period = FromSeconds(1 / rate);
   tasks_.PostSteps([this, slot = std::move(slot), value = std::move(value), number, period,
-                    bar = CommandBar(runtime_.robot_stop()),
+                    bar = std::move(bar),
                     due = runtime_.clock().Now() + period]() mutable -> std::optional<Duration> {
     const Time now = runtime_.clock().Now();
     const std::lock_guard lock(slot->mutex);

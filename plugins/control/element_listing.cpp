@@ -84,6 +84,12 @@ std::string HandValue(const Port& port) {
   return text;
 }
 
+// The same of a rule, which a person's covers.
+std::string RuleValue(const Port& port) {
+  const auto set = port.ValueByHand(Port::Setter::kRule);
+  return set ? " = " + Shortened(ToText(port.type(), set->value.get()), kLongestValue) : "";
+}
+
 std::string ConversionText(const internal::ConvertedFlow& flow) {
   std::string text = "converted";
   if (!flow.conversion().text().empty()) text += ": " + flow.conversion().text();
@@ -127,7 +133,7 @@ std::string PortText(const Port& port, const ListingOptions& options) {
   if (!unreached.empty()) text += ", CANNOT BE REACHED: " + unreached;
   if (port.is_blocked()) text += ", BLOCKED";
   if (port.is_set_by_hand()) text += ", set by hand" + HandValue(port);
-  if (port.is_set_by_hand(Port::Setter::kRule)) text += ", set by a rule" + HandValue(port);
+  if (port.is_set_by_hand(Port::Setter::kRule)) text += ", set by a rule" + RuleValue(port);
   text += LimitsText(port) + AwaitedText(port);
   if (!options.is_long) return text + (port.is_required() && !LacksSource(port) ? ", required" : "");
   const Publications publications = Publications::Of(port);

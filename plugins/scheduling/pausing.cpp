@@ -58,10 +58,14 @@ std::string Scheduler::WhyAtRest(const FrameworkElement& element, Duration patie
   const std::string& path = around->element->path();
   if (around->state->is_stopped()) return path + " has failed";
   if (around->state->is_paused()) return path + " is paused";
-  const CycleRunner& runner = *around->thread->runner;
-  return cycle_watchdog_.IsStuck(runner, patience)
-             ? "a module of " + runner.path() + ", which runs " + path + ", does not return"
-             : "";
+  // On a simulated clock one thread runs all.
+  const bool is_one_thread = options_.clock == SchedulerOptions::ClockKind::kSimulated;
+  for (const auto& runner : runners_) {
+    const bool counts = is_one_thread || runner.get() == around->thread->runner.get();
+    if (!counts || !cycle_watchdog_.IsStuck(*runner, patience)) continue;
+    return "a module of " + runner->path() + ", which runs " + path + ", does not return";
+  }
+  return "";
 }
 
 std::string Scheduler::WhyUnreached(const Port& port) const {

@@ -22,9 +22,10 @@ namespace {
 /// Of a port, among what is noted.
 struct PortState final : Annotation {
   InputLimits limits;
-  // Of a person, with its own stamp, so that it does not become a command from after a STOP. Rules set again what they
-  // have set.
+  // With its own stamp, so that it does not become a command from after a STOP.
   std::optional<Port::HandValue> by_hand;
+  // Not of what is copied: no rule knows the copy. Rules act when something changes, and would not set it again.
+  std::optional<Port::HandValue> by_rule;
   std::shared_ptr<const PortStop> stop;
   bool is_blocked = false;
 };
@@ -42,8 +43,11 @@ Result<void> GiveTo(Port& port, const PortState& state) {
     if (auto blocked = port.Block(); !blocked) return blocked;
     if (!state.is_blocked) port.Unblock();
   }
-  if (!state.by_hand) return {};
-  return port.PublishByHand(FillWith(state.by_hand->value), Port::Setter::kPerson, state.by_hand->timestamp);
+  const auto give = [&](const std::optional<Port::HandValue>& by, Port::Setter setter) {
+    return by ? port.PublishByHand(FillWith(by->value), setter, by->timestamp) : Result<void>();
+  };
+  if (auto given = give(state.by_rule, Port::Setter::kRule); !given) return given;
+  return give(state.by_hand, Port::Setter::kPerson);
 }
 
 void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkElement::Inherit how,
@@ -52,6 +56,7 @@ void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkEle
     auto state = std::make_unique<PortState>();
     state->limits = port->limits();
     state->by_hand = port->ValueByHand();
+    if (how == FrameworkElement::Inherit::kAsReplacement) state->by_rule = port->ValueByHand(Port::Setter::kRule);
     state->stop = port->stop();
     state->is_blocked = port->is_blocked();
     noted.Annotate(std::move(state));

@@ -6,13 +6,13 @@
 #include <set>
 #include <utility>
 
+#include "core/base/exception_text.h"
 #include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
-#include "plugins/structure/change_text.h"
 #include "plugins/structure/extension_changes.h"
-#include "plugins/structure/structure_request.h"
 #include "plugins/structure/value_by_hand.h"
+#include "plugins/supervision/serve_requests.h"
 #include "plugins/supervision/stop_button.h"
 #include "plugins/supervision/watches.h"
 
@@ -25,30 +25,12 @@ namespace {
 // How often modules are asked for what they want.
 constexpr Duration kLookForRequests = std::chrono::milliseconds(50);
 
-// Those that reactions are made of.
-void MovePathsOf(Change& change, const std::function<void(std::string& path)>& move) {
-  const auto move_ends = [&](auto& tie) {
-    move(tie.from);
-    move(tie.to);
-  };
-  if (auto* const cut = std::get_if<DisconnectPorts>(&change)) move_ends(*cut);
-  if (auto* const tie = std::get_if<ConnectPorts>(&change)) move_ends(*tie);
-  if (auto* const set = std::get_if<SetParameter>(&change)) move(set->path);
-  if (auto* const replace = std::get_if<ReplaceModule>(&change)) move(replace->path);
-}
-
 }  // namespace
-
-void Reaction::MovePaths(const std::function<void(std::string& path)>& move) {
-  for (SafeValue& each : published) move(each.port);
-  for (std::string& each : released) move(each);
-  for (Change& each : changes) MovePathsOf(each, move);
-  move(description);
-}
 
 struct Supervisor::Shared {
   struct KnownRule : SupervisionRule {
     bool is_applied = false;  // kPaused
+    std::vector<bool> holds = {};  // by reaction.published: set, and neither taken back nor released; under the structure lock
   };
   Shared(Runtime& of_runtime, Scheduler& of_scheduler, Perform how)
       : runtime(of_runtime), scheduler(of_scheduler), perform(std::move(how)) {}
@@ -58,13 +40,17 @@ struct Supervisor::Shared {
     notices.push_back(std::move(notice));
   }
   void MovePaths(const PathFollowers::Move& move);
-  // `reaction`: as it is now, for paths change under the structure lock.
-  void React(const Reaction& reaction, const std::string& path, const std::string& why, Time now, bool is_recovery = false);
-  Result<void> Publish(const SafeValue& safe);
-  Result<void> Release(const std::string& port);
+  using Which = Reaction SupervisionRule::*;
+  void React(KnownRule& rule, Which which, const std::string& path, const std::string& why, Time now, bool is_recovery = false);
+  Result<void> CarryOut(KnownRule& rule, Which which, const Reaction& reaction, Time now);
+  Result<void> Publish(const SafeValue& safe, const std::function<void(const Port& port)>& before = {});
+  Result<void> Release(const std::string& port, Time now);
+  // What rules hold there. Under the structure lock.
+  void VisitHeld(const Port& port, const std::function<void(KnownRule& rule, std::size_t number)>& visit);
   Time Watch(Time now);
+  static std::function<void(const Fault&)> CallOf(const std::shared_ptr<Shared>& shared, std::shared_ptr<KnownRule> rule,
+                                                  Which which, std::string why);
   Result<void> AddWatch(const std::shared_ptr<KnownRule>& rule);
-  void ServeRequests(Time now);
   void KeepSafe(Time now);
   void TellOverruns(Time now);
 
@@ -74,8 +60,9 @@ struct Supervisor::Shared {
 
   internal::Standstill standstill;  // under the structure lock
   std::set<std::string> late;       // threads of which that has been told; of the thread that looks out, as the next one
-  std::vector<StaleWatch> watches;
+  std::vector<std::pair<std::shared_ptr<KnownRule>, StaleWatch>> watches;
   std::vector<std::shared_ptr<KnownRule>> rules;  // their paths are guarded by the structure lock
+  std::vector<std::string> later;  // to be released if an undo brings them back; under the structure lock
   std::mutex pausing;  // one after the other; before all others
   OrderedMutex mutex{LockLevel::kLeaf};
   std::vector<Notice> notices;  // guarded by mutex
@@ -87,96 +74,104 @@ void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
     each->reaction.MovePaths(move);
     each->otherwise.MovePaths(move);
   }
-  for (StaleWatch& each : watches) std::ranges::for_each(each.outputs(), move);
+  std::ranges::for_each(later, move);
+  for (auto& [rule, watch] : watches) std::ranges::for_each(watch.outputs(), move);
   scheduler.MovePaths(move);
 }
 
-Result<void> Supervisor::Shared::Publish(const SafeValue& safe) {
+void Supervisor::Shared::VisitHeld(const Port& port, const std::function<void(KnownRule& rule, std::size_t number)>& visit) {
+  for (const auto& rule : rules) {
+    for (std::size_t i = 0; i < rule->holds.size(); ++i) {
+      if (!rule->holds[i]) continue;
+      const auto held = PathSearch(runtime).FindPort(rule->reaction.published[i].port, PathKind::kElement);
+      if (held && *held == &port) visit(*rule, i);
+    }
+  }
+}
+
+Result<void> Supervisor::Shared::Publish(const SafeValue& safe, const std::function<void(const Port& port)>& before) {
   const std::lock_guard lock(runtime.structure_mutex());
   const auto found = PathSearch(runtime).FindPort(safe.port, PathKind::kElement);
   if (!found) return found.error();
   const auto value = safe.value ? ValueOf(**found, *safe.value) : SafeValueOf(**found);
   if (!value) return value.error();
+  if (before) before(**found);
   internal::Standstill::LeaveToRule(**found);
   return PublishByHand(**found, value->get(), Port::Setter::kRule);
 }
 
-// Somebody else may have released it. What a person has set there stays.
-Result<void> Supervisor::Shared::Release(const std::string& port) {
+// What a person has set there stays, and what another rule holds there is in force again. Where what feeds a port that
+// drives does not run yet, it stands until it has published.
+Result<void> Supervisor::Shared::Release(const std::string& port, Time now) {
   const std::lock_guard lock(runtime.structure_mutex());
   const auto found = PathSearch(runtime).FindPort(port, PathKind::kElement);
   if (!found) return found.error();
-  (*found)->Release(Port::Setter::kRule);
+  const SafeValue* other = nullptr;
+  VisitHeld(**found, [&](KnownRule& rule, std::size_t number) { other = &rule.reaction.published[number]; });
+  const bool was_released = !(*found)->is_set_by_hand(Port::Setter::kRule);  // by somebody else
+  if (was_released) return {};
+  if (other != nullptr) return Publish(*other);
+  if (!internal::Standstill::TakesOver(**found, scheduler, now)) (*found)->Release(Port::Setter::kRule);
   return {};
 }
 
-// Safe values come first, and also if the rest fails. What can be said of a reaction that failed is told; the
-// application runs on as it is, and stops if it was to stop.
-void Supervisor::Shared::React(const Reaction& reaction, const std::string& path,
-                               const std::string& why, Time now, bool is_recovery) {
+// Safe values come first, and also if the rest fails.
+Result<void> Supervisor::Shared::CarryOut(KnownRule& rule, Which which, const Reaction& reaction, Time now) {
   Result<void> done;
-  for (const SafeValue& each : reaction.published) {
-    if (auto published = Publish(each); !published && done) done = published;
+  for (std::size_t i = 0; i < reaction.published.size(); ++i) {
+    const auto note = [&](const Port& port) {
+      // What somebody has released no rule holds any more.
+      if (!port.is_set_by_hand(Port::Setter::kRule)) VisitHeld(port, [](KnownRule& each, std::size_t number) { each.holds[number] = false; });
+      if (which != &SupervisionRule::reaction) return;
+      rule.holds.resize(reaction.published.size());
+      rule.holds[i] = true;
+    };
+    if (auto published = Publish(reaction.published[i], note); !published && done) done = published;
   }
   if (!reaction.changes.empty()) {
     if (auto changed = perform(reaction.changes); !changed && done) done = changed;
   }
   for (const std::string& each : reaction.released) {
-    if (auto released = Release(each); !released && done) done = released;
+    auto released = Release(each, now);
+    if (released) continue;
+    const std::lock_guard lock(runtime.structure_mutex());
+    later.push_back(each);
+    if (done) done = released;
   }
+  return done;
+}
+
+// What can be said of a reaction that failed is told; the application runs on as it is, and stops if it was to stop.
+void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& path,
+                               const std::string& why, Time now, bool is_recovery) {
+  const Reaction& given = rule.*which;
+  Reaction reaction{.stops_application = given.stops_application};
+  // What only ends the run waits for no lock: the module that is stuck may have it.
+  if (!given.published.empty() || !given.released.empty() || !given.changes.empty()) {
+    const std::lock_guard lock(runtime.structure_mutex());
+    reaction = given;  // as it is now, for paths change under the lock
+    if (which == &SupervisionRule::otherwise) rule.holds.clear();
+  }
+  Result<void> done;
+  try {
+    done = CarryOut(rule, which, reaction, now);
+  } catch (...) {  // neither the end of the run nor other reactions hang on it
+    done = Error{.message = DescribeException()};
+  }
+  if (reaction.stops_application) scheduler.StopForFault();
   Notice notice{path, why, now, !done, is_recovery};
   if (!done) {
     notice.message += "; what was to be done about it failed: " + done.error().ToString();
   } else if (!reaction.description.empty()) {
     notice.message += "; " + reaction.description;
   }
-  if (reaction.stops_application) {
-    notice.message += "; stops the application";
-    scheduler.StopForFault();
-  }
+  if (reaction.stops_application) notice.message += "; stops the application";
   Note(std::move(notice));
-}
-
-// What modules ask for, in the order in which they were made. A request may delete who has asked.
-void Supervisor::Shared::ServeRequests(Time now) {
-  struct Asked {
-    std::uint64_t id;
-    std::string path;
-    std::string text;
-  };
-  std::vector<Asked> all;
-  const auto find = [this](std::uint64_t id) -> StructureRequest* {
-    for (StructureRequest* each : StructureRequests::Of(runtime)->all()) {
-      if (each->element().id() == id && each->is_asked()) return each;
-    }
-    return nullptr;
-  };
-  {
-    const std::lock_guard lock(runtime.structure_mutex());
-    const StructureRequests* const requests = StructureRequests::Of(runtime);
-    if (requests == nullptr) return;
-    for (const StructureRequest* each : requests->all()) {
-      // Beside the tree nobody runs, and asks for nothing.
-      if (!each->is_asked() || each->element().life_cycle() != LifeCycle::kReady) continue;
-      all.push_back({each->element().id(), each->element().path(), std::string(each->text())});
-    }
-  }
-  for (const Asked& each : all) {
-    Diagnostics diagnostics;
-    const PlacedChanges placed = ParseChanges(each.text, {each.path}, diagnostics);
-    const Result<void> done =
-        diagnostics.ok() ? perform(placed.changes) : Result<void>(diagnostics.errors().front());
-    Note({each.path,
-          done ? "has had it done: " + each.text
-               : "asked in vain for: " + each.text + ": " + done.error().ToString(),
-          now, !done});
-    const std::lock_guard lock(runtime.structure_mutex());
-    if (StructureRequest* const request = find(each.id)) request->Answer(done);
-  }
 }
 
 void Supervisor::Shared::KeepSafe(Time now) {
   const std::lock_guard lock(runtime.structure_mutex());
+  std::erase_if(later, [&](const std::string& each) { return static_cast<bool>(Release(each, now)); });
   standstill.Look(runtime, scheduler, now,
                   [&](const Port& port, std::string what, bool is_recovery) {
                     Note({port.path(), std::move(what), now, false, is_recovery});
@@ -202,11 +197,13 @@ void Supervisor::Shared::TellOverruns(Time now) {
 }
 
 Time Supervisor::Shared::Watch(Time now) {
-  ServeRequests(now);
+  internal::ServeRequests(runtime, perform, [&](const std::string& path, std::string what, bool is_failure) {
+    Note({path, std::move(what), now, is_failure});
+  });
   KeepSafe(now);
   TellOverruns(now);
   struct Due {
-    Reaction reaction;
+    std::shared_ptr<KnownRule> rule;
     std::string path;
     std::string why;
     bool is_recovery;
@@ -215,23 +212,25 @@ Time Supervisor::Shared::Watch(Time now) {
   Time next = now + kLookForRequests;
   if (!watches.empty()) {
     const std::lock_guard lock(runtime.structure_mutex());
-    for (StaleWatch& watch : watches) {
+    for (auto& [rule, watch] : watches) {
       const auto turn = watch.Look(runtime, now);
-      const SupervisionRule& rule = watch.rule();
       if (turn == StaleWatch::Turn::kStale) {
-        due.push_back({rule.reaction, rule.of,
+        due.push_back({rule, rule->of,
                        "nothing new for " + DurationText(now - watch.silent_since()) + ", at most " +
-                           DurationText(rule.after) + " is allowed",
+                           DurationText(rule->after) + " is allowed",
                        false});
       } else if (turn == StaleWatch::Turn::kFresh) {
-        due.push_back(
-            {rule.otherwise, rule.of, "values come again, for " + DurationText(rule.fresh_after) + " now", true});
+        due.push_back({rule, rule->of, "values come again, for " + DurationText(rule->fresh_after) + " now", true});
       }
       next = std::min(next, watch.next_look());
     }
   }
-  // Reactions take the lock for as long as they need it.
-  for (const Due& each : due) React(each.reaction, each.path, each.why, now, each.is_recovery);
+  // Reactions take the lock for as long as they need it. What becomes safe does before anything is taken back.
+  std::ranges::stable_partition(due, [](const Due& each) { return !each.is_recovery; });
+  for (const Due& each : due) {
+    React(*each.rule, each.is_recovery ? &SupervisionRule::otherwise : &SupervisionRule::reaction, each.path, each.why, now,
+          each.is_recovery);
+  }
   return next;
 }
 
@@ -266,23 +265,16 @@ Result<void> Supervisor::Shared::AddWatch(const std::shared_ptr<KnownRule>& rule
   if (outputs.empty()) {
     return refuse("cannot become stale, as nothing is connected to it", "connect it, or leave out the rule");
   }
-  watches.emplace_back(rule, std::move(outputs));
+  watches.emplace_back(rule, StaleWatch(rule, std::move(outputs)));
   return {};
 }
 
 // Weakly, for the scheduler keeps its rules longer than this.
-std::function<void(const Fault&)> Supervisor::CallOf(std::shared_ptr<const SupervisionRule> rule,
-                                                     Reaction SupervisionRule::*which, std::string why) const {
+std::function<void(const Fault&)> Supervisor::Shared::CallOf(const std::shared_ptr<Shared>& shared,
+                                                             std::shared_ptr<KnownRule> rule, Which which, std::string why) {
   if (((*rule).*which).is_empty()) return {};  // it is told of by the fault alone
-  return [shared = std::weak_ptr(shared_), rule, which, why](const Fault& fault) {
-    const auto there = shared.lock();
-    if (there == nullptr) return;
-    Reaction now;
-    {
-      const std::lock_guard lock(there->runtime.structure_mutex());
-      now = (*rule).*which;
-    }
-    there->React(now, fault.path, why, fault.time);
+  return [shared = std::weak_ptr(shared), rule = std::move(rule), which, why = std::move(why)](const Fault& fault) {
+    if (const auto there = shared.lock()) there->React(*rule, which, fault.path, why, fault.time);
   };
 }
 
@@ -292,12 +284,12 @@ Result<void> Supervisor::Add(SupervisionRule rule) {
   if (known->when == When::kStale) {
     if (auto added = shared_->AddWatch(known); !added) return added;
   } else if (known->when == When::kFault && !known->reaction.is_empty()) {
-    scheduler_.AddFaultRule({.of = known->of, .call = CallOf(known, &SupervisionRule::reaction, "has failed")});
+    scheduler_.AddFaultRule({.of = known->of, .call = Shared::CallOf(shared_, known, &SupervisionRule::reaction, "has failed")});
   } else if (known->when == When::kStuck) {
     scheduler_.AddStuckRule({.of = known->of,
                              .after = known->after,
-                             .on_stuck = CallOf(known, &SupervisionRule::reaction, "is stuck"),
-                             .on_return = CallOf(known, &SupervisionRule::otherwise, "has returned")});
+                             .on_stuck = Shared::CallOf(shared_, known, &SupervisionRule::reaction, "is stuck"),
+                             .on_return = Shared::CallOf(shared_, known, &SupervisionRule::otherwise, "has returned")});
   }
   shared_->rules.push_back(known);
   return {};
@@ -325,19 +317,18 @@ Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
   for (const auto& each : shared_->rules) {
     if (each->when != SupervisionRule::When::kPaused) continue;
     bool applies = false;
-    Reaction reaction;
     std::string of;
     {
       const std::lock_guard structure(runtime.structure_mutex());
       const auto found = runtime.root().Find(each->of);
       if (!found) continue;  // it stays as it is
       applies = scheduler_.IsPaused(**found, is_paused ? "" : path);
-      reaction = applies ? each->reaction : each->otherwise;
       of = each->of;
     }
     if (applies == std::exchange(each->is_applied, applies)) continue;
-    if (reaction.is_empty()) continue;
-    shared_->React(reaction, of, applies ? "is paused" : "goes on", runtime.clock().Now());
+    const Shared::Which which = applies ? &SupervisionRule::reaction : &SupervisionRule::otherwise;
+    if (((*each).*which).is_empty()) continue;
+    shared_->React(*each, which, of, applies ? "is paused" : "goes on", runtime.clock().Now());
   }
   if (is_paused) KeepSafe();
   return is_paused ? Result<void>() : scheduler_.SetPaused(path, false);

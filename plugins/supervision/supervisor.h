@@ -55,8 +55,6 @@ class Supervisor {
 
  private:
   struct Shared;
-  [[nodiscard]] std::function<void(const Fault&)> CallOf(std::shared_ptr<const SupervisionRule> rule,
-                                                         Reaction SupervisionRule::*which, std::string why) const;
 
   Scheduler& scheduler_;
   const std::shared_ptr<Shared> shared_;  // with the rules that the scheduler keeps

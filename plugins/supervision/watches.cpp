@@ -144,4 +144,12 @@ void Standstill::LeaveToRule(Port& port) {
   if (MarkOf(port) != nullptr) Mark(port).rested.reset();
 }
 
+bool Standstill::TakesOver(Port& port, const Scheduler& scheduler, Time now) {
+  if (!port.is_driving() || WhyAtRest(port.Sources(), scheduler, Duration::max()).empty()) return false;
+  const auto safe = SafeValueOf(port);
+  if (!safe || !PublishByHand(port, safe->get(), Port::Setter::kRule)) return false;
+  Mark(port).rested = now;
+  return true;
+}
+
 }  // namespace runnel::internal

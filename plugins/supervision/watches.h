@@ -24,8 +24,7 @@ class StaleWatch {
   StaleWatch(std::shared_ptr<const SupervisionRule> rule, std::vector<std::string> outputs)
       : rule_(std::move(rule)), outputs_(std::move(outputs)) {}
 
-  /// Under the structure lock, as the next one.
-  [[nodiscard]] const SupervisionRule& rule() const noexcept { return *rule_; }
+  /// Under the structure lock.
   [[nodiscard]] std::vector<std::string>& outputs() noexcept { return outputs_; }
 
   /// Looks at the outputs; says if the input has become stale or fresh. Under the structure lock.
@@ -60,6 +59,9 @@ class Standstill {
   void Look(Runtime& runtime, const Scheduler& scheduler, Time now, const Tell& tell);
   /// A rule has set the port's value; it is the rule's to take it back.
   static void LeaveToRule(Port& port);
+  /// A rule takes its value back. Whether the port drives and what feeds it does not run yet: it has its safe value from now
+  /// on, until that has published again.
+  [[nodiscard]] static bool TakesOver(Port& port, const Scheduler& scheduler, Time now);
 
  private:
   struct Driven {

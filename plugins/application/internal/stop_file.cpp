@@ -68,14 +68,23 @@ std::vector<fs::path> FilesOf(const fs::path& folder, const std::string& name) {
   return files;
 }
 
-Result<void> RemoveLeft(const fs::path& folder, const std::string& name) {
+// Of these, what nobody holds.
+Result<void> RemoveLeft(const std::vector<fs::path>& files) {
   Result<void> done;
-  for (const fs::path& each : FilesOf(folder, name)) {
+  for (const fs::path& each : files) {
     const int descriptor = Open(each);
     if (!IsHeld(descriptor) && unlink(each.c_str()) != 0 && errno != ENOENT) done = SystemError(each);
     if (descriptor >= 0) close(descriptor);
   }
   return done;
+}
+
+// What cannot be listed is as if there were nothing in it.
+Result<void> CheckFolder(const fs::path& folder) {
+  if (auto trusted = CheckControlFolder(folder); !trusted) return trusted;
+  std::error_code ignored;
+  if (fs::exists(folder, ignored) && access(folder.c_str(), R_OK | X_OK) != 0) return SystemError(folder);
+  return {};
 }
 
 std::string OwnName() {
@@ -90,7 +99,7 @@ Result<std::unique_ptr<StopFile>> StopFile::Follow(RobotStop& stop, ApplicationL
                                                    const std::string& name, bool clears,
                                                    Diagnostics& diagnostics) {
   const fs::path folder = ControlFolder();
-  if (auto trusted = CheckControlFolder(folder); !trusted) {
+  if (auto trusted = CheckFolder(folder); !trusted) {
     Error error = Telling("whether a STOP is in force cannot be known", trusted.error());
     if (!clears) return error;
     diagnostics.AddWarning(std::move(error));
@@ -105,23 +114,26 @@ Result<std::unique_ptr<StopFile>> StopFile::Follow(RobotStop& stop, ApplicationL
   const std::string identity = fs::absolute(application_file).lexically_normal().string() + "\n" + name;
   const std::string file_name = fmt::format("{:016x}-", HashOf(identity));
   if (clears) {
-    if (auto removed = RemoveLeft(folder, file_name); !removed) return Telling("the STOP cannot be cleared", removed.error());
+    if (auto removed = RemoveLeft(FilesOf(folder, file_name)); !removed) return Telling("the STOP cannot be cleared", removed.error());
   }
   const auto left = clears ? std::vector<fs::path>() : FilesOf(folder, file_name);
-  auto follows = std::make_unique<StopFile>(stop, log, folder, file_name);
+  const std::string by = left.empty() ? "" : PressedBy(left.front());
+  auto follows = std::make_unique<StopFile>(stop, log, folder, file_name, left);
   if (left.empty()) return follows;
-  stop.Press(PressedBy(left.front()));
+  stop.Press(by);
   diagnostics.AddWarning({.message = "the application begins under STOP, pressed by " + stop.state().by,
                           .hint = "'runnel release' ends it; 'runnel run --clear-stop' begins without"});
   return follows;
 }
 
-StopFile::StopFile(RobotStop& stop, ApplicationLog& log, fs::path folder, std::string name)
+StopFile::StopFile(RobotStop& stop, ApplicationLog& log, fs::path folder, std::string name,
+                   std::vector<fs::path> left)
     : stop_(stop),
       log_(log),
       folder_(std::move(folder)),
       name_(std::move(name)),
       file_(folder_ / (name_ + OwnName())),
+      left_(std::move(left)),
       lookout_(std::in_place,
                [this]() -> std::optional<Time> {
                  Write();
@@ -171,7 +183,9 @@ Result<void> StopFile::Follow(const RobotStop::State& state) {
     if (unlink(file_.c_str()) != 0 && errno != ENOENT) return SystemError(file_);
     close(std::exchange(held_, -1));
   }
-  return RemoveLeft(folder_, name_);
+  auto removed = RemoveLeft(left_);
+  if (removed) left_.clear();  // what is left from now on was not taken over here
+  return removed;
 }
 
 Result<void> StopFile::Hold(const std::string& text) {

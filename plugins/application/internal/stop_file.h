@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/diagnostics.h"
 #include "core/base/result.h"
@@ -18,8 +19,8 @@ namespace runnel {
 
 /// Keeps the STOP of an application across its processes: while STOP is in force there is a file of this process in the folder
 /// of the control sockets, named after the application's file and name, and after the process. Who has it holds a lock
-/// on it, which ends with the process. A file that nobody holds was left by a process that has ended: the next one takes it over,
-/// and a release removes it. A file that another process holds is that one's, and stays.
+/// on it, which ends with the process. A file that nobody holds was left by a process that has ended: the next one takes it over
+/// when it begins, and then its own release removes it. What others hold then, or leave later, is not its, and stays.
 ///
 /// Ownership:  the STOP and the log outlive it.
 /// Threads:    made by one; one of its own writes, so no disk delays who presses. IsKept() by any. A process that is killed
@@ -28,15 +29,16 @@ class StopFile {
  public:
   /// Presses STOP if another process has left it in force, or has it in force now, and says so as a warning; if `clears`,
   /// it is not pressed, and what was left is forgotten.
-  /// Follows STOP from then on. Warnings: there can be no such folder. Errors: others can write into the folder, so whether
+  /// Follows STOP from then on. Warnings: there can be no such folder. Errors: others can write into the folder, or it cannot be listed, so whether
   /// STOP was in force cannot be known; with `clears`, a warning.
   static Result<std::unique_ptr<StopFile>> Follow(RobotStop& stop, ApplicationLog& log,
                                                   const std::filesystem::path& application_file,
                                                   const std::string& name, bool clears,
                                                   Diagnostics& diagnostics);
 
-  /// `name`: how the names of all files of the application begin.
-  StopFile(RobotStop& stop, ApplicationLog& log, std::filesystem::path folder, std::string name);
+  /// `name`: how the names of all files of the application begin. `left`: those that it takes over.
+  StopFile(RobotStop& stop, ApplicationLog& log, std::filesystem::path folder, std::string name,
+           std::vector<std::filesystem::path> left = {});
   ~StopFile();
   StopFile(const StopFile&) = delete;
   StopFile& operator=(const StopFile&) = delete;
@@ -54,6 +56,7 @@ class StopFile {
   const std::filesystem::path folder_;
   const std::string name_;
   const std::filesystem::path file_;  // of this process
+  std::vector<std::filesystem::path> left_;  // taken over, and there perhaps; of the thread that writes
   int held_ = -1;                     // the file, while STOP is in force; of the thread that writes
   std::mutex mutex_;
   std::condition_variable has_written_;

@@ -116,6 +116,23 @@ TEST_F(StopFileTest, WhatSeveralHaveLeftIsTakenOverAndReleasedByOne) {
   WaitUntil("nothing is left", [&] { return Files() == 0; });
 }
 
+// Who has begun without it, and was never under it, does not end it.
+TEST_F(StopFileTest, WhatAnotherLeavesMeanwhileStaysWhenThisOneIsReleased) {
+  auto second = std::make_unique<LoadedApplication>(Run());
+  {
+    const auto first = Run();
+    first->runtime().robot_stop().Press("a viewer");
+    WaitUntil("it is written", [&] { return Files() == 1; });
+  }
+  (*second)->runtime().robot_stop().Press("a person");
+  WaitUntil("it is written, too", [&] { return Files() == 2; });
+  (*second)->runtime().robot_stop().Release("a person");
+  second.reset();
+  const auto first = Run();
+  EXPECT_TRUE(IsStopped(first));
+  EXPECT_THAT(first.diagnostics().ToString(), HasSubstr("pressed by a viewer, in a process before"));
+}
+
 // A pipe that nobody reads is as a disk that does not answer.
 TEST_F(StopFileTest, ADiskThatHangsDelaysNeitherTheStopNorItsAnswer) {
   Runtime runtime;

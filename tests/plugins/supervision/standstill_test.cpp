@@ -67,6 +67,42 @@ TEST_F(Driven, WhatARuleHasSetIsTheRulesToTakeBack) {
   EXPECT_EQ(robot.seen, 5);
 }
 
+TEST_F(Driven, ACommandFromBeforeThePauseDoesNotDriveWhenTheRuleTakesItsValueBack) {
+  SupervisionRule rule{.when = SupervisionRule::When::kPaused,
+                       .of = "/laser",
+                       .reaction = {.published = {{"/reader/in", "5"}}}};
+  rule.otherwise.TakeBack(rule.reaction);
+  MustSucceed(robot.supervisor.Add(rule));
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  RunOn();
+  EXPECT_EQ(robot.seen, 5);
+  robot.laser_works = false;
+  MustSucceed(robot.supervisor.SetPaused("/laser", false));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+  robot.laser_works = true;
+  RunOn();
+  EXPECT_EQ(robot.seen, 1);
+}
+
+// One thread runs them all then.
+TEST_F(Driven, OnASimulatedClockItIsTheSameWhileAModuleOfAnotherThreadIsStuck) {
+  std::atomic<bool> hangs{true};
+  auto& other = robot.runtime.Create<Doing>(robot.runtime.root(), "other");
+  other.action = [&](Doing&) { hangs.wait(true); };
+  AssignThread(other, CreateThread(robot.runtime, "apart", {.period = 10ms}));
+  MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+  MustSucceed(robot.scheduler.SetStuckLimit("", 50ms));
+  std::jthread runs([&] { (void)robot.scheduler.RunUntil(At(300)); });
+  WaitUntil("it has its safe value", [&] {
+    robot.supervisor.KeepSafe();
+    const std::lock_guard lock(robot.runtime.structure_mutex());
+    return robot.reader.in.is_set_by_hand(Port::Setter::kRule);
+  });
+  hangs = false;
+  hangs.notify_all();
+}
+
 TEST(StandstillInRealTime, APortHasItsSafeValueWhileTheThreadOfWhatFeedsItIsStuck) {
   Robot robot(SchedulerOptions::ClockKind::kReal);
   std::atomic<bool> hangs{false};

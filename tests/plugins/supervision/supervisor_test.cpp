@@ -119,6 +119,51 @@ TEST_F(Supervised, ATimeOutOfCenturiesNeverComes) {
   EXPECT_EQ(robot.seen, 1);
 }
 
+// Both hold the same port; what each of them has set stays for as long as it is in force.
+TEST_F(Supervised, ARuleThatTakesItsValueBackLeavesWhatAnotherOneHolds) {
+  const auto add = [this](const Port& watched, const std::string& value) {
+    SupervisionRule rule = robot.SwitchingRule();
+    rule.of = watched.path();
+    rule.reaction = {.published = {{robot.reader.in.path(), value}}};
+    rule.otherwise = {};
+    rule.otherwise.TakeBack(rule.reaction);
+    MustSucceed(robot.supervisor.Add(rule));
+  };
+  bool infrared_works = true;
+  robot.infrared.action = [&](Doing& module) {
+    if (infrared_works) module.out.Publish(2);
+  };
+  add(robot.reader.in, "5");
+  add(robot.infrared.out, "6");
+  robot.scheduler.RunUntil(At(100));
+  infrared_works = false;
+  robot.scheduler.RunUntil(At(200));
+  EXPECT_EQ(robot.seen, 6);
+  robot.laser_works = false;
+  robot.scheduler.RunUntil(At(300));
+  EXPECT_EQ(robot.seen, 5);
+  robot.laser_works = true;
+  robot.scheduler.RunUntil(At(500));
+  EXPECT_EQ(robot.seen, 6) << "infrared is silent still";
+  infrared_works = true;
+  robot.scheduler.RunUntil(At(700));
+  EXPECT_EQ(robot.seen, 1);
+}
+
+// What is done about it may not do, and still the other rule's is done.
+TEST_F(Supervised, AReactionThatThrowsKeepsNeitherOthersNorTheEndOfTheRunAway) {
+  Supervisor throwing(robot.runtime, robot.scheduler, [](const ChangeSet&) -> Result<void> { throw std::runtime_error("no memory"); });
+  SupervisionRule rule = robot.SwitchingRule();
+  rule.reaction.stops_application = true;
+  MustSucceed(throwing.Add(rule));
+  robot.laser_works = false;
+  EXPECT_FALSE(robot.scheduler.RunUntil(At(200)));
+  const auto notices = throwing.TakeNotices();
+  ASSERT_THAT(notices, SizeIs(1));
+  EXPECT_TRUE(notices[0].is_failure);
+  EXPECT_THAT(notices[0].message, HasSubstr("no memory"));
+}
+
 TEST_F(Supervised, ARuleThatTakesItsValueBackLeavesWhatAPersonHasSet) {
   SupervisionRule rule = robot.SwitchingRule();
   rule.reaction = {.published = {{robot.reader.in.path(), "5"}}};
