@@ -110,9 +110,11 @@ class Search {
   }
   // What was marked or blocked and is still there has to be so still; what was deleted is not asked for any more.
   void CheckMarks() {
-    const auto check = [&](std::set<std::string>& paths, bool (Port::*is)() const noexcept, const char* what) {
+    const auto check = [&](std::set<std::string>& paths, bool (Port::*is)() const noexcept,
+                           const char* what) {
       std::set<std::string> there;
-      for (Port* const port : Ports([&](const Port& port) { return paths.contains(port.path()); })) {
+      for (Port* const port :
+           Ports([&](const Port& port) { return paths.contains(port.path()); })) {
         if ((port->*is)()) {
           there.insert(port->path());
         } else {
@@ -134,7 +136,8 @@ class Search {
     }
   }
   void Violate(const std::string& what) {
-    result_.violations.push_back("step " + std::to_string(result_.steps) + ", after '" + last_ + "': " + what);
+    result_.violations.push_back("step " + std::to_string(result_.steps) + ", after '" + last_ +
+                                 "': " + what);
   }
   std::vector<FrameworkElement*> Parts() {
     std::vector<FrameworkElement*> parts;
@@ -172,12 +175,14 @@ class Search {
   void Undo() {
     last_ = "undo";
     const auto renamed = renames_.find(history_->NextUndo().value_or(""));
-    if (history_->Undo() && renamed != renames_.end()) Move(renamed->second.second, renamed->second.first);
+    if (history_->Undo() && renamed != renames_.end())
+      Move(renamed->second.second, renamed->second.first);
   }
   void Redo() {
     last_ = "redo";
     const auto renamed = renames_.find(history_->NextRedo().value_or(""));
-    if (history_->Redo() && renamed != renames_.end()) Move(renamed->second.first, renamed->second.second);
+    if (history_->Redo() && renamed != renames_.end())
+      Move(renamed->second.first, renamed->second.second);
   }
   void SetByHand(Port::Setter setter) {
     Port* const port = OneOf(DrivingPorts());
@@ -325,7 +330,8 @@ class Search {
   std::optional<Time> released_at_;
   std::set<std::string> marked_;  // paths of ports that drive, and of those that are blocked
   std::set<std::string> blocked_;
-  std::map<std::string, std::pair<std::string, std::string>> renames_;  // label of the change -> from, to
+  std::map<std::string, std::pair<std::string, std::string>>
+      renames_;  // label of the change -> from, to
 
   XmlTagRegistry tags_ = ApplicationTags();
   PluginManager plugins_;

@@ -23,7 +23,8 @@ struct StopSearchResult {
 /// set by hand, by a rule, rename, delete, undo, redo, swap, make anew, copy, cut and mend connections, reload a plugin, run the
 /// application again from its file, run cycles.
 /// After each of them no driving port may have another value than its safe one while STOP is in force, and after
-/// that none that was measured or published before the release. What was marked as driving or blocked stays so as long as it is there. The same seed does the same.
+/// that none that was measured or published before the release. What was marked as driving or blocked stays so as
+/// long as it is there. The same seed does the same.
 [[nodiscard]] StopSearchResult SearchForWaysAroundStop(std::uint64_t seed, std::uint64_t steps);
 
 }  // namespace runnel::test
