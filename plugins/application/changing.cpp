@@ -190,15 +190,21 @@ Result<std::string> Application::Get(std::string_view path) {
   return parameter->ToText();
 }
 
+bool Application::Parts::IsOwnFile(const std::filesystem::path& file) {
+  const std::lock_guard lock(runtime().structure_mutex());
+  const auto found = FindAgain();
+  return !found || internal::IsOwnFile(**found, file);
+}
+
 Result<void> Application::Save(const std::filesystem::path& file, bool overwrites) {
+  if (!overwrites && !parts_->IsOwnFile(file)) {
+    if (auto lost = internal::WhatIsLost(file)) return *lost;
+  }
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   const auto found = parts_->FindAgain();
   if (!found) return found.error();
   const SaveTools tools{parts_->plugins(), parts_->tags()};
   const bool is_own = internal::IsOwnFile(**found, file);
-  if (!overwrites) {
-    if (auto lost = internal::FindOverwritten(**found, file)) return *lost;
-  }
   auto saved = SaveApplication(**found, tools, file);
   const std::string passing =
       saved ? internal::WhatPasses(**found, *parts_->scheduler, KeepsStop(parts_->stop_file.get(), is_own)) : "";
@@ -255,16 +261,18 @@ CommandService& Application::service() {
     return passing.empty() ? done : done + "\n" + passing;
   };
   hooks.preview_save = [this](const std::string& file) {
-    const std::lock_guard lock(parts_->runtime().structure_mutex());
-    const auto found = parts_->FindAgain();
-    return found ? internal::PreviewSave(**found, {parts_->plugins(), parts_->tags()}, file) : found.error();
+    auto difference = [&] {
+      const std::lock_guard lock(parts_->runtime().structure_mutex());
+      const auto found = parts_->FindAgain();
+      return found ? internal::TextToSave(**found, {parts_->plugins(), parts_->tags()}, file) : found.error();
+    }();
+    if (!difference) return difference;
+    const auto read = internal::ReadBefore(*difference);
+    return read ? difference : Result<ServiceHooks::SaveDifference>(read.error());
   };
   hooks.find_overwritten = [this](const SaveRequest& request) -> std::optional<Error> {
-    const std::lock_guard lock(parts_->runtime().structure_mutex());
-    const auto found = parts_->FindAgain();
-    if (!found) return {};
-    return request.is_configuration ? internal::WhatIsLost(request.file)
-                                     : internal::FindOverwritten(**found, request.file);
+    if (!request.is_configuration && parts_->IsOwnFile(request.file)) return {};
+    return internal::WhatIsLost(request.file);
   };
   hooks.save_configuration = [this](const std::string& file) { return SaveConfiguration(file); };
   hooks.set_paused = [this](const std::string& path, bool is_paused) {

@@ -12,9 +12,15 @@
 
 namespace runnel::internal {
 
+namespace {
+// A pipe that nobody writes into would keep whoever reads it.
+Error IsNoFile(const std::filesystem::path& file) { return {.message = "is there already, and is no file", .position = {file.string()}, .hint = "choose another name"}; }
+}  // namespace
+
 std::optional<Error> WhatIsLost(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return {};
+  if (!std::filesystem::is_regular_file(file, ignored)) return IsNoFile(file);
   std::string what = "is there already";
   const auto document = XmlDocument::Load(file);
   if (document && document->root().name() == "application") {
@@ -31,12 +37,8 @@ bool IsOwnFile(const FrameworkElement& application, const std::filesystem::path&
   return file.empty() || (source != nullptr && Whole(source->file) == Whole(file));
 }
 
-std::optional<Error> FindOverwritten(const FrameworkElement& application, const std::filesystem::path& file) {
-  return IsOwnFile(application, file) ? std::nullopt : WhatIsLost(file);
-}
-
-Result<ServiceHooks::SaveDifference> PreviewSave(FrameworkElement& application, const SaveTools& tools,
-                                                 const std::filesystem::path& chosen) {
+Result<ServiceHooks::SaveDifference> TextToSave(FrameworkElement& application, const SaveTools& tools,
+                                                const std::filesystem::path& chosen) {
   const auto* const source = application.FindAnnotation<ApplicationSource>();
   if (chosen.empty() && source == nullptr) {
     return Error{.message = "the application was built by code, and has no file yet",
@@ -46,14 +48,17 @@ Result<ServiceHooks::SaveDifference> PreviewSave(FrameworkElement& application, 
   const std::filesystem::path file = chosen.empty() ? source->file : chosen;
   auto text = TextOfApplication(application, tools, file.parent_path());
   if (!text) return text.error();
-  ServiceHooks::SaveDifference difference{file.string(), {}, std::move(text->text)};
+  return ServiceHooks::SaveDifference{file.string(), {}, std::move(text->text)};
+}
+
+Result<void> ReadBefore(ServiceHooks::SaveDifference& difference) {
   std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) {
-    auto before = XmlDocument::ReadText(file);
-    if (!before) return before.error();
-    difference.before = std::move(*before);
-  }
-  return difference;
+  if (!std::filesystem::exists(difference.file, ignored)) return {};
+  if (!std::filesystem::is_regular_file(difference.file, ignored)) return IsNoFile(difference.file);
+  auto before = XmlDocument::ReadText(difference.file);
+  if (!before) return before.error();
+  difference.before = std::move(*before);
+  return {};
 }
 
 std::string WhatPasses(FrameworkElement& application, const Scheduler& scheduler, bool has_stop) {

@@ -8,14 +8,12 @@
 #include <fstream>
 #include <functional>
 #include <future>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,108 +28,19 @@
 #include "core/port/port_stop.h"
 #include "core/types/text_format.h"
 #include "core/types/value_copy.h"
-#include "modules/types/algorithm/infrared_ranges.h"
 #include "modules/types/algorithm/pose.h"
-#include "modules/types/algorithm/range_scan.h"
-#include "modules/types/algorithm/surroundings.h"
-#include "modules/types/algorithm/wheel_speeds.h"
 #include "plugins/services/callable.h"
 #include "plugins/services/cycle_work.h"
 #include "tests/integration/application_run.h"
+#include "tests/integration/values_on_the_way.h"
 
 namespace runnel::test {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr Duration kLost = 6s, kBack = 36s, kEnd = 48s;
 constexpr Duration kStated = 1500ms;  // the time-out of 0.5 s, then drive and body come to rest
-
-using Spoil = void (*)(void*);
-template <typename T>
-void Reset(void* value) {
-  *static_cast<T*>(value) = T{};
-}
-template <typename T>
-void SpoilNumbers(void* value) {
-  auto& spoiled = *static_cast<T*>(value);
-  if constexpr (std::is_same_v<T, Pose2>) spoiled = {kNaN, kNaN, kNaN};
-  if constexpr (std::is_same_v<T, Twist2>) spoiled = {kNaN, kNaN};
-  if constexpr (std::is_same_v<T, WheelSpeeds>) spoiled = {kNaN, kNaN};
-  if constexpr (std::is_same_v<T, InfraredRanges>) spoiled.front = kNaN;
-  if constexpr (std::is_same_v<T, RangeScan>)
-    std::ranges::fill(spoiled.ranges, static_cast<float>(kNaN));
-}
-// 40 % of the rays, in a row, the middle among them.
-void SpoilPart(void* value) {
-  auto& ranges = static_cast<RangeScan*>(value)->ranges;
-  const auto first = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 4);
-  std::fill_n(first, 2 * ranges.size() / 5, static_cast<float>(kNaN));
-}
-
-/// A value on the way to the wheels.
-struct OnTheWay {
-  std::string output;  ///< as changes name it
-  std::string input;   ///< that it goes to
-  std::string source;  ///< the module that publishes it
-  Spoil no_number = nullptr;
-  Spoil not_measured = nullptr;
-  Spoil partly = nullptr;  ///< not measured
-  /// After 4 s without coming nearer, another behaviour drives, by measurements of its own.
-  bool has_stand_in = false;
-};
-struct Demo {
-  std::string file;
-  std::vector<OnTheWay> values;
-  /// Who has to be sent: an activity, and its arguments.
-  std::string activity = {};
-  std::string arguments = {};
-};
-
-std::vector<OnTheWay> BugWay(OnTheWay sensor) {
-  return {{"/localisation/pose", "/robot/pose", "/localisation", SpoilNumbers<Pose2>},
-          std::move(sensor),
-          {"/robot/eyes/surroundings", "/robot/planner/surroundings", "/robot/eyes", nullptr,
-           Reset<Surroundings>},
-          {"/robot/planner/twist", "/robot/gate/wanted", "/robot/planner", SpoilNumbers<Twist2>},
-          {"/robot/gate/allowed", "/robot/drive/twist", "/robot/gate", SpoilNumbers<Twist2>},
-          {"/robot/drive/wheels", "/robot/wheels", "/robot/drive", SpoilNumbers<WheelSpeeds>},
-          {"/bumper/contact", "/robot/contact", "/bumper"}};
-}
-const OnTheWay kScan{"/laser/scan", "/robot/scan", "/laser", SpoilNumbers<RangeScan>,
-                     Reset<RangeScan>, SpoilPart};
-const OnTheWay kRanges{"/infrared/ranges", "/robot/ranges", "/infrared",
-                       SpoilNumbers<InfraredRanges>, Reset<InfraredRanges>};
-
-std::vector<Demo> Demos() {
-  return {{"bug_demo.xml", BugWay(kScan)},
-          {"bug_infrared.xml", BugWay(kRanges)},
-          {"behaviour_demo.xml",
-           {{"/localisation/pose", "/network/pose", "/localisation", SpoilNumbers<Pose2>},
-            {"/laser/scan", "/eyes/scan", "/laser", SpoilNumbers<RangeScan>, Reset<RangeScan>, SpoilPart},
-            {"/eyes/surroundings", "/network/surroundings", "/eyes", nullptr, Reset<Surroundings>},
-            {"/network/drive/twist", "/network/motion/in1", "/network/drive", SpoilNumbers<Twist2>,
-             nullptr, nullptr, true},
-            {"/network/avoid/activity", "/network/motion/activity2", "/network/avoid"},
-            {"/network/emergency_stop/activity", "/network/safe_motion/activity1",
-             "/network/emergency_stop"},
-            {"/network/motion/out", "/network/emergency_stop/wanted", "/network/motion",
-             SpoilNumbers<Twist2>},
-            {"/network/safe_motion/out", "/network/twist", "/network/safe_motion",
-             SpoilNumbers<Twist2>},
-            {"/gate/allowed", "/wheels/twist", "/gate", SpoilNumbers<Twist2>},
-            {"/wheels/wheels", "/world/wheels", "/wheels", SpoilNumbers<WheelSpeeds>},
-            {"/bumper/contact", "/gate/contact", "/bumper"}}},
-          {"genom_demo.xml",
-           {{"/localisation/pose", "/guide/pose", "/localisation", SpoilNumbers<Pose2>},
-            {"/laser/scan", "/eyes/scan", "/laser", SpoilNumbers<RangeScan>, Reset<RangeScan>, SpoilPart},
-            {"/eyes/surroundings", "/guide/surroundings", "/eyes", nullptr, Reset<Surroundings>},
-            {"/guide/twist", "/drive/twist", "/guide", SpoilNumbers<Twist2>},
-            {"/drive/wheels", "/world/wheels", "/drive", SpoilNumbers<WheelSpeeds>}},
-           "guide/output/go_to",
-           "{to: {x: 5.6, y: 0.5}}"}};
-}
 
 enum class Loss { kNeverComes, kCeases, kDisconnected, kStale, kNotMeasured, kPartly, kNoNumber, kDeleted, kSwapped, kStuck };
 constexpr std::array kLosses = {Loss::kNeverComes, Loss::kCeases,   Loss::kDisconnected, Loss::kStale,   Loss::kNotMeasured,

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -73,6 +74,7 @@ struct Application::Parts final : ApplicationDescription {
   Result<void> Begin(Application& application, Diagnostics& diagnostics);
 
   RecordingHook RecordingOnDemand(Application& application);
+  [[nodiscard]] bool IsOwnFile(const std::filesystem::path& file);
   void LoadPluginOf(std::string_view type);
   void LoadPluginOf(const Change& change);
 

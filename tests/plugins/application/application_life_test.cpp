@@ -2,9 +2,12 @@
 
 #include <thread>
 
+#include <sys/stat.h>
+
 #include <gmock/gmock.h>
 
 #include "tests/plugins/application/counting_modules.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {
@@ -68,6 +71,19 @@ TEST(ApplicationLife, IsChangedByOneThreadWhileItRunsAndReadByAnother) {
     ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
   }
   reader.request_stop();
+}
+
+// Nobody writes into it: who read it would wait for ever.
+TEST(ApplicationLife, APipeInThePlaceOfAFileIsNotRead) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe.xml";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const auto application = Application::LoadText("<application name=\"robot\"/>", {});
+  ASSERT_TRUE(application) << application.diagnostics().ToString();
+  const auto saved = application->Save(pipe);
+  ASSERT_FALSE(saved);
+  EXPECT_THAT(saved.error().message, testing::HasSubstr("is no file"));
+  EXPECT_FALSE(application->service().application().hooks.preview_save(pipe.string()));
 }
 
 }  // namespace

@@ -188,6 +188,20 @@ TEST_F(StopFileTest, WhereOperatorsMustBeHeardItIsPressedFromTheStartOn) {
             [&] { return application->runtime().robot_stop().state().by == "<operators>: none of them has been heard for 200ms, nor before"; });
 }
 
+TEST_F(StopFileTest, ASaveAndTheEndOfARunTellOfItOnlyWhereItIsLost) {
+  const auto quit = [](const LoadedApplication& application) { return application->service().application().hooks.quit().value(); };
+  const auto kept = Run();
+  kept->runtime().robot_stop().Press("a viewer");
+  ASSERT_TRUE(kept->Save({}));
+  for (const ApplicationEvent& each : kept->TakeEvents()) EXPECT_THAT(each.text, testing::Not(HasSubstr("the STOP of the robot")));
+  std::ofstream(files.path() / "a" / "robot.xml") << "<application name=\"robot\"></application>";
+  EXPECT_THAT(quit(kept), testing::Not(HasSubstr("not saved"))) << "the next process has what somebody has written there";
+  setenv("XDG_RUNTIME_DIR", "/no/such/folder", 1);
+  const auto lost = Run("b");
+  lost->runtime().robot_stop().Press("a viewer");
+  EXPECT_THAT(quit(lost), HasSubstr("the STOP of the robot"));
+}
+
 TEST_F(StopFileTest, ASavedFileNeverHasIt) {
   const auto application = Run();
   application->runtime().robot_stop().Press("a viewer");
