@@ -25,6 +25,8 @@ constexpr Duration kPatience = std::chrono::milliseconds(20);
 // For those that another component is to take the place of: cycles are held meanwhile.
 constexpr Duration kToSettle = std::chrono::seconds(1);
 
+bool IsUnderWay(const Request* activity) { return activity != nullptr && activity->state() == Request::State::kAccepted; }
+
 }  // namespace
 
 ComponentModule::ComponentModule(const Placement& placement, const genom_execution::ComponentTable& component,
@@ -135,14 +137,27 @@ void ComponentModule::Update() {
   }
 }
 
+void PortReading::Note(const Request* reader, Time measured) noexcept {
+  const auto rank = [&](const Slot& slot) {
+    const Request* const before = slot.reader.load(std::memory_order_relaxed);
+    const Time time = slot.measured.load(std::memory_order_relaxed);
+    if (before == reader) return Time::min();
+    return (before == nullptr ? time == Time::max() : !IsUnderWay(before)) ? Time::min() + Duration(1) : time;
+  };
+  Slot& slot = *std::ranges::min_element(slots, {}, rank);
+  slot.reader.store(reader, std::memory_order_relaxed);
+  slot.measured.store(measured, std::memory_order_relaxed);
+}
+
 Time ComponentModule::StampFor(const Request* writer) const noexcept {
   const Cycle* const cycle = CurrentCycle();
   Time oldest = cycle != nullptr ? std::min(cycle->now, cycle->stamp) : now();
   for (const PortReading* each : readings_) {
-    const Request* const reader = each->reader.load(std::memory_order_relaxed);
-    const bool is_under_way = reader != nullptr && reader->state() == Request::State::kAccepted;
-    if (reader != nullptr && reader != writer && (writer != nullptr || !is_under_way)) continue;
-    oldest = std::min(oldest, each->measured.load(std::memory_order_relaxed));
+    for (const PortReading::Slot& slot : each->slots) {
+      const Request* const reader = slot.reader.load(std::memory_order_relaxed);
+      if (reader != nullptr && reader != writer && (writer != nullptr || !IsUnderWay(reader))) continue;
+      oldest = std::min(oldest, slot.measured.load(std::memory_order_relaxed));
+    }
   }
   return oldest;
 }

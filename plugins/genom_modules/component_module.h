@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <deque>
 #include <memory>
@@ -18,11 +19,17 @@
 
 namespace runnel::genom_modules {
 
-/// Of an input: when the value that codels have of it was measured, and who has read it. Threads: any.
+/// Of an input: when the values that codels have of it were measured, and who has read them. Threads: any; Note() one at a time.
 struct PortReading {
-  // relaxed, both: each tells of itself.
-  std::atomic<Time> measured{Time::max()};
-  std::atomic<const genom_execution::Request*> reader{nullptr};
+  struct Slot {
+    // relaxed, both: each tells of itself.
+    std::atomic<Time> measured{Time::max()};
+    std::atomic<const genom_execution::Request*> reader{nullptr};
+  };
+  std::array<Slot, 4> slots;
+
+  /// Instead of what the same one has read before, or who has ended; else of the oldest one.
+  void Note(const genom_execution::Request* reader, Time measured) noexcept;
 };
 
 /// A component as a module: what the template `runnel` makes derives from it and adds ids, ports, services and

@@ -35,8 +35,7 @@ class InPort {
 
   void Fetch(const genom_execution::CodelContext& context) {
     fetched_ = input_.Read();
-    reading_.reader.store(context.request, std::memory_order_relaxed);
-    reading_.measured.store(fetched_ ? fetched_.timestamp() : Time::max(), std::memory_order_relaxed);
+    reading_.Note(context.request, fetched_ ? fetched_.timestamp() : Time::max());
     if constexpr (!is_view) {
       if (fetched_) ToCodel(value_, *fetched_);
     }

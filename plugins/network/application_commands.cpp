@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/ranges.h>
+
 #include "core/base/nearest_name.h"
 #include "core/paths/distant_ports.h"
 #include "plugins/cdr_values/cdr_reader.h"
@@ -14,8 +16,6 @@ namespace runnel {
 
 namespace {
 
-// So long the words of a client who asks no more are kept.
-constexpr auto kForgotten = std::chrono::seconds(20);
 constexpr std::size_t kMostErrands = 32;
 constexpr std::uint32_t kIdentity = 0x80000200u;  // beyond that of the STOP
 
@@ -29,6 +29,8 @@ const char* CommandOf(const Change& change) {
   if (std::holds_alternative<SetParameter>(change)) return "set";
   return std::holds_alternative<ReplaceModule>(change) ? "swap" : "";
 }
+
+std::string TextOf(const WireId& id) { return fmt::format("{:02x}", fmt::join(id, "")); }
 
 bool Allows(const std::string& user_data, const std::string& command) {
   const std::size_t found = user_data.find(kAllowedCommands);
@@ -60,6 +62,8 @@ ApplicationCommands::~ApplicationCommands() {
   const std::lock_guard lock(mutex_);
   offered.swap(offered_);
   errands_.clear();
+  const std::lock_guard open(questions_->mutex);
+  questions_->open.clear();
 }
 
 // Both ends hear what was said before they had found each other, so nothing is said twice.
@@ -76,7 +80,7 @@ Result<std::unique_ptr<ServiceEndpoints>> ApplicationCommands::Open(ServiceEndpo
 
 // ---- Asking.
 
-Result<std::optional<std::string>> ApplicationCommands::Ask(const std::string& text) {
+Result<std::optional<std::string>> ApplicationCommands::Ask(const std::string& text, std::shared_ptr<void>& asking) {
   Diagnostics diagnostics;
   PlacedChanges placed = ParseChanges(text, {}, diagnostics);
   if (!diagnostics.ok()) return diagnostics.errors().front();
@@ -88,18 +92,20 @@ Result<std::optional<std::string>> ApplicationCommands::Ask(const std::string& t
   const std::size_t slash = whole.find('/', 2);
   const std::string name = whole.substr(2, slash == std::string::npos ? slash : slash - 2);
   *path = slash == std::string::npos ? "/" : whole.substr(slash);
-  const auto now = std::chrono::steady_clock::now();
-  std::erase_if(questions_, [&](const auto& each) { return now - each.second.asked > kForgotten; });
-  auto question = questions_.find(text);
-  if (question == questions_.end()) {
+  if (asking == nullptr) {
     auto endpoints = Begin(name, whole, placed.changes.front());
     if (!endpoints) return endpoints.error();
-    question = questions_.emplace(text, Question{now, std::move(*endpoints)}).first;
+    const auto close = [questions = questions_](const void* question) {
+      const std::lock_guard lock(questions->mutex);
+      questions->open.erase(question);
+    };
+    const std::lock_guard lock(questions_->mutex);
+    ServiceEndpoints* const question = endpoints->get();
+    questions_->open.emplace(question, std::move(*endpoints));
+    asking = std::shared_ptr<void>(question, close);
   }
-  question->second.asked = now;
-  const auto reply = question->second.endpoints->Take();
+  const auto reply = static_cast<ServiceEndpoints*>(asking.get())->Take();
   if (!reply) return std::optional<std::string>();
-  questions_.erase(question);
   bool is_done = false;
   std::string said;
   auto from = CdrReader::Begin(reply->message);
@@ -130,6 +136,10 @@ Result<std::unique_ptr<ServiceEndpoints>> ApplicationCommands::Begin(const std::
   CdrWriter to(octets);
   to.PutText("//" + element_.options().member.name);
   to.PutText(ChangeText(change));
+  // Not for who is started in its place: that one is asked again, or not. One that was killed is in the table, too, until its lease is over.
+  std::string whom;
+  for (const WireMember& each : members) whom += each.name == name ? TextOf(each.id) : "";
+  to.PutText(whom);
   if (const auto asked = (*endpoints)->Request(octets); !asked) return asked.error();
   return endpoints;
 }
@@ -167,9 +177,10 @@ void ApplicationCommands::Serve() {
 }
 
 void ApplicationCommands::Begin(const ServiceMessage& request) {
-  std::string who, change;
+  std::string who, change, whom;
   auto from = CdrReader::Begin(request.message);
-  if (!from || !from->GetText(who) || !from->GetText(change)) return;
+  if (!from || !from->GetText(who) || !from->GetText(change) || !from->GetText(whom)) return;
+  if (whom.find(TextOf(link_.participant().id())) == std::string::npos) return;
   Diagnostics diagnostics;
   PlacedChanges placed = ParseChanges(change, {}, diagnostics);
   if (const auto why = WhyRefused(placed.changes)) diagnostics.Add(*why);

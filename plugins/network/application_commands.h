@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -27,15 +26,15 @@ class ApplicationCommands {
   static Result<std::unique_ptr<ApplicationCommands>> Start(NetworkLink& link, NetworkElement& element, CommandService& service);
   ~ApplicationCommands();
 
-  /// "set //robot/planner/cruise_speed 0.3": has robot set it. Nothing: it has not answered yet, and is to be asked again
-  /// in the same words. Errors: what it says; it is not there; it does not allow it.
-  Result<std::optional<std::string>> Ask(const std::string& change);
+  /// "set //robot/planner/cruise_speed 0.3": has robot set it. Nothing: it has not answered yet, and is to be asked again,
+  /// with the same `asking`; without that the request is taken back. Errors: what it says; it is not there; it does not allow it.
+  Result<std::optional<std::string>> Ask(const std::string& change, std::shared_ptr<void>& asking);
 
  private:
-  /// One that has been asked.
-  struct Question {
-    std::chrono::steady_clock::time_point asked;  // by a client, last
-    std::unique_ptr<ServiceEndpoints> endpoints;
+  /// What has been asked, as long as the asker waits and this one is there.
+  struct Questions {
+    std::mutex mutex;
+    std::map<const void*, std::unique_ptr<ServiceEndpoints>> open;  // by themselves
   };
   /// One that is being carried out here.
   struct Errand {
@@ -58,7 +57,7 @@ class ApplicationCommands {
   const std::string application_;
   CommandService& service_;
   std::uint32_t opened_ = 0;
-  std::map<std::string, Question> questions_;  // by their changes
+  const std::shared_ptr<Questions> questions_ = std::make_shared<Questions>();
   std::mutex mutex_;
   std::unique_ptr<ServiceEndpoints> offered_;  // guarded by mutex_, as the rest
   std::deque<CallId> known_;                   // the last that have come

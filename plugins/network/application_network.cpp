@@ -190,10 +190,10 @@ class ApplicationNetwork final : public ApplicationExtension {
     application_ = &application;
     const std::lock_guard lock(application.runtime().structure_mutex());
     auto texts = std::make_unique<ExtensionTexts>();
-    texts->texts["network"] = [this](const std::string&) -> Result<std::optional<std::string>> { return std::optional(link_->Text()); };
-    texts->texts["network_picture"] = [this](const std::string&) -> Result<std::optional<std::string>> { return std::optional(link_->Picture()); };
-    texts->texts["command"] = [this](const std::string& change) { return commands_->Ask(change); };
-    texts->texts["structure"] = [this](const std::string& path) { return link_->StructureOf(path); };
+    texts->texts["network"] = [this](const std::string&, auto&) -> Result<std::optional<std::string>> { return std::optional(link_->Text()); };
+    texts->texts["network_picture"] = [this](const std::string&, auto&) -> Result<std::optional<std::string>> { return std::optional(link_->Picture()); };
+    texts->texts["command"] = [this](const std::string& change, auto& asking) { return commands_->Ask(change, asking); };
+    texts->texts["structure"] = [this](const std::string& path, auto&) { return link_->StructureOf(path); };
     group.Annotate(std::move(texts));
     return {};
   }
@@ -220,7 +220,7 @@ class ApplicationNetwork final : public ApplicationExtension {
     const std::lock_guard lock(application.runtime().structure_mutex());
     auto texts = std::make_unique<ExtensionTexts>();
     for (const char* const name : {"network", "command", "structure"}) {
-      texts->texts[name] = [](const std::string&) -> Result<std::optional<std::string>> {
+      texts->texts[name] = [](const std::string&, auto&) -> Result<std::optional<std::string>> {
         return Error{.message = "the network is left out", .hint = kLeftOut};
       };
     }

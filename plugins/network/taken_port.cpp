@@ -1,7 +1,9 @@
 #include "plugins/network/taken_port.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "core/base/exception_text.h"
@@ -14,6 +16,7 @@ namespace runnel {
 
 namespace {
 constexpr std::size_t kMostGone = 64;
+constexpr std::size_t kMostKept = 128;  // of one writer
 }  // namespace
 
 TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock,
@@ -91,7 +94,7 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
     ForgetGone(table_.Partners(endpoint_.topic, true));
     Writer writer{handle};
     const auto before = endpoint ? std::ranges::find(gone_, endpoint->id, &Writer::id) : gone_.end();
-    if (before != gone_.end()) writer.before = writer.newest = before->newest;
+    if (before != gone_.end()) writer.before = writer.delivered = before->delivered;
     known = writers_.insert(writers_.end(), std::move(writer));
   }
   Writer& writer = *known;
@@ -101,13 +104,29 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
     writer.fits = TypeMisfit(endpoint->options.user_data, endpoint_.user_data).empty();
     writer.has_simulated_time = table_.HasSimulatedTime(endpoint->participant);
     writer.application = table_.ApplicationName(endpoint->participant);
+    const WireQos& qos = endpoint->options.qos;
+    writer.kept = qos.is_latched ? std::min<std::size_t>(qos.depth, kMostKept) : 0;
   }
   return writer;
 }
 
 // Under mutex_, as the next two. What writers keep is delivered again to a reader that is made anew, and when a link comes back.
 void TakenPort::MarkAsDelivered() {
-  for (Writer& each : writers_) each.before = each.newest;
+  for (Writer& each : writers_) each.before = each.delivered;
+}
+
+// They are delivered again in their order, and what is new comes after them.
+bool TakenPort::HasComeBefore(Writer& writer, const WireSample& sample) {
+  if (writer.kept == 0) return false;
+  const std::string_view octets(reinterpret_cast<const char*>(sample.octets.data()), sample.octets.size());
+  const Delivered value{sample.source_time, std::hash<std::string_view>()(octets)};
+  const auto found = std::ranges::find(writer.before, value);
+  const bool is_known = found != writer.before.end();
+  writer.before.erase(writer.before.begin(), is_known ? found + 1 : found);
+  if (is_known) return true;
+  writer.delivered.push_back(value);
+  if (writer.delivered.size() > writer.kept) writer.delivered.pop_front();
+  return false;
 }
 
 void TakenPort::ForgetGone(const std::vector<WireEndpoint>& writers) {
@@ -162,8 +181,7 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       Writer& writer = Find(sample.writer);
       if (!writer.fits) return;
       // It has come before: it keeps the stamp, or arrival, that it had then.
-      if (endpoint_.qos.is_latched && sample.source_time <= writer.before) return;
-      writer.newest = std::max(writer.newest, sample.source_time);
+      if (HasComeBefore(writer, sample)) return;
       if (!IsHeard(sample.writer)) return;
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
       if (is_comparable) writer.clock.Note(now - sent, now);

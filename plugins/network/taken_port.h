@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -79,7 +78,12 @@ class TakenPort {
   [[nodiscard]] std::optional<Duration> least_delay(std::uint64_t writer) const;
 
  private:
-  static constexpr std::int64_t kNoTime = std::numeric_limits<std::int64_t>::min();
+  /// Stamps may stand still or go back, so that one alone does not tell whether a value has come before.
+  struct Delivered {
+    std::int64_t stamp = 0;
+    std::size_t hash = 0;  // of its octets
+    bool operator==(const Delivered&) const = default;
+  };
   /// What is known of who writes.
   struct Writer {
     std::uint64_t handle = 0;
@@ -89,8 +93,9 @@ class TakenPort {
     std::string application = {};     // of Runnel that has it; else ""
     WriterClock clock = {};
     bool is_looked_up = true;         // since Follow()
-    std::int64_t newest = kNoTime;    // by its own time: of what has come
-    std::int64_t before = kNoTime;    // of that, by the reader of before, or before the link was lost
+    std::size_t kept = 0;             // values that it delivers again; 0: it is not latched
+    std::deque<Delivered> delivered = {};  // the last of them, in their order
+    std::deque<Delivered> before = {};     // of those, by the reader of before, or before the link was lost
   };
   [[nodiscard]] Writer& Find(std::uint64_t handle);
   void Take(const WireSample& sample) noexcept;
@@ -98,6 +103,7 @@ class TakenPort {
   [[nodiscard]] bool IsHeard(std::uint64_t writer);
   void ForgetGone(const std::vector<WireEndpoint>& writers);
   void MarkAsDelivered();
+  [[nodiscard]] static bool HasComeBefore(Writer& writer, const WireSample& sample);
   [[nodiscard]] WireQos WantedQos(const std::vector<WireEndpoint>& writers) const;
   void Refuse(Error error);
 

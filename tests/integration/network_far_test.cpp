@@ -1,6 +1,8 @@
 // What one application may do in another one, who is heard of two, and networks that lose what is sent.
 
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -52,6 +54,39 @@ TEST_F(FarApplications, ParametersAreSetAndModulesSwappedWhereTheFileAllowsIt) {
   EXPECT_EQ(refused.code, kBadInput);
   EXPECT_THAT(refused.text, HasSubstr("<network commands=\"set\">"));
   EXPECT_THAT(Runnel("set --app asker //robt/world/goal_x 1").text, HasSubstr("did you mean '//robot'?"));
+}
+
+TEST_F(FarApplications, WhatHasFailedIsNotDoneLaterAndWhatIsAskedAgainIsDoneAgain) {
+  const std::string told = Write("told", R"(  <network commands="set" lease="1s"/>
+  <module name="drive" type="motion/differential_drive"/>
+  <connect from="//nobody/twist" to="drive/twist"/>
+)");
+  const std::string get = "get --app told /drive/maximum_speed", set = "set --app asker //told/drive/maximum_speed ";
+  auto robot = std::make_unique<Program>("run " + told);
+  const Program asker("run " + Write("asker", Passer("", "")));
+  WaitForText("network --app asker", "member told");
+  // Who asks and goes has asked for nothing more: the same words of the next one are a command of their own.
+  robot->Send(SIGSTOP);
+  {
+    Program gives_up(set + "0.31");
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    gives_up.Send(SIGKILL);
+    (void)gives_up.Wait();
+  }
+  robot->Send(SIGCONT);
+  WaitForText("network --app asker", "member told");
+  ASSERT_EQ(Runnel("set --app told /drive/maximum_speed 0.4").code, kDone);
+  WaitUntil("it is asked", [&] { return Runnel(set + "0.31").code == kDone; });
+  EXPECT_THAT(Runnel(get).text, HasSubstr("0.31"));
+  robot->Send(SIGSTOP);
+  const Ended failed = Runnel(set + "0.27");
+  EXPECT_NE(failed.code, kDone) << failed.text;
+  robot->Send(SIGKILL);
+  (void)robot->Wait();
+  robot = std::make_unique<Program>("run " + told);
+  // Whoever answers this one has heard what was said before.
+  WaitUntil("it is there again", [&] { return Runnel(set + "0.35").code == kDone; });
+  EXPECT_THAT(Runnel("log --app told").text, Not(HasSubstr("0.27")));
 }
 
 TEST_F(FarApplications, WhatFilesAllowIsChecked) {

@@ -26,7 +26,8 @@ void ViewerSession::SendNetwork(SteadyTime now) {
     }
     const ExtensionTexts::Text* const text = ExtensionTexts::Find(runtime, "network_picture");
     if (text == nullptr) return;
-    const auto told = (*text)("");
+    std::shared_ptr<void> asking;
+    const auto told = (*text)("", asking);
     if (!told || !*told) return;
     picture = **told;
   }

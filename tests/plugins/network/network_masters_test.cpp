@@ -196,6 +196,37 @@ TEST_F(NetworkMastersTest, WhatIsLatchedComesOnceThoughTheLinkToItsWriterIsLost)
   WaitUntil("it is heard", [&] { return robot_.module.goal.Get().x == 8; });
 }
 
+// By hand, released, or in simulated time that stands.
+TEST_F(NetworkMastersTest, WhatIsLatchedAndOlderThanTheLastIsNewAllTheSameWhenALinkComesBack) {
+  Begin(false);
+  Member planner(*engine_, "planner");
+  planner.Offer({.port = "/application/module/place", .topic = "/drive", .quality = ValueQuality::kLatched});
+  planner.Begin();
+  const auto is_heard = [&](double x) {
+    WaitUntil("it is heard", [&] { return robot_.module.goal.Get().x == x; });
+  };
+  planner.module.place.Publish({7, 0});
+  is_heard(7);
+  const auto set_by_hand = [&](double x) {
+    return planner.module.place.PublishByHand([x](void* value) -> Result<void> {
+      *static_cast<Place*>(value) = {x, 0};
+      return {};
+    });
+  };
+  ASSERT_TRUE(set_by_hand(9));
+  is_heard(9);
+  SetCutOff(*engine_, "planner", true);
+  ASSERT_TRUE(planner.module.place.Release());
+  WaitUntil("it is sent", [&] { return planner.Text().find("3 sent") != std::string::npos; });
+  SetCutOff(*engine_, "planner", false);
+  is_heard(7);
+  // Without a loss it is not taken for what has been.
+  ASSERT_TRUE(set_by_hand(11));
+  is_heard(11);
+  ASSERT_TRUE(planner.module.place.Release());
+  is_heard(7);
+}
+
 TEST_F(NetworkMastersTest, WhoSaysAStrengthCountsMoreThanWhoSaysNone) {
   Begin(true);
   Member plain(*engine_, "plain");
