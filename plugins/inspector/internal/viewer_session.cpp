@@ -24,10 +24,6 @@ using std::chrono::milliseconds;
 constexpr std::size_t kMostWatches = 500;
 constexpr std::size_t kMostPending = 64;
 constexpr std::size_t kMostReplies = 1000;
-constexpr std::size_t kLongestStop = 1000;  // of its message
-// Of messages that are refused unread: in longer ones the number of the request is not looked for, which takes time.
-constexpr std::size_t kLongestNumbered = 16'384;
-constexpr double kOldestRelease = 3;  // s
 constexpr std::size_t kMostLogEntries = 500;
 // A viewer for which more is waiting gets no values, rates and states until it has taken it.
 constexpr std::size_t kSlow = 1 << 20;
@@ -250,41 +246,6 @@ void ViewerSession::SendProfile() {
 
 void ViewerSession::OnBinary(std::string_view /*message*/) {
   client_.Close("messages of this protocol are text");
-}
-
-// A release of the STOP outranks as well: it must neither wait nor be overtaken by a STOP that was pressed later.
-WebArrival ViewerSession::OnArrival(std::string_view message, bool is_text) {
-  if (role() >= WebRole::kDrive) inspection_.service().operators().Hear(name_);
-  WebArrival arrival{.mark = inspection_.application().runtime.robot_stop().state().changes};
-  const auto says = [head = message.substr(0, kLongestStop)](const char* text) { return head.find(text) != head.npos; };
-  arrival.may_be_late = says(R"("op":"watch")") || says(R"("op":"unwatch")");
-  if (!is_text || message.size() > kLongestStop || !says("\"stop\"")) return arrival;
-  const auto parsed = ParseViewerMessage(message);
-  arrival.outranks = parsed && (parsed->op == "stop" || (parsed->op == "release" && parsed->path == kRobotStopName));
-  return arrival;
-}
-
-void ViewerSession::OnTooMany(std::string_view message, bool /*is_text*/) {
-  if (IsSlow()) return;
-  std::optional<std::uint64_t> request;
-  if (message.size() <= kLongestNumbered) (void)ParseViewerMessage(message, &request);
-  client_.SendText(Refusal(request, {{Error{.message = "too many requests a second"}}}));
-}
-
-std::optional<Error> ViewerSession::WhyTooLate(const ViewerMessage& message, WebRole needed) const {
-  if (needed == WebRole::kLook) return {};
-  const std::uint64_t changes = inspection_.application().runtime.robot_stop().state().changes;
-  const Error changed{.message = "STOP was pressed or released after it was sent"};
-  const auto arrival = client_.arrival();
-  if (arrival && arrival->mark != changes) return changed;
-  if (message.op != "release" || message.path != kRobotStopName || !message.at) return {};
-  const double now = ToSeconds(std::chrono::steady_clock::now().time_since_epoch());
-  if (now - *message.at > kOldestRelease) {
-    return Error{.message = "this release is too old: STOP may have been pressed again since"};
-  }
-  const auto& told = inspection_.told_stop();
-  if (told.changes != changes || *message.at < ToSeconds(told.at.time_since_epoch())) return changed;
-  return {};
 }
 
 void ViewerSession::OnText(std::string_view text) {

@@ -1,0 +1,56 @@
+// What comes too fast, or too late to be meant any more.
+
+#include <chrono>
+#include <optional>
+#include <string_view>
+
+#include "plugins/command_service/request_table.h"
+#include "plugins/inspector/internal/viewer_session.h"
+
+namespace runnel::internal {
+
+namespace {
+
+constexpr std::size_t kLongestStop = 1000;  // of its message
+// Of messages that are refused unread: in longer ones the number of the request is not looked for, which takes time.
+constexpr std::size_t kLongestNumbered = 16'384;
+constexpr double kOldestRelease = 3;  // s
+
+}  // namespace
+
+// A release of the STOP outranks as well: it must neither wait nor be overtaken by a STOP that was pressed later.
+WebArrival ViewerSession::OnArrival(std::string_view message, bool is_text) {
+  if (role() >= WebRole::kDrive) inspection_.service().operators().Hear(name_);
+  WebArrival arrival{.mark = inspection_.application().runtime.robot_stop().state().changes};
+  const auto says = [head = message.substr(0, kLongestStop)](const char* text) { return head.find(text) != head.npos; };
+  arrival.may_be_late = says(R"("op":"watch")") || says(R"("op":"unwatch")");
+  if (!is_text || message.size() > kLongestStop || !says("\"stop\"")) return arrival;
+  const auto parsed = ParseViewerMessage(message);
+  arrival.outranks = parsed && (parsed->op == "stop" || (parsed->op == "release" && parsed->path == kRobotStopName));
+  return arrival;
+}
+
+void ViewerSession::OnTooMany(std::string_view message, bool /*is_text*/) {
+  if (IsSlow()) return;
+  std::optional<std::uint64_t> request;
+  if (message.size() <= kLongestNumbered) (void)ParseViewerMessage(message, &request);
+  client_.SendText(Refusal(request, {{Error{.message = "too many requests a second"}}}));
+}
+
+std::optional<Error> ViewerSession::WhyTooLate(const ViewerMessage& message, WebRole needed) const {
+  if (needed == WebRole::kLook) return {};
+  const std::uint64_t changes = inspection_.application().runtime.robot_stop().state().changes;
+  const Error changed{.message = "STOP was pressed or released after it was sent"};
+  const auto arrival = client_.arrival();
+  if (arrival && arrival->mark != changes) return changed;
+  if (message.op != "release" || message.path != kRobotStopName || !message.at) return {};
+  const double now = ToSeconds(std::chrono::steady_clock::now().time_since_epoch());
+  if (now - *message.at > kOldestRelease) {
+    return Error{.message = "this release is too old: STOP may have been pressed again since"};
+  }
+  const auto& told = inspection_.told_stop();
+  if (told.changes != changes || *message.at < ToSeconds(told.at.time_since_epoch())) return changed;
+  return {};
+}
+
+}  // namespace runnel::internal
