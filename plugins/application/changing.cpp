@@ -289,7 +289,13 @@ CommandService& Application::service() {
     *ends = [this, end = *ends]() -> Result<std::string> {
       std::string lost;
       try {  // a type whose text throws does not keep the run from its end, nor does whoever has the lock
-        const std::unique_lock lock(parts_->runtime().structure_mutex(), std::try_to_lock);
+        // Others have it for a moment again and again.
+        std::unique_lock lock(parts_->runtime().structure_mutex(), std::try_to_lock);
+        for (int tries = 0; !lock && tries < 200; ++tries) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          lock.try_lock();
+        }
+        if (!lock) lost = "\nwhat is not saved cannot be told while the structure is being changed";
         const auto found = lock ? parts_->FindAgain() : Error{};
         if (found) {
           lost = internal::WhatEnds(**found, *parts_->scheduler, {parts_->plugins(), parts_->tags()},
