@@ -1,8 +1,6 @@
-#include <array>
 #include <string>
 
-#include <openssl/sha.h>
-
+#include "plugins/ros_messages/internal/sha256.h"
 #include "plugins/ros_messages/message_library.h"
 
 namespace runnel {
@@ -35,18 +33,6 @@ std::string DescriptionOf(const MessageDefinition& definition) {
   return text + "]}";
 }
 
-std::string Sha256(const std::string& text) {
-  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;
-  SHA256(reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data());
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string digits;
-  for (const unsigned char octet : digest) {
-    digits += kDigits[octet >> 4];
-    digits += kDigits[octet & 15];
-  }
-  return digits;
-}
-
 }  // namespace
 
 std::string TypeHashOf(const MessageDefinition& definition, const MessageLibrary& library) {
@@ -57,7 +43,7 @@ std::string TypeHashOf(const MessageDefinition& definition, const MessageLibrary
     text += between + DescriptionOf(*each);
     between = ", ";
   }
-  return "RIHS01_" + Sha256(text + "]}");
+  return "RIHS01_" + internal::Sha256(text + "]}");
 }
 
 }  // namespace runnel

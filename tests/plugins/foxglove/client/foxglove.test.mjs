@@ -145,22 +145,22 @@ test("parameters are read, set, watched; what cannot be is told", async () => {
   assert.ok(all.length > 20);
   const stop = all.find((each) => each.name === "/robot/gate/stop");
   assert.deepEqual(stop, { name: "/robot/gate/stop", value: false });
-  assert.deepEqual(all.find((each) => each.name === "/robot/gate/timeout"),
-    { name: "/robot/gate/timeout", value: 0.5, type: "float64" });
+  assert.deepEqual(all.find((each) => each.name === "/robot/gate/wanted_timeout"),
+    { name: "/robot/gate/wanted_timeout", value: 0.5, type: "float64" });
 
   const other = await Viewer.connect(application.address, "foxglove.sdk.v1");
-  other.client.subscribeParameterUpdates(["/robot/gate/timeout"]);
+  other.client.subscribeParameterUpdates(["/robot/gate/wanted_timeout"]);
   await other.until("the value now", () => other.parameterValues.length > 0);
-  viewer.client.setParameters([{ name: "/robot/gate/timeout", value: 3, type: "float64" }], "set");
+  viewer.client.setParameters([{ name: "/robot/gate/wanted_timeout", value: 3, type: "float64" }], "set");
   assert.equal((await answer("set"))[0].value, 3);
   await other.until("the new value", () => other.parameterValues.at(-1).parameters[0].value === 3);
   other.close();
 
-  viewer.client.setParameters([{ name: "/robot/gate/timeout", value: 10000 }], "too large");
+  viewer.client.setParameters([{ name: "/robot/gate/wanted_timeout", value: 10000 }], "too large");
   await viewer.complaint("0 .. 3600");
   assert.equal((await answer("too large"))[0].value, 3);
-  viewer.client.setParameters([{ name: "/robot/gate/timeuot", value: 1 }]);
-  await viewer.complaint("did you mean '/robot/gate/timeout'?");
+  viewer.client.setParameters([{ name: "/robot/gate/wanted_timeuot", value: 1 }]);
+  await viewer.complaint("did you mean '/robot/gate/wanted_timeout'?");
   viewer.close();
 });
 
