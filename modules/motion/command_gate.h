@@ -1,8 +1,7 @@
 #pragma once
 
-#include <atomic>
+#include <mutex>
 
-#include "core/element/element_listener.h"
 #include "core/element/runtime.h"
 #include "core/module/module.h"
 #include "core/port/input.h"
@@ -39,13 +38,9 @@ inline void Describe(TypeBuilder<GateState>& type) {
 /// Stands between whoever commands and the drive: lets commands pass while they are fresh and
 /// nothing is touched, and commands standstill otherwise. So a planner that was stopped by a fault
 /// cannot leave the robot driving.
-class CommandGate final : public Module, private ElementListener {
+class CommandGate final : public Module {
  public:
-  explicit CommandGate(const Placement& placement) : Module(placement) {
-    KeepState(has_bumper_);
-    runtime().AddListener(*this);
-  }
-  ~CommandGate() override { runtime().RemoveListener(*this); }
+  explicit CommandGate(const Placement& placement) : Module(placement) { KeepState(has_bumper_); }
 
   Input<Twist2> wanted{this,
                        "wanted",
@@ -59,24 +54,22 @@ class CommandGate final : public Module, private ElementListener {
   Output<GateState> state{this, "state", {.description = "why commands do not pass"}};
 
   InputTimeout wanted_timeout{this, wanted, {.former_name = "timeout"}};
-  /// A bumper that is connected before the first cycle has to speak, and one that has spoken has to go on, also if it is
+  /// A bumper that is connected from the beginning has to speak, and one that has spoken has to go on, also if it is
   /// disconnected or another gate takes the place of this one; one that says only what has changed needs a longer one.
   InputTimeout contact_timeout{this, contact, {}};
   Parameter<bool> stop{
       this, "stop", {.default_value = false, .description = "holds the robot whatever comes"}};
 
  private:
-  // Where a deletion is undone, connections come after Prepare().
-  void OnConnected(FrameworkElement&, FrameworkElement&) override { LookForBumper(); }
-  void OnDisconnected(FrameworkElement&, FrameworkElement&) override { LookForBumper(); }
-  void LookForBumper() {
-    if (!has_run_) begins_with_bumper_ = !contact.Sources().empty();
+  Result<void> Prepare() override {
+    const std::lock_guard lock(runtime().structure_mutex());
+    has_bumper_ = !contact.Sources().empty();
+    return {};
   }
   void Update() override {
-    has_run_ = true;
     const auto command = wanted_timeout.Read(wanted, now());
     const auto touch = contact_timeout.Read(contact, now());
-    has_bumper_ = has_bumper_ || begins_with_bumper_ || contact_timeout.lack() != InputLack::kNeverCame;
+    has_bumper_ = has_bumper_ || contact_timeout.lack() != InputLack::kNeverCame;
     const GateState verdict = Check(touch);
     allowed.Publish(verdict == GateState::kOpen ? *command : Twist2{});
     state.Publish(verdict);
@@ -91,8 +84,6 @@ class CommandGate final : public Module, private ElementListener {
   }
 
   bool has_bumper_ = false;
-  std::atomic<bool> has_run_{false};
-  std::atomic<bool> begins_with_bumper_{false};
 };
 
 }  // namespace runnel

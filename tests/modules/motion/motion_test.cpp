@@ -115,28 +115,6 @@ TEST(CommandGateModule, WaitsForABumperThatIsConnectedAndHasNotSpoken) {
   EXPECT_EQ(rig.Last(rig.module.state), GateState::kOpen);
 }
 
-// As where its deletion is undone.
-TEST(CommandGateModule, WaitsForABumperThatIsConnectedOnceItIsPrepared) {
-  test::ModuleRig<CommandGate> rig;
-  ASSERT_TRUE(rig.Prepare());
-  Output<Contact> bumper(rig.runtime.root(), "bumper");
-  ASSERT_TRUE(Port::Connect(bumper, rig.module.contact));
-  rig.Feed(rig.module.wanted, {0.3, 0});
-  rig.RunCycle();
-  EXPECT_EQ(rig.Last(rig.module.state), GateState::kOldContact);
-  EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
-}
-
-TEST(CommandGateModule, WaitsForNoBumperThatIsConnectedLater) {
-  test::ModuleRig<CommandGate> rig;
-  rig.Feed(rig.module.wanted, {0.3, 0});
-  rig.RunCycle();
-  Output<Contact> bumper(rig.runtime.root(), "bumper");
-  ASSERT_TRUE(Port::Connect(bumper, rig.module.contact));
-  rig.RunCycle();
-  EXPECT_EQ(rig.Last(rig.module.state), GateState::kOpen);
-}
-
 TEST(CommandGateModule, WhatPassesIsAsOldAsItWas) {
   test::ModuleRig<CommandGate> rig;
   rig.Feed(rig.module.wanted, {0.3, 0});
