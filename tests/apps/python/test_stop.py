@@ -29,15 +29,6 @@ def test_stop_is_in_force_until_it_is_released(base):
         base.release()
 
 
-def test_a_stop_that_stops_nothing_raises_and_is_in_force():
-    application = APPLICATION.replace('<driving port="after/wanted"/>', "")
-    with runnel.load_text(application, control=True) as app, runnel.connect("base") as far:
-        for stop in (app.stop, far.stop):
-            with pytest.raises(runnel.Error, match="STOP stops nothing"):
-                stop()
-            app.release()
-
-
 def test_one_port_is_blocked_until_it_is_released(base):
     base.block("/gate/wanted")
     with pytest.raises(runnel.Error, match="no 'gat'"):
