@@ -188,21 +188,18 @@ Result<void> StopFile::Follow(const RobotStop::State& state) {
   return removed;
 }
 
+// It gets its name when it is held and says who pressed: whoever looks meanwhile finds nothing, or all of it.
 Result<void> StopFile::Hold(const std::string& text) {
-  for (;;) {
-    const int descriptor = Open(file_, O_WRONLY | O_CREAT | O_TRUNC);
-    struct stat status {};
-    const bool is_mine = descriptor >= 0 && flock(descriptor, LOCK_EX) == 0 && fstat(descriptor, &status) == 0;
-    const bool is_there = is_mine && status.st_nlink > 0;
-    if (is_there && write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size())) {
-      held_ = descriptor;
-      return {};
-    }
-    Error error = SystemError(file_);
-    if (descriptor >= 0) close(descriptor);
-    if (!is_mine || is_there) return error;
-    // Who looked whether anybody holds it has removed it meanwhile.
+  const fs::path unnamed = folder_ / ("." + file_.filename().string());
+  const int descriptor = Open(unnamed, O_WRONLY | O_CREAT | O_TRUNC);
+  if (descriptor >= 0 && flock(descriptor, LOCK_EX) == 0 && write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+      rename(unnamed.c_str(), file_.c_str()) == 0) {
+    held_ = descriptor;
+    return {};
   }
+  Error error = SystemError(file_);
+  if (descriptor >= 0) close(descriptor);
+  return error;
 }
 
 }  // namespace runnel

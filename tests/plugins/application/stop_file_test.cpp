@@ -45,7 +45,10 @@ class StopFileTest : public testing::Test {
   [[nodiscard]] std::size_t Files() const {
     std::error_code none;
     std::size_t count = 0;
-    for (const auto& each : fs::directory_iterator(Folder(), none)) count += each.path().string().find(".stop") != std::string::npos;
+    for (const auto& each : fs::directory_iterator(Folder(), none)) {
+      const std::string name = each.path().filename().string();
+      count += name.ends_with(".stop") && !name.starts_with(".");
+    }
     return count;
   }
 
@@ -143,7 +146,7 @@ TEST_F(StopFileTest, ADiskThatHangsDelaysNeitherTheStopNorItsAnswer) {
   StopFile file(stop, log, Folder(), "hangs-");
   stop.Press("a viewer");
   WaitUntil("it is written", [&] { return Files() == 1; });
-  const fs::path name = *fs::directory_iterator(Folder());
+  const fs::path name = Folder() / ("." + fs::directory_iterator(Folder())->path().filename().string());
   stop.Release("a viewer");
   WaitUntil("it is gone", [&] { return Files() == 0; });
   ASSERT_EQ(mkfifo(name.c_str(), 0600), 0);
