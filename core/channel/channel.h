@@ -256,7 +256,7 @@ class Channel final : public ChannelBase {
       std::optional<Time> timestamp;
       if (!pull_point()->Run(&*loan, timestamp)) return;
       const Time published = now(reader);
-      const ValueTimes times{timestamp.value_or(published), published};
+      const ValueTimes times{std::min(timestamp.value_or(published), published), published};
       if constexpr (kIsInlined<T>) {
         (void)PublishNow<PublishPath::kSlow>(*loan, times);
       } else {

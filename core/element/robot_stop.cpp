@@ -9,7 +9,10 @@ namespace runnel {
 RobotStop::RobotStop(const Runtime& runtime) : runtime_(runtime) {}
 
 bool RobotStop::Press(std::string by) {
-  return signal_->Press([&] { Note(true, std::move(by)); });
+  if (signal_->Press([&] { Note(true, std::move(by)); })) return true;
+  const std::lock_guard lock(mutex_);
+  ++state_.requests;
+  return false;
 }
 
 bool RobotStop::Release(std::string by) {
@@ -26,7 +29,7 @@ RobotStop::State RobotStop::state() const {
 
 void RobotStop::Note(bool in_force, std::string by) {
   const std::lock_guard lock(mutex_);
-  state_ = {in_force, std::move(by), runtime_.clock().Now(), state_.changes + 1};
+  state_ = {in_force, std::move(by), runtime_.clock().Now(), state_.changes + 1, state_.requests + 1};
 }
 
 }  // namespace runnel

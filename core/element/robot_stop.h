@@ -27,6 +27,8 @@ class RobotStop {
     std::string by = {};        ///< who changed it last, for people: "a terminal", "/robot/button"
     Time since{};               ///< of the last change, on the application's clock
     std::uint64_t changes = 0;  ///< 0: it was never in force
+    /// How often it was pressed and released, presses while it was in force included: who releases has seen them all.
+    std::uint64_t requests = 0;
   };
 
   explicit RobotStop(const Runtime& runtime);

@@ -23,6 +23,11 @@ class BoundInput : public InputBase {
   [[nodiscard]] std::uint64_t publications() const noexcept override;
   /// How many queues that others have replaced still hold values, or may still get some. Any thread.
   [[nodiscard]] std::size_t replaced_queues() const noexcept;
+  /// Whether somebody publishes to it, or has a value there. Any thread; wait-free.
+  [[nodiscard]] bool is_bound() const noexcept {
+    const EpochGuard guard;
+    return !binding()->links.empty();
+  }
   /// Whether values wait for Take(), since a connection has a queue or has had one. By the reader.
   [[nodiscard]] bool has_queue() const noexcept {
     const EpochGuard guard;

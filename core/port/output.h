@@ -79,16 +79,17 @@ class Output final : public OutputBase {
     return PublishAt(std::move(value), PublicationTimes());
   }
   /// The same with the time at which the value was measured, on the application's clock: what readers
-  /// see as timestamp(). Values need not come in the order of their timestamps.
+  /// see as timestamp(). Values need not come in the order of their timestamps. A time that is still to come counts as
+  /// now, since such a value would not grow old (Port::stamps_ahead()).
   [[gnu::always_inline]] PublishStatus Publish(runnel::Loan<T>&& loan, Time timestamp) {
-    return own().Publish(std::move(loan), {timestamp, PublicationTime(timestamp)});
+    return own().Publish(std::move(loan), PublicationTimes(timestamp));
   }
   PublishStatus Publish(const T& value,
                         Time timestamp) requires(kIsInlined<T> || std::is_copy_assignable_v<T>) {
-    return PublishAt(value, {timestamp, PublicationTime(timestamp)});
+    return PublishAt(value, PublicationTimes(timestamp));
   }
   PublishStatus Publish(T&& value, Time timestamp) requires(!kIsInlined<T>) {
-    return PublishAt(std::move(value), {timestamp, PublicationTime(timestamp)});
+    return PublishAt(std::move(value), PublicationTimes(timestamp));
   }
 
   /// Publishes what has come by an input, from whatever output: of types that travel in buffers the very value,
@@ -114,7 +115,7 @@ class Output final : public OutputBase {
   }
   PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>> owner,
                                Time timestamp) {
-    return PublishInPlaceAt(value, std::move(owner), {timestamp, PublicationTime(timestamp)});
+    return PublishInPlaceAt(value, std::move(owner), PublicationTimes(timestamp));
   }
   /// Gives back what has been forwarded or published in place and nobody holds any more. By the publisher.
   void ReleaseUnused() noexcept {

@@ -269,7 +269,7 @@ Result<PublishStatus> Port::PublishInto(ChannelBase& channel, const Fill& fill,
         by.filled = by.fill(value);
         return by.filled.has_value();
       },
-      &filling, {timestamp.value_or(now.timestamp), now.publication_time});
+      &filling, timestamp ? TimesOf(*timestamp, now.publication_time) : now);
   if (!published) return filling.filled.error();
   if (*published == PublishStatus::kNoBuffer) return CannotPublish("its pool has no free buffer");
   return *published;

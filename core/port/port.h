@@ -75,6 +75,8 @@ class Port : public FrameworkElement {
            (is_looked_at_.load(std::memory_order_relaxed) &&
             is_looked_at_.exchange(false, std::memory_order_relaxed));
   }
+  /// Outputs: whether a value was published with a time of measurement that was more than 100 ms to come. Any thread.
+  [[nodiscard]] bool stamps_ahead() const noexcept { return stamps_ahead_.load(std::memory_order_relaxed); }
   /// Who looks at the port without being connected to it says so. Any thread.
   void NoteLook() const noexcept { is_looked_at_.store(true, std::memory_order_relaxed); }
 
@@ -238,9 +240,11 @@ class Port : public FrameworkElement {
   [[nodiscard]] inline ValueTimes PublicationTimes() const noexcept;
   /// The time that a value published now by the calling thread bears.
   [[nodiscard]] inline Time PublicationTime() const noexcept;
-  /// The same of a value that was measured at `timestamp`, for which the clock's coarse time is good enough outside
+  /// The times of a value that was measured at `timestamp`, for which the clock's coarse time is good enough outside
   /// of cycles.
-  [[nodiscard]] inline Time PublicationTime(Time timestamp) const noexcept;
+  [[nodiscard]] inline ValueTimes PublicationTimes(Time timestamp) const noexcept;
+  /// The same, published at `now`: what is still to come counts as now.
+  [[nodiscard]] inline ValueTimes TimesOf(Time timestamp, Time now) const noexcept;
 
   void Detach() noexcept override;
 
@@ -285,6 +289,7 @@ class Port : public FrameworkElement {
   std::vector<Port*> incoming_;
   std::atomic<bool> has_outgoing_{false};
   mutable std::atomic<bool> is_looked_at_{false};
+  mutable std::atomic<bool> stamps_ahead_{false};
   std::unique_ptr<internal::PortExtras> extras_;  // what few ports have
 };
 
@@ -300,11 +305,17 @@ inline Time Port::PublicationTime() const noexcept {
     return TimeOutsideOfCycles();
   return cycle->now;
 }
-inline Time Port::PublicationTime(Time timestamp) const noexcept {
+inline ValueTimes Port::PublicationTimes(Time timestamp) const noexcept {
   const Cycle* cycle = CurrentCycle();
-  if (cycle == nullptr) [[unlikely]]
-    return CoarseTimeOutsideOfCycles(timestamp);
-  return cycle->now;
+  return TimesOf(timestamp, cycle != nullptr ? cycle->now : CoarseTimeOutsideOfCycles(timestamp));
+}
+inline ValueTimes Port::TimesOf(Time timestamp, Time now) const noexcept {
+  if (timestamp <= now) [[likely]]
+    return {timestamp, now};
+  // A cycle that measures is somewhat ahead of its beginning. relaxed: it only informs.
+  constexpr Duration kLongCycle = std::chrono::milliseconds(100);
+  if (timestamp - now > kLongCycle) stamps_ahead_.store(true, std::memory_order_relaxed);
+  return ValueTimes::Of(now);
 }
 
 }  // namespace runnel

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <mutex>
-
-#include "core/element/runtime.h"
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
@@ -54,22 +51,17 @@ class CommandGate final : public Module {
   Output<GateState> state{this, "state", {.description = "why commands do not pass"}};
 
   InputTimeout wanted_timeout{this, wanted, {.former_name = "timeout"}};
-  /// A bumper that is connected from the beginning has to speak, and one that has spoken has to go on, also if it is
-  /// disconnected or another gate takes the place of this one; one that says only what has changed needs a longer one.
+  /// A bumper that is connected has to speak, and has to go on speaking, also if it is disconnected or another gate takes the
+  /// place of this one. A bumper that says only what has changed needs a longer time-out.
   InputTimeout contact_timeout{this, contact, {}};
   Parameter<bool> stop{
       this, "stop", {.default_value = false, .description = "holds the robot whatever comes"}};
 
  private:
-  Result<void> Prepare() override {
-    const std::lock_guard lock(runtime().structure_mutex());
-    has_bumper_ = !contact.Sources().empty();
-    return {};
-  }
   void Update() override {
     const auto command = wanted_timeout.Read(wanted, now());
     const auto touch = contact_timeout.Read(contact, now());
-    has_bumper_ = has_bumper_ || contact_timeout.lack() != InputLack::kNeverCame;
+    has_bumper_ = has_bumper_ || contact.is_bound();
     const GateState verdict = Check(touch);
     allowed.Publish(verdict == GateState::kOpen ? *command : Twist2{});
     state.Publish(verdict);

@@ -128,6 +128,7 @@ std::string PortText(const Port& port, const ListingOptions& options) {
   if (const auto silent = SilentFor(port, options.began, options.now)) {
     text += fmt::format(", SILENT for {:.3g} s", ToSeconds(*silent));
   }
+  if (port.stamps_ahead()) text += ", STAMPED AHEAD";
   if (port.is_driving()) text += port.runtime().robot_stop().in_force() ? ", driving, IN STOP" : ", driving";
   const std::string unreached = options.scheduler != nullptr ? options.scheduler->WhyUnreached(port) : "";
   if (!unreached.empty()) text += ", CANNOT BE REACHED: " + unreached;

@@ -19,6 +19,7 @@ struct RestMark final : Annotation {
   }
   std::optional<Time> rested;  // the value in the slot of rules is of here: when its source was last seen at rest
   bool is_unreached = false;
+  bool is_ahead_told = false;
 };
 
 const RestMark* MarkOf(const Port& port) { return port.FindAnnotation<RestMark>(); }
@@ -55,16 +56,13 @@ StaleWatch::Turn StaleWatch::Look(Runtime& runtime, Time now) {
   return turn;
 }
 
-// Counted from the measurement: what is old when it comes is stale. A time to come counts as that of the
-// publication, else a publisher with a wrong clock would be fresh for ever. An output that is gone is silent.
+// Counted from the measurement: what is old when it comes is stale. An output that is gone is silent.
 void StaleWatch::Hear(Runtime& runtime) {
   for (const std::string& path : outputs_) {
     const auto found = runtime.root().Find(path);
     const auto* const port = found ? dynamic_cast<const Port*>(*found) : nullptr;
     if (port == nullptr) continue;
-    port->VisitLatest([&](const void*, ValueTimes times) {
-      heard_ = std::max(*heard_, std::min(times.timestamp, times.publication_time));
-    });
+    port->VisitLatest([&](const void*, ValueTimes times) { heard_ = std::max(*heard_, times.timestamp); });
   }
 }
 
@@ -88,16 +86,25 @@ StaleWatch::Turn StaleWatch::Judge(Time now) {
 void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, const Tell& tell) {
   if (std::exchange(revision_, runtime.revision()) != runtime.revision()) {
     driven_.clear();
+    outputs_.clear();
     runtime.root().Visit([this](FrameworkElement& element) {
       auto* const port = dynamic_cast<Port*>(&element);
       if (port != nullptr && (port->is_driving() || MarkOf(*port) != nullptr))
         driven_.push_back({port, port->Sources(), port->Sinks()});
+      if (port != nullptr && port->direction() == Port::Direction::kOutput && (MarkOf(*port) == nullptr || !MarkOf(*port)->is_ahead_told))
+        outputs_.push_back(port);
     });
   }
   for (const Driven& each : driven_) {
     LookAtReaders(each, scheduler, tell);
     LookAtSources(each, scheduler, now, tell);
   }
+  std::erase_if(outputs_, [&](Port* each) {
+    if (!each->stamps_ahead()) return false;
+    Mark(*each).is_ahead_told = true;
+    tell(*each, "bears times of measurement that are still to come; they count as the time of publication", false);
+    return true;
+  });
 }
 
 // Who does not run reads no safe value either.

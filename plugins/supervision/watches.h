@@ -73,6 +73,7 @@ class Standstill {
   static void LookAtSources(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell);
 
   std::vector<Driven> driven_;  // as of the structure's revision
+  std::vector<Port*> outputs_;  // likewise: whose stamps have not been told of
   std::uint64_t revision_ = ~std::uint64_t{};
 };
 

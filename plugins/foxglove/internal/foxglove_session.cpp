@@ -52,13 +52,13 @@ bool FoxgloveSession::MayDo(WebRole needed, std::string_view what) {
 
 bool FoxgloveSession::IsLate() const {
   const auto arrival = client_.arrival();
-  return arrival && arrival->mark != shared_->runtime().robot_stop().state().changes;
+  return arrival && arrival->mark != shared_->runtime().robot_stop().state().requests;
 }
 
 // A release outranks as well: it must neither wait nor be overtaken by a STOP that was pressed later.
 WebArrival FoxgloveSession::OnArrival(std::string_view message, bool is_text) {
   if (shared_->RoleOf(client_) >= WebRole::kDrive) shared_->application.service.operators().Hear("Foxglove");
-  WebArrival arrival{.mark = shared_->runtime().robot_stop().state().changes};
+  WebArrival arrival{.mark = shared_->runtime().robot_stop().state().requests};
   if (is_text || message.size() < kHead) return arrival;
   const std::uint32_t id = ReadNumber(message, 1);
   const auto found = message[0] == kMessageData ? publications_.find(id) : publications_.end();

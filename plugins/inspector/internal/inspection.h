@@ -84,9 +84,9 @@ class Inspection {
   /// Of the server's thread.
   [[nodiscard]] Arrangement& arrangement() noexcept { return arrangement_; }
   [[nodiscard]] TaskGroup& tasks() noexcept { return tasks_; }
-  /// How often the STOP of the robot had changed when viewers were last told of a change, and when the first of them was.
+  /// RobotStop::State::requests as viewers were last told of a change of it, and when the first of them was.
   struct ToldStop {
-    std::uint64_t changes = 0;
+    std::uint64_t requests = 0;
     SteadyTime at{};
   };
   [[nodiscard]] ToldStop& told_stop() noexcept { return told_stop_; }

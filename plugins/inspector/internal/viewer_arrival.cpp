@@ -21,7 +21,7 @@ constexpr double kOldestRelease = 3;  // s
 // A release of the STOP outranks as well: it must neither wait nor be overtaken by a STOP that was pressed later.
 WebArrival ViewerSession::OnArrival(std::string_view message, bool is_text) {
   if (role() >= WebRole::kDrive) inspection_.service().operators().Hear(name_);
-  WebArrival arrival{.mark = inspection_.application().runtime.robot_stop().state().changes};
+  WebArrival arrival{.mark = inspection_.application().runtime.robot_stop().state().requests};
   const auto says = [head = message.substr(0, kLongestStop)](const char* text) { return head.find(text) != head.npos; };
   arrival.may_be_late = says(R"("op":"watch")") || says(R"("op":"unwatch")");
   if (!is_text || message.size() > kLongestStop || !says("\"stop\"")) return arrival;
@@ -39,17 +39,17 @@ void ViewerSession::OnTooMany(std::string_view message, bool /*is_text*/) {
 
 std::optional<Error> ViewerSession::WhyTooLate(const ViewerMessage& message, WebRole needed) const {
   if (needed == WebRole::kLook) return {};
-  const std::uint64_t changes = inspection_.application().runtime.robot_stop().state().changes;
+  const std::uint64_t requests = inspection_.application().runtime.robot_stop().state().requests;
   const Error changed{.message = "STOP was pressed or released after it was sent"};
   const auto arrival = client_.arrival();
-  if (arrival && arrival->mark != changes) return changed;
+  if (arrival && arrival->mark != requests) return changed;
   if (message.op != "release" || message.path != kRobotStopName || !message.at) return {};
   const double now = ToSeconds(std::chrono::steady_clock::now().time_since_epoch());
   if (now - *message.at > kOldestRelease) {
     return Error{.message = "this release is too old: STOP may have been pressed again since"};
   }
   const auto& told = inspection_.told_stop();
-  if (told.changes != changes || *message.at < ToSeconds(told.at.time_since_epoch())) return changed;
+  if (told.requests != requests || *message.at < ToSeconds(told.at.time_since_epoch())) return changed;
   return {};
 }
 

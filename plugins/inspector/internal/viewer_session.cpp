@@ -69,14 +69,14 @@ void ViewerSession::SendHello() {
 WebSession::SteadyTime ViewerSession::SendAlive() {
   const SteadyTime now = std::chrono::steady_clock::now();
   const auto stop = inspection_.application().runtime.robot_stop().state();
-  if (now < alive_due_ && told_stop_ == stop.changes) return alive_due_;
-  if (inspection_.told_stop().changes != stop.changes) inspection_.told_stop() = {stop.changes, now};
+  if (now < alive_due_ && told_stop_ == stop.requests) return alive_due_;
+  if (inspection_.told_stop().requests != stop.requests) inspection_.told_stop() = {stop.requests, now};
   const bool is_sent = client_.SendText(JsonObjectText([&](JsonObject& json) {
     JsonObject told(json.Add("op", "alive").Add("at", ToSeconds(now.time_since_epoch())).Key("stop"));
     told.Add("in_force", stop.in_force).Add("by", stop.by);
     told.Add("since", ToSeconds(stop.since - inspection_.start()));
   }));
-  if (is_sent) told_stop_ = stop.changes;
+  if (is_sent) told_stop_ = stop.requests;
   // Pages answer it, by which operators are heard.
   const Duration silence = inspection_.service().operators().timeout();
   return alive_due_ = now + (silence > Duration() ? std::min<Duration>(kAlive, silence / 4) : kAlive);

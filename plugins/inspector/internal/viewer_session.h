@@ -79,7 +79,7 @@ class ViewerSession final : public WebSession {
   const std::string name_;
   const bool is_for_stop_;
   const StopSignal::Subscription pressed_;  // gives the session a turn
-  std::optional<std::uint64_t> told_stop_;  // of its changes
+  std::optional<std::uint64_t> told_stop_;  // of its requests
   SteadyTime alive_due_{};
   std::shared_ptr<const Catalogue> catalogue_;
   std::uint64_t structure_ = 0;  // the revision that has been told

@@ -149,7 +149,7 @@ TEST_F(ConvertedConnectionTest, ReadersQueuesAndWakersFindWhatAValueHasBecome) {
   EXPECT_EQ(waker.wakes, 1);
   EXPECT_EQ(latest.in.Read().value_or(0), 1.0);
   for (int i = 2; i <= 4; ++i) {
-    clock.Advance(Duration(1));
+    clock.Advance(Duration(1000));
     sender.out.Publish(Place{.x = 1.0 * i, .heading = 10.0 * i}, Time(Duration(100 + i)));
   }
   const auto read = latest.in.Read();

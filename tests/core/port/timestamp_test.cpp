@@ -101,6 +101,34 @@ TYPED_TEST(TimestampTest, AProviderMaySayIt) {
   this->ExpectTimes(puller.in.Read(), this->kPublished);
 }
 
+// It would never grow old.
+TYPED_TEST(TimestampTest, WhatIsStillToComeCountsAsNow) {
+  this->Connect(this->sender.out, this->receiver.in);
+  this->sender.out.Publish(TypeParam{}, this->kPublished + 50ms);
+  this->ExpectTimes(this->receiver.in.Read(), this->kPublished);
+  EXPECT_FALSE(this->sender.out.stamps_ahead()) << "as where a cycle measures";
+  const CycleScope cycle({.now = this->kPublished});
+  this->sender.out.Publish(TypeParam{}, this->kPublished + 1h);
+  this->ExpectTimes(this->receiver.in.Read(), this->kPublished);
+  EXPECT_TRUE(this->sender.out.stamps_ahead());
+}
+
+TYPED_TEST(TimestampTest, WhatIsFilledOrPulledIsNotToComeEither) {
+  auto& pullable = this->template MakeSender<TypeParam>("pullable", kPullable);
+  auto& puller = this->template MakeReceiver<TypeParam>("puller", kPulls);
+  this->Connect(pullable.out, puller.in);
+  pullable.out.SetProvider([&](TypeParam&, std::optional<Time>& timestamp) {
+    timestamp = this->kPublished + 1h;
+    return true;
+  });
+  this->ExpectTimes(puller.in.Read(), this->kPublished);
+  this->Connect(this->sender.out, this->receiver.in);
+  const auto filled = this->sender.out.PublishFilled([](void*) -> Result<void> { return {}; }, this->kPublished + 1h);
+  ASSERT_TRUE(filled) << filled.error().ToString();
+  this->ExpectTimes(this->receiver.in.Read(), this->kPublished);
+  EXPECT_TRUE(this->sender.out.stamps_ahead());
+}
+
 // Of several sources the value published last counts, however old it is.
 TYPED_TEST(TimestampTest, DoesNotDecideWhichOfSeveralSourcesCounts) {
   auto& other = this->template MakeSender<TypeParam>("other");

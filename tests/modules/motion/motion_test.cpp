@@ -115,6 +115,21 @@ TEST(CommandGateModule, WaitsForABumperThatIsConnectedAndHasNotSpoken) {
   EXPECT_EQ(rig.Last(rig.module.state), GateState::kOpen);
 }
 
+// As where a deletion is undone: connections come after Prepare(), and there may have been cycles.
+TEST(CommandGateModule, WaitsForABumperThatIsConnectedLater) {
+  test::ModuleRig<CommandGate> rig;
+  rig.Feed(rig.module.wanted, {0.3, 0});
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kOpen);
+  Output<Contact> bumper(rig.runtime.root(), "bumper");
+  ASSERT_TRUE(Port::Connect(bumper, rig.module.contact));
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kOldContact);
+  ASSERT_TRUE(Port::Disconnect(bumper, rig.module.contact));
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kOldContact);
+}
+
 TEST(CommandGateModule, WhatPassesIsAsOldAsItWas) {
   test::ModuleRig<CommandGate> rig;
   rig.Feed(rig.module.wanted, {0.3, 0});

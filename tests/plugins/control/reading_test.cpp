@@ -80,7 +80,9 @@ TEST(SilenceTest, IsToldOfWhatPublishedSteadilyAndDoesSoNoMore) {
   EXPECT_FALSE(SilentFor(seldom.out, Time{}, clock.Now()));
   EXPECT_FALSE(SilentFor(watched.out, Time{}, clock.Now()));
   steady.out.Publish(41);
-  EXPECT_THAT(listed(), Not(HasSubstr("SILENT")));
+  EXPECT_THAT(listed(), AllOf(Not(HasSubstr("SILENT")), Not(HasSubstr("STAMPED AHEAD"))));
+  steady.out.Publish(42, clock.Now() + 1s);
+  EXPECT_THAT(listed(), HasSubstr("STAMPED AHEAD"));
 }
 
 TEST_F(ControlTest, MakesAStoppedModuleAnew) {

@@ -207,6 +207,10 @@ TEST_F(ViewersStop, IsNotReleasedByAnOldRelease) {
   EXPECT_THAT(release(now - 3.5)["errors"][0]["message"], HasSubstr("too old: STOP may have been pressed again"));
   EXPECT_THAT(release(before)["errors"][0]["message"], HasSubstr("STOP was pressed or released after it was sent"));
   EXPECT_TRUE(in_force());
+  const double seen = viewer.Next("alive")["at"].get<double>();
+  EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true) << "by whoever, while it is in force";
+  EXPECT_THAT(release(seen)["errors"][0]["message"], HasSubstr("STOP was pressed or released after it was sent"));
+  EXPECT_TRUE(in_force());
   EXPECT_EQ(release(viewer.Next("alive")["at"].get<double>())["ok"], true);
   EXPECT_FALSE(in_force());
 }

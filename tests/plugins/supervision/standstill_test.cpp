@@ -136,6 +136,16 @@ TEST_F(Driven, ThatNoStopReachesAPortIsToldWhileItsOwnModuleIsPausedAndThatOneDo
   EXPECT_THAT(robot.Messages(), ElementsAre("can be reached again"));
 }
 
+TEST_F(Driven, ThatStampsAreStillToComeIsToldOnce) {
+  robot.laser.out.Publish(1, robot.runtime.clock().Now() + 1h);
+  RunOn();
+  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("bears times of measurement that are still to come")));
+  robot.laser.out.Publish(1, robot.runtime.clock().Now() + 1h);
+  MustSucceed(robot.supervisor.SetPaused("/infrared", true));  // it looks at the structure anew
+  RunOn();
+  EXPECT_THAT(robot.Messages(), IsEmpty());
+}
+
 // Long before a rule would tell that the module is stuck.
 TEST(StandstillInRealTime, ThatNoStopReachesAPortIsToldWhileItsThreadIsStuck) {
   Robot robot(SchedulerOptions::ClockKind::kReal);
