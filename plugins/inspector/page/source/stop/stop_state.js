@@ -92,8 +92,7 @@ async function Send(link) {
   const reply = await link.request({ op: 'stop' });
   if (asked.get(link) === press) asked.delete(link);
   if (press !== pressed.value?.since) return; // an answer to an earlier press says nothing of this one
-  if (reply.ok && link === own && !isInForce.value) Take({ stop: { in_force: true, by: '', since: 0 } }); // who it was comes at once
-  if (reply.ok) Confirmed();
+  if (reply.ok) Confirmed(); // how it stands since came just before: it may have been released already
   if (reply.ok || reply.lost) return; // lost: sent again
   clearInterval(timer);
   pressed.value = { ...pressed.value, isLate: true, problem: reply.errors?.[0]?.message ?? 'no reason was given' };
