@@ -8,6 +8,7 @@ const sockets = [];
 let isStuck = false; // what the robot says is held up; what the page says arrives
 let robot = { in_force: false, by: '', since: 0 };
 let answer = null;   // in the place of the robot's own
+let isReleasedAtOnce = false; // by somebody else, before the answer
 const heard = [];
 
 class Socket {
@@ -31,6 +32,7 @@ class Socket {
     heard.push({ ...message, isOwn: this.protocol === kOwn });
     const reply = answer ?? { ok: true };
     if (reply.ok && message.op === 'stop') SetRobot(true, 'this page');
+    if (isReleasedAtOnce) SetRobot(false, 'a colleague');
     if (reply.ok && message.op === 'release') SetRobot(false, 'this page');
     this.tell({ op: 'reply', request, ...reply });
   }
@@ -74,6 +76,16 @@ test('a press is sent although an earlier one has not been answered, whose answe
   await Sleep(50);
   assert.equal(stop.pressed.value, null);
   assert.equal(stop.isConfirmed.value, true);
+});
+
+test('what somebody has released before the answer came is not shown as in force', async () => {
+  isReleasedAtOnce = true;
+  SetRobot(false, 'a colleague');
+  stop.PressStop();
+  await Sleep(50);
+  isReleasedAtOnce = false;
+  assert.equal(stop.pressed.value, null);
+  assert.equal(stop.isInForce.value, false);
 });
 
 test('a press and a release that are refused are not sent again, and say why', async () => {
