@@ -37,8 +37,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   const auto word = [](Entry& entry, const char* name, const char* description) {
     // The parser keeps the address.
     entry.arguments.words.reserve(kMostWords);
-    return entry.command->add_option(name, entry.arguments.words.emplace_back(), description)
-        ->required();
+    return entry.command->add_option(name, entry.arguments.words.emplace_back(), description)->required();
   };
   // `key`: what the request calls it.
   const auto option = [](Entry& entry, const char* name, const char* key, const char* description) {
@@ -46,12 +45,8 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
         name, [&entry, key](const std::string& value) { entry.arguments.options[key] = value; },
         description);
   };
-  const auto flag = [](Entry& entry, const char* name, const char* key, const char* description) {
-    entry.command->add_flag_callback(
-        name, [&entry, key] { entry.arguments.options[key] = "yes"; }, description);
-  };
-  const auto truth = [](Entry& entry, const char* name, const char* key, const char* description) {
-    entry.command->add_flag_callback(name, [&entry, key] { entry.arguments.options[key] = "true"; }, description);
+  const auto flag = [](Entry& entry, const char* name, const char* key, const char* description, const char* value = "yes") {
+    entry.command->add_flag_callback(name, [&entry, key, value] { entry.arguments.options[key] = value; }, description);
   };
   const auto count = [&](Entry& entry, const char* description) {
     option(entry, "-n", "count", description)->type_name("N")->check(CLI::Range(1, 1'000'000'000));
@@ -89,8 +84,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   Entry& publish = add(kChanging, "publish", "publish /robot/goal '{x: 2, y: 1}'", "sets by hand the value that readers of a port see, until release");
   word(publish, "port", "input or output")->type_name(kPort);
   word(publish, "value", "in its text format")->type_name("VALUE");
-  option(publish, "--rate", "rate", "publishes it again so often, in Hz of the application's time")
-      ->type_name("HZ");
+  option(publish, "--rate", "rate", "publishes it again so often, in Hz of the application's time")->type_name("HZ");
   option(publish, "--deadline", "deadline",
          "if no new value comes within TIME, the safe value is used until release: 300ms")
       ->type_name("TIME");
@@ -117,23 +111,19 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   for (const char* const each : {"as", "field", "qos", "stamp", "exclusive", "live"}) {
     option(take, (std::string("--") + each).c_str(), each, "as in <take>");
   }
-  for (Entry* const each : {&offer, &take}) truth(*each, "--remove", "remove", "ends it");
+  for (Entry* const each : {&offer, &take}) flag(*each, "--remove", "remove", "ends it", "true");
 
   Entry& connect = add(kChanging, "connect", "connect /laser/scan /robot/planner/scan --queue 10", "connects two ports");
   word(connect, "from", "output; PORT.x, PORT[0]: that part of its values")->type_name(kPort);
   word(connect, "to", "input")->type_name(kPort);
   option(connect, "--queue", "queue", "so many values may wait")->type_name("N");
-  option(connect, "--on-full", "on_full",
-         "what a full queue does: drop_oldest, drop_newest, refuse")
-      ->type_name("WORD");
-  truth(connect, "--pull", "pull", "reading the input has the output make a value");
+  option(connect, "--on-full", "on_full", "what a full queue does: drop_oldest, drop_newest, refuse")->type_name("WORD");
+  flag(connect, "--pull", "pull", "reading the input has the output make a value", "true");
   option(connect, "--convert", "convert",
          "by which conversion: round, truncate, parse, or what a plugin has registered")
       ->type_name("NAME");
-  connect.command->add_flag_callback(
-      "--when-present", [&connect] { connect.arguments.options["when"] = "present"; },
-      "as soon as both are there, and again after one went");
-  truth(connect, "--late", "late", "in a loop of modules, values come one cycle late by this one");
+  flag(connect, "--when-present", "when", "as soon as both are there, and again after one went", "present");
+  flag(connect, "--late", "late", "in a loop of modules, values come one cycle late by this one", "true");
 
   Entry& disconnect = add(kChanging, "disconnect", "disconnect /laser/scan /robot/planner/scan", "takes the connection of two ports back");
   word(disconnect, "from", "output")->type_name(kPort);
@@ -171,9 +161,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   word(move, "thread", "its name; \"\": that of the group again")->type_name("THREAD");
 
   Entry& tag = add(kChanging, "tag", "tag /robot/planner safety", "says something of an element to viewers: safety, hidden; without a word, nothing any more");
-  tag.command->add_option("words", tag.arguments.words, "path, and its tags")
-      ->required()
-      ->type_name("PATH [WORD ...]");
+  tag.command->add_option("words", tag.arguments.words, "path, and its tags")->required()->type_name("PATH [WORD ...]");
 
   Entry& change = add(kChanging, "change", "change changes.txt", "carries out a file of changes, all or none");
   word(change, "file", "one change a line; -: standard input")->type_name("FILE|-");
@@ -184,12 +172,8 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& save = add(kChanging, "save", "save robot.xml", "saves the application as it is now");
   word(save, "file", "instead of the one that it came from")->required(false)->type_name("FILE");
-  save.command->add_flag_callback(
-      "--config", [&save] { save.arguments.options["config"] = "yes"; },
-      "values of parameters, back into the configuration that the application was loaded with");
-
-  flag(save, "--overwrite", "overwrite",
-       "also over the file of another application, which is kept as FILE~");
+  flag(save, "--config", "config", "values of parameters, back into the configuration that the application was loaded with");
+  flag(save, "--overwrite", "overwrite", "also over the file of another application, which is kept as FILE~");
 
   Entry& reload = add(kChanging, "reload", "reload planning", "loads a plugin anew and makes its modules anew by it");
   word(reload, "plugin", "its name, as in <load>; build its library first")->type_name("PLUGIN");
@@ -206,9 +190,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
       ->type_name("[NAME|PROCESS] PATTERN");
   option(record, "-o,--output", "file", "the file (MCAP)")->required()->type_name("FILE.mcap");
   count(record, "ends after so many seconds");
-  option(record, "--compression", "compression",
-         "zstd, lz4 or none; without, the first that is there")
-      ->type_name("WORD");
+  option(record, "--compression", "compression", "zstd, lz4 or none; without, the first that is there")->type_name("WORD");
 
   Entry& pause = add(kRun, "pause", "pause", "lets simulated time stand still; with a path, leaves modules or a thread out, on any clock");
   word(pause, "path", "module, group or thread")->required(false)->type_name(kElement);
@@ -219,9 +201,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   word(step, "cycles", "how many; without, one")->required(false)->type_name("N");
 
   Entry& speed = add(kRun, "speed", "speed 4", "says how fast simulated time passes, or changes it");
-  word(speed, "factor", "1 is real time, 0 as fast as it can")
-      ->required(false)
-      ->type_name("FACTOR");
+  word(speed, "factor", "1 is real time, 0 as fast as it can")->required(false)->type_name("FACTOR");
 
   Entry& top = add(kLooking, "top", "top", "shows how long modules take, and the latency of chains of them, once a second");
   flag(top, "--once", "once", "one table, of one second");
@@ -241,12 +221,8 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   option(schedule, "--on-overrun", "on_overrun", "skip, catch_up")->type_name("WORD");
 
   Entry& deadline = add(kRun, "deadline", "deadline /robot 50ms", "shows who does not return from its cycle, and says how long modules may take");
-  word(deadline, "path", "module or group; without, only shows")
-      ->required(false)
-      ->type_name(kElement);
-  word(deadline, "time", "200ms, for example; off: as long as they like")
-      ->required(false)
-      ->type_name("TIME");
+  word(deadline, "path", "module or group; without, only shows")->required(false)->type_name(kElement);
+  word(deadline, "time", "200ms, for example; off: as long as they like")->required(false)->type_name("TIME");
 
   Entry& log = add(kLooking, "log", "log -f", "shows faults, warnings, changes and what modules say, since the start");
   flag(log, "-f,--follow", "follow", "goes on with what comes");

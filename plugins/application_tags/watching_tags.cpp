@@ -218,8 +218,8 @@ XmlTag StopButtonTag() {
 }
 XmlTag OperatorsTag() {
   return {.name = "operators",
-          .summary = "an operator must be heard: else the STOP of the robot is pressed; operators are pages, terminals, "
-                     "Python and Foxglove that may drive",
+          .summary = "an operator must be heard: else the STOP of the robot is pressed; operators are pages, terminals "
+                     "and Python that may drive",
           .parents = {"application"},
           .attributes = {{.name = "timeout",
                           .kind = AttributeKind::kDuration,

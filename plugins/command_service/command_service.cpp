@@ -19,16 +19,17 @@ namespace runnel {
 
 void OperatorWatch::Begin(Duration timeout) {
   timeout_.store(timeout.count(), std::memory_order_relaxed);
-  Hear("");
+  Hear("", Now());
   if (watched_clock_ != nullptr) return;
   lookout_.Ask();
   changes_ = stop_.signal()->Listen([this] { lookout_.Ask(); });
 }
 
-void OperatorWatch::Hear(std::string_view name) {
+void OperatorWatch::Hear(std::string_view name, Time at) {
   if (timeout() == Duration::zero()) return;
   const std::lock_guard lock(mutex_);
-  heard_ = Now();
+  if (at <= heard_ || at > Now()) return;
+  heard_ = at;
   last_ = name;
 }
 

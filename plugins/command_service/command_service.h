@@ -24,8 +24,8 @@
 namespace runnel {
 
 /// Presses the STOP of the robot when no operator has been heard for a stated time, as <operators> wants it. An operator is
-/// a client who may drive: a page, a terminal, Python, Foxglove; each of its messages counts. The time is counted from
-/// Begin() on. A release that none of them has asked for is followed by the next press at once.
+/// a client who may drive: a page, a terminal, Python. The time is counted from Begin() on. A release that none of them has
+/// asked for is followed by the next press at once.
 ///
 /// Threads: any; one of its own presses, which takes neither the structure lock nor the worker.
 class OperatorWatch {
@@ -36,8 +36,9 @@ class OperatorWatch {
 
   /// Once.
   void Begin(Duration timeout);
-  /// An operator, as people call him, has said something.
-  void Hear(std::string_view name);
+  /// An operator, as people call him, has said something, and not before `at` on the machine's clock. What comes late may have
+  /// been sent long ago, so the time of its arrival does not count; a time that is not over yet does not, either.
+  void Hear(std::string_view name, Time at);
   /// Presses when it is time. When to look again; nothing: when STOP has been pressed or released.
   std::optional<Time> Look();
   /// 0: nobody has to be heard.

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "core/base/clock.h"
 #include "core/base/result.h"
 #include "core/element/annotation.h"
 #include "core/element/runtime.h"
@@ -20,6 +22,8 @@ struct ExtensionTexts final : Annotation {
   /// asks no more lets it go, by any thread, and the text then takes back what it has begun.
   using Text = std::function<Result<std::optional<std::string>>(const std::string& argument, std::shared_ptr<void>& asking)>;
   std::map<std::string, Text> texts;
+  /// Whoever asks for "command" is told after so long that it has failed, not sooner.
+  static constexpr Duration kFarPatience = std::chrono::seconds(10);
 
   /// nullptr: no extension shows it.
   [[nodiscard]] static const Text* Find(Runtime& runtime, const std::string& name) {

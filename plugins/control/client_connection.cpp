@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cerrno>
+#include <utility>
 
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "core/base/number_text.h"
 #include "plugins/command_service/caught_error.h"
 
 namespace runnel {
@@ -103,10 +105,14 @@ void ClientConnection::Begin(CommandService& service, TaskGroup& tasks) {
   if (!frame) return Refuse(frame.error());
   may_have_request_ = frame->has_value();
   if (!may_have_request_) return;
+  if ((*frame)->kind == "at") {
+    asked_ = Time(Duration(NumberIn<std::int64_t>((*frame)->payload).value_or(0)));
+    return;
+  }
   if ((*frame)->kind != "request") {
     return Refuse({.message = "a frame '" + (*frame)->kind + "' where a 'request' should be"});
   }
-  service.operators().Hear("a terminal");
+  service.operators().Hear("a terminal", std::exchange(asked_, {}));
   if (why_only_stop_ && (*frame)->payload != "stop") return Refuse(*why_only_stop_);
   auto command = MakeCommand((*frame)->payload, service, tasks);
   if (command) {

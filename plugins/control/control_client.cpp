@@ -90,7 +90,8 @@ Result<Frame> ControlClient::Receive() {
 }
 
 Result<int> ControlClient::Ask(const std::string& request, const Use& output, const Use& errors) {
-  if (auto sent = Send(FrameBytes("request", request)); !sent) return sent.error();
+  const std::string at = hello_.is_asking_when ? FrameBytes("at", std::to_string(SteadyClock().Now().time_since_epoch().count())) : "";
+  if (auto sent = Send(at + FrameBytes("request", request)); !sent) return sent.error();
   for (;;) {
     const auto frame = Receive();
     if (!frame) return frame.error();

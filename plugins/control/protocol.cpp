@@ -111,6 +111,7 @@ std::string Hello::ToText() const {
                              {"file", file},
                              {"nanoseconds", std::to_string(time.count())},
                              {"real", std::to_string(real.count())},
+                             {"when", is_asking_when ? "yes" : "no"},
                              {"state", state}},
                  .body = {}}
       .ToText();
@@ -133,6 +134,7 @@ Result<Hello> Hello::Parse(std::string_view text) {
   hello.file = arguments->Option("file");
   hello.time = Duration(NumberIn<std::int64_t>(arguments->Option("nanoseconds")).value_or(0));
   hello.real = Duration(NumberIn<std::int64_t>(arguments->Option("real")).value_or(hello.time.count()));
+  hello.is_asking_when = arguments->Option("when") == "yes";
   hello.state = arguments->Option("state");
   return hello;
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/paths/distant_ports.h"
+#include "plugins/command_service/extension_texts.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/control/command.h"
 #include "plugins/structure/change_text.h"
@@ -13,7 +14,6 @@ namespace {
 
 constexpr std::size_t kMostErrors = 100;
 constexpr const char* kClient = "a terminal";
-constexpr auto kFarPatience = std::chrono::seconds(10);
 
 // Of what is in another application.
 bool IsFar(const Change& change) {
@@ -89,7 +89,7 @@ CommandResult MakeServiceCommand(const Request& request, const CommandContext& c
     }
   }
   if (placed.changes.size() == 1 && IsFar(placed.changes.front())) {
-    return ShowExtensionText(context.application.runtime, "command", request.body, kFarPatience);
+    return ShowExtensionText(context.application.runtime, "command", request.body, ExtensionTexts::kFarPatience);
   }
   auto wanted = RequestOf(request, std::move(placed));
   if (!wanted) return wanted.error();

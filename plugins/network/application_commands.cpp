@@ -6,9 +6,11 @@
 #include <fmt/ranges.h>
 
 #include "core/base/nearest_name.h"
+#include "core/base/number_text.h"
 #include "core/paths/distant_ports.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/command_service/extension_texts.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/structure/change_text.h"
 
@@ -18,6 +20,8 @@ namespace {
 
 constexpr std::size_t kMostErrands = 32;
 constexpr std::uint32_t kIdentity = 0x80000200u;  // beyond that of the STOP
+// A token counts for so long, and has to come within as long: whoever asks is then still waiting, and a little longer.
+constexpr Duration kTokenLife = ExtensionTexts::kFarPatience * 2 / 5;
 
 // Of changes that others may be allowed; nullptr: of none of these.
 std::string* PathOf(Change& change) {
@@ -93,30 +97,39 @@ Result<std::optional<std::string>> ApplicationCommands::Ask(const std::string& t
   const std::string name = whole.substr(2, slash == std::string::npos ? slash : slash - 2);
   *path = slash == std::string::npos ? "/" : whole.substr(slash);
   if (asking == nullptr) {
-    auto endpoints = Begin(name, whole, placed.changes.front());
-    if (!endpoints) return endpoints.error();
+    auto begun = Begin(name, whole, placed.changes.front());
+    if (!begun) return begun.error();
     const auto close = [questions = questions_](const void* question) {
       const std::lock_guard lock(questions->mutex);
       questions->open.erase(question);
     };
     const std::lock_guard lock(questions_->mutex);
-    ServiceEndpoints* const question = endpoints->get();
-    questions_->open.emplace(question, std::move(*endpoints));
+    Question* const question = begun->get();
+    questions_->open.emplace(question, std::move(*begun));
     asking = std::shared_ptr<void>(question, close);
   }
-  const auto reply = static_cast<ServiceEndpoints*>(asking.get())->Take();
+  Question& question = *static_cast<Question*>(asking.get());
+  const auto reply = question.endpoints->Take();
   if (!reply) return std::optional<std::string>();
   bool is_done = false;
-  std::string said;
+  std::string said, token;
   auto from = CdrReader::Begin(reply->message);
-  if (!from || !from->Get(is_done) || !from->GetText(said)) return Error{.message = name + " answers by what cannot be read"};
+  if (!from || !from->Get(is_done) || !from->GetText(said) || !from->GetText(token)) {
+    return Error{.message = name + " answers by what cannot be read"};
+  }
+  if (!token.empty()) {
+    if (std::exchange(question.has_token, true)) return std::optional<std::string>();  // there are two of this name
+    if (SteadyClock().Now() - question.begun > kTokenLife) return Error{.message = name + " has answered too late: nothing has been done"};
+    if (const auto sent = Send(question, token); !sent) return sent.error();
+    return std::optional<std::string>();
+  }
   while (said.ends_with('\n')) said.pop_back();
   if (is_done) return std::optional(name + ": " + said + "\n");
   return Error{.message = name + " says: " + said};
 }
 
-Result<std::unique_ptr<ServiceEndpoints>> ApplicationCommands::Begin(const std::string& name, const std::string& path,
-                                                                     const Change& change) {
+Result<std::unique_ptr<ApplicationCommands::Question>> ApplicationCommands::Begin(const std::string& name, const std::string& path,
+                                                                                  const Change& change) {
   const auto members = link_.table().members();
   const auto found = std::ranges::find(members, name, &WireMember::name);
   if (found == members.end()) {
@@ -132,16 +145,21 @@ Result<std::unique_ptr<ServiceEndpoints>> ApplicationCommands::Begin(const std::
   }
   auto endpoints = Open(ServiceEndpoints::Side::kClient, name, [] {});
   if (!endpoints) return endpoints.error();
+  auto question = std::make_unique<Question>(Question{std::move(*endpoints), ChangeText(change), SteadyClock().Now()});
+  // Not for who is started in its place: that one is asked again, or not. One that was killed is in the table until its lease is over.
+  std::string whom;
+  for (const WireMember& each : members) whom += each.name == name ? TextOf(each.id) : "";
+  if (const auto asked = Send(*question, whom); !asked) return asked.error();
+  return question;
+}
+
+Result<std::int64_t> ApplicationCommands::Send(const Question& question, const std::string& whom) {
   Octets octets;
   CdrWriter to(octets);
   to.PutText("//" + element_.options().member.name);
-  to.PutText(ChangeText(change));
-  // Not for who is started in its place: that one is asked again, or not. One that was killed is in the table, too, until its lease is over.
-  std::string whom;
-  for (const WireMember& each : members) whom += each.name == name ? TextOf(each.id) : "";
+  to.PutText(question.change);
   to.PutText(whom);
-  if (const auto asked = (*endpoints)->Request(octets); !asked) return asked.error();
-  return endpoints;
+  return question.endpoints->Request(octets);
 }
 
 // ---- Being asked.
@@ -180,7 +198,18 @@ void ApplicationCommands::Begin(const ServiceMessage& request) {
   std::string who, change, whom;
   auto from = CdrReader::Begin(request.message);
   if (!from || !from->GetText(who) || !from->GetText(change) || !from->GetText(whom)) return;
-  if (whom.find(TextOf(link_.participant().id())) == std::string::npos) return;
+  const std::string own = TextOf(link_.participant().id());
+  if (whom.find(own) == std::string::npos) return;
+  const Duration now = SteadyClock().Now().time_since_epoch();
+  const std::string token = own + ":";
+  if (!whom.starts_with(token)) {
+    const Error other{.message = "both must be of one version of Runnel"};  // for who knows no token
+    return Reply(request.id, CommandAnswer::Failed(other), token + std::to_string(now.count()));
+  }
+  const Duration given(NumberIn<std::int64_t>(whom.substr(token.size())).value_or(0));
+  if (given > now || given <= now - kTokenLife) {
+    return Reply(request.id, CommandAnswer::Refused({.message = "it came too late: nothing has been done"}));
+  }
   Diagnostics diagnostics;
   PlacedChanges placed = ParseChanges(change, {}, diagnostics);
   if (const auto why = WhyRefused(placed.changes)) diagnostics.Add(*why);
@@ -199,13 +228,14 @@ void ApplicationCommands::Begin(const ServiceMessage& request) {
                       service_.Begin(ChangeRequest{.placed = std::move(placed), .client = who}, tasks_, [this] { Serve(); })});
 }
 
-void ApplicationCommands::Reply(const CallId& id, const CommandAnswer& answer) {
+void ApplicationCommands::Reply(const CallId& id, const CommandAnswer& answer, const std::string& token) {
   std::string text = answer ? answer.text : "";
   for (const Error& each : answer.diagnostics.errors()) text += (text.empty() ? "" : "\n") + each.ToString();
   Octets octets;
   CdrWriter to(octets);
   to.Put(static_cast<bool>(answer));
   to.PutText(text);
+  to.PutText(token);
   (void)offered_->Reply(id, octets);
 }
 

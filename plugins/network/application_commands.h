@@ -18,6 +18,10 @@ namespace runnel {
 /// Changes that one application has another one make, where that one's file allows it: the service "/<name>/runnel_commands",
 /// which takes a line of the language of changes and answers by a text. Only applications that allow something offer it.
 ///
+/// A request is sent twice: the answer to the first one is a token, with which the second one is carried out, but for less
+/// than half of the time for which whoever asks waits. So what has lain in the socket of a process that stood still is not done when that
+/// process goes on. The token is a time of the clock of who gives it, so clocks need not agree.
+///
 /// Threads:  Ask() under the structure lock; the rest, and destroying, by who made it. Changes are made by the worker of
 ///           the service, as those of terminals.
 class ApplicationCommands {
@@ -31,10 +35,16 @@ class ApplicationCommands {
   Result<std::optional<std::string>> Ask(const std::string& change, std::shared_ptr<void>& asking);
 
  private:
+  struct Question {
+    std::unique_ptr<ServiceEndpoints> endpoints;
+    std::string change;  // "set /planner/cruise_speed 0.3"
+    Time begun;
+    bool has_token = false;
+  };
   /// What has been asked, as long as the asker waits and this one is there.
   struct Questions {
     std::mutex mutex;
-    std::map<const void*, std::unique_ptr<ServiceEndpoints>> open;  // by themselves
+    std::map<const void*, std::unique_ptr<Question>> open;  // by themselves
   };
   /// One that is being carried out here.
   struct Errand {
@@ -46,10 +56,11 @@ class ApplicationCommands {
   ApplicationCommands(NetworkLink& link, NetworkElement& element, CommandService& service)
       : link_(link), element_(element), application_(element.parent()->path()), service_(service), tasks_(service.worker()) {}
   Result<std::unique_ptr<ServiceEndpoints>> Open(ServiceEndpoints::Side side, const std::string& name, std::function<void()> on_news);
-  Result<std::unique_ptr<ServiceEndpoints>> Begin(const std::string& name, const std::string& path, const Change& change);
+  Result<std::unique_ptr<Question>> Begin(const std::string& name, const std::string& path, const Change& change);
+  Result<std::int64_t> Send(const Question& question, const std::string& whom);
   void Serve();
   void Begin(const ServiceMessage& request);
-  void Reply(const CallId& id, const CommandAnswer& answer);
+  void Reply(const CallId& id, const CommandAnswer& answer, const std::string& token = {});
   [[nodiscard]] std::optional<Error> WhyRefused(const ChangeSet& changes) const;
 
   NetworkLink& link_;

@@ -89,6 +89,37 @@ TEST_F(FarApplications, WhatHasFailedIsNotDoneLaterAndWhatIsAskedAgainIsDoneAgai
   EXPECT_THAT(Runnel("log --app told").text, Not(HasSubstr("0.27")));
 }
 
+TEST_F(FarApplications, WhatARobotThatStoodStillFindsInItsSocketIsNotDone) {
+  const std::string told = Write("told", R"(  <network commands="set"/>
+  <module name="drive" type="motion/differential_drive"/>
+  <connect from="//nobody/twist" to="drive/twist"/>
+)");
+  // In a folder of its own, so that whoever looks for the asker does not wait for it.
+  const TemporaryFolder own;
+  const auto there = [&](const auto& work) {
+    setenv("XDG_RUNTIME_DIR", own.path().c_str(), 1);
+    auto done = work();
+    setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+    return done;
+  };
+  const auto robot = there([&] { return std::make_unique<Program>("run " + told); });
+  const Program asker("run " + Write("asker", Passer("", "")));
+  WaitForText("network --app asker", "member told");
+  const std::string set = "set --app asker //told/drive/maximum_speed ";
+  ASSERT_EQ(Runnel(set + "0.31").code, kDone);
+  robot->Send(SIGSTOP);
+  {
+    Program gives_up(set + "0.29");
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // until it has been sent
+    gives_up.Send(SIGKILL);
+    (void)gives_up.Wait();
+  }
+  robot->Send(SIGCONT);
+  WaitUntil("it is asked", [&] { return Runnel(set + "0.33").code == kDone; });
+  const std::string log = there([] { return Runnel("log --app told").text; });
+  EXPECT_THAT(log, AllOf(HasSubstr("0.31"), HasSubstr("0.33"), Not(HasSubstr("0.29"))));
+}
+
 TEST_F(FarApplications, WhatFilesAllowIsChecked) {
   const auto check = [&](const std::string& network) { return Runnel("check " + Write("wrong", Passer(network, ""))).text; };
   EXPECT_THAT(check("commands=\"set swop\""), AllOf(HasSubstr("cannot be allowed to 'swop'"), HasSubstr("did you mean 'swap'?")));

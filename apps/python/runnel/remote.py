@@ -7,6 +7,7 @@ import pathlib
 import re
 import socket
 import threading
+import time
 
 from runnel import _extension
 from runnel.application import text_of
@@ -58,6 +59,11 @@ class _Socket:
             self.close()
             raise _extension.Error(f"{path} speaks another protocol")
 
+    def send(self, request):
+        at = b"%d" % time.monotonic_ns()  # the same clock in all processes of a machine
+        heard = b"at %d\n%s\n" % (len(at), at) if self.hello.get("when") == "yes" else b""
+        self.socket.sendall(heard + request)
+
     def receive(self):
         head = self.stream.readline().decode().split()
         size = int(head[1]) if len(head) == 2 else 0
@@ -74,7 +80,7 @@ class _Socket:
 
 def _exchange(connection, request):
     """Exit code, output and errors."""
-    connection.socket.sendall(request)
+    connection.send(request)
     said = {"out": [], "err": []}
     while True:
         kind, payload = connection.receive()
@@ -328,7 +334,7 @@ class Remote:
     def record(self, file, seconds=None, ports=()):
         """Records for so many seconds of the machine's, or until the returned object is closed."""
         connection = _Socket(self._path, None)
-        connection.socket.sendall(_request("record", list(ports), {"file": os.path.abspath(file), "count": seconds}, ""))
+        connection.send(_request("record", list(ports), {"file": os.path.abspath(file), "count": seconds}, ""))
         recording = _Recording(connection)
         if seconds is not None:
             recording.wait()

@@ -57,7 +57,6 @@ bool FoxgloveSession::IsLate() const {
 
 // A release outranks as well: it must neither wait nor be overtaken by a STOP that was pressed later.
 WebArrival FoxgloveSession::OnArrival(std::string_view message, bool is_text) {
-  if (shared_->RoleOf(client_) >= WebRole::kDrive) shared_->application.service.operators().Hear("Foxglove");
   WebArrival arrival{.mark = shared_->runtime().robot_stop().state().requests};
   if (is_text || message.size() < kHead) return arrival;
   const std::uint32_t id = ReadNumber(message, 1);

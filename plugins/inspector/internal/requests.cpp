@@ -170,24 +170,32 @@ std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
   return done ? Reply(message.request, "done") : Refusal(message.request, {{done.error()}});
 }
 
-// At once for all viewers; the reply comes when it has been written.
-ViewerRequest Arrange(Inspection& inspection, ViewerMessage message,
-                      std::function<void()> on_done) {
-  const auto request = message.request;
-  const auto done = inspection.arrangement().Change(message.entries);
-  if (!done) return {nullptr, [reply = Refusal(request, {{done.error()}})] { return reply; }};
-  const std::string file = Arrangement::FileOf(inspection.options().file);
-  if (file.empty()) return {nullptr, [reply = Reply(request, "kept while it runs")] { return reply; }};
+ViewerRequest Answered(std::string reply) {
+  return {nullptr, [reply = std::move(reply)] { return reply; }};
+}
+
+// By the worker, because it may wait.
+ViewerRequest AnsweredLater(Inspection& inspection, std::optional<std::uint64_t> request, std::function<std::string()> answer,
+                            std::function<void()> on_done) {
   const auto reply = std::make_shared<std::string>();
-  auto task = inspection.tasks().Post(
-      [reply, request, file, text = inspection.arrangement().Text()] {
-        const auto written = Arrangement::Write(file, text);
-        *reply = written ? Reply(request, "kept in " + file) : Refusal(request, {{written.error()}});
-      },
-      std::move(on_done));
+  auto task = inspection.tasks().Post([reply, answer = std::move(answer)] { *reply = answer(); }, std::move(on_done));
   return {task, [request, reply, task = task.get()] {
             return task->failure() ? Refusal(request, {{*task->failure()}}) : *reply;
           }};
+}
+
+// At once for all viewers; the reply comes when it has been written.
+ViewerRequest Arrange(Inspection& inspection, ViewerMessage message, std::function<void()> on_done) {
+  const auto request = message.request;
+  const auto done = inspection.arrangement().Change(message.entries);
+  if (!done) return Answered(Refusal(request, {{done.error()}}));
+  const std::string file = Arrangement::FileOf(inspection.options().file);
+  if (file.empty()) return Answered(Reply(request, "kept while it runs"));
+  auto write = [request, file, text = inspection.arrangement().Text()] {
+    const auto written = Arrangement::Write(file, text);
+    return written ? Reply(request, "kept in " + file) : Refusal(request, {{written.error()}});
+  };
+  return AnsweredLater(inspection, request, std::move(write), std::move(on_done));
 }
 
 // Saved into another file, it looks there as it does here.
@@ -203,9 +211,7 @@ void CopyArrangement(Inspection& inspection, const std::string& wanted) {
 ViewerRequest BeginCommand(Inspection& inspection, const ViewerMessage& message,
                            CommandOrErrors command, std::function<void()> on_done) {
   const auto request = message.request;
-  if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command)) {
-    return {nullptr, [reply = Refusal(request, *errors)] { return reply; }};
-  }
+  if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command)) return Answered(Refusal(request, *errors));
   const std::string copy = message.op == "save" && message.what.empty() ? message.file : "";
   const std::shared_ptr<PendingCommand> pending = inspection.service().Begin(
       std::move(std::get<CommandRequest>(command)), inspection.tasks(), std::move(on_done));
@@ -218,31 +224,23 @@ ViewerRequest BeginCommand(Inspection& inspection, const ViewerMessage& message,
 
 // How an operation is carried out: by the service, which is asked for what `kMake` makes of the message.
 template <auto kMake>
-ViewerRequest ByService(Inspection& inspection, ViewerMessage message,
-                        std::function<void()> on_done) {
+ViewerRequest ByService(Inspection& inspection, ViewerMessage message, std::function<void()> on_done) {
   CommandOrErrors command = kMake(message);
   return BeginCommand(inspection, message, std::move(command), std::move(on_done));
 }
 
-// By the worker for this viewer alone, because it may wait.
+// For this viewer alone.
 template <auto kAnswer>
-ViewerRequest ByWorker(Inspection& inspection, ViewerMessage message,
-                       std::function<void()> on_done) {
+ViewerRequest ByWorker(Inspection& inspection, ViewerMessage message, std::function<void()> on_done) {
   const auto request = message.request;
-  const auto reply = std::make_shared<std::string>();
-  auto task = inspection.tasks().Post(
-      [&inspection, reply, message = std::move(message)] { *reply = kAnswer(inspection, message); },
-      std::move(on_done));
-  return {task, [request, reply, task = task.get()] {
-            return task->failure() ? Refusal(request, {{*task->failure()}}) : *reply;
-          }};
+  auto answer = [&inspection, message = std::move(message)] { return kAnswer(inspection, message); };
+  return AnsweredLater(inspection, request, std::move(answer), std::move(on_done));
 }
 
 // At once, whatever the worker is waiting for.
 template <auto kAnswer>
-ViewerRequest AtOnce(Inspection& inspection, ViewerMessage message,
-                     std::function<void()> /*on_done*/) {
-  return {nullptr, [reply = kAnswer(inspection, message)] { return reply; }};
+ViewerRequest AtOnce(Inspection& inspection, ViewerMessage message, std::function<void()> /*on_done*/) {
+  return Answered(kAnswer(inspection, message));
 }
 
 // Of all of it at once, of modules by the service.
@@ -302,13 +300,10 @@ std::span<const Operation> AllOperations() {
       Operation("compatible", kLook, ByWorker<FindCompatible>),
       Operation("conversions", kLook, ByWorker<FindConversions>),
       Operation("panel", kLook, ByWorker<ReadPanel>),
-      Operation("stop", kLook, ByService<[](Message& of) {
-                  return CommandRequest(RobotStopRequest{true, of.client});
-                }>),
+      Operation("stop", kLook, ByService<[](Message& of) { return CommandRequest(RobotStopRequest{true, of.client}); }>),
       Operation("publish", kDrive, ByService<MakePublish>),
       Operation("release", kDrive, ByService<MakeRelease>),
-      Operation("block", kDrive,
-                ByService<[](Message& of) { return CommandRequest(BlockRequest{of.path}); }>),
+      Operation("block", kDrive, ByService<[](Message& of) { return CommandRequest(BlockRequest{of.path}); }>),
       Operation("call", kDrive, Call), Operation("abort", kDrive, ByWorker<AbortCall>),
       // Who drives may stop all of it and let it go on, but not leave out one module, which may be what
       // keeps the robot from colliding.
@@ -320,18 +315,13 @@ std::span<const Operation> AllOperations() {
       Operation("save", kChange, Save), Operation("save_panel", kChange, ByWorker<SavePanel>),
       Operation("arrange", kChange, Arrange), Operation("step", kChange, AtOnce<SetPace>),
       Operation("speed", kChange, AtOnce<SetPace>),
-      Operation("reload", kChange,
-                ByService<[](Message& of) { return CommandRequest(ReloadRequest{of.plugin}); }>),
-      Operation("log_level", kChange, ByService<[](Message& of) {
-                  return CommandRequest(LogLevelRequest{of.path, of.level});
-                }>),
+      Operation("reload", kChange, ByService<[](Message& of) { return CommandRequest(ReloadRequest{of.plugin}); }>),
+      Operation("log_level", kChange, ByService<[](Message& of) { return CommandRequest(LogLevelRequest{of.path, of.level}); }>),
       Operation("profile", kChange, AtOnce<SetProfiled>),
       Operation("latency", kChange, ByWorker<SetLatency>),
       Operation("preview", kChange, ByWorker<PreviewSave>),
-      Operation("restart", kChange,
-                ByService<[](Message& of) { return CommandRequest(RestartRequest{of.path}); }>),
-      Operation("quit", kChange,
-                ByService<[](Message&) { return CommandRequest(QuitRequest{}); }>)};
+      Operation("restart", kChange, ByService<[](Message& of) { return CommandRequest(RestartRequest{of.path}); }>),
+      Operation("quit", kChange, ByService<[](Message&) { return CommandRequest(QuitRequest{}); }>)};
   return kAll;
 }
 

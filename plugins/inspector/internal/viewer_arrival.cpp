@@ -1,5 +1,6 @@
 // What comes too fast, or too late to be meant any more.
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <string_view>
@@ -11,7 +12,7 @@ namespace runnel::internal {
 
 namespace {
 
-constexpr std::size_t kLongestStop = 1000;  // of its message
+constexpr std::size_t kLongestStop = 1000;  // of its message, and of a sign of life
 // Of messages that are refused unread: in longer ones the number of the request is not looked for, which takes time.
 constexpr std::size_t kLongestNumbered = 16'384;
 constexpr double kOldestRelease = 3;  // s
@@ -20,13 +21,16 @@ constexpr double kOldestRelease = 3;  // s
 
 // A release of the STOP outranks as well: it must neither wait nor be overtaken by a STOP that was pressed later.
 WebArrival ViewerSession::OnArrival(std::string_view message, bool is_text) {
-  if (role() >= WebRole::kDrive) inspection_.service().operators().Hear(name_);
   WebArrival arrival{.mark = inspection_.application().runtime.robot_stop().state().requests};
   const auto says = [head = message.substr(0, kLongestStop)](const char* text) { return head.find(text) != head.npos; };
   arrival.may_be_late = says(R"("op":"watch")") || says(R"("op":"unwatch")");
-  if (!is_text || message.size() > kLongestStop || !says("\"stop\"")) return arrival;
+  if (!is_text || message.size() > kLongestStop || !(says("\"stop\"") || says("\"alive\""))) return arrival;
   const auto parsed = ParseViewerMessage(message);
-  arrival.outranks = parsed && (parsed->op == "stop" || (parsed->op == "release" && parsed->path == kRobotStopName));
+  if (!parsed) return arrival;
+  arrival.outranks = parsed->op == "stop" || (parsed->op == "release" && parsed->path == kRobotStopName);
+  if (parsed->op == "alive" && role() >= WebRole::kDrive) {
+    inspection_.service().operators().Hear(name_, Time(FromSeconds(std::clamp(parsed->at.value_or(0), 0.0, 9e9))));
+  }
   return arrival;
 }
 

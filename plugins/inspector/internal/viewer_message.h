@@ -43,7 +43,7 @@ struct ViewerMessage {
   std::optional<double> rate;
   std::optional<double> deadline;  ///< s
   std::string lease;
-  std::optional<double> at;  ///< of a release: "at" of the newest `alive`
+  std::optional<double> at;  ///< of a release: "at" of the newest `alive`; of an `alive`: of the one that it answers
   std::optional<double> speed;
   std::size_t elements = 12;
   std::uint64_t cycles = 1;

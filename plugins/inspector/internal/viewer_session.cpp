@@ -77,7 +77,7 @@ WebSession::SteadyTime ViewerSession::SendAlive() {
     told.Add("since", ToSeconds(stop.since - inspection_.start()));
   }));
   if (is_sent) told_stop_ = stop.requests;
-  // Pages answer it, by which operators are heard.
+  // Pages answer it, by which operators are heard as of now.
   const Duration silence = inspection_.service().operators().timeout();
   return alive_due_ = now + (silence > Duration() ? std::min<Duration>(kAlive, silence / 4) : kAlive);
 }
@@ -262,7 +262,7 @@ void ViewerSession::OnText(std::string_view text) {
                             .hint = NearestNameHint(message.op,
                                                     NamesOf(AllOperations(), &Operation::name))});
   }
-  if (message.op == "alive") return;  // that was heard
+  if (message.op == "alive") return;  // that was heard, if it says when
   if (is_for_stop_ && message.op != "stop" &&
       (message.op != "release" || message.path != kRobotStopName)) {
     return Refuse(message, {.message = "this connection knows no '" + message.op + "'",

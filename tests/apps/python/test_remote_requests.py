@@ -5,6 +5,7 @@ import os
 import signal
 import socket
 import threading
+import time
 
 import pytest
 
@@ -17,6 +18,7 @@ class Served:
     def __init__(self, folder):
         folder.mkdir(mode=0o700)
         self.asked = []
+        self.hello = 'runnel protocol=1 process=1 application="robot" file=""'
         self.on_slow = lambda: None
         self.may_answer = threading.Event()
         self.listening = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
@@ -37,11 +39,13 @@ class Served:
             connection.sendall(f"{kind} {len(text)}\n{text}\n".encode())
 
         try:
-            send("hello", 'runnel protocol=1 process=1 application="robot" file=""')
+            send("hello", self.hello)
             stream = connection.makefile("rb")
             for head in iter(stream.readline, b""):
                 request = stream.read(int(head.split()[1]) + 1).decode().strip()
                 self.asked.append(request)
+                if head.startswith(b"at "):
+                    continue
                 if "slow" in request:
                     self.on_slow()
                     self.may_answer.wait(60)
@@ -79,6 +83,16 @@ def test_after_a_time_out_requests_go_on_and_each_is_sent_once(served):
         app._timeout = 30  # whatever else the machine does
         assert app.ask("stop") == "stop"
         assert served.asked == ['get "/slow"', "stop"]
+
+
+def test_a_request_says_when_it_was_sent_where_operators_must_be_heard(served):
+    served.hello += " when=yes"
+    before = time.monotonic_ns()
+    with runnel.connect("robot") as app:
+        assert app.ask("stop") == "stop"
+    at, request = served.asked
+    assert before <= int(at) <= time.monotonic_ns()
+    assert request == "stop"
 
 
 def test_a_call_may_take_its_own_time_besides(served):

@@ -10,6 +10,7 @@ let robot = { in_force: false, by: '', since: 0 };
 let answer = null;   // in the place of the robot's own
 let isReleasedAtOnce = false; // by somebody else, before the answer
 const heard = [];
+const said = [], answered = []; // times of signs of life
 
 class Socket {
   static OPEN = 1;
@@ -23,12 +24,16 @@ class Socket {
     this.timer = setInterval(() => this.alive(), 200);
   }
 
-  alive() { if (this.readyState === 1) this.tell({ op: 'alive', at: performance.now() / 1000, stop: robot }); }
+  alive() {
+    if (this.readyState !== 1) return;
+    said.push(performance.now() / 1000);
+    this.tell({ op: 'alive', at: said.at(-1), stop: robot });
+  }
   tell(message) { this.#out.push(JSON.stringify(message)); this.flush(); }
   flush() { if (!isStuck) for (const data of this.#out.splice(0)) this.onmessage({ data }); }
   send(text) {
     const { request, ...message } = JSON.parse(text);
-    if (message.op === 'alive') return;
+    if (message.op === 'alive') return void answered.push(message.at);
     heard.push({ ...message, isOwn: this.protocol === kOwn });
     const reply = answer ?? { ok: true };
     if (reply.ok && message.op === 'stop') SetRobot(true, 'this page');
@@ -58,6 +63,13 @@ stop.StartStop('ws://robot');
 other.open();
 await Sleep(100);
 after(() => setTimeout(() => process.exit(), 100)); // links look at the time for ever
+
+test('a sign of life that comes late is answered by the time at which it was said', async () => {
+  isStuck = true;
+  await Sleep(500);
+  Loosen();
+  assert.deepEqual(answered.sort(), said.sort());
+});
 
 test('a press is sent although an earlier one has not been answered, whose answer does not confirm it', async () => {
   isStuck = true;

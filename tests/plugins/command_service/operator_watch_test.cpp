@@ -14,6 +14,7 @@ using ::testing::HasSubstr;
 
 class OperatorWatchTest : public ::testing::Test {
  protected:
+  void Hear(const char* name) { watch.Hear(name, machine.Now()); }
   void After(Duration time) {
     machine.Advance(time);
     (void)watch.Look();
@@ -26,9 +27,9 @@ class OperatorWatchTest : public ::testing::Test {
 
 TEST_F(OperatorWatchTest, PressesWhenNobodyHasBeenHeardForSoLongAndNamesTheLastOne) {
   watch.Begin(2s);
-  watch.Hear("viewer 1");
+  Hear("viewer 1");
   After(1900ms);
-  watch.Hear("viewer 2");
+  Hear("viewer 2");
   After(1999ms);
   EXPECT_FALSE(stop.in_force());
   EXPECT_EQ(watch.Look(), machine.Now() + 1ms);
@@ -39,7 +40,7 @@ TEST_F(OperatorWatchTest, PressesWhenNobodyHasBeenHeardForSoLongAndNamesTheLastO
 }
 
 TEST_F(OperatorWatchTest, PressesWhenNoneHasComeSinceTheStart) {
-  watch.Hear("viewer 1");
+  Hear("viewer 1");
   watch.Begin(2s);
   After(2s);
   EXPECT_EQ(stop.state().by, "<operators>: none of them has been heard for 2s, nor before");
@@ -51,7 +52,7 @@ TEST_F(OperatorWatchTest, AReleaseStaysOnlyWhereAnOperatorIsHeard) {
   ASSERT_TRUE(stop.Release("a button"));
   (void)watch.Look();
   EXPECT_TRUE(stop.in_force()) << "nobody is heard";
-  watch.Hear("viewer 3");
+  Hear("viewer 3");
   (void)watch.Look();
   EXPECT_TRUE(stop.in_force()) << "being heard releases nothing";
   ASSERT_TRUE(stop.Release("viewer 3"));
@@ -61,8 +62,19 @@ TEST_F(OperatorWatchTest, AReleaseStaysOnlyWhereAnOperatorIsHeard) {
   EXPECT_TRUE(stop.in_force());
 }
 
+TEST_F(OperatorWatchTest, WhatComesLateCountsAsOfWhenItWasSent) {
+  watch.Begin(2s);
+  machine.Advance(1500ms);
+  watch.Hear("viewer 1", Time(1s));
+  EXPECT_EQ(watch.Look(), Time(3s));
+  for (const Time other : {Time(999ms), Time(1501ms), Time(1h), Time(), Time(-1h)}) watch.Hear("viewer 2", other);
+  EXPECT_EQ(watch.Look(), Time(3s)) << "it is known already, or cannot be";
+  After(1500ms);
+  EXPECT_THAT(stop.state().by, HasSubstr("the last one was viewer 1"));
+}
+
 TEST_F(OperatorWatchTest, NobodyHasToBeHeardWhereTheFileDoesNotSaySo) {
-  watch.Hear("viewer 1");
+  Hear("viewer 1");
   EXPECT_EQ(watch.timeout(), Duration());
 }
 

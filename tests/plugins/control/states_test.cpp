@@ -121,13 +121,28 @@ TEST_F(StatesTest, TheWordsOfBeforeAreRefusedWithThoseOfNow) {
   EXPECT_FALSE(runtime.robot_stop().in_force());
 }
 
-TEST_F(StatesTest, ATerminalIsHeardByItsRequests) {
-  service->operators().Begin(std::chrono::hours(1));
-  const auto begun = service->operators().Look();
+// Its request may have lain in the socket while this process stood still.
+TEST_F(StatesTest, ATerminalIsHeardAsOfWhenItHasAsked) {
+  OperatorWatch& operators = service->operators();
+  operators.Begin(std::chrono::hours(1));
+  const Time begun = operators.Look().value();
+  const Time asked = begun - std::chrono::hours(1) + std::chrono::nanoseconds(1);
   EXPECT_EQ(State(), "running") << "who only looks who runs is not heard";
-  EXPECT_EQ(service->operators().Look(), begun);
+  const int client = RawClient();
+  const auto ask = [&](const std::string& at) {
+    SendAll(client, (at.empty() ? "" : FrameBytes("at", at)) + FrameBytes("request", "ls"));
+    EXPECT_THAT(ReadAll(client, "end 1\n0\n"), HasSubstr("end 1\n0\n"));
+    return operators.Look();
+  };
+  EXPECT_EQ(ask(""), begun);
+  EXPECT_EQ(ask(std::to_string(asked.time_since_epoch().count())), asked + std::chrono::hours(1));
+  for (const char* const no_time : {"", "soon", "1", "9223372036854775807"}) {
+    SendAll(client, FrameBytes("at", no_time));
+    EXPECT_EQ(ask(""), asked + std::chrono::hours(1)) << no_time;
+  }
+  close(client);
   EXPECT_EQ(Ask("ls").code, 0);
-  EXPECT_GT(service->operators().Look(), begun);
+  EXPECT_GT(operators.Look(), asked + std::chrono::hours(1));
 }
 
 TEST_F(StatesTest, QuitEndsTheRunAndNotTheRobot) {

@@ -173,11 +173,10 @@ TEST_F(ViewersStopOvertakes, WhoSaysTooMuchIsHeardWhenItComesNotWhenItIsCarriedO
   OperatorWatch& operators = service->operators();
   operators.Begin(1h);
   Viewer viewer = View();
-  SendTooFast(viewer, {{{"op", "panel"}}, {{"op", "stop"}}});
-  viewer.Next([](const Json& each) { return each["op"] == "reply" && each["request"] == 2; }, "STOP");
-  const auto heard = operators.Look();
-  viewer.Next([](const Json& each) { return each["op"] == "reply" && each["request"] == 1; }, "what has waited");
-  EXPECT_EQ(operators.Look(), heard);
+  const double at = viewer.Next("alive")["at"];
+  SendTooFast(viewer, {{{"op", "panel"}}, {{"op", "alive"}, {"at", at}}, {{"op", "stop"}}});
+  viewer.Next([](const Json& each) { return each["op"] == "reply" && each["request"] == 3; }, "STOP");
+  EXPECT_EQ(operators.Look(), Time(FromSeconds(at)) + 1h) << "though what was said before it still waits";
 }
 
 TEST_F(ViewersStopOvertakes, AHoldIsNotRenewedByWhatHasWaited) {
@@ -237,20 +236,27 @@ TEST_F(ViewersStop, ItsConnectionsAreNoneOfTheOthers) {
   for (Viewer* const each : {&stop, &another}) EXPECT_EQ(each->Ask({{"op", "stop"}})["ok"], true);
 }
 
-TEST_F(ViewersStop, WhoMayDriveIsHeardAndWhoLooksIsNot) {
+// What comes may have been sent long ago: only the sign of life that it answers says when.
+TEST_F(ViewersStop, WhoMayDriveIsHeardAsOfTheSignOfLifeThatIsAnswered) {
   Start({}, LookAndDrive());
   OperatorWatch& operators = service->operators();
   operators.Begin(1h);
   Viewer looks = Connect("runnel.stop.v1", WebRole::kLook);
   Viewer drives = Connect("runnel.stop.v1", WebRole::kDrive);
-  const auto due = [&] { return operators.Look(); };
-  const auto begun = due();
-  looks.Send({{"op", "alive"}});
+  const auto begun = operators.Look();
+  const double first = looks.Next("alive")["at"];
+  looks.Send({{"op", "alive"}, {"at", first}});
   looks.Ask({{"op", "stop"}});
-  EXPECT_EQ(due(), begun);
+  EXPECT_EQ(operators.Look(), begun) << "who only looks is not heard";
+  const double second = drives.Next("alive")["at"];
   drives.Send({{"op", "alive"}});
-  drives.Next("alive");
-  WaitUntil("it is heard", [&] { return due() > begun; });
+  for (const double at : {first - 10, second + 1000, 1e300, -1e300}) drives.Send({{"op", "alive"}, {"at", at}});
+  drives.Ask({{"op", "stop"}, {"at", second}});
+  EXPECT_EQ(operators.Look(), begun) << "by what came before or says no good time";
+  drives.Send({{"op", "alive"}, {"at", second}});
+  drives.Send({{"op", "alive"}, {"at", first}});
+  drives.Ask({{"op", "stop"}});
+  EXPECT_EQ(operators.Look(), Time(FromSeconds(second)) + 1h);
 }
 
 TEST_F(ViewersStop, GivesASignOfLifeAsOftenAsItMustBeAnswered) {

@@ -65,6 +65,8 @@ class Member {
   void Offer(OfferOptions offer) { options_.offers.push_back(std::move(offer)); }
   /// "/topic" to the module's input.
   void Take(TakeOptions take, Port& to) { takes_.emplace_back(std::move(take), &to); }
+  /// What others may have done here.
+  void Allow(std::vector<std::string> commands) { options_.commands = std::move(commands); }
   void Begin(bool is_simulated = false) {
     options_.member.name = name_;
     network = &runtime.Create<NetworkElement>(group, "network", options_);
@@ -76,6 +78,7 @@ class Member {
     link_ = Must(NetworkLink::Start(group, *network, engine_, is_simulated, [this] { return structure; }));
   }
   void End() { link_.reset(); }
+  [[nodiscard]] NetworkLink& link() { return *link_; }
   [[nodiscard]] std::string Text() const { return link_->Text(); }
   [[nodiscard]] auto StructureOf(const std::string& path) const { return link_->StructureOf(path); }
   [[nodiscard]] std::string said() {

@@ -106,7 +106,7 @@ export class Link {
 
   #receive(text) {
     const message = JSON.parse(text);
-    if (message.op === 'alive') this.send({ op: 'alive' }); // by which an operator is heard
+    if (message.op === 'alive') this.send({ op: 'alive', at: message.at }); // by which an operator is heard, as of then
     if (message.op === 'reply') this.#answer(message.request, message);
     else if (message.op === 'alive') this.#takeLife(message);
     else this.#onMessage(message);

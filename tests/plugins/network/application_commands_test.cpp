@@ -1,0 +1,126 @@
+// What one application has another one do: not when it comes so late that nobody waits for it any more.
+
+#include <gmock/gmock.h>
+
+#include <fmt/ranges.h>
+
+#include "plugins/cdr_values/cdr_reader.h"
+#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/network/application_commands.h"
+#include "plugins/parameters/parameter.h"
+#include "plugins/ros_messages/names.h"
+#include "tests/plugins/network/network_member.h"
+
+namespace runnel::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Planner final : public Module {
+ public:
+  using Module::Module;
+  Parameter<double> speed{this, "speed", {.default_value = 1}};
+
+ private:
+  void Update() override {}
+};
+
+/// An application that has others do something, or does it.
+class Commanded {
+ public:
+  Commanded(WireEngine& engine, const std::string& name, std::vector<std::string> allowed) : member(engine, name) {
+    member.Allow(std::move(allowed));
+    member.Begin();
+    commands = Must(ApplicationCommands::Start(member.link(), *member.network, service));
+  }
+
+  Member member;
+  Planner& planner = member.runtime.Create<Planner>(member.group, "planner");
+  ModuleRegistry modules;
+  StructureEditor editor{member.runtime, modules, nullptr};
+  ApplicationLog log{member.runtime.clock()};
+  CommandService service{{member.runtime, modules, editor, log}};
+  std::unique_ptr<ApplicationCommands> commands;
+};
+
+struct Answer {
+  bool is_done = false;
+  std::string said;
+  std::string token;
+};
+
+/// Says to the robot what nobody has to wait for.
+class RawAsker {
+ public:
+  RawAsker(Commanded& from, Commanded& robot)
+      : id(fmt::format("{:02x}", fmt::join(robot.member.link().participant().id(), ""))),
+        endpoints_(Must(ServiceEndpoints::Start(ServiceEndpoints::Side::kClient,
+                                                {.service = "/robot/runnel_commands",
+                                                 .request_type = DdsType("runnel_msgs/srv/Command_Request"),
+                                                 .response_type = DdsType("runnel_msgs/srv/Command_Response"),
+                                                 .depth = 32,
+                                                 .is_latched = true},
+                                                from.member.link().participant(), 77, [] {}))) {}
+
+  Answer Ask(const std::string& change, const std::string& whom) {
+    Octets octets;
+    CdrWriter to(octets);
+    for (const std::string& each : {std::string("//planner"), change, whom}) to.PutText(each);
+    EXPECT_TRUE(endpoints_->Request(octets));
+    std::optional<ServiceMessage> reply;
+    WaitUntil("it answers", [&] { return (reply = endpoints_->Take()).has_value(); });
+    Answer answer;
+    auto from = CdrReader::Begin(reply->message);
+    EXPECT_TRUE(from && from->Get(answer.is_done) && from->GetText(answer.said));
+    (void)from->GetText(answer.token);
+    return answer;
+  }
+
+  const std::string id;
+
+ private:
+  std::unique_ptr<ServiceEndpoints> endpoints_;
+};
+
+class ApplicationCommandsTest : public ::testing::Test {
+ protected:
+  const std::shared_ptr<WireEngine> engine = MakeFakeWire();
+  Commanded robot{*engine, "robot", {"set"}};
+  Commanded planner{*engine, "planner", {}};
+};
+
+TEST_F(ApplicationCommandsTest, WhatAnotherApplicationAsksForIsDone) {
+  std::shared_ptr<void> asking;
+  std::optional<std::string> said;
+  WaitUntil("it is done", [&] {
+    const std::lock_guard lock(planner.member.runtime.structure_mutex());
+    const auto answer = planner.commands->Ask("set //robot/planner/speed 0.3", asking);
+    if (answer) said = *answer;
+    return said.has_value();
+  });
+  EXPECT_EQ(robot.planner.speed.Get(), 0.3);
+  EXPECT_THAT(*said, HasSubstr("robot: "));
+}
+
+// It may have lain in the socket of a robot that stood still, and whoever has sent it does not wait for it any more.
+TEST_F(ApplicationCommandsTest, NothingIsDoneWithoutATokenThatHasJustBeenGiven) {
+  RawAsker asker(planner, robot);
+  const Answer given = asker.Ask("set /planner/speed 2", asker.id);
+  EXPECT_FALSE(given.is_done);
+  EXPECT_EQ(robot.planner.speed.Get(), 1);
+  ASSERT_THAT(given.token, ::testing::StartsWith(asker.id + ":"));
+  const std::int64_t at = std::stoll(given.token.substr(asker.id.size() + 1));
+  const auto with = [&](std::int64_t time) { return asker.Ask("set /planner/speed 3", asker.id + ":" + std::to_string(time)); };
+  for (const std::int64_t other : {at - 5'000'000'000, at + 3'600'000'000'000, std::int64_t{0}, INT64_MIN, INT64_MAX}) {
+    const Answer late = with(other);
+    EXPECT_FALSE(late.is_done) << other;
+    EXPECT_EQ(late.token, "") << other;
+    EXPECT_THAT(late.said, HasSubstr("it came too late: nothing has been done")) << other;
+  }
+  EXPECT_EQ(robot.planner.speed.Get(), 1);
+  EXPECT_TRUE(with(at).is_done);
+  EXPECT_EQ(robot.planner.speed.Get(), 3);
+}
+
+}  // namespace
+}  // namespace runnel::test
