@@ -255,6 +255,7 @@ Result<int> AskAllForNetwork(const std::vector<RunningApplication>& applications
 }
 
 Result<int> Ask(ControlArguments arguments, Request request) {
+  const Time asked = SteadyClock().Now();  // an application that does not answer may keep up the search
   const auto applications = FindThem();
   if (!applications) return applications.error();
   std::string wanted = arguments.application;
@@ -271,6 +272,7 @@ Result<int> Ask(ControlArguments arguments, Request request) {
   if (!chosen) return chosen.error();
   auto client = ControlClient::Connect(chosen->socket);
   if (!client) return client.error();
+  client->SetAsked(asked);
   if (arguments.command == "delete" && IsWhole(arguments.words[0], chosen->hello.application) &&
       isatty(STDIN_FILENO) == 1 && !request.Has("yes")) {
     if (!IsMeant("delete the whole application /" + chosen->hello.application + " and end its run")) {

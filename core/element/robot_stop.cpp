@@ -12,6 +12,7 @@ bool RobotStop::Press(std::string by) {
   if (signal_->Press([&] { Note(true, std::move(by)); })) return true;
   const std::lock_guard lock(mutex_);
   ++state_.requests;
+  state_.pressed = SteadyClock().Now();
   return false;
 }
 
@@ -29,7 +30,8 @@ RobotStop::State RobotStop::state() const {
 
 void RobotStop::Note(bool in_force, std::string by) {
   const std::lock_guard lock(mutex_);
-  state_ = {in_force, std::move(by), runtime_.clock().Now(), state_.changes + 1, state_.requests + 1};
+  state_ = {in_force, std::move(by), runtime_.clock().Now(), state_.changes + 1, state_.requests + 1,
+            in_force ? SteadyClock().Now() : state_.pressed};
 }
 
 }  // namespace runnel

@@ -29,6 +29,7 @@ class RobotStop {
     std::uint64_t changes = 0;  ///< 0: it was never in force
     /// How often it was pressed and released, presses while it was in force included: who releases has seen them all.
     std::uint64_t requests = 0;
+    Time pressed{};  ///< last, while it was in force included, on the machine's steady clock
   };
 
   explicit RobotStop(const Runtime& runtime);

@@ -20,7 +20,8 @@ struct HandSlot {
   /// Of whoever sets values. Port::Release() ends it.
   struct Hold {
     virtual ~Hold() = default;
-    AnyValue safe_value;  ///< none: it has no deadline, and its value stays
+    AnyValue safe_value;     ///< none: it has no deadline, and its value stays
+    bool is_renewed = true;  ///< with the value that is being set: a value of somebody else ends the hold
   };
 
   /// The port's own one, made when it is needed. Under the structure lock.

@@ -75,9 +75,12 @@ Result<void> Port::PublishByHand(const Fill& fill, Setter setter, std::optional<
   // Whoever watches a deadline publishes there without the structure lock.
   const auto slot = setter == Setter::kPerson ? HandSlot::Of(*this) : nullptr;
   std::unique_lock publisher = slot ? std::unique_lock(slot->mutex) : std::unique_lock<std::mutex>();
+  if (slot && slot->hold) slot->hold->is_renewed = false;
   if (is_set_by_hand(setter)) {
     const auto published = extras_->by_hand[SlotOf(setter)]->PublishFilled(fill_within, timestamp);
-    return published ? Result<void>() : published.error();
+    if (!published) return published.error();
+    if (slot && slot->hold && !slot->hold->is_renewed) slot->hold.reset();
+    return {};
   }
   auto channel = internal::MakeChannelFor(type_);
   if (!channel) return CannotPublish("only a module can make values of its type");

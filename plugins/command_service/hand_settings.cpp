@@ -177,6 +177,7 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
     }
     published.goes_on = hold.Note(wish);
     hold.safe_value = safe;
+    hold.is_renewed = true;
     hold.path = published.port;
     hold.number = number = ++count_;
     if (request.deadline) WatchOver(slot);

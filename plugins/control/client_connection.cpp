@@ -112,9 +112,15 @@ void ClientConnection::Begin(CommandService& service, TaskGroup& tasks) {
   if ((*frame)->kind != "request") {
     return Refuse({.message = "a frame '" + (*frame)->kind + "' where a 'request' should be"});
   }
-  service.operators().Hear("a terminal", std::exchange(asked_, {}));
-  if (why_only_stop_ && (*frame)->payload != "stop") return Refuse(*why_only_stop_);
-  auto command = MakeCommand((*frame)->payload, service, tasks);
+  const Time asked = std::exchange(asked_, {});
+  service.operators().Hear("a terminal", asked);
+  const std::string& request = (*frame)->payload;
+  if (why_only_stop_ && request != "stop") return Refuse(*why_only_stop_);
+  const bool moves = request.starts_with("release") || request.starts_with("publish");
+  if (moves && asked != Time() && asked < service.application().runtime.robot_stop().state().pressed) {
+    return SendEnd(runnel::Refuse(*this, {.message = "STOP was pressed after this was asked for", .hint = "look why, then ask again"}));
+  }
+  auto command = MakeCommand(request, service, tasks);
   if (command) {
     command_.emplace(std::move(*command));
   } else {

@@ -90,7 +90,7 @@ Result<Frame> ControlClient::Receive() {
 }
 
 Result<int> ControlClient::Ask(const std::string& request, const Use& output, const Use& errors) {
-  const std::string at = hello_.is_asking_when ? FrameBytes("at", std::to_string(SteadyClock().Now().time_since_epoch().count())) : "";
+  const std::string at = hello_.is_asking_when ? FrameBytes("at", std::to_string(asked_.value_or(SteadyClock().Now()).time_since_epoch().count())) : "";
   if (auto sent = Send(at + FrameBytes("request", request)); !sent) return sent.error();
   for (;;) {
     const auto frame = Receive();

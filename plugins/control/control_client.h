@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,8 @@ class ControlClient {
 
   /// How long each answer is waited for from now on; 0: for ever.
   void SetPatience(Duration timeout) noexcept;
+  /// When the person asked for what comes next, on the machine's steady clock; else it is when that is sent.
+  void SetAsked(Time asked) noexcept { asked_ = asked; }
   [[nodiscard]] const Hello& hello() const noexcept { return hello_; }
 
   /// Where an answer goes, as it comes. False: the answer is not wanted any more.
@@ -46,6 +49,7 @@ class ControlClient {
   int descriptor_;
   FrameReader reader_;
   Hello hello_;
+  std::optional<Time> asked_;
 };
 
 /// The running applications of this user, by process. Those that do not answer are left out, and said

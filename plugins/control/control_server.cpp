@@ -157,7 +157,7 @@ class ControlServer::Loop {
     hello.file = options_.file;
     hello.time = service_.application().runtime.clock().Now() - start_;
     hello.real = SteadyClock().Now() - started_;
-    hello.is_asking_when = service_.operators().timeout() > Duration();
+    hello.is_asking_when = true;
     hello.state = StateText(service_.application());
     return hello.ToText();
   }

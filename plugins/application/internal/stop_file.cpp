@@ -111,7 +111,7 @@ Result<std::unique_ptr<StopFile>> StopFile::Follow(RobotStop& stop, ApplicationL
     diagnostics.AddWarning(Telling("a STOP will end with this process", std::move(error)));
     return std::unique_ptr<StopFile>();
   }
-  const std::string identity = fs::absolute(application_file).lexically_normal().string() + "\n" + name;
+  const std::string identity = fs::weakly_canonical(application_file, failure).string() + "\n" + name;
   const std::string file_name = fmt::format("{:016x}-", HashOf(identity));
   if (clears) {
     if (auto removed = RemoveLeft(FilesOf(folder, file_name)); !removed) return Telling("the STOP cannot be cleared", removed.error());

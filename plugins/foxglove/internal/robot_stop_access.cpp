@@ -11,14 +11,28 @@ namespace {
 constexpr const char* kReplySchema =
     R"({"type":"object","properties":{"success":{"type":"boolean"},"message":{"type":"string"}}})";
 
+std::optional<JsonPart> Member(std::string_view json, std::string_view wanted) {
+  const auto parsed = JsonPart::Parse(json);
+  if (!parsed) return {};
+  for (const auto& [name, value] : parsed->members()) {
+    if (name == wanted) return value;
+  }
+  return *parsed;
+}
+
 // What cannot be read presses: somebody has asked for a STOP.
 bool SaysFalse(std::string_view json) {
-  const auto parsed = JsonPart::Parse(json);
-  if (!parsed) return false;
-  for (const auto& [name, value] : parsed->members()) {
-    if (name == "data") return value.boolean() == false;
-  }
-  return parsed->boolean() == false;
+  const auto said = Member(json, "data");
+  return said && said->boolean() == false;
+}
+
+// A call may have been under way for seconds, and the protocol does not say when it was sent: so it says which STOP it ends.
+std::optional<std::string> WhyNotReleased(const RobotStop::State& state, std::string_view json) {
+  const auto said = Member(json, "number");
+  const auto number = said ? said->count() : std::nullopt;
+  if (!state.in_force || number == state.requests) return {};
+  return (number ? "STOP was pressed after this was sent; " : "") + std::string("say which STOP is meant: {\"number\": ") +
+         std::to_string(state.requests) + "}";
 }
 
 }  // namespace
@@ -31,24 +45,27 @@ std::vector<DirectoryService> StopServices() {
     return made;
   };
   return {service(kStopName, "STOP of the robot: true presses", R"({"type":"object","properties":{"data":{"type":"boolean"}}})"),
-          service(kReleaseName, "ends the STOP of the robot", R"({"type":"object","properties":{}})")};
+          service(kReleaseName, "ends the STOP of the robot", R"({"type":"object","properties":{"number":{"type":"integer"}}})")};
 }
 
 FoxgloveChannel StopChannel() {
   return {std::string(kStopName), "runnel.Stop",
-          R"({"type":"object","properties":{"data":{"type":"boolean"},"by":{"type":"string"},"since":{"type":"number"}}})",
+          R"({"type":"object","properties":{"data":{"type":"boolean"},"by":{"type":"string"},"since":{"type":"number"},"number":{"type":"integer"}}})",
           [](const void* value, Time, std::string& json) {
             const auto& state = *static_cast<const RobotStop::State*>(value);
             JsonObject message(json);
             message.Add("data", state.in_force).Add("by", state.by);
-            message.Add("since", ToSeconds(state.since.time_since_epoch()));
+            message.Add("since", ToSeconds(state.since.time_since_epoch())).Add("number", state.requests);
           }};
 }
 
 std::string SetStop(FoxgloveShared& shared, std::string_view name, std::string_view json) {
   CommandAnswer answer = CommandAnswer::Done("false does nothing; " + std::string(kReleaseName) + " releases");
   const bool is_release = name == kReleaseName;
-  if (is_release || !SaysFalse(json)) {
+  const auto why_not = is_release ? WhyNotReleased(shared.runtime().robot_stop().state(), json) : std::nullopt;
+  if (why_not) {
+    answer = CommandAnswer::Refused({.message = *why_not});
+  } else if (is_release || !SaysFalse(json)) {
     answer = shared.application.service.Begin(RobotStopRequest{!is_release, "Foxglove"}, *shared.tasks)->Take();
   }
   const std::string problems = answer.diagnostics.ToString();

@@ -84,12 +84,6 @@ class Inspection {
   /// Of the server's thread.
   [[nodiscard]] Arrangement& arrangement() noexcept { return arrangement_; }
   [[nodiscard]] TaskGroup& tasks() noexcept { return tasks_; }
-  /// RobotStop::State::requests as viewers were last told of a change of it, and when the first of them was.
-  struct ToldStop {
-    std::uint64_t requests = 0;
-    SteadyTime at{};
-  };
-  [[nodiscard]] ToldStop& told_stop() noexcept { return told_stop_; }
   /// nullptr until it has been made. Any thread.
   [[nodiscard]] std::shared_ptr<const Catalogue> catalogue() const;
 
@@ -114,7 +108,6 @@ class Inspection {
   StructureMirror mirror_;
   PanelFile panel_;
   Arrangement arrangement_;
-  ToldStop told_stop_;
   std::uint64_t viewers_ = 0;
   SteadyTime look_at_{};
   SteadyTime look_at_registry_{};

@@ -43,17 +43,16 @@ void ViewerSession::OnTooMany(std::string_view message, bool /*is_text*/) {
 
 std::optional<Error> ViewerSession::WhyTooLate(const ViewerMessage& message, WebRole needed) const {
   if (needed == WebRole::kLook) return {};
-  const std::uint64_t requests = inspection_.application().runtime.robot_stop().state().requests;
+  const auto stop = inspection_.application().runtime.robot_stop().state();
   const Error changed{.message = "STOP was pressed or released after it was sent"};
   const auto arrival = client_.arrival();
-  if (arrival && arrival->mark != requests) return changed;
+  if (arrival && arrival->mark != stop.requests) return changed;
   if (message.op != "release" || message.path != kRobotStopName || !message.at) return {};
   const double now = ToSeconds(std::chrono::steady_clock::now().time_since_epoch());
   if (now - *message.at > kOldestRelease) {
     return Error{.message = "this release is too old: STOP may have been pressed again since"};
   }
-  const auto& told = inspection_.told_stop();
-  if (told.requests != requests || *message.at < ToSeconds(told.at.time_since_epoch())) return changed;
+  if (*message.at < ToSeconds(stop.pressed.time_since_epoch())) return changed;
   return {};
 }
 

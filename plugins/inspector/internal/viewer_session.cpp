@@ -70,7 +70,6 @@ WebSession::SteadyTime ViewerSession::SendAlive() {
   const SteadyTime now = std::chrono::steady_clock::now();
   const auto stop = inspection_.application().runtime.robot_stop().state();
   if (now < alive_due_ && told_stop_ == stop.requests) return alive_due_;
-  if (inspection_.told_stop().requests != stop.requests) inspection_.told_stop() = {stop.requests, now};
   const bool is_sent = client_.SendText(JsonObjectText([&](JsonObject& json) {
     JsonObject told(json.Add("op", "alive").Add("at", ToSeconds(now.time_since_epoch())).Key("stop"));
     told.Add("in_force", stop.in_force).Add("by", stop.by);

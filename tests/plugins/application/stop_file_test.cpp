@@ -76,6 +76,12 @@ TEST_F(StopFileTest, TheNextProcessBeginsUnderStopAndSaysSoUntilItIsReleased) {
   EXPECT_THAT(last.diagnostics().ToString(), IsEmpty());
 }
 
+TEST_F(StopFileTest, AnApplicationIsTheSameByWhateverLinkItIsReached) {
+  Run()->runtime().robot_stop().Press("a viewer");
+  fs::create_directory_symlink(files.path() / "a", files.path() / "current");
+  EXPECT_TRUE(IsStopped(Run("current")));
+}
+
 TEST_F(StopFileTest, ClearedItBeginsWithoutAndWritesItAgain) {
   Run()->runtime().robot_stop().Press("a viewer");
   {

@@ -220,6 +220,25 @@ TEST_F(DrivingByHand, SomebodyLooksAtTheDeadlinesAllTheTime) {
   });
 }
 
+// As a program in the process does.
+TEST_F(DrivingByHand, AValueFromElsewhereEndsTheHoldOfBefore) {
+  HandSettings by_hand(runtime, worker, log, &machine);
+  EXPECT_EQ(Publish(by_hand, {kMotion, "{forward: 0.3}", 1000, Duration(250ms), "a"}), "");
+  EXPECT_TRUE(SetPortByHand(runtime, kMotion, "{forward: 0}"));
+  EXPECT_THAT(by_hand.All(), ElementsAre(Pair(kMotion, HandState::kSet)));
+  std::atomic<int> turns{0};
+  TaskGroup tasks(worker);
+  tasks.PostSteps([&]() -> std::optional<Duration> { return ++turns < 5 ? std::optional<Duration>(10ms) : std::nullopt; });
+  WaitUntil("the worker has had its turns", [&] { return turns == 5; });
+  EXPECT_EQ(Read(), Motion{}) << "nothing of before is published again";
+  EXPECT_TRUE(SetPortByHand(runtime, kMotion, "{forward: 0.2}"));
+  machine.Advance(250ms);
+  by_hand.LookAtDeadlines();
+  EXPECT_EQ(Read(), (Motion{0.2, 0})) << "nor is there a deadline";
+  EXPECT_THAT(Drive(by_hand, "{forward: 0.3}"), HasSubstr("ended")) << "what comes of the hold of before";
+  EXPECT_EQ(Drive(by_hand, "{forward: 0.3}", "b"), "");
+}
+
 // Else the value of a hold that has ended came again after the safe one.
 TEST_F(DrivingByHand, NothingIsPublishedAgainAfterTheDeadline) {
   HandSettings by_hand(runtime, worker, log, &machine);

@@ -145,6 +145,26 @@ TEST_F(StatesTest, ATerminalIsHeardAsOfWhenItHasAsked) {
   EXPECT_GT(operators.Look(), asked + std::chrono::hours(1));
 }
 
+// It may have been kept up by another application that does not answer.
+TEST_F(StatesTest, WhatWasAskedForBeforeTheLastPressNeitherReleasesNorMoves) {
+  const auto ask = [&](Time asked, const std::string& request) {
+    const int client = RawClient();
+    SendAll(client, FrameBytes("at", std::to_string(asked.time_since_epoch().count())) + FrameBytes("request", request));
+    const std::string answer = ReadAll(client, "end ");
+    close(client);
+    return answer;
+  };
+  runtime.robot_stop().Press("the test");
+  const Time between = SteadyClock().Now();
+  runtime.robot_stop().Press("the test, once more");
+  EXPECT_THAT(ask(between, "release stop"), HasSubstr("STOP was pressed after this was asked for"));
+  EXPECT_THAT(ask(between, "publish /b/in 1"), HasSubstr("STOP was pressed after this was asked for"));
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+  EXPECT_THAT(ask(between, "stop"), testing::Not(HasSubstr("STOP was pressed after")));
+  EXPECT_THAT(ask(SteadyClock().Now(), "release stop"), HasSubstr("released the STOP"));
+  EXPECT_FALSE(runtime.robot_stop().in_force());
+}
+
 TEST_F(StatesTest, QuitEndsTheRunAndNotTheRobot) {
   std::atomic<bool> has_quit{false};
   hooks.quit = [&]() -> Result<std::string> {

@@ -103,7 +103,15 @@ TEST_F(FoxgloveStop, IsReleasedByWhoMayDrive) {
   Begin();
   EXPECT_EQ(Call("/release", "{}")["success"], false) << "it is not in force";
   runtime.robot_stop().Press("the test");
-  EXPECT_EQ(Call("/release", "{}")["success"], true);
+  const Json unsaid = Call("/release", "{}");
+  EXPECT_EQ(unsaid["success"], false);
+  EXPECT_THAT(unsaid["message"].get<std::string>(), HasSubstr(R"(say which STOP is meant: {"number": 1})"));
+  runtime.robot_stop().Press("somebody, while it is in force");
+  const Json late = Call("/release", R"({"number": 1})");
+  EXPECT_EQ(late["success"], false);
+  EXPECT_THAT(late["message"].get<std::string>(), HasSubstr("STOP was pressed after this was sent"));
+  EXPECT_TRUE(in_force());
+  EXPECT_EQ(Call("/release", R"({"number": 2})")["success"], true);
   EXPECT_FALSE(in_force());
   runtime.robot_stop().Press("the test");
   const std::uint32_t release = services.at("/release");

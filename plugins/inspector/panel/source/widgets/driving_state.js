@@ -17,7 +17,7 @@ export function DriveOf({ target }) {
   return axes ? { port, axes } : { problem: `${port.data_type} is no motion` };
 }
 
-const kTexts = { driven: 'you drive', set: 'at rest, by hand', lost: 'link lost: at rest', stopped: 'blocked' };
+const kTexts = { driven: 'you drive', set: 'set by hand', lost: 'link lost: at rest', stopped: 'blocked' };
 
 /** As long as nobody has confirmed it, it may drive. */
 function StopChip() {
