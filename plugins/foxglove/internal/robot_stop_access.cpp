@@ -50,7 +50,8 @@ std::vector<DirectoryService> StopServices() {
 
 FoxgloveChannel StopChannel() {
   return {std::string(kStopName), "runnel.Stop",
-          R"({"type":"object","properties":{"data":{"type":"boolean"},"by":{"type":"string"},"since":{"type":"number"},"number":{"type":"integer"}}})",
+          R"({"type":"object","properties":{"data":{"type":"boolean"},"by":{"type":"string"},"since":{"type":"number"},)"
+          R"("number":{"type":"integer"}}})",
           [](const void* value, Time, std::string& json) {
             const auto& state = *static_cast<const RobotStop::State*>(value);
             JsonObject message(json);
