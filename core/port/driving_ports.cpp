@@ -1,13 +1,11 @@
 #include "core/port/driving_ports.h"
 
 #include <chrono>
-#include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/element/annotation.h"
-#include "core/element/runtime.h"
+#include "core/element/try_structure_lock.h"
 #include "core/port/port.h"
 
 namespace runnel {
@@ -22,12 +20,7 @@ struct DrivingBeside final : Annotation {
 }  // namespace
 
 std::optional<std::string> FindWhatDrives(Runtime& runtime) {
-  // Others have it for a moment again and again.
-  std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
-  for (int tries = 0; !lock && tries < 10; ++tries) {
-    std::this_thread::sleep_for(std::chrono::microseconds(100));
-    (void)lock.try_lock();
-  }
+  const auto lock = TryStructureLock(runtime, std::chrono::milliseconds(1));
   if (!lock) return {};
   std::string names;
   const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };

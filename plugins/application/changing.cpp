@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/element/try_structure_lock.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
@@ -289,12 +290,7 @@ CommandService& Application::service() {
     *ends = [this, end = *ends]() -> Result<std::string> {
       std::string lost;
       try {  // a type whose text throws does not keep the run from its end, nor does whoever has the lock
-        // Others have it for a moment again and again.
-        std::unique_lock lock(parts_->runtime().structure_mutex(), std::try_to_lock);
-        for (int tries = 0; !lock && tries < 200; ++tries) {
-          std::this_thread::sleep_for(std::chrono::milliseconds(1));
-          lock.try_lock();
-        }
+        const auto lock = TryStructureLock(parts_->runtime(), std::chrono::milliseconds(200));
         if (!lock) lost = "\nwhat is not saved cannot be told while the structure is being changed";
         const auto found = lock ? parts_->FindAgain() : Error{};
         if (found) {

@@ -1,12 +1,11 @@
 #include "plugins/control/application_state.h"
 
 #include <algorithm>
-#include <mutex>
-#include <thread>
+#include <chrono>
 
 #include <fmt/format.h>
 
-#include "core/element/runtime.h"
+#include "core/element/try_structure_lock.h"
 #include "core/paths/late_connections.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"
@@ -16,10 +15,6 @@
 #include "plugins/values/watched_port.h"
 
 namespace runnel {
-
-namespace {
-constexpr int kTries = 10;
-}  // namespace
 
 std::string StopText(Runtime& runtime) {
   const RobotStop::State stop = runtime.robot_stop().state();
@@ -33,12 +28,7 @@ std::string StateText(const ServedApplication& application) {
   if (application.pace != nullptr && application.pace->is_paused()) text = "paused";
   if (application.pace != nullptr && application.pace->has_ended()) text = "ended, held";
   if (const std::string stop = StopText(application.runtime); !stop.empty()) text += ", " + stop;
-  // Others have it for a moment again and again.
-  std::unique_lock lock(application.runtime.structure_mutex(), std::try_to_lock);
-  for (int tries = 0; !lock && tries < kTries; ++tries) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    lock.try_lock();
-  }
+  const auto lock = TryStructureLock(application.runtime, std::chrono::milliseconds(10));
   if (!lock) return text + ", BUSY changing its structure: nothing else can be told of it";
   if (application.scheduler == nullptr) return text;
   FrameworkElement& root = application.runtime.root();
