@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/base/lookout.h"
 #include "core/element/element_listener.h"
 #include "core/element/robot_stop.h"
 #include "core/element/runtime.h"
@@ -18,7 +19,6 @@
 #include "plugins/command_service/command_request.h"
 #include "plugins/command_service/command_worker.h"
 #include "plugins/command_service/hand_settings.h"
-#include "plugins/command_service/lookout.h"
 #include "plugins/structure/structure_editor.h"
 
 namespace runnel {

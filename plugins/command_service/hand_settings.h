@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/base/lookout.h"
 #include "core/base/result.h"
 #include "core/element/runtime.h"
 #include "core/port/hand_slot.h"
@@ -18,7 +19,6 @@
 #include "plugins/command_service/application_log.h"
 #include "plugins/command_service/command_request.h"
 #include "plugins/command_service/command_worker.h"
-#include "plugins/command_service/lookout.h"
 
 namespace runnel {
 

@@ -53,7 +53,9 @@ void StopButton::Work() {
   while (!ends_.load()) {
     (void)element_->probe.Wait(kLookForPort);
     TakeValues();
-    LookForPort();
+    if (!LookForPort() || !std::exchange(is_let_go_, false)) continue;
+    if (is_covered_ || !rule_.releases || !runtime_.robot_stop().Release(rule_.port)) continue;
+    tell_({rule_.port, "the STOP is released by its button", runtime_.clock().Now(), false, true});
   }
 }
 
@@ -63,28 +65,30 @@ void StopButton::TakeValues() {
   while (element_->probe.Take(look)) {
     if (is_down) Press(rule_.port);
     // Letting go releases, not being up: others may have pressed.
-    if (is_down_ && !is_down && rule_.releases && runtime_.robot_stop().Release(rule_.port)) {
-      tell_({rule_.port, "the STOP is released by its button", runtime_.clock().Now(), false, true});
-    }
+    is_let_go_ = !is_down && (is_down_ || is_let_go_);
     is_down_ = is_down;
   }
 }
 
 // Whoever has the structure lock is not waited for.
-void StopButton::LookForPort() {
+bool StopButton::LookForPort() {
   const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
-  if (!lock) return;
+  if (!lock) return false;
   const auto& sources = element_->probe.incoming();
+  const bool was_covered = std::exchange(is_covered_, !sources.empty() && sources.front()->is_set_by_hand());
   if (!sources.empty()) {
     rule_.port = sources.front()->path();
     is_gone_ = false;
-    return;
+    // Whoever presses the button itself is not heard then.
+    if (is_covered_ && !was_covered) Press(rule_.port + ", which is set by hand");
+    return true;
   }
   if (!is_gone_) Press(rule_.port + ", which is gone");
   is_gone_ = true;
-  is_down_ = false;  // letting go counts after a press that has come by the next connection
+  is_down_ = is_let_go_ = false;  // letting go counts after a press that has come by the next connection
   const auto found = PathSearch(runtime_).FindPort(rule_.port, PathKind::kOutput);
   if (found && &(*found)->type() == &element_->probe.type()) (void)Port::Connect(**found, element_->probe);
+  return true;
 }
 
 void StopButton::Press(const std::string& by) {

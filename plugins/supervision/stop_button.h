@@ -20,7 +20,7 @@ namespace internal {
 class ButtonElement;
 
 /// Presses the STOP of the robot for each value that is not 0 at a port; follows the port through renames and swaps. When
-/// the port is gone nobody can press any more: that presses, too.
+/// the port is gone, or set by hand, nobody can press any more: that presses, too.
 ///
 /// Threads: has one of its own, which waits for values, and for no lock. Construct and destroy outside of cycles.
 class StopButton {
@@ -35,7 +35,8 @@ class StopButton {
  private:
   void Work();
   void TakeValues();
-  void LookForPort();
+  /// False: somebody has the structure lock, so that nothing is known.
+  bool LookForPort();
   void Press(const std::string& by);
 
   Runtime& runtime_;
@@ -43,6 +44,8 @@ class StopButton {
   const Tell tell_;
   std::unique_ptr<ButtonElement> element_;
   bool is_down_ = false;
+  bool is_let_go_ = false;   // since then nobody could look whether that was by the button itself
+  bool is_covered_ = false;  // by a value by hand
   bool is_gone_ = false;
   std::atomic<bool> ends_{false};
   std::thread thread_;

@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <mutex>
-#include <optional>
-#include <set>
 #include <utility>
 
-#include "core/base/exception_text.h"
 #include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
-#include "plugins/structure/extension_changes.h"
-#include "plugins/structure/value_by_hand.h"
-#include "plugins/supervision/serve_requests.h"
 #include "plugins/supervision/stop_button.h"
-#include "plugins/supervision/watches.h"
+#include "plugins/supervision/supervisor_shared.h"
 
 namespace runnel {
 
@@ -27,46 +21,6 @@ constexpr Duration kLookForRequests = std::chrono::milliseconds(50);
 
 }  // namespace
 
-struct Supervisor::Shared {
-  struct KnownRule : SupervisionRule {
-    bool is_applied = false;  // kPaused
-    std::vector<bool> holds = {};  // by reaction.published: set, and neither taken back nor released; under the structure lock
-  };
-  Shared(Runtime& of_runtime, Scheduler& of_scheduler, Perform how)
-      : runtime(of_runtime), scheduler(of_scheduler), perform(std::move(how)) {}
-
-  void Note(Notice notice) {
-    const std::lock_guard lock(mutex);
-    notices.push_back(std::move(notice));
-  }
-  void MovePaths(const PathFollowers::Move& move);
-  using Which = Reaction SupervisionRule::*;
-  void React(KnownRule& rule, Which which, const std::string& path, const std::string& why, Time now, bool is_recovery = false);
-  Result<void> CarryOut(KnownRule& rule, Which which, const Reaction& reaction, Time now);
-  Result<void> Publish(const SafeValue& safe, const std::function<void(const Port& port)>& before = {});
-  Result<void> Release(const std::string& port, Time now);
-  // What rules hold there. Under the structure lock.
-  void VisitHeld(const Port& port, const std::function<void(KnownRule& rule, std::size_t number)>& visit);
-  Time Watch(Time now);
-  static std::function<void(const Fault&)> CallOf(const std::shared_ptr<Shared>& shared, std::shared_ptr<KnownRule> rule,
-                                                  Which which, std::string why);
-  Result<void> AddWatch(const std::shared_ptr<KnownRule>& rule);
-  void KeepSafe(Time now);
-  void TellOverruns(Time now);
-
-  Runtime& runtime;
-  Scheduler& scheduler;
-  const Perform perform;
-
-  internal::Standstill standstill;  // under the structure lock
-  std::set<std::string> late;       // threads of which that has been told; of the thread that looks out, as the next one
-  std::vector<std::pair<std::shared_ptr<KnownRule>, StaleWatch>> watches;
-  std::vector<std::shared_ptr<KnownRule>> rules;  // their paths are guarded by the structure lock
-  std::vector<std::string> later;  // to be released if an undo brings them back; under the structure lock
-  std::mutex pausing;  // one after the other; before all others
-  OrderedMutex mutex{LockLevel::kLeaf};
-  std::vector<Notice> notices;  // guarded by mutex
-};
 
 void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
   for (const auto& each : rules) {
@@ -77,96 +31,6 @@ void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
   std::ranges::for_each(later, move);
   for (auto& [rule, watch] : watches) std::ranges::for_each(watch.outputs(), move);
   scheduler.MovePaths(move);
-}
-
-void Supervisor::Shared::VisitHeld(const Port& port, const std::function<void(KnownRule& rule, std::size_t number)>& visit) {
-  for (const auto& rule : rules) {
-    for (std::size_t i = 0; i < rule->holds.size(); ++i) {
-      if (!rule->holds[i]) continue;
-      const auto held = PathSearch(runtime).FindPort(rule->reaction.published[i].port, PathKind::kElement);
-      if (held && *held == &port) visit(*rule, i);
-    }
-  }
-}
-
-Result<void> Supervisor::Shared::Publish(const SafeValue& safe, const std::function<void(const Port& port)>& before) {
-  const std::lock_guard lock(runtime.structure_mutex());
-  const auto found = PathSearch(runtime).FindPort(safe.port, PathKind::kElement);
-  if (!found) return found.error();
-  const auto value = safe.value ? ValueOf(**found, *safe.value) : SafeValueOf(**found);
-  if (!value) return value.error();
-  if (before) before(**found);
-  internal::Standstill::LeaveToRule(**found);
-  return PublishByHand(**found, value->get(), Port::Setter::kRule);
-}
-
-// What a person has set there stays, and what another rule holds there is in force again. Where what feeds a port that
-// drives does not run yet, it stands until it has published.
-Result<void> Supervisor::Shared::Release(const std::string& port, Time now) {
-  const std::lock_guard lock(runtime.structure_mutex());
-  const auto found = PathSearch(runtime).FindPort(port, PathKind::kElement);
-  if (!found) return found.error();
-  const SafeValue* other = nullptr;
-  VisitHeld(**found, [&](KnownRule& rule, std::size_t number) { other = &rule.reaction.published[number]; });
-  const bool was_released = !(*found)->is_set_by_hand(Port::Setter::kRule);  // by somebody else
-  if (was_released) return {};
-  if (other != nullptr) return Publish(*other);
-  if (!internal::Standstill::TakesOver(**found, scheduler, now)) (*found)->Release(Port::Setter::kRule);
-  return {};
-}
-
-// Safe values come first, and also if the rest fails.
-Result<void> Supervisor::Shared::CarryOut(KnownRule& rule, Which which, const Reaction& reaction, Time now) {
-  Result<void> done;
-  for (std::size_t i = 0; i < reaction.published.size(); ++i) {
-    const auto note = [&](const Port& port) {
-      // What somebody has released no rule holds any more.
-      if (!port.is_set_by_hand(Port::Setter::kRule)) VisitHeld(port, [](KnownRule& each, std::size_t number) { each.holds[number] = false; });
-      if (which != &SupervisionRule::reaction) return;
-      rule.holds.resize(reaction.published.size());
-      rule.holds[i] = true;
-    };
-    if (auto published = Publish(reaction.published[i], note); !published && done) done = published;
-  }
-  if (!reaction.changes.empty()) {
-    if (auto changed = perform(reaction.changes); !changed && done) done = changed;
-  }
-  for (const std::string& each : reaction.released) {
-    auto released = Release(each, now);
-    if (released) continue;
-    const std::lock_guard lock(runtime.structure_mutex());
-    later.push_back(each);
-    if (done) done = released;
-  }
-  return done;
-}
-
-// What can be said of a reaction that failed is told; the application runs on as it is, and stops if it was to stop.
-void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& path,
-                               const std::string& why, Time now, bool is_recovery) {
-  const Reaction& given = rule.*which;
-  Reaction reaction{.stops_application = given.stops_application};
-  // What only ends the run waits for no lock: the module that is stuck may have it.
-  if (!given.published.empty() || !given.released.empty() || !given.changes.empty()) {
-    const std::lock_guard lock(runtime.structure_mutex());
-    reaction = given;  // as it is now, for paths change under the lock
-    if (which == &SupervisionRule::otherwise) rule.holds.clear();
-  }
-  Result<void> done;
-  try {
-    done = CarryOut(rule, which, reaction, now);
-  } catch (...) {  // neither the end of the run nor other reactions hang on it
-    done = Error{.message = DescribeException()};
-  }
-  if (reaction.stops_application) scheduler.StopForFault();
-  Notice notice{path, why, now, !done, is_recovery};
-  if (!done) {
-    notice.message += "; what was to be done about it failed: " + done.error().ToString();
-  } else if (!reaction.description.empty()) {
-    notice.message += "; " + reaction.description;
-  }
-  if (reaction.stops_application) notice.message += "; stops the application";
-  Note(std::move(notice));
 }
 
 void Supervisor::Shared::KeepSafe(Time now) {
@@ -197,9 +61,11 @@ void Supervisor::Shared::TellOverruns(Time now) {
 }
 
 Time Supervisor::Shared::Watch(Time now) {
-  internal::ServeRequests(runtime, perform, [&](const std::string& path, std::string what, bool is_failure) {
-    Note({path, std::move(what), now, is_failure});
-  });
+  if (is_real()) {
+    beside.Ask();
+  } else {
+    ServeRequests(now);
+  }
   KeepSafe(now);
   TellOverruns(now);
   struct Due {
@@ -291,6 +157,7 @@ Result<void> Supervisor::Add(SupervisionRule rule) {
                              .on_stuck = Shared::CallOf(shared_, known, &SupervisionRule::reaction, "is stuck"),
                              .on_return = Shared::CallOf(shared_, known, &SupervisionRule::otherwise, "has returned")});
   }
+  const std::lock_guard lock(shared_->runtime.structure_mutex());
   shared_->rules.push_back(known);
   return {};
 }
@@ -328,7 +195,7 @@ Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
     if (applies == std::exchange(each->is_applied, applies)) continue;
     const Shared::Which which = applies ? &SupervisionRule::reaction : &SupervisionRule::otherwise;
     if (((*each).*which).is_empty()) continue;
-    shared_->React(*each, which, of, applies ? "is paused" : "goes on", runtime.clock().Now());
+    shared_->React(*each, which, of, applies ? "is paused" : "goes on", runtime.clock().Now(), false, Shared::Where::kHere);
   }
   if (is_paused) KeepSafe();
   return is_paused ? Result<void>() : scheduler_.SetPaused(path, false);

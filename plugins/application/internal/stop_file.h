@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/base/diagnostics.h"
+#include "core/base/lookout.h"
 #include "core/base/result.h"
 #include "core/element/robot_stop.h"
 #include "plugins/command_service/application_log.h"
-#include "plugins/command_service/lookout.h"
 
 namespace runnel {
 

@@ -126,6 +126,31 @@ TEST(StandstillInRealTime, APortHasItsSafeValueWhileTheThreadOfWhatFeedsItIsStuc
   robot.scheduler.Stop();
 }
 
+// As where a constructor takes 5 s.
+TEST(StandstillInRealTime, AChangeThatTakesLongKeepsUpNoOtherRule) {
+  Robot robot(SchedulerOptions::ClockKind::kReal);
+  std::atomic<bool> is_changing{false}, hangs{true}, throws{false};
+  robot.before_changes = [&] {
+    is_changing = true;
+    hangs.wait(true);
+  };
+  robot.infrared.action = [&](Doing&) {
+    if (throws) throw std::runtime_error("no answer");
+  };
+  MustSucceed(robot.supervisor.Add(robot.SwitchingRule()));
+  MustSucceed(robot.supervisor.Add(SupervisionRule{
+      .when = SupervisionRule::When::kFault, .of = "/infrared", .reaction = {.published = {{"/reader/in", "5"}}}}));
+  MustSucceed(robot.scheduler.Start());
+  WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
+  robot.laser_works = false;
+  WaitUntil("the change is under way", [&] { return is_changing.load(); });
+  throws = true;
+  WaitUntil("the safe value is seen", [&] { return robot.seen == 5; });
+  hangs = false;
+  hangs.notify_all();
+  robot.scheduler.Stop();
+}
+
 TEST_F(Driven, ThatNoStopReachesAPortIsToldWhileItsOwnModuleIsPausedAndThatOneDoesAgain) {
   MustSucceed(robot.supervisor.SetPaused("/reader", true));
   EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("cannot be reached: /reader is paused; until it runs, no STOP counts there")));

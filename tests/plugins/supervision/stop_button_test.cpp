@@ -75,6 +75,25 @@ TEST_F(StopButtonTest, WhereItReleasesOnlyLettingGoDoes) {
   EXPECT_EQ(runtime.robot_stop().state().changes, 2u) << "by the 0 after the 1, and not by those before";
 }
 
+// Readers find what is set by hand, so the button itself is not heard.
+TEST_F(StopButtonTest, AValueByHandPressesAndDoesNotRelease) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path(), true}));
+  Press(1);
+  WaitForStop("the button /app/panel/output/out");
+  const double up = 0;
+  MustSucceed(PublishByHand(panel.out, &up));
+  WaitUntilTaken();
+  for (int i = 0; i < 3; ++i) MustSucceed(PublishByHand(panel.out, &up));
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+  ASSERT_TRUE(runtime.robot_stop().Release("the test"));
+  panel.out.Release();
+  Press(1);
+  WaitForStop("the button /app/panel/output/out");
+  MustSucceed(PublishByHand(panel.out, &up));
+  ASSERT_TRUE(runtime.robot_stop().Release("the test"));
+  WaitForStop("the button /app/panel/output/out, which is set by hand");
+}
+
 TEST_F(StopButtonTest, GoesWithItsPortAndPressesWhenThatIsGone) {
   Workshop workshop;
   RobotStop& stop = workshop.runtime.robot_stop();

@@ -3,6 +3,7 @@
 #include "plugins/supervision/supervisor.h"
 
 #include <atomic>
+#include <functional>
 
 #include <gmock/gmock.h>
 
@@ -55,9 +56,11 @@ struct Robot {
   std::atomic<bool> laser_works{true};
   std::atomic<bool> laser_throws{false};
   std::atomic<double> seen{0};
+  std::function<void()> before_changes = [] {};
   Scheduler scheduler;
   StructureEditor editor{runtime, modules, &scheduler};
   Supervisor supervisor{runtime, scheduler, [this](const ChangeSet& changes) -> Result<void> {
+                          before_changes();
                           const ChangeOutcome outcome = editor.Apply(changes);
                           if (!outcome) return outcome.diagnostics.errors().front();
                           return {};

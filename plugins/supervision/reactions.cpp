@@ -1,0 +1,149 @@
+// What is done when a rule applies.
+
+#include "core/base/exception_text.h"
+#include "core/paths/path_search.h"
+#include "core/port/port.h"
+#include "plugins/structure/value_by_hand.h"
+#include "plugins/supervision/serve_requests.h"
+#include "plugins/supervision/supervisor_shared.h"
+
+namespace runnel {
+
+namespace {
+
+// Neither the end of the run nor other reactions hang on what is thrown.
+template <typename Act>
+Result<void> Attempt(const Act& act) {
+  try {
+    return act();
+  } catch (...) {
+    return Error{.message = DescribeException()};
+  }
+}
+
+}  // namespace
+
+void Supervisor::Shared::VisitHeld(const Port& port, const std::function<void(KnownRule& rule, std::size_t number)>& visit) {
+  for (const auto& rule : rules) {
+    for (std::size_t i = 0; i < rule->holds.size(); ++i) {
+      if (!rule->holds[i]) continue;
+      const auto held = PathSearch(runtime).FindPort(rule->reaction.published[i].port, PathKind::kElement);
+      if (held && *held == &port) visit(*rule, i);
+    }
+  }
+}
+
+Result<void> Supervisor::Shared::Publish(const SafeValue& safe, const std::function<void(const Port& port)>& before) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = PathSearch(runtime).FindPort(safe.port, PathKind::kElement);
+  if (!found) return found.error();
+  const auto value = safe.value ? ValueOf(**found, *safe.value) : SafeValueOf(**found);
+  if (!value) return value.error();
+  if (before) before(**found);
+  internal::Standstill::LeaveToRule(**found);
+  return PublishByHand(**found, value->get(), Port::Setter::kRule);
+}
+
+// What a person has set there stays, and what another rule holds there is in force again. Where what feeds a port that
+// drives does not run yet, it stands until it has published.
+Result<void> Supervisor::Shared::Release(const std::string& port, Time now) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = PathSearch(runtime).FindPort(port, PathKind::kElement);
+  if (!found) return found.error();
+  const SafeValue* other = nullptr;
+  VisitHeld(**found, [&](KnownRule& rule, std::size_t number) { other = &rule.reaction.published[number]; });
+  const bool was_released = !(*found)->is_set_by_hand(Port::Setter::kRule);  // by somebody else
+  if (was_released) return {};
+  if (other != nullptr) return Publish(*other);
+  if (!internal::Standstill::TakesOver(**found, scheduler, now)) (*found)->Release(Port::Setter::kRule);
+  return {};
+}
+
+void Supervisor::Shared::Beside(std::function<void()> act, bool is_long) {
+  {
+    const std::lock_guard lock(mutex);
+    if (is_real() && (is_long || !acts.empty())) acts.push_back(std::exchange(act, nullptr));
+  }
+  if (act) return act();
+  beside.Ask();
+}
+
+void Supervisor::Shared::WorkBeside() noexcept {
+  for (std::unique_lock lock(mutex); !acts.empty(); acts.pop_front()) {
+    const auto act = acts.front();
+    lock.unlock();
+    act();
+    lock.lock();
+  }
+  ServeRequests(runtime.clock().Now());
+}
+
+void Supervisor::Shared::ServeRequests(Time now) {
+  const auto tell = [&](const std::string& path, std::string what, bool is_failure) { Note({path, std::move(what), now, is_failure}); };
+  const auto served = Attempt([&] {
+    internal::ServeRequests(runtime, perform, tell);
+    return Result<void>();
+  });
+  if (!served) tell("", "a request of a module failed: " + served.error().message, true);
+}
+
+// Safe values come first, and also if the rest fails.
+Result<void> Supervisor::Shared::PublishAll(KnownRule& rule, Which which, const Reaction& reaction) {
+  Result<void> done;
+  for (std::size_t i = 0; i < reaction.published.size(); ++i) {
+    const auto note = [&](const Port& port) {
+      // What somebody has released no rule holds any more.
+      if (!port.is_set_by_hand(Port::Setter::kRule)) VisitHeld(port, [](KnownRule& each, std::size_t number) { each.holds[number] = false; });
+      if (which != &SupervisionRule::reaction) return;
+      rule.holds.resize(reaction.published.size());
+      rule.holds[i] = true;
+    };
+    if (auto published = Publish(reaction.published[i], note); !published && done) done = published;
+  }
+  return done;
+}
+
+Result<void> Supervisor::Shared::CarryOut(const Reaction& reaction, Time now) {
+  Result<void> done;
+  if (!reaction.changes.empty()) done = perform(reaction.changes);
+  for (const std::string& each : reaction.released) {
+    auto released = Release(each, now);
+    if (released) continue;
+    const std::lock_guard lock(runtime.structure_mutex());
+    later.push_back(each);
+    if (done) done = released;
+  }
+  return done;
+}
+
+// What can be said of a reaction that failed is told; the application runs on as it is, and stops if it was to stop.
+void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& path,
+                               const std::string& why, Time now, bool is_recovery, Where where) {
+  const Reaction& given = rule.*which;
+  Reaction reaction{.stops_application = given.stops_application};
+  // What only ends the run waits for no lock: the module that is stuck may have it.
+  if (!given.published.empty() || !given.released.empty() || !given.changes.empty()) {
+    const std::lock_guard lock(runtime.structure_mutex());
+    reaction = given;  // as it is now, for paths change under the lock
+    if (which == &SupervisionRule::otherwise) rule.holds.clear();
+  }
+  const auto published = Attempt([&] { return PublishAll(rule, which, reaction); });
+  const bool is_long = where == Where::kBeside && !reaction.changes.empty();
+  auto rest = [this, published, reaction = std::move(reaction), notice = Notice{path, why, now, false, is_recovery}]() mutable {
+    const auto carried_out = Attempt([&] { return CarryOut(reaction, notice.time); });
+    const Result<void>& done = published ? carried_out : published;
+    if (reaction.stops_application) scheduler.StopForFault();
+    notice.is_failure = !done;
+    if (!done) {
+      notice.message += "; what was to be done about it failed: " + done.error().ToString();
+    } else if (!reaction.description.empty()) {
+      notice.message += "; " + reaction.description;
+    }
+    if (reaction.stops_application) notice.message += "; stops the application";
+    Note(std::move(notice));
+  };
+  if (where == Where::kHere) return rest();
+  Beside(std::move(rest), is_long);
+}
+
+}  // namespace runnel

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/lookout.h"
+#include "core/base/ordered_mutex.h"
+#include "plugins/structure/extension_changes.h"
+#include "plugins/supervision/supervisor.h"
+#include "plugins/supervision/watches.h"
+
+namespace runnel {
+
+/// What a supervisor has in common with those who call it later: the scheduler, its thread beside.
+struct Supervisor::Shared {
+  struct KnownRule : SupervisionRule {
+    bool is_applied = false;  // kPaused
+    std::vector<bool> holds = {};  // by reaction.published: set, and neither taken back nor released; under the structure lock
+  };
+  Shared(Runtime& of_runtime, Scheduler& of_scheduler, Perform how)
+      : runtime(of_runtime), scheduler(of_scheduler), perform(std::move(how)) {}
+
+  void Note(Notice notice) {
+    const std::lock_guard lock(mutex);
+    notices.push_back(std::move(notice));
+  }
+  void MovePaths(const PathFollowers::Move& move);
+  using Which = Reaction SupervisionRule::*;
+  enum class Where { kBeside, kHere };
+  void React(KnownRule& rule, Which which, const std::string& path, const std::string& why, Time now, bool is_recovery = false,
+             Where where = Where::kBeside);
+  Result<void> PublishAll(KnownRule& rule, Which which, const Reaction& reaction);
+  Result<void> CarryOut(const Reaction& reaction, Time now);
+  // What may take as long as it takes, and must keep up nobody who looks whether all is well: in real time beside him, one
+  // after the other; in simulated time at once.
+  void Beside(std::function<void()> act, bool is_long);
+  void WorkBeside() noexcept;
+  void ServeRequests(Time now);
+  [[nodiscard]] bool is_real() const noexcept { return scheduler.options().clock == SchedulerOptions::ClockKind::kReal; }
+  Result<void> Publish(const SafeValue& safe, const std::function<void(const Port& port)>& before = {});
+  Result<void> Release(const std::string& port, Time now);
+  // What rules hold there. Under the structure lock.
+  void VisitHeld(const Port& port, const std::function<void(KnownRule& rule, std::size_t number)>& visit);
+  Time Watch(Time now);
+  static std::function<void(const Fault&)> CallOf(const std::shared_ptr<Shared>& shared, std::shared_ptr<KnownRule> rule,
+                                                  Which which, std::string why);
+  Result<void> AddWatch(const std::shared_ptr<KnownRule>& rule);
+  void KeepSafe(Time now);
+  void TellOverruns(Time now);
+
+  Runtime& runtime;
+  Scheduler& scheduler;
+  const Perform perform;
+
+  internal::Standstill standstill;  // under the structure lock
+  std::set<std::string> late;       // threads of which that has been told; of the thread that looks out, as the next one
+  std::vector<std::pair<std::shared_ptr<KnownRule>, internal::StaleWatch>> watches;
+  std::vector<std::shared_ptr<KnownRule>> rules;  // their paths are guarded by the structure lock
+  std::vector<std::string> later;  // to be released if an undo brings them back; under the structure lock
+  std::mutex pausing;  // one after the other; before all others
+  OrderedMutex mutex{LockLevel::kLeaf};
+  std::vector<Notice> notices;  // guarded by mutex
+  std::deque<std::function<void()>> acts;  // so; the first one is being done
+  Lookout beside{[this]() -> std::optional<Time> {
+    WorkBeside();
+    return {};
+  }};  // first to go: it uses the rest
+};
+
+}  // namespace runnel
