@@ -21,6 +21,13 @@ namespace {
 
 /// Of a port, among what is noted.
 struct PortState final : Annotation {
+  explicit PortState(const Port& port) : type(port.type()), direction(port.direction()), is_proxy(port.is_proxy()) {}
+  [[nodiscard]] bool Fits(const Port& port) const {
+    return &port.type() == &type && port.direction() == direction && port.is_proxy() == is_proxy;
+  }
+  const TypeInfo& type;
+  const Port::Direction direction;
+  const bool is_proxy;
   InputLimits limits;
   // With its own stamp, so that it does not become a command from after a STOP.
   std::optional<Port::HandValue> by_hand;
@@ -53,7 +60,7 @@ Result<void> GiveTo(Port& port, const PortState& state) {
 void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkElement::Inherit how,
           ElementState::Below below) {
   if (const auto* const port = dynamic_cast<const Port*>(&element)) {
-    auto state = std::make_unique<PortState>();
+    auto state = std::make_unique<PortState>(*port);
     state->limits = port->limits();
     state->by_hand = port->ValueByHand();
     if (how == FrameworkElement::Inherit::kAsReplacement) state->by_rule = port->ValueByHand(Port::Setter::kRule);
@@ -71,7 +78,7 @@ Result<void> Give(const FrameworkElement& noted, FrameworkElement& made, const E
   auto* const port = dynamic_cast<Port*>(&made);
   const bool has_its_own = std::ranges::any_of(taken_over, [&](const auto& each) { return each.second == port; });
   const auto* const state = noted.FindAnnotation<PortState>();
-  if (port != nullptr && state != nullptr && !has_its_own) {
+  if (port != nullptr && state != nullptr && !has_its_own && state->Fits(*port)) {
     if (auto given = GiveTo(*port, *state); !given) return given;
   }
   for (const FrameworkElement* child : noted.children()) {
@@ -94,6 +101,12 @@ ElementState::ElementState(const FrameworkElement& element, Inherit how, Below b
 
 Result<void> ElementState::GivePorts(FrameworkElement& made, const TakenOver& taken_over) const {
   return Give(*noted_, made, taken_over);
+}
+
+const Port* ElementState::FindCounterpart(const Port& port, const FrameworkElement& before, const FrameworkElement& made) {
+  const auto found = made.Find(port.path().substr(before.path().size() + 1));
+  const auto* const counterpart = found ? dynamic_cast<const Port*>(*found) : nullptr;
+  return counterpart != nullptr && PortState(port).Fits(*counterpart) ? counterpart : nullptr;
 }
 
 bool IsRecorded(const Port& port) {

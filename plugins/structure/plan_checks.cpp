@@ -245,13 +245,7 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
                                     "' went with it: the new module has no such parameter",
                          .path = before.path()});
   }
-  before.Visit([&](FrameworkElement& each) {
-    const auto* const port = dynamic_cast<const Port*>(&each);
-    if (port == nullptr || std::ranges::count(match.ports, port, &std::pair<Port*, Port*>::first) > 0) return;
-    if (const std::string what = WhatIsSetAt(*port); !what.empty()) {
-      warnings_.push_back({.message = what + " went with it: the new module has no such port", .path = port->path()});
-    }
-  });
+  WarnOfLost(before, [&](const Port& port) { return std::ranges::count(match.ports, &port, &std::pair<Port*, Port*>::first) > 0; });
   const bool is_made_anew = FindModuleType(before) == change.type;
   for (Error& each : StateRefusals(before, made)) {
     (is_made_anew ? further_errors_ : warnings_).push_back(std::move(each));
@@ -262,7 +256,18 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
   return {};
 }
 
-// What a composite consists of is its own: only its interface is connected anew, and there is no state to be kept.
+void Plan::WarnOfLost(FrameworkElement& before, const std::function<bool(const Port&)>& is_kept) {
+  before.Visit([&](FrameworkElement& each) {
+    const auto* const port = dynamic_cast<const Port*>(&each);
+    if (port == nullptr || is_kept(*port)) return;
+    if (const std::string what = WhatIsSetAt(*port); !what.empty()) {
+      warnings_.push_back({.message = what + " went with it: the new module has no such port", .path = port->path()});
+    }
+  });
+}
+
+// What a composite consists of is its own: only its interface is connected anew, and modules keep no state. What has been set
+// at its ports, those within included, goes to the port of the same place and kind.
 Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfits misfits) {
   FrameworkElement& made = **after;
   std::vector<Connection> ties;
@@ -288,7 +293,9 @@ Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfit
   Concern(before);
   overlay_.Remove(before);
   AddRemoval(before);
-  AddCreation(std::move(after));
+  WarnOfLost(before, [&](const Port& port) { return ElementState::FindCounterpart(port, before, made) != nullptr; });
+  AddCreation(std::move(after), nullptr,
+              std::make_shared<const ElementState>(before, ElementState::Inherit::kAsReplacement, ElementState::Below::kIncluded));
   for (const Connection& tie : ties) {
     if (auto tied = CheckTie(*tie.from, *tie.to, tie.options); !tied) return tied;
   }

@@ -135,6 +135,45 @@ TEST_F(Composite, IsMadeAnewByItsStaticParameterWithItsConnections) {
   EXPECT_EQ(Out(), -(3 + 3 * 10));
 }
 
+TEST_F(Composite, WhatIsSetAtItsPortsGoesAlongAndWhatHasNoPlaceThereIsTold) {
+  const auto port = [&](const char* path) { return application_->Find<Port>(path).value(); };
+  ASSERT_TRUE(port("/stairs/in")->SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}));
+  ASSERT_TRUE(port("/stairs/out")->SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}));
+  ASSERT_TRUE(port("/stairs/out")->Block());
+  ASSERT_TRUE(application_->PublishByHand("/stairs/stair3/in", "7"));
+  const auto is_kept = [&] {
+    const std::lock_guard lock(application_->runtime().structure_mutex());
+    return port("/stairs/in")->is_driving() && port("/stairs/out")->is_driving() && port("/stairs/out")->is_blocked();
+  };
+  const auto is_set = [&] {
+    const std::lock_guard lock(application_->runtime().structure_mutex());
+    const auto value = port("/stairs/stair3/in")->ValueByHand();
+    return value && *static_cast<const double*>(value->value.get()) == 7;
+  };
+  ASSERT_TRUE(application_->RunCycles(1));
+  EXPECT_EQ(Out(), 0);
+  const auto set = [&](const char* stairs) {
+    const auto changed = application_->Apply({SetParameter{"/stairs/stairs", stairs}});
+    EXPECT_TRUE(changed) << changed.diagnostics.ToString();
+    return changed.diagnostics.ToString();
+  };
+  EXPECT_EQ(set("5"), "");
+  EXPECT_TRUE(is_kept());
+  EXPECT_TRUE(is_set());
+  ASSERT_TRUE(application_->RunCycles(1));
+  EXPECT_EQ(Out(), 0) << "still blocked";
+  EXPECT_THAT(set("1"), HasSubstr("/stairs/stair3/input/in: its value by hand went with it"));
+  EXPECT_TRUE(is_kept());
+  Undo();
+  EXPECT_TRUE(is_kept());
+  EXPECT_TRUE(is_set());
+  const std::string swapped = application_->Swap("/stairs", "counting/filter").diagnostics.ToString();
+  EXPECT_THAT(swapped, HasSubstr("/stairs/out: its block, its mark as driving went with it"));
+  Undo();
+  EXPECT_TRUE(is_kept());
+  EXPECT_TRUE(is_set());
+}
+
 TEST_F(Composite, MakesRoomForAModuleAndComesBack) {
   const auto swapped = application_->Swap("/stairs", "counting/filter");
   ASSERT_TRUE(swapped) << swapped.diagnostics.ToString();
