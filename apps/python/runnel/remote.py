@@ -44,7 +44,8 @@ def _error(text):
 class _Socket:
     """One connection: requests in turn, of whichever thread."""
 
-    def __init__(self, path, timeout):
+    def __init__(self, path, timeout, asked=None):
+        self.asked = asked  # when the person asked, if that was before it is sent
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self.socket.settimeout(timeout)
         try:
@@ -60,7 +61,7 @@ class _Socket:
             raise _extension.Error(f"{path} speaks another protocol")
 
     def send(self, request):
-        at = b"%d" % time.monotonic_ns()  # the same clock in all processes of a machine
+        at = b"%d" % (self.asked or time.monotonic_ns())  # the same clock in all processes of a machine
         heard = b"at %d\n%s\n" % (len(at), at) if self.hello.get("when") == "yes" else b""
         self.socket.sendall(heard + request)
 
@@ -310,17 +311,22 @@ class Remote:
         request of another thread delays it. Raises also where STOP is in force and nothing is marked as driving.
         """
         try:
-            with contextlib.closing(_Socket(self._path, 5)) as connection:
-                code, out, errors = _exchange(connection, _request("stop", [], {}, ""))
-                if not out:
-                    raise _error(errors)
+            code, out, errors = self._exchange_alone("stop")
+            if not out:
+                raise _error(errors)
         except (OSError, _extension.Error) as why:
             raise _extension.Error(f"the STOP of {self.name} is not confirmed: {why}") from None
         return _outcome(code, out, errors)
 
     def release(self, path=None):
-        """Ends the STOP; with the path of a port, its block or the value set by hand there."""
-        return self.ask("release", *([] if path is None else [path]))
+        """Ends the STOP; with the path of a port, its block or the value set by hand there. If STOP is pressed again before the
+        application has it, it raises and STOP stays.
+        """
+        return _outcome(*self._exchange_alone("release", *([] if path is None else [path])))
+
+    def _exchange_alone(self, command, *arguments):
+        with contextlib.closing(_Socket(self._path, 5, time.monotonic_ns())) as connection:
+            return _exchange(connection, _request(command, arguments, {}, ""))
 
     def block(self, path):
         """Stops one port: its readers have the safe value, whatever anybody publishes, until release(path)."""

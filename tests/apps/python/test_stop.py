@@ -29,6 +29,14 @@ def test_stop_is_in_force_until_it_is_released(base):
         base.release()
 
 
+def test_a_stop_that_stops_nothing_raises_and_is_in_force():
+    with runnel.load_text('<application name="idle"><clock type="real"/></application>', control=True) as app, runnel.connect("idle") as far:
+        for stop in (app.stop, far.stop):
+            with pytest.raises(runnel.Error, match="STOP stops nothing"):
+                stop()
+            app.release()  # which raises if it is not in force
+
+
 def test_one_port_is_blocked_until_it_is_released(base):
     base.block("/gate/wanted")
     with pytest.raises(runnel.Error, match="no 'gat'"):

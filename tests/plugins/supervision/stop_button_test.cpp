@@ -7,6 +7,7 @@
 #include "core/module/group.h"
 #include "plugins/application_tags/run_description.h"
 #include "plugins/structure/structure_editor.h"
+#include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/supervisor.h"
 #include "tests/plugins/application_files/reading/test_application.h"
 #include "tests/plugins/scheduling/test_modules.h"
