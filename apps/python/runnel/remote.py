@@ -314,7 +314,7 @@ class Remote:
             code, out, errors = self._exchange_alone("stop")
             if not out:
                 raise _error(errors)
-        except (OSError, _extension.Error) as why:
+        except _extension.Error as why:
             raise _extension.Error(f"the STOP of {self.name} is not confirmed: {why}") from None
         return _outcome(code, out, errors)
 
@@ -325,8 +325,11 @@ class Remote:
         return _outcome(*self._exchange_alone("release", *([] if path is None else [path])))
 
     def _exchange_alone(self, command, *arguments):
-        with contextlib.closing(_Socket(self._path, 5, time.monotonic_ns())) as connection:
-            return _exchange(connection, _request(command, arguments, {}, ""))
+        try:
+            with contextlib.closing(_Socket(self._path, 5, time.monotonic_ns())) as connection:
+                return _exchange(connection, _request(command, arguments, {}, ""))
+        except OSError as why:
+            raise _extension.Error(f"{self.name} does not answer: {why}") from None
 
     def block(self, path):
         """Stops one port: its readers have the safe value, whatever anybody publishes, until release(path)."""
