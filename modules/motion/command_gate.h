@@ -58,6 +58,11 @@ class CommandGate final : public Module {
       this, "stop", {.default_value = false, .description = "holds the robot whatever comes"}};
 
  private:
+  // One that is disconnected before the first cycle counts, too.
+  Result<void> Prepare() override {
+    has_bumper_ = contact.is_bound();
+    return {};
+  }
   void Update() override {
     const auto command = wanted_timeout.Read(wanted, now());
     const auto touch = contact_timeout.Read(contact, now());

@@ -98,6 +98,8 @@ test('what somebody has released before the answer came is not shown as in force
   isReleasedAtOnce = false;
   assert.equal(stop.pressed.value, null);
   assert.equal(stop.isInForce.value, false);
+  SetRobot(true, 'a colleague');
+  await Sleep(50);
 });
 
 test('a press and a release that are refused are not sent again, and say why', async () => {
