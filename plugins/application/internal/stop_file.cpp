@@ -1,5 +1,6 @@
 #include "plugins/application/internal/stop_file.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -29,6 +30,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kLongestBy = 200;
+constexpr const char* kElsewhere = ", in another process that runs";
+constexpr const char* kBefore = ", in a process before this one";
 
 // FNV-1a: the same in each process and version.
 std::uint64_t HashOf(std::string_view text) {
@@ -44,11 +47,12 @@ Error Telling(const std::string& what, Error error) {
 
 Error SystemError(const fs::path& file) { return {.message = std::strerror(errno), .position = {file.string()}}; }
 
-bool IsHeld(int descriptor) { return descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0; }
+// Right after it was opened: what is there and cannot be opened may be held.
+bool IsHeld(int descriptor) { return descriptor < 0 ? errno != ENOENT : flock(descriptor, LOCK_EX | LOCK_NB) != 0; }
 
 int Open(const fs::path& file, int how = O_RDONLY) { return open(file.c_str(), how | O_NOFOLLOW | O_CLOEXEC, 0600); }
 
-// Who pressed STOP there.
+// Who pressed STOP there, however many processes ago.
 std::string PressedBy(const fs::path& file) {
   std::string by;
   std::ifstream stream(file);
@@ -56,7 +60,8 @@ std::string PressedBy(const fs::path& file) {
   const int descriptor = Open(file);
   const bool is_held = IsHeld(descriptor);
   if (descriptor >= 0) close(descriptor);
-  return (by.empty() ? "somebody" : by.substr(0, kLongestBy)) + (is_held ? ", in another process that runs" : ", in a process before this one");
+  by = by.substr(0, std::min({by.find(kElsewhere), by.find(kBefore), kLongestBy}));
+  return (by.empty() ? "somebody" : by) + (is_held ? kElsewhere : kBefore);
 }
 
 // `name`: how the names of all files of one application begin.

@@ -68,6 +68,7 @@ TEST_F(StopFileTest, TheNextProcessBeginsUnderStopAndSaysSoUntilItIsReleased) {
     EXPECT_THAT(next.diagnostics().ToString(), HasSubstr("begins under STOP, pressed by a viewer, in a process before"));
   }
   EXPECT_TRUE(IsStopped(Run())) << "still";
+  EXPECT_EQ(Run()->runtime().robot_stop().state().by, "a viewer, in a process before this one");
   const auto other = Run("b");
   EXPECT_FALSE(IsStopped(other)) << "an application of the same name";
   EXPECT_TRUE(Run()->runtime().robot_stop().Release("a person"));
