@@ -122,7 +122,9 @@ double StopLink::Rest(Time now) noexcept {
 }
 
 void StopLink::Brake(void* value, Publication& publication) noexcept {
-  const Time now = runtime_.clock().Now();
+  // Within a cycle there is one value on the way: a module that takes whatever is new would go on until it stands.
+  const Cycle* const cycle = CurrentCycle();
+  const Time now = cycle != nullptr ? cycle->now : runtime_.clock().Now();
   const double rest = Rest(now);
   if (braking_->rest.exchange(rest, std::memory_order_relaxed) != rest) {
     braking_->changes.fetch_add(1, std::memory_order_relaxed);

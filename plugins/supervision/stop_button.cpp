@@ -53,8 +53,11 @@ void StopButton::Work() {
   while (!ends_.load()) {
     (void)element_->probe.Wait(kLookForPort);
     TakeValues();
-    if (!LookForPort() || !std::exchange(is_let_go_, false)) continue;
-    if (is_covered_ || !rule_.releases || !runtime_.robot_stop().Release(rule_.port)) continue;
+    if (!LookForPort()) continue;
+    // A STOP that somebody has pressed since it was let go stays.
+    const auto let_go = std::exchange(let_go_, {});
+    const bool releases = rule_.releases && !is_covered_ && let_go == runtime_.robot_stop().state().requests;
+    if (!releases || !runtime_.robot_stop().Release(rule_.port)) continue;
     tell_({rule_.port, "the STOP is released by its button", runtime_.clock().Now(), false, true});
   }
 }
@@ -65,7 +68,8 @@ void StopButton::TakeValues() {
   while (element_->probe.Take(look)) {
     if (is_down) Press(rule_.port);
     // Letting go releases, not being up: others may have pressed.
-    is_let_go_ = !is_down && (is_down_ || is_let_go_);
+    if (is_down) let_go_.reset();
+    if (is_down_ && !is_down) let_go_ = runtime_.robot_stop().state().requests;
     is_down_ = is_down;
   }
 }
@@ -85,7 +89,7 @@ bool StopButton::LookForPort() {
   }
   if (!is_gone_) Press(rule_.port + ", which is gone");
   is_gone_ = true;
-  is_down_ = is_let_go_ = false;  // letting go counts after a press that has come by the next connection
+  is_down_ = false;  // letting go counts after a press that has come by the next connection
   const auto found = PathSearch(runtime_).FindPort(rule_.port, PathKind::kOutput);
   if (found && &(*found)->type() == &element_->probe.type()) (void)Port::Connect(**found, element_->probe);
   return true;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -44,7 +46,7 @@ class StopButton {
   const Tell tell_;
   std::unique_ptr<ButtonElement> element_;
   bool is_down_ = false;
-  bool is_let_go_ = false;   // since then nobody could look whether that was by the button itself
+  std::optional<std::uint64_t> let_go_;  // RobotStop::State::requests then; nobody could look yet whether that was by the button itself
   bool is_covered_ = false;  // by a value by hand
   bool is_gone_ = false;
   std::atomic<bool> ends_{false};

@@ -77,6 +77,22 @@ TEST_F(BrakingTest, EachValueOnTheWayIsNewAndTheSafeOneToo) {
   EXPECT_THAT(read, ElementsAre(80, 60, 40, 20, 0));
 }
 
+TEST_F(BrakingTest, WithinACycleThereIsOneValueOnTheWay) {
+  auto& sender = MakeSender<double>();
+  auto& wheels = MakeReceiver<double>("wheels", Brakes());
+  Connect(sender.out, wheels.in);
+  sender.out.Publish(1.0);
+  EXPECT_EQ(wheels.in.Get(), 1.0);
+  Press();
+  Pass(20);
+  const CycleScope cycle({.now = clock.Now()});
+  EXPECT_TRUE(wheels.in.Read().is_new());
+  Pass(20);  // as on a clock that goes on meanwhile
+  const auto again = wheels.in.Read();
+  EXPECT_FALSE(again.is_new());
+  EXPECT_DOUBLE_EQ(again.value_or(0), 0.8);
+}
+
 TEST_F(BrakingTest, WhatWasOldStaysOld) {
   auto& sender = MakeSender<double>();
   auto& wheels = MakeReceiver<double>("wheels", Brakes());
