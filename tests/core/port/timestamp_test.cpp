@@ -153,6 +153,7 @@ TEST_F(PortTest, WhatIsPublishedIsAsOldAsTheOldestMeasurementReadInTheCycle) {
   Connect(laser.out, scan.in);
   Connect(goal.out, target.in);
   Connect(command.out, drive.in);
+  clock.Set(Time(5s));
   goal.out.Publish(1.0, Time(1s));
   laser.out.Publish(2.0, Time(5s));
   const CycleScope cycle({.now = Time(20s)});

@@ -2,6 +2,7 @@
 
 #include "plugins/application_tags/run_description.h"
 #include "tests/plugins/application_files/reading/test_application.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::testing {
 namespace {
@@ -113,10 +114,11 @@ TEST_F(SupervisionTags, MakeRulesOfModulesThatDoNotReturn) {
   EXPECT_FALSE(rules[1].on_stuck) << "it is only told of";
   rules[0].on_stuck(Fault{"/demo/a", "is stuck"});
   rules[0].on_return(Fault{"/demo/a", "is stuck"});
+  std::size_t told = 0;
+  test::WaitUntil("both have been carried out, in their order", [&] { return (told += supervisor.TakeNotices().size()) == 2; });
   ASSERT_EQ(done.size(), 2u);
   EXPECT_EQ(std::get<SetParameter>(done[0][0]).value, "2");
   EXPECT_EQ(std::get<SetParameter>(done[1][0]).value, "1");
-  EXPECT_EQ(supervisor.TakeNotices().size(), 2u);
 }
 
 TEST_F(SupervisionTags, TellWhatIsWrongWithTheirPlace) {
