@@ -234,6 +234,7 @@ TEST_F(BrakingTest, ReadingMeanwhileNeitherAllocatesNorLocks) {
   const OwnCycle cycle(clock.Now());
   (void)wheels.in.Read();
   Pass(50);
+  const CycleScope next({.now = clock.Now()});
   const AllocationGuard allocations;
   const LockProbe locks;
   const auto read = wheels.in.Read();
