@@ -91,9 +91,9 @@ TEST_F(HostileViewer, WatchesAreLimited) {
 }
 
 TEST_F(HostileViewer, RequestsUnderWayAreLimited) {
-  std::atomic<bool> may_go_on{false};
-  hooks.save = [&](const std::string&) -> Result<std::string> {
-    WaitUntil("the saving may go on", [&] { return may_go_on.load(); });
+  const auto may_go_on = std::make_shared<std::atomic<bool>>(false);  // those that wait still are done after the test
+  hooks.save = [may_go_on](const std::string&) -> Result<std::string> {
+    WaitUntil("the saving may go on", [&] { return may_go_on->load(); });
     return std::string("saved");
   };
   Start({}, {.limits = {.messages_per_second = 100'000}});
@@ -103,7 +103,7 @@ TEST_F(HostileViewer, RequestsUnderWayAreLimited) {
   const Json refused = viewer.Next("reply");
   EXPECT_EQ(refused["ok"], false);
   EXPECT_THAT(refused["errors"][0]["message"], HasSubstr("too many requests"));
-  may_go_on = true;
+  *may_go_on = true;
   ExpectThatAllIsWell();
 }
 
