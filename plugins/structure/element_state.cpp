@@ -21,10 +21,13 @@ namespace {
 
 /// Of a port, among what is noted.
 struct PortState final : Annotation {
-  explicit PortState(const Port& port) : type(port.type()), direction(port.direction()) {}
-  [[nodiscard]] bool Fits(const Port& port) const { return &port.type() == &type && port.direction() == direction; }
+  explicit PortState(const Port& port) : type(port.type()), direction(port.direction()), is_proxy(port.is_proxy()) {}
+  [[nodiscard]] bool Fits(const Port& port) const {
+    return &port.type() == &type && port.direction() == direction && port.is_proxy() == is_proxy;
+  }
   const TypeInfo& type;
   const Port::Direction direction;
+  const bool is_proxy;
   InputLimits limits;
   // With its own stamp, so that it does not become a command from after a STOP.
   std::optional<Port::HandValue> by_hand;
@@ -100,9 +103,9 @@ Result<void> ElementState::GivePorts(FrameworkElement& made, const TakenOver& ta
   return Give(*noted_, made, taken_over);
 }
 
-Port* ElementState::FindCounterpart(const Port& port, const FrameworkElement& before, const FrameworkElement& made) {
+const Port* ElementState::FindCounterpart(const Port& port, const FrameworkElement& before, const FrameworkElement& made) {
   const auto found = made.Find(port.path().substr(before.path().size() + 1));
-  auto* const counterpart = found ? dynamic_cast<Port*>(*found) : nullptr;
+  const auto* const counterpart = found ? dynamic_cast<const Port*>(*found) : nullptr;
   return counterpart != nullptr && PortState(port).Fits(*counterpart) ? counterpart : nullptr;
 }
 

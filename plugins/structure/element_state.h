@@ -36,7 +36,7 @@ class ElementState {
   Result<void> GivePorts(FrameworkElement& made, const TakenOver& taken_over = {}) const;
   /// The port in `made` that gets what is set at `port`, which is below `before`: at the same place in it, and of the same
   /// kind; nullptr: none.
-  [[nodiscard]] static Port* FindCounterpart(const Port& port, const FrameworkElement& before, const FrameworkElement& made);
+  [[nodiscard]] static const Port* FindCounterpart(const Port& port, const FrameworkElement& before, const FrameworkElement& made);
 
  private:
   Inherit how_;

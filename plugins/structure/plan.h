@@ -163,8 +163,6 @@ class Plan {
   void MoveExtensions(const FrameworkElement& renamed, const std::string& name);
   void AddExchange(FrameworkElement& before, UnlistedElement after);
   Result<void> ExchangeComposite(FrameworkElement& before, New after, Misfits misfits);
-  [[nodiscard]] static Port* FindInInterface(const Port& port, const FrameworkElement& before, FrameworkElement& made);
-  void GiveInterface(FrameworkElement& before, FrameworkElement& made);
   /// Warns of what is set at ports of `before` that are not kept.
   void WarnOfLost(FrameworkElement& before, const std::function<bool(const Port&)>& is_kept);
   Result<void> CheckAll(const GroupParameter& group, const SetParameter& change);

@@ -213,11 +213,7 @@ Result<void> Plan::MoveTargets(const FrameworkElement& renamed, const std::strin
   for (GroupParameter* before : all) {
     std::vector<std::string> targets;
     for (const std::string& each : before->targets()) {
-      // Of the only application the name may have been left out: "/motor/radius".
-      const bool is_whole = !each.starts_with('/') || runtime_.root().Find(each);
-      const auto found = is_whole ? Result<FrameworkElement*>(nullptr) : PathSearch(*before->parent()).Find(each, PathKind::kParameter);
-      const bool is_meant = found && *found != nullptr && (*found)->IsAtOrBelow(renamed);
-      targets.push_back(RenamedPath(is_meant ? (*found)->path() : each, before->parent()->path(), {{renamed.path(), name}}));
+      targets.push_back(RenamedPath(each, before->parent()->path(), {{renamed.path(), name}}));
     }
     if (targets == before->targets()) continue;
     UnlistedElement made(std::make_unique<GroupParameter>(

@@ -104,15 +104,6 @@ TEST_F(RenamingTest, ParametersOfGroupsAndConnectionsThatWaitFollow) {
   EXPECT_THAT(At<GroupParameter>("/app/step").targets(), ElementsAre("g/a/step"));
 }
 
-TEST_F(RenamingTest, AParameterOfAGroupFollowsAPathWithoutTheNameOfTheApplication) {
-  MustDo({CreateParameter{"/app/stride", {"/g/a/step"}}});
-  MustDo({RenameElement{"/app/g/a", "first"}});
-  MustDo({SetParameter{"/app/stride", "5"}});
-  EXPECT_EQ(At<Counter>("/app/g/first").step.Get(), 5);
-  for (int i = 0; i < 2; ++i) MustBe(history.Undo());
-  EXPECT_THAT(At<GroupParameter>("/app/stride").targets(), ElementsAre("/g/a/step"));
-}
-
 TEST_F(RenamingTest, SaysWhatCannotBeRenamed) {
   EXPECT_THAT(Refusal({RenameElement{"/app", "other"}}), HasSubstr("is the whole application"));
   EXPECT_THAT(Refusal({RenameElement{"/app/g/a/out", "o"}}), HasSubstr("neither a module nor a group"));
