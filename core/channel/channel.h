@@ -249,14 +249,14 @@ class Channel final : public ChannelBase {
     const PullPoint::Lock lock(*pull_point());
     return lock.held() ? PublishNow<PublishPath::kSlow>(what, times) : PublishStatus::kBusy;
   }
-  void PublishPulled(Time (*now)(const Port& reader), const Port& reader) override {
+  void PublishPulled(ValueTimes (*times_now)(const Port& reader), const Port& reader) override {
     if constexpr (kCanPull) {
       Loan<T> loan = LoanForPull();
       if (!loan) return pull_point()->CountFailure();
       std::optional<Time> timestamp;
       if (!pull_point()->Run(&*loan, timestamp)) return;
-      const Time published = now(reader);
-      const ValueTimes times{std::min(timestamp.value_or(published), published), published};
+      ValueTimes times = times_now(reader);
+      if (timestamp) times.timestamp = std::min(*timestamp, times.publication_time);
       if constexpr (kIsInlined<T>) {
         (void)PublishNow<PublishPath::kSlow>(*loan, times);
       } else {

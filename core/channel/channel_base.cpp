@@ -55,12 +55,12 @@ bool ChannelBase::WouldRefuse() const noexcept {
   });
 }
 
-void ChannelBase::Pull(Time (*now)(const Port& reader), const Port& reader) noexcept {
+void ChannelBase::Pull(ValueTimes (*times)(const Port& reader), const Port& reader) noexcept {
   if (pull_point_ == nullptr || !pull_point_->has_provider()) return;
   const PullPoint::Lock lock(*pull_point_);
   if (!lock.held()) return;
   try {
-    PublishPulled(now, reader);
+    PublishPulled(times, reader);
   } catch (...) {
     pull_point_->CountFailure();
   }

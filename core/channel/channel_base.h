@@ -63,9 +63,9 @@ class ChannelBase {
   /// Whether a queue that refuses is full.
   [[nodiscard]] bool WouldRefuse() const noexcept;
   /// Has the provider, if there is one and nobody is publishing just now, make
-  /// a value in this thread and publishes it with the time that `now(reader)`
+  /// a value in this thread and publishes it with the times that `times(reader)`
   /// returns then. Any thread, inside a guard.
-  void Pull(Time (*now)(const Port& reader), const Port& reader) noexcept;
+  void Pull(ValueTimes (*times)(const Port& reader), const Port& reader) noexcept;
 
   /// What readers pull by; nullptr if the output is not pullable.
   [[nodiscard]] PullPoint* pull_point() const noexcept { return pull_point_.get(); }
@@ -98,7 +98,7 @@ class ChannelBase {
   explicit ChannelBase(bool pullable);
   /// Has the provider fill a free buffer, and publishes that. By who has the lock. Throws what the
   /// provider throws.
-  virtual void PublishPulled(Time (*now)(const Port& reader), const Port& reader) = 0;
+  virtual void PublishPulled(ValueTimes (*times)(const Port& reader), const Port& reader) = 0;
   // relaxed, as all of it: a publisher that sees a change late numbers one value less, which then
   // counts as older than all numbered ones.
   [[nodiscard]] bool Has(Flag flag) const noexcept {

@@ -6,19 +6,48 @@
 
 namespace runnel {
 
+namespace {
+
+Error PressedSince() {
+  return {.message = "STOP was pressed or released after this was asked for", .hint = "look why, then ask again"};
+}
+
+}  // namespace
+
 RobotStop::RobotStop(const Runtime& runtime) : runtime_(runtime) {}
 
 bool RobotStop::Press(std::string by) {
-  if (signal_->Press([&] { Note(true, std::move(by)); })) return true;
-  const std::lock_guard lock(mutex_);
-  ++state_.requests;
-  state_.pressed = SteadyClock().Now();
-  return false;
+  for (;;) {
+    const auto note = [&] {
+      const std::lock_guard lock(mutex_);
+      Note(true, std::move(by));
+    };
+    if (signal_->Press(note)) return true;
+    const std::lock_guard lock(mutex_);
+    if (!in_force()) continue;  // somebody has released it since: who presses now ends that
+    ++state_.requests;
+    state_.pressed = SteadyClock().Now();
+    return false;
+  }
 }
 
-bool RobotStop::Release(std::string by) {
-  return signal_->Release([&] { return runtime_.clock().Now(); },
-                          [&] { Note(false, std::move(by)); });
+// With the mutex from the comparison on until it is released: who presses meanwhile is counted before, or presses anew.
+Result<void> RobotStop::Release(std::string by, const AsOf& as_of) {
+  std::unique_lock lock(mutex_);
+  if (!in_force()) return Error{.message = "STOP is not in force"};
+  if (!IsKnown(as_of)) return PressedSince();
+  signal_->Release([&] { return runtime_.clock().Now(); },
+                   [&] {
+                     Note(false, std::move(by));
+                     lock.unlock();
+                   });
+  return {};
+}
+
+Result<void> RobotStop::CheckIsKnown(const AsOf& as_of) const {
+  const std::lock_guard lock(mutex_);
+  if (!IsKnown(as_of)) return PressedSince();
+  return {};
 }
 
 RobotStop::State RobotStop::state() const {
@@ -28,8 +57,12 @@ RobotStop::State RobotStop::state() const {
   return state;
 }
 
+bool RobotStop::IsKnown(const AsOf& as_of) const {
+  if (in_force() && !state_.in_force) return false;  // it is being pressed just now
+  return (!as_of.asked || *as_of.asked >= state_.pressed) && (!as_of.requests || *as_of.requests == state_.requests);
+}
+
 void RobotStop::Note(bool in_force, std::string by) {
-  const std::lock_guard lock(mutex_);
   state_ = {in_force, std::move(by), runtime_.clock().Now(), state_.changes + 1, state_.requests + 1,
             in_force ? SteadyClock().Now() : state_.pressed};
 }

@@ -3,9 +3,12 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/clock.h"
+#include "core/base/result.h"
 #include "core/element/stop_signal.h"
 
 namespace runnel {
@@ -32,12 +35,23 @@ class RobotStop {
     Time pressed{};  ///< last, while it was in force included, on the machine's steady clock
   };
 
+  /// What whoever asked for a release knew then. Of one that was held up, it is not known what it would end.
+  struct AsOf {
+    std::optional<Time> asked = {};              ///< on the machine's steady clock; pressed since: it does not count
+    std::optional<std::uint64_t> requests = {};  ///< State::requests; pressed or released since: it does not count
+  };
+
   explicit RobotStop(const Runtime& runtime);
 
   /// It is in force when this returns. False: it was so before; `by` is not noted then.
   bool Press(std::string by);
-  /// Driving ports count what is stamped and published later than now. False: it was not in force.
-  bool Release(std::string by);
+  /// Driving ports count what is stamped and published later than now. An error: it was not in force, or `as_of` does
+  /// not know the STOP that is.
+  Result<void> Release(std::string by, const AsOf& as_of);
+  Result<void> Release(std::string by) { return Release(std::move(by), AsOf()); }
+
+  /// An error: STOP was pressed, or released, since what `as_of` knows of.
+  Result<void> CheckIsKnown(const AsOf& as_of) const;
 
   [[nodiscard]] bool in_force() const noexcept { return signal_->in_force(); }
   [[nodiscard]] State state() const;
@@ -45,7 +59,9 @@ class RobotStop {
   [[nodiscard]] const std::shared_ptr<StopSignal>& signal() const noexcept { return signal_; }
 
  private:
+  // Both with mutex_.
   void Note(bool in_force, std::string by);
+  [[nodiscard]] bool IsKnown(const AsOf& as_of) const;
 
   const Runtime& runtime_;
   const std::shared_ptr<StopSignal> signal_ =

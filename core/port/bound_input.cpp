@@ -1,6 +1,7 @@
 #include "core/port/bound_input.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/element/runtime.h"
@@ -48,9 +49,11 @@ void BoundInput::DisconnectForEver() {
 void BoundInput::PullInto(const Binding& binding) const noexcept {
   if (!binding.pulls) return;
   for (const auto& link : binding.links) {
-    link->channel->Pull(
-        [](const Port& reader) { return static_cast<const BoundInput&>(reader).PublicationTime(); },
-        *this);
+    // What the provider reads makes its own value old, not what the reader has published or will.
+    std::optional<CycleScope> scope;
+    if (const Cycle* const cycle = CurrentCycle()) scope.emplace(Cycle{cycle->now, cycle->period});
+    link->channel->Pull([](const Port& reader) { return static_cast<const BoundInput&>(reader).PublicationTimes(); },
+                        *this);
   }
 }
 

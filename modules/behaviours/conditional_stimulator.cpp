@@ -27,7 +27,8 @@ Result<void> ConditionalStimulator::Construct() {
 }
 
 void ConditionalStimulator::Add(const std::string& name, Conditions& conditions) {
-  conditions.ports.emplace_back(this, name, InputOptions{.description = "what is compared", .required = true});
+  conditions.ports.emplace_back(this, name, InputOptions{.description = "what is compared", .required = true, .ageing = Ageing::kTimesOut});
+  conditions.timeouts.emplace_back(this, conditions.ports.back(), InputTimeout::Options{});
   conditions.kinds.emplace_back(
       this, name + "_kind",
       ParameterOptions<ConditionKind>{.default_value = Condition{}.kind,
@@ -69,8 +70,11 @@ ActivityNeeds ConditionalStimulator::Needs() const {
 
 bool ConditionalStimulator::ReadValues(Conditions& conditions, std::uint32_t met) {
   for (std::size_t i = 0; i < conditions.states.size(); ++i) {
-    const auto value = conditions.ports[i].Read();
-    if (!value) return false;
+    const auto value = conditions.timeouts[i].Read(conditions.ports[i], now());
+    if (!value) {
+      (void)Miss(conditions.timeouts[i].words());
+      return false;
+    }
     conditions.states[i].value = *value;
     conditions.states[i].is_latched = (met & 1U << i) != 0;
   }
@@ -79,9 +83,7 @@ bool ConditionalStimulator::ReadValues(Conditions& conditions, std::uint32_t met
 
 std::optional<Behaviour::Outcome> ConditionalStimulator::Behave(double activation) {
   if (reset.Read().is_new()) met_ = {};
-  if (!ReadValues(inputs_, met_.inputs) || !ReadValues(feedbacks_, met_.feedbacks)) {
-    return Miss("nothing has come to one of its conditions");
-  }
+  if (!ReadValues(inputs_, met_.inputs) || !ReadValues(feedbacks_, met_.feedbacks)) return {};
   const bool is_met = AreAllTrue(inputs_.states);
   if (AreAllTrue(feedbacks_.states) && !feedbacks_.states.empty()) {
     Reset(inputs_.states);

@@ -57,12 +57,13 @@ class ConditionalStimulator final : public Behaviour {
   /// Permanent conditions that something is more than nothing.
   [[nodiscard]] ActivityNeeds Needs() const override;
 
-  Input<Signal> reset{this, "reset", {.description = "forgets what has been met"}};
+  Input<Signal> reset{this, "reset", {.description = "forgets what has been met", .ageing = Ageing::kSetOnce}};
 
  private:
   /// Conditions of one kind, with their ports and parameters.
   struct Conditions {
     std::deque<Input<double>> ports;
+    std::deque<InputTimeout> timeouts;
     std::deque<Parameter<ConditionKind>> kinds;
     std::deque<Parameter<Relation>> relations;
     std::deque<Parameter<double>> thresholds;
@@ -74,7 +75,7 @@ class ConditionalStimulator final : public Behaviour {
   std::optional<Outcome> Behave(double activation) override;
   void Add(const std::string& name, Conditions& conditions);
   static void TakeParameters(Conditions& conditions);
-  static bool ReadValues(Conditions& conditions, std::uint32_t met);
+  [[nodiscard]] bool ReadValues(Conditions& conditions, std::uint32_t met);
 
   Conditions inputs_;
   Conditions feedbacks_;

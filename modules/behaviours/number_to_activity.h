@@ -24,7 +24,8 @@ class NumberToActivity final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<double> number{this, "number", {.description = "what becomes an activity", .required = true}};
+  Input<double> number{this, "number", {.description = "what becomes an activity", .required = true, .ageing = Ageing::kTimesOut}};
+  InputTimeout number_timeout{this, number, {}};
   Parameter<CurveKind> curve{
       this, "curve", {.default_value = Curve{}.kind, .description = "which way it goes, first and then"}};
   Parameter<CurveShape> shape{this, "shape", {.default_value = Curve{}.shape, .description = "how it bends"}};
@@ -39,8 +40,8 @@ class NumberToActivity final : public Behaviour {
 
  private:
   std::optional<Outcome> Behave(double activation) override {
-    const auto value = number.Read();
-    if (!value) return Miss("nothing has come to its number");
+    const auto value = number_timeout.Read(number, now());
+    if (!value) return Miss(number_timeout.words());
     const Curve shown{curve.Get(), shape.Get(), start.Get(), end.Get(), second_start.Get(), second_end.Get()};
     if (!IsOrdered(shown)) return Miss("start, end, second_start and second_end are not in their order");
     const double part = ValueAt(shown, *value);

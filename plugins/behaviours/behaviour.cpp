@@ -24,7 +24,8 @@ Result<void> Behaviour::Construct() {
   for (std::uint32_t i = 1; i <= inhibitions.Get(); ++i) {
     inhibition_ports_.emplace_back(this, "inhibition" + std::to_string(i),
                                    InputOptions{.description = "how much it is held back; the greatest counts",
-                                                .ageing = Ageing::kSetOnce});
+                                                .ageing = Ageing::kTimesOut});
+    inhibition_timeouts_.emplace_back(this, inhibition_ports_.back(), InputTimeout::Options{});
   }
   inhibition_values_.assign(inhibition_ports_.size(), 0.0);
   return {};
@@ -48,9 +49,8 @@ void Behaviour::Update() {
   ++cycle_;
   for (HeldBack* const each : held_back_) each->Discard();
   const bool is_unchanged = HasSameActivities() && !std::exchange(has_new_parameters_, false);
-  MetaSignals signals{.activation = ReadActivation()};
-  missed_ = "it cannot tell what to do";
-  const auto outcome = Behave(signals.activation);
+  MetaSignals signals;
+  const auto outcome = TryToBehave(signals.activation);
   if (!outcome) return Hold(signals.activation);
   signals.activity = CutRounding(outcome->activity, signals.activation);
   signals.target_rating = CutRounding(outcome->target_rating, 1.0);
@@ -74,29 +74,38 @@ void Behaviour::Hold(double activation) {
   for (HeldBack* const each : held_back_) each->Publish();
 }
 
-double Behaviour::ReadStimulation() {
-  const auto wanted = stimulation.Peek();
-  switch (stimulation_mode.Get()) {
-    case StimulationMode::kAuto:
-      if (wanted) return CheckSignal("its stimulation", wanted->value());
-      Warn("nothing comes to its stimulation, so it does nothing: connect it, or set stimulation_mode to enabled");
-      return 0.0;
-    case StimulationMode::kEnabled:
-    case StimulationMode::kDisabled:
-      break;
-  }
-  const bool is_enabled = stimulation_mode.Get() == StimulationMode::kEnabled;
-  if (wanted) Warn("what comes to its stimulation does not count: stimulation_mode is not auto");
-  return is_enabled ? 1.0 : 0.0;
+std::optional<Behaviour::Outcome> Behaviour::TryToBehave(double& activation) {
+  const auto read = ReadActivation();
+  if (!read) return {};
+  activation = *read;
+  missed_ = "it cannot tell what to do";
+  return Behave(activation);
 }
 
-double Behaviour::ReadActivation() {
-  const double wanted = ReadStimulation();
-  for (std::size_t i = 0; i < inhibition_ports_.size(); ++i) {
-    const auto held_back = inhibition_ports_[i].Peek();
-    inhibition_values_[i] = held_back ? CheckSignal("an inhibition", held_back->value()) : 0.0;
+std::optional<double> Behaviour::ReadStimulation() {
+  const auto mode = stimulation_mode.Get();
+  if (mode != StimulationMode::kAuto) {
+    if (stimulation.Peek()) Warn("what comes to its stimulation does not count: stimulation_mode is not auto");
+    return mode == StimulationMode::kEnabled ? 1.0 : 0.0;
   }
-  return Activation(wanted, inhibition_values_);
+  const auto wanted = stimulation_timeout.Read(stimulation, now());
+  if (wanted) return CheckSignal("its stimulation", wanted->value());
+  if (stimulation_timeout.lack() != InputLack::kNeverCame) return Miss(stimulation_timeout.words());
+  Warn("nothing comes to its stimulation, so it does nothing: connect it, or set stimulation_mode to enabled");
+  return 0.0;
+}
+
+std::optional<double> Behaviour::ReadActivation() {
+  const auto wanted = ReadStimulation();
+  if (!wanted) return {};
+  for (std::size_t i = 0; i < inhibition_ports_.size(); ++i) {
+    inhibition_values_[i] = 0.0;
+    if (!inhibition_ports_[i].is_bound()) continue;
+    const auto held_back = inhibition_timeouts_[i].Read(inhibition_ports_[i], now());
+    if (!held_back) return Miss(inhibition_timeouts_[i].words());
+    inhibition_values_[i] = CheckSignal("an inhibition", held_back->value());
+  }
+  return Activation(*wanted, inhibition_values_);
 }
 
 bool Behaviour::HasSameActivities() {

@@ -14,6 +14,7 @@
 #include "core/types/type_of.h"
 #include "plugins/behaviours/algorithm/behaviour_rules.h"
 #include "plugins/behaviours/meta_signal.h"
+#include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 
@@ -162,7 +163,8 @@ class Behaviour : public Module {
  public:
   explicit Behaviour(const Placement& placement);
 
-  Input<Stimulation> stimulation{this, "stimulation", {.description = "how much it is wanted", .ageing = Ageing::kSetOnce}};
+  Input<Stimulation> stimulation{this, "stimulation", {.description = "how much it is wanted", .ageing = Ageing::kTimesOut}};
+  InputTimeout stimulation_timeout{this, stimulation, {}};
   Output<Activity> activity{this, "activity", {.description = "how much it does"}};
   Output<TargetRating> target_rating{
       this, "target_rating", {.description = "0: content; 1: as far from what it wants as can be"}};
@@ -217,8 +219,10 @@ class Behaviour : public Module {
 
   void Update() final;
   void OnParametersChanged() final;
-  [[nodiscard]] double ReadActivation();
-  [[nodiscard]] double ReadStimulation();
+  // Nothing: who stimulates or inhibits it has not been heard for long, so it cannot tell.
+  [[nodiscard]] std::optional<double> ReadActivation();
+  [[nodiscard]] std::optional<double> ReadStimulation();
+  [[nodiscard]] std::optional<Outcome> TryToBehave(double& activation);
   [[nodiscard]] bool HasSameActivities();
   void Hold(double activation);
   void PublishSignals(const MetaSignals& now);
@@ -226,6 +230,7 @@ class Behaviour : public Module {
   double CheckSignal(const char* name, double value) const;
 
   std::deque<Input<Inhibition>> inhibition_ports_;
+  std::deque<InputTimeout> inhibition_timeouts_;
   std::vector<double> inhibition_values_;
   std::vector<Input<Activity>*> activity_inputs_;
   std::vector<double> last_activities_;  // of those; -1: there is none

@@ -103,6 +103,7 @@ struct ReleaseRequest {
 struct RobotStopRequest {
   bool is_pressed = true;
   std::string by = {};  ///< who wants it, for people: "a terminal", "viewer 2"
+  RobotStop::AsOf as_of = {};  ///< of a release
 };
 
 /// Leaves modules, or what a thread runs, out of cycles, with what the application does then; or no more.

@@ -198,7 +198,7 @@ CommandAnswer CommandService::Do(const RobotStopRequest& request) const {
     answer = CommandAnswer::Done(std::string("STOP is in force") + since + "; 'runnel release' ends it");
   } else {
     const std::string pressed_by = stop.state().by;
-    if (!stop.Release(request.by)) return CommandAnswer::Refused({.message = "STOP is not in force"});
+    if (const auto done = stop.Release(request.by, request.as_of); !done) return CommandAnswer::Refused(done.error());
     answer = CommandAnswer::Done("released the STOP that " + pressed_by + " had pressed");
   }
   if (application_.hooks.is_stop_kept && !application_.hooks.is_stop_kept()) {

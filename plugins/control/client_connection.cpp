@@ -106,7 +106,7 @@ void ClientConnection::Begin(CommandService& service, TaskGroup& tasks) {
   may_have_request_ = frame->has_value();
   if (!may_have_request_) return;
   if ((*frame)->kind == "at") {
-    asked_ = Time(Duration(NumberIn<std::int64_t>((*frame)->payload).value_or(0)));
+    if (const auto at = NumberIn<std::int64_t>((*frame)->payload)) asked_ = Time(Duration(*at));
     return;
   }
   if ((*frame)->kind != "request") {
@@ -116,11 +116,7 @@ void ClientConnection::Begin(CommandService& service, TaskGroup& tasks) {
   service.operators().Hear("a terminal", asked);
   const std::string& request = (*frame)->payload;
   if (why_only_stop_ && request != "stop") return Refuse(*why_only_stop_);
-  const bool moves = request.starts_with("release") || request.starts_with("publish");
-  if (moves && asked != Time() && asked < service.application().runtime.robot_stop().state().pressed) {
-    return SendEnd(runnel::Refuse(*this, {.message = "STOP was pressed after this was asked for", .hint = "look why, then ask again"}));
-  }
-  auto command = MakeCommand(request, service, tasks);
+  auto command = MakeCommand(request, service, tasks, asked);
   if (command) {
     command_.emplace(std::move(*command));
   } else {

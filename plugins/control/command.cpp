@@ -91,7 +91,7 @@ Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
 
 }  // namespace
 
-CommandResult MakeCommand(const std::string& text, CommandService& service, TaskGroup& tasks) {
+CommandResult MakeCommand(const std::string& text, CommandService& service, TaskGroup& tasks, std::optional<Time> asked) {
   const auto request = Request::Parse(text);
   if (!request) return request.error();
   const auto kind = std::ranges::find(Kinds(), request->command, &CommandKind::name);
@@ -109,7 +109,7 @@ CommandResult MakeCommand(const std::string& text, CommandService& service, Task
                 ? "the program that runs this application cannot pause it or change its speed"
                 : "the program that runs this application does not say how it does so"};
   }
-  return kind->make(*request, {application, service, tasks});
+  return kind->make(*request, {application, service, tasks, asked});
 }
 
 std::optional<ControlCode> Command::Continue(Answer& answer) {

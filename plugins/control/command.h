@@ -62,15 +62,17 @@ class Command {
   std::shared_ptr<const WorkerTask> task_;
 };
 
-/// The command that the request names. Errors: there is none, or its words are wrong.
-[[nodiscard]] Result<Command> MakeCommand(const std::string& request, CommandService& service,
-                                          TaskGroup& tasks);
+/// The command that the request names. `asked`: when, on the machine's steady clock, if the client says so: what would move
+/// something is refused if STOP was pressed since. Errors: there is no such command, or its words are wrong.
+[[nodiscard]] Result<Command> MakeCommand(const std::string& request, CommandService& service, TaskGroup& tasks,
+                                          std::optional<Time> asked = {});
 
 /// What a request is carried out on, and by.
 struct CommandContext {
   const ServedApplication& application;
   CommandService& service;
   TaskGroup& tasks;
+  std::optional<Time> asked;
 };
 using CommandResult = Result<Command>;
 using CommandMaker = CommandResult(const Request& request, const CommandContext& context);

@@ -73,6 +73,16 @@ Result<CommandRequest> RequestOf(const Request& request, PlacedChanges placed) {
                                       .may_end_application = request.Option("yes") == "yes"});
 }
 
+// A release of the STOP is compared where it is carried out.
+Result<void> CheckIsStillMeant(CommandRequest& request, const CommandContext& context) {
+  if (auto* const stop = std::get_if<RobotStopRequest>(&request)) {
+    stop->as_of.asked = context.asked;
+  } else if (context.asked && (std::holds_alternative<PublishRequest>(request) || std::holds_alternative<ReleaseRequest>(request))) {
+    return context.application.runtime.robot_stop().CheckIsKnown({.asked = context.asked});
+  }
+  return {};
+}
+
 }  // namespace
 
 // Has the service carry out the request, and tells what has come of it.
@@ -93,6 +103,7 @@ CommandResult MakeServiceCommand(const Request& request, const CommandContext& c
   }
   auto wanted = RequestOf(request, std::move(placed));
   if (!wanted) return wanted.error();
+  if (auto good = CheckIsStillMeant(*wanted, context); !good) return good.error();
   const std::shared_ptr<PendingCommand> pending =
       context.service.Begin(std::move(*wanted), context.tasks);
   return Command([pending](Answer& answer) -> CommandStep {

@@ -60,7 +60,8 @@ StopService::Answer StopService::Do(const ServiceMessage& request) {
     return {false, "STOP is in force, but " + why.message + "; " + why.hint};
   }
   if (!may_release_) return {false, "the STOP is not released by this service: its file does not say <ros stop_releases=\"true\">"};
-  return {true, stop.Release(by) ? "the STOP is released" : "the robot was not stopped"};
+  const auto released = stop.Release(by);
+  return {true, released ? "the STOP is released" : released.error().message};
 }
 
 }  // namespace runnel

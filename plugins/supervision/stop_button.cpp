@@ -54,10 +54,10 @@ void StopButton::Work() {
     (void)element_->probe.Wait(kLookForPort);
     TakeValues();
     if (!LookForPort()) continue;
-    // A STOP that somebody has pressed since it was let go stays.
     const auto let_go = std::exchange(let_go_, {});
-    const bool releases = rule_.releases && !is_covered_ && let_go == runtime_.robot_stop().state().requests;
-    if (!releases || !runtime_.robot_stop().Release(rule_.port)) continue;
+    if (!let_go || !rule_.releases || is_covered_) continue;
+    // A STOP that somebody has pressed since it was let go stays.
+    if (!runtime_.robot_stop().Release(rule_.port, {.requests = let_go})) continue;
     tell_({rule_.port, "the STOP is released by its button", runtime_.clock().Now(), false, true});
   }
 }

@@ -62,12 +62,9 @@ Result<void> Block(Application& application, const std::string& path) {
 // Without a lock, by whichever thread.
 Result<void> SetStop(Application& application, bool is_pressed) {
   RobotStop& stop = application.runtime().robot_stop();
-  if (is_pressed) {
-    stop.Press("Python");
-    if (FindWhatDrives(application.runtime()) == "") return NothingDrives();
-  } else if (!stop.Release("Python")) {
-    return Error{.message = "STOP is not in force"};
-  }
+  if (!is_pressed) return stop.Release("Python");
+  stop.Press("Python");
+  if (FindWhatDrives(application.runtime()) == "") return NothingDrives();
   return {};
 }
 

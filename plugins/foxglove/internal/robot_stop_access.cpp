@@ -27,12 +27,14 @@ bool SaysFalse(std::string_view json) {
 }
 
 // A call may have been under way for seconds, and the protocol does not say when it was sent: so it says which STOP it ends.
-std::optional<std::string> WhyNotReleased(const RobotStop::State& state, std::string_view json) {
+CommandAnswer Release(FoxgloveShared& shared, std::string_view json) {
   const auto said = Member(json, "number");
   const auto number = said ? said->count() : std::nullopt;
-  if (!state.in_force || number == state.requests) return {};
-  return (number ? "STOP was pressed after this was sent; " : "") + std::string("say which STOP is meant: {\"number\": ") +
-         std::to_string(state.requests) + "}";
+  const auto stop = shared.runtime().robot_stop().state();
+  if (stop.in_force && !number) {
+    return CommandAnswer::Refused({.message = "say which STOP is meant: {\"number\": " + std::to_string(stop.requests) + "}"});
+  }
+  return shared.application.service.Begin(RobotStopRequest{false, "Foxglove", {.requests = number}}, *shared.tasks)->Take();
 }
 
 }  // namespace
@@ -62,12 +64,10 @@ FoxgloveChannel StopChannel() {
 
 std::string SetStop(FoxgloveShared& shared, std::string_view name, std::string_view json) {
   CommandAnswer answer = CommandAnswer::Done("false does nothing; " + std::string(kReleaseName) + " releases");
-  const bool is_release = name == kReleaseName;
-  const auto why_not = is_release ? WhyNotReleased(shared.runtime().robot_stop().state(), json) : std::nullopt;
-  if (why_not) {
-    answer = CommandAnswer::Refused({.message = *why_not});
-  } else if (is_release || !SaysFalse(json)) {
-    answer = shared.application.service.Begin(RobotStopRequest{!is_release, "Foxglove"}, *shared.tasks)->Take();
+  if (name == kReleaseName) {
+    answer = Release(shared, json);
+  } else if (!SaysFalse(json)) {
+    answer = shared.application.service.Begin(RobotStopRequest{true, "Foxglove"}, *shared.tasks)->Take();
   }
   const std::string problems = answer.diagnostics.ToString();
   const std::string text = answer.text + (answer.text.empty() || problems.empty() ? "" : "\n") + problems;

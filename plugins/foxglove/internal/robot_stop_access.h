@@ -16,7 +16,7 @@ inline constexpr std::string_view kStopName = "/stop";
 inline constexpr std::string_view kReleaseName = "/release";
 
 /// Of what has waited meanwhile.
-inline constexpr const char* kIsLate = "STOP was pressed or released after it was sent";
+inline constexpr const char* kIsLate = "STOP was pressed or released after this was asked for";
 
 [[nodiscard]] std::vector<DirectoryService> StopServices();
 /// Whether it is in force, and since when by whom; its values are RobotStop::States.

@@ -86,8 +86,7 @@ CommandOrErrors MakePublish(ViewerMessage& message) {
 
 // Of the STOP of the robot, or of a port.
 CommandOrErrors MakeRelease(ViewerMessage& message) {
-  if (message.path == kRobotStopName)
-    return CommandRequest(RobotStopRequest{false, message.client});
+  if (message.path == kRobotStopName) return CommandRequest(RobotStopRequest{false, message.client, message.as_of});
   return CommandRequest(ReleaseRequest{message.path});
 }
 

@@ -1,7 +1,5 @@
-// What comes too fast, or too late to be meant any more.
+// What outranks, and what comes too fast.
 
-#include <algorithm>
-#include <chrono>
 #include <optional>
 #include <string_view>
 
@@ -15,7 +13,6 @@ namespace {
 constexpr std::size_t kLongestStop = 1000;  // of its message, and of a sign of life
 // Of messages that are refused unread: in longer ones the number of the request is not looked for, which takes time.
 constexpr std::size_t kLongestNumbered = 16'384;
-constexpr double kOldestRelease = 3;  // s
 
 }  // namespace
 
@@ -29,7 +26,7 @@ WebArrival ViewerSession::OnArrival(std::string_view message, bool is_text) {
   if (!parsed) return arrival;
   arrival.outranks = parsed->op == "stop" || (parsed->op == "release" && parsed->path == kRobotStopName);
   if (parsed->op == "alive" && role() >= WebRole::kDrive) {
-    inspection_.service().operators().Hear(name_, Time(FromSeconds(std::clamp(parsed->at.value_or(0), 0.0, 9e9))));
+    inspection_.service().operators().Hear(name_, parsed->at.value_or(Time()));
   }
   return arrival;
 }
@@ -39,21 +36,6 @@ void ViewerSession::OnTooMany(std::string_view message, bool /*is_text*/) {
   std::optional<std::uint64_t> request;
   if (message.size() <= kLongestNumbered) (void)ParseViewerMessage(message, &request);
   client_.SendText(Refusal(request, {{Error{.message = "too many requests a second"}}}));
-}
-
-std::optional<Error> ViewerSession::WhyTooLate(const ViewerMessage& message, WebRole needed) const {
-  if (needed == WebRole::kLook) return {};
-  const auto stop = inspection_.application().runtime.robot_stop().state();
-  const Error changed{.message = "STOP was pressed or released after it was sent"};
-  const auto arrival = client_.arrival();
-  if (arrival && arrival->mark != stop.requests) return changed;
-  if (message.op != "release" || message.path != kRobotStopName || !message.at) return {};
-  const double now = ToSeconds(std::chrono::steady_clock::now().time_since_epoch());
-  if (now - *message.at > kOldestRelease) {
-    return Error{.message = "this release is too old: STOP may have been pressed again since"};
-  }
-  if (*message.at < ToSeconds(stop.pressed.time_since_epoch())) return changed;
-  return {};
 }
 
 }  // namespace runnel::internal

@@ -62,7 +62,7 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text,
   message.rate = members.Number("rate");
   message.deadline = members.Number("deadline");
   message.lease = members.Text("lease").value_or("");
-  message.at = members.Number("at");
+  if (const auto at = members.Number("at")) message.at = Time(FromSeconds(std::clamp(*at, 0.0, 9e9)));
   message.speed = members.Number("speed");
   message.elements = members.Count("elements", kLargestWhole).value_or(message.elements);
   message.cycles = members.Count("cycles", kLargestWhole).value_or(message.cycles);

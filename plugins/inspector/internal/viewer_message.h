@@ -10,6 +10,7 @@
 
 #include "core/base/clock.h"
 #include "core/base/result.h"
+#include "core/element/robot_stop.h"
 #include "plugins/structure/change.h"
 #include "plugins/values/json_reader.h"
 
@@ -29,6 +30,7 @@ struct ViewerMessage {
   std::string label;
   std::string client;  ///< whose message it is; is never read from it
   std::optional<Time> received = {};  ///< by the machine's clock; likewise
+  RobotStop::AsOf as_of = {};         ///< likewise
   ChangeSet changes;
   std::map<std::string, std::string> entries;  ///< of the arrangement
   std::vector<RequestError> wrong_changes;  ///< of what is no change; then `changes` has not all
@@ -43,7 +45,7 @@ struct ViewerMessage {
   std::optional<double> rate;
   std::optional<double> deadline;  ///< s
   std::string lease;
-  std::optional<double> at;  ///< of a release: "at" of the newest `alive`; of an `alive`: of the one that it answers
+  std::optional<Time> at;  ///< of a release: "at" of the newest `alive`; of an `alive`: of the one that it answers
   std::optional<double> speed;
   std::size_t elements = 12;
   std::uint64_t cycles = 1;

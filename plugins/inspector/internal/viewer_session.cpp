@@ -269,8 +269,13 @@ void ViewerSession::OnText(std::string_view text) {
   }
   const WebRole needed = RoleFor(*operation, message);
   if (role() < needed) return RefuseRole(message, needed);
-  if (auto late = WhyTooLate(message, needed)) return Refuse(message, std::move(*late));
-  if (const auto arrival = client_.arrival()) message.received = Time(arrival->at.time_since_epoch());
+  if (const auto arrival = client_.arrival()) {
+    message.received = Time(arrival->at.time_since_epoch());
+    message.as_of.requests = arrival->mark;
+  }
+  message.as_of.asked = message.at;
+  const auto known = inspection_.application().runtime.robot_stop().CheckIsKnown(message.as_of);
+  if (!known && needed != WebRole::kLook) return Refuse(message, known.error());
   if (operation->begin != nullptr) return BeginRequest(*operation, std::move(message));
   if (message.op == "watch") return BeginWatching(message);
   if (message.op == "unwatch") {

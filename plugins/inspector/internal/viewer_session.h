@@ -69,8 +69,6 @@ class ViewerSession final : public WebSession {
   void BeginRequest(const Operation& operation, ViewerMessage message);
   void Refuse(const ViewerMessage& message, Error error);
   void RefuseRole(const ViewerMessage& message, WebRole needed);
-  // Why it comes too late by what has become of STOP since it was sent, if so.
-  [[nodiscard]] std::optional<Error> WhyTooLate(const ViewerMessage& message, WebRole needed) const;
   [[nodiscard]] bool IsSlow() const;
   [[nodiscard]] WebRole role() const;
 

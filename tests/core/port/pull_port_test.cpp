@@ -13,6 +13,7 @@
 namespace runnel::test {
 namespace {
 
+using namespace std::chrono_literals;
 using PullPortTest = PullTest;
 
 TEST_F(PullPortTest, ReadingMakesAValueOnlyIfTheInputPulls) {
@@ -50,6 +51,44 @@ TEST_F(PullPortTest, SoItIsWithValuesInBuffers) {
     EXPECT_EQ(sender.out.Publish(Scan{{}, -i}), PublishStatus::kPublished);
     EXPECT_EQ(queued.in.Take()->number, -i);
   }
+}
+
+TEST_F(PullPortTest, WhatIsPulledIsAsOldAsWhatItsProviderHasRead) {
+  auto& measured = MakeSender<int>("measured");
+  auto& between = MakeReceiver<int>("between", {.ageing = Ageing::kTimesOut});
+  auto& sender = MakeSender<int>("sender", kPullable);
+  auto& pulling = MakeReceiver<int>("pulling", {.strategy = Strategy::kPull, .ageing = Ageing::kTimesOut});
+  auto& driving = MakeSender<int>("driving");
+  Connect(measured.out, between.in);
+  Connect(sender.out, pulling.in);
+  sender.out.SetProvider([&](int& value) {
+    value = between.in.Read() ? 1 : 0;
+    return true;
+  });
+  clock.Advance(1s);
+  measured.out.Publish(1);
+  clock.Advance(4s);
+  const CycleScope cycle({.now = Time(5s)});
+  driving.out.Publish(1);
+  EXPECT_EQ(pulling.in.Read().timestamp(), Time(1s));
+  EXPECT_EQ(pulling.in.Read().publication_time(), Time(5s));
+  EXPECT_EQ(CurrentCycle()->stamp, Time(1s)) << "who has read it";
+}
+
+TEST_F(PullPortTest, WhoPullsDoesNotMakeItOld) {
+  auto& old = MakeSender<int>("old");
+  auto& ages = MakeReceiver<int>("ages", {.ageing = Ageing::kTimesOut});
+  auto& sender = MakeSender<int>("sender", kPullable);
+  auto& pulling = MakeReceiver<int>("pulling", kPulls);
+  Connect(old.out, ages.in);
+  Connect(sender.out, pulling.in);
+  sender.out.SetProvider([this](int& value) { return Count(value, counter); });
+  old.out.Publish(1);
+  clock.Advance(5s);
+  const CycleScope cycle({.now = Time(5s)});
+  ASSERT_TRUE(ages.in.Read());
+  EXPECT_EQ(pulling.in.Read().timestamp(), Time(5s));
+  EXPECT_EQ(CurrentCycle()->stamp, Time()) << "its own values are";
 }
 
 TEST_F(PullPortTest, AConnectionMayAskForIt) {

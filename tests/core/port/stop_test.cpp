@@ -177,8 +177,8 @@ TEST_F(StopTest, TellsWhoListensAndWhoChangedIt) {
     EXPECT_TRUE(stop.Press("a button"));
     EXPECT_FALSE(stop.Press("a page"));
     EXPECT_EQ(stop.state().since, At(10));
-    EXPECT_TRUE(stop.Release("a terminal"));
-    EXPECT_FALSE(stop.Release("a page"));
+    (void)EXPECT_TRUE(stop.Release("a terminal"));
+    (void)EXPECT_FALSE(stop.Release("a page"));
   }
   stop.Press("nobody");
   EXPECT_THAT(heard, ElementsAre("stopped by a button", "released by a terminal"));
@@ -219,7 +219,7 @@ TEST_F(StopTest, HoldsWhileAllElseGoesOn) {
     ++presses;
     std::this_thread::yield();
     ++presses;
-    runtime.robot_stop().Release("a test");
+    (void)runtime.robot_stop().Release("a test");
   }
   ends = true;
   publisher.join();

@@ -71,7 +71,7 @@ TEST_F(StopFileTest, TheNextProcessBeginsUnderStopAndSaysSoUntilItIsReleased) {
   EXPECT_EQ(Run()->runtime().robot_stop().state().by, "a viewer, in a process before this one");
   const auto other = Run("b");
   EXPECT_FALSE(IsStopped(other)) << "an application of the same name";
-  EXPECT_TRUE(Run()->runtime().robot_stop().Release("a person"));
+  (void)EXPECT_TRUE(Run()->runtime().robot_stop().Release("a person"));
   const auto last = Run();
   EXPECT_FALSE(IsStopped(last));
   EXPECT_THAT(last.diagnostics().ToString(), IsEmpty());
@@ -103,14 +103,14 @@ TEST_F(StopFileTest, TwoProcessesOfOneApplicationKeepTheirOwn) {
     const auto second = Run();
     EXPECT_TRUE(IsStopped(second));
     EXPECT_THAT(second.diagnostics().ToString(), HasSubstr("pressed by a viewer, in another process that runs"));
-    EXPECT_TRUE(second->runtime().robot_stop().Release("a person"));
+    (void)EXPECT_TRUE(second->runtime().robot_stop().Release("a person"));
   }
   EXPECT_EQ(Files(), 1u) << "of the first one";
   EXPECT_FALSE(IsStopped(Run("a", true))) << "cleared for this process";
   EXPECT_EQ(Files(), 1u);
   first.reset();
   EXPECT_TRUE(IsStopped(Run())) << "the first one has ended under it";
-  EXPECT_TRUE(Run()->runtime().robot_stop().Release("a person"));
+  (void)EXPECT_TRUE(Run()->runtime().robot_stop().Release("a person"));
   EXPECT_EQ(Files(), 0u);
 }
 
@@ -122,7 +122,7 @@ TEST_F(StopFileTest, WhatSeveralHaveLeftIsTakenOverAndReleasedByOne) {
   const auto next = Run();
   EXPECT_TRUE(IsStopped(next));
   WaitUntil("the others' are gone", [&] { return Files() == 1; });
-  EXPECT_TRUE(next->runtime().robot_stop().Release("a person"));
+  (void)EXPECT_TRUE(next->runtime().robot_stop().Release("a person"));
   WaitUntil("nothing is left", [&] { return Files() == 0; });
 }
 
@@ -136,7 +136,7 @@ TEST_F(StopFileTest, WhatAnotherLeavesMeanwhileStaysWhenThisOneIsReleased) {
   }
   (*second)->runtime().robot_stop().Press("a person");
   WaitUntil("it is written, too", [&] { return Files() == 2; });
-  (*second)->runtime().robot_stop().Release("a person");
+  (void)(*second)->runtime().robot_stop().Release("a person");
   second.reset();
   const auto first = Run();
   EXPECT_TRUE(IsStopped(first));
@@ -154,7 +154,7 @@ TEST_F(StopFileTest, ADiskThatHangsDelaysNeitherTheStopNorItsAnswer) {
   stop.Press("a viewer");
   WaitUntil("it is written", [&] { return Files() == 1; });
   const fs::path name = Folder() / ("." + fs::directory_iterator(Folder())->path().filename().string());
-  stop.Release("a viewer");
+  (void)stop.Release("a viewer");
   WaitUntil("it is gone", [&] { return Files() == 0; });
   ASSERT_EQ(mkfifo(name.c_str(), 0600), 0);
   EXPECT_TRUE(stop.Press("a viewer"));  // in this thread

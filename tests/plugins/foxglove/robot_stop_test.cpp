@@ -93,7 +93,7 @@ TEST_F(FoxgloveStop, IsPressedByACallThatSaysNothing) {
   Begin();
   EXPECT_EQ(Call("/stop", "{}")["success"], true);
   EXPECT_TRUE(in_force());
-  runtime.robot_stop().Release("the test");
+  (void)runtime.robot_stop().Release("the test");
   EXPECT_EQ(Call("/stop", "")["success"], true);
   EXPECT_TRUE(in_force());
 }
@@ -109,7 +109,7 @@ TEST_F(FoxgloveStop, IsReleasedByWhoMayDrive) {
   runtime.robot_stop().Press("somebody, while it is in force");
   const Json late = Call("/release", R"({"number": 1})");
   EXPECT_EQ(late["success"], false);
-  EXPECT_THAT(late["message"].get<std::string>(), HasSubstr("STOP was pressed after this was sent"));
+  EXPECT_THAT(late["message"].get<std::string>(), HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_TRUE(in_force());
   EXPECT_EQ(Call("/release", R"({"number": 2})")["success"], true);
   EXPECT_FALSE(in_force());
@@ -145,15 +145,15 @@ TEST_F(FoxgloveStop, WhatWaitedMeanwhileIsNotCarriedOut) {
   client.its_arrival = session->OnArrival("", false);
   EXPECT_EQ(Call("/stop", "{}")["success"], true) << "the newest STOP counts whatever was before";
   client.its_arrival = session->OnArrival("", false);
-  runtime.robot_stop().Release("the test");
+  (void)runtime.robot_stop().Release("the test");
   runtime.robot_stop().Press("the test");
   EXPECT_EQ(Call("/release", "{}"), Json());
   EXPECT_FALSE(Take("serviceCallFailure").empty());
   EXPECT_TRUE(in_force());
   Publish(3, "{}");
-  EXPECT_THAT(Complaint(), HasSubstr("STOP was pressed or released after it was sent"));
+  EXPECT_THAT(Complaint(), HasSubstr("STOP was pressed or released after this was asked for"));
   Say({{"op", "setParameters"}, {"parameters", Json::array()}});
-  EXPECT_THAT(Complaint(), HasSubstr("STOP was pressed or released after it was sent"));
+  EXPECT_THAT(Complaint(), HasSubstr("STOP was pressed or released after this was asked for"));
   session->OnTooMany("", false);
   EXPECT_THAT(Complaint(), HasSubstr("too many messages a second"));
 }

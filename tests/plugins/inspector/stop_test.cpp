@@ -155,7 +155,7 @@ TEST_F(ViewersStopOvertakes, WhatWasSentBeforeItIsNotCarriedOutAfterItsRelease) 
   auto replies = Replies(viewer, 3);
   EXPECT_EQ(replies[2]["ok"], true);
   EXPECT_EQ(replies[3]["ok"], true);
-  EXPECT_THAT(replies[1]["errors"][0]["message"], HasSubstr("STOP was pressed or released after it was sent"));
+  EXPECT_THAT(replies[1]["errors"][0]["message"], HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_EQ(viewer.Ask(Json::parse(seven))["ok"], true);
 }
 
@@ -201,14 +201,12 @@ TEST_F(ViewersStop, IsNotReleasedByAnOldRelease) {
   Viewer viewer(server->port(), "", "runnel.stop.v1");
   const double before = viewer.Next("alive")["at"].get<double>();
   EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true);
-  const double now = ToSeconds(std::chrono::steady_clock::now().time_since_epoch());
   const auto release = [&](double at) { return viewer.Ask({{"op", "release"}, {"path", "stop"}, {"at", at}}); };
-  EXPECT_THAT(release(now - 3.5)["errors"][0]["message"], HasSubstr("too old: STOP may have been pressed again"));
-  EXPECT_THAT(release(before)["errors"][0]["message"], HasSubstr("STOP was pressed or released after it was sent"));
+  EXPECT_THAT(release(before)["errors"][0]["message"], HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_TRUE(in_force());
   const double seen = viewer.Next("alive")["at"].get<double>();
   EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true) << "by whoever, while it is in force";
-  EXPECT_THAT(release(seen)["errors"][0]["message"], HasSubstr("STOP was pressed or released after it was sent"));
+  EXPECT_THAT(release(seen)["errors"][0]["message"], HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_TRUE(in_force());
   EXPECT_EQ(release(viewer.Next("alive")["at"].get<double>())["ok"], true);
   EXPECT_FALSE(in_force());
