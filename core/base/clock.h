@@ -24,8 +24,14 @@ using Time = TimeOrigin::time_point;
 [[nodiscard]] constexpr double ToSeconds(Time time) noexcept {
   return ToSeconds(time.time_since_epoch());
 }
-/// Rounds to the nearest nanosecond. Precondition: |seconds| < 9.2e9.
+/// Times are between -kFarthest and kFarthest, 146 years, so that the difference of two is a Duration.
+constexpr Duration kFarthest{std::int64_t{1} << 62};
+/// Rounds to the nearest nanosecond; what is beyond kFarthest is that, and what is no number is 0.
 [[nodiscard]] constexpr Duration FromSeconds(double seconds) noexcept {
+  constexpr double kMost = 4.6e9;
+  if (!(seconds > -kMost && seconds < kMost)) {
+    return seconds > 0 ? kFarthest : seconds < 0 ? -kFarthest : Duration::zero();
+  }
   return Duration(static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5)));
 }
 

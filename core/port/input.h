@@ -103,12 +103,11 @@ class Input final : public BoundInput {
   /// Whether readers find the safe value because of a stop, or because nothing has come since: who ramps or
   /// integrates begins from a standstill then. Not while a port that brakes is on its way there. Any thread.
   [[nodiscard]] bool is_stopped() const noexcept {
-    const EpochGuard guard;
-    const Binding& binding = *this->binding();
-    const Link* link = nullptr;
-    const Lease<T> newest = Newest(binding, link);
-    return std::ranges::any_of(
-        binding.stops, [&](const auto& stop) { return link == &stop->link() && !stop->is_braking(); });
+    return FindsStop([](const internal::StopLink& stop) { return !stop.is_braking(); });
+  }
+  /// Whether that is because a stop is in force: however long ago it was pressed, the safe value is what is meant. Any thread.
+  [[nodiscard]] bool is_stop_in_force() const noexcept {
+    return FindsStop([](const internal::StopLink& stop) { return stop.stop().in_force(); });
   }
 
   bool VisitLatest(const Visitor& visit) const override {
@@ -120,6 +119,14 @@ class Input final : public BoundInput {
  private:
   using Link = internal::InputLink;
   using Binding = internal::InputBinding;
+  template <typename Is>
+  [[nodiscard]] bool FindsStop(const Is& is) const noexcept {
+    const EpochGuard guard;
+    const Binding& binding = *this->binding();
+    const Link* link = nullptr;
+    const Lease<T> newest = Newest(binding, link);
+    return std::ranges::any_of(binding.stops, [&](const auto& stop) { return link == &stop->link() && is(*stop); });
+  }
   struct NotNoted {
     static std::uint64_t Note(std::uint64_t) noexcept { return 0; }
   };

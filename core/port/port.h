@@ -153,9 +153,10 @@ class Port : public FrameworkElement {
   Result<void> Block();
   /// False: it was not blocked. Locks.
   bool Unblock();
-  /// All three under the structure lock.
+  /// All of them under the structure lock.
   [[nodiscard]] bool is_driving() const noexcept;
   [[nodiscard]] bool is_blocked() const noexcept;
+  [[nodiscard]] Time blocked_since() const noexcept;  ///< on the machine's steady clock, if it is
   /// For who sends on what is published here: what lets values pass, and the safe value; nullptr: all pass.
   [[nodiscard]] std::shared_ptr<const PortStop> stop() const noexcept;
 
@@ -310,8 +311,9 @@ inline ValueTimes Port::PublicationTimes(Time timestamp) const noexcept {
   return TimesOf(timestamp, cycle != nullptr ? cycle->now : CoarseTimeOutsideOfCycles(timestamp));
 }
 inline ValueTimes Port::TimesOf(Time timestamp, Time now) const noexcept {
-  if (timestamp <= now) [[likely]]
+  if (timestamp <= now && timestamp >= Time(-kFarthest)) [[likely]]
     return {timestamp, now};
+  if (timestamp < now) return {Time(-kFarthest), now};
   // A cycle that measures is somewhat ahead of its beginning. relaxed: it only informs.
   constexpr Duration kLongCycle = std::chrono::milliseconds(100);
   if (timestamp - now > kLongCycle) stamps_ahead_.store(true, std::memory_order_relaxed);

@@ -30,6 +30,7 @@ struct PortExtras {
   std::array<std::unique_ptr<StandIn>, 2> by_hand;
   std::shared_ptr<HandSlot> hand_slot;  // of the first of them, once somebody has needed it
   std::shared_ptr<const PortStop> stop;
+  Time blocked_since{};  // by the machine's clock
   bool is_marked = false;  // by Port::SetDriving(): what an application says counts before what a module declares
 
   PortExtras() = default;

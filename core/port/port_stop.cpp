@@ -70,6 +70,7 @@ Result<void> Port::Block() {
     if (!safe) return safe.error();
     if (auto set = SetStop(std::move(*safe), Duration{}, nullptr); !set) return set;
   }
+  extras_->blocked_since = SteadyClock().Now();
   if (extras_->stop->block()->Press()) TellOfChange();
   return {};
 }
@@ -88,6 +89,7 @@ bool Port::is_driving() const noexcept {
 bool Port::is_blocked() const noexcept {
   return extras_ && extras_->stop && extras_->stop->block()->in_force();
 }
+Time Port::blocked_since() const noexcept { return extras_ ? extras_->blocked_since : Time(); }
 std::shared_ptr<const PortStop> Port::stop() const noexcept {
   return extras_ ? extras_->stop : nullptr;
 }

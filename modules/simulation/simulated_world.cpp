@@ -1,5 +1,6 @@
 #include "modules/simulation/simulated_world.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/diagnostics.h"
@@ -59,9 +60,20 @@ Result<void> SimulatedWorld::Prepare() {
 }
 
 void SimulatedWorld::Sense() {
-  if (last_) physics_->Advance(ToSeconds(now() - *last_));
+  if (last_) AdvanceTo(now());
   last_ = now();
   PublishTruth();
+}
+
+// A base that has not run for some time has not driven on all the while: its own time-out counts, and a STOP.
+void SimulatedWorld::AdvanceTo(Time end) {
+  const Time stands = wheels.is_stopped() ? *last_ : std::max(*last_, commanded_ + FromSeconds(wheels_timeout.limit.Get()));
+  if (end > stands) {
+    physics_->Advance(ToSeconds(stands - *last_));
+    physics_->SetWheelSpeeds({});
+    last_ = stands;
+  }
+  physics_->Advance(ToSeconds(end - *last_));
 }
 
 // What is disconnected for less than the time-out, as in a swap that takes several steps, is not noticed.

@@ -80,6 +80,7 @@ class SimulatedWorld final : public SenseControlModule {
   void Sense() override;
   void Control() override;
   void PublishTruth();
+  void AdvanceTo(Time end);
   void PublishMap(Point2 goal_now);
 
   std::shared_ptr<const World> description_;

@@ -83,11 +83,14 @@ Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
   return (*found)->path();
 }
 
-Result<std::string> ReleasePort(Runtime& runtime, const std::string& path) {
+Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, std::optional<Time> asked) {
   const std::lock_guard lock(runtime.structure_mutex());
   if (!path.empty()) {
     const auto found = PathSearch(runtime).FindPort(path, PathKind::kElement);
     if (!found) return found.error();
+    if (asked && (*found)->is_blocked() && (*found)->blocked_since() > *asked) {
+      return At(**found, "was blocked after this was asked for; look why, then ask again");
+    }
     if (Free(**found)) return (*found)->path();
     return At(**found, "is not set by hand");
   }
@@ -218,7 +221,7 @@ void HandSettings::PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t
 
 Result<std::string> HandSettings::Release(const ReleaseRequest& request) {
   if (request.port.empty()) return Error{.message = "'release' needs the name of what is released"};
-  return ReleasePort(runtime_, request.port);
+  return ReleasePort(runtime_, request.port, request.asked);
 }
 
 // Under the slot's mutex.

@@ -77,10 +77,12 @@ Result<CommandRequest> RequestOf(const Request& request, PlacedChanges placed) {
 Result<void> CheckIsStillMeant(CommandRequest& request, const CommandContext& context) {
   if (auto* const stop = std::get_if<RobotStopRequest>(&request)) {
     stop->as_of.asked = context.asked;
-  } else if (context.asked && (std::holds_alternative<PublishRequest>(request) || std::holds_alternative<ReleaseRequest>(request))) {
-    return context.application.runtime.robot_stop().CheckIsKnown({.asked = context.asked});
+    return {};
   }
-  return {};
+  auto* const release = std::get_if<ReleaseRequest>(&request);
+  if (release != nullptr) release->asked = context.asked;
+  if (release == nullptr && !std::holds_alternative<PublishRequest>(request)) return {};
+  return context.application.runtime.robot_stop().CheckIsKnown({.asked = context.asked});
 }
 
 }  // namespace

@@ -94,7 +94,10 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
     ForgetGone(table_.Partners(endpoint_.topic, true));
     Writer writer{handle};
     const auto before = endpoint ? std::ranges::find(gone_, endpoint->id, &Writer::id) : gone_.end();
-    if (before != gone_.end()) writer.before = writer.delivered = before->delivered;
+    if (before != gone_.end()) {
+      writer.before = writer.delivered = before->delivered;
+      writer.clock = before->clock;
+    }
     known = writers_.insert(writers_.end(), std::move(writer));
   }
   Writer& writer = *known;
@@ -175,6 +178,7 @@ void TakenPort::Take(const WireSample& sample) noexcept {
     const Duration offset = clock_.Now();
     const Time now = output_.runtime().clock().Now();
     Time sent = Time(Duration(sample.source_time)) - offset;
+    Duration held_up{};
     bool is_comparable = false;
     {
       const std::lock_guard lock(mutex_);
@@ -184,12 +188,17 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       if (HasComeBefore(writer, sample)) return;
       if (!IsHeard(sample.writer)) return;
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
-      if (is_comparable) writer.clock.Note(now - sent, now);
-      if (is_comparable) sent -= writer.clock.ahead();
+      if (is_comparable) {
+        writer.clock.Note(now - sent, now);
+        held_up = writer.clock.HeldUp(now - sent, now);
+        sent -= writer.clock.ahead();
+      }
     }
     if (!sample.flaw.empty()) return Refuse({.message = std::string(sample.flaw)});
     const OwnCycle cycle(now);
-    const auto timestamp = options_.keeps_stamps && is_comparable ? std::optional(std::min(sent, now)) : std::nullopt;
+    std::optional<Time> timestamp;
+    if (held_up > Duration{}) timestamp = now - held_up;
+    if (options_.keeps_stamps && is_comparable) timestamp = std::min(sent, now);
     const auto published = output_.PublishFilled(
         [&](void* value) -> Result<void> {
           const auto read = form_->codec->Decode(sample.octets, value, sample.holder);

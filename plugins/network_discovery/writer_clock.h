@@ -24,6 +24,22 @@ class WriterClock {
     }
     least_ = std::min(least_.value_or(delay), delay);
   }
+  /// By how much longer a value was under way than others of late, if more than a network takes: it was held up, and is no
+  /// news. Whoever goes on like that for 2 s has had his clock set. After Note().
+  [[nodiscard]] Duration HeldUp(Duration delay, Time now) {
+    constexpr auto kSet = std::chrono::seconds(2);
+    constexpr int kFew = 5;
+    const Duration longer = delay - least().value_or(delay);
+    if (longer <= kMostOfNetworks) {
+      held_up_ = 0;
+      return {};
+    }
+    if (held_up_++ == 0) held_up_since_ = now;
+    if (held_up_ < kFew || now - held_up_since_ < kSet) return longer;
+    *this = {};
+    Note(delay, now);
+    return {};
+  }
   /// Of late.
   [[nodiscard]] std::optional<Duration> least() const {
     return before_ && least_ ? std::min(before_, least_) : least_;
@@ -37,6 +53,8 @@ class WriterClock {
   Time began_{};
   std::optional<Duration> before_ = {};
   std::optional<Duration> least_ = {};
+  int held_up_ = 0;  // one after the other
+  Time held_up_since_{};
 };
 
 }  // namespace runnel

@@ -33,7 +33,7 @@ template <typename T>
 }
 
 /// The time-out of an input, as parameter `<input>_timeout`: a value counts if it has come, is no older than that by its
-/// stamp, is measured and a number. Why another one does not count it says in the same words in each module, and in the
+/// stamp, is measured and a number; the safe value of a stop counts as long as that is in force. Why another one does not count it says in the same words in each module, and in the
 /// log once for each change.
 ///
 ///     Input<Pose2> pose{this, "pose", {.ageing = Ageing::kTimesOut}};
@@ -69,9 +69,9 @@ class InputTimeout {
   template <typename T>
   [[nodiscard]] Lease<T> Read(Input<T>& input, Time now) {
     Lease<T> lease = input.Read();
-    Note(!lease                                               ? InputLack::kNeverCame
-         : now - lease.timestamp() > FromSeconds(limit.Get()) ? InputLack::kOld
-                                                              : FindLack(*lease),
+    Note(!lease                                                       ? InputLack::kNeverCame
+         : IsOld(lease.timestamp(), now) && !input.is_stop_in_force() ? InputLack::kOld
+                                                                      : FindLack(*lease),
          now);
     if (lack_ != InputLack::kNone) return {};
     return lease;
@@ -84,6 +84,7 @@ class InputTimeout {
   }
 
  private:
+  [[nodiscard]] bool IsOld(Time stamp, Time now) const { return now - stamp > FromSeconds(limit.Get()); }
   // What has not come yet is told when it should have.
   void Note(InputLack lack, Time now) noexcept {
     if (!began_) began_ = now;

@@ -98,9 +98,30 @@ Result<void> Supervisor::Shared::PublishAll(KnownRule& rule, Which which, const 
       rule.holds.resize(reaction.published.size());
       rule.holds[i] = true;
     };
-    if (auto published = Publish(reaction.published[i], note); !published && done) done = published;
+    auto published = Publish(reaction.published[i], note);
+    if (which == &SupervisionRule::reaction) {
+      const std::lock_guard lock(runtime.structure_mutex());
+      rule.misses.resize(reaction.published.size());
+      rule.misses[i] = !published;
+    }
+    if (!published && done) done = published;
   }
   return done;
+}
+
+void Supervisor::Shared::PublishMissed(Time now) {
+  for (const auto& rule : rules) {
+    for (std::size_t i = 0; i < rule->misses.size(); ++i) {
+      const SafeValue& safe = rule->reaction.published[i];
+      if (!rule->misses[i] || !PathSearch(runtime).FindPort(safe.port, PathKind::kElement)) continue;
+      rule->misses[i] = false;
+      rule->holds.resize(rule->misses.size());
+      const auto done = Attempt([&] { return Publish(safe); });
+      rule->holds[i] = done.has_value();
+      Note({safe.port, "is there again; what a rule wants there meanwhile " + (done ? "is set" : "cannot be set: " + done.error().ToString()),
+            now, !done});
+    }
+  }
 }
 
 Result<void> Supervisor::Shared::CarryOut(const Reaction& reaction, Time now) {
@@ -125,7 +146,7 @@ void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& 
   if (!given.published.empty() || !given.released.empty() || !given.changes.empty()) {
     const std::lock_guard lock(runtime.structure_mutex());
     reaction = given;  // as it is now, for paths change under the lock
-    if (which == &SupervisionRule::otherwise) rule.holds.clear();
+    if (which == &SupervisionRule::otherwise) rule.holds.clear(), rule.misses.clear();
   }
   const auto published = Attempt([&] { return PublishAll(rule, which, reaction); });
   const bool is_long = where == Where::kBeside && !reaction.changes.empty();

@@ -35,6 +35,7 @@ void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
 
 void Supervisor::Shared::KeepSafe(Time now) {
   const std::lock_guard lock(runtime.structure_mutex());
+  PublishMissed(now);
   std::erase_if(later, [&](const std::string& each) { return static_cast<bool>(Release(each, now)); });
   standstill.Look(runtime, scheduler, now,
                   [&](const Port& port, std::string what, bool is_recovery) {

@@ -22,7 +22,10 @@ namespace runnel {
 struct Supervisor::Shared {
   struct KnownRule : SupervisionRule {
     bool is_applied = false;  // kPaused
-    std::vector<bool> holds = {};  // by reaction.published: set, and neither taken back nor released; under the structure lock
+    // Both by reaction.published, under the structure lock: set, and neither taken back nor released; to be set if an undo
+    // brings the port back.
+    std::vector<bool> holds = {};
+    std::vector<bool> misses = {};
   };
   Shared(Runtime& of_runtime, Scheduler& of_scheduler, Perform how)
       : runtime(of_runtime), scheduler(of_scheduler), perform(std::move(how)) {}
@@ -53,6 +56,7 @@ struct Supervisor::Shared {
                                                   Which which, std::string why);
   Result<void> AddWatch(const std::shared_ptr<KnownRule>& rule);
   void KeepSafe(Time now);
+  void PublishMissed(Time now);
   void TellOverruns(Time now);
 
   Runtime& runtime;

@@ -44,8 +44,7 @@ def _error(text):
 class _Socket:
     """One connection: requests in turn, of whichever thread."""
 
-    def __init__(self, path, timeout, asked=None):
-        self.asked = asked  # when the person asked, if that was before it is sent
+    def __init__(self, path, timeout):
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self.socket.settimeout(timeout)
         try:
@@ -60,8 +59,8 @@ class _Socket:
             self.close()
             raise _extension.Error(f"{path} speaks another protocol")
 
-    def send(self, request):
-        at = b"%d" % (self.asked or time.monotonic_ns())  # the same clock in all processes of a machine
+    def send(self, request, asked):
+        at = b"%d" % asked  # the same clock in all processes of a machine
         heard = b"at %d\n%s\n" % (len(at), at) if self.hello.get("when") == "yes" else b""
         self.socket.sendall(heard + request)
 
@@ -79,9 +78,9 @@ class _Socket:
         self.socket.close()
 
 
-def _exchange(connection, request):
-    """Exit code, output and errors."""
-    connection.send(request)
+def _exchange(connection, request, asked):
+    """Exit code, output and errors. `asked`: when, by time.monotonic_ns()."""
+    connection.send(request, asked)
     said = {"out": [], "err": []}
     while True:
         kind, payload = connection.receive()
@@ -173,6 +172,7 @@ class Remote:
     def _ask(self, command, arguments, options, body="", besides=0.0):
         request = _request(command, arguments, options, body)
         patience = None if self._timeout is None else self._timeout + besides
+        asked = time.monotonic_ns()  # those of other threads may take long, and STOP may be pressed meanwhile
         with self._lock:
             if self._is_closed:
                 raise _extension.Error("this Remote has been closed")
@@ -184,7 +184,7 @@ class Remote:
             connection = self._connection
             try:
                 connection.socket.settimeout(patience)
-                code, out, errors = _exchange(connection, request)
+                code, out, errors = _exchange(connection, request, asked)
             except BaseException as why:
                 self._hang_up()  # an answer that is still on its way is nobody's
                 perhaps = "; the application may have carried it out all the same"
@@ -325,9 +325,10 @@ class Remote:
         return _outcome(*self._exchange_alone("release", *([] if path is None else [path])))
 
     def _exchange_alone(self, command, *arguments):
+        asked = time.monotonic_ns()
         try:
-            with contextlib.closing(_Socket(self._path, 5, time.monotonic_ns())) as connection:
-                return _exchange(connection, _request(command, arguments, {}, ""))
+            with contextlib.closing(_Socket(self._path, 5)) as connection:
+                return _exchange(connection, _request(command, arguments, {}, ""), asked)
         except OSError as why:
             raise _extension.Error(f"{self.name} does not answer: {why}") from None
 

@@ -87,7 +87,7 @@ CommandOrErrors MakePublish(ViewerMessage& message) {
 // Of the STOP of the robot, or of a port.
 CommandOrErrors MakeRelease(ViewerMessage& message) {
   if (message.path == kRobotStopName) return CommandRequest(RobotStopRequest{false, message.client, message.as_of});
-  return CommandRequest(ReleaseRequest{message.path});
+  return CommandRequest(ReleaseRequest{message.path, message.at});
 }
 
 std::string FindCompatible(Inspection& inspection, const ViewerMessage& message) {

@@ -177,12 +177,59 @@ TEST_F(StopTest, TellsWhoListensAndWhoChangedIt) {
     EXPECT_TRUE(stop.Press("a button"));
     EXPECT_FALSE(stop.Press("a page"));
     EXPECT_EQ(stop.state().since, At(10));
-    (void)EXPECT_TRUE(stop.Release("a terminal"));
-    (void)EXPECT_FALSE(stop.Release("a page"));
+    EXPECT_TRUE(stop.Release("a terminal"));
+    EXPECT_FALSE(stop.Release("a page"));
   }
   stop.Press("nobody");
   EXPECT_THAT(heard, ElementsAre("stopped by a button", "released by a terminal"));
   EXPECT_EQ(stop.state().changes, 3u);
+}
+
+TEST_F(StopTest, IsNotReleasedByWhoDoesNotKnowOfIt) {
+  RobotStop& stop = runtime.robot_stop();
+  const auto now = [] { return SteadyClock().Now(); };
+  const Time before = now();
+  stop.Press("a button");
+  const auto first = stop.state().requests;
+  EXPECT_FALSE(stop.Release("a page", {.asked = before}));
+  const Time between = now();
+  EXPECT_TRUE(stop.CheckIsKnown({.asked = between, .requests = first}));
+  EXPECT_FALSE(stop.Press("a terminal")) << "while it is in force";
+  EXPECT_FALSE(stop.Release("a page", {.asked = between}));
+  const auto late = stop.Release("a page", {.requests = first});
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().message, "STOP was pressed or released after this was asked for");
+  EXPECT_FALSE(stop.CheckIsKnown({.requests = first}));
+  EXPECT_TRUE(stop.in_force());
+  EXPECT_TRUE(stop.Release("a page", {.asked = now(), .requests = first + 1}));
+  EXPECT_FALSE(stop.in_force());
+  EXPECT_EQ(stop.Release("a page").error().message, "STOP is not in force");
+}
+
+// Whoever presses while another thread releases the STOP before: it is in force, unless the release knew of the press.
+TEST_F(StopTest, AReleaseThatKnowsOfNoPressDoesNotEndIt) {
+  RobotStop& stop = runtime.robot_stop();
+  std::atomic<bool> ends{false};
+  std::atomic<std::uint64_t> presses{0};
+  std::uint64_t unknown = 0;
+  std::thread releaser([&] {
+    while (!ends) {
+      const std::uint64_t known = presses;
+      const auto state = stop.state();
+      const std::uint64_t seen = presses;
+      // Only of presses that are over is it known which the state knows of.
+      if (known == seen && known % 2 == 0) (void)stop.Release("a terminal", {.requests = state.requests});
+    }
+  });
+  for (int i = 0; i < 20'000; ++i) {
+    ++presses;
+    stop.Press("a button");
+    if (!stop.in_force()) ++unknown;  // nobody can know of it yet
+    ++presses;
+  }
+  ends = true;
+  releaser.join();
+  EXPECT_EQ(unknown, 0u);
 }
 
 // Readers, a publisher, connections that come and go, and presses from another thread.

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "modules/behaviours/conditional_stimulator.h"
@@ -99,6 +101,38 @@ TEST_F(ConditionalStimulatorTest, TakesActivitiesAndTargetRatings) {
 TEST_F(ConditionalStimulatorTest, AllocatesNothingInItsCycles) {
   rig.RunCycles(10);
   EXPECT_THAT(rig, KeepsRealTime(100));
+}
+
+TEST_F(ConditionalStimulatorTest, IsNotActiveByConditionsOfWhichNothingIsHeard) {
+  const auto stimulate = [this] {
+    rig.Feed("stimulation", Stimulation(0.75));
+    rig.RunCycle();
+    return rig.Last(rig.module.activity).value();
+  };
+  Feed(1, 1, 0);
+  for (int i = 0; i < 11; ++i) EXPECT_EQ(stimulate(), 0.75);  // 0.5 s
+  EXPECT_EQ(stimulate(), 0.0);
+  rig.Feed("input1", 1.0);
+  EXPECT_EQ(stimulate(), 0.0) << "the second one is old";
+  Feed(1, 1, 0);
+  EXPECT_EQ(stimulate(), 0.75);
+}
+
+TEST(NumberToActivityTest, MakesNothingOfANumberThatIsOldOrNone) {
+  ModuleRig<NumberToActivity> rig;
+  rig.Set("stimulation_mode", "enabled");
+  rig.Set("shape", "linear");
+  rig.Feed("number", 0.5);
+  for (int i = 0; i < 12; ++i) {
+    rig.RunCycle();
+    EXPECT_EQ(rig.Last(rig.module.activity).value(), i < 11 ? 0.5 : 0.0) << i;
+  }
+  rig.Feed("number", std::nan(""));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  rig.Feed("number", 0.5);
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.5)));
 }
 
 TEST(NumberToActivityTest, FollowsItsCurve) {

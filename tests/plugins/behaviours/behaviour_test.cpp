@@ -163,6 +163,42 @@ TEST(BehaviourTest, WhoCannotTellIsActiveInNothing) {
   EXPECT_TRUE(out.Take());
 }
 
+// Of an inhibitor that is paused or stuck the last word stands: "not inhibited" is not to be believed for ever.
+TEST(BehaviourTest, WhoIsNotToldAnyMoreWhetherItMayIsActiveInNothing) {
+  ModuleRig<Told> rig;
+  const auto tell = [&](bool stimulates, bool inhibits) {
+    if (stimulates) rig.Feed("stimulation", Stimulation(0.5));
+    if (inhibits) rig.Feed("inhibition1", Inhibition(0.0));
+    rig.RunCycle();
+    return rig.Last(rig.module.activity).value();
+  };
+  EXPECT_EQ(tell(true, true), 0.5);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(tell(false, false), 0.5);  // 0.5 s
+  EXPECT_EQ(tell(false, false), 0.0);
+  EXPECT_EQ(tell(true, false), 0.0);
+  EXPECT_EQ(tell(true, true), 0.5);
+  for (int i = 0; i < 11; ++i) EXPECT_EQ(tell(false, true), i < 10 ? 0.5 : 0.0);
+  rig.Set("stimulation_timeout", "3600");
+  EXPECT_EQ(tell(false, true), 0.5);
+  rig.Set("stimulation_mode", "enabled");
+  EXPECT_EQ(tell(false, true), 1.0) << "then the port does not count";
+}
+
+TEST(BehaviourTest, AnInhibitorThatHasNeverSpokenInhibits) {
+  ModuleRig<Told> rig;
+  rig.Set("stimulation_mode", "enabled");
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Output<Activity> inhibitor(others, "inhibitor");
+  ASSERT_TRUE(Port::Connect(inhibitor, rig.module.inhibition(0)));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  inhibitor.Publish(Activity(0.25));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.75)));
+  rig.module.inhibition(0).DisconnectAll();
+}
+
 TEST(BehaviourTest, WhoNeverCouldTellIsNotContent) {
   ModuleRig<Told> rig;
   rig.Feed("stimulation", Stimulation(0.5));

@@ -72,6 +72,18 @@ class NamesOfRules : public ::testing::TestWithParam<Operation>, public Workshop
     Add<Sensor>("test/sensor");
     Add<Reader>("test/reader");
   }
+  void Start() {
+    FrameworkElement* const application = Build(kRules);
+    ASSERT_TRUE(application) << diagnostics.ToString();
+    scheduler.emplace(runtime, SchedulerOptionsOf(*application));
+    editor.emplace(runtime, plugins.modules(), &*scheduler);
+    history.emplace(*editor);
+    supervisor.emplace(runtime, *scheduler, [this](const ChangeSet& changes) -> Result<void> {
+      const ChangeOutcome outcome = editor->Apply(changes);
+      return outcome ? Result<void>() : outcome.diagnostics.errors().front();
+    });
+    ASSERT_TRUE(AddRules(*application, *scheduler, *supervisor));
+  }
   void RunOn() { scheduler->RunUntil(runtime.clock().Now() + std::chrono::milliseconds(100)); }
   void Set(const std::string& module, const char* number) {
     const auto outcome = editor->Apply({SetParameter{module + "/parameter/number", number}});
@@ -91,16 +103,7 @@ class NamesOfRules : public ::testing::TestWithParam<Operation>, public Workshop
 };
 
 TEST_P(NamesOfRules, AreThoseOfWhatTheyWereWrittenFor) {
-  FrameworkElement* const application = Build(kRules);
-  ASSERT_TRUE(application) << diagnostics.ToString();
-  scheduler.emplace(runtime, SchedulerOptionsOf(*application));
-  editor.emplace(runtime, plugins.modules(), &*scheduler);
-  history.emplace(*editor);
-  supervisor.emplace(runtime, *scheduler, [this](const ChangeSet& changes) -> Result<void> {
-    const ChangeOutcome outcome = editor->Apply(changes);
-    return outcome ? Result<void>() : outcome.diagnostics.errors().front();
-  });
-  ASSERT_TRUE(AddRules(*application, *scheduler, *supervisor));
+  ASSERT_NO_FATAL_FAILURE(Start());
   RunOn();
   const auto& [name, done, undone, a, b, sink] = GetParam();
   for (const ChangeSet& each : done) {
@@ -135,6 +138,37 @@ TEST_P(NamesOfRules, AreThoseOfWhatTheyWereWrittenFor) {
   ASSERT_EQ(scheduler->ReadLatencies().size(), 1u);
   EXPECT_EQ(scheduler->ReadLatencies()[0].request, (LatencyRequest{a + "/output/out", sink + "/output/out"}));
 }
+
+using MissingPorts = NamesOfRules;
+
+TEST_P(MissingPorts, HaveTheirSafeValueWhenAnUndoBringsThemBack) {
+  ASSERT_NO_FATAL_FAILURE(Start());
+  RunOn();
+  ASSERT_TRUE(history->Apply({DeleteElement{GetParam().sink}}));
+  RunOn();
+  ASSERT_TRUE(supervisor->SetPaused(GetParam().a, true));
+  EXPECT_THAT(Messages(), Contains(HasSubstr("what was to be done about it failed")));
+  ASSERT_TRUE(history->Undo());
+  RunOn();
+  EXPECT_EQ(Seen(), 9);
+  EXPECT_THAT(Messages(), Contains(HasSubstr("is there again; what a rule wants there meanwhile is set")));
+  ASSERT_TRUE(supervisor->SetPaused(GetParam().a, false));
+  RunOn();
+  EXPECT_EQ(Seen(), 1);
+}
+
+TEST_P(MissingPorts, AreDrivenWhereTheRuleHasEndedMeanwhile) {
+  ASSERT_NO_FATAL_FAILURE(Start());
+  RunOn();
+  ASSERT_TRUE(history->Apply({DeleteElement{GetParam().sink}}));
+  ASSERT_TRUE(supervisor->SetPaused(GetParam().a, true));
+  ASSERT_TRUE(supervisor->SetPaused(GetParam().a, false));
+  ASSERT_TRUE(history->Undo());
+  RunOn();
+  EXPECT_EQ(Seen(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, MissingPorts, ::testing::Values(Operation{.name = "delete", .done = {}}));
 
 INSTANTIATE_TEST_SUITE_P(
     Operations, NamesOfRules,

@@ -95,12 +95,15 @@ export class Link {
     return true;
   }
 
-  /** The server's reply; if the connection breaks, one that says so. Never rejects. */
+  /**
+   * The server's reply; if the connection breaks, one that says so. Never rejects. With the newest sign of life, by which the
+   * server knows what had happened when the person asked: STOP may have been pressed since.
+   */
   request(message) {
     const number = this.#next++;
     return new Promise((resolve) => {
       this.#requests.set(number, resolve);
-      if (!this.send({ ...message, request: number })) this.#answer(number, Lost('there is no connection to the application: nothing has been sent'));
+      if (!this.send({ at: this.at, ...message, request: number })) this.#answer(number, Lost('there is no connection to the application: nothing has been sent'));
     });
   }
 
