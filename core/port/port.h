@@ -77,6 +77,9 @@ class Port : public FrameworkElement {
   }
   /// Outputs: whether a value was published with a time of measurement that was more than 100 ms to come. Any thread.
   [[nodiscard]] bool stamps_ahead() const noexcept { return stamps_ahead_.load(std::memory_order_relaxed); }
+  /// Outputs: whether a velocity that moves the robot is made of it, so that it has to begin from a standstill after a STOP.
+  /// Stays so when that port goes. Any thread; wait-free.
+  [[nodiscard]] bool feeds_velocity() const noexcept { return feeds_velocity_.load(std::memory_order_relaxed); }
   /// Who looks at the port without being connected to it says so. Any thread.
   void NoteLook() const noexcept { is_looked_at_.store(true, std::memory_order_relaxed); }
 
@@ -291,6 +294,7 @@ class Port : public FrameworkElement {
   std::atomic<bool> has_outgoing_{false};
   mutable std::atomic<bool> is_looked_at_{false};
   mutable std::atomic<bool> stamps_ahead_{false};
+  std::atomic<bool> feeds_velocity_{false};  // relaxed, as it is looked at each cycle
   std::unique_ptr<internal::PortExtras> extras_;  // what few ports have
 };
 

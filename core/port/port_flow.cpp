@@ -89,7 +89,13 @@ std::vector<Port::Source> Port::BoundSources(Links links) const {
 }
 
 void Port::RebindSinks() {
-  for (Port* sink : Sinks()) sink->Rebind(sink->BoundSources(Links::kMake));
+  for (Port* sink : Sinks()) {
+    sink->Rebind(sink->BoundSources(Links::kMake));
+    if (!IsVelocity(sink->type(), sink->unit())) continue;
+    const auto is_of_robot = [](const internal::PassedStop& each) { return each.stop->robot() != nullptr; };
+    if (std::ranges::none_of(internal::PassedStops(*sink), is_of_robot)) continue;
+    for (Port* source : sink->Sources()) source->feeds_velocity_.store(true, std::memory_order_relaxed);
+  }
 }
 
 // Of conversions on the way from here to the inputs, the links of sources that do not reach them any more.

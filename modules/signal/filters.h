@@ -21,9 +21,12 @@ class Filter : public Module {
  protected:
   /// `seconds`: from the value before to this one, by their timestamps; 0 for the first, and where time goes back.
   [[nodiscard]] virtual double Next(double value, double seconds) noexcept = 0;
+  /// What has been put out does not count any more: the robot stands.
+  virtual void BeginFromStandstill() noexcept {}
 
  private:
   void Update() final {
+    if (out.feeds_velocity() && runtime().robot_stop().in_force()) BeginFromStandstill();
     if (in.has_queue()) {
       for (auto each = in.Take(); each; each = in.Take()) Pass(each);
     } else if (const auto read = in.Read(); read.is_new()) {
@@ -54,6 +57,7 @@ class LowPassFilter final : public Filter {
   double Next(double value, double seconds) noexcept override {
     return state_.Next(value, seconds, time_constant.Get());
   }
+  void BeginFromStandstill() noexcept override { state_.Begin(0); }
   LowPass state_;
 };
 
@@ -69,6 +73,7 @@ class RateLimiterFilter final : public Filter {
   double Next(double value, double seconds) noexcept override {
     return state_.Next(value, seconds, rise.Get(), fall.Get());
   }
+  void BeginFromStandstill() noexcept override { state_.Begin(0); }
   RateLimiter state_;
 };
 

@@ -201,16 +201,24 @@ Result<void> Application::Save(const std::filesystem::path& file, bool overwrite
   if (!overwrites && !parts_->IsOwnFile(file)) {
     if (auto lost = internal::WhatIsLost(file)) return *lost;
   }
-  const std::lock_guard lock(parts_->runtime().structure_mutex());
-  const auto found = parts_->FindAgain();
+  const auto lost = parts_->Save(file);
+  if (!lost) return lost.error();
+  if (!lost->empty()) parts_->Add({ApplicationEvent::Kind::kNotice, *lost});
+  return {};
+}
+
+Result<std::string> Application::Parts::Save(const std::filesystem::path& file) {
+  std::unique_lock lock(runtime().structure_mutex());
+  auto found = FindAgain();
   if (!found) return found.error();
-  const SaveTools tools{parts_->plugins(), parts_->tags()};
   const bool is_own = internal::IsOwnFile(**found, file);
-  auto saved = SaveApplication(**found, tools, file);
-  const std::string passing =
-      saved ? internal::WhatPasses(**found, *parts_->scheduler, KeepsStop(parts_->stop_file.get(), is_own)) : "";
-  if (!passing.empty()) parts_->Add({ApplicationEvent::Kind::kNotice, passing});
-  return saved;
+  lock.unlock();
+  auto lost = SaveApplication(runtime(), **found, {plugins(), tags()}, file);
+  if (!lost) return lost;
+  lock.lock();
+  if (found = FindAgain(); !found) return lost;
+  const std::string passing = internal::WhatPasses(**found, *scheduler, KeepsStop(stop_file.get(), is_own));
+  return *lost + (lost->empty() || passing.empty() ? "" : "\n") + passing;
 }
 
 Result<std::string> Application::SaveConfiguration(const std::filesystem::path& file) {
@@ -251,15 +259,11 @@ CommandService& Application::service() {
     return file ? file->string() : "";
   };
   hooks.save = [this](const std::string& file) -> Result<std::string> {
-    std::string done = "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
-    if (auto saved = Save(file, true); !saved) return saved.error();
-    const std::lock_guard lock(parts_->runtime().structure_mutex());
-    const auto found = parts_->FindAgain();
-    const std::string passing =
-        found ? internal::WhatPasses(**found, *parts_->scheduler,
-                                     KeepsStop(parts_->stop_file.get(), internal::IsOwnFile(**found, file)))
-              : "";
-    return passing.empty() ? done : done + "\n" + passing;
+    const std::string done = "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
+    const auto lost = parts_->Save(file);
+    if (!lost) return lost;
+    if (!lost->empty()) parts_->Add({ApplicationEvent::Kind::kNotice, *lost});
+    return lost->empty() ? done : done + "\n" + *lost;
   };
   hooks.preview_save = [this](const std::string& file) {
     auto difference = [&] {

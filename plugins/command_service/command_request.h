@@ -52,23 +52,6 @@ struct LogLevelRequest {
   std::string path = {};  ///< "" or "/": all
   std::string level;      ///< as LogLevelName() says it, or "inherit": as above it
 };
-/// For a command that has to wait before it is carried out: one from before a STOP must not become one from after its
-/// release. Threads: any; it outlives the runtime.
-class CommandBar {
- public:
-  /// It has been asked for now.
-  explicit CommandBar(const RobotStop& stop) : signal_(stop.signal()), bar_(signal_->bar()) {}
-  /// Whether it may still be carried out.
-  [[nodiscard]] Result<void> Check() const {
-    if (signal_->bar() == bar_) return {};
-    return Error{.message = "STOP was pressed or released after this was asked for"};
-  }
-
- private:
-  std::shared_ptr<const StopSignal> signal_;
-  std::int64_t bar_;
-};
-
 /// Sets the value at a port by hand: readers find it instead of what is published, until a ReleaseRequest.
 struct PublishRequest {
   static constexpr double kSlowestRate = 0.001;
@@ -88,7 +71,7 @@ struct PublishRequest {
   std::string lease = {};
   /// By the machine's clock, from which the deadline counts; CommandService::Begin() says so.
   std::optional<Time> received = {};
-  std::optional<CommandBar> bar = {};  ///< likewise
+  RobotStop::AsOf as_of = {};  ///< likewise: one from before a STOP must not become one from after its release
 };
 /// Readers of the port find its safe value until a ReleaseRequest, and nobody may set another one (Port::Block()).
 struct BlockRequest {

@@ -12,6 +12,7 @@
 #include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/change_task.h"
 #include "plugins/command_service/save_place.h"
+#include "core/element/try_structure_lock.h"
 #include "plugins/structure/change_arguments.h"
 #include "plugins/structure/change_history.h"
 
@@ -46,6 +47,8 @@ std::optional<Time> OperatorWatch::Look() {
 }
 
 namespace {
+
+constexpr Duration kBlockPatience = std::chrono::milliseconds(5);
 
 // Writes into the log what others than clients change: those have their changes logged as they wrote them.
 class StructureRecorder final : public ElementListener {
@@ -117,13 +120,21 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
   auto pending = std::make_unique<PendingCommand>();
   if (auto* const publish = std::get_if<PublishRequest>(&request)) {
     if (!publish->received) publish->received = hand_settings_.Now();
-    if (!publish->bar) publish->bar.emplace(application_.runtime.robot_stop());
+    if (!publish->as_of.requests) publish->as_of.requests = application_.runtime.robot_stop().state().requests;
   }
   const std::shared_ptr<CommandAnswer>& answer = pending->answer_;
   if (const auto* const stop = std::get_if<RobotStopRequest>(&request)) {
     *answer = Do(*stop);
     pending->task_ = tasks.Done(std::move(on_done));
     return pending;
+  }
+  // A block is the STOP of one port: it waits for the worker only where it would wait for the structure lock, too.
+  if (const auto* const block = std::get_if<BlockRequest>(&request)) {
+    if (const auto lock = TryStructureLock(application_.runtime, kBlockPatience)) {
+      *answer = Do(*block);
+      pending->task_ = tasks.Done(std::move(on_done));
+      return pending;
+    }
   }
   TaskStep step = std::visit(
       [&](auto& each) -> TaskStep {

@@ -162,15 +162,15 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
     if (!rest) return rest.error();
     safe = *rest;
   }
+  RobotStop::AsOf as_of = request.as_of;  // a STOP of meanwhile counts, too
+  if (!as_of.requests) as_of.requests = runtime_.robot_stop().state().requests;
   Published published{port.path()};
   const Slot slot = HandSlot::Of(port);
   const auto fill = internal::FillWith(value);
   std::uint64_t number = 0;
   // Under the slot's mutex: noted first, so that nothing that is thrown leaves a value without its deadline.
   auto done = port.PublishByHand([&](void* to) -> Result<void> {
-    if (auto counts = request.bar ? request.bar->Check() : Result<void>(); !counts) {
-      return At(port, counts.error().message);
-    }
+    if (auto counts = runtime_.robot_stop().CheckIsKnown(as_of); !counts) return At(port, counts.error().message);
     if (!slot->hold) slot->hold = std::make_unique<HandHold>(ended_);
     HandHold& hold = HoldOf(*slot);
     if (auto allowed = hold.Check(wish, Now()); !allowed) {
@@ -191,22 +191,21 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
     if (slot->stand_in == nullptr) slot->hold.reset();
     return done.error();
   }
-  // A STOP of meanwhile counts, too.
-  if (request.rate) PublishAgainAndAgain(slot, value, number, *request.rate, request.bar.value_or(CommandBar(runtime_.robot_stop())));
+  if (request.rate) PublishAgainAndAgain(slot, value, number, *request.rate, as_of);
   return published;
 }
 
 // By the worker, which no thread of a cycle waits for, and without the structure lock.
 void HandSettings::PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t number, double rate,
-                                        CommandBar bar) {
+                                        RobotStop::AsOf as_of) {
   const Duration period = FromSeconds(1 / rate);
   tasks_.PostSteps([this, slot = std::move(slot), value = std::move(value), number, period,
-                    bar = std::move(bar),
+                    as_of = std::move(as_of),
                     due = runtime_.clock().Now() + period]() mutable -> std::optional<Duration> {
     const Time now = runtime_.clock().Now();
     const std::lock_guard lock(slot->mutex);
     if (!slot->hold || HoldOf(*slot).number != number) return {};  // released, or set anew
-    if (!bar.Check()) {
+    if (!runtime_.robot_stop().CheckIsKnown(as_of)) {
       log_.Add(ApplicationLog::Kind::kWarning,
                HoldOf(*slot).path + ": its value is not published again, since STOP was pressed or released");
       return {};

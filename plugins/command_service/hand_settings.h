@@ -132,7 +132,7 @@ class HandSettings {
 
  private:
   using Slot = std::shared_ptr<HandSlot>;
-  void PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t number, double rate, CommandBar bar);
+  void PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t number, double rate, RobotStop::AsOf as_of);
   void WatchOver(const Slot& slot);
   std::optional<Time> LookAt(const Slot& slot);
   void TellFailure(HandHold& hold, const Error& error);

@@ -42,8 +42,12 @@ std::string StatusText(CallStatus status) {
 /// One call on behalf of a client, who sees how far it is. When the client goes, it is given up.
 class CallCommand {
  public:
-  CallCommand(Runtime& runtime, std::string path, std::optional<std::string> arguments, Duration timeout)
-      : runtime_(runtime), path_(std::move(path)), arguments_(std::move(arguments)), timeout_(timeout) {}
+  CallCommand(Runtime& runtime, std::optional<Time> asked, std::string path, std::optional<std::string> arguments, Duration timeout)
+      : runtime_(runtime),
+        as_of_{.asked = asked, .requests = runtime.robot_stop().state().requests},
+        path_(std::move(path)),
+        arguments_(std::move(arguments)),
+        timeout_(timeout) {}
 
   CommandStep Continue(Answer& answer) {
     if (!call_) {
@@ -76,6 +80,7 @@ class CallCommand {
   }
 
   Result<void> Begin() {
+    if (auto is_meant = runtime_.robot_stop().CheckIsKnown(as_of_); !is_meant) return is_meant;
     const auto callable = FindCallable(runtime_, path_);
     if (!callable) return callable.error();
     const TypeInfo* const type = (*callable)->arguments();
@@ -116,6 +121,7 @@ class CallCommand {
   }
 
   Runtime& runtime_;
+  const RobotStop::AsOf as_of_;
   const std::string path_;
   const std::optional<std::string> arguments_;
   const Duration timeout_;
@@ -159,7 +165,7 @@ CommandResult MakeCallCommand(const Request& request, const CommandContext& cont
   }
   std::optional<std::string> arguments;
   if (request.arguments.size() > 1) arguments = request.arguments[1];
-  const auto call = std::make_shared<CallCommand>(context.application.runtime, request.arguments[0],
+  const auto call = std::make_shared<CallCommand>(context.application.runtime, context.asked, request.arguments[0],
                                                   std::move(arguments), timeout);
   return Command([call](Answer& answer) { return call->Continue(answer); });
 }

@@ -24,11 +24,9 @@ struct Top {
   bool has_begun = false;
 };
 
-CommandResult Say(std::string text) {
-  return Command([text = std::move(text)](Answer& answer) -> CommandStep {
-    answer.Write(text);
-    return ControlCode::kDone;
-  });
+ControlCode Say(Answer& answer, const std::string& text) {
+  answer.Write(text);
+  return ControlCode::kDone;
 }
 
 }  // namespace
@@ -40,8 +38,9 @@ CommandResult MakeTopCommand(const Request& request, const CommandContext& conte
   if (request.Has("once")) *count = 1;
   auto& runtime = context.application.runtime;
   return Command(UnderLock(runtime, [&runtime, zero = context.application.log.start(), left = *count,
-                            top = std::make_shared<Top>(*context.application.scheduler)](
-                               Answer& answer) mutable -> CommandStep {
+                            &scheduler = *context.application.scheduler,
+                            top = std::shared_ptr<Top>()](Answer& answer) mutable -> CommandStep {
+    if (!top) top = std::make_shared<Top>(scheduler);
     const Time now = SteadyClock().Now();
     Profile profile = top->scheduler.ReadProfile();
     if (std::exchange(top->has_begun, true)) {
@@ -60,34 +59,38 @@ CommandResult MakeTopCommand(const Request& request, const CommandContext& conte
 CommandResult MakeProfileCommand(const Request& request, const CommandContext& context) {
   Scheduler& scheduler = *context.application.scheduler;
   const std::string word = request.arguments.empty() ? "" : request.arguments[0];
-  if (word == "on" || word == "off") {
-    scheduler.SetProfiled(word == "on");
-    return Say(word == "on" ? "measures how long modules take\n" : "measures no more\n");
-  }
-  if (!word.empty()) return Error{.message = "'" + word + "' is neither 'on' nor 'off'"};
-  const auto measured = scheduler.profiled_for();
-  if (!measured) return Say("nothing is measured; 'profile on' begins\n");
-  return Say(fmt::format("measured for {:.1f} s\n", ToSeconds(*measured)) +
-             ProfileText(scheduler.ReadProfile(), *measured));
+  if (!word.empty() && word != "on" && word != "off") return Error{.message = "'" + word + "' is neither 'on' nor 'off'"};
+  return Command(UnderLock(context.application.runtime, [&scheduler, word](Answer& answer) -> CommandStep {
+    if (!word.empty()) {
+      scheduler.SetProfiled(word == "on");
+      return Say(answer, word == "on" ? "measures how long modules take\n" : "measures no more\n");
+    }
+    const auto measured = scheduler.profiled_for();
+    if (!measured) return Say(answer, "nothing is measured; 'profile on' begins\n");
+    return Say(answer, fmt::format("measured for {:.1f} s\n", ToSeconds(*measured)) +
+                           ProfileText(scheduler.ReadProfile(), *measured));
+  }));
 }
 
 CommandResult MakeLatencyCommand(const Request& request, const CommandContext& context) {
   Scheduler& scheduler = *context.application.scheduler;
   const auto& words = request.arguments;
-  if (words.empty()) {
-    const std::string text = ProfileText({.tasks = {}, .latencies = scheduler.ReadLatencies()}, {});
-    return Say(text.empty() ? "no latency is measured\n" : text);
-  }
   const bool ends = words.size() == 3 && words[2] == "off";
   if (words.size() == 1 || (words.size() == 3 && !ends)) {
     return Error{.message = "two ports are wanted, from which to which",
                  .hint = "for example: latency /laser/scan /planner/twist [off]"};
   }
-  const auto done = ends ? scheduler.RemoveLatency({words[0], words[1]})
-                         : scheduler.AddLatency({words[0], words[1]});
-  if (!done) return done.error();
-  return Say(ends ? "measured no more\n"
-                  : ProfileText({.tasks = {}, .latencies = {scheduler.ReadLatencies().back()}}, {}));
+  return Command(UnderLock(context.application.runtime, [&scheduler, words, ends](Answer& answer) -> CommandStep {
+    if (words.empty()) {
+      const std::string text = ProfileText({.tasks = {}, .latencies = scheduler.ReadLatencies()}, {});
+      return Say(answer, text.empty() ? "no latency is measured\n" : text);
+    }
+    const auto done = ends ? scheduler.RemoveLatency({words[0], words[1]})
+                           : scheduler.AddLatency({words[0], words[1]});
+    if (!done) return Refuse(answer, done.error());
+    return Say(answer, ends ? "measured no more\n"
+                            : ProfileText({.tasks = {}, .latencies = {scheduler.ReadLatencies().back()}}, {}));
+  }));
 }
 
 }  // namespace runnel

@@ -62,7 +62,7 @@ std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
     // What only finds it.
     found.options.patterns.clear();
     found.options.position = {};
-    found.options.unit = offer.as.empty() ? port.unit() : "";
+    found.options.unit = port.unit();
     if (offer.topic.empty()) found.options.topic = TopicOfPort(element_.options().member.name, port.path());
     const auto same = std::ranges::find(wanted, found.options.topic, [](const Wanted& each) { return each.options.topic; });
     const bool is_meant = same != wanted.end() && !offer.topic.empty() && same->path != found.path;  // /tf, for one

@@ -48,6 +48,7 @@ struct OfferOptions {
   double rate = 0;                           ///< most values a second; 0: no bound
   std::string unit = {};                      ///< of the port, told to others
   std::optional<std::int32_t> strength = {};  ///< the only one that counts, if no stronger one is there
+  bool is_measured = false;                   ///< a velocity that is no command: it goes on in STOP
   SourcePosition position = {};
 
   bool operator==(const OfferOptions&) const = default;

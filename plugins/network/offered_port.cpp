@@ -81,7 +81,8 @@ OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, cons
       clock_(clock),
       bell_(std::make_shared<OfferBell>(std::move(wake), [this](OfferBell::By by) { SendBy(by); })) {
   // A command of motion stops whoever moves by it elsewhere, whether or not anybody has marked it here.
-  if (const std::shared_ptr<const void> zero = IsVelocity(type) ? type.Make() : nullptr) {
+  const bool commands = !options_.is_measured && IsVelocity(type, options_.unit);
+  if (const std::shared_ptr<const void> zero = commands ? type.Make() : nullptr) {
     const auto& robot = beside.runtime().robot_stop().signal();
     command_stop_ = std::make_shared<PortStop>(AnyValue(type, zero), Duration{}, robot);
     AddWhatDrives(beside.runtime(), topic_ + " (in the network)", command_stop_);
@@ -110,7 +111,7 @@ WireEndpointOptions OfferedPort::endpoint() const {
   WireEndpointOptions endpoint{.topic = DdsTopic(topic_),
                                .type = form_->codec->dds_type(),
                                .qos = QosOf(options_.quality),
-                               .user_data = form_->user_data + UnitText(options_.unit)};
+                               .user_data = form_->user_data + UnitText(options_.as.empty() ? options_.unit : "")};
   endpoint.qos.is_exclusive = options_.strength.has_value();
   endpoint.qos.strength = options_.strength.value_or(0);
   return endpoint;

@@ -66,7 +66,8 @@ std::vector<AttributeRule> OfferRules() {
       {.name = "rate", .kind = AttributeKind::kNumber, .summary = "most values a second; the newest wins"},
       {.name = "strength",
        .kind = AttributeKind::kCount,
-       .summary = "for who takes exclusively: of several that offer the topic the strongest counts"}};
+       .summary = "for who takes exclusively: of several that offer the topic the strongest counts"},
+      Choice("measured", "true: a velocity that is measured, and no command: it is sent on in STOP")};
 }
 
 std::vector<AttributeRule> TakeRules() {
@@ -95,7 +96,8 @@ OfferOptions OfferSaid(const SaidOf& said) {
                      .child_frame = said("child_frame"),
                      .quality = QualityIn(said("qos")).value_or(ValueQuality::kNewest),
                      .sending = SendingIn(said("sending")),
-                     .rate = NumberIn(said("rate")).value_or(0)};
+                     .rate = NumberIn(said("rate")).value_or(0),
+                     .is_measured = said("measured") == "true"};
   if (const auto strength = NumberIn(said("strength"))) offer.strength = static_cast<std::int32_t>(*strength);
   return offer;
 }
@@ -128,6 +130,7 @@ std::vector<Setting> WordsOf(const OfferOptions& offer) {
       .Add("sending", offer.sending == ValueSending::kNetwork ? "" : ValueSendingNames()[1])
       .Add("rate", offer.rate > 0 ? fmt::format("{}", offer.rate) : "")
       .Add("strength", offer.strength ? std::to_string(*offer.strength) : "")
+      .AddIf(offer.is_measured, "measured")
       .Take();
 }
 

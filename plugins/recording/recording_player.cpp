@@ -276,15 +276,15 @@ void Player::Publish(const std::vector<PlayedPort*>& ports) {
   for (PlayedPort* each : ports) {
     while (auto value = values_->Take(each->channel, now)) {
       const CycleScope at({value->time, cycle != nullptr ? cycle->period : Duration::zero()});
-      const auto published = each->publisher().PublishFilled(
-          [&](void* filled) { return SetFromMessage(each->original->type(), value->json, filled); },
-          value->timestamp);
+      Port& output = each->publisher();  // the original may have been deleted, if that is another one
+      const auto published = output.PublishFilled(
+          [&](void* filled) { return SetFromMessage(output.type(), value->json, filled); }, value->timestamp);
       if (published) {
         published_.fetch_add(1, std::memory_order_relaxed);
         continue;
       }
       Error error = published.error();
-      error.path = each->original->path();
+      error.path = output.path();
       error.message = "the value recorded at " + std::to_string(ToSeconds(value->time)) +
                       " s cannot be played: " + error.message;
       return values_->Fail(std::move(error));

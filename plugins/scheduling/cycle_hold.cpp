@@ -1,6 +1,7 @@
 #include "plugins/scheduling/cycle_hold.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "core/base/check.h"
 #include "core/base/clock.h"
@@ -10,6 +11,10 @@
 #include "plugins/timing/cycle_tracer.h"
 
 namespace runnel {
+
+namespace {
+constexpr Duration kBrief = std::chrono::milliseconds(50);
+}  // namespace
 
 Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runners,
                                   Duration timeout, CycleTracer* tracer) {
@@ -24,23 +29,40 @@ Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runn
   hold.began_ = clock.Now();
   hold.runners_.reserve(
       runners.size());  // whose gate is closed is known by the hold, whatever fails
-  for (auto& runner : runners) {
-    runner->gate().Close();
-    hold.runners_.push_back(std::move(runner));
-    const CycleRunner& closed = *hold.runners_.back();
+  std::deque<std::shared_ptr<CycleRunner>> left(runners.begin(), runners.end());
+  for (; !left.empty(); left.pop_front()) {
+    left.front()->gate().Close();
+    hold.runners_.push_back(left.front());
+    const CycleRunner& closed = *left.front();
     // Passes a heavy fence; see CycleGate.
     const std::uint64_t epoch = ProcessEpochs().Advance();
+    const Time closed_at = clock.Now();
     for (int round = 0; !closed.quiescence()->HasLeft(epoch); ++round) {
-      if (clock.Now() > deadline) {
+      const Time now = clock.Now();
+      if (now > deadline) {
         return Error{.message = "has not come to the end of its cycle in " +
                                 std::to_string(ToSeconds(timeout)) + " s",
                      .path = closed.path(),
                      .hint = "one of its modules does not return from its Update()"};
       }
+      if (now - closed_at > kBrief) hold.LetBriefOnesGoOn(left);
       BackOff(round);
     }
   }
   return hold;
+}
+
+// A drive does not stand still for as long as a planner takes this time.
+void CycleHold::LetBriefOnesGoOn(std::deque<std::shared_ptr<CycleRunner>>& left) {
+  for (auto each = runners_.begin(); each != runners_.end();) {
+    if (*each == left.front() || (*each)->statistics().execution_mean >= kBrief) {
+      ++each;
+      continue;
+    }
+    left.push_back(*each);
+    (*each)->gate().Open();
+    each = runners_.erase(each);
+  }
 }
 
 void CycleHold::Release() noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -32,8 +33,8 @@ class CycleHold {
     return *this;
   }
 
-  /// Waits until all `runners` have come to the end of a cycle, those whose cycles take long first:
-  /// so the others are kept for a moment only.
+  /// Waits until all `runners` have come to the end of a cycle, those whose cycles take long first, and those that take
+  /// long now, though they usually do not: so the others are kept for a moment only.
   /// Errors: one that has not after `timeout`, of the machine's clock; all go on then.
   /// `tracer`, if there is one, is told when it is over.
   static Result<CycleHold> Take(std::vector<std::shared_ptr<CycleRunner>> runners, Duration timeout,
@@ -45,6 +46,8 @@ class CycleHold {
   [[nodiscard]] Time began() const noexcept { return began_; }
 
  private:
+  void LetBriefOnesGoOn(std::deque<std::shared_ptr<CycleRunner>>& left);
+
   std::vector<std::shared_ptr<CycleRunner>> runners_;
   Time began_{};
   CycleTracer* tracer_ = nullptr;

@@ -34,10 +34,11 @@ Scheduler::ProfileUse::ProfileUse(Scheduler& scheduler) : scheduler_(scheduler) 
   scheduler_.BeginOrEndProfile();
 }
 
+// Whoever looked has gone, and waits for no lock. What has it brings the schedule up to date.
 Scheduler::ProfileUse::~ProfileUse() {
-  const std::lock_guard lock(scheduler_.runtime_.structure_mutex());
   --scheduler_.profile_uses_;
-  scheduler_.BeginOrEndProfile();
+  const std::unique_lock lock(scheduler_.runtime_.structure_mutex(), std::try_to_lock);
+  if (lock) scheduler_.BeginOrEndProfile();
 }
 
 void Scheduler::BeginOrEndProfile() {

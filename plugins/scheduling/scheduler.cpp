@@ -145,6 +145,7 @@ void Scheduler::BringUpToDate() {
       compiler_.Install();
       has_changes_.store(true, std::memory_order_relaxed);  // as in Changed()
     }
+    if (profile_began_) BeginOrEndProfile();  // who used it may have gone
     if (std::exchange(have_chains_changed_, false)) FollowChains();
     if (is_running_ && has_other_runners_) StartThreads(machine_.Now());
   } catch (...) {

@@ -299,7 +299,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   RealThreads threads_;
   RealThreads ending_;  // their containers are gone, or their modules have not returned
   bool is_profiled_ = false;  // whether or not somebody uses it
-  int profile_uses_ = 0;
+  std::atomic<int> profile_uses_{0};  // whoever goes waits for no lock
   std::optional<Time> profile_began_;  // by the machine
   mutable std::vector<std::string> paused_;  // as of the structure's revision ...
   mutable std::uint64_t paused_at_ = ~std::uint64_t{};

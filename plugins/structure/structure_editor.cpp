@@ -268,7 +268,7 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
   }
   outcome.is_refused = !outcome.diagnostics.ok();
   if (outcome.is_refused) return Attempt::kFailed;
-  const std::lock_guard lock(shared_->mutex);
+  // Before the mutex: whoever answers a fault, and looks whether all is well, does not wait for a long cycle.
   std::optional<CycleHold> hold;
   if (scheduler_ != nullptr) {
     auto held = scheduler_->HoldCycles(plan.concerned(), options_.timeout, plan.going());
@@ -278,6 +278,7 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
     }
     hold = std::move(*held);
   }
+  const std::lock_guard lock(shared_->mutex);
   {
     // Threads are not kept waiting for somebody who holds the lock.
     std::unique_lock structure(runtime_.structure_mutex(), std::try_to_lock);

@@ -176,8 +176,11 @@ Result<void> Supervisor::Add(StopButtonRule rule) {
 // Who goes on finds what the rules have taken back.
 Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
   const std::lock_guard lock(shared_->pausing);
+  Result<void> paused;
   if (is_paused) {
-    if (auto paused = scheduler_.SetPaused(path, true); !paused) return paused;
+    paused = scheduler_.SetPaused(path, true);
+    // What is stuck is paused all the same.
+    if (!paused && !scheduler_.CheckPaused(path)) return paused;
   } else if (auto known = scheduler_.CheckPaused(path); !known) {
     return known;
   }
@@ -199,7 +202,7 @@ Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
     shared_->React(*each, which, of, applies ? "is paused" : "goes on", runtime.clock().Now(), false, Shared::Where::kHere);
   }
   if (is_paused) KeepSafe();
-  return is_paused ? Result<void>() : scheduler_.SetPaused(path, false);
+  return is_paused ? paused : scheduler_.SetPaused(path, false);
 }
 
 void Supervisor::KeepSafe() { shared_->KeepSafe(shared_->runtime.clock().Now()); }

@@ -1,6 +1,7 @@
 #include "apps/python/extension/ports.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <utility>
@@ -47,6 +48,7 @@ void PublishFromPython(Port& output, const py::args& positional, const py::kwarg
     }
   };
   std::optional<Time> measured;
+  if (timestamp && !std::isfinite(*timestamp)) throw py::value_error("a timestamp is a number of seconds");
   if (timestamp) measured = Time(FromSeconds(*timestamp));
   const auto published = output.PublishFilled(fill, measured);
   if (thrown) std::rethrow_exception(thrown);

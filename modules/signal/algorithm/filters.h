@@ -18,10 +18,16 @@ class LowPass {
  public:
   /// `seconds` have passed since the last call. A time constant that is not positive lets everything pass.
   double Next(double value, double seconds, double time_constant) noexcept {
+    if (!std::isfinite(value)) return value;  // is passed on, and does not stay
     const bool passes = !has_begun_ || !(time_constant > 0);
     value_ = passes ? value : value_ + (value - value_) * -std::expm1(-seconds / time_constant);
     has_begun_ = true;
     return value_;
+  }
+  /// As if it had put out `value` last.
+  void Begin(double value) noexcept {
+    value_ = value;
+    has_begun_ = true;
   }
 
  private:
@@ -34,10 +40,16 @@ class RateLimiter {
  public:
   /// `seconds` have passed since the last call. `rise` and `fall`: per second, neither negative.
   double Next(double value, double seconds, double rise, double fall) noexcept {
+    if (!std::isfinite(value)) return value;  // is passed on, and does not stay
     value_ =
         has_begun_ ? std::clamp(value, value_ - fall * seconds, value_ + rise * seconds) : value;
     has_begun_ = true;
     return value_;
+  }
+  /// As if it had put out `value` last.
+  void Begin(double value) noexcept {
+    value_ = value;
+    has_begun_ = true;
   }
 
  private:

@@ -75,6 +75,8 @@ struct Application::Parts final : ApplicationDescription {
 
   RecordingHook RecordingOnDemand(Application& application);
   [[nodiscard]] bool IsOwnFile(const std::filesystem::path& file);
+  /// What the file has lost, and what passes with the run, for people.
+  Result<std::string> Save(const std::filesystem::path& file);
   void LoadPluginOf(std::string_view type);
   void LoadPluginOf(const Change& change);
 

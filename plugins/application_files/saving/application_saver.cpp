@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 #include "core/base/replace_file.h"
@@ -85,22 +84,17 @@ Error WouldNotLoad(Error reason) {
   return reason;
 }
 
-// Whether `text`, which is to stand in `file` for the application, would load.
-Result<void> CheckSavedText(FrameworkElement& application, std::string_view text,
-                            const fs::path& file, const SaveTools& tools) {
+// Whether `text`, which is to stand in `file` for the application, would load. It is built without the structure lock, which
+// others need meanwhile. `is_alone`: its file names no ports that are not there when it is built alone.
+Result<void> CheckSavedText(std::string_view text, const fs::path& file, const SaveTools& tools, bool is_alone) {
   const auto document = XmlDocument::Parse(text, file.string());
   if (!document) return WouldNotLoad(document.error());
-  // Its file names ports that are not there when it is built alone.
-  if (!internal::ExternalConnectionsOf(application).empty()) return {};
-  Diagnostics diagnostics;
-  // In a thread of its own, for this one holds the lock of another tree.
-  std::thread([&] {
-    Runtime runtime;
-    Configuration none;
-    diagnostics = BuildApplication(*document, file.parent_path(),
-                                   {runtime, tools.plugins, tools.tags, none}, BuildMode::kCheck)
-                      .diagnostics;
-  }).join();
+  if (!is_alone) return {};
+  Runtime runtime;
+  Configuration none;
+  const Diagnostics diagnostics = BuildApplication(*document, file.parent_path(), {runtime, tools.plugins, tools.tags, none},
+                                                   BuildMode::kCheck)
+                                      .diagnostics;
   if (!diagnostics.ok()) return WouldNotLoad(diagnostics.errors().front());
   return {};
 }
@@ -131,48 +125,63 @@ Result<internal::SavedText> internal::TextOfApplication(FrameworkElement& applic
       source != nullptr ? UpdatedText(saving, *source) : Result<std::string>(WholeText(saving));
   if (!text) return text.error();
   if (saving.error) return *saving.error;
-  return internal::SavedText{std::move(*text), std::move(saving.values)};
+  return internal::SavedText{std::move(*text), std::move(saving.values), std::move(saving.lost)};
 }
 
-Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools,
-                             const fs::path& to) {
-  const std::lock_guard lock(application.runtime().structure_mutex());
-  auto* source = application.FindAnnotation<ApplicationSource>();
-  if (to.empty() && source == nullptr) {
-    return Error{.message = "the application was built by code, and has no file yet",
-                 .path = application.path(),
-                 .hint = "name one"};
+Result<std::string> SaveApplication(FrameworkElement& application, const SaveTools& tools, const fs::path& to) {
+  return SaveApplication(application.runtime(), application, tools, to);
+}
+
+Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& application, const SaveTools& tools, const fs::path& to) {
+  constexpr int kAttempts = 20;
+  std::string checked;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    std::unique_lock lock(runtime.structure_mutex());
+    if (std::ranges::find(runtime.root().children(), &application) == runtime.root().children().end()) {
+      return Error{.message = "the application has been deleted meanwhile"};
+    }
+    auto* source = application.FindAnnotation<ApplicationSource>();
+    if (to.empty() && source == nullptr) {
+      return Error{.message = "the application was built by code, and has no file yet",
+                   .path = application.path(),
+                   .hint = "name one"};
+    }
+    const fs::path file = to.empty() ? source->file : to;
+    const bool is_its_own = source == nullptr || Whole(source->file) == Whole(file);
+    if (source != nullptr && is_its_own) {
+      if (auto unchanged = CheckUnchanged(*source); !unchanged) return unchanged.error();
+    }
+    auto saved = internal::TextOfApplication(application, tools, file.parent_path());
+    if (!saved) return saved.error();
+    const bool is_on_disk = source != nullptr && is_its_own && saved->text == source->text && fs::exists(source->file);
+    if (!is_on_disk && saved->text != checked) {
+      const bool is_alone = internal::ExternalConnectionsOf(application).empty();
+      lock.unlock();
+      if (auto good = CheckSavedText(saved->text, file, tools, is_alone); !good) return good.error();
+      checked = std::move(saved->text);
+      continue;  // unless others have changed the application meanwhile, it is the same text again
+    }
+    // All that needs memory comes before the file is another one.
+    const auto now = source != nullptr ? std::make_unique<ApplicationSource>(*source)
+                                       : std::make_unique<ApplicationSource>();
+    now->file = file;
+    now->text = saved->text;
+    now->values = std::move(saved->values);
+    if (!is_on_disk) {
+      if (auto kept = KeepBackup(file); !kept) return kept.error();
+      if (auto written = ReplaceFile(file, saved->text); !written) return written.error();
+    }
+    if (!is_its_own) return std::move(saved->lost);
+    ForgetNewNames(application);
+    if (source != nullptr) {
+      *source = std::move(*now);
+    } else {
+      Retry([&] { application.Annotate(std::make_unique<ApplicationSource>(*now)); });
+    }
+    return std::move(saved->lost);
   }
-  const fs::path file = to.empty() ? source->file : to;
-  const bool is_its_own =
-      source == nullptr || Whole(source->file) == Whole(file);
-  if (source != nullptr && is_its_own) {
-    if (auto unchanged = CheckUnchanged(*source); !unchanged) return unchanged;
-  }
-  auto saved = internal::TextOfApplication(application, tools, file.parent_path());
-  if (!saved) return saved.error();
-  const bool is_on_disk =
-      source != nullptr && is_its_own && saved->text == source->text && fs::exists(source->file);
-  // All that needs memory comes before the file is another one.
-  const auto now = source != nullptr ? std::make_unique<ApplicationSource>(*source)
-                                     : std::make_unique<ApplicationSource>();
-  now->file = file;
-  now->text = saved->text;
-  now->values = std::move(saved->values);
-  if (!is_on_disk) {
-    auto good = CheckSavedText(application, saved->text, file, tools);
-    if (!good) return good;
-    if (auto kept = KeepBackup(file); !kept) return kept;
-    if (auto written = ReplaceFile(file, saved->text); !written) return written;
-  }
-  if (!is_its_own) return {};
-  ForgetNewNames(application);
-  if (source != nullptr) {
-    *source = std::move(*now);
-  } else {
-    Retry([&] { application.Annotate(std::make_unique<ApplicationSource>(*now)); });
-  }
-  return {};
+  return Error{.message = "others change the application all the time; gave up after " + std::to_string(kAttempts) + " attempts",
+               .hint = "save again when they have ended"};
 }
 
 }  // namespace runnel

@@ -26,11 +26,16 @@ struct SaveTools {
 /// file's, and `file` is a copy. What is replaced is kept as FILE~. One that is connected with another application cannot be built alone; then only
 /// what can be known of the text itself is checked.
 ///
-/// Threads: any outside of cycles; holds the structure lock as long as building the application takes.
+/// Threads: any outside of cycles, without the structure lock, which it takes; but not while it builds.
 /// Errors: a module of no registered type; a change of what another file describes; a required input
 ///         that nothing is connected to; that the text would not load; the file it came from is not what was
 ///         loaded: somebody has changed it meanwhile.
-[[nodiscard]] Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools,
-                                           const std::filesystem::path& file = {});
+///
+/// What the file has lost, for people: tags that name something that is gone; "": nothing.
+[[nodiscard]] Result<std::string> SaveApplication(FrameworkElement& application, const SaveTools& tools,
+                                                  const std::filesystem::path& file = {});
+/// Of one that others may delete meanwhile.
+[[nodiscard]] Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& application, const SaveTools& tools,
+                                                  const std::filesystem::path& file);
 
 }  // namespace runnel

@@ -77,8 +77,10 @@ void FileUpdate::UpdateTag(XmlElement tag, Inside& around) {
   if (known == nullptr) return;
   if (known->update) return known->update(tag, around.element, *this);
   if (!known->saved) {
-    if (NamesWhatIsGone(tag, around.element)) editor_.Remove(tag);
-    return;
+    if (!NamesWhatIsGone(tag, around.element)) return;
+    saving_.lost += (saving_.lost.empty() ? "the file has lost <" : ", <") + std::string(tag.name()) + "> of line " +
+                    std::to_string(tag.position().line) + ", which names what is gone";
+    return editor_.Remove(tag);
   }
   std::vector<SavedTag>& lacking = around.lacking[tag.name()];
   // By their names, if they have any; else in order.

@@ -45,6 +45,7 @@ struct Saving {
   /// Of the modules that the text names anew.
   std::set<std::string> plugins = {};
   std::optional<Error> error = {};  ///< the first
+  std::string lost = {};            ///< what the text does not say any more, for people
   std::map<std::type_index, std::any> notes = {};
 
   /// What those who write one kind of word note for one another; empty when it is first asked for.
@@ -69,6 +70,7 @@ struct Saving {
 struct SavedText {
   std::string text;
   std::map<std::string, std::string, std::less<>> values;  ///< as Saving::values
+  std::string lost;                                        ///< likewise
 };
 /// What SaveApplication() would write into a file in `folder`, but for whether it would load. Under the structure lock.
 [[nodiscard]] Result<SavedText> TextOfApplication(FrameworkElement& application,

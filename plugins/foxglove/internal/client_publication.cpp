@@ -91,7 +91,7 @@ bool ClientPublication::Continue() {
 
 Result<void> ClientPublication::Publish(std::string_view json) {
   waiting_ = json;
-  bar_.emplace(shared_.runtime().robot_stop());
+  as_of_.requests = shared_.runtime().robot_stop().state().requests;
   if (task_) return {};
   return PublishWaiting();
 }
@@ -103,7 +103,7 @@ Result<void> ClientPublication::PublishWaiting() {
     Runtime& runtime = shared_.runtime();
     const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
     if (!lock) return {};  // it goes on waiting
-    if (auto counts = bar_->Check(); !counts) {
+    if (auto counts = shared_.runtime().robot_stop().CheckIsKnown(as_of_); !counts) {
       waiting_ = std::nullopt;
       return counts;
     }

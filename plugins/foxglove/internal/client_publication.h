@@ -50,7 +50,7 @@ class ClientPublication {
   std::shared_ptr<WorkerTask> task_;  // until it is done
   bool is_made_ = false;
   std::optional<std::string> waiting_;
-  std::optional<CommandBar> bar_;  // of what waits
+  RobotStop::AsOf as_of_;  // of what waits
   std::optional<Error> error_;
   std::string usual_;  // the value that T{} has, as JSON
 };

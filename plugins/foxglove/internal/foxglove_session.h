@@ -47,6 +47,7 @@ class ServiceCalls {
     std::string path;
     std::string json;               // until it has begun
     std::unique_ptr<AnyCall> begun;
+    RobotStop::AsOf as_of = {};
     const TypeInfo* reply = nullptr;
   };
 

@@ -65,6 +65,7 @@ void ServiceCalls::Begin(std::string_view message, bool may_call, bool is_late) 
   }
   if (pending_.size() >= kMostCalls) return Fail(pending, {.message = "too many calls are under way"});
   pending.path = found->second;
+  pending.as_of.requests = shared_.runtime().robot_stop().state().requests;
   pending_.push_back(std::move(pending));
 }
 
@@ -101,6 +102,7 @@ bool ServiceCalls::TryBegin(Pending& pending) {
   Runtime& runtime = shared_.runtime();
   const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
   if (!lock) return false;
+  if (auto is_meant = runtime.robot_stop().CheckIsKnown(pending.as_of); !is_meant) throw ElementError(is_meant.error());
   const auto found = runtime.root().Find(pending.path);
   if (!found) throw ElementError(found.error());
   auto* const callable = (*found)->FindAnnotation<Callable>();

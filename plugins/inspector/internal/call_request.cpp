@@ -65,8 +65,10 @@ Result<Callable*> FindCallable(Runtime& runtime, const std::string& path) {
 /// The server's thread looks again and again whether it has ended, and waits for nothing.
 class ViewerCall {
  public:
-  ViewerCall(Runtime& runtime, std::string path, std::string arguments)
-      : runtime_(runtime), path_(std::move(path)), arguments_(std::move(arguments)) {}
+  ViewerCall(Runtime& runtime, RobotStop::AsOf as_of, std::string path, std::string arguments)
+      : runtime_(runtime), as_of_(as_of), path_(std::move(path)), arguments_(std::move(arguments)) {
+    if (!as_of_.requests) as_of_.requests = runtime.robot_stop().state().requests;
+  }
 
   bool IsDone() {
     if (outcome_) return true;
@@ -94,6 +96,7 @@ class ViewerCall {
     return Error{.message = why.empty() ? CallStatusName(status) : why, .path = path_};
   }
   Result<void> Begin() {
+    if (auto is_meant = runtime_.robot_stop().CheckIsKnown(as_of_); !is_meant) return is_meant;
     const auto callable = FindCallable(runtime_, path_);
     if (!callable) return callable.error();
     auto call = (*callable)->NewCall();
@@ -107,6 +110,7 @@ class ViewerCall {
   }
 
   Runtime& runtime_;
+  RobotStop::AsOf as_of_;
   const std::string path_;
   const std::string arguments_;
   std::unique_ptr<AnyCall> call_;
@@ -118,7 +122,7 @@ class ViewerCall {
 
 ViewerRequest BeginCallRequest(Inspection& inspection, const ViewerMessage& message) {
   const auto call =
-      std::make_shared<ViewerCall>(inspection.application().runtime, message.path, message.value);
+      std::make_shared<ViewerCall>(inspection.application().runtime, message.as_of, message.path, message.value);
   return {.task = nullptr,
           .take_reply =
               [call, request = message.request] {

@@ -81,6 +81,7 @@ CommandOrErrors MakePublish(ViewerMessage& message) {
   if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
   publish.lease = message.lease;
   publish.received = message.received;
+  publish.as_of = message.as_of;
   return CommandRequest(std::move(publish));
 }
 
@@ -316,7 +317,7 @@ std::span<const Operation> AllOperations() {
       Operation("speed", kChange, AtOnce<SetPace>),
       Operation("reload", kChange, ByService<[](Message& of) { return CommandRequest(ReloadRequest{of.plugin}); }>),
       Operation("log_level", kChange, ByService<[](Message& of) { return CommandRequest(LogLevelRequest{of.path, of.level}); }>),
-      Operation("profile", kChange, AtOnce<SetProfiled>),
+      Operation("profile", kChange, ByWorker<SetProfiled>),
       Operation("latency", kChange, ByWorker<SetLatency>),
       Operation("preview", kChange, ByWorker<PreviewSave>),
       Operation("restart", kChange, ByService<[](Message& of) { return CommandRequest(RestartRequest{of.path}); }>),

@@ -95,6 +95,40 @@ def test_a_request_says_when_it_was_sent_where_operators_must_be_heard(served):
     assert request == "stop"
 
 
+class Watched:
+    """A lock that tells when somebody wants it."""
+
+    def __init__(self, lock):
+        self.lock = lock
+        self.is_wanted = threading.Event()
+
+    def __enter__(self):
+        self.is_wanted.set()
+        return self.lock.__enter__()
+
+    def __exit__(self, *how):
+        return self.lock.__exit__(*how)
+
+
+def test_a_request_says_when_it_was_asked_though_it_waits_for_another(served):
+    served.hello += " when=yes"
+    with runnel.connect("robot") as app:
+        slow = threading.Thread(target=app.ask, args=("get", "/slow"))
+        slow.start()
+        while 'get "/slow"' not in served.asked:
+            time.sleep(0.01)
+        app._lock = Watched(app._lock)
+        waits = threading.Thread(target=app.ask, args=("stop",))
+        waits.start()
+        assert app._lock.is_wanted.wait(60)
+        later = time.monotonic_ns()
+        served.may_answer.set()
+        slow.join()
+        waits.join()
+    at, request = served.asked[-2:]
+    assert request == "stop" and int(at) <= later
+
+
 def test_a_call_may_take_its_own_time_besides(served):
     answered = threading.Timer(1, served.may_answer.set)
     served.on_slow = answered.start

@@ -1,5 +1,7 @@
 #include "core/base/clock.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 
@@ -34,6 +36,16 @@ TEST(SteadyClockTest, CoarseTimeIsNoLaterButNotBeforeWhatHasJustHappened) {
   EXPECT_LE(clock.CoarseNow(event), clock.Now());
   const Time future = clock.Now() + std::chrono::hours(1);
   EXPECT_LT(clock.CoarseNow(future), future);
+}
+
+// So that the age of a value with a nonsensical stamp is a great age, and no negative one.
+TEST(FromSecondsTest, WhatNoDurationHoldsIsTheLongest) {
+  EXPECT_EQ(FromSeconds(1e12), kFarthest);
+  EXPECT_EQ(FromSeconds(-1e12), -kFarthest);
+  EXPECT_EQ(FromSeconds(HUGE_VAL), kFarthest);
+  EXPECT_EQ(FromSeconds(-HUGE_VAL), -kFarthest);
+  EXPECT_EQ(FromSeconds(std::nan("")), Duration::zero());
+  EXPECT_GT(Time(FromSeconds(4e9)) - Time(FromSeconds(-1e12)), Duration::zero());
 }
 
 TEST(FromSecondsTest, RoundsToTheNearestNanosecond) {

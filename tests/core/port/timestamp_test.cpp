@@ -129,6 +129,19 @@ TYPED_TEST(TimestampTest, WhatIsFilledOrPulledIsNotToComeEither) {
   EXPECT_TRUE(this->sender.out.stamps_ahead());
 }
 
+// Its age would be too long for a Duration, and negative then.
+TYPED_TEST(TimestampTest, WhatIsSaidToBeFromLongAgoIsOld) {
+  this->Connect(this->sender.out, this->receiver.in);
+  const CycleScope cycle({.now = this->kPublished});
+  for (const Time stamp : {Time::min(), Time(-kFarthest) - 1ns, Time(-kFarthest)}) {
+    this->sender.out.Publish(TypeParam{}, stamp);
+    const auto read = this->receiver.in.Read();
+    EXPECT_EQ(read.timestamp(), Time(-kFarthest));
+    EXPECT_GT(CurrentCycle()->now - read.timestamp(), 1h);
+  }
+  EXPECT_FALSE(this->sender.out.stamps_ahead());
+}
+
 // Of several sources the value published last counts, however old it is.
 TYPED_TEST(TimestampTest, DoesNotDecideWhichOfSeveralSourcesCounts) {
   auto& other = this->template MakeSender<TypeParam>("other");

@@ -159,6 +159,20 @@ TEST(StoppedRobot, StandsAtOnceAndBeginsFromAStandstill) {
   EXPECT_NEAR(drive(1), 2.0, 1e-9) << "1 m/s^2 for 0.1 s";
 }
 
+// Whatever the safe value is: its reader has it as long as the STOP is in force.
+TEST(StoppedRobot, ItsSafeValueDoesNotGrowOld) {
+  test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
+  rig.Feed(rig.module.twist, {0.5, 0});
+  rig.RunCycle();
+  ASSERT_TRUE(rig.runtime.robot_stop().Press("a test"));
+  rig.RunCycles(20);
+  EXPECT_TRUE(rig.module.twist_timeout.Read(rig.module.twist, rig.now()));
+  EXPECT_EQ(rig.module.twist_timeout.lack(), InputLack::kNone);
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  rig.RunCycles(10);
+  EXPECT_EQ(rig.module.twist_timeout.lack(), InputLack::kOld) << "nobody commands it";
+}
+
 TEST(StoppedRobot, ItsGateSaysSo) {
   test::ModuleRig<CommandGate> rig;
   rig.Feed(rig.module.wanted, {0.3, 0});

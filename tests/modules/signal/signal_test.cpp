@@ -50,6 +50,43 @@ TEST(RateLimiterTest, FollowsNoFasterThanAllowed) {
   EXPECT_THAT(After(rig, 1), DoubleNear(1.0, 1e-12)) << "what is near enough is reached";
 }
 
+// While the robot stands it must not come to what it would have come to.
+TEST(RateLimiterTest, BeginsFromAStandstillAfterAStop) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
+  EXPECT_FALSE(rig.module.out.feeds_velocity());
+  ASSERT_TRUE(Port::Connect(rig.module.out, wheels));
+  EXPECT_TRUE(rig.module.out.feeds_velocity());
+  for (int i = 0; i < 20; ++i) (void)After(rig, 1);
+  EXPECT_EQ(wheels.Get(), 1);
+  rig.runtime.robot_stop().Press("a test");
+  for (int i = 0; i < 20; ++i) (void)After(rig, 1);
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  (void)After(rig, 1);
+  EXPECT_THAT(wheels.Get(), DoubleNear(0.2, 1e-12)) << "1 m/s^2, of two cycles";
+  wheels.DisconnectAll();
+}
+
+TEST(RateLimiterTest, OfWhatMovesNothingAStopIsNoConcern) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  for (int i = 0; i < 20; ++i) (void)After(rig, 1);
+  rig.runtime.robot_stop().Press("a test");
+  EXPECT_EQ(After(rig, 1), 1);
+}
+
+TEST(RateLimiterTest, WhatIsNoNumberDoesNotStay) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  (void)After(rig, 0);
+  EXPECT_TRUE(std::isnan(After(rig, std::nan(""))));
+  EXPECT_THAT(After(rig, 10), DoubleNear(0.1, 1e-12));
+  ModuleRig<LowPassFilter> smooth;
+  (void)After(smooth, 1);
+  EXPECT_TRUE(std::isnan(After(smooth, std::nan(""))));
+  EXPECT_EQ(After(smooth, 1), 1);
+}
+
 TEST(DeadBandTest, IsZeroNearZeroWithoutAJump) {
   ModuleRig<DeadBandFilter> rig;
   rig.Set("width", "0.5");

@@ -86,6 +86,22 @@ TEST_F(SimulatedWorldWithoutCommands, DoesNotNoticeASourceThatIsGoneForLessThanT
   EXPECT_NEAR(rig.Last(rig.module.twist).forward, 0.1, 1e-6);
 }
 
+TEST_F(SimulatedWorldWithoutCommands, HasNotDrivenOnForAllTheTimeThatItWasPaused) {
+  const double before = rig.Last(rig.module.pose).x;
+  rig.Wait(std::chrono::seconds(20));
+  rig.RunCycle();
+  EXPECT_LT(rig.Last(rig.module.pose).x, before + 0.1) << "0.1 m/s for 0.5 s, and to come to rest";
+}
+
+TEST_F(SimulatedWorldWithoutCommands, HasNotDrivenOnThoughPausedWhenItWasStopped) {
+  const double before = rig.Last(rig.module.pose).x;
+  ASSERT_TRUE(rig.runtime.robot_stop().Press("a test"));
+  rig.Wait(std::chrono::seconds(20));
+  rig.RunCycle();
+  EXPECT_LT(rig.Last(rig.module.pose).x, before + 0.02);
+  EXPECT_NEAR(rig.Last(rig.module.twist).forward, 0, 1e-6);
+}
+
 TEST_F(SimulatedWorldWithoutCommands, GoesOnWhenCommandsComeAgain) {
   rig.RunCycles(20);
   ASSERT_NEAR(rig.Last(rig.module.twist).forward, 0.0, 1e-6);

@@ -33,5 +33,22 @@ TEST(HeldByRules, APortHasItsValueAgainAfterAnUndo) {
   EXPECT_FALSE(trial.At<Port>("/app/g/n/input/in").is_set_by_hand(Port::Setter::kRule)) << "no rule knows the copy";
 }
 
+// Rules that name what is gone would not load: who saves is told that the file loses them.
+TEST(HeldByRules, ASaveTellsWhichOfThemTheFileLoses) {
+  TemporaryFolder folder;
+  const auto file = folder.path() / "app.xml";
+  std::string text = kTrialText;
+  text.insert(text.find("</application>"), "<on_stale input=\"sink/in\" after=\"1s\"><publish port=\"source/out\" value=\"0\"/></on_stale>\n");
+  std::ofstream(file) << text;
+  setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+  AddWireEngine("fake", MakeFakeWire());
+  Trial trial(file);
+  trial.Must({DeleteElement{"/app/source"}});
+  ASSERT_TRUE(trial.application->Save({}));
+  std::string told;
+  for (const ApplicationEvent& each : trial.application->TakeEvents()) told += each.text + "\n";
+  EXPECT_THAT(told, ::testing::HasSubstr("the file has lost <on_stale> of line 13, which names what is gone"));
+}
+
 }  // namespace
 }  // namespace runnel::test

@@ -117,6 +117,28 @@ TEST_F(CommandServiceTest, EndsARequestByWhateverAPluginThrowsAndServesTheNext) 
 }
 
 // A slow constructor, a library that is being loaded: both hold the structure lock, in the worker.
+// As while a constructor takes its time.
+TEST_F(CommandServiceTest, APortIsBlockedWhileTheWorkerIsBusy) {
+  Input<double> wheels(runtime.root(), "wheels", {.unit = "m/s"});
+  std::promise<void> begun;
+  std::promise<void> may_end;
+  application.hooks.reload = [&](const std::string&) -> Result<std::string> {
+    begun.set_value();
+    may_end.get_future().wait();
+    return std::string("loaded");
+  };
+  CommandService service(application);
+  TaskGroup tasks(service.worker());
+  const auto slow = service.Begin(ReloadRequest{"slow"}, tasks);
+  begun.get_future().wait();
+  const auto block = service.Begin(BlockRequest{"/wheels"}, tasks);
+  EXPECT_TRUE(block->is_done());
+  EXPECT_TRUE(wheels.is_blocked());
+  EXPECT_FALSE(slow->is_done());
+  may_end.set_value();
+  while (!slow->is_done()) std::this_thread::yield();
+}
+
 TEST_F(CommandServiceTest, StopIsInForceWhileTheWorkerAndTheStructureLockAreTaken) {
   std::promise<void> begun;
   std::promise<void> may_end;

@@ -38,12 +38,12 @@ TEST_F(StopAndHand, AValueThatHasWaitedOverAStopIsRefused) {
   auto& wheels = MakeReceiver<double>("wheels", Drives());
   HandSettings by_hand(runtime, worker, log, &machine);
   PublishRequest request{"/wheels/in", "0.4"};
-  request.bar.emplace(runtime.robot_stop());
+  request.as_of.requests = runtime.robot_stop().state().requests;
   Press();
   Release();
   EXPECT_FALSE(by_hand.Publish(request));
   EXPECT_FALSE(wheels.in.is_set_by_hand());
-  request.bar.emplace(runtime.robot_stop());
+  request.as_of.requests = runtime.robot_stop().state().requests;
   EXPECT_TRUE(by_hand.Publish(request));
 }
 
@@ -59,6 +59,23 @@ TEST_F(StopAndHand, ReleasingWhatAPersonHasSetLeavesWhatARuleHasSet) {
   EXPECT_EQ(wheels.in.Get(), 0.0);
   ASSERT_TRUE(by_hand.Release({"/wheels/in"})) << "a rule's value, too, if somebody wants that";
   EXPECT_EQ(wheels.in.Get(), 0.9);
+}
+
+// "Give back" of a link that was lost, carried out seconds later.
+TEST_F(StopAndHand, AReleaseEndsNoBlockThatCameAfterItWasAskedFor) {
+  auto& wheels = MakeReceiver<double>("wheels", Drives());
+  HandSettings by_hand(runtime, worker, log, &machine);
+  ASSERT_TRUE(by_hand.Publish({"/wheels/in", "0.4"}));
+  const Time asked = SteadyClock().Now();
+  ASSERT_TRUE(wheels.in.Block());
+  const auto late = by_hand.Release({"/wheels/in", asked});
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().message, "was blocked after this was asked for; look why, then ask again");
+  EXPECT_TRUE(wheels.in.is_blocked());
+  EXPECT_TRUE(wheels.in.is_set_by_hand());
+  ASSERT_TRUE(wheels.in.Block()) << "again, which counts";
+  EXPECT_TRUE(by_hand.Release({"/wheels/in", SteadyClock().Now()}));
+  EXPECT_FALSE(wheels.in.is_blocked());
 }
 
 TEST_F(StopAndHand, ThePortOfBeforeEndsNoDeadlineOfTheOneInItsPlace) {

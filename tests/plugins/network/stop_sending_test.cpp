@@ -140,6 +140,28 @@ TEST_P(StopSendingTest, VelocitiesStopUnmarkedAndMeasurementsGoOn) {
   EXPECT_EQ(wanted.Get().forward, 0);
 }
 
+TEST_P(StopSendingTest, ASpeedThatIsANumberStopsAndWhatIsMeasuredGoesOn) {
+  Output<double> speed(planner_.group, "speed", {.unit = "m/s"});
+  Output<Speed> measured(planner_.group, "measured");
+  Input<double> wanted(robot_.group, "wanted", {.unit = "m/s"});
+  Input<Speed> seen(robot_.group, "seen");
+  Offer("speed");
+  planner_.Offer({.port = "/application/measured", .topic = "/measured", .quality = GetParam(), .is_measured = true});
+  robot_.Take({.topic = "/speed"}, wanted);
+  robot_.Take({.topic = "/measured"}, seen);
+  planner_.Begin();
+  robot_.Begin();
+  WaitUntil("both are read", [&] { return IsConnected(speed) && IsConnected(measured); });
+  speed.Publish(1);
+  WaitUntil("it has come", [&] { return wanted.Get() == 1; });
+  ASSERT_TRUE(stop_.Press("a test"));
+  WaitUntil("it stands", [&] { return wanted.Get() == 0; });
+  speed.Publish(2);
+  measured.Publish({3});
+  WaitUntil("what is measured has come", [&] { return seen.Get().forward == 3; });
+  EXPECT_EQ(wanted.Get(), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Qualities, StopSendingTest,
                          testing::Values(ValueQuality::kNewest, ValueQuality::kEach, ValueQuality::kSensor, ValueQuality::kLatched));
 

@@ -33,6 +33,26 @@ TEST(WriterClockTest, WhatIsHeldUpIsOldHoweverLong) {
   EXPECT_EQ(clock.ahead(), Duration{});
 }
 
+TEST(WriterClockTest, WhatTakesMuchLongerThanOthersWasHeldUp) {
+  WriterClock clock;
+  Time now(seconds(1000));
+  const auto held_up = [&](Duration delay) {
+    now += milliseconds(100);
+    clock.Note(delay, now);
+    return clock.HeldUp(delay, now);
+  };
+  EXPECT_EQ(held_up(milliseconds(400)), Duration{}) << "nobody knows: its clock may be behind";
+  EXPECT_EQ(held_up(milliseconds(430)), Duration{});
+  EXPECT_EQ(held_up(seconds(3)), milliseconds(2600));
+  EXPECT_EQ(held_up(milliseconds(420)), Duration{});
+  // Four of them, however late, are no clock that has been set.
+  for (int i = 0; i < 4; ++i, now += seconds(10)) EXPECT_NE(held_up(seconds(3)), Duration{});
+  held_up(milliseconds(400));
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(held_up(seconds(3)), milliseconds(2600)) << i;
+  EXPECT_EQ(held_up(seconds(3)), Duration{}) << "for 2 s: its clock has been set";
+  EXPECT_EQ(held_up(seconds(3)), Duration{});
+}
+
 class OtherClockTest : public testing::Test {
  protected:
   // Sent by that clock, so long ago by this one; returns when it is said to have been measured here.
@@ -45,8 +65,8 @@ class OtherClockTest : public testing::Test {
     WaitUntil("it has come", [&] { return robot_.module.goal.Get().x == x; });
     return robot_.module.goal.Read().timestamp();
   }
-  void Begin() {
-    robot_.Take({.topic = "/a/place", .keeps_stamps = true}, robot_.module.goal);
+  void Begin(bool keeps_stamps = true) {
+    robot_.Take({.topic = "/a/place", .keeps_stamps = keeps_stamps}, robot_.module.goal);
     robot_.Begin();
     other_ = Must(engine_->Join({.name = "other"}, table_));
     const auto form = Must(ValueForm::Make(TypeOf<Place>(), "", ""));
@@ -68,6 +88,17 @@ TEST_F(OtherClockTest, OfAClockThatIsAheadAgesAreSeen) {
   EXPECT_LT(old, fresh);  // it would be as old as its arrival
   robot_.WaitFor("s ahead of this one's");
   EXPECT_THAT(robot_.Text(), HasSubstr("on its way by both clocks"));
+}
+
+// A command that waited while the link was down does not become one from after a STOP that was released meanwhile.
+TEST_F(OtherClockTest, WhatWasHeldUpIsAsOldAsItIsThoughItsArrivalCounts) {
+  Begin(false);
+  Time before = robot_.runtime.clock().Now();
+  EXPECT_GE(Send(1, seconds(10), {}), before);
+  before = robot_.runtime.clock().Now();
+  EXPECT_LE(Send(2, seconds(10), seconds(3)), before - seconds(2));
+  before = robot_.runtime.clock().Now();
+  EXPECT_GE(Send(3, seconds(10), {}), before);
 }
 
 TEST_F(OtherClockTest, WhatIsHeldUpOrOfAClockThatIsBehindIsOld) {

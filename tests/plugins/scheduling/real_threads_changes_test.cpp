@@ -39,6 +39,45 @@ TEST_F(RealThreadsAndChanges, TakeInContainersAddedWhileTheyRunAndLetThemGo) {
   }
 }
 
+// One that usually takes no time takes long just now; a drive must not stand still meanwhile.
+TEST_F(RealThreadsAndChanges, WhoWaitsForALongCycleLetsTheOthersGoOn) {
+  std::atomic<int> runs{0};
+  std::atomic<bool> may_return{true};
+  std::atomic<bool> waits{false};
+  auto& drive = MakeCounter("drive", runs);
+  auto& planner = runtime.Create<Doing>(runtime.root(), "planner");
+  planner.action = [&](Doing&) {
+    waits = !may_return;
+    while (!may_return) std::this_thread::sleep_for(1ms);
+  };
+  AssignThread(drive, CreateThread(runtime, "driving", {.period = 1ms}));
+  AssignThread(planner, CreateThread(runtime, "planning", {.period = 1ms}));
+  Ready();
+  const Running running(scheduler);
+  WaitUntil("both run", [&] { return runs > 100; });
+  may_return = false;
+  WaitUntil("one is in a long cycle", [&] { return waits.load(); });
+  std::atomic<bool> holds{false};
+  std::atomic<bool> is_seen{false};
+  std::thread changer([&] {
+    const auto hold = scheduler.HoldCycles({"/drive", "/planner"}, 60s);
+    EXPECT_TRUE(hold) << hold.error().ToString();
+    holds = true;
+    WaitUntil("it has been looked at", [&] { return is_seen.load(); });
+  });
+  std::this_thread::sleep_for(200ms);  // at some time in it both gates would be closed
+  const int before = runs;
+  WaitUntil("the other one goes on", [&] { return runs > before + 100; });
+  EXPECT_FALSE(holds);
+  may_return = true;
+  WaitUntil("both are held", [&] { return holds.load(); });
+  const int held = runs;
+  std::this_thread::sleep_for(20ms);
+  EXPECT_EQ(runs, held);
+  is_seen = true;
+  changer.join();
+}
+
 // Everything that can change does, while three threads run; ThreadSanitizer and AddressSanitizer
 // find what is wrong with it.
 TEST_F(RealThreadsAndChanges, BearEveryChangeOfTheStructure) {

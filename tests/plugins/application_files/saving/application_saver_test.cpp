@@ -3,6 +3,8 @@
 #include "plugins/application_files/saving/application_saver.h"
 
 #include <functional>
+#include <mutex>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -263,6 +265,33 @@ TEST_F(ApplicationSaver, SavesToTheFileItCameFromAgainAndAgain) {
   ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(2.5));
   ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
   EXPECT_THAT(ReadAll(file_), HasSubstr("'2.5'"));
+}
+
+/// Looks when it is made whether the structure of the other runtime can be changed meanwhile.
+struct Prober final : Module {
+  explicit Prober(const Placement& placement) : Module(placement) {
+    if (other == nullptr || &runtime() == other) return;
+    ++looks;
+    std::thread([] {
+      const std::unique_lock lock(other->structure_mutex(), std::try_to_lock);
+      if (lock) ++free;
+    }).join();
+  }
+  static inline Runtime* other = nullptr;
+  static inline int looks = 0;
+  static inline int free = 0;
+};
+
+// Constructors may take long, and who watches whether all is well needs the lock.
+TEST_F(ApplicationSaver, BuildsWithoutTheStructureLock) {
+  Add<Prober>("test/prober");
+  Load();
+  Create("test/prober", "/demo", "prober");
+  Prober::other = &shop_.runtime;
+  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  Prober::other = nullptr;
+  EXPECT_EQ(Prober::looks, 1);
+  EXPECT_EQ(Prober::free, 1);
 }
 
 TEST_F(ApplicationSaver, DoesNotOverwriteWhatSomebodyElseHasChanged) {
