@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/element/try_structure_lock.h"
 #include "core/plugin/module_type_name.h"
 #include "core/paths/path_search.h"
 #include "core/port/driving_ports.h"
@@ -12,7 +13,6 @@
 #include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/change_task.h"
 #include "plugins/command_service/save_place.h"
-#include "core/element/try_structure_lock.h"
 #include "plugins/structure/change_arguments.h"
 #include "plugins/structure/change_history.h"
 

@@ -7,10 +7,13 @@
 #include <new>
 #include <semaphore>
 #include <string>
+#include <thread>
 
 #include <gmock/gmock.h>
 
+#include "core/module/group.h"
 #include "core/module/module.h"
+#include "core/port/input.h"
 #include "core/plugin/module_registry.h"
 #include "plugins/structure/change_history.h"
 
@@ -119,7 +122,8 @@ TEST_F(CommandServiceTest, EndsARequestByWhateverAPluginThrowsAndServesTheNext) 
 // A slow constructor, a library that is being loaded: both hold the structure lock, in the worker.
 // As while a constructor takes its time.
 TEST_F(CommandServiceTest, APortIsBlockedWhileTheWorkerIsBusy) {
-  Input<double> wheels(runtime.root(), "wheels", {.unit = "m/s"});
+  auto& base = runtime.Create<Group>(runtime.root(), "base");
+  Input<double> wheels(base, "wheels", {.unit = "m/s"});
   std::promise<void> begun;
   std::promise<void> may_end;
   application.hooks.reload = [&](const std::string&) -> Result<std::string> {
@@ -131,7 +135,7 @@ TEST_F(CommandServiceTest, APortIsBlockedWhileTheWorkerIsBusy) {
   TaskGroup tasks(service.worker());
   const auto slow = service.Begin(ReloadRequest{"slow"}, tasks);
   begun.get_future().wait();
-  const auto block = service.Begin(BlockRequest{"/wheels"}, tasks);
+  const auto block = service.Begin(BlockRequest{"/base/wheels"}, tasks);
   EXPECT_TRUE(block->is_done());
   EXPECT_TRUE(wheels.is_blocked());
   EXPECT_FALSE(slow->is_done());

@@ -284,7 +284,7 @@ struct Prober final : Module {
 
 // Constructors may take long, and who watches whether all is well needs the lock.
 TEST_F(ApplicationSaver, BuildsWithoutTheStructureLock) {
-  Add<Prober>("test/prober");
+  shop_.Add<Prober>("test/prober");
   Load();
   Create("test/prober", "/demo", "prober");
   Prober::other = &shop_.runtime;
