@@ -26,7 +26,7 @@ bool RobotStop::Press(std::string by) {
     const std::lock_guard lock(mutex_);
     if (!in_force()) continue;  // somebody has released it since: who presses now ends that
     ++state_.requests;
-    state_.pressed = SteadyClock().Now();
+    state_.requested = SteadyClock().Now();
     return false;
   }
 }
@@ -59,12 +59,12 @@ RobotStop::State RobotStop::state() const {
 
 bool RobotStop::IsKnown(const AsOf& as_of) const {
   if (in_force() && !state_.in_force) return false;  // it is being pressed just now
-  return (!as_of.asked || *as_of.asked >= state_.pressed) && (!as_of.requests || *as_of.requests == state_.requests);
+  return (!as_of.asked || *as_of.asked >= state_.requested) && (!as_of.requests || *as_of.requests == state_.requests);
 }
 
 void RobotStop::Note(bool in_force, std::string by) {
   state_ = {in_force, std::move(by), runtime_.clock().Now(), state_.changes + 1, state_.requests + 1,
-            in_force ? SteadyClock().Now() : state_.pressed};
+            SteadyClock().Now()};
 }
 
 }  // namespace runnel

@@ -32,13 +32,14 @@ class RobotStop {
     std::uint64_t changes = 0;  ///< 0: it was never in force
     /// How often it was pressed and released, presses while it was in force included: who releases has seen them all.
     std::uint64_t requests = 0;
-    Time pressed{};  ///< last, while it was in force included, on the machine's steady clock
+    Time requested{};  ///< when the last of these was, on the machine's steady clock
   };
 
-  /// What whoever asked for a release knew then. Of one that was held up, it is not known what it would end.
+  /// When somebody asked for something, or what he knew then. If STOP was pressed or released since, it does not count: of
+  /// what was held up it is not known what it would do now.
   struct AsOf {
-    std::optional<Time> asked = {};              ///< on the machine's steady clock; pressed since: it does not count
-    std::optional<std::uint64_t> requests = {};  ///< State::requests; pressed or released since: it does not count
+    std::optional<Time> asked = {};              ///< on the machine's steady clock
+    std::optional<std::uint64_t> requests = {};  ///< State::requests
   };
 
   explicit RobotStop(const Runtime& runtime);

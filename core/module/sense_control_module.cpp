@@ -3,6 +3,7 @@
 #include "core/base/check.h"
 #include "core/module/executable.h"
 #include "core/module/port_group.h"
+#include "core/port/cycle.h"
 
 namespace runnel {
 
@@ -10,9 +11,9 @@ SenseControlModule::SenseControlModule(const Placement& placement) : Module(plac
   Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
     const BoundCall sense = ListensToParameters()
                                 ? BoundCall::To<&SenseControlModule::TellAndSense>(*this)
-                                : BoundCall::To<&SenseControlModule::Sense>(*this);
+                                : BoundCall::To<&SenseControlModule::SenseAndNote>(*this);
     return {{this, Phase::kSense, sense, AsTaskGroups(groups_[0]), AsTaskGroups(groups_[1])},
-            {this, Phase::kControl, BoundCall::To<&SenseControlModule::Control>(*this),
+            {this, Phase::kControl, BoundCall::To<&SenseControlModule::AgeAndControl>(*this),
              AsTaskGroups(groups_[2]), AsTaskGroups(groups_[3])}};
   }));
 }
@@ -21,7 +22,18 @@ SenseControlModule::~SenseControlModule() = default;
 
 void SenseControlModule::TellAndSense() {
   TellOfParameters();
+  SenseAndNote();
+}
+
+void SenseControlModule::SenseAndNote() {
   Sense();
+  const Cycle* const cycle = CurrentCycle();
+  sensed_ = cycle != nullptr ? cycle->stamp : Time::max();
+}
+
+void SenseControlModule::AgeAndControl() {
+  internal::AgeCycle(sensed_);
+  Control();
 }
 
 FrameworkElement& SenseControlModule::InputGroup() {

@@ -12,6 +12,8 @@ namespace runnel {
 ///     Input<Twist2> wanted{controller_inputs(), "wanted"};
 ///     Output<WheelSpeeds> wheels{controller_outputs(), "wheels"};
 ///
+/// What Control() publishes is as old as what Sense() has read in the same cycle, too.
+///
 /// Life, threads, errors: see Module; Sense() and Control() are never called at the same time.
 class SenseControlModule : public Module {
  public:
@@ -40,7 +42,10 @@ class SenseControlModule : public Module {
  private:
   void Update() final {}  // never called: Sense() and Control() are the tasks
   void TellAndSense();
+  void SenseAndNote();
+  void AgeAndControl();
 
+  Time sensed_ = Time::max();  // the oldest measurement of this cycle
   std::unique_ptr<PortGroup> groups_[4];
 };
 

@@ -115,6 +115,15 @@ CommandAnswer PendingCommand::Take() {
 }
 
 // Nothing can fail once the task is posted: it would be carried out, and nobody be told.
+// Of what lets something move, and waits for the worker; a publication looks when it is carried out.
+template <typename Request>
+RobotStop::AsOf CommandService::AsOfNow(const Request& request) const {
+  bool lets_move = std::is_same_v<Request, ReleaseRequest>;
+  if constexpr (std::is_same_v<Request, PauseRequest>) lets_move = !request.is_paused;
+  if (!lets_move) return {};
+  return {.requests = application_.runtime.robot_stop().state().requests};
+}
+
 std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, TaskGroup& tasks,
                                                       std::function<void()> on_done) {
   auto pending = std::make_unique<PendingCommand>();
@@ -149,8 +158,9 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
             return {};
           };
         } else {
-          return [this, each, answer]() -> std::optional<Duration> {
-            *answer = Do(each);
+          return [this, each, answer, as_of = AsOfNow(each)]() -> std::optional<Duration> {
+            const auto known = application_.runtime.robot_stop().CheckIsKnown(as_of);
+            *answer = known ? Do(each) : CommandAnswer::Refused(known.error());
             return {};
           };
         }

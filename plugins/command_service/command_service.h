@@ -192,6 +192,8 @@ class CommandService {
   [[nodiscard]] CommandAnswer Do(const QuitRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const BlockRequest& request);
   [[nodiscard]] CommandAnswer Do(const RobotStopRequest& request) const;
+  template <typename Request>
+  [[nodiscard]] RobotStop::AsOf AsOfNow(const Request& request) const;
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back) const;
 
   const ServedApplication application_;

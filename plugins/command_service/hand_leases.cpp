@@ -53,6 +53,7 @@ bool HandHold::Note(const Request& request) {
   const bool goes_on = state_ == HandState::kDriven && request.deadline && !request.lease.empty() &&
                        lease_ == request.lease;
   if (!goes_on) EndLease();
+  if (!goes_on) began_ = SteadyClock().Now();
   state_ = request.deadline ? HandState::kDriven : HandState::kSet;
   lease_ = request.lease;
   deadline_ = request.deadline.value_or(Duration::zero());

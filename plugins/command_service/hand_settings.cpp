@@ -36,6 +36,14 @@ bool Free(Port& port) {
 // Nothing else keeps anything there.
 HandHold& HoldOf(const HandSlot& slot) { return static_cast<HandHold&>(*slot.hold); }
 
+bool HasChangedSince(const Port& port, Time asked) {
+  if (port.is_blocked() && port.blocked_since() > asked) return true;
+  const auto slot = HandSlot::Find(port);
+  if (!slot) return false;
+  const std::lock_guard lock(slot->mutex);
+  return slot->hold && HoldOf(*slot).began() > asked;
+}
+
 HandState StateOf(const Port& port) {
   const auto slot = HandSlot::Find(port);
   if (!slot) return HandState::kSet;
@@ -88,8 +96,8 @@ Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, std::
   if (!path.empty()) {
     const auto found = PathSearch(runtime).FindPort(path, PathKind::kElement);
     if (!found) return found.error();
-    if (asked && (*found)->is_blocked() && (*found)->blocked_since() > *asked) {
-      return At(**found, "was blocked after this was asked for; look why, then ask again");
+    if (asked && HasChangedSince(**found, *asked)) {
+      return At(**found, "was blocked or set by hand after this was asked for; look why, then ask again");
     }
     if (Free(**found)) return (*found)->path();
     return At(**found, "is not set by hand");

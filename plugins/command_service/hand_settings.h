@@ -71,6 +71,8 @@ class HandHold final : public HandSlot::Hold {
 
   [[nodiscard]] HandState state() const noexcept { return state_; }
   [[nodiscard]] Duration deadline() const noexcept { return deadline_; }
+  /// When it was set for another purpose than to go on with a lease.
+  [[nodiscard]] Time began() const noexcept { return began_; }
   /// When he has to be heard of; nothing if he need not.
   [[nodiscard]] std::optional<Time> due() const noexcept {
     return state_ == HandState::kDriven ? std::optional(due_) : std::nullopt;
@@ -88,6 +90,7 @@ class HandHold final : public HandSlot::Hold {
   std::string lease_ = {};
   Duration deadline_{};
   Time due_{};
+  Time began_{};
 };
 
 /// Sets the value at a port by hand, from its text format (Port::PublishByHand()); fields that the text leaves

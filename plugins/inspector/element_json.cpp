@@ -95,6 +95,7 @@ void AddPort(const Port& port, const ElementSurroundings& around, JsonObject& js
   json.Add("description", port.description()).Add("unit", port.unit());
   json.Add("by_hand", port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule));
   json.Add("driving", port.is_driving()).Add("blocked", port.is_blocked());
+  if (const auto stop = port.stop()) json.Add("safe", ToText(stop->safe_value().type(), stop->safe_value().get()));
   if (const std::string why = WhyUnreached(port, around); !why.empty()) json.Add("unreached", why);
   const InputLimits& limits = port.limits();
   json.Add("bounds", BoundsText(limits));

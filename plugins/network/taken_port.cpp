@@ -188,11 +188,10 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       if (HasComeBefore(writer, sample)) return;
       if (!IsHeard(sample.writer)) return;
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
-      if (is_comparable) {
-        writer.clock.Note(now - sent, now);
-        held_up = writer.clock.HeldUp(now - sent, now);
-        sent -= writer.clock.ahead();
-      }
+      // By the clocks of both machines, whatever time the application has.
+      if (!writer.has_simulated_time) held_up = writer.clock.HeldUp(now - sent, now);
+      if (is_comparable) writer.clock.Note(now - sent, now);
+      if (is_comparable) sent -= writer.clock.ahead();
     }
     if (!sample.flaw.empty()) return Refuse({.message = std::string(sample.flaw)});
     const OwnCycle cycle(now);

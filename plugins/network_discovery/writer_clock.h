@@ -24,21 +24,18 @@ class WriterClock {
     }
     least_ = std::min(least_.value_or(delay), delay);
   }
-  /// By how much longer a value was under way than others of late, if more than a network takes: it was held up, and is no
-  /// news. Whoever goes on like that for 2 s has had his clock set. After Note().
+  /// By how much longer a value was under way than others, if more than a network takes: it was held up, and is no news,
+  /// however many come so. Only if the delay jumps from one value to the next, which came soon after, has the clock been
+  /// set. After Note().
   [[nodiscard]] Duration HeldUp(Duration delay, Time now) {
-    constexpr auto kSet = std::chrono::seconds(2);
-    constexpr int kFew = 5;
-    const Duration longer = delay - least().value_or(delay);
-    if (longer <= kMostOfNetworks) {
-      held_up_ = 0;
-      return {};
-    }
-    if (held_up_++ == 0) held_up_since_ = now;
-    if (held_up_ < kFew || now - held_up_since_ < kSet) return longer;
-    *this = {};
-    Note(delay, now);
-    return {};
+    constexpr int kDrift = 10'000;  // of two clocks; one part in so many
+    const Duration gap = now - came_;
+    const bool is_set = usual_ && delay - last_ > kMostOfNetworks && gap < (delay - last_) / 2;
+    usual_ = is_set || !usual_ ? delay : std::min(*usual_ + gap / kDrift, delay);
+    last_ = delay;
+    came_ = now;
+    const Duration longer = delay - *usual_;
+    return longer > kMostOfNetworks ? longer : Duration{};
   }
   /// Of late.
   [[nodiscard]] std::optional<Duration> least() const {
@@ -53,8 +50,9 @@ class WriterClock {
   Time began_{};
   std::optional<Duration> before_ = {};
   std::optional<Duration> least_ = {};
-  int held_up_ = 0;  // one after the other
-  Time held_up_since_{};
+  std::optional<Duration> usual_ = {};
+  Duration last_{};
+  Time came_{};
 };
 
 }  // namespace runnel

@@ -41,6 +41,8 @@ constexpr double kWidestGap = DegreesToRadians(10.01);
 bool SaysEnough(const RangeScan& scan) {
   const std::size_t rays = scan.ranges.size();
   const double step = std::abs(scan.angle_step);
+  // What nobody has filled in says nothing of where the rays went, nor of how far they could see.
+  if (!(step > 0.0) || !std::isfinite(step + scan.start_angle + scan.range_minimum) || !(scan.range_maximum > 0.0)) return false;
   // Of a whole turn the last ray lies beside the first one, and a gap may reach over both.
   const bool is_whole_turn = (static_cast<double>(rays) + 0.5) * step >= 2 * kPi;
   std::size_t silent = 0, in_a_row = 0, most_in_a_row = 0;
@@ -76,7 +78,7 @@ Surroundings BumperAdaptor::Update(const Contact& contact, const Pose2& pose) {
 Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& pose) {
   Surroundings surroundings;
   const bool says_all = !std::isnan(ranges.front) && !std::isnan(ranges.left) && !std::isnan(ranges.right);
-  if (!(ranges.range_maximum > 0.0) || !says_all) return surroundings;
+  if (!(ranges.range_maximum > 0.0) || !(ranges.field_of_view > 0.0) || !says_all) return surroundings;
   surroundings.is_measured = true;
   surroundings.sensor_range = static_cast<float>(ranges.range_maximum);
   surroundings.safe_distance = static_cast<float>(configuration_.safe_distance);

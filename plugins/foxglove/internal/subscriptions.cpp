@@ -100,11 +100,11 @@ bool Subscriptions::Sample() {
 // As it is, then each change; whoever has the structure lock.
 void Subscriptions::ShowStop(std::uint32_t id, Subscription& subscription) {
   const RobotStop::State state = application_.runtime.robot_stop().state();
-  if (subscription.next > state.changes) return;
+  if (subscription.next > state.requests) return;
   std::string bytes;
   AppendMessageHead(id, application_.runtime.clock().Now(), bytes);
   subscription.channel.encoding->Append(&state, state.since, bytes);
-  if (client_.SendBinary(std::move(bytes))) subscription.next = state.changes + 1;
+  if (client_.SendBinary(std::move(bytes))) subscription.next = state.requests + 1;
 }
 
 // All that is kept, then what comes.

@@ -274,8 +274,9 @@ void ViewerSession::OnText(std::string_view text) {
     message.as_of.requests = arrival->mark;
   }
   message.as_of.asked = message.at;
+  const bool only_stops = message.op == "block" || message.op == "abort" || message.op == "pause";
   const auto known = inspection_.application().runtime.robot_stop().CheckIsKnown(message.as_of);
-  if (!known && needed != WebRole::kLook) return Refuse(message, known.error());
+  if (!known && !only_stops && needed != WebRole::kLook) return Refuse(message, known.error());
   if (operation->begin != nullptr) return BeginRequest(*operation, std::move(message));
   if (message.op == "watch") return BeginWatching(message);
   if (message.op == "unwatch") {

@@ -70,7 +70,7 @@ TEST_F(StopAndHand, AReleaseEndsNoBlockThatCameAfterItWasAskedFor) {
   ASSERT_TRUE(wheels.in.Block());
   const auto late = by_hand.Release({"/wheels/in", asked});
   ASSERT_FALSE(late);
-  EXPECT_EQ(late.error().message, "was blocked after this was asked for; look why, then ask again");
+  EXPECT_EQ(late.error().message, "was blocked or set by hand after this was asked for; look why, then ask again");
   EXPECT_TRUE(wheels.in.is_blocked());
   EXPECT_TRUE(wheels.in.is_set_by_hand());
   ASSERT_TRUE(wheels.in.Block()) << "again, which counts";

@@ -23,6 +23,7 @@ export class Link {
   #isSilent = false;
   /** When the newest sign of life of this connection was said, in seconds of the server's machine; 0: there was none yet. */
   at = 0;
+  #heard = 0; // when it came, by this page's clock
 
   /**
    * `onState` is told 'connecting', 'open', 'silent' (there is no fresh sign of life; 'open' again when there is one), 'lost' or
@@ -66,6 +67,7 @@ export class Link {
     if (!(now - given <= kSilent)) return; // nor what does not say when it was
     this.#hear(given);
     this.at = message.at;
+    this.#heard = now;
     this.#onMessage({ ...message, given });
   }
 
@@ -88,6 +90,11 @@ export class Link {
     this.open();
   }
 
+  /** Now by the server's clock, or somewhat earlier; undefined: it is not known. */
+  asked() {
+    return this.at ? this.at + (performance.now() - this.#heard) / 1000 : undefined;
+  }
+
   /** Without waiting for an answer; false if there is no connection. */
   send(message) {
     if (this.#socket?.readyState !== WebSocket.OPEN) return false;
@@ -96,14 +103,14 @@ export class Link {
   }
 
   /**
-   * The server's reply; if the connection breaks, one that says so. Never rejects. With the newest sign of life, by which the
-   * server knows what had happened when the person asked: STOP may have been pressed since.
+   * The server's reply; if the connection breaks, one that says so. Never rejects. It says when the person asked: what has been
+   * stopped since is not moved by it.
    */
   request(message) {
     const number = this.#next++;
     return new Promise((resolve) => {
       this.#requests.set(number, resolve);
-      if (!this.send({ at: this.at, ...message, request: number })) this.#answer(number, Lost('there is no connection to the application: nothing has been sent'));
+      if (!this.send({ at: this.asked(), ...message, request: number })) this.#answer(number, Lost('there is no connection to the application: nothing has been sent'));
     });
   }
 

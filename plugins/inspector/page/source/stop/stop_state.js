@@ -101,7 +101,7 @@ async function Send(link) {
 /** The second, separate act. It says which sign of life it answers: one that comes late ends no STOP that was pressed meanwhile. */
 export async function ReleaseStop() {
   const link = isOwnHeard.value ? own : other;
-  const reply = await link.request({ op: 'release', path: 'stop' });
+  const reply = await link.request({ op: 'release', path: 'stop', at: link.at });
   const error = reply.errors?.[0];
   releaseProblem.value = reply.ok || !isInForce.value ? '' : [error?.message, error?.hint].filter(Boolean).join('; ') || 'it was refused';
 }

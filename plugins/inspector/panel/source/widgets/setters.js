@@ -47,7 +47,7 @@ export function Button({ widget }) {
   const letGo = () => LetGo(widget.target, widget.id);
   useEffect(() => letGo, [widget.target, widget.id]);
   // Held, it is sent again and again, as driving is: the server has the port rest when it is not heard of.
-  const begin = () => canDrive.value && Drive(widget.target, widget.id, text, widget.off ?? Rest(element?.data_type));
+  const begin = () => canDrive.value && Drive(widget.target, widget.id, text, widget.off ?? element?.safe ?? Rest(element?.data_type));
   const pointer = usePointerHold({ begin, end: letGo });
   const isKey = ({ key }) => key === ' ' || key === 'Enter';
   const holding = widget.held && isPort ? { ...pointer, onBlur: letGo,
