@@ -21,17 +21,27 @@ class Filter : public Module {
  protected:
   /// `seconds`: from the value before to this one, by their timestamps; 0 for the first, and where time goes back.
   [[nodiscard]] virtual double Next(double value, double seconds) noexcept = 0;
-  /// What has been put out does not count any more: the robot stands.
-  virtual void BeginFromStandstill() noexcept {}
+  /// What has been put out does not count any more: it goes on from `value`.
+  virtual void BeginAt(double /*value*/) noexcept {}
 
  private:
   void Update() final {
-    if (out.feeds_velocity() && runtime().robot_stop().in_force()) BeginFromStandstill();
+    if (in.is_stopped()) return PassSafeValue();
+    if (out.feeds_velocity() && runtime().robot_stop().in_force()) BeginAt(0);
     if (in.has_queue()) {
       for (auto each = in.Take(); each; each = in.Take()) Pass(each);
     } else if (const auto read = in.Read(); read.is_new()) {
       Pass(read);
     }
+  }
+  // At once, and not on the way to it.
+  void PassSafeValue() {
+    while (in.Take()) {
+    }
+    const auto safe = in.Read();
+    BeginAt(*safe);
+    last_ = now();
+    out.Publish(*safe, safe.timestamp());
   }
   void Pass(const Lease<double>& value) {
     const Time time = value.timestamp();
@@ -57,7 +67,7 @@ class LowPassFilter final : public Filter {
   double Next(double value, double seconds) noexcept override {
     return state_.Next(value, seconds, time_constant.Get());
   }
-  void BeginFromStandstill() noexcept override { state_.Begin(0); }
+  void BeginAt(double value) noexcept override { state_.Begin(value); }
   LowPass state_;
 };
 
@@ -73,7 +83,7 @@ class RateLimiterFilter final : public Filter {
   double Next(double value, double seconds) noexcept override {
     return state_.Next(value, seconds, rise.Get(), fall.Get());
   }
-  void BeginFromStandstill() noexcept override { state_.Begin(0); }
+  void BeginAt(double value) noexcept override { state_.Begin(value); }
   RateLimiter state_;
 };
 

@@ -7,6 +7,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "core/port/port_stop.h"
+#include "core/port/probe_port.h"
 #include "plugins/application/application_checks.h"
 #include "plugins/application_tags/run_description.h"
 #include "plugins/scheduling/thread_container.h"
@@ -40,8 +41,15 @@ void WarnOfSharedThreads(const ApplicationCheckUse& use) {
   for (const FrameworkElement* module : driving) {
     const std::uint64_t id = thread_of(*module);
     const std::size_t count = others[id];
-    if (count == 0) continue;
     const std::string name = threads.contains(id) ? threads[id]->name() : "main";
+    if (threads.contains(id) && threads[id]->options().activation == ThreadOptions::Activation::kTrigger) {
+      use.diagnostics.AddWarning({.message = "something moves by it, and the thread '" + name +
+                                             "' runs it only when data come: when none come any more, it does not find that they are old",
+                                  .path = module->path(),
+                                  .position = FindSourcePlace(*module),
+                                  .hint = "give it a thread with a period"});
+    }
+    if (count == 0) continue;
     use.diagnostics.AddWarning({.message = "something moves by it, and the thread '" + name + "' runs " + std::to_string(count) +
                                            (count == 1 ? " other module" : " other modules") +
                                            ": while one of them does not return, a STOP does not reach it",
@@ -49,6 +57,19 @@ void WarnOfSharedThreads(const ApplicationCheckUse& use) {
                                 .position = FindSourcePlace(*module),
                                 .hint = "give it a thread of its own: <thread name=\"drive\" period=\"…\"/>, and "
                                         "thread=\"drive\" at the module"});
+  }
+}
+
+// What it feeds moves by whatever else is connected to that later.
+void WarnOfMarksBefore(const Port& marked, const ApplicationCheckUse& use) {
+  if (!marked.is_proxy() && marked.direction() == Port::Direction::kInput) return;
+  for (const Port* sink : marked.Sinks()) {
+    if (sink->is_driving() || dynamic_cast<const ProbePort*>(sink) != nullptr) continue;
+    use.diagnostics.AddWarning({.message = "is marked as driving, and not what moves by it: a STOP does not hold what another source "
+                                           "sends to " + sink->path(),
+                                .path = marked.path(),
+                                .position = FindSourcePlace(marked),
+                                .hint = "mark that: <driving port=\"" + sink->path() + "\"/>"});
   }
 }
 
@@ -61,6 +82,7 @@ void CheckMotion(const ApplicationCheckUse& use) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return;
     is_marked = is_marked || port->is_driving();
+    if (port->is_driving()) WarnOfMarksBefore(*port, use);
     // What others read over the network is held by itself.
     const bool is_read = !port->is_proxy() && port->direction() == Port::Direction::kInput;
     if (moves == nullptr && is_read && IsVelocity(port->type(), port->unit())) moves = port;

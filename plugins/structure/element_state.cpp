@@ -12,6 +12,7 @@
 #include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
 #include "core/port/stand_in.h"
+#include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/structure/extension_changes.h"
 
@@ -42,7 +43,11 @@ Result<void> GiveTo(Port& port, const PortState& state) {
   if (is_input) {
     if (auto set = port.SetLimits(state.limits); !set) return set;
   }
-  if (state.stop && state.stop->robot()) {
+  // What its module declares is its module's business: one in its place may declare another safe value.
+  const auto own = port.stop();
+  const auto text_of = [](const PortStop& stop) { return ToText(stop.safe_value().type(), stop.safe_value().get()); };
+  const bool is_declared = state.stop && own && own->robot() && own->brake() == state.stop->brake() && text_of(*own) == text_of(*state.stop);
+  if (state.stop && state.stop->robot() && !is_declared) {
     if (auto set = port.SetDriving(true, state.stop->safe_value(), state.stop->brake()); !set) return set;
   }
   // What was published before a block was released counts no more afterwards either.

@@ -83,6 +83,10 @@ bool StopButton::LookForPort() {
   if (!sources.empty()) {
     rule_.port = sources.front()->path();
     is_gone_ = false;
+    // Of many values at once the queue may have had no room for the one that counts.
+    bool is_down = false;
+    const auto look = [&](const void* value, ValueTimes) { is_down = NumberIn(element_->probe.type(), value) != 0; };
+    if (!is_covered_ && sources.front()->VisitLatest(look) && is_down && !std::exchange(is_down_, true)) Press(rule_.port);
     // Whoever presses the button itself is not heard then.
     if (is_covered_ && !was_covered) Press(rule_.port + ", which is set by hand");
     return true;

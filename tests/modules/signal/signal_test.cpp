@@ -69,6 +69,19 @@ TEST(RateLimiterTest, BeginsFromAStandstillAfterAStop) {
   wheels.DisconnectAll();
 }
 
+TEST(RateLimiterTest, PassesTheSafeValueOfItsInputAtOnce) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  ASSERT_TRUE(rig.Prepare());
+  ASSERT_TRUE(rig.module.in.SetDriving(true, AnyValue(TypeOf<double>(), std::make_shared<const double>(0.25))));
+  (void)After(rig, 1);
+  rig.runtime.robot_stop().Press("a test");
+  EXPECT_EQ(After(rig, 1), 0.25);
+  rig.RunCycles(3);
+  EXPECT_EQ(rig.Last(rig.module.out), 0.25);
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  EXPECT_THAT(After(rig, 1), DoubleNear(0.35, 1e-9)) << "and goes on from there";
+}
+
 TEST(RateLimiterTest, OfWhatMovesNothingAStopIsNoConcern) {
   ModuleRig<RateLimiterFilter> rig(100ms);
   for (int i = 0; i < 20; ++i) (void)After(rig, 1);

@@ -45,6 +45,20 @@ TEST(MotionCheck, NamesAModuleThatDrivesAndSharesItsThread) {
                                ::testing::HasSubstr("give it a thread of its own: <thread name=\"drive\"")));
 }
 
+TEST(MotionCheck, WarnsWhereWhatMovesRunsOnlyWhenDataCome) {
+  EXPECT_THAT(Checked("<thread name='drive' trigger='data'/>\n"
+                      "<module name='m' type='states/filter' thread='drive'/><driving port='m/queued'/>"),
+              ::testing::HasSubstr("it does not find that they are old"));
+}
+
+TEST(MotionCheck, WarnsOfAMarkBeforeWhatMoves) {
+  const std::string moves = "<module name='s' type='states/source'/><module name='m' type='states/filter'/><connect from='s/out' to='m/in'/>";
+  EXPECT_THAT(Checked("<clock type='simulated'/>" + moves + "<driving port='s/out'/>"),
+              ::testing::HasSubstr("/app/s/output/out: is marked as driving, and not what moves by it: a STOP does not hold what another "
+                                   "source sends to /app/m/input/in; mark that: <driving port=\"/app/m/input/in\"/>"));
+  EXPECT_EQ(Checked("<clock type='simulated'/>" + moves + "<driving port='s/out'/><driving port='m/in'/>"), "");
+}
+
 TEST(MotionCheck, IsContentWithAThreadOfItsOwnAndOnASimulatedClock) {
   EXPECT_EQ(Checked("<thread name='control' period='10ms'/><thread name='drive' period='10ms'/>\n"
                     "<module name='s' type='states/source' thread='control'/>\n"

@@ -71,7 +71,7 @@ TEST_F(StopFileTest, TheNextProcessBeginsUnderStopAndSaysSoUntilItIsReleased) {
   EXPECT_EQ(Run()->runtime().robot_stop().state().by, "a viewer, in a process before this one");
   const auto other = Run("b");
   EXPECT_FALSE(IsStopped(other)) << "an application of the same name";
-  (void)EXPECT_TRUE(Run()->runtime().robot_stop().Release("a person"));
+  EXPECT_TRUE(Run()->runtime().robot_stop().Release("a person"));
   const auto last = Run();
   EXPECT_FALSE(IsStopped(last));
   EXPECT_THAT(last.diagnostics().ToString(), IsEmpty());
@@ -103,14 +103,14 @@ TEST_F(StopFileTest, TwoProcessesOfOneApplicationKeepTheirOwn) {
     const auto second = Run();
     EXPECT_TRUE(IsStopped(second));
     EXPECT_THAT(second.diagnostics().ToString(), HasSubstr("pressed by a viewer, in another process that runs"));
-    (void)EXPECT_TRUE(second->runtime().robot_stop().Release("a person"));
+    EXPECT_TRUE(second->runtime().robot_stop().Release("a person"));
   }
   EXPECT_EQ(Files(), 1u) << "of the first one";
   EXPECT_FALSE(IsStopped(Run("a", true))) << "cleared for this process";
   EXPECT_EQ(Files(), 1u);
   first.reset();
   EXPECT_TRUE(IsStopped(Run())) << "the first one has ended under it";
-  (void)EXPECT_TRUE(Run()->runtime().robot_stop().Release("a person"));
+  EXPECT_TRUE(Run()->runtime().robot_stop().Release("a person"));
   EXPECT_EQ(Files(), 0u);
 }
 
@@ -122,7 +122,7 @@ TEST_F(StopFileTest, WhatSeveralHaveLeftIsTakenOverAndReleasedByOne) {
   const auto next = Run();
   EXPECT_TRUE(IsStopped(next));
   WaitUntil("the others' are gone", [&] { return Files() == 1; });
-  (void)EXPECT_TRUE(next->runtime().robot_stop().Release("a person"));
+  EXPECT_TRUE(next->runtime().robot_stop().Release("a person"));
   WaitUntil("nothing is left", [&] { return Files() == 0; });
 }
 
