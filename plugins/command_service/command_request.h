@@ -125,6 +125,7 @@ struct CommandAnswer {
   /// What has to be said besides for it to be done: "overwrite", "yes"; "": that would not help.
   std::string needs = {};
   bool stops_nothing = false;  ///< the STOP is in force, and nothing is marked as driving
+  bool leaves_some = false;    ///< the STOP is in force, and does not reach all that drives
 
   explicit operator bool() const noexcept { return outcome == Outcome::kDone; }
 

@@ -211,12 +211,28 @@ CommandAnswer CommandService::Do(const QuitRequest&) const {
   return AnswerOf(quit());
 }
 
+// What has a stuck module between it and its safe value. Nobody's lock is waited for.
+void CommandService::WarnOfUnreached(CommandAnswer& answer) const {
+  const auto lock = TryStructureLock(application_.runtime, kBlockPatience);
+  if (!lock || application_.scheduler == nullptr) return;
+  application_.runtime.root().Visit([&](const FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    const std::string why = port != nullptr ? application_.scheduler->WhyUnreached(*port) : "";
+    if (why.empty()) return;
+    answer.leaves_some = true;
+    answer.diagnostics.AddWarning({.message = "cannot be reached: " + why,
+                                   .path = port->path(),
+                                   .hint = "what moves by it has to come to rest by itself"});
+  });
+}
+
 CommandAnswer CommandService::Do(const RobotStopRequest& request) const {
   RobotStop& stop = application_.runtime.robot_stop();
   CommandAnswer answer;
   if (request.is_pressed) {
     const char* const since = stop.Press(request.by) ? "" : " already";
     answer = CommandAnswer::Done(std::string("STOP is in force") + since + "; 'runnel release' ends it");
+    WarnOfUnreached(answer);
   } else {
     const std::string pressed_by = stop.state().by;
     if (const auto done = stop.Release(request.by, request.as_of); !done) return CommandAnswer::Refused(done.error());

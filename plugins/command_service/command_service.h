@@ -192,6 +192,7 @@ class CommandService {
   [[nodiscard]] CommandAnswer Do(const QuitRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const BlockRequest& request);
   [[nodiscard]] CommandAnswer Do(const RobotStopRequest& request) const;
+  void WarnOfUnreached(CommandAnswer& answer) const;
   template <typename Request>
   [[nodiscard]] RobotStop::AsOf AsOfNow(const Request& request) const;
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back) const;

@@ -29,6 +29,8 @@ namespace runnel {
 
 namespace {
 
+constexpr const char* kUnreached = "CANNOT BE REACHED";
+
 constexpr std::size_t kLongestValue = 200;
 
 // Of an ElementKind, in their order.
@@ -131,7 +133,7 @@ std::string PortText(const Port& port, const ListingOptions& options) {
   if (port.stamps_ahead()) text += ", STAMPED AHEAD";
   if (port.is_driving()) text += port.runtime().robot_stop().in_force() ? ", driving, IN STOP" : ", driving";
   const std::string unreached = options.scheduler != nullptr ? options.scheduler->WhyUnreached(port) : "";
-  if (!unreached.empty()) text += ", CANNOT BE REACHED: " + unreached;
+  if (!unreached.empty()) text += ", " + std::string(kUnreached) + ": " + unreached;
   if (port.is_blocked()) text += ", BLOCKED";
   if (port.is_set_by_hand()) text += ", set by hand" + HandValue(port);
   if (port.is_set_by_hand(Port::Setter::kRule)) text += ", set by a rule" + RuleValue(port);
@@ -259,7 +261,9 @@ std::string ListElements(FrameworkElement& start, const ListingOptions& options)
     kind_width = std::max(kind_width, rows.back().kind.size());
   }
   std::string text = StopText(start.runtime());
-  if (!text.empty()) text += ": all that drives has its safe value\n";
+  const auto is_unreached = [](const Row& row) { return row.about.find(kUnreached) != row.about.npos; };
+  const char* const but_for = std::ranges::any_of(rows, is_unreached) ? ", but for what cannot be reached" : "";
+  if (!text.empty()) text += std::string(": all that drives has its safe value") + but_for + "\n";
   for (const Row& row : rows) {
     text += row.name + std::string(name_width - CharacterCount(row.name) + 2, ' ') + row.kind;
     if (!row.about.empty()) {

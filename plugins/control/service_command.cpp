@@ -116,7 +116,7 @@ CommandResult MakeServiceCommand(const Request& request, const CommandContext& c
     if (done.outcome == CommandAnswer::Outcome::kRefused) return ControlCode::kBadInput;
     if (done.outcome == CommandAnswer::Outcome::kFailed) return ControlCode::kFailed;
     answer.Write(done.text + "\n");
-    return done.stops_nothing ? ControlCode::kFailed : ControlCode::kDone;
+    return done.stops_nothing || done.leaves_some ? ControlCode::kFailed : ControlCode::kDone;
   });
 }
 

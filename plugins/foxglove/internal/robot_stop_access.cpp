@@ -71,7 +71,7 @@ std::string SetStop(FoxgloveShared& shared, std::string_view name, std::string_v
   }
   const std::string problems = answer.diagnostics.ToString();
   const std::string text = answer.text + (answer.text.empty() || problems.empty() ? "" : "\n") + problems;
-  const bool has_stopped = answer && !answer.stops_nothing;
+  const bool has_stopped = answer && !answer.stops_nothing && !answer.leaves_some;
   return JsonObjectText([&](JsonObject& reply) { reply.Add("success", has_stopped).Add("message", text); });
 }
 

@@ -46,7 +46,7 @@ TEST(MotionCheck, NamesAModuleThatDrivesAndSharesItsThread) {
 }
 
 TEST(MotionCheck, WarnsWhereWhatMovesRunsOnlyWhenDataCome) {
-  EXPECT_THAT(Checked("<thread name='drive' trigger='data'/>\n"
+  EXPECT_THAT(Checked("<thread name='drive' activation='trigger'/>\n"
                       "<module name='m' type='states/filter' thread='drive'/><driving port='m/queued'/>"),
               ::testing::HasSubstr("it does not find that they are old"));
 }
