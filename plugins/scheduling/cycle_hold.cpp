@@ -4,7 +4,6 @@
 #include <chrono>
 
 #include "core/base/check.h"
-#include "core/base/clock.h"
 #include "core/lockfree/backoff.h"
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/scheduling/cycle_runner.h"
