@@ -188,7 +188,9 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       if (!IsHeard(sample.writer)) return;
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
       // By the clocks of both machines, whatever time the application has.
-      if (!writer.has_simulated_time) held_up = writer.clock.HeldUp(now - sent, now);
+      const Time machine = SteadyClock().Now();
+      const Duration on_its_way = ClockOffset{}.Now() + machine.time_since_epoch() - Duration(sample.source_time);
+      if (!writer.has_simulated_time) held_up = writer.clock.HeldUp(on_its_way, machine);
       if (is_comparable) writer.clock.Note(now - sent, now);
       if (is_comparable) sent -= writer.clock.ahead();
     }

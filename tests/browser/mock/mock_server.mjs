@@ -86,14 +86,13 @@ function Now({ saidAt }) {
   return saidAt ?? performance.now() / 1000;
 }
 
-const kOldestRelease = 3; // s since the sign of life that it answers
-
 function AnswerStop(application, op, { path, at }, by, reply) {
   if (op !== 'stop' && (op !== 'release' || path !== 'stop')) return false;
-  if (op === 'release' && !(performance.now() / 1000 - at <= kOldestRelease)) {
-    reply({ ok: false, errors: [{ message: 'this release comes too late', path: null, hint: null }] });
+  if (op === 'release' && !(at >= (application.pressedAt ?? 0))) {
+    reply({ ok: false, errors: [{ message: 'STOP was pressed or released after this was asked for', path: null, hint: null }] });
     return true;
   }
+  if (op === 'stop') application.pressedAt = performance.now() / 1000;
   application.stop = { in_force: op === 'stop', by, since: application.time };
   reply({ ok: true, text: '' });
   return true;

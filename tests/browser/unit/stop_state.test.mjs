@@ -129,3 +129,11 @@ test('a release has the time of the newest sign of life', async () => {
   assert.ok(at <= begin && at > begin - 1, `${at}, and ${begin}`);
   Loosen();
 });
+
+test('a request says when the person asked, by the clock of the server', async () => {
+  await Sleep(300);
+  const before = performance.now() / 1000;
+  await other.request({ op: 'publish', path: '/wheels', value: '1' });
+  const { at } = heard.at(-1);
+  assert.ok(at >= before - 0.1 && at <= performance.now() / 1000, `${at}, asked at ${before}`);
+});
