@@ -79,6 +79,17 @@ void CheckRequiredInputs(Saving& saving, bool is_new_file) {
   });
 }
 
+// To another application: stop buttons and recorders have their ports beside the tree.
+bool IsTiedToOthers(FrameworkElement& application) {
+  const FrameworkElement& root = application.runtime().root();
+  const auto is_there = [&](const Port& port) {
+    const auto found = root.Find(port.path());
+    return found && *found == &port;
+  };
+  return std::ranges::any_of(internal::ExternalConnectionsOf(application),
+                             [&](const Connection& tie) { return is_there(*tie.from) && is_there(*tie.to); });
+}
+
 Error WouldNotLoad(Error reason) {
   reason.message = "the file would not load, and is left as it was: " + reason.message;
   return reason;
@@ -155,7 +166,7 @@ Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& applicat
     if (!saved) return saved.error();
     const bool is_on_disk = source != nullptr && is_its_own && saved->text == source->text && fs::exists(source->file);
     if (!is_on_disk && saved->text != checked) {
-      const bool is_alone = internal::ExternalConnectionsOf(application).empty();
+      const bool is_alone = !IsTiedToOthers(application);
       lock.unlock();
       if (auto good = CheckSavedText(saved->text, file, tools, is_alone); !good) return good.error();
       checked = std::move(saved->text);
