@@ -89,9 +89,11 @@ bool OfferedService::Work() {
   while (const auto request = endpoints_->Take()) {
     std::shared_ptr<const ServiceForm> form;
     Result<std::unique_ptr<AnyCall>> begun = std::unique_ptr<AnyCall>();
+    const RobotStop::AsOf as_of{.requests = runtime_.robot_stop().state().requests};
     {
-      const std::lock_guard lock(runtime_.structure_mutex());
-      begun = Begin(*request);
+      const std::lock_guard lock(runtime_.structure_mutex());  // which may take its time
+      const auto is_meant = runtime_.robot_stop().CheckIsKnown(as_of);
+      begun = is_meant ? Begin(*request) : is_meant.error();
       form = form_;
     }
     if (begun) {
