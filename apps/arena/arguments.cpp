@@ -1,7 +1,6 @@
 #include "apps/arena/arguments.h"
 
 #include <algorithm>
-#include <cmath>
 #include <thread>
 
 #include <CLI/CLI.hpp>

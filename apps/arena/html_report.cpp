@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/base/characters.h"
 #include "modules/simulation/algorithm/outline.h"

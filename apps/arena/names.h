@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/base/diagnostics.h"
-#include "core/base/result.h"
 
 namespace runnel::arena {
 

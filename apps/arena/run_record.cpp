@@ -1,7 +1,6 @@
 #include "apps/arena/run_record.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 

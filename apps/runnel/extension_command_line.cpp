@@ -1,7 +1,5 @@
 #include "apps/runnel/extension_command_line.h"
 
-#include <algorithm>
-
 namespace runnel::program {
 
 using Kind = ExtensionOption::Kind;

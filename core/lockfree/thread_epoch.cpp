@@ -2,7 +2,6 @@
 
 #include <list>
 #include <mutex>
-#include <utility>
 
 #include "core/base/check.h"
 #include "core/base/retry.h"

@@ -4,7 +4,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <utility>
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_listener.h"

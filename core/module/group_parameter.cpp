@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/element/runtime.h"
-#include "core/types/builtin_types.h"
 #include "core/types/text_format.h"
 #include "core/types/type_of.h"
 

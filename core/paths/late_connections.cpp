@@ -1,7 +1,6 @@
 #include "core/paths/late_connections.h"
 
 #include <algorithm>
-#include <mutex>
 #include <utility>
 
 #include "core/base/exception_text.h"

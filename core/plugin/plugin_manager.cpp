@@ -10,8 +10,6 @@
 #include "core/base/exception_text.h"
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
-#include "core/base/retry.h"
-#include "core/base/temporary_folder.h"
 #include "core/plugin/abi_difference.h"
 #include "core/plugin/plugin_entry.h"
 

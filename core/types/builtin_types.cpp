@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <limits>
-#include <type_traits>
 
 #include "core/types/duration_text.h"
 #include "core/types/type_of.h"

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <type_traits>
-#include <typeindex>
 
 #include "core/types/leaf_types.h"
 

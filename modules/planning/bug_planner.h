@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "core/module/module.h"
 #include "core/port/input.h"
@@ -9,7 +8,6 @@
 #include "modules/planning/algorithm/bug_algorithm.h"
 #include "modules/planning/algorithm/bug_variants.h"
 #include "modules/planning/bug_components.h"
-#include "modules/planning/kept_bug_state.h"
 #include "modules/types/drawing.h"
 #include "modules/types/hit_and_leave_points.h"
 #include "modules/types/planner_status.h"

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <string_view>
 
 #include <fmt/format.h>
 
-#include "modules/simulation/algorithm/path_record.h"
 #include "modules/simulation/algorithm/trajectory_svg.h"
 
 namespace runnel {

@@ -1,6 +1,5 @@
 #include "plugins/application/application_checks.h"
 
-#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <utility>

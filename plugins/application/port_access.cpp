@@ -3,9 +3,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <utility>
 
-#include "core/lockfree/epoch.h"
 #include "core/paths/path_search.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/values/watched_port.h"

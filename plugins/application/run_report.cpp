@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/base/exception_text.h"
-#include "core/element/runtime.h"
 #include "core/element/source_place.h"
 #include "core/types/duration_text.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "core/base/nearest_name.h"
 #include "core/element/source_place.h"

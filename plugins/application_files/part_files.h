@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/diagnostics.h"
 #include "core/element/annotation.h"
 #include "core/element/framework_element.h"
 #include "core/xml/xml_document.h"

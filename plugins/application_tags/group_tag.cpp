@@ -1,5 +1,4 @@
 #include <memory>
-#include <utility>
 
 #include "core/element/source_place.h"
 #include "core/module/group.h"

@@ -3,7 +3,6 @@
 #include "plugins/application_tags/tag_list.h"
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <string>
 
-#include "core/base/nearest_name.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_tags/tag_list.h"

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <concepts>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/base/result.h"

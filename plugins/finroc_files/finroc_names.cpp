@@ -1,7 +1,6 @@
 #include "plugins/finroc_files/finroc_names.h"
 
 #include <array>
-#include <cctype>
 #include <charconv>
 
 namespace runnel {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plugins/genom_description/component.h"
 #include "plugins/genom_description/component_rules.h"
 
 namespace runnel::genom {

@@ -1,6 +1,5 @@
 #include "plugins/genom_description/component.h"
 
-#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>

@@ -1,7 +1,5 @@
 // What interfaces bring into components: as if it were written there, or turned round where it is used.
 
-#include <algorithm>
-
 #include "plugins/genom_description/component_rules.h"
 
 namespace runnel::genom {

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "core/base/nearest_name.h"
 #include "plugins/genom_description/component.h"
 #include "plugins/genom_description/parser.h"
 #include "plugins/genom_text/quoted_words.h"

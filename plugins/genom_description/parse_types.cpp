@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "plugins/genom_description/component.h"
 #include "plugins/genom_description/parser.h"

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "plugins/genom_execution/engine.h"
-#include "plugins/genom_execution/request.h"
 
 namespace runnel::genom_execution {
 

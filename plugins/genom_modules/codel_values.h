@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstring>
-#include <string>
 #include <type_traits>
 
 #include "plugins/genom_execution/value_views.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <string>
 
 #include "core/base/exception_text.h"
 #include "core/element/runtime.h"

@@ -4,7 +4,6 @@
 
 #include "core/base/nearest_name.h"
 #include "core/module/wake_source.h"
-#include "core/types/text_format.h"
 #include "plugins/genom_modules/component_module.h"
 #include "plugins/scheduling/thread_container.h"
 

@@ -6,8 +6,6 @@
 #include <cstring>
 #include <deque>
 #include <iostream>
-#include <memory>
-#include <stdexcept>
 #include <string_view>
 #include <thread>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "plugins/genom_text/preprocessor.h"
 
-#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>

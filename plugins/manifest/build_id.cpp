@@ -1,8 +1,6 @@
 #include <cstring>
 #include <fstream>
-#include <span>
 #include <string_view>
-#include <vector>
 
 #include <elf.h>
 #include <fmt/format.h>

@@ -10,7 +10,6 @@
 
 #include "core/base/check.h"
 #include "plugins/mcap/compression.h"
-#include "plugins/mcap/mcap_bytes.h"
 
 namespace runnel {
 

@@ -4,12 +4,10 @@
 #include <utility>
 
 #include "core/conversion/conversion.h"
-#include "core/element/runtime.h"
 #include "core/paths/late_connections.h"
 #include "core/port/probe_port.h"
 #include "core/types/signal.h"
 #include "core/types/type_of.h"
-#include "plugins/network_discovery/distant_type.h"
 
 namespace runnel {
 

@@ -5,7 +5,6 @@
 #include <mutex>
 
 #include "core/element/runtime.h"
-#include "core/lockfree/wake_event.h"
 #include "plugins/network_discovery/discovery_table.h"
 #include "plugins/ros_messages/message_library.h"
 

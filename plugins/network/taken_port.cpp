@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/exception_text.h"
 #include "core/element/runtime.h"
 #include "core/port/own_cycle.h"
 #include "plugins/network_discovery/discovery_table.h"

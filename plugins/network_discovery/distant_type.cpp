@@ -1,7 +1,6 @@
 #include "plugins/network_discovery/distant_type.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"

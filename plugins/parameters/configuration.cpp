@@ -1,7 +1,6 @@
 #include "plugins/parameters/configuration.h"
 
 #include <array>
-#include <utility>
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"

@@ -13,7 +13,6 @@
 #include "plugins/recording/recorder.h"
 #include "plugins/recording/recorder_module.h"
 #include "plugins/recording/recording_info.h"
-#include "plugins/recording/recording_names.h"
 
 namespace runnel {
 

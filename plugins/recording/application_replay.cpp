@@ -1,9 +1,7 @@
 #include "plugins/recording/application_replay.h"
 
-#include <algorithm>
 #include <chrono>
 #include <map>
-#include <memory>
 #include <set>
 #include <utility>
 #include <vector>

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <exception>
 #include <utility>
 
 #include <fmt/chrono.h>
@@ -17,7 +16,6 @@
 #include "plugins/mcap/mcap_writer.h"
 #include "plugins/recording/recording_names.h"
 #include "plugins/scheduling/scheduler.h"
-#include "plugins/values/foxglove_channel.h"
 
 namespace runnel {
 

@@ -1,8 +1,6 @@
 #include "plugins/recording/recording_player.h"
 
 #include <algorithm>
-#include <map>
-#include <mutex>
 #include <utility>
 
 #include "core/base/nearest_name.h"

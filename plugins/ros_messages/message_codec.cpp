@@ -1,6 +1,5 @@
 #include "plugins/ros_messages/message_codec.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/types/type_info.h"

@@ -1,6 +1,5 @@
 #include "plugins/ros_services/offered_service.h"
 
-#include <algorithm>
 #include <mutex>
 #include <utility>
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/clock.h"
 #include "core/element/runtime.h"
 #include "plugins/ros_services/service_endpoints.h"
 #include "plugins/ros_services/service_form.h"

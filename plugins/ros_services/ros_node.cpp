@@ -10,7 +10,6 @@
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/cdr_values/cdr_writer.h"
-#include "plugins/ros_messages/node_messages.h"
 #include "plugins/ros_services/ros_time.h"
 
 namespace runnel {

@@ -4,7 +4,6 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <vector>
 
 #include "core/element/runtime.h"
 #include "plugins/ros_services/service_endpoints.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/check.h"
-#include "core/base/clock.h"
 #include "core/lockfree/backoff.h"
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/scheduling/cycle_runner.h"

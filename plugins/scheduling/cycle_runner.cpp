@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <span>
 
 #include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"

@@ -1,9 +1,7 @@
 #include "plugins/scheduling/fault_dispatcher.h"
 
-#include <algorithm>
 #include <mutex>
 #include <new>
-#include <utility>
 
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"

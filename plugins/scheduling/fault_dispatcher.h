@@ -11,13 +11,10 @@
 #include <vector>
 
 #include "core/base/ordered_mutex.h"
-#include "core/base/result.h"
 #include "core/lockfree/wake_event.h"
 #include "plugins/scheduling/fault.h"
 
 namespace runnel {
-
-class Runtime;
 
 /// Room for one fault, made before it happens, so that raising it needs no memory.
 class FaultRecord {

@@ -1,10 +1,8 @@
 // How long tasks and chains of modules take: what a Scheduler measures if it is asked to.
 
-#include <algorithm>
 #include <mutex>
 #include <utility>
 
-#include "core/lockfree/thread_epoch.h"
 #include "core/paths/path_search.h"
 #include "plugins/timing/cycle_tracer.h"
 #include "plugins/scheduling/scheduler.h"

@@ -5,11 +5,9 @@
 #include <utility>
 
 #include "core/base/clock.h"
-#include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/log/logger.h"
 #include "core/port/port.h"
-#include "plugins/scheduling/real_thread.h"
 
 namespace runnel {
 

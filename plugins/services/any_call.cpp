@@ -1,7 +1,5 @@
 #include "plugins/services/any_call.h"
 
-#include <utility>
-
 namespace runnel {
 
 OwnCall::OwnCall(ServiceBase& service, std::unique_ptr<CallSlots> slots)

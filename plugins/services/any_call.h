@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 
 #include "plugins/services/call_record.h"
 #include "plugins/services/callable.h"

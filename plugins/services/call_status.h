@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "core/types/type_builder.h"
 
 namespace runnel {

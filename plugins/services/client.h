@@ -1,13 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
-#include "core/base/check.h"
 #include "core/port/input.h"
 #include "core/port/port_owner.h"
 #include "plugins/services/client_base.h"

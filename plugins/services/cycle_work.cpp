@@ -1,8 +1,6 @@
 #include "plugins/services/cycle_work.h"
 
-#include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "core/base/exception_text.h"
 #include "core/module/wake_source.h"

@@ -9,7 +9,6 @@
 #include "core/base/result.h"
 #include "core/port/output.h"
 #include "core/port/port_owner.h"
-#include "core/types/signal.h"
 #include "plugins/services/any_call.h"
 #include "plugins/services/call_record.h"
 #include "plugins/services/service_base.h"

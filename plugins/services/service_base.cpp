@@ -1,6 +1,5 @@
 #include "plugins/services/service_base.h"
 
-#include <memory>
 #include <utility>
 
 #include "core/base/exception_text.h"

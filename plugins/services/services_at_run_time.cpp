@@ -1,6 +1,5 @@
 #include "plugins/services/services_at_run_time.h"
 
-#include <cstring>
 #include <map>
 #include <mutex>
 #include <utility>

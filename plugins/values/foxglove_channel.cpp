@@ -1,8 +1,6 @@
 #include "plugins/values/foxglove_channel.h"
 
-#include <algorithm>
 #include <array>
-#include <vector>
 
 #include "core/log/log_sink.h"
 #include "core/types/type_info.h"

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <concepts>
-#include <cstdint>
 #include <limits>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "plugins/wire/reach_filter.h"
 
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>

@@ -5,9 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include <arpa/inet.h>
 #include <netdb.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <fastdds/rtps/network/SenderResource.h>

@@ -7,17 +7,14 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
-#include "core/base/clock.h"
 #include "core/log/log_level.h"
 #include "core/log/log_sink.h"
 #include "core/log/logger.h"
 
 namespace runnel {
 
-class LogSink;
 class Runtime;
 
 namespace internal {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "modules/types/algorithm/angle.h"
 #include "modules/types/algorithm/pose.h"

@@ -1,7 +1,6 @@
 #include "modules/worlds/algorithm/world_generator.h"
 
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/base/diagnostics.h"
 #include "core/element/source_place.h"
 #include "core/paths/path_search.h"
 #include "core/types/duration_text.h"

@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "core/element/element_path.h"
 #include "core/element/not_saved.h"

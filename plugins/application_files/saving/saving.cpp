@@ -5,7 +5,6 @@
 #include "core/base/characters.h"
 #include "core/element/not_saved.h"
 #include "core/plugin/module_type_name.h"
-#include "plugins/parameters/file_path.h"
 
 namespace runnel::internal {
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <functional>
 #include <mutex>
-#include <optional>
 
 #include "core/base/nearest_name.h"
 #include "core/plugin/module_type_name.h"

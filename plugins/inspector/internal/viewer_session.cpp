@@ -6,14 +6,11 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
-#include "core/lockfree/thread_epoch.h"
 #include "core/log/log_level.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/values/json_writer.h"
-#include "plugins/values/value_bytes.h"
 
 namespace runnel::internal {
 

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/types/text_format.h"
 #include "core/types/type_of.h"
 
 namespace runnel::internal {

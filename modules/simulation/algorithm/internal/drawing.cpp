@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cmath>
-#include <string>
 
 #include "modules/simulation/algorithm/internal/drawing.h"
 #include "modules/simulation/algorithm/world_geometry.h"
