@@ -1,16 +1,13 @@
-#include <array>
-#include <cstring>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "apps/runnel/commands.h"
 #include "apps/runnel/output.h"
-#include "core/base/nearest_name.h"
+#include "core/base/program_output.h"
 #include "core/base/replace_file.h"
 #include "plugins/application/application_description.h"
 #include "plugins/application/dot_text.h"
@@ -22,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kKinds{"dot", "pdf", "png", "svg"};
-constexpr int kNoSuchProgram = 127;
 
 // What is written beside the picture until it is whole.
 class TextBeside {
@@ -43,34 +39,21 @@ class TextBeside {
   std::string path_;
 };
 
-// The exit status of `dot`, or kNoSuchProgram.
-int RunDot(const std::string& kind, const std::string& text, const std::string& picture) {
-  const std::string format = "-T" + kind;
-  const std::array<const char*, 6> words{"dot",           format.c_str(), "-o",
-                                         picture.c_str(), text.c_str(),   nullptr};
-  pid_t process = 0;
-  const int problem = posix_spawnp(&process, "dot", nullptr, nullptr,
-                                   const_cast<char* const*>(words.data()), environ);
-  if (problem != 0) return kNoSuchProgram;
-  int status = 0;
-  waitpid(process, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
 Result<void> Draw(const std::string& text, const std::string& output, const std::string& kind) {
   if (kind == "dot") return ReplaceFile(output, text);
   const TextBeside beside(output, text);
   if (!fs::exists(beside.path())) {
     return Error{.message = "cannot be written", .position = {output}};
   }
-  const int status = RunDot(kind, beside.path(), output);
-  if (status == kNoSuchProgram) {
+  const auto ran = OutputOf({.words = {"dot", "-T" + kind, "-o", output, beside.path()}, .keeps_complaints = true});
+  if (!ran) {
     return Error{.message = "the program 'dot' that lays out the picture is not here",
                  .hint = "install the package graphviz, or write the text for it with -o " +
                          fs::path(output).replace_extension(".dot").string()};
   }
-  if (status != 0) {
-    return Error{.message = "'dot' ended with status " + std::to_string(status),
+  std::cerr << ran->text;
+  if (ran->exit_code != 0) {
+    return Error{.message = "'dot' ended with status " + std::to_string(ran->exit_code),
                  .position = {output}};
   }
   return {};

@@ -11,11 +11,10 @@
 #include <cxxabi.h>
 #include <dlfcn.h>
 #include <execinfo.h>
-#include <fcntl.h>
 #include <link.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
+
+#include "core/base/program_output.h"
 
 namespace runnel {
 
@@ -34,13 +33,6 @@ std::string Hexadecimal(std::uintptr_t number) {
   return text.data();
 }
 
-std::string Readable(const char* symbol) {
-  int status = 0;
-  const std::unique_ptr<char, decltype(&std::free)> name(
-      abi::__cxa_demangle(symbol, nullptr, nullptr, &status), &std::free);
-  return name ? name.get() : symbol;
-}
-
 Place PlaceOf(const void* frame) {
   // Within the call, not behind it, where another line or function may begin.
   const void* const call = static_cast<const char*>(frame) - 1;
@@ -50,41 +42,7 @@ Place PlaceOf(const void* frame) {
   const auto offset = reinterpret_cast<std::uintptr_t>(call) - loaded->l_addr;
   const bool is_program = loaded->l_name[0] == '\0';
   return {is_program ? "/proc/self/exe" : loaded->l_name, Hexadecimal(offset),
-          info.dli_sname != nullptr ? Readable(info.dli_sname) : ""};
-}
-
-std::string ReadAll(int file) {
-  std::string text;
-  std::array<char, 4096> part{};
-  for (ssize_t size = 0; (size = read(file, part.data(), part.size())) > 0;) {
-    text.append(part.data(), static_cast<std::size_t>(size));
-  }
-  return text;
-}
-
-// What the program writes, started without a shell; "" if it is not there.
-std::string OutputOf(std::vector<std::string> words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) return {};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t process = 0;
-  const int problem =
-      posix_spawnp(&process, pointers.front(), &actions, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  std::string text;
-  if (problem == 0) {
-    text = ReadAll(ends[0]);
-    waitpid(process, nullptr, 0);
-  }
-  close(ends[0]);
-  return text;
+          info.dli_sname != nullptr ? Demangled(info.dli_sname) : ""};
 }
 
 std::string TakeLine(std::string& text) {
@@ -157,12 +115,20 @@ std::vector<std::string> CallStack::Texts() const {
     std::vector<std::string> words{"addr2line", "-Cfiae",
                                    file == "/proc/self/exe" ? program : file};
     for (const std::size_t each : calls) words.push_back(places[each].offset);
-    std::string output = file.empty() ? "" : OutputOf(std::move(words));
+    const Result<ProgramOutput> answer = file.empty() ? ProgramOutput{} : OutputOf({.words = std::move(words)});
+    std::string output = answer ? answer->text : "";
     for (const std::size_t each : calls) texts[each] = TakeTexts(places[each], output);
   }
   std::vector<std::string> all;
   for (auto& each : texts) std::ranges::move(each, std::back_inserter(all));
   return all;
+}
+
+std::string Demangled(const char* name) {
+  int status = 0;
+  const std::unique_ptr<char, decltype(&std::free)> readable(
+      abi::__cxa_demangle(name, nullptr, nullptr, &status), &std::free);
+  return readable ? readable.get() : name;
 }
 
 }  // namespace runnel

@@ -33,4 +33,7 @@ class CallStack {
   std::size_t depth_ = 0;
 };
 
+/// As people write it: "runnel::Laser" of "N6runnel5LaserE"; what is no such name stays as it is.
+[[nodiscard]] std::string Demangled(const char* name);
+
 }  // namespace runnel

@@ -1,10 +1,10 @@
 #include "core/base/exception_text.h"
 
-#include <cstdlib>
-#include <memory>
 #include <typeinfo>
 
 #include <cxxabi.h>
+
+#include "core/base/call_stack.h"
 
 namespace runnel {
 
@@ -14,10 +14,7 @@ namespace {
 std::string TypeOfCurrentException() {
   const std::type_info* const type = abi::__cxa_current_exception_type();
   if (type == nullptr) return "unknown exception";
-  int status = 0;
-  const std::unique_ptr<char, decltype(&std::free)> name(
-      abi::__cxa_demangle(type->name(), nullptr, nullptr, &status), &std::free);
-  return std::string("exception of type ") + (name ? name.get() : type->name());
+  return "exception of type " + Demangled(type->name());
 }
 
 std::string Describe(const std::exception_ptr& exception) {

@@ -1,13 +1,10 @@
 #include "core/module/kept_state.h"
 
-#include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <string>
 
-#include <cxxabi.h>
-
+#include "core/base/call_stack.h"
 #include "core/base/check.h"
 #include "core/element/framework_element.h"
 #include "core/types/type_info.h"
@@ -20,10 +17,7 @@ namespace {
 using internal::KeptPart;
 
 std::string NameOf(const KeptPart& part) {
-  int status = 0;
-  const std::unique_ptr<char, decltype(&std::free)> name(
-      abi::__cxa_demangle(part.type->name(), nullptr, nullptr, &status), &std::free);
-  return name ? name.get() : part.type->name();
+  return Demangled(part.type->name());
 }
 
 // Why the state cannot go from the one library to the other; nullopt if it can.
