@@ -1,6 +1,7 @@
 #include "apps/arena/journal.h"
 
 #include <array>
+#include <fstream>
 #include <sstream>
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <vector>
@@ -49,8 +48,7 @@ Result<void> ReadEntries(const std::filesystem::path& file, const std::string& t
 [[nodiscard]] Result<std::size_t> Merge(const std::filesystem::path& into,
                                         const std::vector<std::filesystem::path>& parts);
 
-/// The words after `runnel arena merge`. Errors: as above, and what the parser says; without a message, help has been
-/// printed.
-[[nodiscard]] Result<void> RunMerge(int count, const char* const* words);
+/// `runnel arena merge`, with the words from there on. Returns the exit code.
+[[nodiscard]] int RunMerge(int count, const char* const* words);
 
 }  // namespace runnel::arena

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -10,14 +9,11 @@
 #include "apps/arena/progress.h"
 #include "apps/arena/runner.h"
 #include "apps/arena/report.h"
-#include "core/base/exception_text.h"
+#include "apps/program.h"
 
 namespace runnel::arena {
 
 namespace {
-
-/// As those of `runnel`.
-enum class ExitCode : int { kDone = 0, kFailed = 1, kBadInput = 2 };
 
 volatile std::sig_atomic_t stop_is_wanted = 0;
 
@@ -32,13 +28,6 @@ void HandleSignals() {
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
   std::signal(SIGPIPE, SIG_IGN);
-}
-
-ExitCode Refuse(const Error& error, ExitCode code) {
-  Diagnostics diagnostics;
-  diagnostics.Add(error);
-  std::cerr << diagnostics.ToString();
-  return code;
 }
 
 /// Before hours of runs, not after them.
@@ -71,18 +60,18 @@ class Session {
   Session(const ArenaArguments& arguments, const Product& product, const Matrix& matrix)
       : arguments_(arguments), product_(product), matrix_(matrix), records_(matrix.runs.size()) {}
 
-  ExitCode Run() {
-    if (auto opened = OpenJournal(); !opened) return Refuse(opened.error(), ExitCode::kBadInput);
+  int Run() {
+    if (auto opened = OpenJournal(); !opened) return Fail(opened.error());
     const auto to_do = RunsToDo();
     const auto ran = RunAll(to_do);
     const std::vector<RunRecord> finished = Finished();
     std::cout << TablesText(RowsOf(matrix_, finished), finished) << std::flush;
     const auto written = WriteOutputs(finished);
-    if (!ran) Refuse(ran.error(), ExitCode::kFailed);
-    if (!written) Refuse(written.error(), ExitCode::kFailed);
+    if (!ran) Fail(ran.error(), exit_code::kRunFailed);
+    if (!written) Fail(written.error(), exit_code::kRunFailed);
     TellOfTheRest(finished);
     const bool is_complete = finished.size() == matrix_.runs.size();
-    return ran && written && is_complete && std::cout ? ExitCode::kDone : ExitCode::kFailed;
+    return ran && written && is_complete && std::cout ? exit_code::kDone : exit_code::kRunFailed;
   }
 
  private:
@@ -180,26 +169,20 @@ class Session {
   std::vector<std::optional<RunRecord>> records_;  // of each run of the matrix
 };
 
-ExitCode RunArena(int count, const char* const* words) {
-  if (count > 1 && std::string_view(words[1]) == "merge") {
-    const auto merged = RunMerge(count - 1, words + 1);
-    return merged || merged.error().message.empty() ? ExitCode::kDone
-                                                    : Refuse(merged.error(), ExitCode::kBadInput);
-  }
+int RunArena(int count, const char* const* words) {
+  if (count > 1 && std::string_view(words[1]) == "merge") return RunMerge(count - 1, words + 1);
   const auto arguments = ParseArguments(count, words);
   if (!arguments) {
-    if (arguments.error().message.empty()) return ExitCode::kDone;
-    return Refuse(arguments.error(), ExitCode::kBadInput);
+    if (arguments.error().message.empty()) return exit_code::kDone;
+    return Fail(arguments.error());
   }
-  if (auto checked = CheckOutputs(*arguments); !checked) {
-    return Refuse(checked.error(), ExitCode::kBadInput);
-  }
+  if (auto checked = CheckOutputs(*arguments); !checked) return Fail(checked.error());
   const Product product = FindProduct();
   Diagnostics diagnostics;
   const auto matrix = MakeMatrix(*arguments, product, diagnostics);
   if (!matrix) {
     std::cerr << diagnostics.ToString();
-    return ExitCode::kBadInput;
+    return exit_code::kBadInput;
   }
   HandleSignals();
   return Session(*arguments, product, *matrix).Run();
@@ -211,9 +194,9 @@ ExitCode RunArena(int count, const char* const* words) {
 
 int main(int count, char** words) {
   try {
-    return static_cast<int>(runnel::arena::RunArena(count, words));
+    return runnel::arena::RunArena(count, words);
   } catch (...) {
     std::cerr << "error: " << runnel::DescribeException() << '\n';
-    return 1;
+    return runnel::exit_code::kRunFailed;
   }
 }

@@ -4,10 +4,9 @@
 #include <map>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "apps/arena/application_text.h"
 #include "apps/arena/run_record.h"
+#include "apps/program.h"
 
 namespace runnel::arena {
 
@@ -83,25 +82,19 @@ Result<std::size_t> Merge(const std::filesystem::path& into, const std::vector<s
   return records.size();
 }
 
-Result<void> RunMerge(int count, const char* const* words) {
+int RunMerge(int count, const char* const* words) {
   CLI::App program("Puts the runs of several arenas into one file.", "runnel arena merge");
   program.footer("Tables and pages of all of them: 'runnel arena ... --json INTO --resume' with the same words.");
   std::string into;
   std::vector<std::filesystem::path> parts;
   program.add_option("into", into, "the file that gets all runs, and its journal beside it")->type_name("INTO.json")->required();
   program.add_option("parts", parts, "what was given to --json")->type_name("PART.json")->required();
-  try {
-    program.parse(count, words);
-  } catch (const CLI::Success& help) {
-    program.exit(help);
-    return Error{};
-  } catch (const CLI::ParseError& error) {
-    return Error{.message = error.what(), .hint = "see 'runnel arena merge --help'"};
-  }
-  const auto merged = Merge(into, parts);
-  if (!merged) return merged.error();
-  std::cout << *merged << " runs in " << into << "\n";
-  return {};
+  return RunProgram(program, count, words, [&] {
+    const auto merged = Merge(into, parts);
+    if (!merged) return Fail(merged.error());
+    std::cout << *merged << " runs in " << into << "\n";
+    return exit_code::kDone;
+  });
 }
 
 }  // namespace runnel::arena

@@ -1,26 +1,19 @@
 // The commands `runnel generate` and, for descriptions of components, `runnel check`.
 
-#include <array>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <sstream>
 
-#include <CLI/CLI.hpp>
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include "apps/generate/component_check.h"
+#include "apps/program.h"
+#include "core/base/program_output.h"
 #include "plugins/genom_description/description.h"
 #include "plugins/genom_templates/template_run.h"
 
 namespace runnel {
 
 namespace {
-
-constexpr int kDone = 0, kFailed = 1, kBadInput = 2;
 
 struct Arguments {
   std::string what;
@@ -33,41 +26,14 @@ struct Arguments {
   genom::PreprocessorOptions options = {};
 };
 
-struct Answer {
-  std::string text;
-  int status = -1;  // as of wait
-};
-
-// What the program writes; its complaints are of no use to whoever wrote a description.
-Answer Ask(std::array<const char*, 4> words) {
-  Answer answer;
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) return answer;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t process = 0;
-  const int failed = posix_spawnp(&process, words[0], &actions, nullptr, const_cast<char**>(words.data()), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  std::array<char, 4096> buffer{};
-  for (ssize_t got = 0; failed == 0 && (got = read(ends[0], buffer.data(), buffer.size())) > 0;) {
-    answer.text.append(buffer.data(), static_cast<std::size_t>(got));
-  }
-  close(ends[0]);
-  if (failed == 0) waitpid(process, &answer.status, 0);
-  return answer;
-}
-
 // What pkg-config says.
 Result<std::vector<std::string>> FlagsOfPackage(const std::string& package) {
-  const Answer answer = Ask({"pkg-config", "--cflags", package.c_str(), nullptr});
-  if (answer.status != 0) {
+  const auto answer = OutputOf({.words = {"pkg-config", "--cflags", package}});
+  if (!answer || answer->exit_code != 0) {
     return Error{.message = "pkg-config knows no package '" + package + "'",
                  .hint = "install it, or say by PKG_CONFIG_PATH where its .pc file is"};
   }
-  std::istringstream words(answer.text);
+  std::istringstream words(answer->text);
   std::vector<std::string> flags;
   for (std::string word; words >> word;) flags.push_back(word);
   return flags;
@@ -84,21 +50,20 @@ int Check(const Arguments& arguments) {
     errors += diagnostics.errors().size();
     if (diagnostics.ok()) std::cout << file << ": no errors\n" << std::flush;
   }
-  if (errors == 0) return kDone;
+  if (errors == 0) return exit_code::kDone;
   std::cerr << errors << (errors == 1 ? " error\n" : " errors\n");
-  return kBadInput;
+  return exit_code::kBadInput;
 }
 
 int Write(const std::string& text, const std::string& file) {
   if (file.empty()) {
     std::cout << text << std::flush;
-    return std::cout ? kDone : kFailed;
+    return std::cout ? exit_code::kDone : exit_code::kRunFailed;
   }
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << text << std::flush;
-  if (stream) return kDone;
-  std::cerr << "error: " << file << " cannot be written\n";
-  return kFailed;
+  if (stream) return exit_code::kDone;
+  return Fail({.message = "cannot be written", .position = {file}}, exit_code::kRunFailed);
 }
 
 std::string_view NameOf(genom::WrittenFile::What what) {
@@ -131,18 +96,11 @@ std::map<std::string, std::string> Settings(const Arguments& arguments) {
   return settings;
 }
 
-int Refuse(const Error& error) {
-  Diagnostics diagnostics;
-  diagnostics.Add(error);
-  std::cerr << diagnostics.ToString();
-  return kBadInput;
-}
-
 int RunTemplate(const Arguments& arguments, const genom::Description& description) {
   const auto folder = genom::FindTemplate(arguments.what);
-  if (!folder) return Refuse(folder.error());
+  if (!folder) return Fail(folder.error());
   const auto made = genom::RunTemplate(*folder, genom::DescriptionJson(description), Settings(arguments));
-  if (!made) return Refuse(made.error());
+  if (!made) return Fail(made.error());
   Diagnostics diagnostics;
   const std::string output = arguments.output.empty() ? "." : arguments.output;
   int conflicts = 0;
@@ -152,18 +110,19 @@ int RunTemplate(const Arguments& arguments, const genom::Description& descriptio
   }
   std::cout << std::flush;
   std::cerr << diagnostics.ToString();
-  if (!diagnostics.ok()) return kBadInput;
+  if (!diagnostics.ok()) return exit_code::kBadInput;
   if (!arguments.dependencies.empty()) {
     std::vector<std::string> files = description.problems.files();
     files.insert(files.end(), made->sources.begin(), made->sources.end());
     std::string target = output;
     if (!made->files.empty()) target += "/" + made->files.front().path;
-    if (const int failed = Write(DependenciesText(target, files), arguments.dependencies); failed != kDone) return failed;
+    const int failed = Write(DependenciesText(target, files), arguments.dependencies);
+    if (failed != exit_code::kDone) return failed;
   }
-  if (conflicts == 0) return kDone;
+  if (conflicts == 0) return exit_code::kDone;
   std::cerr << conflicts << (conflicts == 1 ? " place" : " places")
             << " to look at: between <<<<<<< and >>>>>>> stand your lines and those of the template\n";
-  return kFailed;
+  return exit_code::kRunFailed;
 }
 
 int Generate(const Arguments& arguments) {
@@ -171,7 +130,7 @@ int Generate(const Arguments& arguments) {
   Diagnostics diagnostics;
   const auto description = genom::ReadDescription(arguments.files, arguments.options, diagnostics);
   std::cerr << diagnostics.ToString();
-  if (!diagnostics.ok()) return kBadInput;
+  if (!diagnostics.ok()) return exit_code::kBadInput;
   if (arguments.what != "json") return RunTemplate(arguments, *description);
   return Write(genom::DescriptionJson(*description) + "\n", arguments.output);
 }
@@ -203,13 +162,5 @@ int main(int count, char** words) {
                    "of check: have the model checker Spin look for what threads and interruptions can come to");
   program.add_option("--depfile", arguments.dependencies, "say there what has been read, for make and ninja")
       ->type_name("FILE");
-  try {
-    program.parse(count, words);
-    return runnel::Generate(arguments);
-  } catch (const CLI::Success& help) {
-    return program.exit(help);
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << "; see 'runnel generate --help'\n";
-    return runnel::kBadInput;
-  }
+  return runnel::RunProgram(program, count, words, [&] { return runnel::Generate(arguments); });
 }

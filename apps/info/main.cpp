@@ -5,10 +5,9 @@
 #include <cstdio>
 #include <iostream>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/base/diagnostics.h"
+#include "apps/program.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_info.h"
 
@@ -64,29 +63,16 @@ void Print(const RecordingInfo& info) {
   std::fflush(stdout);
 }
 
-constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
-
-void PrintError(const Error& error) {
-  Diagnostics diagnostics;
-  diagnostics.Add(error);
-  std::cerr << diagnostics.ToString();
-}
-
 int ShowRecording(const std::string& file, bool is_json) {
   const auto reader = McapReader::Open(file);
-  if (!reader) {
-    PrintError(reader.error());
-    return kBadInput;
-  }
+  if (!reader) return Fail(reader.error());
   const RecordingInfo info = InfoOf(**reader);
   if (is_json) {
     std::cout << RecordingInfoJson(info) << '\n' << std::flush;
   } else {
     Print(info);
   }
-  if (!info.damage) return kDone;
-  PrintError(*info.damage);
-  return kRunFailed;
+  return info.damage ? Fail(*info.damage, exit_code::kRunFailed) : exit_code::kDone;
 }
 
 }  // namespace
@@ -99,13 +85,5 @@ int main(int count, char** words) {
   bool is_json = false;
   program.add_option("recording", file, "file (MCAP)")->required()->type_name("FILE.mcap");
   program.add_flag("--json", is_json, "for programs");
-  try {
-    program.parse(count, words);
-    return runnel::ShowRecording(file, is_json);
-  } catch (const CLI::Success& help) {
-    return program.exit(help);
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << "; see 'runnel info --help'\n";
-    return runnel::kBadInput;
-  }
+  return runnel::RunProgram(program, count, words, [&] { return runnel::ShowRecording(file, is_json); });
 }

@@ -1,24 +1,17 @@
 // The command `runnel keys`: files by which applications in a network know each other and encrypt.
 
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "core/base/diagnostics.h"
-#include "core/base/exception_text.h"
+#include "apps/program.h"
+#include "core/base/program_output.h"
 #include "core/base/replace_file.h"
 #include "core/base/result.h"
 
@@ -71,32 +64,10 @@ std::string PermissionsText(const std::string& name, int days) {
 // The program openssl, in a folder. Errors: what it says.
 Result<void> OpenSsl(const fs::path& folder, std::vector<std::string> words) {
   words.insert(words.begin(), "openssl");
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) return Error{.message = std::strerror(errno)};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  pid_t process = 0;
-  const int problem = posix_spawnp(&process, "openssl", &actions, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  std::string said;
-  if (problem == 0) {
-    std::array<char, 4096> part{};
-    for (ssize_t count = 0; (count = read(ends[0], part.data(), part.size())) > 0;) said.append(part.data(), static_cast<std::size_t>(count));
-  }
-  close(ends[0]);
-  if (problem != 0) return Error{.message = std::string("openssl cannot be run: ") + std::strerror(problem), .hint = "install the package openssl"};
-  int status = 0;
-  waitpid(process, &status, 0);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  return Error{.message = "openssl " + words[1] + " failed: " + said, .position = {folder.string()}};
+  auto said = OutputOf({.words = words, .folder = folder, .keeps_complaints = true});
+  if (!said) return Error{.message = said.error().message, .hint = "install the package openssl"};
+  if (said->exit_code == 0) return {};
+  return Error{.message = "openssl " + words[1] + " failed: " + said->text, .position = {folder.string()}};
 }
 
 const std::vector<std::string> kNewKey = {"-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes"};
@@ -170,15 +141,6 @@ Result<bool> MakeKeys(const fs::path& folder, const std::string& name, int days)
   return true;
 }
 
-constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
-
-int Fail(const Error& error) {
-  Diagnostics diagnostics;
-  diagnostics.Add(error);
-  std::cerr << diagnostics.ToString();
-  return kBadInput;
-}
-
 int Make(const std::string& folder, const std::vector<std::string>& names, int days) {
   umask(S_IRWXG | S_IRWXO);  // keys are nobody else's
   if (const auto made = MakeAuthority(folder, days); !made) return Fail(made.error());
@@ -187,7 +149,7 @@ int Make(const std::string& folder, const std::vector<std::string>& names, int d
     if (!made) return Fail(made.error());
     std::cout << folder << '/' << name << (*made ? "" : "  (is there already)") << '\n';
   }
-  return kDone;
+  return exit_code::kDone;
 }
 
 }  // namespace
@@ -204,16 +166,5 @@ int main(int count, char** words) {
       ->required()
       ->type_name("NAME…");
   program.add_option("--days", days, "until they are no longer valid")->capture_default_str()->check(CLI::PositiveNumber);
-  try {
-    program.parse(count, words);
-    return runnel::Make(folder, names, days);
-  } catch (const CLI::Success& help) {
-    return program.exit(help);
-  } catch (const CLI::Error& error) {
-    std::cerr << "error: " << error.what() << "; see 'runnel keys --help'\n";
-    return runnel::kBadInput;
-  } catch (...) {
-    std::cerr << "error: " << runnel::DescribeException() << '\n';
-    return runnel::kRunFailed;
-  }
+  return runnel::RunProgram(program, count, words, [&] { return runnel::Make(folder, names, days); });
 }

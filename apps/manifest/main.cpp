@@ -2,10 +2,8 @@
 // has it run after each build, so that nobody else has to make modules to know.
 
 #include <filesystem>
-#include <iostream>
 
-#include <CLI/CLI.hpp>
-
+#include "apps/program.h"
 #include "core/base/replace_file.h"
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
@@ -34,14 +32,9 @@ Result<PluginManifest> ManifestOf(const std::string& library) {
 
 int WriteManifest(const std::string& library) {
   const auto manifest = ManifestOf(library);
-  if (!manifest) {
-    std::cerr << manifest.error().ToString() << '\n';
-    return 2;
-  }
+  if (!manifest) return Fail(manifest.error());
   const auto written = ReplaceFile(ManifestFileOf(library), ManifestText(*manifest));
-  if (written) return 0;
-  std::cerr << written.error().ToString() << '\n';
-  return 1;
+  return written ? exit_code::kDone : Fail(written.error(), exit_code::kRunFailed);
 }
 
 }  // namespace
@@ -57,10 +50,5 @@ int main(int count, char** words) {
       ->type_name("FILE.so")
       ->check(CLI::ExistingFile);
   program.footer("Exit codes: 0 done, 1 the file could not be written, 2 bad input.");
-  try {
-    program.parse(count, words);
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : 2;
-  }
-  return runnel::WriteManifest(library);
+  return runnel::RunProgram(program, count, words, [&] { return runnel::WriteManifest(library); });
 }

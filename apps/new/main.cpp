@@ -6,9 +6,8 @@
 #include <set>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "apps/new/new_files.h"
+#include "apps/program.h"
 #include "core/base/nearest_name.h"
 #include "core/base/result.h"
 #include "core/plugin/plugin_manager.h"
@@ -91,8 +90,6 @@ std::string ClassName(const std::string& name) {
 }
 
 namespace fs = std::filesystem;
-
-constexpr int kDone = 0, kFailed = 1, kBadInput = 2;
 
 /// What is to be made, and where.
 struct Wanted {
@@ -181,15 +178,11 @@ constexpr std::array<Kind, 4> kKinds{
      {"test", "a test for a module of the plugin in this folder", NewTest}}};
 
 int Make(const Kind& kind, const Wanted& wanted) {
-  const auto report = [](const Error& error) {
-    std::cerr << "error: " << error.ToString() << '\n';
-    return kBadInput;
-  };
-  if (const auto good = CheckName(wanted.name); !good) return report(good.error());
+  if (const auto good = CheckName(wanted.name); !good) return Fail(good.error());
   const auto made = kind.make(wanted);
-  if (!made) return report(made.error());
+  if (!made) return Fail(made.error());
   std::cout << *made << std::flush;
-  return std::cout ? kDone : kFailed;
+  return std::cout ? exit_code::kDone : exit_code::kRunFailed;
 }
 
 int Main(int count, char** words) {
@@ -213,20 +206,12 @@ int Main(int count, char** words) {
     const std::string hint = NearestNameHint(wanted_kind, names);
     std::cerr << "error: there is no new '" << wanted_kind << "'; "
               << (hint.empty() ? "plugin, module, application or test" : hint) << '\n';
-    return kBadInput;
+    return exit_code::kBadInput;
   }
-  try {
-    program.parse(count, words);
-  } catch (const CLI::Success& help) {
-    return program.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "error: " << error.what() << "; see 'runnel new --help'\n";
-    return kBadInput;
-  }
-  for (const Kind& kind : kKinds) {
-    if (program.got_subcommand(kind.name)) return Make(kind, wanted);
-  }
-  return kBadInput;
+  return RunProgram(program, count, words, [&] {
+    const auto is_chosen = [&](const Kind& kind) { return program.got_subcommand(kind.name); };
+    return Make(*std::ranges::find_if(kKinds, is_chosen), wanted);
+  });
 }
 
 }  // namespace
@@ -234,10 +219,5 @@ int Main(int count, char** words) {
 }  // namespace runnel::new_program
 
 int main(int count, char** words) {
-  try {
-    return runnel::new_program::Main(count, words);
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return runnel::new_program::kFailed;
-  }
+  return runnel::new_program::Main(count, words);
 }

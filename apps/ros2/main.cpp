@@ -6,10 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
-#include "core/base/diagnostics.h"
-#include "core/base/exception_text.h"
+#include "apps/program.h"
 #include "core/base/replace_file.h"
 #include "core/types/type_info.h"
 #include "plugins/application/application_description.h"
@@ -22,25 +19,19 @@ namespace runnel {
 
 namespace {
 
-constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
 constexpr std::string_view kOwnPackage = "runnel_msgs/";
-
-int Fail(const Error& error, int code = kBadInput) {
-  Diagnostics diagnostics;
-  diagnostics.Add(error);
-  std::cerr << diagnostics.ToString();
-  return code;
-}
 
 int WriteFiles(const FileTexts& files, const std::filesystem::path& folder) {
   for (const auto& [name, text] : files) {
     std::error_code problem;
     std::filesystem::create_directories((folder / name).parent_path(), problem);
-    if (problem) return Fail({.message = problem.message(), .position = {(folder / name).string()}}, kRunFailed);
-    if (auto written = ReplaceFile(folder / name, text); !written) return Fail(written.error(), kRunFailed);
+    if (problem) {
+      return Fail({.message = problem.message(), .position = {(folder / name).string()}}, exit_code::kRunFailed);
+    }
+    if (auto written = ReplaceFile(folder / name, text); !written) return Fail(written.error(), exit_code::kRunFailed);
     std::cout << (folder / name).string() << '\n';
   }
-  return kDone;
+  return exit_code::kDone;
 }
 
 // The types of all ports of the plugins' modules, for which one of each is made.
@@ -113,7 +104,7 @@ int Show(const std::vector<std::string>& wanted) {
   for (const MessageDefinition* const each : *messages) {
     std::cout << "# " << each->name << ' ' << TypeHashOf(*each, library) << '\n' << TextOf(*each) << '\n';
   }
-  return kDone;
+  return exit_code::kDone;
 }
 
 }  // namespace
@@ -133,17 +124,8 @@ int main(int count, char** words) {
   import_command->add_option("-o,--output", folder, "folder of the headers")->type_name("FOLDER")->capture_default_str();
   auto* const show_command = program.add_subcommand("show", "shows messages, with the hash of their types");
   show_command->add_option("messages", messages, "sensor_msgs/msg/Imu; a .msg file; a folder of such files")->required()->type_name("MESSAGE…");
-  try {
-    program.parse(count, words);
+  return runnel::RunProgram(program, count, words, [&] {
     if (*export_command) return runnel::Export(plugins, folder);
     return *import_command ? runnel::Import(messages, folder) : runnel::Show(messages);
-  } catch (const CLI::Success& help) {
-    return program.exit(help);
-  } catch (const CLI::Error& error) {
-    std::cerr << "error: " << error.what() << "; see 'runnel ros2 --help'\n";
-    return runnel::kBadInput;
-  } catch (...) {  // plugins may throw anything
-    std::cerr << "error: " << runnel::DescribeException() << '\n';
-    return runnel::kRunFailed;
-  }
+  });
 }

@@ -1,25 +1,101 @@
-#include <iostream>
+// The command `runnel world`: makes a world from a seed.
 
-#include "apps/world/world_command.h"
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "apps/program.h"
+#include "core/base/nearest_name.h"
+#include "modules/simulation/world_file/world_file.h"
+#include "modules/worlds/algorithm/world_generator.h"
+
+namespace runnel {
 
 namespace {
 
-/// As those of `runnel`.
-constexpr int kDone = 0, kFailed = 1, kBadInput = 2;
+struct NamedKind {
+  std::string_view name;
+  WorldKind kind;
+};
+constexpr std::array<NamedKind, 4> kKinds{{{"scatter", WorldKind::kScatter},
+                                           {"maze", WorldKind::kMaze},
+                                           {"spiral", WorldKind::kSpiral},
+                                           {"comb", WorldKind::kComb}}};
+
+Result<WorldKind> KindCalled(const std::string& name) {
+  const auto found = std::ranges::find(kKinds, name, &NamedKind::name);
+  if (found != kKinds.end()) return found->kind;
+  return Error{.message = "there is no kind of world called '" + name + "'",
+               .hint = NearestNameHint(name, NamesOf(kKinds, &NamedKind::name))};
+}
+
+/// Only what differs from the defaults.
+std::string CommandOf(const GeneratorOptions& options) {
+  const GeneratorOptions defaults;
+  std::string command = "runnel world --kind ";
+  command += std::ranges::find(kKinds, options.kind, &NamedKind::kind)->name;
+  command += " --seed " + std::to_string(options.seed);
+  const auto add = [&](const char* name, double value, double usual) {
+    if (value != usual) command += fmt::format(" {} {}", name, value);
+  };
+  add("--width", options.width, defaults.width);
+  add("--height", options.height, defaults.height);
+  add("--gap", options.gap, defaults.gap);
+  add("--count", options.count, defaults.count);
+  return command + (options.is_enclosed ? " --enclosed" : "");
+}
+
+/// Errors: the file cannot be written.
+Result<void> Write(const std::string& text, const std::string& file) {
+  if (file.empty()) {
+    std::cout << text << std::flush;
+    if (std::cout) return {};
+    return Error{.message = "standard output could not be written"};
+  }
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << text;
+  stream.close();
+  if (stream) return {};
+  return Error{.message = "the world cannot be written",
+               .position = {file},
+               .hint = "is its folder there, and may you write in it?"};
+}
+
+/// Makes it, headed by a comment that says how it was made; file "": to standard output.
+int Make(GeneratorOptions& options, const std::string& kind, const std::string& file) {
+  const auto found = KindCalled(kind);
+  if (!found) return Fail(found.error());
+  options.kind = *found;
+  if (const std::string fault = FaultOf(options); !fault.empty()) return Fail({.message = fault});
+  const std::string text = "<!-- Made by: " + CommandOf(options) + " -->\n" + WriteWorld(GenerateWorld(options));
+  const auto written = Write(text, file);
+  return written ? exit_code::kDone : Fail(written.error(), exit_code::kRunFailed);
+}
 
 }  // namespace
 
+}  // namespace runnel
+
 int main(int count, char** words) {
-  using namespace runnel::world_program;
-  const auto arguments = ParseArguments(count, words);
-  if (!arguments) {
-    if (arguments.error().message.empty()) return kDone;
-    std::cerr << "error: " << arguments.error().ToString() << '\n';
-    return kBadInput;
-  }
-  if (const auto written = WriteGeneratedWorld(*arguments); !written) {
-    std::cerr << "error: " << written.error().ToString() << '\n';
-    return kFailed;
-  }
-  return kDone;
+  CLI::App program("Makes a world from a seed: the same options, the same bytes.", "runnel world");
+  runnel::GeneratorOptions options;
+  std::string kind, file;
+  program.add_option("--kind", kind, "scatter, maze, spiral or comb")->required();
+  program.add_option("--seed", options.seed, "of the random numbers")->capture_default_str();
+  program.add_option("--out", file, "the file to write; without, standard output")
+      ->type_name("FILE");
+  program.add_option("--width", options.width, "m along x, of a scatter or maze")
+      ->capture_default_str();
+  program.add_option("--height", options.height, "m along y, of a scatter or maze")
+      ->capture_default_str();
+  program.add_option("--gap", options.gap, "m, of every passage at least")->capture_default_str();
+  program.add_option("--count", options.count,
+                     "shapes of a scatter, teeth of a comb, turns of a spiral; 0: by the seed");
+  program.add_flag("--enclosed", options.is_enclosed, "walls the goal in: it cannot be reached");
+  return runnel::RunProgram(program, count, words, [&] { return runnel::Make(options, kind, file); });
 }

@@ -188,7 +188,7 @@ std::vector<IncludeRule> MakeProjectRules() {
   for (const char* program : {"apps/arena", "apps/world"}) {
     rules.push_back({program,
                      program,
-                     {"core", "modules/types/algorithm", "modules/simulation/algorithm",
+                     {"apps/program.h", "core", "modules/types/algorithm", "modules/simulation/algorithm",
                       "modules/simulation/world_file", "modules/worlds/algorithm"}});
   }
   rules.push_back({"apps/headers", "apps/headers", {"core", "plugins", "modules/types"}});
