@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <mutex>
@@ -16,7 +18,6 @@
 
 #include "apps/runnel/commands.h"
 #include "apps/runnel/end_watch.h"
-#include "apps/runnel/log_file.h"
 #include "apps/runnel/other_programs.h"
 #include "apps/runnel/output.h"
 #include "apps/runnel/progress_display.h"
@@ -48,6 +49,34 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
                              real_seconds, NumberText(seconds / real_seconds));
   }
 }
+
+// A text file into which what happens to an application is written as it happens: `runnel run --log FILE`.
+class LogFile {
+ public:
+  // What was in the file before goes. Errors: Failure().
+  explicit LogFile(std::string file) : file_(std::move(file)), stream_(file_) {}
+
+  // What has come since the last call.
+  void Append(const ApplicationLog& log) {
+    while (next_ < log.end()) {
+      const ApplicationLog::Entries read = log.ReadEntries(next_, ApplicationLog::kMostEntries);
+      if (read.lost > 0) stream_ << "(" << read.lost << " entries came too fast)\n";
+      for (const auto& entry : read.entries) stream_ << ApplicationLog::LineOf(entry) << '\n';
+      stream_.flush();
+      next_ = read.next;
+    }
+  }
+  // Why not all of it is in the file.
+  [[nodiscard]] std::optional<Error> Failure() const {
+    if (stream_) return {};
+    return Error{.message = "the log cannot be written", .position = {file_}};
+  }
+
+ private:
+  std::string file_;
+  std::ofstream stream_;
+  std::uint64_t next_ = 0;
+};
 
 // One run of an application that has been loaded.
 class Session {
