@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <vector>
 
 #include <tinyxml2.h>
@@ -91,6 +90,10 @@ SourcePosition XmlElement::text_position() const {
 const XmlAttribute* XmlElement::Attribute(std::string_view name) const noexcept {
   const auto found = std::ranges::find(node_->attributes, name, &XmlAttribute::name);
   return found == node_->attributes.end() ? nullptr : &*found;
+}
+std::string XmlElement::TextOr(std::string_view name, std::string_view otherwise) const {
+  const XmlAttribute* const found = Attribute(name);
+  return found != nullptr ? found->value : std::string(otherwise);
 }
 
 XmlDocument::XmlDocument(std::unique_ptr<XmlNode> root) noexcept : root_(std::move(root)) {}

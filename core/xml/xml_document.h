@@ -69,6 +69,8 @@ class XmlElement {
 
   /// nullptr if there is none of that name.
   [[nodiscard]] const XmlAttribute* Attribute(std::string_view name) const noexcept;
+  /// What the attribute says; `otherwise` if there is none of that name.
+  [[nodiscard]] std::string TextOr(std::string_view name, std::string_view otherwise = "") const;
 
   friend bool operator==(XmlElement, XmlElement) = default;
 

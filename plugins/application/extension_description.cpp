@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <utility>
 
 #include "core/base/diagnostics.h"
 #include "core/base/folder_names.h"
@@ -21,11 +20,6 @@ const std::vector<std::string> kParts{"command", "option", "tag"};
 // In the order of ExtensionOption::Kind.
 const std::vector<std::string> kKinds{"flag", "optional_value", "value", "list", "argument"};
 
-std::string TextOr(XmlElement element, std::string_view attribute, std::string text) {
-  const XmlAttribute* const found = element.Attribute(attribute);
-  return found != nullptr ? found->value : std::move(text);
-}
-
 // What the file names from its own place.
 std::string PathFrom(const fs::path& file, const std::string& text) {
   return text.empty() ? "" : fs::absolute(file.parent_path() / text).lexically_normal().string();
@@ -33,7 +27,7 @@ std::string PathFrom(const fs::path& file, const std::string& text) {
 
 ExtensionOption ReadOption(XmlElement element, const std::string& name, const fs::path& file,
                            Diagnostics& problems) {
-  const std::string kind = TextOr(element, "kind", kKinds.front());
+  const std::string kind = element.TextOr("kind", kKinds.front());
   const auto known = std::ranges::find(kKinds, kind);
   if (known == kKinds.end()) {
     problems.Add({.message = "'" + kind + "' is no kind of option",
@@ -42,11 +36,11 @@ ExtensionOption ReadOption(XmlElement element, const std::string& name, const fs
   }
   return {.name = name,
           .kind = static_cast<ExtensionOption::Kind>(known - kKinds.begin()),
-          .value_name = TextOr(element, "value", "VALUE"),
-          .summary = TextOr(element, "summary", ""),
-          .command = TextOr(element, "command", ""),
-          .preload = PathFrom(file, TextOr(element, "preload", "")),
-          .is_output = TextOr(element, "writes", "false") == "true"};
+          .value_name = element.TextOr("value", "VALUE"),
+          .summary = element.TextOr("summary"),
+          .command = element.TextOr("command"),
+          .preload = PathFrom(file, element.TextOr("preload")),
+          .is_output = element.TextOr("writes", "false") == "true"};
 }
 
 void ReadPart(XmlElement element, const fs::path& file, ExtensionDescription& extension,

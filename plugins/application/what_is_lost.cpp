@@ -5,7 +5,6 @@
 
 #include "core/port/port.h"
 #include "plugins/application_files/application_builder.h"
-#include "plugins/application_files/saving/application_saver.h"
 #include "plugins/application_files/saving/saving.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/structure/element_state.h"
@@ -24,8 +23,7 @@ std::optional<Error> WhatIsLost(const std::filesystem::path& file) {
   std::string what = "is there already";
   const auto document = XmlDocument::Load(file);
   if (document && document->root().name() == "application") {
-    const XmlAttribute* const name = document->root().Attribute("name");
-    what = "is the file of the application '" + (name != nullptr ? name->value : "") + "'";
+    what = "is the file of the application '" + document->root().TextOr("name") + "'";
   }
   return Error{.message = what + ", and would be lost",
                .position = {file.string()},

@@ -4,7 +4,6 @@
 #include <array>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/element/element_path.h"
@@ -97,8 +96,7 @@ std::array<OptionText, 6> TextsOf(const ConnectOptions& options) {
 
 bool SaysOptions(XmlElement tag, const ConnectOptions& options) {
   return std::ranges::all_of(TextsOf(options), [&](const OptionText& each) {
-    const XmlAttribute* const said = tag.Attribute(each.rule.name);
-    return MeanTheSame(each.rule, said != nullptr ? said->value : each.usual, each.value);
+    return MeanTheSame(each.rule, tag.TextOr(each.rule.name, each.usual), each.value);
   });
 }
 

@@ -1,11 +1,8 @@
 #include <algorithm>
-#include <array>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/element/element_path.h"
 #include "core/plugin/module_type_name.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
@@ -35,16 +32,15 @@ ConnectOptions ReadOptions(const TagUse& use) {
     }
   }
   const XmlAttribute* const pull = use.Find("pull");
-  options.pull = pull != nullptr && pull->value == "true";
+  options.pull = use.xml.TextOr("pull") == "true";
   if (options.pull && options.queue > 0) {
     use.Report({.message = "a connection that pulls cannot have a queue",
                 .hint = "what is pulled is the newest value; leave out one of the two"},
                pull->position);
     options.pull = false;
   }
-  if (const XmlAttribute* const convert = use.Find("convert")) options.convert = convert->value;
-  const XmlAttribute* const late = use.Find("late");
-  options.late = late != nullptr && late->value == "true";
+  options.convert = use.xml.TextOr("convert");
+  options.late = use.xml.TextOr("late") == "true";
   options.when_present = use.Find("when") != nullptr;
   const XmlAttribute* const on_full = use.Find("on_full");
   if (on_full == nullptr) return options;
@@ -184,10 +180,7 @@ XmlTag ConnectTag() {
                                  "one cycle late",
                       .choices = {"false", "true"}}},
       .is_structure = true,
-      .handle = [](const TagUse& use) -> FrameworkElement* {
-        use.context.Defer(BuildStage::kConnections, [use] { ConnectAll(use); });
-        return &use.parent;
-      },
+      .handle = internal::ReadAt<BuildStage::kConnections, ConnectAll>,
       .update = internal::UpdateConnect,
       .missing = [](const XmlElement*, FrameworkElement& home, internal::Saving& saving,
                     internal::FileUpdate*) { return internal::MissingConnections(home, saving); },

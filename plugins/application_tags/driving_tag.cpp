@@ -101,10 +101,7 @@ XmlTag DrivingTag() {
                          {.name = "brake",
                           .kind = AttributeKind::kDuration,
                           .summary = "how long the way there takes from the value read last, 10 s at most; if left out, no time"}},
-          .handle = [](const TagUse& use) -> FrameworkElement* {
-            use.context.Defer(BuildStage::kChecks, [use] { MarkDriving(use); });
-            return &use.parent;
-          },
+          .handle = internal::ReadAt<BuildStage::kChecks, MarkDriving>,
           .update = UpdateDriving,
           .missing = [](const XmlElement*, FrameworkElement& home, Saving& saving,
                         FileUpdate*) { return MissingMarks(home, saving); },

@@ -104,10 +104,7 @@ XmlTag InputTag() {
                           .summary = "what becomes of a value that is not between them: discard "
                                      "(by default), clamp, or default",
                           .choices = OutOfBoundsNames()}},
-          .handle = [](const TagUse& use) -> FrameworkElement* {
-            use.context.Defer(BuildStage::kParameters, [use] { SetInputLimits(use); });
-            return &use.parent;
-          },
+          .handle = internal::ReadAt<BuildStage::kParameters, SetInputLimits>,
           .saved = SavedLimits,
           .place = 1};
 }

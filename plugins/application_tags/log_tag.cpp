@@ -1,8 +1,6 @@
 #include "core/log/log_level.h"
 
-#include <algorithm>
 #include <map>
-#include <optional>
 #include <string>
 
 #include "core/element/not_saved.h"
@@ -21,15 +19,12 @@ namespace {
 using internal::FileUpdate;
 using internal::Saving;
 
-FrameworkElement* HandleLog(const TagUse& use) {
-  use.context.Defer(BuildStage::kChecks, [use] {
-    const XmlAttribute* const of = use.Find("of");
-    const FrameworkElement* const subtree =
-        of != nullptr ? SearchElement(PathIn(*of, use.parent), use.context) : &use.parent;
-    if (subtree == nullptr) return;
-    SetLogLevel(use.context.runtime(), subtree->path(), LogLevelOf(use.Get("level").value).value());
-  });
-  return &use.parent;
+void ReadLog(const TagUse& use) {
+  const XmlAttribute* const of = use.Find("of");
+  const FrameworkElement* const subtree =
+      of != nullptr ? SearchElement(PathIn(*of, use.parent), use.context) : &use.parent;
+  if (subtree == nullptr) return;
+  SetLogLevel(use.context.runtime(), subtree->path(), LogLevelOf(use.Get("level").value).value());
 }
 
 /// What is set of the application and what is in it, as one saving has it written.
@@ -122,7 +117,7 @@ XmlTag LogTag() {
                           .summary = "the least that is logged; info if nothing is said",
                           .choices = {LogLevelNames().begin(), LogLevelNames().end()}},
                          PathRule("of", false, "the module or group, with all below it; the one around if left out")},
-          .handle = HandleLog,
+          .handle = internal::ReadAt<BuildStage::kChecks, ReadLog>,
           .update = UpdateLog,
           .missing = [](const XmlElement*, FrameworkElement& home, Saving& saving,
                         FileUpdate* update) { return MissingLevels(home, saving, update); },

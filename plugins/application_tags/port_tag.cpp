@@ -78,9 +78,8 @@ void MakePort(const TagUse& use) {
   if (type == nullptr) return use.context.MarkMissing(use.parent, &name);
   const auto direction =
       use.Get("direction").value == "input" ? Port::Direction::kInput : Port::Direction::kOutput;
-  const XmlAttribute* const description = use.Find("description");
   auto& port = use.context.runtime().Create<ProxyPort>(
-      use.parent, name.value, direction, *type, description != nullptr ? description->value : "");
+      use.parent, name.value, direction, *type, use.xml.TextOr("description"));
   port.Annotate(std::make_unique<SourcePlace>(use.xml.position()));
 }
 
@@ -117,10 +116,7 @@ XmlTag PortTag() {
                                      "connected to, inside the group or else outside"},
                          {.name = "description", .kind = AttributeKind::kText}},
           .is_structure = true,
-          .handle = [](const TagUse& use) -> FrameworkElement* {
-            use.context.Defer(BuildStage::kInterfaces, [use] { MakePort(use); });
-            return &use.parent;
-          },
+          .handle = internal::ReadAt<BuildStage::kInterfaces, MakePort>,
           .saved = SavedPorts,
           .place = 1};
 }

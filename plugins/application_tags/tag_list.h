@@ -6,6 +6,7 @@
 #include "core/element/framework_element.h"
 #include "core/port/port.h"
 #include "core/types/any_value.h"
+#include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/xml_tag.h"
 #include "plugins/supervision/supervision_rules.h"
@@ -52,6 +53,13 @@ namespace runnel {
 }
 
 namespace internal {
+
+/// For XmlTag::handle: has a tag read when that stage of the building has come.
+template <BuildStage kStage, void (*kRead)(const TagUse& use)>
+FrameworkElement* ReadAt(const TagUse& use) {
+  use.context.Defer(kStage, [use] { kRead(use); });
+  return &use.parent;
+}
 
 /// A value of the port's type; nothing after reporting that the text is none.
 [[nodiscard]] AnyValue ReadValue(const TagUse& use, const XmlAttribute& text, const Port& port);

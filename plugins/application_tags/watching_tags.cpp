@@ -14,10 +14,7 @@ namespace runnel {
 namespace {
 
 template <void (*kRead)(const TagUse& use)>
-FrameworkElement* InTheEnd(const TagUse& use) {
-  use.context.Defer(BuildStage::kChecks, [use] { kRead(use); });
-  return &use.parent;
-}
+constexpr auto InTheEnd = internal::ReadAt<BuildStage::kChecks, kRead>;
 
 using When = SupervisionRule::When;
 
@@ -109,11 +106,10 @@ void AddLatency(const TagUse& use) {
 }
 
 void AddStopButton(const TagUse& use) {
-  const XmlAttribute* const releases = use.Find("releases");
   const Port* const port = SearchPort(PathIn(use.Get("port"), use.parent), PathKind::kOutput, use.context);
   if (port == nullptr) return;
   if (auto good = CheckStopButton(*port); !good) return use.Report(good.error(), use.Get("port").value_position);
-  internal::RunRulesAround(use.parent).stop_buttons.push_back({port->path(), releases && releases->value == "true"});
+  internal::RunRulesAround(use.parent).stop_buttons.push_back({port->path(), use.xml.TextOr("releases") == "true"});
 }
 
 // Nobody changes it while the application runs, so the file keeps it.

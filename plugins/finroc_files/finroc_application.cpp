@@ -2,22 +2,15 @@
 
 #include <memory>
 #include <mutex>
-#include <utility>
 
 #include "core/element/source_place.h"
 #include "core/module/group.h"
-#include "plugins/application_files/application_builder.h"
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/finroc_files/finroc_reader.h"
 
 namespace runnel {
 
 namespace {
-
-std::string NameOf(XmlElement root, const std::filesystem::path& file) {
-  const XmlAttribute* const name = root.Attribute("defaultname");
-  return SnakeCase(name != nullptr ? name->value : file.stem().string());
-}
 
 // What would have fed them may have had no counterpart, which has been told; the rest is built.
 void WarnOfRequiredInputs(FrameworkElement& application, const BuildTools& tools,
@@ -33,7 +26,8 @@ FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, cons
   FrameworkElement* application = nullptr;
   const FrameworkElement& top = tools.runtime.root();
   context.Attempt({"reading the file", root.position(), &top}, [&] {
-    application = &tools.runtime.Create<Group>(tools.runtime.root(), NameOf(root, file));
+    const std::string name = SnakeCase(root.TextOr("defaultname", file.stem().string()));
+    application = &tools.runtime.Create<Group>(tools.runtime.root(), name);
     application->Annotate(std::make_unique<SourcePlace>(root.position()));
     internal::FinrocReader(*application, context).Read(root, file);
   });

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -14,7 +13,6 @@
 #include "core/port/proxy_port.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
-#include "plugins/application_files/path_use.h"
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/scheduling/thread_container.h"
 
@@ -33,7 +31,7 @@ std::string StaticParameter(XmlElement element, std::string_view name) {
   for (const XmlElement list : element.children()) {
     if (list.name() != "parameters") continue;
     for (const XmlElement each : list.children()) {
-      if (SnakeCase(TextOfAttribute(each, "name")) == name) return each.text();
+      if (SnakeCase(each.TextOr("name")) == name) return each.text();
     }
   }
   return "";
@@ -75,7 +73,7 @@ void FinrocReader::ReadContents(XmlElement root, FrameworkElement& group, const 
     if (child.name() == "edge") {
       ReadEdge(child, group);
     } else if (child.name() == "parameter") {
-      const std::string link = SnakeCasePath(TextOfAttribute(child, "link"));
+      const std::string link = SnakeCasePath(child.TextOr("link"));
       ReadParameter(child, WithoutLast(link, 2), LastName(link), group);
     } else if (child.name() == "parameter_links") {
       ReadParameterLinks(child, "", group);
@@ -111,15 +109,15 @@ bool FinrocReader::LoadLibrary(const std::string& plugin) {
 }
 
 void FinrocReader::ReadElement(XmlElement element, FrameworkElement& parent, const fs::path& file) {
-  const std::string name = SnakeCase(TextOfAttribute(element, "name"));
-  const std::string type = SnakeCase(TextOfAttribute(element, "type"));
+  const std::string name = SnakeCase(element.TextOr("name"));
+  const std::string type = SnakeCase(element.TextOr("type"));
   if (parent.FindChild(name) != nullptr) {
     return Warn("there is already an element called '" + name + "'",
                 "names differ by more than blanks and capitals here", element.position(), parent);
   }
   const bool is_thread = type.ends_with("thread_container");
   const bool is_group = is_thread || type == "group" || type.ends_with("_group");
-  const bool is_of_structure = LibraryName(TextOfAttribute(element, "group")) == "structure";
+  const bool is_of_structure = LibraryName(element.TextOr("group")) == "structure";
   if (!is_of_structure || !is_group) return ReadModule(element, parent);
   auto& group = context_.runtime().Create<Group>(parent, name);
   group.Annotate(std::make_unique<SourcePlace>(element.position()));
@@ -174,15 +172,15 @@ void FinrocReader::MakeThread(XmlElement element, FrameworkElement& group) {
 }
 
 void FinrocReader::ReadModule(XmlElement element, FrameworkElement& parent) {
-  const std::string name = SnakeCase(TextOfAttribute(element, "name"));
-  const std::string library = LibraryName(TextOfAttribute(element, "group"));
-  const std::string type = library + "/" + SnakeCase(TextOfAttribute(element, "type"));
+  const std::string name = SnakeCase(element.TextOr("name"));
+  const std::string library = LibraryName(element.TextOr("group"));
+  const std::string type = library + "/" + SnakeCase(element.TextOr("type"));
   const ModuleRegistry& modules = context_.plugins().modules();
   LoadLibrary(library);
   if (modules.Find(type) == nullptr) {
     const auto missing = modules.Get(type);
     return Warn(
-        "there is no module type '" + type + "' for '" + TextOfAttribute(element, "name") + "'",
+        "there is no module type '" + type + "' for '" + element.TextOr("name") + "'",
         missing.error().hint, element.position(), parent);
   }
   const auto made = modules.Create(type, parent, name);
@@ -207,10 +205,10 @@ void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) 
     return Warn("an application has no interface", "put what is in it into a group",
                 interface.position(), group);
   }
-  const bool is_output = SnakeCase(TextOfAttribute(interface, "name")).ends_with("output");
+  const bool is_output = SnakeCase(interface.TextOr("name")).ends_with("output");
   for (const XmlElement port : interface.children()) {
-    const std::string name = SnakeCase(TextOfAttribute(port, "name"));
-    const TypeInfo* type = FindType(TextOfAttribute(port, "type"));
+    const std::string name = SnakeCase(port.TextOr("name"));
+    const TypeInfo* type = FindType(port.TextOr("type"));
     // The first connection tells the type where its name is FINROC's.
     for (const XmlElement edge : interface.parent()->children()) {
       if (type != nullptr || edge.name() != "edge") continue;
@@ -223,7 +221,7 @@ void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) 
       if (end != nullptr) type = &end->type();
     }
     if (type == nullptr || group.FindChild(name) != nullptr) {
-      Warn(type == nullptr ? "the type '" + TextOfAttribute(port, "type") +
+      Warn(type == nullptr ? "the type '" + port.TextOr("type") +
                                  "' is not known, and no connection within tells it"
                            : "there is already an element called '" + name + "'",
            "", port.position(), group);
@@ -294,8 +292,8 @@ void FinrocReader::ReadConversion(XmlElement conversion, FrameworkElement& group
                 "put a module between the two", conversion.position(), group);
   }
   for (const char* number : {"", "1", "2"}) {
-    const std::string operation = TextOfAttribute(conversion, std::string("operation") + number);
-    const std::string parameter = TextOfAttribute(conversion, std::string("parameter") + number);
+    const std::string operation = conversion.TextOr(std::string("operation") + number);
+    const std::string parameter = conversion.TextOr(std::string("parameter") + number);
     // What needs no name here.
     if (operation.empty() || operation == "static_cast" || operation == "ToString") continue;
     if (operation == "[]") {

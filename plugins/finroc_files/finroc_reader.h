@@ -12,12 +12,6 @@
 
 namespace runnel::internal {
 
-/// "" if there is none.
-[[nodiscard]] inline std::string TextOfAttribute(XmlElement element, std::string_view name) {
-  const XmlAttribute* const found = element.Attribute(name);
-  return found != nullptr ? found->value : "";
-}
-
 /// Makes what a FINROC file describes below an application, and warns of the rest.
 ///
 /// Threads: under the structure lock.

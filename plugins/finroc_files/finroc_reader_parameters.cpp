@@ -1,6 +1,5 @@
 // Values of parameters, in each of the forms in which FINROC has written them.
 
-#include <algorithm>
 #include <utility>
 
 #include "core/base/nearest_name.h"
@@ -35,7 +34,7 @@ void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& mo
     }
     if (list.name() != "parameters") continue;
     for (const XmlElement each : list.children()) {
-      const std::string name = SnakeCase(TextOfAttribute(each, "name"));
+      const std::string name = SnakeCase(each.TextOr("name"));
       const ConfigurableElement parameter = FindConfigurable(module, name);
       const auto set =
           parameter ? parameter.configurable->SetFromText(
@@ -51,7 +50,7 @@ void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& mo
 void FinrocReader::ReadParameterLinks(XmlElement links, const std::string& path,
                                       FrameworkElement& group) {
   for (const XmlElement child : links.children()) {
-    const std::string name = SnakeCase(TextOfAttribute(child, "name"));
+    const std::string name = SnakeCase(child.TextOr("name"));
     if (child.name() == "element") {
       ReadParameterLinks(child, path.empty() ? name : path + "/" + name, group);
     } else if (child.name() == "parameter") {
@@ -77,11 +76,11 @@ void FinrocReader::ReadParameter(XmlElement parameter, const std::string& path,
     candidates.emplace_back(from_file(value->value, open_.back()), value->value_position);
   }
   if (const auto* entry =
-          context_.configuration().FindEntry(TextOfAttribute(parameter, "config"))) {
+          context_.configuration().FindEntry(parameter.TextOr("config"))) {
     candidates.emplace_back(from_file(entry->text, entry->position.file), entry->position);
   }
   if (const auto* entry =
-          context_.configuration().FindArgument(TextOfAttribute(parameter, "cmdline"))) {
+          context_.configuration().FindArgument(parameter.TextOr("cmdline"))) {
     candidates.emplace_back(entry->text, entry->position);
   }
   if (!found) {

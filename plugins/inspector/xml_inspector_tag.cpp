@@ -1,8 +1,6 @@
 #include "plugins/inspector/xml_inspector_tag.h"
 
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "core/base/number_text.h"
 #include "core/element/annotation.h"
@@ -64,11 +62,6 @@ void Check(const Result<T>& read, const TagUse& use, const XmlAttribute& attribu
                      attribute.value_position, use.parent);
 }
 
-bool IsTrue(const TagUse& use, std::string_view name) {
-  const XmlAttribute* const attribute = use.Find(name);
-  return attribute != nullptr && attribute->value == "true";
-}
-
 void ReadPlace(const TagUse& use, InspectorPlace& place) {
   if (const XmlAttribute* const port = use.Find("port")) {
     const auto number = ParseNetworkPort(port->value);
@@ -86,9 +79,9 @@ void ReadPlace(const TagUse& use, InspectorPlace& place) {
   if (const XmlAttribute* const file = use.Find("token_file")) place.token_file = file->value;
   if (const XmlAttribute* const file = use.Find("certificate")) place.certificate = file->value;
   if (const XmlAttribute* const file = use.Find("key")) place.key = file->value;
-  place.is_insecure = IsTrue(use, "insecure");
-  place.is_for_all_users = IsTrue(use, "all_users");
-  place.is_read_only = IsTrue(use, "read_only");
+  place.is_insecure = use.xml.TextOr("insecure") == "true";
+  place.is_for_all_users = use.xml.TextOr("all_users") == "true";
+  place.is_read_only = use.xml.TextOr("read_only") == "true";
 }
 
 FrameworkElement* ChooseInspector(const TagUse& use) {

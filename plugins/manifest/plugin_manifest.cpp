@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -57,12 +56,7 @@ void AppendParameterTag(const ModuleDescription::Parameter& parameter, std::stri
   text += "/>\n";
 }
 
-std::string TextIn(XmlElement element, std::string_view name) {
-  const XmlAttribute* const found = element.Attribute(name);
-  return found != nullptr ? found->value : "";
-}
-
-bool IsTrue(XmlElement element, std::string_view name) { return TextIn(element, name) == "true"; }
+bool IsTrue(XmlElement element, std::string_view name) { return element.TextOr(name) == "true"; }
 
 std::vector<std::string> WordsIn(const std::string& text) {
   std::vector<std::string> words;
@@ -75,34 +69,34 @@ std::vector<std::string> WordsIn(const std::string& text) {
 }
 
 ModuleDescription::Port ReadPort(XmlElement element) {
-  return {.name = TextIn(element, "name"),
-          .group = TextIn(element, "group"),
+  return {.name = element.TextOr("name"),
+          .group = element.TextOr("group"),
           .is_input = IsTrue(element, "is_input"),
-          .type = TextIn(element, "type"),
+          .type = element.TextOr("type"),
           .is_required = IsTrue(element, "is_required"),
-          .description = TextIn(element, "description")};
+          .description = element.TextOr("description")};
 }
 
 ModuleDescription::Parameter ReadParameter(XmlElement element) {
-  return {.name = TextIn(element, "name"),
-          .type = TextIn(element, "type"),
-          .unit = TextIn(element, "unit"),
-          .default_value = TextIn(element, "default"),
-          .bounds = TextIn(element, "bounds"),
-          .minimum = NumberIn<double>(TextIn(element, "minimum")),
-          .maximum = NumberIn<double>(TextIn(element, "maximum")),
-          .choices = WordsIn(TextIn(element, "choices")),
+  return {.name = element.TextOr("name"),
+          .type = element.TextOr("type"),
+          .unit = element.TextOr("unit"),
+          .default_value = element.TextOr("default"),
+          .bounds = element.TextOr("bounds"),
+          .minimum = NumberIn<double>(element.TextOr("minimum")),
+          .maximum = NumberIn<double>(element.TextOr("maximum")),
+          .choices = WordsIn(element.TextOr("choices")),
           .is_static = IsTrue(element, "is_static"),
-          .description = TextIn(element, "description")};
+          .description = element.TextOr("description")};
 }
 
 ModuleDescription ReadModule(XmlElement element, const std::string& plugin,
                              Diagnostics& problems) {
   CheckChildren(element, std::vector<std::string>{"parameter", "port"}, problems);
-  ModuleDescription module{.type = TextIn(element, "type"),
-                           .summary = TextIn(element, "summary"),
+  ModuleDescription module{.type = element.TextOr("type"),
+                           .summary = element.TextOr("summary"),
                            .plugin = plugin,
-                           .problem = TextIn(element, "problem")};
+                           .problem = element.TextOr("problem")};
   for (const XmlElement child : element.children()) {
     if (child.name() == "port") module.ports.push_back(ReadPort(child));
     if (child.name() == "parameter") module.parameters.push_back(ReadParameter(child));
@@ -140,7 +134,7 @@ Result<PluginManifest> ReadManifest(const std::filesystem::path& library) {
   if (!document) return document.error();
   const XmlElement root = document->root();
   PluginManifest manifest{
-      .plugin = TextIn(root, "name"), .build_id = TextIn(root, "build_id"), .modules = {}};
+      .plugin = root.TextOr("name"), .build_id = root.TextOr("build_id"), .modules = {}};
   const auto build_id = BuildIdOf(library);
   if (!build_id) return build_id.error();
   if (*build_id != manifest.build_id) {

@@ -16,10 +16,7 @@ namespace {
 using Words = std::map<std::string, std::string>;
 
 SaidOf SaidIn(XmlElement tag) {
-  return [tag](const char* name) {
-    const XmlAttribute* const said = tag.Attribute(name);
-    return said != nullptr ? said->value : std::string();
-  };
+  return [tag](const char* name) { return tag.TextOr(name); };
 }
 
 template <typename Options>

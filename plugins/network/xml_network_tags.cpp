@@ -1,7 +1,6 @@
 #include "plugins/network/xml_network_tags.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <optional>
 #include <utility>
@@ -29,11 +28,7 @@ constexpr Duration kShortestLease = std::chrono::seconds(1);
 constexpr Duration kLongestLease = std::chrono::hours(1);
 const std::vector<std::string> kReaches = {"loopback", "machine", "network"};
 
-std::string TextOf(const TagUse& use, std::string_view name) {
-  const XmlAttribute* const attribute = use.Find(name);
-  return attribute != nullptr ? attribute->value : "";
-}
-bool IsTrue(const TagUse& use, std::string_view name) { return TextOf(use, name) == "true"; }
+bool IsTrue(const TagUse& use, std::string_view name) { return use.xml.TextOr(name) == "true"; }
 
 void ReadDomain(const TagUse& use, WireMemberOptions& member) {
   const XmlAttribute* const said = use.Find("domain");
@@ -83,14 +78,14 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
   NetworkOptions options{.position = use.xml.position()};
   WireMemberOptions& member = options.member;
   ReadDomain(use, member);
-  member.name = use.Find("name") != nullptr ? TextOf(use, "name") : use.parent.name();
+  member.name = use.xml.TextOr("name", use.parent.name());
   if (const XmlAttribute* const reach = use.Find("reach")) {
     member.reach = static_cast<WireReach>(std::ranges::find(kReaches, reach->value) - kReaches.begin());
   }
-  member.peers = SplitPaths(TextOf(use, "peers"));
+  member.peers = SplitPaths(use.xml.TextOr("peers"));
   CheckPeers(use, member);
-  member.interface = TextOf(use, "interface");
-  member.has_multicast = TextOf(use, "multicast") != "false";
+  member.interface = use.xml.TextOr("interface");
+  member.has_multicast = use.xml.TextOr("multicast") != "false";
   if (const XmlAttribute* const interface = use.Find("interface"); interface != nullptr && member.reach != WireReach::kNetwork) {
     use.Report({.message = "an interface is chosen only where the network is reached",
                 .hint = "say reach=\"network\", or leave it out"},
@@ -113,7 +108,7 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
   ReadCommands(use, options);
   ReadMessages(use, options);
   options.is_live = IsTrue(use, "live");
-  if (use.Find("engine") != nullptr) options.engine = TextOf(use, "engine");
+  options.engine = use.xml.TextOr("engine", options.engine);
   const auto engine = FindWireEngine(options.engine, use.context.plugins());
   if (!engine) use.Report(engine.error(), use.Find("engine") != nullptr ? use.Find("engine")->value_position : use.xml.position());
   auto& network = use.context.runtime().Create<NetworkElement>(use.parent, "network", std::move(options));
@@ -155,7 +150,7 @@ void AddOffer(const TagUse& use, OfferOptions offer) {
 }
 
 FrameworkElement* HandleOffer(const TagUse& use) {
-  OfferOptions offer = OfferSaid([&](const char* name) { return TextOf(use, name); });
+  OfferOptions offer = OfferSaid([&](const char* name) { return use.xml.TextOr(name); });
   offer.position = use.xml.position();
   const XmlAttribute* const ports = use.Find("ports");
   if ((ports == nullptr) == (use.Find("port") == nullptr)) {
@@ -201,7 +196,7 @@ FrameworkElement* HandleTake(const TagUse& use) {
     use.Report({.message = "<take> says which topic, or which service", .hint = "topic=\"/cmd_vel\", or service=\"/save_map\""},
                use.xml.position());
   }
-  TakeOptions take = TakeSaid([&](const char* name) { return TextOf(use, name); });
+  TakeOptions take = TakeSaid([&](const char* name) { return use.xml.TextOr(name); });
   take.is_live = take.is_live || NetworkElement::FindIn(use.parent)->options().is_live;
   take.position = use.xml.position();
   const bool is_right = use.Find("topic") != nullptr && CheckTopicOf(use);
@@ -221,15 +216,16 @@ FrameworkElement* HandleRos(const TagUse& use) {
     return &use.parent;
   }
   CheckReachOfNodes(use, network.options().member);
-  RosOptions ros{.distribution = TextOf(use, "distribution"),
-                 .node = use.Find("node") != nullptr ? TextOf(use, "node") : NearestRosName("/" + network.options().member.name),
+  RosOptions ros{.distribution = use.xml.TextOr("distribution"),
+                 .node = use.xml.TextOr("node", NearestRosName("/" + network.options().member.name)),
                  .sends_clock = IsTrue(use, "clock"),
-                 .follows_clock = TextOf(use, "clock") == "follow",
+                 .follows_clock = use.xml.TextOr("clock") == "follow",
                  .sends_log = IsTrue(use, "log"),
                  .sends_diagnostics = IsTrue(use, "diagnostics"),
                  .stop_releases = IsTrue(use, "stop_releases")};
   if (use.Find("parameters") != nullptr) {
-    ros.parameters = static_cast<RosParameterUse>(std::ranges::find(RosParameterUses(), TextOf(use, "parameters")) - RosParameterUses().begin());
+    const auto parameters = std::ranges::find(RosParameterUses(), use.xml.TextOr("parameters"));
+    ros.parameters = static_cast<RosParameterUse>(parameters - RosParameterUses().begin());
   }
   if (const auto checked = CheckRosName(ros.node); !checked) use.Report(checked.error(), use.Get("node").value_position);
   const char* const environment = std::getenv("ROS_DISTRO");

@@ -32,11 +32,6 @@ bool CheckName(const TagUse& use) {
   return checked.has_value();
 }
 
-std::string TypeOf(const TagUse& use) {
-  const XmlAttribute* const as = use.Find("as");
-  return as != nullptr ? as->value : "";
-}
-
 const SourcePosition& PlaceOfType(const TagUse& use, const char* otherwise) {
   const XmlAttribute* const as = use.Find("as");
   return (as != nullptr ? *as : use.Get(otherwise)).value_position;
@@ -57,14 +52,14 @@ bool OfferService(const TagUse& use, const Port& port) {
   NetworkElement& network = *NetworkElement::FindIn(use.parent);
   const NetworkOptions& options = network.options();
   const MessageLibrary& messages = options.messages != nullptr ? *options.messages : MessageLibrary::Standard();
-  const auto form = ServiceForm::Make(callable->arguments(), callable->reply(), TypeOf(use), messages);
+  const auto form = ServiceForm::Make(callable->arguments(), callable->reply(), use.xml.TextOr("as"), messages);
   if (!form) {
     use.Report(form.error(), PlaceOfType(use, "port"));
     return true;
   }
   network.AddServiceOffer({.port = port.path(),
                            .service = name != nullptr ? name->value : TopicOfPort(options.member.name, port.path()),
-                           .as = TypeOf(use),
+                           .as = use.xml.TextOr("as"),
                            .position = use.xml.position()});
   return true;
 }
@@ -72,10 +67,9 @@ bool OfferService(const TagUse& use, const Port& port) {
 FrameworkElement* TakeService(const TagUse& use) {
   const bool is_right = CheckName(use) && SaysNothingElse(use, {"topic", "field", "qos", "stamp", "exclusive"});
   NetworkElement& network = *NetworkElement::FindIn(use.parent);
-  const XmlAttribute* const live = use.Find("live");
   ServiceTakeOptions take{.service = use.Get("service").value,
-                          .as = TypeOf(use),
-                          .is_live = (live != nullptr && live->value == "true") || network.options().is_live,
+                          .as = use.xml.TextOr("as"),
+                          .is_live = use.xml.TextOr("live") == "true" || network.options().is_live,
                           .position = use.xml.position()};
   use.context.Defer(BuildStage::kConnections, [use, is_right, &network, take = std::move(take)] {
     for (const PathUse& to_use : PathsIn(use.Get("to"), use.parent)) {

@@ -1,7 +1,6 @@
 #include "plugins/parameters/configuration_saver.h"
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -76,11 +75,6 @@ std::string TextIn(const fs::path& folder, const Entry& entry) {
   return moved.empty() ? entry.text : moved.string();
 }
 
-std::string NameOf(XmlElement element) {
-  const XmlAttribute* const name = element.Attribute("name");
-  return name != nullptr ? name->value : "";
-}
-
 bool IsSection(XmlElement element) {
   return element.name() == "section" || element.name() == "node";
 }
@@ -88,7 +82,7 @@ bool IsSection(XmlElement element) {
 std::optional<XmlElement> Child(XmlElement parent, std::string_view name, bool is_section) {
   for (const XmlElement child : parent.children()) {
     const bool is_kind = is_section ? IsSection(child) : child.name() == "value";
-    if (is_kind && NameOf(child) == name) return child;
+    if (is_kind && child.TextOr("name") == name) return child;
   }
   return {};
 }
