@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
-#include "core/types/type_builder.h"
+#include "core/types/type_of.h"
 
 namespace runnel {
 
@@ -53,11 +53,42 @@ struct RosDiagnostics {
   std::vector<RosDiagnosticStatus> status;
 };
 
-void Describe(TypeBuilder<RosLog>& type);
-void Describe(TypeBuilder<RosHeader>& type);
-void Describe(TypeBuilder<RosKeyValue>& type);
-void Describe(TypeBuilder<RosHealth>& type);
-void Describe(TypeBuilder<RosDiagnosticStatus>& type);
-void Describe(TypeBuilder<RosDiagnostics>& type);
+// Names with a dot: whoever describes a type of the same message has its name to himself.
+inline void Describe(TypeBuilder<RosLog>& type) {
+  type.Name("ros.Log")
+      .Field("stamp", &RosLog::stamp)
+      .Field("level", &RosLog::level)
+      .Field("name", &RosLog::name)
+      .Field("msg", &RosLog::msg)
+      .Field("file", &RosLog::file)
+      .Field("function", &RosLog::function)
+      .Field("line", &RosLog::line);
+}
+inline void Describe(TypeBuilder<RosHeader>& type) {
+  type.Name("ros.Header").Field("stamp", &RosHeader::stamp).Field("frame_id", &RosHeader::frame_id);
+}
+inline void Describe(TypeBuilder<RosKeyValue>& type) {
+  type.Name("ros.KeyValue").Field("key", &RosKeyValue::key).Field("value", &RosKeyValue::value);
+}
+inline void Describe(TypeBuilder<RosHealth>& type) {
+  type.Name("ros.Health")
+      .Value("ok", RosHealth::kOk)
+      .Value("warning", RosHealth::kWarning)
+      .Value("error", RosHealth::kError)
+      .Value("stale", RosHealth::kStale);
+}
+inline void Describe(TypeBuilder<RosDiagnosticStatus>& type) {
+  type.Name("ros.DiagnosticStatus")
+      .Field("level", &RosDiagnosticStatus::level)
+      .Field("name", &RosDiagnosticStatus::name)
+      .Field("message", &RosDiagnosticStatus::message)
+      .Field("hardware_id", &RosDiagnosticStatus::hardware_id)
+      .Field("values", &RosDiagnosticStatus::values);
+}
+inline void Describe(TypeBuilder<RosDiagnostics>& type) {
+  type.Name("ros.Diagnostics")
+      .Field("header", &RosDiagnostics::header)
+      .Field("status", &RosDiagnostics::status);
+}
 
 }  // namespace runnel

@@ -7,7 +7,7 @@
 
 #include "core/base/clock.h"
 #include "core/base/result.h"
-#include "core/types/type_builder.h"
+#include "core/types/type_of.h"
 
 namespace runnel {
 
@@ -126,21 +126,98 @@ struct RosParameterEvent {
   std::vector<RosParameter> new_parameters, changed_parameters, deleted_parameters;
 };
 
-void Describe(TypeBuilder<RosParameterType>& type);
-void Describe(TypeBuilder<RosParameterValue>& type);
-void Describe(TypeBuilder<RosParameter>& type);
-void Describe(TypeBuilder<RosFloatRange>& type);
-void Describe(TypeBuilder<RosIntegerRange>& type);
-void Describe(TypeBuilder<RosParameterDescriptor>& type);
-void Describe(TypeBuilder<RosSetResult>& type);
-void Describe(TypeBuilder<RosParameterNames>& type);
-void Describe(TypeBuilder<RosParameterDescriptors>& type);
-void Describe(TypeBuilder<RosParameterTypes>& type);
-void Describe(TypeBuilder<RosParameterValues>& type);
-void Describe(TypeBuilder<RosListRequest>& type);
-void Describe(TypeBuilder<RosListReply>& type);
-void Describe(TypeBuilder<RosSetRequest>& type);
-void Describe(TypeBuilder<RosSetReply>& type);
-void Describe(TypeBuilder<RosParameterEvent>& type);
+inline void Describe(TypeBuilder<RosParameterType>& type) {
+  type.Name("ros.ParameterType")
+      .Value("not_set", RosParameterType::kNotSet)
+      .Value("bool", RosParameterType::kBool)
+      .Value("integer", RosParameterType::kInteger)
+      .Value("double", RosParameterType::kDouble)
+      .Value("string", RosParameterType::kString)
+      .Value("byte_array", RosParameterType::kByteArray)
+      .Value("bool_array", RosParameterType::kBoolArray)
+      .Value("integer_array", RosParameterType::kIntegerArray)
+      .Value("double_array", RosParameterType::kDoubleArray)
+      .Value("string_array", RosParameterType::kStringArray);
+}
+inline void Describe(TypeBuilder<RosParameterValue>& type) {
+  type.Name("ros.ParameterValue")
+      .Field("type", &RosParameterValue::type)
+      .Field("bool_value", &RosParameterValue::bool_value)
+      .Field("integer_value", &RosParameterValue::integer_value)
+      .Field("double_value", &RosParameterValue::double_value)
+      .Field("string_value", &RosParameterValue::string_value)
+      .Field("byte_array_value", &RosParameterValue::byte_array_value)
+      .Field("bool_array_value", &RosParameterValue::bool_array_value)
+      .Field("integer_array_value", &RosParameterValue::integer_array_value)
+      .Field("double_array_value", &RosParameterValue::double_array_value)
+      .Field("string_array_value", &RosParameterValue::string_array_value);
+}
+inline void Describe(TypeBuilder<RosParameter>& type) {
+  type.Name("ros.Parameter").Field("name", &RosParameter::name).Field("value", &RosParameter::value);
+}
+inline void Describe(TypeBuilder<RosFloatRange>& type) {
+  type.Name("ros.FloatingPointRange")
+      .Field("from_value", &RosFloatRange::from_value)
+      .Field("to_value", &RosFloatRange::to_value)
+      .Field("step", &RosFloatRange::step);
+}
+inline void Describe(TypeBuilder<RosIntegerRange>& type) {
+  type.Name("ros.IntegerRange")
+      .Field("from_value", &RosIntegerRange::from_value)
+      .Field("to_value", &RosIntegerRange::to_value)
+      .Field("step", &RosIntegerRange::step);
+}
+inline void Describe(TypeBuilder<RosParameterDescriptor>& type) {
+  type.Name("ros.ParameterDescriptor")
+      .Field("name", &RosParameterDescriptor::name)
+      .Field("type", &RosParameterDescriptor::type)
+      .Field("description", &RosParameterDescriptor::description)
+      .Field("additional_constraints", &RosParameterDescriptor::additional_constraints)
+      .Field("read_only", &RosParameterDescriptor::read_only)
+      .Field("dynamic_typing", &RosParameterDescriptor::dynamic_typing)
+      .Field("floating_point_range", &RosParameterDescriptor::floating_point_range)
+      .Field("integer_range", &RosParameterDescriptor::integer_range);
+}
+inline void Describe(TypeBuilder<RosSetResult>& type) {
+  type.Name("ros.SetParametersResult")
+      .Field("successful", &RosSetResult::successful)
+      .Field("reason", &RosSetResult::reason);
+}
+inline void Describe(TypeBuilder<RosParameterNames>& type) {
+  type.Name("ros.ParameterNames").Field("names", &RosParameterNames::names);
+}
+inline void Describe(TypeBuilder<RosParameterDescriptors>& type) {
+  type.Name("ros.ParameterDescriptors").Field("descriptors", &RosParameterDescriptors::descriptors);
+}
+inline void Describe(TypeBuilder<RosParameterTypes>& type) {
+  type.Name("ros.ParameterTypes").Field("types", &RosParameterTypes::types);
+}
+inline void Describe(TypeBuilder<RosParameterValues>& type) {
+  type.Name("ros.ParameterValues").Field("values", &RosParameterValues::values);
+}
+inline void Describe(TypeBuilder<RosListRequest>& type) {
+  type.Name("ros.ListParameters_Request")
+      .Field("prefixes", &RosListRequest::prefixes)
+      .Field("depth", &RosListRequest::depth);
+}
+inline void Describe(TypeBuilder<RosListReply>& type) {
+  type.Name("ros.ListParametersResult")
+      .Field("names", &RosListReply::names)
+      .Field("prefixes", &RosListReply::prefixes);
+}
+inline void Describe(TypeBuilder<RosSetRequest>& type) {
+  type.Name("ros.SetParameters_Request").Field("parameters", &RosSetRequest::parameters);
+}
+inline void Describe(TypeBuilder<RosSetReply>& type) {
+  type.Name("ros.SetParameters_Response").Field("results", &RosSetReply::results);
+}
+inline void Describe(TypeBuilder<RosParameterEvent>& type) {
+  type.Name("ros.ParameterEvent")
+      .Field("stamp", &RosParameterEvent::stamp)
+      .Field("node", &RosParameterEvent::node)
+      .Field("new_parameters", &RosParameterEvent::new_parameters)
+      .Field("changed_parameters", &RosParameterEvent::changed_parameters)
+      .Field("deleted_parameters", &RosParameterEvent::deleted_parameters);
+}
 
 }  // namespace runnel
