@@ -277,6 +277,7 @@ struct Prober final : Module {
       if (lock) ++free;
     }).join();
   }
+  void Update() override {}
   static inline Runtime* other = nullptr;
   static inline int looks = 0;
   static inline int free = 0;
