@@ -21,7 +21,6 @@
 #include "apps/runnel/other_programs.h"
 #include "apps/runnel/output.h"
 #include "apps/runnel/progress_display.h"
-#include "apps/runnel/stop_signal.h"
 #include "core/log/log_sink.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/application/application.h"

@@ -13,6 +13,10 @@ namespace {
 // How long rates are counted for a long listing, by the machine's clock.
 constexpr Duration kRateWindow = std::chrono::milliseconds(500);
 
+// Of the log.
+constexpr std::size_t kEntriesAtOnce = 500;
+constexpr Duration kLookForNew = std::chrono::milliseconds(100);
+
 // Says what `text` makes under the lock.
 Command Told(Runtime& runtime, std::function<std::string()> text) {
   return Command(UnderLock(runtime, [text = std::move(text)](Answer& answer) -> CommandStep {
@@ -61,6 +65,22 @@ CommandResult MakeTypesCommand(const Request&, const CommandContext& context) {
       text += type->name + (type->summary.empty() ? "" : "\t" + type->summary) + "\n";
     }
     return text;
+  });
+}
+
+CommandResult MakeLogCommand(const Request& request, const CommandContext& context) {
+  if (request.Has("level")) return MakeServiceCommand(request, context);
+  return Command([&log = context.application.log, follows = request.Has("follow"),
+                  next = std::uint64_t{0}](Answer& answer) mutable -> CommandStep {
+    const ApplicationLog::Entries read = log.ReadEntries(next, kEntriesAtOnce);
+    std::string text;
+    if (read.lost > 0) text = "(" + std::to_string(read.lost) + " earlier entries are gone)\n";
+    for (const auto& entry : read.entries) text += ApplicationLog::LineOf(entry) + "\n";
+    if (!text.empty()) answer.Write(text);
+    next = read.next;
+    if (!read.entries.empty()) return Duration{};
+    if (!follows) return ControlCode::kDone;
+    return kLookForNew;
   });
 }
 

@@ -6,11 +6,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "core/lockfree/wake_event.h"
 #include "core/module/module.h"
 #include "core/port/output.h"
-#include "plugins/genom_modules/async_worker.h"
+#include "plugins/genom_execution/codel_runner.h"
 #include "plugins/genom_modules/component_service.h"
 #include "plugins/genom_modules/component_service_base.h"
 #include "plugins/genom_modules/component_state.h"
@@ -18,6 +20,53 @@
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel::genom_modules {
+
+/// A thread that runs the asynchronous codels of one task, one at a time.
+///
+/// Threads: Begin() and WaitUntilBack() by the task's.
+class AsyncWorker {
+ public:
+  AsyncWorker() : thread_([this](const std::stop_token& stop) { Run(stop); }) {}
+  ~AsyncWorker() {
+    thread_.request_stop();
+    given_.Notify();
+  }
+  AsyncWorker(const AsyncWorker&) = delete;
+  AsyncWorker& operator=(const AsyncWorker&) = delete;
+
+  void Begin(genom_execution::AsyncWork& work) noexcept {
+    work_.store(&work, std::memory_order_release);
+    given_.Notify();
+  }
+  /// Not in a cycle, but on a simulated clock.
+  void WaitUntilBack() noexcept {
+    while (is_away()) back_.Wait();
+  }
+  /// At most until then, by the machine. False: it is still away.
+  [[nodiscard]] bool WaitUntilBack(Time deadline) noexcept {
+    while (is_away() && SteadyClock().Now() < deadline) back_.WaitUntil(deadline);
+    return !is_away();
+  }
+
+ private:
+  [[nodiscard]] bool is_away() const noexcept { return work_.load(std::memory_order_acquire) != nullptr; }
+  void Run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      given_.Wait();
+      genom_execution::AsyncWork* const work = work_.load(std::memory_order_acquire);
+      if (work == nullptr) continue;
+      work->Run();
+      work_.store(nullptr, std::memory_order_release);
+      back_.Notify();
+    }
+  }
+
+  // release by who gives or has done the work, acquire by who looks.
+  std::atomic<genom_execution::AsyncWork*> work_{nullptr};
+  WakeEvent given_;
+  WakeEvent back_;
+  std::jthread thread_;  // last: uses all of it
+};
 
 /// Of an input: when the values that codels have of it were measured, and who has read them. Threads: any; Note() one at a time.
 struct PortReading {

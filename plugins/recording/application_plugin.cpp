@@ -1,22 +1,78 @@
+#include <iterator>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "core/element/element_path.h"
+#include "core/element/source_place.h"
+#include "core/module/module.h"
 #include "core/plugin/plugin_entry.h"
+#include "core/port/output.h"
 #include "core/port/port.h"
+#include "core/xml/xml_document.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/application/application.h"
 #include "plugins/application/application_extension.h"
 #include "plugins/application/extension_registry.h"
+#include "plugins/parameters/file_path.h"
+#include "plugins/parameters/static_parameter.h"
 #include "plugins/recording/application_replay.h"
 #include "plugins/recording/recorder.h"
-#include "plugins/recording/recorder_module.h"
 #include "plugins/recording/recording_info.h"
 
 namespace runnel {
 
+/// What a recorder in an application says of itself.
+struct RecorderState {
+  std::uint64_t values = 0;
+  std::uint64_t dropped = 0;
+  std::uint64_t bytes = 0;
+};
+inline void Describe(TypeBuilder<RecorderState>& type) {
+  type.Name("RecorderState")
+      .Field("values", &RecorderState::values, {.description = "written so far"})
+      .Field("dropped", &RecorderState::dropped, {.description = "came too fast"})
+      .Field("bytes", &RecorderState::bytes, {.unit = "B", .description = "of the file"});
+}
+
+/// A Recorder as a module, for applications that always record. Begins when the application is ready, and
+/// ends with it. A recording that cannot go on (a full disk) is a fault of this module.
+///
+/// Threads:  Update() asks the recorder how it is going. On a simulated clock it waits there until the
+///           recorder has caught up, so run it in the thread whose modules publish fastest.
+class RecorderModule final : public Module {
+ public:
+  using Module::Module;
+
+  StaticParameter<FilePath> file{
+      this, "file", {.description = "the file (MCAP) to record to; it must not be there yet"}};
+  StaticParameter<std::string> ports{
+      this,
+      "ports",
+      {.description =
+           "patterns, with blanks between: /robot/** */pose !**/scan; empty: all outputs"}};
+  StaticParameter<std::string> compression{
+      this, "compression", {.description = "zstd, lz4, none; empty: the first that is there"}};
+  Output<RecorderState> state{this, "state"};
+
+ private:
+  Result<void> Prepare() override;
+  void Update() override;
+
+  std::unique_ptr<Recorder> recorder_;
+  bool is_simulated_ = false;
+};
+
 namespace {
+
+std::vector<std::string> Words(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
 
 // "recorded 1234 values of 5 ports, 1.2 MB, to run.mcap", with what was lost, and an end of line.
 std::string RecordingText(const std::string& file, const RecordingStatus& status) {
@@ -182,6 +238,41 @@ Result<Extensions> MakeRecordings(const ExtensionArguments& arguments) {
 }
 
 }  // namespace
+
+Result<void> RecorderModule::Prepare() {
+  if (file.Get().empty()) {
+    return Error{.message = "needs the file to record to, as parameter 'file'", .path = path()};
+  }
+  is_simulated_ = dynamic_cast<const ManualClock*>(&runtime().clock()) != nullptr;
+  RecordedApplication about{.name = std::string(SplitPath(path()).front())};
+  {
+    const std::lock_guard lock(runtime().structure_mutex());
+    about.file = FindSourcePlace(*this).file;
+  }
+  // A recorder that was made while the application runs stands in no file.
+  if (auto text = XmlDocument::ReadText(about.file)) about.text = std::move(*text);
+  auto started = Recorder::Start(runtime(), nullptr,
+                                 {.file = file.Get().path().string(),
+                                  .ports = Words(ports.Get()),
+                                  .compression = compression.Get(),
+                                  .about = std::move(about)});
+  if (!started) {
+    Error error = started.error();
+    if (error.path.empty()) error.path = path();
+    return error;
+  }
+  recorder_ = std::move(*started);
+  return {};
+}
+
+void RecorderModule::Update() {
+  if (is_simulated_) recorder_->WaitForRoom();
+  if (const auto failure = recorder_->TakeFailure()) {
+    throw std::runtime_error("the recording has ended: " + failure->ToString());
+  }
+  const RecordingStatus status = recorder_->status();
+  state.Publish({status.values, status.dropped, status.bytes});
+}
 
 }  // namespace runnel
 

@@ -1,17 +1,104 @@
 #include "plugins/wire_shared_memory/shared_memory_wire.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <fstream>
+#include <map>
 #include <mutex>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "plugins/wire_shared_memory/neighbours.h"
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include "plugins/wire_shared_memory/segment_server.h"
 
 namespace runnel {
 
 namespace {
+
+constexpr std::string_view kKey = "shared_memory=";
+constexpr const char* kLayout = "/2";  // of what is shared: others are sent octets
+
+/// What a member says of itself, so that those who share this machine's memory with it know each other: same machine since
+/// it was started, same network, same user. "shared_memory=0123456789abcdef;".
+std::string MemoryOfThisProcess() {
+  std::string started;
+  std::getline(std::ifstream("/proc/sys/kernel/random/boot_id") >> std::ws, started);
+  struct stat network {};
+  // Without either, alone.
+  if (started.empty() || stat("/proc/self/ns/net", &network) != 0) started = std::to_string(getpid());
+  const std::string text = started + '/' + std::to_string(network.st_ino) + '/' + std::to_string(geteuid()) + kLayout;
+  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a: others need not know the parts
+  for (const char each : text) hash = (hash ^ static_cast<unsigned char>(each)) * 0x100000001b3;
+  std::string said(kKey);
+  for (int shift = 60; shift >= 0; shift -= 4) said += "0123456789abcdef"[hash >> shift & 15];
+  return said + ';';
+}
+
+/// What a member says besides.
+std::string WithoutMemory(std::string user_data) {
+  const std::size_t begin = user_data.find(kKey);
+  if (begin != std::string::npos) user_data.erase(begin, user_data.find(';', begin) - begin + 1);
+  return user_data;
+}
+
+/// Who reads which topic, and whether it shares this process's memory.
+///
+/// Threads: any.
+class Neighbours {
+ public:
+  explicit Neighbours(std::string memory) : memory_(std::move(memory)) {}
+
+  void Add(const WireMember& member) {
+    const std::lock_guard lock(mutex_);
+    if (member.user_data.find(memory_) != std::string::npos) {
+      sharing_.insert(member.id);
+    } else {
+      sharing_.erase(member.id);
+    }
+  }
+  void RemoveMember(const WireId& id) {
+    const std::lock_guard lock(mutex_);
+    sharing_.erase(id);
+  }
+  void Add(const WireEndpoint& endpoint) {
+    const std::lock_guard lock(mutex_);
+    if (!endpoint.is_own) endpoints_[endpoint.id] = endpoint;
+  }
+  void RemoveEndpoint(const WireId& id) {
+    const std::lock_guard lock(mutex_);
+    endpoints_.erase(id);
+  }
+
+  /// Whether there are `matched` readers of the topic at least, and all that there are share the memory.
+  [[nodiscard]] bool AllShare(const std::string& topic, std::size_t matched) const {
+    const std::lock_guard lock(mutex_);
+    std::size_t count = 0;
+    for (const auto& [id, each] : endpoints_) {
+      if (each.is_writer || each.options.topic != topic) continue;
+      if (!sharing_.contains(each.participant)) return false;
+      ++count;
+    }
+    return count > 0 && count >= matched;
+  }
+  /// Whether it is known of a writer that it is there.
+  [[nodiscard]] bool IsThere(std::uint64_t writer) const {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(
+        endpoints_, [&](const auto& each) { return each.second.is_writer && each.second.handle == writer; });
+  }
+
+ private:
+  const std::string memory_;
+  mutable std::mutex mutex_;
+  std::set<WireId> sharing_;  // members
+  std::map<WireId, WireEndpoint> endpoints_;
+};
 
 /// What the endpoints of a participant share.
 struct Common {

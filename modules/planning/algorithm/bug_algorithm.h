@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "modules/planning/algorithm/bug_components.h"
-#include "modules/planning/algorithm/bug_configuration.h"
 #include "modules/planning/algorithm/bug_state.h"
 #include "modules/planning/algorithm/bug_view.h"
 

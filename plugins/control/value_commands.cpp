@@ -1,9 +1,11 @@
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/element/configurable.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/path_search.h"
 #include "core/types/text_format.h"
@@ -15,6 +17,26 @@
 namespace runnel {
 
 namespace {
+
+Result<void> CheckIsReadable(const Port& port) {
+  if (port.type().is_transparent()) return {};
+  return Error{.message = "values of type " + port.type().name() + " have no text format", .path = port.path()};
+}
+
+// Of a parameter, as `set` takes it.
+Result<std::string> ValueOf(Runtime& runtime, const std::string& path) {
+  const auto parameter = PathSearch(runtime).Find(path, PathKind::kParameter);
+  if (parameter) {
+    if (const auto* const found = dynamic_cast<const Configurable*>(*parameter)) return found->ToText();
+  }
+  const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
+  if (!found) return parameter ? found.error() : parameter.error();
+  const Port& port = **found;
+  if (auto readable = CheckIsReadable(port); !readable) return readable.error();
+  std::optional<std::string> text;
+  if (VisitShown(port, [&](const void* value, ValueTimes) { text = ToText(port.type(), value); })) return *text;
+  return Error{.message = "nothing has been published there yet", .path = port.path()};
+}
 
 constexpr TextLimits kUsual{.elements = 12, .text = 120, .all = 16'000};
 constexpr TextLimits kFull{.text = 4'000'000, .all = 4'000'000};
@@ -57,10 +79,7 @@ class Echo {
     const auto found = PathSearch(runtime_).FindPort(path_, PathKind::kOutput);
     if (!found) return found.error();
     const Port& port = **found;
-    if (!port.type().is_transparent()) {
-      return Error{.message = "values of type " + port.type().name() + " have no text format",
-                   .path = port.path()};
-    }
+    if (auto readable = CheckIsReadable(port); !readable) return readable;
     if (port_ == nullptr || port_->path() != port.path()) {
       port_ = std::make_shared<WatchedPort>(port.path());
     }
@@ -98,6 +117,17 @@ class Echo {
 };
 
 }  // namespace
+
+CommandResult MakeGetCommand(const Request& request, const CommandContext& context) {
+  Runtime& runtime = context.application.runtime;
+  return Command(UnderLock(runtime, [&runtime, path = request.arguments[0],
+                                     is_full = request.Has("full")](Answer& answer) -> CommandStep {
+    const auto value = ValueOf(runtime, path);
+    if (!value) return Refuse(answer, value.error());
+    answer.Write((is_full ? *value : ReadableNumbers(*value)) + "\n");
+    return ControlCode::kDone;
+  }));
+}
 
 CommandResult MakeEchoCommand(const Request& request, const CommandContext& context) {
   const auto count = ReadCountOption(request);
