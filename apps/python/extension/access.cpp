@@ -21,10 +21,9 @@ namespace py = pybind11;
 namespace runnel::python {
 
 py::object Get(const Open& open, const std::string& path) {
-  Application& application = **open;
   std::shared_ptr<void> value;
   const TypeInfo* type = nullptr;
-  const auto get = [&]() -> Result<void> {
+  const auto get = [&](Application& application) -> Result<void> {
     const std::lock_guard lock(application.runtime().structure_mutex());
     const auto found = PathSearch(application.runtime()).Find(path, PathKind::kParameter);
     if (!found) return found.error();
@@ -34,17 +33,16 @@ py::object Get(const Open& open, const std::string& path) {
     type = &parameter->type();
     return {};
   };
-  Checked(WithoutGil(get));
+  Checked(WithoutGil(open, get));
   auto memory = std::make_shared<Memory>();
   memory->kept = value;
   return ToPython(*type, value.get(), memory);
 }
 
 py::object ReadInput(const Open& open, const std::string& path) {
-  Application& application = **open;
   std::shared_ptr<void> value;
   const TypeInfo* type = nullptr;
-  const auto look = [&]() -> Result<bool> {
+  const auto look = [&](Application& application) -> Result<bool> {
     const std::lock_guard lock(application.runtime().structure_mutex());
     const auto found = PathSearch(application.runtime()).FindPort(path, PathKind::kOutput);
     if (!found) return found.error();
@@ -56,7 +54,7 @@ py::object ReadInput(const Open& open, const std::string& path) {
     });
     return true;
   };
-  if (!Checked(WithoutGil(look))) return py::cast(std::make_shared<Reader>(open, path, 0));
+  if (!Checked(WithoutGil(open, look))) return py::cast(std::make_shared<Reader>(open, path, 0));
   if (!value) return py::none();
   auto memory = std::make_shared<Memory>();
   memory->kept = value;
@@ -64,36 +62,37 @@ py::object ReadInput(const Open& open, const std::string& path) {
 }
 
 void PublishByHand(const Open& open, const std::string& path, const py::object& value) {
-  Runtime& runtime = (*open)->runtime();
+  const Use use(*open);
+  Runtime& runtime = use->runtime();
   Port* port = nullptr;
-  const auto find = [&]() -> Result<const TypeInfo*> {
+  const auto find = [&](Application&) -> Result<const TypeInfo*> {
     const std::lock_guard lock(runtime.structure_mutex());
     const auto found = PathSearch(runtime).FindPort(path, PathKind::kInput);
     if (!found) return found.error();
     port = *found;
     return &port->type();
   };
-  const TypeInfo& type = *Checked(WithoutGil(find));
+  const TypeInfo& type = *Checked(WithoutGil(open, find));
   const Value made = NewValue(type);
   FromPython(type, value, made.at);
-  const auto publish = [&]() -> Result<void> {
+  const auto publish = [&](Application& application) -> Result<void> {
     const std::lock_guard lock(runtime.structure_mutex());
-    if (auto again = find(); !again || *again != &type) return Error{.message = "has gone meanwhile", .path = path};
+    if (auto again = find(application); !again || *again != &type) return Error{.message = "has gone meanwhile", .path = path};
     return port->PublishByHand([&](void* at) -> Result<void> {
       if (CopyValue(type, made.at, at)) return {};
       return Error{.message = "cannot have such a value"};
     });
   };
-  Checked(WithoutGil(publish));
+  Checked(WithoutGil(open, publish));
 }
 
 py::object Call(const Open& open, const std::string& path, double timeout, const py::args& positional,
                 const py::kwargs& named) {
-  Application& application = **open;
+  const Use use(*open);
   std::shared_ptr<AnyCall> call;
   const TypeInfo* reply = nullptr;
   std::exception_ptr thrown;
-  const auto begin = [&]() -> Result<void> {
+  const auto begin = [&](Application& application) -> Result<void> {
     const std::lock_guard lock(application.runtime().structure_mutex());
     const auto found = PathSearch(application.runtime()).FindPort(path, PathKind::kOutput);
     if (!found) return found.error();
@@ -102,7 +101,7 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
     call = callable->NewCall();
     reply = callable->reply();
     {
-      const py::gil_scoped_acquire gil;  // after the structure lock, never before it
+      const GilInCycle gil;  // after the structure lock, never before it
       try {
         const bool has_some = !positional.empty() || !named.empty();
         if (callable->arguments() == nullptr) {
@@ -120,18 +119,18 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
     (void)call->Begin(application.runtime().clock().Now(), FromSeconds(timeout));
     return {};
   };
-  const auto begun = WithoutGil(begin);
+  const auto begun = WithoutGil(open, begin);
   if (thrown) std::rethrow_exception(thrown);
   Checked(begun);
-  const bool steps = !application.is_running() && application.scheduler().pace().is_simulated();
   CallStatus status = CallStatus::kPending;
-  while ((status = call->Poll(application.runtime().clock().Now())) == CallStatus::kPending) {
-    if (steps) {
+  while ((status = call->Poll(use->runtime().clock().Now())) == CallStatus::kPending) {
+    const bool nobody_runs = !use->is_running() && open->runs_in == std::thread::id();
+    if (nobody_runs && use->scheduler().pace().is_simulated()) {
       Step(open, 1);
     } else {
       WithoutGil([] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
     }
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    LookAround(*open);
   }
   if (status != CallStatus::kAnswered) {
     const std::string why = call->error();
@@ -145,10 +144,9 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
 
 py::list Paths(const Open& open) {
   std::vector<std::array<std::string, 3>> rows;
-  WithoutGil([&] {
-    Runtime& runtime = (*open)->runtime();
-    const std::lock_guard lock(runtime.structure_mutex());
-    (*open)->element().Visit([&](FrameworkElement& each) {
+  WithoutGil(open, [&](Application& application) {
+    const std::lock_guard lock(application.runtime().structure_mutex());
+    application.element().Visit([&](FrameworkElement& each) {
       if (const auto* const port = dynamic_cast<const Port*>(&each)) {
         const bool is_input = port->direction() == Port::Direction::kInput;
         rows.push_back({each.path(), each.FindAnnotation<Callable>() != nullptr ? "service" : is_input ? "input" : "output", port->type().name()});
@@ -167,7 +165,8 @@ py::list Paths(const Open& open) {
 }
 
 py::list Log(const Open& open, std::uint64_t from) {
-  const auto found = WithoutGil([&] { return (*open)->log().ReadEntries(from, ApplicationLog::kMostEntries); });
+  const Use use(*open);
+  const auto found = WithoutGil([&] { return use->log().ReadEntries(from, ApplicationLog::kMostEntries); });
   py::list all;
   for (const auto& each : found.entries) {
     all.append(py::make_tuple(ToSeconds(each.time), ApplicationLog::KindName(each.kind), each.module, each.text));
@@ -177,17 +176,14 @@ py::list Log(const Open& open, std::uint64_t from) {
 
 py::list Events(const Open& open) {
   constexpr const char* kKinds[] = {"warning", "fault", "notice", "failure", "message"};
-  const auto events = WithoutGil([&] { return (*open)->TakeEvents(); });
+  const Use use(*open);
+  const auto events = WithoutGil([&] { return use->TakeEvents(); });
   py::list all;
   for (const ApplicationEvent& each : events) {
     all.append(py::make_tuple(kKinds[static_cast<std::size_t>(each.kind)], each.fault ? each.fault->path : "",
                               each.fault ? each.fault->message : "", each.text));
   }
   return all;
-}
-
-void Step(const Open& open, std::uint64_t cycles) {
-  Checked(WithoutGil([&] { return (*open)->is_running() ? (*open)->Step(cycles) : (*open)->RunCycles(cycles); }));
 }
 
 }  // namespace runnel::python

@@ -10,8 +10,6 @@
 
 namespace runnel::python {
 
-using Open = std::shared_ptr<OpenApplication>;
-
 // What is looked at and said in an application. With the GIL, which they let go of while they wait.
 
 /// The value of a parameter.

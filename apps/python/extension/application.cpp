@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <mutex>
+#include <thread>
 
 #include <pybind11/stl.h>
 
@@ -22,37 +23,6 @@ namespace {
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
-struct LoadWords {
-  Words settings;
-  std::vector<std::string> configurations;
-  std::vector<std::string> plugin_folders;
-  std::string clock;
-  std::optional<double> speed;
-  bool is_paused;
-  bool has_control;
-  std::vector<std::pair<std::string, Words>> extensions;
-};
-
-ApplicationOptions OptionsOf(const LoadWords& words) {
-  ApplicationOptions options;
-  for (const auto& [name, value] : words.settings) options.settings.emplace_back(name, value);
-  options.configurations = words.configurations;
-  for (const auto& each : words.plugin_folders) options.plugin_folders.emplace_back(each);
-  if (!words.clock.empty()) {
-    if (words.clock != "real" && words.clock != "simulated") {
-      Throw({.message = "there is no clock '" + words.clock + "'", .hint = "there is 'real', 'simulated'"});
-    }
-    options.clock = words.clock == "real" ? SchedulerOptions::ClockKind::kReal : SchedulerOptions::ClockKind::kSimulated;
-  }
-  options.speed = words.speed;
-  options.is_paused = words.is_paused;
-  options.speed_words = "speed=";
-  options.pause_words = "paused=";
-  options.has_control = words.has_control;
-  for (const auto& [name, arguments] : words.extensions) options.extensions_by_name.push_back({name, {arguments}});
-  return options;
-}
-
 Result<void> Block(Application& application, const std::string& path) {
   const std::lock_guard lock(application.runtime().structure_mutex());
   const auto port = PathSearch(application.runtime()).FindPort(path, PathKind::kElement);
@@ -68,11 +38,25 @@ Result<void> SetStop(Application& application, bool is_pressed) {
   return {};
 }
 
-Open Load(const std::string& kind, const std::string& text, const std::string& folder, const LoadWords& words) {
-  const ApplicationOptions options = OptionsOf(words);
+Open Load(const std::string& kind, const std::string& text, const std::string& folder, const Words& settings,
+          const std::vector<std::string>& configurations, const std::vector<std::string>& plugin_folders, const std::string& clock,
+          std::optional<double> speed, bool is_paused, bool has_control, const std::vector<std::pair<std::string, Words>>& extensions) {
+  using ClockKind = SchedulerOptions::ClockKind;
+  CheckMayWait();
+  ApplicationOptions options{.has_control = has_control};
+  for (const auto& [name, value] : settings) options.settings.emplace_back(name, value);
+  options.configurations = configurations;
+  for (const auto& each : plugin_folders) options.plugin_folders.emplace_back(each);
+  if (!clock.empty()) options.clock = clock == "real" ? ClockKind::kReal : ClockKind::kSimulated;
+  options.speed = speed;
+  options.is_paused = is_paused;
+  options.speed_words = "speed=";
+  options.pause_words = "paused=";
+  for (const auto& [name, arguments] : extensions) options.extensions_by_name.push_back({name, {arguments}});
   const auto open = std::make_shared<OpenApplication>();
   Diagnostics diagnostics;
   WithoutGil([&] {
+    const Counted call(this_thread_place.calls);
     auto loaded = kind == "file"   ? Application::Load(text, options)
                   : kind == "text" ? Application::LoadText(text, options, folder)
                                    : Application::Compose(text, options);
@@ -82,10 +66,7 @@ Open Load(const std::string& kind, const std::string& text, const std::string& f
       if (auto ready = open->application->MakeReady(); !ready) diagnostics.Add(ready.error());
     }
   });
-  if (!diagnostics.ok()) {
-    WithoutGil([&] { open->application.reset(); });
-    Throw(diagnostics);
-  }
+  if (!diagnostics.ok()) Throw(diagnostics);
   for (const Error& warning : diagnostics.warnings()) {
     if (PyErr_WarnEx(PyExc_UserWarning, warning.ToString().c_str(), 2) != 0) throw py::error_already_set();
   }
@@ -94,8 +75,7 @@ Open Load(const std::string& kind, const std::string& text, const std::string& f
 
 // What carries out changes: with the plugins that they need.
 void Apply(const Open& open, const ChangeSet& changes) {
-  Application& application = **open;
-  Check(WithoutGil([&] {
+  Check(WithoutGil(open, [&](Application& application) {
     for (const Change& each : changes) {
       const auto* const create = std::get_if<CreateModule>(&each);
       if (create == nullptr) continue;
@@ -115,62 +95,91 @@ std::vector<Setting> SettingsOf(const Words& words) {
   return settings;
 }
 
-// With the groups that are not there yet.
-void Create(const Open& open, const std::string& path, const std::string& type, const Words& settings) {
-  Application& application = **open;
-  const std::string root = "/" + application.name();
-  std::string whole = path.starts_with('/') ? path : root + "/" + path;
-  if (!whole.starts_with(root + "/")) whole = root + whole;
+// With groups above it.
+void Create(const Open& open, const std::vector<std::string>& groups, const std::string& path, const std::string& type, const Words& settings) {
   ChangeSet changes;
-  WithoutGil([&] {
-    const std::lock_guard lock(application.runtime().structure_mutex());
-    for (std::size_t slash = whole.find('/', root.size() + 1); slash != std::string::npos; slash = whole.find('/', slash + 1)) {
-      if (!application.runtime().root().Find(whole.substr(0, slash))) changes.push_back(CreateGroup{whole.substr(0, slash)});
-    }
-  });
-  if (type.empty()) {
-    changes.push_back(CreateGroup{whole});
-  } else {
-    changes.push_back(CreateModule{whole, type, SettingsOf(settings)});
-  }
+  for (const std::string& each : groups) changes.push_back(CreateGroup{each});
+  if (!type.empty()) changes.push_back(CreateModule{path, type, SettingsOf(settings)});
   Apply(open, changes);
 }
 
-// Looks at Ctrl-C now and then, between cycles.
-class SignalCheck {
+// The call that runs the application, or starts and ends it: one at a time.
+class Running {
  public:
-  bool operator()() {
+  explicit Running(const Open& open) : open_(*open) {
+    if (open_.runs_in != std::thread::id()) Throw({.message = "another call runs the application", .hint = "quit() ends it"});
+    open_.runs_in = std::this_thread::get_id();
+    open_.is_quit = false;
+  }
+  ~Running() { open_.runs_in = {}; }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  /// Between cycles: after quit(), close() or what a signal has thrown, which are looked at now and then.
+  bool IsOver() {
+    if (open_.is_quit || this_thread_place.interrupt) return true;
     const auto now = std::chrono::steady_clock::now();
     if (now - last_ < std::chrono::milliseconds(100)) return false;
     last_ = now;
     const py::gil_scoped_acquire gil;
-    return has_come = has_come || PyErr_CheckSignals() != 0;
+    if (PyErr_CheckSignals() != 0) this_thread_place.interrupt = std::make_exception_ptr(py::error_already_set());
+    return this_thread_place.interrupt != nullptr;
   }
-  bool has_come = false;
 
  private:
+  OpenApplication& open_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 double Run(const Open& open, std::optional<double> limit) {
-  SignalCheck signals;
+  const Use use(*open);
+  Running running(open);
   RunOptions options;
   if (limit) options.limit = FromSeconds(*limit);
-  options.is_over = [&](Duration) { return signals(); };
-  auto ran = WithoutGil([&] { return (*open)->Run(options); });
-  if (signals.has_come) throw py::error_already_set();
+  options.is_over = [&](Duration) { return running.IsOver(); };
+  auto ran = WithoutGil(open, [&](Application& application) { return application.Run(options); });
+  LookAround(*open);
   return ToSeconds(Checked(std::move(ran)));
 }
 
+// Runs cycles that are due before `end`, at most so many.
+void RunCycles(const Open& open, std::optional<Duration> length, std::uint64_t most) {
+  constexpr Duration kLongestWait = std::chrono::milliseconds(20);
+  using StepResult = Scheduler::StepResult;
+  const Use use(*open);
+  Running running(open);
+  Checked(WithoutGil(open, [&](Application& application) -> Result<void> {
+    if (auto ready = application.RunCycles(0); !ready) return ready;
+    std::optional<Time> end;
+    if (length) end = application.runtime().clock().Now() + *length;
+    StepResult result = StepResult::kCycle;
+    while ((result == StepResult::kCycle || result == StepResult::kTimeout) && most > 0 && !running.IsOver()) {
+      result = application.scheduler().Advance(end, kLongestWait);
+      if (result == StepResult::kCycle && !end) --most;
+    }
+    const bool is_refused = result == StepResult::kStopped || (result == StepResult::kEnd && !end);
+    return application.RunCycles(is_refused ? 1 : 0);  // says why
+  }));
+  LookAround(*open);
+}
+
 void RunFor(const Open& open, double seconds) {
-  constexpr Duration kSlice = std::chrono::seconds(1);
-  const Time end = (*open)->runtime().clock().Now() + FromSeconds(seconds);
-  for (bool is_over = false; !is_over;) {
-    const Time next = std::min(end, (*open)->runtime().clock().Now() + kSlice);
-    is_over = next == end;
-    Checked(WithoutGil([&] { return (*open)->RunUntil(next); }));
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (!(seconds >= 0)) throw py::value_error("run_for() takes a number of seconds that is not negative");
+  RunCycles(open, FromSeconds(seconds), 1);
+}
+
+void Quit(const Open& open) {
+  if (open->is_closed) return;
+  open->is_quit = true;
+  if (open->runs_in == std::this_thread::get_id()) return;  // in update() or a signal handler, within the call
+  CheckMayWait();
+  const Use use(*open);
+  while (open->runs_in != std::thread::id()) {
+    WithoutGil([] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
+    LookAround(*open);
   }
+  const Running running(open);
+  WithoutGil([&] { use->Stop(); });
 }
 
 void Connect(const Open& open, const std::string& from, const std::string& to, std::size_t queue,
@@ -192,82 +201,83 @@ void AddThreadOf(const Open& open, const std::string& name, std::optional<double
 
 }  // namespace
 
+void Step(const Open& open, std::uint64_t cycles) {
+  const Use use(*open);
+  if (!use->is_running()) return RunCycles(open, {}, cycles);
+  Checked(WithoutGil(open, [&](Application& application) { return application.Step(cycles); }));
+}
+
 void BindApplication(py::module_& module) {
-  using Wanted = std::vector<std::pair<std::string, Words>>;
   py::class_<OpenApplication, Open>(module, "Application")
-      .def(py::init([](const std::string& kind, const std::string& text, const std::string& folder, const Words& settings,
-                       const std::vector<std::string>& configurations, const std::vector<std::string>& plugin_folders,
-                       const std::string& clock, std::optional<double> speed, bool paused, bool control, const Wanted& extensions) {
-        return Load(kind, text, folder, {settings, configurations, plugin_folders, clock, speed, paused, control, extensions});
-      }))
+      .def(py::init(&Load))
       .def("_create", Create)
       .def("_connect", Connect)
       .def("_thread", AddThreadOf)
       .def("_assign", [](const Open& open, const std::string& path, const std::string& thread) { Apply(open, {AssignToThread{path, thread}}); })
       .def("_disconnect", [](const Open& open, const std::string& from, const std::string& to) { Apply(open, {DisconnectPorts{from, to}}); })
       .def("_delete", [](const Open& open, const std::string& path) { Apply(open, {DeleteElement{path}}); })
-      .def("_apply", [](const Open& open, const std::string& text) { Check(WithoutGil([&] { return (*open)->Apply(text); })); })
+      .def("_apply", [](const Open& open, const std::string& text) { Check(WithoutGil(open, [&](Application& it) { return it.Apply(text); })); })
       .def("_swap",
            [](const Open& open, const std::string& path, const std::string& type, const Words& settings) {
-             Check(WithoutGil([&] { return (*open)->Swap(path, type, SettingsOf(settings)); }));
+             Check(WithoutGil(open, [&](Application& it) { return it.Swap(path, type, SettingsOf(settings)); }));
            })
-      .def("_undo", [](const Open& open) { Check(WithoutGil([&] { return (*open)->Undo(); })); })
-      .def("_redo", [](const Open& open) { Check(WithoutGil([&] { return (*open)->Redo(); })); })
-      .def("_reload", [](const Open& open, const std::string& plugin) { Check(WithoutGil([&] { return (*open)->Reload(plugin); })); })
-      .def("_load_plugin", [](const Open& open, const std::string& plugin) { Checked(WithoutGil([&] { return (*open)->LoadPlugin(plugin); })); })
+      .def("_undo", [](const Open& open) { Check(WithoutGil(open, [&](Application& it) { return it.Undo(); })); })
+      .def("_redo", [](const Open& open) { Check(WithoutGil(open, [&](Application& it) { return it.Redo(); })); })
+      .def("_reload", [](const Open& open, const std::string& plugin) { Check(WithoutGil(open, [&](Application& it) { return it.Reload(plugin); })); })
+      .def("_load_plugin", [](const Open& open, const std::string& plugin) { Checked(WithoutGil(open, [&](Application& it) { return it.LoadPlugin(plugin); })); })
       .def("_set",
            [](const Open& open, const std::string& path, const std::string& value) {
-             Checked(WithoutGil([&] { return (*open)->Set(path, value); }));
+             Checked(WithoutGil(open, [&](Application& it) { return it.Set(path, value); }));
            })
       .def("_get", Get)
       .def("_save",
            [](const Open& open, const std::string& file, bool overwrite) {
-             Checked(WithoutGil([&] { return (*open)->Save(file, overwrite); }));
+             Checked(WithoutGil(open, [&](Application& it) { return it.Save(file, overwrite); }));
            })
       .def("_read_input", ReadInput)
       .def("_reader", [](const Open& open, const std::string& path, std::size_t queue) { return std::make_shared<Reader>(open, path, queue); })
       .def("_writer", [](const Open& open, const std::string& path) { return std::make_shared<TiedPort>(open, path, PathKind::kInput, ConnectOptions{}); })
       .def("_publish", PublishByHand)
-      .def("_release", [](const Open& open, const std::string& path) { Checked(WithoutGil([&] { return (*open)->Release(path); })); })
-      .def("_block", [](const Open& open, const std::string& path) { Checked(WithoutGil([&] { return Block(**open, path); })); })
-      .def("_robot_stop", [](const Open& open, bool is_pressed) { Checked(WithoutGil([&] { return SetStop(**open, is_pressed); })); })
+      .def("_release", [](const Open& open, const std::string& path) { Checked(WithoutGil(open, [&](Application& it) { return it.Release(path); })); })
+      .def("_block", [](const Open& open, const std::string& path) { Checked(WithoutGil(open, [&](Application& it) { return Block(it, path); })); })
+      .def("_robot_stop", [](const Open& open, bool is_pressed) {
+        const Use use(*open);
+        Checked(WithoutGil([&] { return SetStop(*use, is_pressed); }));
+      })
       .def("_call", Call)
       .def("_run", Run)
       .def("_run_for", RunFor)
       .def("_step", Step)
-      .def("_start", [](const Open& open) { Checked(WithoutGil([&] { return (*open)->Start(); })); })
-      .def("_quit", [](const Open& open) { WithoutGil([&] { if (open->application) open->application->Stop(); }); })
+      .def("_start", [](const Open& open) {
+        const Running running(open);
+        Checked(WithoutGil(open, [&](Application& it) { return it.Start(); }));
+      })
+      .def("_quit", Quit)
       .def("_pause", [](const Open& open, const std::optional<std::string>& path) {
-        Checked(WithoutGil([&] { return path ? (*open)->Pause(*path) : (*open)->Pause(); }));
+        Checked(WithoutGil(open, [&](Application& it) { return path ? it.Pause(*path) : it.Pause(); }));
       })
       .def("_resume", [](const Open& open, const std::optional<std::string>& path) {
-        Checked(WithoutGil([&] { return path ? (*open)->Resume(*path) : (*open)->Resume(); }));
+        Checked(WithoutGil(open, [&](Application& it) { return path ? it.Resume(*path) : it.Resume(); }));
       })
-      .def("_set_speed", [](const Open& open, double speed) { Checked(WithoutGil([&] { return (*open)->SetSpeed(speed); })); })
-      .def("_close",
-           [](const Open& open) {
-             WithoutGil([&] {
-               if (open->application) {
-                 open->application->Stop();
-                 Diagnostics problems;
-                 for (const auto& each : open->application->extensions()) (void)each->Finish(problems);
-               }
-               open->application.reset();
-             });
-           })
+      .def("_set_speed", [](const Open& open, double speed) { Checked(WithoutGil(open, [&](Application& it) { return it.SetSpeed(speed); })); })
+      .def("_close", &OpenApplication::Close)
+      .def("_leave", &OpenApplication::Leave)
       .def("_paths", Paths)
       .def("_log", Log)
       .def("_events", Events)
       .def("_verdicts", [](const Open& open) {
-        return WithoutGil([&] { return std::pair((*open)->report().Verdicts(), (*open)->report().IsGood()); });
+        return WithoutGil(open, [&](Application& it) { return std::pair(it.report().Verdicts(), it.report().IsGood()); });
       })
-      .def_property_readonly("is_running", [](const Open& open) { return open->application && open->application->is_running(); },
+      .def_property_readonly("is_running", [](const Open& open) { return !open->is_closed && open->application->is_running(); },
                              "start() has been called, and it has not been stopped since.")
-      .def_property_readonly("name", [](const Open& open) { return (*open)->name(); })
-      .def_property_readonly("file", [](const Open& open) { return (*open)->file(); }, "Where it came from; '' if from no file.")
+      .def_property_readonly("name", [](const Open& open) { return Use(*open)->name(); })
+      .def_property_readonly("file", [](const Open& open) { return Use(*open)->file(); }, "Where it came from; '' if from no file.")
       .def_property_readonly("time", [](const Open& open) {
-        return ToSeconds((*open)->runtime().clock().Now() - (*open)->log().start());
+        const Use use(*open);
+        return ToSeconds(use->runtime().clock().Now() - use->log().start());
       }, "How long it has been running on its clock (s).");
+  module.def("await_all", AwaitAll);
+  module.def("forked", [] { threads_without_gil = 0; });
   module.attr("version") = Application::Version();
 }
 

@@ -22,13 +22,6 @@ inline void Check(const ChangeOutcome& outcome) {
   if (!outcome) Throw(outcome.diagnostics);
 }
 
-/// Does what may wait, lock or run cycles: never with the GIL, which a module in Python may need first.
-template <typename Work>
-auto WithoutGil(const Work& work) {
-  const pybind11::gil_scoped_release released;
-  return work();
-}
-
 /// The class, and what C++ throws.
 void BindErrors(pybind11::module_& module);
 

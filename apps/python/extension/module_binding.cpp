@@ -29,7 +29,8 @@ struct InputOfModule {
   ValueTimes times{};
 
   py::object Take(bool (HeldValues::*how)(Port&, std::size_t) noexcept, bool only_new) {
-    PythonModule::BoundInput& input = host->Get().input(index);
+    const ModuleHost::Use module = host->Get();
+    PythonModule::BoundInput& input = module->input(index);
     auto held = input.ports->MakeHeldValues(1);
     const bool is_new = (held.get()->*how)(*input.port, 0);
     if (held->Find(0) == nullptr || (only_new && !is_new)) return py::none();
@@ -46,20 +47,28 @@ struct OutputOfModule {
 struct ClientOfModule {
   std::shared_ptr<ModuleHost> host;
   std::size_t index;
-  [[nodiscard]] ModuleClient& Get() const { return host->Get().client(index); }
+  bool Send(const py::args& positional, const py::kwargs& named) const {
+    return host->Get()->client(index).Send(positional, named);
+  }
+  bool Call(const py::object& callback, const py::args& positional, const py::kwargs& named) const {
+    return host->Get()->client(index).Call(callback, positional, named);
+  }
+  std::unique_ptr<CallOfModule> Begin(const py::args& positional, const py::kwargs& named) const {
+    return host->Get()->client(index).Begin(positional, named);
+  }
 };
 
 }  // namespace
 
 void BindModules(py::module_& module) {
   py::class_<ModuleHost, std::shared_ptr<ModuleHost>>(module, "ModuleHost")
-      .def("parameter", [](const ModuleHost& host, std::size_t index) { return host.Get().ParameterValue(index); })
+      .def("parameter", [](ModuleHost& host, std::size_t index) { return host.Get()->ParameterValue(index); })
       .def("input", [](const std::shared_ptr<ModuleHost>& host, std::size_t index) { return InputOfModule{host, index}; })
       .def("output", [](const std::shared_ptr<ModuleHost>& host, std::size_t index) { return OutputOfModule{host, index}; })
       .def("client", [](const std::shared_ptr<ModuleHost>& host, std::size_t index) { return ClientOfModule{host, index}; })
-      .def("now", [](const ModuleHost& host) { return ToSeconds(host.Get().Now()); })
+      .def("now", [](ModuleHost& host) { return ToSeconds(host.Get()->Now()); })
       .def("period", [](const ModuleHost&) { return ToSeconds(PythonModule::Period()); })
-      .def("say", [](const ModuleHost& host, const std::string& level, const std::string& text) { host.Get().Say(level, text); });
+      .def("say", [](ModuleHost& host, const std::string& level, const std::string& text) { host.Get()->Say(level, text); });
   py::class_<InputOfModule>(module, "ModuleInput", "An input of a module in Python, as its update() reads it.")
       .def("read", [](InputOfModule& input) { return input.Take(&HeldValues::Read, false); }, "The newest value; None if there is none yet.")
       .def("new", [](InputOfModule& input) { return input.Take(&HeldValues::Read, true); }, "The newest value, unless it has been read; else None.")
@@ -69,27 +78,20 @@ void BindModules(py::module_& module) {
   py::class_<OutputOfModule>(module, "ModuleOutput", "An output of a module in Python.")
       .def("publish",
            [](const OutputOfModule& output, const py::args& positional, const py::kwargs& named) {
-             PublishFromPython(output.host->Get().output(output.index), positional, named, std::nullopt);
+             PublishFromPython(output.host->Get()->output(output.index), positional, named, std::nullopt);
            },
            "publish(value) or publish(x=1, y=2): writes the value into a buffer that the port lends, and publishes that.")
       .def("publish_measured",
            [](const OutputOfModule& output, double timestamp, const py::object& value) {
-             PublishFromPython(output.host->Get().output(output.index), py::make_tuple(value), {}, timestamp);
+             PublishFromPython(output.host->Get()->output(output.index), py::make_tuple(value), {}, timestamp);
            },
            "The same of what was measured at `timestamp` (s, of the application's clock).");
   py::class_<ClientOfModule>(module, "ModuleClient", "A client of a module in Python.")
-      .def_property_readonly("is_connected", [](const ClientOfModule& client) { return client.Get().is_connected(); })
-      .def("send",
-           [](const ClientOfModule& client, const py::args& positional, const py::kwargs& named) { return client.Get().Send(positional, named); },
-           "One way: nobody is told what comes of it. Whether it is on its way.")
-      .def("call",
-           [](const ClientOfModule& client, const py::object& callback, const py::args& positional, const py::kwargs& named) {
-             return client.Get().Call(callback, positional, named);
-           },
+      .def_property_readonly("is_connected", [](const ClientOfModule& client) { return client.host->Get()->client(client.index).is_connected(); })
+      .def("send", &ClientOfModule::Send, "One way: nobody is told what comes of it. Whether it is on its way.")
+      .def("call", &ClientOfModule::Call,
            "callback(call) is called in a cycle of this module, when it has ended. False: it could not begin, and nobody is called back.")
-      .def("begin",
-           [](const ClientOfModule& client, const py::args& positional, const py::kwargs& named) { return client.Get().Begin(positional, named); },
-           "A call to be looked at later: is_done, reply, error.");
+      .def("begin", &ClientOfModule::Begin, "A call to be looked at later: is_done, reply, error.");
   BindModuleServices(module);
   static const ModuleTypes types{&FindModuleType};
   module.attr("module_types") = py::capsule(&types, ModuleTypes::kCapsule);

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "apps/python/extension/errors.h"
+#include "apps/python/extension/interpreter.h"
 #include "apps/python/extension/value.h"
 #include "core/types/value_copy.h"
 
@@ -67,25 +68,25 @@ struct OfferedActivity {
 ModuleService::ModuleService(FrameworkElement& group, const std::string& name, const py::dict& said,
                              std::function<void(const std::string&)> log_error)
     : log_error_(std::move(log_error)) {
-  service_ = std::make_unique<ServiceAtRunTime>(
-      group, name, TypesOf(said),
-      ServiceOptions{.description = said["description"].cast<std::string>(),
-                     .arguments = said["names"].cast<std::vector<std::string>>(),
-                     .queue = said["queue"].cast<std::size_t>()},
-      ServiceAtRunTime::Extra{.is_activity = said["activity"].cast<bool>(),
-                              .defaults = said["defaults"].cast<std::string>(),
-                              .are_arguments_optional = said["are_optional"].cast<bool>()},
-      [this](const CallForm& form, CallBase& call, Activity* activity) { return Serve(form, call, activity); });
+  const SignatureTypes types = TypesOf(said);
+  const ServiceOptions options{.description = said["description"].cast<std::string>(),
+                               .arguments = said["names"].cast<std::vector<std::string>>(),
+                               .queue = said["queue"].cast<std::size_t>()};
+  const ServiceAtRunTime::Extra extra{.is_activity = said["activity"].cast<bool>(),
+                                      .defaults = said["defaults"].cast<std::string>(),
+                                      .are_arguments_optional = said["are_optional"].cast<bool>()};
+  const auto serve = [this](const CallForm& form, CallBase& call, Activity* activity) { return Serve(form, call, activity); };
+  service_ = WithoutGil([&] { return std::make_unique<ServiceAtRunTime>(group, name, types, options, extra, serve); });
 }
 
 ModuleService::~ModuleService() {
   service_.reset();
-  const py::gil_scoped_acquire gil;
+  const GilInCycle gil;
   handler_.dec_ref();
 }
 
 Result<void> ModuleService::Serve(const CallForm& form, CallBase& call, Activity* activity) {
-  const py::gil_scoped_acquire gil;
+  const GilInCycle gil;
   try {
     py::dict named;
     if (form.arguments() != nullptr) {
@@ -96,6 +97,7 @@ Result<void> ModuleService::Serve(const CallForm& form, CallBase& call, Activity
     const py::object reply = activity != nullptr ? handler_(py::cast(offered.told), **named) : handler_(**named);
     return form.reply() != nullptr ? TakeReply(*form.reply(), reply, form.ReplyOf(call)) : Result<void>();
   } catch (const py::error_already_set& thrown) {
+    (void)KeepInterrupt(thrown);
     const auto [summary, whole] = FaultOf(thrown);
     log_error_(whole);
     return Error{.message = summary};
@@ -151,19 +153,19 @@ void CallOfModule::Abort() {
 ModuleClient::ModuleClient(FrameworkElement& group, const std::string& name, const py::dict& said,
                            std::function<void(const py::error_already_set&)> as_fault)
     : as_fault_(std::move(as_fault)) {
-  client_ = std::make_unique<ClientAtRunTime>(
-      group, name, TypesOf(said),
-      ClientOptions{.description = said["description"].cast<std::string>(),
-                    .required = said["required"].cast<bool>(),
-                    .calls = said["calls"].cast<std::size_t>(),
-                    .timeout = FromSeconds(said["timeout"].cast<double>()),
-                    .arguments = said["names"].cast<std::vector<std::string>>()},
-      [this](CallBase& call, CallStatus status) { CalledBack(call, status); });
+  const SignatureTypes types = TypesOf(said);
+  const ClientOptions options{.description = said["description"].cast<std::string>(),
+                              .required = said["required"].cast<bool>(),
+                              .calls = said["calls"].cast<std::size_t>(),
+                              .timeout = FromSeconds(said["timeout"].cast<double>()),
+                              .arguments = said["names"].cast<std::vector<std::string>>()};
+  const auto called_back = [this](CallBase& call, CallStatus status) { CalledBack(call, status); };
+  client_ = WithoutGil([&] { return std::make_unique<ClientAtRunTime>(group, name, types, options, called_back); });
 }
 
 ModuleClient::~ModuleClient() {
   {
-    const py::gil_scoped_acquire gil;
+    const GilInCycle gil;
     for (CallOfModule* each : looked_at_) each->Forget();
     callbacks_.clear();
   }
@@ -223,7 +225,7 @@ std::unique_ptr<CallOfModule> ModuleClient::Begin(const py::args& positional, co
 
 // The client lets go of the call afterwards, and so does the object before.
 void ModuleClient::CalledBack(CallBase& call, CallStatus status) {
-  const py::gil_scoped_acquire gil;
+  const GilInCycle gil;
   const auto found = callbacks_.find(&call);
   if (found == callbacks_.end()) return;
   const py::object callback = std::move(found->second);
@@ -232,7 +234,7 @@ void ModuleClient::CalledBack(CallBase& call, CallStatus status) {
     py::object outcome = py::cast(std::make_unique<CallOfModule>(*this, &call, status));
     callback(outcome);
   } catch (const py::error_already_set& thrown) {
-    as_fault_(thrown);
+    if (!KeepInterrupt(thrown)) as_fault_(thrown);
   }
 }
 

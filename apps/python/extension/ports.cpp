@@ -1,9 +1,11 @@
 #include "apps/python/extension/ports.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include "apps/python/extension/errors.h"
@@ -16,12 +18,54 @@ namespace runnel::python {
 
 OpenApplication::~OpenApplication() {
   if (!application) return;
-  if (PyGILState_Check() != 0) WithoutGil([this] { application.reset(); });
+  // The end of the function is the last to have them.
+  const auto mine = std::make_shared<std::pair<decltype(application), decltype(recordings)>>();
+  mine->first.swap(application);
+  mine->second.swap(recordings);
+  EndWithoutGil([mine] { *mine = {}; });
 }
 
-Application& OpenApplication::operator*() const {
-  if (!application) throw py::value_error("the application is closed");
-  return *application;
+const std::shared_ptr<Application>& OpenApplication::Get() const {
+  if (is_forked) {
+    Throw({.message = "the application runs in the process that this one was forked from",
+           .hint = "load it here, or have multiprocessing start processes by 'spawn'"});
+  }
+  if (is_closed) throw py::value_error("the application is closed");
+  return application;
+}
+
+void OpenApplication::Close() {
+  if (is_forked) return;
+  if (this_thread_place.cycles + this_thread_place.calls > 0) {
+    Throw({.message = "close() would wait for the cycle or the call in which it is called",
+           .hint = "call quit() in a signal handler, and close() where nothing of the application is under way"});
+  }
+  is_closed = is_quit = true;
+  while (is_closing_ || application.use_count() > 1) {
+    WithoutGil([] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  if (!application) return;
+  is_closing_ = true;
+  WithoutGil([this] {
+    for (const auto& each : std::exchange(recordings, {})) (void)each->Finish();
+    application->Stop();
+    Diagnostics problems;
+    for (const auto& each : application->extensions()) (void)each->Finish(problems);
+    application.reset();
+  });
+  is_closing_ = false;
+}
+
+void OpenApplication::Leave() {
+  is_closed = is_forked = true;
+  using Left = std::pair<std::shared_ptr<Application>, std::vector<std::shared_ptr<ClientRecording>>>;
+  (void)new Left(std::move(application), std::move(recordings));
+}
+
+void LookAround(const OpenApplication& open) {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  (void)open.Get();
 }
 
 py::object HeldToPython(const TypeInfo& type, std::unique_ptr<HeldValues> held) {
@@ -34,6 +78,13 @@ py::object HeldToPython(const TypeInfo& type, std::unique_ptr<HeldValues> held) 
 
 void PublishFromPython(Port& output, const py::args& positional, const py::kwargs& named,
                        std::optional<double> timestamp) {
+  // Python may run another thread while the buffer is filled.
+  static auto* const busy = new std::set<const Port*>;
+  if (!busy->insert(&output).second) throw py::value_error("another thread publishes there already");
+  struct Done {
+    const Port* port;
+    ~Done() { busy->erase(port); }
+  } const done{&output};
   std::exception_ptr thrown;
   const auto fill = [&](void* value) -> Result<void> {
     try {
@@ -64,10 +115,10 @@ class TiedPort::Place final : public FrameworkElement {
   std::unique_ptr<Port> port;
 };
 
-TiedPort::TiedPort(std::shared_ptr<OpenApplication> application, const std::string& path, PathKind kind,
-                   const ConnectOptions& options)
-    : application_(std::move(application)) {
-  Runtime& runtime = (*application_)->runtime();
+TiedPort::TiedPort(Open open, const std::string& path, PathKind kind, const ConnectOptions& options)
+    : open_(std::move(open)) {
+  const Use use(*open_);
+  Runtime& runtime = use->runtime();
   const auto tie = [&]() -> Result<void> {
     const std::lock_guard lock(runtime.structure_mutex());
     const auto found = PathSearch(runtime).FindPort(path, kind);
@@ -83,7 +134,7 @@ TiedPort::TiedPort(std::shared_ptr<OpenApplication> application, const std::stri
     if (auto ready = runtime.MakeReady(*place_); !ready) return ready;
     return reads ? Port::Connect(port, *place_->port, options) : Port::Connect(*place_->port, port, options);
   };
-  const auto tied = WithoutGil([&] {
+  const auto tied = WithoutGil(open_, [&](Application&) {
     auto done = tie();
     if (!done && place_ != nullptr) (void)runtime.Delete(*std::exchange(place_, nullptr));
     return done;
@@ -92,39 +143,39 @@ TiedPort::TiedPort(std::shared_ptr<OpenApplication> application, const std::stri
 }
 
 TiedPort::~TiedPort() {
-  if (place_ == nullptr || !application_->application) return;
-  WithoutGil([this] { return application_->application->runtime().Delete(*place_).has_value(); });
+  if (place_ == nullptr || open_->is_closed) return;
+  EndWithoutGil([place = place_, application = open_->application] { (void)application->runtime().Delete(*place); });
 }
 
-Port& TiedPort::port() const {
-  (void)**application_;
-  return *place_->port;
-}
+Port& TiedPort::port(const Use& /*use*/) const { return *place_->port; }
 
-Reader::Reader(std::shared_ptr<OpenApplication> application, const std::string& path, std::size_t queue)
-    : tied_(std::move(application), path, PathKind::kOutput, {.queue = queue}) {}
+Reader::Reader(Open open, const std::string& path, std::size_t queue)
+    : tied_(std::move(open), path, PathKind::kOutput, {.queue = queue}) {}
 
-py::object Reader::Taken(std::unique_ptr<HeldValues> held) {
+py::object Reader::Taken(const Port& port, std::unique_ptr<HeldValues> held) {
   if (held->Find(0) == nullptr) return py::none();
   times_ = held->times(0);
-  return HeldToPython(tied_.port().type(), std::move(held));
+  return HeldToPython(port.type(), std::move(held));
 }
 
 py::object Reader::Read() {
+  const Use use(*tied_.open());
   auto held = tied_.ports().MakeHeldValues(1);
-  (void)held->Read(tied_.port(), 0);
-  return Taken(std::move(held));
+  (void)held->Read(tied_.port(use), 0);
+  return Taken(tied_.port(use), std::move(held));
 }
 
 py::object Reader::Next() {
+  const Use use(*tied_.open());
   auto held = tied_.ports().MakeHeldValues(1);
-  if (!held->Next(tied_.port(), 0)) return py::none();
-  return Taken(std::move(held));
+  if (!held->Next(tied_.port(use), 0)) return py::none();
+  return Taken(tied_.port(use), std::move(held));
 }
 
 bool Reader::Wait(double seconds) {
   constexpr double kSlice = 0.1;  // after which signals are looked at
-  auto& input = dynamic_cast<InputBase&>(tied_.port());
+  const Use use(*tied_.open());
+  auto& input = dynamic_cast<InputBase&>(tied_.port(use));
   if (std::exchange(is_waited_for_, true)) throw py::value_error("another thread waits already");
   struct Done {
     bool& flag;
@@ -132,13 +183,13 @@ bool Reader::Wait(double seconds) {
   } const done{is_waited_for_};
   for (double left = seconds;; left -= kSlice) {
     const double slice = std::clamp(left, 0.0, kSlice);
-    if (WithoutGil([&] { return input.Wait(FromSeconds(slice)); })) return true;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (WithoutGil(tied_.open(), [&](Application&) { return input.Wait(FromSeconds(slice)); })) return true;
+    LookAround(*tied_.open());
     if (left <= kSlice) return false;
   }
 }
 
-std::uint64_t Reader::dropped() const { return dynamic_cast<InputBase&>(tied_.port()).dropped(); }
+std::uint64_t Reader::dropped() const { return dynamic_cast<InputBase&>(tied_.port(Use(*tied_.open()))).dropped(); }
 
 void BindPorts(py::module_& module) {
   py::class_<Reader, std::shared_ptr<Reader>>(module, "Reader", R"(Reads a port of an application in this process, also after swaps.
@@ -159,7 +210,7 @@ the value, or an array of it, lives.
              return next;
            })
       .def_property_readonly("path", [](const Reader& reader) { return reader.tied().path(); })
-      .def_property_readonly("type", [](const Reader& reader) { return reader.tied().port().type().name(); })
+      .def_property_readonly("type", [](const Reader& reader) { return reader.tied().type(); })
       .def_property_readonly("timestamp", &Reader::timestamp, "When the last value was measured (s, of the application's clock).")
       .def_property_readonly("publication_time", &Reader::publication_time, "When it was published (s).")
       .def_property_readonly("dropped", &Reader::dropped, "Values that the queue has lost because it was full.");
@@ -169,11 +220,12 @@ One thread at a time uses it, outside of cycles.
 )")
       .def("publish",
            [](const TiedPort& tied, const py::args& positional, const py::kwargs& named) {
-             PublishFromPython(tied.port(), positional, named, std::nullopt);
+             const Use use(*tied.open());
+             PublishFromPython(tied.port(use), positional, named, std::nullopt);
            },
            "publish(value) or publish(x=1, y=2): writes the value into a buffer that the port lends, and publishes that.")
       .def_property_readonly("path", &TiedPort::path)
-      .def_property_readonly("type", [](const TiedPort& tied) { return tied.port().type().name(); });
+      .def_property_readonly("type", &TiedPort::type);
 }
 
 }  // namespace runnel::python

@@ -1,31 +1,73 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <pybind11/pybind11.h>
 
+#include "apps/python/extension/interpreter.h"
 #include "core/port/input_base.h"
 #include "core/port/typed_ports.h"
 #include "plugins/application/application.h"
+#include "plugins/command_service/command_service.h"
 
 namespace runnel::python {
 
 /// An application, until it is closed: what Python has of it keeps this.
+///
+/// Threads: with the GIL, but for is_quit.
 struct OpenApplication {
-  std::unique_ptr<Application> application;
+  std::shared_ptr<Application> application;
+  std::vector<std::shared_ptr<ClientRecording>> recordings = {};  ///< that have begun and have not ended
+  std::thread::id runs_in = {};                                   ///< whose call runs cycles; one at a time
+  std::atomic<bool> is_quit = false;                              ///< that call is to end
+  bool is_closed = false;
+  bool is_forked = false;  ///< the process that has opened it is another one
 
   OpenApplication() = default;
   OpenApplication(const OpenApplication&) = delete;
   OpenApplication& operator=(const OpenApplication&) = delete;
-  /// One that nobody has closed ends here, without the GIL, for which a module may be waiting.
+  /// One that nobody has closed ends here, or soon after.
   ~OpenApplication();
 
   /// Throws if it is closed.
-  Application& operator*() const;
-  Application* operator->() const { return &**this; }
+  [[nodiscard]] const std::shared_ptr<Application>& Get() const;
+  /// Waits for calls under way, which find it closed. Throws within one of them, and within a cycle.
+  void Close();
+  /// In a forked child, which has none of the threads: nothing of it ends.
+  void Leave();
+
+ private:
+  bool is_closing_ = false;
 };
+using Open = std::shared_ptr<OpenApplication>;
+
+/// A call under way: the application stays for as long. With the GIL. Throws if it is closed.
+class Use {
+ public:
+  explicit Use(const OpenApplication& open) : application_(open.Get()) {}
+  Application& operator*() const { return *application_; }
+  Application* operator->() const { return application_.get(); }
+
+ private:
+  const std::shared_ptr<Application> application_;
+  Counted<int> call_{this_thread_place.calls};
+};
+
+/// Does it with the application, and without the GIL. Throws where it may not be waited for.
+template <typename Work>
+auto WithoutGil(const Open& open, const Work& work) {
+  CheckMayWait();
+  const Use use(*open);
+  return WithoutGil([&] { return work(*use); });
+}
+
+/// Between two waits of a call: throws what a signal has, and that the application has been closed.
+void LookAround(const OpenApplication& open);
 
 /// The value in the first place of `held`, which keeps it; None if there is none.
 [[nodiscard]] pybind11::object HeldToPython(const TypeInfo& type, std::unique_ptr<HeldValues> held);
@@ -38,20 +80,21 @@ void PublishFromPython(Port& output, const pybind11::args& positional, const pyb
 /// An input, or an output, beside the application, tied to one of its ports, also after swaps. With the GIL.
 class TiedPort {
  public:
-  TiedPort(std::shared_ptr<OpenApplication> application, const std::string& path, PathKind kind,
-           const ConnectOptions& options);
+  TiedPort(Open open, const std::string& path, PathKind kind, const ConnectOptions& options);
   ~TiedPort();
   TiedPort(const TiedPort&) = delete;
   TiedPort& operator=(const TiedPort&) = delete;
 
-  /// Throws if the application is closed.
-  [[nodiscard]] Port& port() const;
+  [[nodiscard]] const Open& open() const noexcept { return open_; }
+  /// While `use` keeps the application.
+  [[nodiscard]] Port& port(const Use& use) const;
+  [[nodiscard]] std::string type() const { return port(Use(*open_)).type().name(); }
   [[nodiscard]] const TypedPorts& ports() const noexcept { return *ports_; }
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
  private:
   class Place;
-  std::shared_ptr<OpenApplication> application_;
+  Open open_;
   std::string path_;
   const TypedPorts* ports_ = nullptr;
   Place* place_ = nullptr;
@@ -60,7 +103,7 @@ class TiedPort {
 /// What a port publishes: the newest, or with a queue each value.
 class Reader {
  public:
-  Reader(std::shared_ptr<OpenApplication> application, const std::string& path, std::size_t queue);
+  Reader(Open open, const std::string& path, std::size_t queue);
   pybind11::object Read();
   pybind11::object Next();
   /// Waits without the GIL; false: nothing new has come. Ctrl-C ends it.
@@ -71,7 +114,7 @@ class Reader {
   [[nodiscard]] const TiedPort& tied() const noexcept { return tied_; }
 
  private:
-  pybind11::object Taken(std::unique_ptr<HeldValues> held);
+  pybind11::object Taken(const Port& port, std::unique_ptr<HeldValues> held);
   TiedPort tied_;
   ValueTimes times_;
   bool is_waited_for_ = false;

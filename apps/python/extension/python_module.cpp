@@ -1,8 +1,10 @@
 #include "apps/python/extension/python_module.h"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <mutex>
+#include <thread>
 
 #include <pybind11/stl.h>
 
@@ -46,7 +48,7 @@ std::unique_ptr<FrameworkElement> MakeParameterOf(Module& module, const std::str
     if (!said["lowest"].is_none()) options.bounds.lowest = said["lowest"].cast<T>();
     if (!said["highest"].is_none()) options.bounds.highest = said["highest"].cast<T>();
   }
-  return std::make_unique<Kind<T>>(&module, name, options);
+  return WithoutGil([&] { return std::make_unique<Kind<T>>(&module, name, options); });
 }
 
 template <typename T>
@@ -57,17 +59,18 @@ std::unique_ptr<FrameworkElement> MakeParameter(Module& module, const std::strin
 
 }  // namespace
 
-PythonModule& ModuleHost::Get() const {
+ModuleHost::Use ModuleHost::Get() {
   if (module == nullptr) throw py::value_error("the module is gone");
-  return *module;
+  return {.module = module, .use = Counted(uses)};
 }
 
 template <typename Work>
 void PythonModule::WithPython(const Work& work) {
-  const py::gil_scoped_acquire gil;
+  const GilInCycle gil;
   try {
     work();
   } catch (const py::error_already_set& thrown) {
+    (void)KeepInterrupt(thrown);
     Error error = ErrorOf(thrown);
     if (error.path.empty()) error.path = path();
     throw ElementError(error);
@@ -85,7 +88,7 @@ PythonModule::PythonModule(const Placement& placement, const std::string& type) 
       MakeParameters(Helper("parameters_of")(class_).cast<py::dict>());
     });
   } catch (...) {
-    const py::gil_scoped_acquire gil;
+    const GilInCycle gil;
     class_.dec_ref();
     throw;
   }
@@ -98,11 +101,18 @@ PythonModule::~PythonModule() {
     for (auto& each : clients_) (void)each.release();
     return;
   }
+  {
+    const GilInCycle gil;
+    host_->module = nullptr;
+    while (host_->uses > 0) {
+      const py::gil_scoped_release released;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
   // Without the GIL, for which their threads may be waiting.
   services_.clear();
   clients_.clear();
-  const py::gil_scoped_acquire gil;
-  host_->module = nullptr;
+  const GilInCycle gil;
   for (py::handle each : {update_, object_, class_}) each.dec_ref();
 }
 
@@ -142,15 +152,15 @@ void PythonModule::MakePorts(const py::dict& described) {
     }
   };
   each("inputs", [&](const TypedPorts& ports, const std::string& name, const py::dict& said) {
-    inputs_.push_back({ports.MakeInput(InputGroup(), name,
-                                       {.description = said["description"].cast<std::string>(),
-                                        .required = said["required"].cast<bool>(),
-                                        .trigger = said["trigger"].cast<bool>(),
-                                        .unit = said["unit"].cast<std::string>()}),
-                       &ports});
+    const InputOptions options{.description = said["description"].cast<std::string>(),
+                               .required = said["required"].cast<bool>(),
+                               .trigger = said["trigger"].cast<bool>(),
+                               .unit = said["unit"].cast<std::string>()};
+    inputs_.push_back({WithoutGil([&] { return ports.MakeInput(InputGroup(), name, options); }), &ports});
   });
   each("outputs", [&](const TypedPorts& ports, const std::string& name, const py::dict& said) {
-    auto port = ports.MakeOutput(OutputGroup(), name, {.description = said["description"].cast<std::string>(), .unit = said["unit"].cast<std::string>()});
+    const OutputOptions options{.description = said["description"].cast<std::string>(), .unit = said["unit"].cast<std::string>()};
+    auto port = WithoutGil([&] { return ports.MakeOutput(OutputGroup(), name, options); });
     if (!port) Throw({.message = "only a module in C++ can make values of type " + said["type"].cast<std::string>(), .path = path()});
     outputs_.push_back(std::move(port));
   });
@@ -208,12 +218,12 @@ void PythonModule::KeepOthersTogether() {
 }
 
 void PythonModule::Update() {
-  const py::gil_scoped_acquire gil;
+  const GilInCycle gil;
   try {
     const auto returned = py::reinterpret_steal<py::object>(PyObject_CallNoArgs(update_.ptr()));
     if (!returned) throw py::error_already_set();
   } catch (const py::error_already_set& thrown) {
-    Fail(thrown);
+    if (!KeepInterrupt(thrown)) Fail(thrown);
   }
 }
 
@@ -236,7 +246,7 @@ void PythonModule::Say(const std::string& level, const std::string& text) {
 }
 
 PythonModule::Attributes& PythonModule::Attributes::operator=(const Attributes& from) {
-  const py::gil_scoped_acquire gil;
+  const GilInCycle gil;
   if (module->object_ && from.module->object_) Helper("take_over")(module->object_, from.module->object_);
   return *this;
 }

@@ -6,6 +6,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include "apps/python/extension/interpreter.h"
 #include "apps/python/extension/module_services.h"
 #include "core/module/module.h"
 #include "core/port/typed_ports.h"
@@ -17,14 +18,22 @@ class PythonModule;
 /// What an object of Python knows of its module, which may be gone.
 struct ModuleHost {
   PythonModule* module = nullptr;
+  int uses = 0;
+  /// A call of its ports or clients, in which Python may do anything: the module stays for as long.
+  struct Use {
+    PythonModule* module;
+    Counted<int> use;
+    Counted<int> call{this_thread_place.calls};
+    PythonModule* operator->() const { return module; }
+  };
   /// Throws if it is gone.
-  [[nodiscard]] PythonModule& Get() const;
+  [[nodiscard]] Use Get();
 };
 
 /// A module whose Update() is written in Python: a class below runnel.Module.
 ///
 /// Threads: as Module. Takes the GIL, so it has a thread container of its own unless it is assigned to one: no cycle of
-///          others waits for the interpreter.
+///          others on a real clock waits for the interpreter.
 /// Errors:  what update() throws is a fault, with the place in the file; the whole traceback is logged.
 class PythonModule final : public Module {
  public:

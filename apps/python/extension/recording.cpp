@@ -1,6 +1,7 @@
 // Recordings: what runnel.Recording reads of an MCAP file, and what an application records from now on.
 
 #include <cstring>
+#include <mutex>
 #include <utility>
 
 #include <pybind11/stl.h>
@@ -12,7 +13,7 @@
 #include "plugins/command_service/command_service.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_names.h"
-#include "plugins/values/json_values.h"
+#include "plugins/values/foxglove_channel.h"
 
 namespace py = pybind11;
 
@@ -76,7 +77,7 @@ py::object ValuesOf(const TypeInfo& type, const std::vector<std::string>& texts)
     auto* to = static_cast<char*>(array.mutable_data());
     const auto value = type.Make();
     for (const std::string& text : texts) {
-      Checked(SetFromJson(type, text, value.get()));
+      Checked(SetFromMessage(type, text, value.get()));
       std::memcpy(to, value.get(), type.size());
       to += type.size();
     }
@@ -85,7 +86,7 @@ py::object ValuesOf(const TypeInfo& type, const std::vector<std::string>& texts)
   py::list all;
   for (const std::string& text : texts) {
     const Value value = NewValue(type);
-    Checked(SetFromJson(type, text, value.at));
+    Checked(SetFromMessage(type, text, value.at));
     all.append(ToPython(type, value.at, value.memory));
   }
   return all;
@@ -94,41 +95,61 @@ py::object ValuesOf(const TypeInfo& type, const std::vector<std::string>& texts)
 // What an application records from now on, until it is finished.
 class RunningRecording {
  public:
-  RunningRecording(std::shared_ptr<OpenApplication> open, const std::string& file, const std::vector<std::string>& ports,
-                   const std::string& compression)
+  RunningRecording(Open open, const std::string& file, const std::vector<std::string>& ports, const std::string& compression)
       : open_(std::move(open)) {
-    recording_ = Checked(WithoutGil([&]() -> Result<std::unique_ptr<ClientRecording>> {
-      const RecordingHook& record = (*open_)->service().application().hooks.record;
+    std::shared_ptr<ClientRecording> begun = Checked(WithoutGil(open_, [&](Application& application) {
+      static std::mutex one_at_a_time;  // the service is made when it is first asked for
+      std::unique_lock lock(one_at_a_time);
+      const RecordingHook& record = application.service().application().hooks.record;
+      lock.unlock();
       return record({.file = file, .ports = ports, .compression = compression});
     }));
+    recording_ = begun;
+    open_->recordings.push_back(std::move(begun));
   }
   ~RunningRecording() {
-    if (recording_) WithoutGil([this] { recording_.reset(); });
+    const auto mine = std::make_shared<std::shared_ptr<ClientRecording>>(Take());
+    if (*mine) EndWithoutGil([mine, application = open_->application] { mine->reset(); });
   }
   RunningRecording(const RunningRecording&) = delete;
   RunningRecording& operator=(const RunningRecording&) = delete;
 
   std::string Progress() {
-    if (!recording_) return "finished";
-    if (const auto failure = recording_->Failure()) Throw(*failure);
-    return WithoutGil([this] { return recording_->Progress(); });
+    if (open_->is_closed) return "finished";
+    const Use use(*open_);
+    const auto recording = recording_.lock();
+    if (!recording) return "finished";
+    if (const auto failure = recording->Failure()) Throw(*failure);
+    return WithoutGil(open_, [&](Application&) { return recording->Progress(); });
   }
   std::string Finish() {
-    if (!recording_) return "finished";
-    const auto recording = std::move(recording_);
-    return Checked(WithoutGil([&] { return recording->Finish(); }));
+    CheckMayWait();
+    if (open_->is_closed) return "finished";
+    auto recording = Take();
+    if (!recording) return "finished";
+    return Checked(WithoutGil(open_, [&](Application&) {
+      const auto mine = std::move(recording);
+      return mine->Finish();
+    }));
   }
 
  private:
-  std::shared_ptr<OpenApplication> open_;
-  std::unique_ptr<ClientRecording> recording_;
+  // From the application, which would end it.
+  std::shared_ptr<ClientRecording> Take() {
+    auto recording = recording_.lock();
+    if (std::erase(open_->recordings, recording) == 0) return nullptr;
+    return recording;
+  }
+
+  Open open_;
+  std::weak_ptr<ClientRecording> recording_;
 };
 
 }  // namespace
 
 void BindRecordings(py::module_& module) {
   py::class_<RunningRecording>(module, "RunningRecording", "What an application records, until it is finished.")
-      .def(py::init<std::shared_ptr<OpenApplication>, const std::string&, const std::vector<std::string>&, const std::string&>())
+      .def(py::init<Open, const std::string&, const std::vector<std::string>&, const std::string&>())
       .def("progress", &RunningRecording::Progress, "How it is going, in a line; what ended it is an error.")
       .def("close", &RunningRecording::Finish, "Ends it, and says what there is. Idempotent.")
       .def("__enter__", [](const py::object& self) { return self; })

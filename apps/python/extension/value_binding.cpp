@@ -6,7 +6,10 @@
 #include <sstream>
 #include <thread>
 
+#include <pybind11/stl.h>
+
 #include "apps/python/extension/errors.h"
+#include "apps/python/extension/interpreter.h"
 #include "apps/python/extension/value.h"
 #include "core/base/nearest_name.h"
 #include "core/plugin/plugin_manager.h"
@@ -182,6 +185,7 @@ Pose2 {x: 1, y: 2, heading: 0}
              return py::reinterpret_borrow<py::object>(Py_NotImplemented);
            })
       .def("__len__", CountOf)
+      .def("__bool__", [](const Value& value) { return value.type->kind() == TypeKind::kStructure || CountOf(value) > 0; })
       .def("__getitem__", ElementOf)
       .def("__getitem__",
            [](const Value& value, const std::string& name) {

@@ -20,7 +20,7 @@ class _Types:
         return _extension.type_named(name)
 
     def __dir__(self):
-        return _extension.known_types()
+        return [each for each in _extension.known_types() if each.isidentifier()]
 
 
 types = _Types()

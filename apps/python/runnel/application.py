@@ -3,6 +3,7 @@
 import asyncio
 import atexit
 import os
+import traceback
 import weakref
 from typing import NamedTuple
 
@@ -15,9 +16,23 @@ _open = weakref.WeakSet()
 
 @atexit.register
 def _close_all():
-    # No cycle of a module in Python may run when the interpreter goes.
+    # No cycle of a module in Python may run, and no thread may want the interpreter, when it goes.
     for each in list(_open):
-        each.close()
+        try:
+            each.close()
+        except Exception:
+            traceback.print_exc()
+    _extension.await_all()
+
+
+def _leave_all():
+    # Threads are not forked: what waits for them would wait for ever.
+    _extension.forked()
+    for each in list(_open):
+        each._leave()
+
+
+os.register_at_fork(after_in_child=_leave_all)
 
 
 class Event(NamedTuple):
@@ -84,6 +99,8 @@ def _type_text(type):
 
 def _options(settings=None, clock="", speed=None, paused=False, control=False, configurations=(), plugin_folders=(),
              record=None, record_ports=(), extensions=None):
+    if clock and clock not in ("real", "simulated"):
+        raise _extension.Error(f"there is no clock '{clock}'; there is 'real', 'simulated'")
     wanted = {name: list(options.items()) for name, options in (extensions or {}).items()}
     if record is not None:
         wanted["recording"] = [("record", str(record))] + [("record-ports", each) for each in record_ports]
@@ -141,7 +158,6 @@ class Application(_extension.Application):
     def __init__(self, *arguments):
         super().__init__(*arguments)
         self._readers = {}
-        self._recordings = weakref.WeakSet()
         _open.add(self)
 
     def __enter__(self):
@@ -151,24 +167,38 @@ class Application(_extension.Application):
         self.close()
 
     def __repr__(self):
-        return f"<runnel.Application {self.name}{', running' if self.is_running else ''}>"
+        try:
+            return f"<runnel.Application {self.name}{', running' if self.is_running else ''}>"
+        except (ValueError, _extension.Error):
+            return "<runnel.Application, closed>"
 
     def close(self):
-        """Stops, finishes recordings, and lets go of everything. What was read stays valid. Idempotent."""
-        self._readers.clear()
-        for each in list(self._recordings):
-            each.close()
+        """Stops, finishes recordings, and lets go of everything. What was read stays valid. Idempotent.
+
+        Waits for calls under way in other threads; those that wait or run cycles end, and raise, as do all later ones. Raises
+        in update() and other parts of a module, and in a signal handler that comes in a call: quit() ends that.
+        """
         self._close()
+        self._readers.clear()
 
     # Composing and changing it.
 
     def create(self, path, type, /, **parameters):
         """A module at `path`, of a type by name ("planning/bug2") or of a class in Python; makes the groups above."""
-        self._create(path, _type_text(type), _words(parameters))
+        self._create_below(path, _type_text(type), parameters)
 
     def group(self, path):
         """An empty group."""
-        self._create(path, "", [])
+        self._create_below(path, "", {})
+
+    def _create_below(self, path, type, parameters):
+        # With the groups that are not there yet.
+        root = "/" + self.name
+        whole = path if (path + "/").startswith(root + "/") else root + "/" + path.lstrip("/")
+        parts = whole.split("/")
+        wanted = ["/".join(parts[:i]) for i in range(3, len(parts) + (type == ""))]
+        there = {each for each, kind, _ in self._paths() if kind in ("group", "module")} if len(wanted) > (type == "") else ()
+        self._create([each for each in wanted if each == whole or each not in there], whole, type, _words(parameters))
 
     def connect(self, source, *sinks, queue=0, on_full="drop_oldest", pull=False, late=False, convert=""):
         """Lets values flow from a port (or a part of its values, "/world/pose.x") to others.
@@ -303,9 +333,7 @@ class Application(_extension.Application):
 
         compression -- zstd, lz4 or none; "": the first that is there.
         """
-        recording = _extension.RunningRecording(self, os.path.abspath(file), list(ports), compression)
-        self._recordings.add(recording)
-        return recording
+        return _extension.RunningRecording(self, os.path.abspath(file), list(ports), compression)
 
     def paths(self, kind=None):
         """(path, kind, type) of all groups, modules, inputs, outputs, services and parameters, or of those of one kind."""
@@ -330,7 +358,7 @@ class Application(_extension.Application):
         self._start()
 
     def quit(self):
-        """Ends all cycles. It can be started again. (The STOP of the robot is stop().)"""
+        """Ends all cycles, and the call that runs them. It can be started again. (The STOP of the robot is stop().)"""
         self._quit()
 
     def pause(self, path=None):

@@ -48,6 +48,45 @@ def test_pictures(recorded):
     assert len(recording["/world/pose"].plot("x", "y").lines) == 2
 
 
+class Speaker(runnel.Module):
+    """An output of each kind of type: numbers, texts, lists, enumerations, structures, lists of structures."""
+
+    period = 0.1
+    kind = runnel.Parameter("")
+
+    def make_ports(self):
+        return {name: runnel.Output(type) for name, (type, _) in SPOKEN.items()}
+
+    def update(self):
+        for name, (_, value) in SPOKEN.items():
+            getattr(self, name).publish(value)
+
+
+SPOKEN = {"number": ("double", 1.5), "flag": ("bool", True), "text": ("string", 'a "b"'), "count": ("int64", -3),
+          "state": ("GateState", "no_command"), "numbers": ("double[]", [1.0, 2.5]), "samples": ("float[]", [0.5]),
+          "bytes": ("uint8[]", [7, 8]), "pose": ("Pose2", {"x": 1.0, "y": 2.0, "heading": 0.5}),
+          "way": ("Path2", {"points": [{"x": 1.0, "y": 2.0}]})}
+
+
+def test_every_type_of_port():
+    with runnel.compose("speaking", clock="simulated") as app:
+        app.create("gate", "motion/command_gate")  # which has states of a gate
+        app.create("speaker", Speaker)
+        with app.record("all.mcap", ["/speaker/*"]):
+            app.step(3)
+        last = {name: app.read(f"/speaker/{name}") for name in SPOKEN}
+    recording = runnel.read("all.mcap")
+    assert len(recording) == len(SPOKEN)
+    for name, (type, value) in SPOKEN.items():
+        series = recording[f"/speaker/{name}"]
+        assert (series.type, len(series)) == (type, 3)
+        if name == "pose":
+            assert series.values[-1].tolist() == (1.0, 2.0, 0.5)
+        else:
+            same = series.values[-1] == last[name]
+            assert same.all() if isinstance(same, numpy.ndarray) else same, (name, series.values)
+
+
 def test_what_is_no_recording():
     open("bad.mcap", "w").write("nothing")
     with pytest.raises(runnel.Error) as bad:

@@ -114,3 +114,10 @@ def test_numbers_out_of_range_are_refused():
         runnel.types.Image(width=-1)
     with pytest.raises(TypeError):
         runnel.types.Image(width=1.5)
+
+
+def test_truth_and_names(app):
+    assert app.read("/laser/scan") and runnel.make("Path2", points=[{"x": 1, "y": 2}]).points
+    assert not runnel.make("Path2").points
+    assert {"Pose2", "Twist2", "double"} <= set(dir(runnel.types)) and "double[]" not in dir(runnel.types)
+    assert runnel.types.Pose2.names == [] and "left" not in runnel.types.Pose2.names

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <type_traits>
+
+#include <pybind11/pybind11.h>
+
+namespace runnel::python {
+
+/// Counts for as long as it lives.
+template <typename Count>
+class Counted {
+ public:
+  explicit Counted(Count& count) : count_(count) { ++count_; }
+  ~Counted() { --count_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  Count& count_;
+};
+
+/// What a thread is within, and what has interrupted it.
+struct ThreadPlace {
+  int cycles = 0;  ///< cycles, services and locks: see GilInCycle
+  int calls = 0;   ///< calls of applications and of modules
+  std::exception_ptr interrupt = nullptr;
+};
+inline thread_local ThreadPlace this_thread_place;
+
+/// The GIL for who runs a cycle or a service, or has a lock: nothing is waited for until it is given back.
+class GilInCycle {
+  Counted<int> within_{this_thread_place.cycles};
+  pybind11::gil_scoped_acquire gil_;  // given back first, for that may end objects
+};
+
+/// Throws in a cycle, a service or under a lock.
+void CheckMayWait();
+
+/// Keeps what is no error but ends a program (KeyboardInterrupt, SystemExit) for the call in which this thread runs cycles.
+/// False: it is an error, or no call does. With the GIL.
+bool KeepInterrupt(const pybind11::error_already_set& thrown);
+/// Throws what has been kept.
+void ThrowInterrupt();
+
+/// Of those that will want the GIL again: who wants it when the interpreter has gone is ended in the middle of what it does.
+inline std::atomic<int> threads_without_gil{0};
+class ReleasedGil {
+  Counted<std::atomic<int>> counted_{threads_without_gil};
+  pybind11::gil_scoped_release released_;
+};
+
+/// Does what may wait, lock or run cycles: never with the GIL, which a module in Python may need first.
+template <typename Work>
+auto WithoutGil(const Work& work) {
+  const auto released = [&] {
+    const ReleasedGil gil;
+    return work();
+  };
+  if constexpr (std::is_void_v<std::invoke_result_t<Work>>) {
+    released();
+    ThrowInterrupt();
+  } else {
+    auto result = released();
+    ThrowInterrupt();
+    return result;
+  }
+}
+
+/// Ends something that may wait, without the GIL: at once, or where nothing may be waited for in a thread of its own.
+void EndWithoutGil(std::function<void()> end);
+/// Waits, with the GIL, for all that are without it.
+void AwaitAll();
+
+}  // namespace runnel::python

@@ -1,0 +1,280 @@
+"""16 threads call whatever an application in this process has, and close it at random; so does the collector.
+
+    python close_under_load.py [CLOSES [SEED]]
+
+Nothing is asserted but that the process ends by itself, and that only errors are raised that a user may see.
+"""
+
+import asyncio
+import faulthandler
+import gc
+import os
+import random
+import sys
+import threading
+
+import runnel
+
+THREADS = 16
+SEEN = (runnel.Error, ValueError, TypeError, BufferError)
+
+
+class Collects:
+    """A number that has the collector run, and another thread, while an extension holds whatever it holds."""
+
+    def __float__(self):
+        collect()
+        return 1.5
+
+
+def collect():
+    if random.random() < 0.03:
+        gc.collect(random.randrange(3))
+
+
+class Counter(runnel.Module):
+    period = 0.002
+    step = runnel.Parameter(1.0)
+    out = runnel.Output("double")
+    pose = runnel.Output("Pose2")
+    wish = runnel.Input("Twist2")
+    other = runnel.Client("double", {"to": "double"})
+
+    def __init__(self):
+        self.count = 0.0
+        self.kept = []
+        collect()
+
+    def prepare(self):
+        collect()
+
+    @runnel.service
+    def reset(self, to: float = 0) -> float:
+        collect()
+        self.count = to
+        return to
+
+    @runnel.service(activity=True)
+    def long(self, activity, steps: int = 3) -> float:
+        for i in range(steps):
+            activity.report(i / steps, "counting")
+            collect()
+        return 1.0
+
+    def update(self):
+        self.count += self.step
+        self.out.publish(Collects())
+        self.pose.publish(x=self.count, y=Collects())
+        self.wish.new()
+        self.other.send(1.0)
+        leave_garbage(self)
+        collect()
+
+
+def leave_garbage(what):
+    """A cycle that keeps it until the collector comes."""
+    circle = [what]
+    circle.append(circle)
+
+
+class Load:
+    def __init__(self, closes, seed):
+        self.left = closes
+        self.seed = seed
+        self.lock = threading.Lock()
+        self.apps = [self.opened(i) for i in range(3)]
+        self.wrong = []
+
+    def opened(self, i):
+        is_simulated = random.random() < 0.6
+        app = runnel.compose(f"load{i}", clock="simulated" if is_simulated else "real", speed=0 if is_simulated else None,
+                             control=random.random() < 0.2)
+        app.thread("control", 0.005)
+        app.create("gate", "motion/command_gate")
+        app.create("one", Counter)
+        app.create("two", Counter, step=2.0)
+        app.connect("/gate/allowed", "/one/wish")
+        if random.random() < 0.5:
+            app.start()
+        app.keeps = [app.close]  # a cycle
+        return app
+
+    def close_one(self):
+        at = random.randrange(len(self.apps))
+        app = self.apps[at]
+        how = random.random()
+        if how < 0.5:
+            app.close()
+        elif how < 0.7:
+            others = [threading.Thread(target=app.close) for _ in range(2)]
+            for each in others:
+                each.start()
+            app.close()
+            for each in others:
+                each.join()
+        del app  # else the collector ends it
+        new = self.opened(at)
+        with self.lock:
+            self.apps[at] = new
+            self.left -= 1
+
+    def work(self, number):
+        chance = random.Random(self.seed * 100 + number)
+        names = [name for name in dir(self) if name.startswith("do_")]
+        while self.left > 0:
+            try:
+                if chance.random() < 0.02:
+                    self.close_one()
+                else:
+                    getattr(self, chance.choice(names))(chance.choice(self.apps))
+            except SEEN:
+                pass
+            except BaseException as unexpected:
+                self.wrong.append(unexpected)
+                raise
+            collect()
+
+    def path(self, kind=("out", "pose", "wish", "step")):
+        return f"/{random.choice(('one', 'two', 'made'))}/{random.choice(kind)}"
+
+    def do_read(self, app):
+        value = app.read(self.path())
+        leave_garbage(value)
+
+    def do_get(self, app):
+        app[self.path()]
+
+    def do_set(self, app):
+        app[self.path(("step",))] = random.random()
+
+    def do_publish_by_hand(self, app):
+        app.publish(random.choice(("/one/wish", "/gate/wanted")), {"forward": Collects()})
+
+    def do_release(self, app):
+        app.release(random.choice((None, "/one/wish", "/gate/wanted")))
+
+    def do_stop(self, app):
+        app.stop()
+
+    def do_block(self, app):
+        app.block(self.path())
+
+    def do_reader(self, app):
+        reader = app.reader(self.path(("out", "pose")), queue=random.choice((0, 5)))
+        reader.wait(random.random() / 20)
+        list(reader)
+        reader.read(), reader.timestamp, reader.dropped, reader.type
+        leave_garbage(reader)
+
+    def do_values(self, app):
+        async def some():
+            async for _ in app.values("/one/out", queue=3):
+                if random.random() < 0.3:
+                    return
+
+        async def a_while():
+            task = asyncio.ensure_future(some())
+            await asyncio.sleep(random.random() / 100)
+            task.cancel()
+            await asyncio.gather(task, return_exceptions=True)
+
+        asyncio.run(a_while())
+
+    def do_writer(self, app):
+        writer = app.writer("/two/wish")
+        for _ in range(3):
+            writer.publish(forward=Collects())
+        leave_garbage(writer)
+
+    def do_call(self, app):
+        app.call("/one/reset", to=Collects(), timeout=0.05)
+
+    def do_activity(self, app):
+        app.call("/two/long", steps=2, timeout=0.05)
+
+    def do_record(self, app):
+        recording = app.record(f"run{threading.get_ident()}.mcap", ["/one/*"])
+        recording.progress()
+        if random.random() < 0.5:
+            recording.close()
+        leave_garbage(recording)
+
+    def do_look(self, app):
+        app.paths(), app.log(), app.events(), app.faults(), app.verdict(), repr(app), app.time, app.name, app.file, app.is_running
+
+    def do_step(self, app):
+        app.step(random.randrange(20))
+
+    def do_run_for(self, app):
+        app.run_for(random.random() / 10)
+
+    def do_run(self, app):
+        app.run(random.choice((0.05, 0.2)))
+
+    def do_start(self, app):
+        app.start()
+
+    def do_quit(self, app):
+        app.quit()
+
+    def do_pause(self, app):
+        app.pause(random.choice((None, "/two")))
+
+    def do_resume(self, app):
+        app.resume(random.choice((None, "/two")))
+
+    def do_set_speed(self, app):
+        app.set_speed(random.choice((0, 10)))
+
+    def do_create(self, app):
+        app.create("made", random.choice((Counter, "motion/command_gate")))
+
+    def do_delete(self, app):
+        app.delete("/made")
+
+    def do_connect(self, app):
+        app.connect("/gate/allowed", "/two/wish", queue=random.choice((0, 2)))
+
+    def do_disconnect(self, app):
+        app.disconnect("/gate/allowed", "/two/wish")
+
+    def do_swap(self, app):
+        app.swap("/two", Counter, step=3.0)
+
+    def do_undo(self, app):
+        app.undo()
+        app.redo()
+
+    def do_apply(self, app):
+        app.apply("set /one/step 2")
+
+    def do_assign(self, app):
+        app.assign("/one", random.choice(("control", "")))
+
+    def do_save(self, app):
+        app.save(f"saved{threading.get_ident()}.xml", overwrite=True)
+
+    def do_reload(self, app):
+        app.reload()
+
+    def do_make(self, app):
+        runnel.make("Pose2", x=Collects()).copy().plain()
+
+
+def main(closes=60, seed=None):
+    seed = int(seed) if seed is not None else random.randrange(10**6)
+    print("seed", seed, flush=True)
+    random.seed(seed)
+    faulthandler.enable()
+    sys.setswitchinterval(1e-4)
+    load = Load(int(closes), seed)
+    threads = [threading.Thread(target=load.work, args=(i,)) for i in range(THREADS)]
+    for each in threads:
+        each.start()
+    for each in threads:
+        each.join()
+    print("wrong", load.wrong[:1], flush=True)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:], **({"closes": os.environ["RUNNEL_CLOSES"]} if "RUNNEL_CLOSES" in os.environ and len(sys.argv) == 1 else {}))
