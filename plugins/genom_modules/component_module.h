@@ -14,7 +14,6 @@
 #include "core/port/output.h"
 #include "plugins/genom_execution/codel_runner.h"
 #include "plugins/genom_modules/component_service.h"
-#include "plugins/genom_modules/component_service_base.h"
 #include "plugins/genom_modules/component_state.h"
 #include "plugins/genom_modules/task_module.h"
 #include "plugins/parameters/static_parameter.h"
