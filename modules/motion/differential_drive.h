@@ -29,9 +29,7 @@ class DifferentialDriveModule final : public Module {
   Output<WheelSpeeds> wheels{this, "wheels", {.description = "what the wheels shall do"}};
 
   Parameter<double> wheel_radius{
-      this,
-      "wheel_radius",
-      {.default_value = 0.05, .bounds = {0.001, 2.0}, .unit = "m", .description = ""}};
+      this, "wheel_radius", {.default_value = 0.05, .bounds = {0.001, 2.0}, .unit = "m"}};
   Parameter<double> track{this,
                           "track",
                           {.default_value = 0.25,

@@ -40,13 +40,9 @@ class Laser final : public Module {
                                          .unit = "rad",
                                          .description = "half of it on either side"}};
   StaticParameter<double> range_minimum{
-      this,
-      "range_minimum",
-      {.default_value = 0.02, .bounds = {0.0, 100.0}, .unit = "m", .description = ""}};
+      this, "range_minimum", {.default_value = 0.02, .bounds = {0.0, 100.0}, .unit = "m"}};
   StaticParameter<double> range_maximum{
-      this,
-      "range_maximum",
-      {.default_value = 4.0, .bounds = {0.1, 1000.0}, .unit = "m", .description = ""}};
+      this, "range_maximum", {.default_value = 4.0, .bounds = {0.1, 1000.0}, .unit = "m"}};
   StaticParameter<double> noise{this,
                                 "noise",
                                 {.default_value = 0.0,
@@ -132,9 +128,7 @@ class Infrared final : public Module {
                                          .unit = "rad",
                                          .description = "the whole angle of each cone"}};
   StaticParameter<double> range_maximum{
-      this,
-      "range_maximum",
-      {.default_value = 2.0, .bounds = {0.1, 100.0}, .unit = "m", .description = ""}};
+      this, "range_maximum", {.default_value = 2.0, .bounds = {0.1, 100.0}, .unit = "m"}};
   StaticParameter<double> noise{this,
                                 "noise",
                                 {.default_value = 0.0,

@@ -58,13 +58,9 @@ class SimulatedWorld final : public SenseControlModule {
       "robot_radius",
       {.default_value = 0.15, .bounds = {0.02, 2.0}, .unit = "m", .description = "of its body"}};
   StaticParameter<double> maximum_speed{
-      this,
-      "maximum_speed",
-      {.default_value = 0.5, .bounds = {0.01, 10.0}, .unit = "m/s", .description = ""}};
+      this, "maximum_speed", {.default_value = 0.5, .bounds = {0.01, 10.0}, .unit = "m/s"}};
   StaticParameter<double> maximum_turn_rate{
-      this,
-      "maximum_turn_rate",
-      {.default_value = 1.5, .bounds = {0.01, 20.0}, .unit = "rad/s", .description = ""}};
+      this, "maximum_turn_rate", {.default_value = 1.5, .bounds = {0.01, 20.0}, .unit = "rad/s"}};
   StaticParameter<double> step{this,
                                "step",
                                {.default_value = 0.005,

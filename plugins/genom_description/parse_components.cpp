@@ -2,7 +2,7 @@
 
 #include "plugins/genom_description/component.h"
 #include "plugins/genom_description/parser.h"
-#include "plugins/genom_text/quoted_words.h"
+#include "plugins/genom_text/preprocessor.h"
 
 namespace runnel::genom {
 

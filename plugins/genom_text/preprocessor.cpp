@@ -5,7 +5,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "plugins/genom_text/quoted_words.h"
 
 namespace runnel::genom {
 

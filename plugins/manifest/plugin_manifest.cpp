@@ -1,7 +1,9 @@
 #include "plugins/manifest/plugin_manifest.h"
 
 #include <algorithm>
+#include <iterator>
 #include <mutex>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,8 +17,6 @@
 namespace runnel {
 
 namespace {
-
-constexpr char kBetweenChoices = ' ';
 
 void Add(const char* name, const std::string& value, std::string& text) {
   if (!value.empty()) text += fmt::format(" {}=\"{}\"", name, EscapedAttribute(value));
@@ -50,7 +50,7 @@ void AppendParameterTag(const ModuleDescription::Parameter& parameter, std::stri
   Add("bounds", parameter.bounds, text);
   Add("minimum", parameter.minimum, text);
   Add("maximum", parameter.maximum, text);
-  Add("choices", fmt::format("{}", fmt::join(parameter.choices, std::string(1, kBetweenChoices))), text);
+  Add("choices", fmt::format("{}", fmt::join(parameter.choices, " ")), text);
   Add("is_static", parameter.is_static, text);
   Add("description", parameter.description, text);
   text += "/>\n";
@@ -59,13 +59,8 @@ void AppendParameterTag(const ModuleDescription::Parameter& parameter, std::stri
 bool IsTrue(XmlElement element, std::string_view name) { return element.TextOr(name) == "true"; }
 
 std::vector<std::string> WordsIn(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(kBetweenChoices, at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return words;
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 ModuleDescription::Port ReadPort(XmlElement element) {

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <utility>
 
+#include <fastdds/dds/log/Log.hpp>
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
 #include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
-
-#include "plugins/wire_fast/fast_log.h"
 
 namespace runnel {
 
@@ -15,6 +18,30 @@ namespace {
 
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
+
+using dds::Log;
+
+struct Said {
+  std::mutex mutex;
+  std::string last;
+  std::string refusal;
+};
+
+// Never destroyed: Fast DDS's thread may speak when the process ends.
+Said& LastSaid() {
+  static auto* const said = new Said;
+  return *said;
+}
+
+class Listener final : public dds::LogConsumer {
+ public:
+  void Consume(const Log::Entry& entry) override {
+    const std::lock_guard lock(LastSaid().mutex);
+    if (entry.kind == Log::Error) LastSaid().last = entry.message;
+    // Others of its kinds are told of values, again and again.
+    if (std::string_view(entry.context.category) == "SECURITY_AUTHENTICATION") LastSaid().refusal = entry.message;
+  }
+};
 
 constexpr std::size_t kPrefix = rtps::GuidPrefix_t::size;  // of a participant's id, which those of its endpoints share
 
@@ -38,6 +65,31 @@ WireEndpoint EndpointOf(const Proxy& proxy, bool is_writer) {
 }
 
 }  // namespace
+
+void HearFastLog() {
+  static const bool hears = [] {
+    Log::ClearConsumers();
+    Log::SetVerbosity(Log::Error);
+    Log::RegisterConsumer(std::make_unique<Listener>());
+    return true;
+  }();
+  (void)hears;
+}
+
+void HearFastSecurity() { Log::SetVerbosity(Log::Warning); }
+
+std::string TakeFastRefusal() {
+  Log::Flush();
+  const std::lock_guard lock(LastSaid().mutex);
+  return std::exchange(LastSaid().refusal, {});
+}
+
+Error FastError(const std::string& what) {
+  Log::Flush();
+  const std::lock_guard lock(LastSaid().mutex);
+  const std::string said = std::exchange(LastSaid().last, {});
+  return {.message = what + (said.empty() ? "" : ": " + said)};
+}
 
 WireId IdOf(const rtps::GUID_t& guid) {
   WireId id;

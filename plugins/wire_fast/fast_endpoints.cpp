@@ -14,7 +14,6 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <fastdds/rtps/common/SerializedPayload.h>
 
-#include "plugins/wire_fast/fast_log.h"
 #include "plugins/wire_fast/fast_settings.h"
 
 namespace runnel {

@@ -10,7 +10,6 @@
 #include "plugins/wire/reach_filter.h"
 #include "plugins/wire_fast/fast_discovery.h"
 #include "plugins/wire_fast/fast_endpoints.h"
-#include "plugins/wire_fast/fast_log.h"
 #include "plugins/wire_fast/fast_settings.h"
 
 namespace runnel {

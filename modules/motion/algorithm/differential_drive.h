@@ -49,10 +49,4 @@ struct AccelerationLimit {
           (twist.forward + difference) / drive.wheel_radius};
 }
 
-/// The way back: how the body moves when the wheels turn so.
-[[nodiscard]] inline Twist2 TwistOf(const DifferentialDrive& drive, const WheelSpeeds& wheels) {
-  return {drive.wheel_radius * (wheels.left + wheels.right) / 2,
-          drive.wheel_radius * (wheels.right - wheels.left) / drive.track};
-}
-
 }  // namespace runnel

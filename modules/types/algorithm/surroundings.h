@@ -17,8 +17,8 @@ namespace runnel {
 /// is all that a body needs to know about going straight in any direction: of two boundary points
 /// at the same bearing the nearer one always stops it first.
 ///
-/// The sensing abstractions of the generic Bug algorithm (obstacle in front, on the left, on the
-/// right, their distances, the safe distance) are the functions below. 252 bytes, copied freely.
+/// The sensing abstractions of the generic Bug algorithm (how far obstacles are in front, on the left
+/// and on the right) are the functions below. 252 bytes, copied freely.
 struct Surroundings {
   static constexpr int kSectors = 120;
   static constexpr std::uint16_t kNothingKnown = 0xffff;
@@ -111,15 +111,6 @@ inline constexpr double kSideHalfWidth = DegreesToRadians(30.0);
 }
 [[nodiscard]] inline double RightDistance(const Surroundings& surroundings) {
   return NearestBoundary(surroundings, -kPi / 2, kSideHalfWidth).distance;
-}
-[[nodiscard]] inline bool IsObstacleInFront(const Surroundings& surroundings) {
-  return FrontDistance(surroundings) <= surroundings.safe_distance;
-}
-[[nodiscard]] inline bool IsObstacleOnTheLeft(const Surroundings& surroundings) {
-  return LeftDistance(surroundings) <= surroundings.safe_distance;
-}
-[[nodiscard]] inline bool IsObstacleOnTheRight(const Surroundings& surroundings) {
-  return RightDistance(surroundings) <= surroundings.safe_distance;
 }
 
 /// What a disc meets on a straight way.

@@ -23,14 +23,6 @@ TEST(DifferentialDrive, TurnsWheelsAsTheyRoll) {
   EXPECT_DOUBLE_EQ(left_turn.right, 2.5);
 }
 
-TEST(DifferentialDrive, GoesThereAndBack) {
-  const DifferentialDrive drive;
-  const Twist2 twist{0.31, -0.7};
-  const Twist2 back = TwistOf(drive, WheelSpeedsFor(drive, twist));
-  EXPECT_NEAR(back.forward, twist.forward, 1e-12);
-  EXPECT_NEAR(back.turn, twist.turn, 1e-12);
-}
-
 TEST(DifferentialDrive, SlowsDownAsAWholeSoThatTheCurveStays) {
   const DifferentialDrive drive{.maximum_speed = 0.5, .maximum_turn_rate = 1.5};
   const Twist2 limited = WithinLimits(drive, {1.0, -1.2});

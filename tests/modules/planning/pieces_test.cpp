@@ -63,9 +63,6 @@ TEST(Surroundings, TellFrontLeftAndRight) {
   EXPECT_NEAR(FrontDistance(surroundings), 0.3, 1e-3);
   EXPECT_NEAR(LeftDistance(surroundings), 0.5, 1e-3);
   EXPECT_EQ(RightDistance(surroundings), kInfinity);
-  EXPECT_TRUE(IsObstacleInFront(surroundings));
-  EXPECT_FALSE(IsObstacleOnTheLeft(surroundings));
-  EXPECT_FALSE(IsObstacleOnTheRight(surroundings));
 }
 
 TEST(Surroundings, LetADiscPassUntilItTouches) {

@@ -1,4 +1,4 @@
-#include "plugins/genom_modules/component_service_base.h"
+#include "plugins/genom_modules/component_service.h"
 
 #include <algorithm>
 
