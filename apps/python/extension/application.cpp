@@ -43,7 +43,7 @@ Open Load(const std::string& kind, const std::string& text, const std::string& f
           std::optional<double> speed, bool is_paused, bool has_control, const std::vector<std::pair<std::string, Words>>& extensions) {
   using ClockKind = SchedulerOptions::ClockKind;
   CheckMayWait();
-  ApplicationOptions options{.has_control = has_control};
+  ApplicationOptions options{.has_control = has_control, .keeps_stop = has_control};
   for (const auto& [name, value] : settings) options.settings.emplace_back(name, value);
   options.configurations = configurations;
   for (const auto& each : plugin_folders) options.plugin_folders.emplace_back(each);

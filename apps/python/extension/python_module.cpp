@@ -155,7 +155,8 @@ void PythonModule::MakePorts(const py::dict& described) {
     const InputOptions options{.description = said["description"].cast<std::string>(),
                                .required = said["required"].cast<bool>(),
                                .trigger = said["trigger"].cast<bool>(),
-                               .unit = said["unit"].cast<std::string>()};
+                               .unit = said["unit"].cast<std::string>(),
+                               .ageing = said["set_once"].cast<bool>() ? Ageing::kSetOnce : Ageing::kTimesOut};
     inputs_.push_back({WithoutGil([&] { return ports.MakeInput(InputGroup(), name, options); }), &ports});
   });
   each("outputs", [&](const TypedPorts& ports, const std::string& name, const py::dict& said) {

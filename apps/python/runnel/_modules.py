@@ -23,11 +23,13 @@ class _Described:
 class Input(_Described):
     """An input of a module, by the name of its type: ``scan = runnel.Input("RangeScan")``.
 
-    required -- an application in which nothing is connected is wrong; trigger -- what a module without a period waits for.
+    required -- an application in which nothing is connected is wrong; trigger -- what a module without a period waits for;
+    set_once -- a goal, a map, a mode, which holds until there is another: without it, what update() publishes is as old as what it
+    has read here, so that a silent sensor is seen at the wheels.
     """
 
-    def __init__(self, type, required=False, trigger=False, unit="", description=""):
-        self.said = dict(type=_name(type), required=required, trigger=trigger, unit=unit, description=description)
+    def __init__(self, type, required=False, trigger=False, unit="", description="", set_once=False):
+        self.said = dict(type=_name(type), required=required, trigger=trigger, unit=unit, description=description, set_once=set_once)
 
     def __get__(self, instance, owner=None):
         return self if instance is None else instance._runnel_ports[self.name]

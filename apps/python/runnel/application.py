@@ -113,7 +113,7 @@ def load(file, **options):
 
     settings -- {"goal_x": 4}, for parameters that name a `command_line`; clock -- "real" or "simulated", instead of what
     the file says; speed -- how many times faster than real time, 0: as fast as it can; paused -- begins with a pause;
-    control -- others reach it by `runnel ls` and `runnel.connect`; record, record_ports -- into an MCAP file;
+    control -- others reach it by `runnel ls` and `runnel.connect`, and a STOP outlives this process; record, record_ports -- into an MCAP file;
     extensions -- {"viewers": {"inspect": "8765"}}, as the options of `runnel run`.
     """
     return Application("file", str(file), "", *_options(**options))

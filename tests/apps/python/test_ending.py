@@ -347,10 +347,10 @@ def test_a_forked_child_is_told_and_ends():
     ''')
 
 
-def test_16_threads_close_at_random():
+def test_16_threads_close_at_random(tmp_path):
     closes = os.environ.get("RUNNEL_CLOSES", "60")
     done = subprocess.run([sys.executable, str(pathlib.Path(__file__).with_name("close_under_load.py")), closes], capture_output=True,
-                          text=True)
+                          text=True, cwd=tmp_path)
     assert done.returncode == 0 and done.stdout.endswith("wrong []\n"), done.stdout + done.stderr[-6000:]
 
 
