@@ -13,8 +13,8 @@
 
 namespace runnel::program {
 
-/// While it lives, Ctrl-C, SIGTERM and SIGHUP ask the scheduler to stop, so that the run ends in order. A second one, of
-/// whichever kind, is left to who asks for it (EndWatch), a third ends the program at once. What the caller of the
+/// While it lives, Ctrl-C, SIGTERM and SIGHUP ask the scheduler to stop, so that the run ends in order. A second one,
+/// of whichever kind, is left to who asks for it (EndWatch), a third ends the program at once. What the caller of the
 /// program has it ignore (nohup) stays ignored.
 ///
 /// One at a time.

@@ -7,8 +7,7 @@
 #include "core/port/output.h"
 #include "modules/planning/algorithm/bug_algorithm.h"
 #include "modules/planning/algorithm/bug_variants.h"
-#include "modules/planning/bug_components.h"
-#include "modules/planning/kept_bug_state.h"  // how KeepState() keeps a BugState
+#include "modules/planning/bug_descriptions.h"
 #include "modules/types/drawing.h"
 #include "modules/types/hit_and_leave_points.h"
 #include "modules/types/planner_status.h"

@@ -9,7 +9,10 @@
 namespace runnel::genom_execution {
 
 ConflictMatrix::ConflictMatrix(const ComponentTable& component)
-    : words_((component.units() + 63) / 64), bits_(component.units() * words_), has_any_(component.units()), has_async_(component.units()) {
+    : words_((component.units() + 63) / 64),
+      bits_(component.units() * words_),
+      has_any_(component.units()),
+      has_async_(component.units()) {
   for (const auto& [a, b] : component.conflicts) {
     bits_[a * words_ + b / 64] |= std::uint64_t{1} << (b % 64);
     bits_[b * words_ + a / 64] |= std::uint64_t{1} << (a % 64);

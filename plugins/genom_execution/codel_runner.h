@@ -33,9 +33,10 @@ class ConflictMatrix {
 
 /// Keeps units that conflict apart, first come first served, and lets threads sleep until it is their turn.
 ///
-/// Sleeping: who wants stores its ticket, passes a full fence, looks, and sleeps; who leaves, or has got its ticket, stores
-/// that, passes a full fence, and wakes whom it finds wanting. So either the look of the one finds the other's store, or
-/// the other finds it wanting; notifications stay until they are looked at. Where nobody sleeps there are no fences.
+/// Sleeping: who wants stores its ticket, passes a full fence, looks, and sleeps; who leaves, or has got its ticket,
+/// stores that, passes a full fence, and wakes whom it finds wanting. So either the look of the one finds the other's
+/// store, or the other finds it wanting; notifications stay until they are looked at. Where nobody sleeps there are no
+/// fences.
 ///
 /// Threads:    each place by one thread at a time.
 class Exclusion {

@@ -36,7 +36,8 @@ class FollowingParameter final : public ParameterBase {
     use(std::as_const(value_));
     return true;
   }
-  /// The module has this value now. False: somebody is just looking at it, try again. What somebody has set since counts.
+  /// The module has this value now. False: somebody is just looking at it, try again. What somebody has set since
+  /// counts.
   bool Follow(const T& value) {
     const Hold hold(is_held_, false);
     if (!hold.has()) return false;

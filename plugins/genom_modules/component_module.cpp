@@ -306,7 +306,8 @@ Result<void> TaskModule::Check(const ThreadContainer& thread) const {
   const genom_execution::TaskTable& task = component_.table().tasks[number_];
   if (task.period == Duration::zero()) return {};
   if (thread.options().activation == ThreadOptions::Activation::kTrigger) {
-    return Error{.message = std::string("task '") + task.name + "' has a period, and thread '" + thread_ + "' waits for data",
+    return Error{.message = std::string("task '") + task.name + "' has a period, and thread '" + thread_ +
+                            "' waits for data",
                  .hint = "give it a thread with a period"};
   }
   if (thread.options().activation == ThreadOptions::Activation::kFreeRunning) return {};

@@ -80,8 +80,8 @@ class WakeTarget {
  public:
   /// Whether something waits is not known: it is set off at once, and finds out.
   void SetWaker(Waker* waker) noexcept {
-    // acquire: pairs with the release in Wake(). Of both, which change the same word, one comes second: Wake() finds the
-    // waker, or whom this wakes finds what has happened.
+    // acquire: pairs with the release in Wake(). Of both, which change the same word, one comes second: Wake() finds
+    // the waker, or whom this wakes finds what has happened.
     (void)waker_.exchange(waker, std::memory_order_acq_rel);
     if (waker != nullptr) waker->Wake();
   }

@@ -68,7 +68,8 @@ void NetworkServices::AddNew() {
   }
   for (std::size_t i = taken_.size(); i < takes.size(); ++i) {
     const auto& take = takes[i];
-    taken.push_back(std::make_unique<TakenService>(runtime, take.path, take.options, take.service, dialect_, ++made_, wake_));
+    taken.push_back(std::make_unique<TakenService>(runtime, take.path, take.options, take.service, dialect_, ++made_,
+                                                   wake_));
   }
   const std::lock_guard lock(runtime.structure_mutex());
   std::ranges::move(offered, std::back_inserter(offered_));

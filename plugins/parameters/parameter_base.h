@@ -42,7 +42,6 @@ struct Bounds {
 template <typename T>
 concept Bounded = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
-class HeldValues;
 class Module;
 
 /// What an author says of a parameter.

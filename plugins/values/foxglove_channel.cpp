@@ -4,7 +4,6 @@
 
 #include "core/log/log_sink.h"
 #include "core/types/type_info.h"
-#include "plugins/values/internal/drawing.h"
 #include "plugins/values/internal/message_parts.h"
 #include "plugins/values/json_reader.h"
 #include "plugins/values/json_values.h"

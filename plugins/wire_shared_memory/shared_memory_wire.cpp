@@ -24,8 +24,8 @@ namespace {
 constexpr std::string_view kKey = "shared_memory=";
 constexpr const char* kLayout = "/2";  // of what is shared: others are sent octets
 
-/// What a member says of itself, so that those who share this machine's memory with it know each other: same machine since
-/// it was started, same network, same user. "shared_memory=0123456789abcdef;".
+/// What a member says of itself, so that those who share this machine's memory with it know each other: same machine
+/// since it was started, same network, same user. "shared_memory=0123456789abcdef;".
 std::string MemoryOfThisProcess() {
   std::string started;
   std::getline(std::ifstream("/proc/sys/kernel/random/boot_id") >> std::ws, started);

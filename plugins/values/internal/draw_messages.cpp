@@ -2,7 +2,6 @@
 
 #include "core/types/type_of.h"
 #include "plugins/values/base64.h"
-#include "plugins/values/internal/drawing.h"
 #include "plugins/values/internal/message_parts.h"
 #include "plugins/values/json_values.h"
 

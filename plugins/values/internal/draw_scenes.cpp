@@ -2,7 +2,6 @@
 #include <vector>
 
 #include "core/types/type_of.h"
-#include "plugins/values/internal/drawing.h"
 #include "plugins/values/internal/message_parts.h"
 #include "plugins/values/internal/triangulation.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "plugins/values/internal/drawing.h"
+#include "plugins/values/internal/message_parts.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {

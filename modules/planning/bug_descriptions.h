@@ -1,16 +1,47 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "core/types/builtin_types.h"
 #include "core/types/type_of.h"
+#include "modules/planning/algorithm/bug_components.h"
 #include "modules/planning/algorithm/bug_state.h"
-#include "modules/planning/bug_components.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 
+namespace runnel {
+
+inline void Describe(TypeBuilder<BoundaryDirection>& type) {
+  type.Name("BoundaryDirection")
+      .Value("left", BoundaryDirection::kLeft)
+      .Value("right", BoundaryDirection::kRight);
+}
+
+/// The values of `Kind` bear the names of the components, which are in the same order.
+template <typename Kind, typename Components>
+void DescribeKinds(TypeBuilder<Kind>& type, const char* name, const Components& components) {
+  type.Name(name);
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    type.Value(std::string(components[i]->name()), static_cast<Kind>(i));
+  }
+}
+
+inline void Describe(TypeBuilder<MotionKind>& type) {
+  DescribeKinds(type, "MotionKind", AllMotions());
+}
+inline void Describe(TypeBuilder<DirectionKind>& type) {
+  DescribeKinds(type, "DirectionKind", AllDirections());
+}
+inline void Describe(TypeBuilder<LeaveKind>& type) {
+  DescribeKinds(type, "LeaveKind", AllLeaveConditions());
+}
+inline void Describe(TypeBuilder<RevisitKind>& type) {
+  DescribeKinds(type, "RevisitKind", AllRevisits());
+}
+
 // What a planner remembers, field by field, so that it can go on in a library that was built anew. A field that is
 // missing here is lost then.
-
-namespace runnel {
 
 /// Names the parts that only their classes know.
 struct KeptFields {
