@@ -2,6 +2,8 @@
 
     python close_under_load.py [CLOSES [SEED]]
 
+Without CLOSES for 15 s.
+
 Nothing is asserted but that the process ends by itself, and that only errors are raised that a user may see.
 """
 
@@ -11,7 +13,9 @@ import gc
 import os
 import random
 import sys
+import tempfile
 import threading
+import time
 
 import runnel
 
@@ -79,7 +83,8 @@ def leave_garbage(what):
 
 class Load:
     def __init__(self, closes, seed):
-        self.left = closes
+        self.left = closes or sys.maxsize
+        self.end = time.monotonic() + (1e9 if closes else 15)
         self.seed = seed
         self.lock = threading.Lock()
         self.apps = [self.opened(i) for i in range(3)]
@@ -121,7 +126,7 @@ class Load:
     def work(self, number):
         chance = random.Random(self.seed * 100 + number)
         names = [name for name in dir(self) if name.startswith("do_")]
-        while self.left > 0:
+        while self.left > 0 and time.monotonic() < self.end:
             try:
                 if chance.random() < 0.02:
                     self.close_one()
@@ -261,11 +266,12 @@ class Load:
         runnel.make("Pose2", x=Collects()).copy().plain()
 
 
-def main(closes=60, seed=None):
+def main(closes=0, seed=None):
     seed = int(seed) if seed is not None else random.randrange(10**6)
     print("seed", seed, flush=True)
     random.seed(seed)
     faulthandler.enable()
+    os.chdir(tempfile.mkdtemp())
     sys.setswitchinterval(1e-4)
     load = Load(int(closes), seed)
     threads = [threading.Thread(target=load.work, args=(i,)) for i in range(THREADS)]
@@ -273,8 +279,9 @@ def main(closes=60, seed=None):
         each.start()
     for each in threads:
         each.join()
+    print("closes", sys.maxsize - load.left if not int(closes) else closes)
     print("wrong", load.wrong[:1], flush=True)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:], **({"closes": os.environ["RUNNEL_CLOSES"]} if "RUNNEL_CLOSES" in os.environ and len(sys.argv) == 1 else {}))
+    main(*sys.argv[1:])

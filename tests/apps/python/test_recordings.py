@@ -73,7 +73,7 @@ def test_every_type_of_port():
         app.create("gate", "motion/command_gate")  # which has states of a gate
         app.create("speaker", Speaker)
         with app.record("all.mcap", ["/speaker/*"]):
-            app.step(3)
+            app.run_for(0.3)
         last = {name: app.read(f"/speaker/{name}") for name in SPOKEN}
     recording = runnel.read("all.mcap")
     assert len(recording) == len(SPOKEN)
