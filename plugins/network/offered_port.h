@@ -64,8 +64,8 @@ class OfferBell final : public Waker, private AfterCycleWork {
  private:
   void RunAfterCycle() noexcept override { TakeTurn(By::kCycle); }
   void TakeTurn(By by) noexcept {
-    // Who has come meanwhile may have stopped the robot. The network's thread may wait for the structure lock, so who has
-    // the turn sends the safe value before it lets go.
+    // Who has come meanwhile may have stopped the robot. The network's thread may wait for the structure lock, so who
+    // has the turn sends the safe value before it lets go.
     const auto look_again = [&] {
       send_(By::kStop);
       Ring();

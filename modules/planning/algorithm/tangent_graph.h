@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "modules/planning/algorithm/boundary_direction.h"
+#include "modules/planning/algorithm/driving.h"
 #include "modules/types/algorithm/pose.h"
 #include "modules/types/algorithm/surroundings.h"
 

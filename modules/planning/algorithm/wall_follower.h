@@ -1,6 +1,5 @@
 #pragma once
 
-#include "modules/planning/algorithm/boundary_direction.h"
 #include "modules/planning/algorithm/driving.h"
 #include "modules/planning/algorithm/faced_headings.h"
 
