@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "core/module/module.h"
 #include "core/port/input.h"
@@ -20,6 +21,17 @@
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
+
+namespace internal {
+
+inline ParameterOptions<double> Deviation(const char* of, const char* unit, double most) {
+  return {.bounds = {0.0, most}, .unit = unit, .description = std::string("standard deviation of ") + of};
+}
+inline ParameterOptions<double> SinceStart(const char* zero) {
+  return {.bounds = {0.0, 1e9}, .unit = "s", .description = std::string("from the start; 0: ") + zero};
+}
+
+}  // namespace internal
 
 /// A simulated laser on the robot's centre, looking ahead: a scan for each new pose. Can be made to
 /// fail, for applications that are to cope with it.
@@ -43,26 +55,11 @@ class Laser final : public Module {
       this, "range_minimum", {.default_value = 0.02, .bounds = {0.0, 100.0}, .unit = "m"}};
   StaticParameter<double> range_maximum{
       this, "range_maximum", {.default_value = 4.0, .bounds = {0.1, 1000.0}, .unit = "m"}};
-  StaticParameter<double> noise{this,
-                                "noise",
-                                {.default_value = 0.0,
-                                 .bounds = {0.0, 10.0},
-                                 .unit = "m",
-                                 .description = "standard deviation of every range"}};
+  StaticParameter<double> noise{this, "noise", internal::Deviation("every range", "m", 10.0)};
   StaticParameter<std::uint64_t> seed{
       this, "seed", {.default_value = 1, .description = "of the noise"}};
-  StaticParameter<double> fails_at{this,
-                                   "fails_at",
-                                   {.default_value = 0.0,
-                                    .bounds = {0.0, 1e9},
-                                    .unit = "s",
-                                    .description = "from the start; 0: it does not fail"}};
-  StaticParameter<double> works_again_at{this,
-                                         "works_again_at",
-                                         {.default_value = 0.0,
-                                          .bounds = {0.0, 1e9},
-                                          .unit = "s",
-                                          .description = "from the start; 0: never"}};
+  StaticParameter<double> fails_at{this, "fails_at", internal::SinceStart("it does not fail")};
+  StaticParameter<double> works_again_at{this, "works_again_at", internal::SinceStart("never")};
   StaticParameter<bool> fails_loudly{
       this,
       "fails_loudly",
@@ -129,12 +126,7 @@ class Infrared final : public Module {
                                          .description = "the whole angle of each cone"}};
   StaticParameter<double> range_maximum{
       this, "range_maximum", {.default_value = 2.0, .bounds = {0.1, 100.0}, .unit = "m"}};
-  StaticParameter<double> noise{this,
-                                "noise",
-                                {.default_value = 0.0,
-                                 .bounds = {0.0, 10.0},
-                                 .unit = "m",
-                                 .description = "standard deviation of every range"}};
+  StaticParameter<double> noise{this, "noise", internal::Deviation("every range", "m", 10.0)};
   StaticParameter<std::uint64_t> seed{
       this, "seed", {.default_value = 1, .description = "of the noise"}};
 
@@ -250,18 +242,8 @@ class Localisation final : public Module {
   Input<Pose2> truth{this, "truth", {.description = "where the robot really is", .required = true}};
   Output<Pose2> pose{this, "pose", {.description = "where it believes to be, world's frame"}};
 
-  StaticParameter<double> position_noise{this,
-                                         "position_noise",
-                                         {.default_value = 0.0,
-                                          .bounds = {0.0, 10.0},
-                                          .unit = "m",
-                                          .description = "standard deviation of x and y"}};
-  StaticParameter<double> heading_noise{this,
-                                        "heading_noise",
-                                        {.default_value = 0.0,
-                                         .bounds = {0.0, 3.0},
-                                         .unit = "rad",
-                                         .description = "standard deviation of the heading"}};
+  StaticParameter<double> position_noise{this, "position_noise", internal::Deviation("x and y", "m", 10.0)};
+  StaticParameter<double> heading_noise{this, "heading_noise", internal::Deviation("the heading", "rad", 3.0)};
   StaticParameter<std::uint64_t> seed{
       this, "seed", {.default_value = 1, .description = "of the noise"}};
 
