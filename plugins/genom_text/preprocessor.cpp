@@ -5,7 +5,6 @@
 #include <fstream>
 #include <iterator>
 
-
 namespace runnel::genom {
 
 namespace {

@@ -21,7 +21,6 @@ constexpr Duration kLookForRequests = std::chrono::milliseconds(50);
 
 }  // namespace
 
-
 void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
   for (const auto& each : rules) {
     move(each->of);
