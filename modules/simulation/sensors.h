@@ -162,18 +162,14 @@ class Camera final : public Module {
       this, "width", {.default_value = 160, .bounds = {8, 4096}, .description = "pixels"}};
   StaticParameter<std::uint32_t> height{
       this, "height", {.default_value = 120, .bounds = {8, 4096}, .description = "pixels"}};
-  StaticParameter<double> field_of_view{this,
-                                        "field_of_view",
-                                        {.default_value = kPi / 2,
-                                         .bounds = {0.1, 3.0},
-                                         .unit = "rad",
-                                         .description = "half of it on either side"}};
-  StaticParameter<double> range{this,
-                                "range",
-                                {.default_value = 30.0,
-                                 .bounds = {0.1, 1000.0},
-                                 .unit = "m",
-                                 .description = "what is further away is lost in the sky"}};
+  StaticParameter<double> field_of_view{
+      this,
+      "field_of_view",
+      {.default_value = kPi / 2, .bounds = {0.1, 3.0}, .unit = "rad", .description = "half of it on either side"}};
+  StaticParameter<double> range{
+      this,
+      "range",
+      {.default_value = 30.0, .bounds = {0.1, 1000.0}, .unit = "m", .description = "what is beyond is sky"}};
 
  private:
   Result<void> Prepare() override {

@@ -96,14 +96,18 @@ std::optional<double> Behaviour::ReadStimulation() {
 }
 
 std::optional<double> Behaviour::ReadActivation() {
+  if (!began_) began_ = now();
   const auto wanted = ReadStimulation();
   if (!wanted) return {};
   for (std::size_t i = 0; i < inhibition_ports_.size(); ++i) {
     inhibition_values_[i] = 0.0;
     if (!inhibition_ports_[i].is_bound()) continue;
-    const auto held_back = inhibition_timeouts_[i].Read(inhibition_ports_[i], now());
-    if (!held_back) return Miss(inhibition_timeouts_[i].words());
-    inhibition_values_[i] = CheckSignal("an inhibition", held_back->value());
+    InputTimeout& timeout = inhibition_timeouts_[i];
+    const auto held_back = timeout.Read(inhibition_ports_[i], now());
+    // Who has just begun, and runs later in the cycle, is not silent yet.
+    const bool is_early = timeout.lack() == InputLack::kNeverCame && now() - *began_ <= FromSeconds(timeout.limit.Get());
+    if (!held_back && !is_early) return Miss(timeout.words());
+    if (held_back) inhibition_values_[i] = CheckSignal("an inhibition", held_back->value());
   }
   return Activation(*wanted, inhibition_values_);
 }

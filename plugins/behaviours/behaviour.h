@@ -231,6 +231,7 @@ class Behaviour : public Module {
 
   std::deque<Input<Inhibition>> inhibition_ports_;
   std::deque<InputTimeout> inhibition_timeouts_;
+  std::optional<Time> began_;
   std::vector<double> inhibition_values_;
   std::vector<Input<Activity>*> activity_inputs_;
   std::vector<double> last_activities_;  // of those; -1: there is none

@@ -54,6 +54,7 @@ struct Player::PlayedPort {
   Port* original;
   std::uint16_t channel;
   std::unique_ptr<Port> output;
+  std::string path;  // of the original
 
   [[nodiscard]] Port& publisher() const noexcept { return output ? *output : *original; }
 };
@@ -133,7 +134,7 @@ Result<void> Player::FindPorts(const PortPatterns& patterns) {
       continue;
     }
     if (auto good = CheckType(*port, channel); !good) return good;
-    played_.push_back(std::make_unique<PlayedPort>(PlayedPort{port, id, nullptr}));
+    played_.push_back(std::make_unique<PlayedPort>(PlayedPort{port, id, nullptr, port->path()}));
     values_->Want(id);
   }
   for (const std::string& name : patterns.Names()) {
@@ -282,7 +283,7 @@ void Player::Publish(const std::vector<PlayedPort*>& ports) {
         continue;
       }
       Error error = published.error();
-      error.path = output.path();
+      error.path = each->path;
       error.message = "the value recorded at " + std::to_string(ToSeconds(value->time)) +
                       " s cannot be played: " + error.message;
       return values_->Fail(std::move(error));

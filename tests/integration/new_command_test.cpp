@@ -54,7 +54,7 @@ TEST_F(NewCommand, NothingIsOverwritten) {
   std::ofstream(folder_ / "follower/follower.xml") << "mine";
   const Ended ended = New("plugin follower");
   EXPECT_EQ(ended.code, kBadInput);
-  EXPECT_THAT(ended.text, HasSubstr("follower.xml: this is there already"));
+  EXPECT_THAT(ended.text, HasSubstr("follower.xml: error: this is there already"));
   EXPECT_EQ(TextOf(folder_ / "follower/follower.xml"), "mine");
   EXPECT_FALSE(fs::exists(folder_ / "follower/CMakeLists.txt")) << "all or nothing";
 }

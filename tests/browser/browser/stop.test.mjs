@@ -258,6 +258,7 @@ test('a release says which sign of life it answers, and one from before another 
   application.pressedAt = performance.now() / 1000; // by a colleague, while it is in force
   application.isOwnDeaf = false;
   await page.locator('.release-problem', { hasText: 'after this was asked for' }).waitFor();
+  await page.waitForTimeout(1500); // a sign of life from after that press
   await Stands(page, 'in_force');
   await Releases(page);
   const [late, good] = application.asked.filter(({ op }) => op === 'release');

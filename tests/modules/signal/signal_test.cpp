@@ -64,8 +64,9 @@ TEST(RateLimiterTest, BeginsFromAStandstillAfterAStop) {
   rig.runtime.robot_stop().Press("a test");
   for (int i = 0; i < 20; ++i) (void)After(rig, 1);
   ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  (void)After(rig, 1);  // of the time of the release itself
   (void)After(rig, 1);
-  EXPECT_THAT(wheels.Get(), DoubleNear(0.2, 1e-12)) << "1 m/s^2, of two cycles";
+  EXPECT_THAT(wheels.Get(), DoubleNear(0.3, 1e-12)) << "1 m/s^2, of three cycles";
   wheels.DisconnectAll();
 }
 
@@ -79,6 +80,7 @@ TEST(RateLimiterTest, PassesTheSafeValueOfItsInputAtOnce) {
   rig.RunCycles(3);
   EXPECT_EQ(rig.Last(rig.module.out), 0.25);
   ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  EXPECT_EQ(After(rig, 1), 0.25) << "of the time of the release itself";
   EXPECT_THAT(After(rig, 1), DoubleNear(0.35, 1e-9)) << "and goes on from there";
 }
 

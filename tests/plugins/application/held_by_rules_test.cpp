@@ -47,7 +47,7 @@ TEST(HeldByRules, ASaveTellsWhichOfThemTheFileLoses) {
   ASSERT_TRUE(trial.application->Save({}));
   std::string told;
   for (const ApplicationEvent& each : trial.application->TakeEvents()) told += each.text + "\n";
-  EXPECT_THAT(told, ::testing::HasSubstr("the file has lost <on_stale> of line 13, which names what is gone"));
+  EXPECT_THAT(told, ::testing::HasSubstr("the file has lost <on_stale> of line 14, which names what is gone"));
 }
 
 }  // namespace
