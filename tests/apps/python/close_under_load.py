@@ -8,6 +8,7 @@ Nothing is asserted but that the process ends by itself, and that only errors ar
 """
 
 import asyncio
+import contextlib
 import faulthandler
 import gc
 import os
@@ -16,6 +17,7 @@ import sys
 import tempfile
 import threading
 import time
+import weakref
 
 import runnel
 
@@ -87,6 +89,7 @@ class Load:
         self.end = time.monotonic() + (1e9 if closes else 15)
         self.seed = seed
         self.lock = threading.Lock()
+        self.all = weakref.WeakSet()
         self.apps = [self.opened(i) for i in range(3)]
         self.wrong = []
 
@@ -94,6 +97,7 @@ class Load:
         is_simulated = random.random() < 0.6
         app = runnel.compose(f"load{i}", clock="simulated" if is_simulated else "real", speed=0 if is_simulated else None,
                              control=random.random() < 0.2)
+        self.all.add(app)
         app.thread("control", 0.005)
         app.create("gate", "motion/command_gate")
         app.create("one", Counter)
@@ -122,6 +126,14 @@ class Load:
         with self.lock:
             self.apps[at] = new
             self.left -= 1
+
+    def close_rest(self):
+        """Those that nobody closes: calls of a service wait for ever where the cycles have been paused."""
+        is_over = self.left <= 0 or time.monotonic() > self.end
+        for app in list(self.all):
+            if is_over or app not in self.apps:
+                with contextlib.suppress(*SEEN):
+                    app.close()
 
     def work(self, number):
         chance = random.Random(self.seed * 100 + number)
@@ -277,8 +289,9 @@ def main(closes=0, seed=None):
     threads = [threading.Thread(target=load.work, args=(i,)) for i in range(THREADS)]
     for each in threads:
         each.start()
-    for each in threads:
-        each.join()
+    while any(each.is_alive() for each in threads):
+        time.sleep(0.5)
+        load.close_rest()
     print("closes", sys.maxsize - load.left if not int(closes) else closes)
     print("wrong", load.wrong[:1], flush=True)
 

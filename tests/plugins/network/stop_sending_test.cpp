@@ -152,13 +152,17 @@ TEST_P(StopSendingTest, ASpeedThatIsANumberStopsAndWhatIsMeasuredGoesOn) {
   planner_.Begin();
   robot_.Begin();
   WaitUntil("both are read", [&] { return IsConnected(speed) && IsConnected(measured); });
-  speed.Publish(1);
-  WaitUntil("it has come", [&] { return wanted.Get() == 1; });
+  WaitUntil("it has come", [&] {
+    speed.Publish(1);
+    return wanted.Get() == 1;
+  });
   ASSERT_TRUE(stop_.Press("a test"));
   WaitUntil("it stands", [&] { return wanted.Get() == 0; });
-  speed.Publish(2);
-  measured.Publish({3});
-  WaitUntil("what is measured has come", [&] { return seen.Get().forward == 3; });
+  WaitUntil("what is measured has come", [&] {
+    speed.Publish(2);
+    measured.Publish({3});
+    return seen.Get().forward == 3;
+  });
   EXPECT_EQ(wanted.Get(), 0);
 }
 
