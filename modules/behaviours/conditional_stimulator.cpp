@@ -21,14 +21,16 @@ bool IsFedByActivity(const Port& port) {
 
 Result<void> ConditionalStimulator::Construct() {
   if (auto made = Behaviour::Construct(); !made) return made;
-  for (std::uint32_t i = 1; i <= inputs.Get(); ++i) Add("input" + std::to_string(i), inputs_);
-  for (std::uint32_t i = 1; i <= feedbacks.Get(); ++i) Add("feedback" + std::to_string(i), feedbacks_);
+  for (std::uint32_t i = 1; i <= inputs.Get(); ++i) Add("input" + std::to_string(i), inputs_, false);
+  for (std::uint32_t i = 1; i <= feedbacks.Get(); ++i) Add("feedback" + std::to_string(i), feedbacks_, true);
   return {};
 }
 
-void ConditionalStimulator::Add(const std::string& name, Conditions& conditions) {
-  conditions.ports.emplace_back(this, name, InputOptions{.description = "what is compared", .required = true, .ageing = Ageing::kTimesOut});
-  conditions.timeouts.emplace_back(this, conditions.ports.back(), InputTimeout::Options{});
+// `goes_round`: it comes of what this one stimulates.
+void ConditionalStimulator::Add(const std::string& name, Conditions& conditions, bool goes_round) {
+  const Ageing ageing = goes_round ? Ageing::kSetOnce : Ageing::kTimesOut;
+  conditions.ports.emplace_back(this, name, InputOptions{.description = "what is compared", .required = true, .ageing = ageing});
+  conditions.timeouts.emplace_back(this, conditions.ports.back(), InputTimeout::Options{.counts_from_publication = goes_round});
   conditions.kinds.emplace_back(
       this, name + "_kind",
       ParameterOptions<ConditionKind>{.default_value = Condition{}.kind,

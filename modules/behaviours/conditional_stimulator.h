@@ -73,7 +73,7 @@ class ConditionalStimulator final : public Behaviour {
   Result<void> Construct() override;
   void OnBehaviourParametersChanged() override;
   std::optional<Outcome> Behave(double activation) override;
-  void Add(const std::string& name, Conditions& conditions);
+  void Add(const std::string& name, Conditions& conditions, bool goes_round);
   static void TakeParameters(Conditions& conditions);
   [[nodiscard]] bool ReadValues(Conditions& conditions, std::uint32_t met);
 

@@ -178,12 +178,10 @@ class Delay final : public PassingModule {
       this,
       "capacity",
       {.default_value = 100, .bounds = {1, 10'000}, .description = "how many values may wait"}};
-  Parameter<double> delay{this,
-                          "delay",
-                          {.default_value = 0.1,
-                           .bounds = {0, 1e6},
-                           .unit = "s",
-                           .description = "how long each value waits"}};
+  Parameter<double> delay{
+      this,
+      "delay",
+      {.default_value = 0.1, .bounds = {0, 1e6}, .unit = "s", .description = "how long each value waits"}};
 
  private:
   Result<void> Construct() override {

@@ -30,12 +30,10 @@ class DifferentialDriveModule final : public Module {
 
   Parameter<double> wheel_radius{
       this, "wheel_radius", {.default_value = 0.05, .bounds = {0.001, 2.0}, .unit = "m"}};
-  Parameter<double> track{this,
-                          "track",
-                          {.default_value = 0.25,
-                           .bounds = {0.01, 10.0},
-                           .unit = "m",
-                           .description = "from wheel to wheel"}};
+  Parameter<double> track{
+      this,
+      "track",
+      {.default_value = 0.25, .bounds = {0.01, 10.0}, .unit = "m", .description = "from wheel to wheel"}};
   Parameter<double> maximum_speed{
       this,
       "maximum_speed",
@@ -44,18 +42,14 @@ class DifferentialDriveModule final : public Module {
       this,
       "maximum_turn_rate",
       {.default_value = 1.5, .bounds = {0.0, 50.0}, .unit = "rad/s", .description = "of the body"}};
-  Parameter<double> acceleration{this,
-                                 "acceleration",
-                                 {.default_value = 1.0,
-                                  .bounds = {0.01, 100.0},
-                                  .unit = "m/s^2",
-                                  .description = "of the body, ahead or back"}};
-  Parameter<double> turn_acceleration{this,
-                                      "turn_acceleration",
-                                      {.default_value = 6.0,
-                                       .bounds = {0.01, 500.0},
-                                       .unit = "rad/s^2",
-                                       .description = "of the body"}};
+  Parameter<double> acceleration{
+      this,
+      "acceleration",
+      {.default_value = 1.0, .bounds = {0.01, 100.0}, .unit = "m/s^2", .description = "of the body, ahead or back"}};
+  Parameter<double> turn_acceleration{
+      this,
+      "turn_acceleration",
+      {.default_value = 6.0, .bounds = {0.01, 500.0}, .unit = "rad/s^2", .description = "of the body"}};
   InputTimeout twist_timeout{this, twist, {.former_name = "timeout", .log = &log()}};
 
  private:

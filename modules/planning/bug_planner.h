@@ -145,10 +145,8 @@ class ComposedBugPlanner final : public BugPlanner {
  public:
   explicit ComposedBugPlanner(const Placement& placement) : BugPlanner(placement) { AddStep(); }
 
-  StaticParameter<MotionKind> motion{this,
-                                     "motion",
-                                     {.default_value = MotionKind::kStraight,
-                                      .description = "how it drives while nothing is near"}};
+  StaticParameter<MotionKind> motion{
+      this, "motion", {.default_value = MotionKind::kStraight, .description = "how it drives while nothing is near"}};
   StaticParameter<DirectionKind> direction{
       this,
       "direction",

@@ -27,7 +27,10 @@ class Filter : public Module {
  private:
   void Update() final {
     if (in.is_stopped()) return PassSafeValue();
-    if (out.feeds_velocity() && runtime().robot_stop().in_force()) BeginAt(0);
+    if (out.feeds_velocity() && runtime().robot_stop().in_force()) {
+      BeginAt(0);
+      last_ = now();
+    }
     if (in.has_queue()) {
       for (auto each = in.Take(); each; each = in.Take()) Pass(each);
     } else if (const auto read = in.Read(); read.is_new()) {
@@ -90,11 +93,10 @@ class RateLimiterFilter final : public Filter {
 class DeadBandFilter final : public Filter {
  public:
   using Filter::Filter;
-  Parameter<double> width{this,
-                          "width",
-                          {.default_value = 0.1,
-                           .bounds = {0, {}},
-                           .description = "up to which on either side of 0 it is 0"}};
+  Parameter<double> width{
+      this,
+      "width",
+      {.default_value = 0.1, .bounds = {0, {}}, .description = "up to which on either side of 0 it is 0"}};
 
  private:
   double Next(double value, double) noexcept override { return DeadBand(value, width.Get()); }

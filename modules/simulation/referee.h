@@ -66,18 +66,14 @@ class Referee final : public Module {
                             {.description = "where the robot went; the longer it is, the coarser",
                              .pool = {.buffers = 4, .may_grow = false}}};
 
-  StaticParameter<double> time_limit{this,
-                                     "time_limit",
-                                     {.default_value = 1800,
-                                      .bounds = {0.0, 1e6},
-                                      .unit = "s",
-                                      .description = "after which the run has failed"}};
-  StaticParameter<double> goal_tolerance{this,
-                                         "goal_tolerance",
-                                         {.default_value = 0.15,
-                                          .bounds = {0.0, 10.0},
-                                          .unit = "m",
-                                          .description = "how near is near enough, really"}};
+  StaticParameter<double> time_limit{
+      this,
+      "time_limit",
+      {.default_value = 1800, .bounds = {0.0, 1e6}, .unit = "s", .description = "after which the run has failed"}};
+  StaticParameter<double> goal_tolerance{
+      this,
+      "goal_tolerance",
+      {.default_value = 0.15, .bounds = {0.0, 10.0}, .unit = "m", .description = "how near is near enough, really"}};
   StaticParameter<Expectation> expected{
       this,
       "expected",

@@ -45,12 +45,10 @@ class Laser final : public Module {
 
   StaticParameter<std::uint32_t> rays{
       this, "rays", {.default_value = 181, .bounds = {2, 100000}, .description = "of one scan"}};
-  StaticParameter<double> field_of_view{this,
-                                        "field_of_view",
-                                        {.default_value = kPi,
-                                         .bounds = {0.01, 2 * kPi},
-                                         .unit = "rad",
-                                         .description = "half of it on either side"}};
+  StaticParameter<double> field_of_view{
+      this,
+      "field_of_view",
+      {.default_value = kPi, .bounds = {0.01, 2 * kPi}, .unit = "rad", .description = "half of it on either side"}};
   StaticParameter<double> range_minimum{
       this, "range_minimum", {.default_value = 0.02, .bounds = {0.0, 100.0}, .unit = "m"}};
   StaticParameter<double> range_maximum{

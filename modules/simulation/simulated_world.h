@@ -61,12 +61,8 @@ class SimulatedWorld final : public SenseControlModule {
       this, "maximum_speed", {.default_value = 0.5, .bounds = {0.01, 10.0}, .unit = "m/s"}};
   StaticParameter<double> maximum_turn_rate{
       this, "maximum_turn_rate", {.default_value = 1.5, .bounds = {0.01, 20.0}, .unit = "rad/s"}};
-  StaticParameter<double> step{this,
-                               "step",
-                               {.default_value = 0.005,
-                                .bounds = {0.0005, 0.05},
-                                .unit = "s",
-                                .description = "of the physics"}};
+  StaticParameter<double> step{
+      this, "step", {.default_value = 0.005, .bounds = {0.0005, 0.05}, .unit = "s", .description = "of the physics"}};
 
  private:
   static const ParameterOptions<double> kGoalOfFile;

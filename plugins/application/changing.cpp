@@ -208,6 +208,7 @@ Result<void> Application::Save(const std::filesystem::path& file, bool overwrite
 }
 
 Result<std::string> Application::Parts::Save(const std::filesystem::path& file) {
+  const std::lock_guard no_reload(reloading);
   std::unique_lock lock(runtime().structure_mutex());
   auto found = FindAgain();
   if (!found) return found.error();
@@ -236,6 +237,7 @@ bool Application::is_deleted() {
 }
 
 Result<void> Application::LoadPlugin(std::string_view plugin) {
+  const std::lock_guard one_at_a_time(parts_->reloading);
   const auto find = [&] {
     const std::lock_guard lock(parts_->runtime().structure_mutex());
     return parts_->plugins().FindFile(plugin);

@@ -24,8 +24,8 @@ Result<void> Behaviour::Construct() {
   for (std::uint32_t i = 1; i <= inhibitions.Get(); ++i) {
     inhibition_ports_.emplace_back(this, "inhibition" + std::to_string(i),
                                    InputOptions{.description = "how much it is held back; the greatest counts",
-                                                .ageing = Ageing::kTimesOut});
-    inhibition_timeouts_.emplace_back(this, inhibition_ports_.back(), InputTimeout::Options{});
+                                                .ageing = Ageing::kSetOnce});
+    inhibition_timeouts_.emplace_back(this, inhibition_ports_.back(), InputTimeout::Options{.counts_from_publication = true});
   }
   inhibition_values_.assign(inhibition_ports_.size(), 0.0);
   return {};

@@ -112,8 +112,8 @@ void ClientConnection::Begin(CommandService& service, TaskGroup& tasks) {
   if ((*frame)->kind != "request") {
     return Refuse({.message = "a frame '" + (*frame)->kind + "' where a 'request' should be"});
   }
-  const Time asked = std::exchange(asked_, {});
-  service.operators().Hear("a terminal", asked);
+  const auto asked = std::exchange(asked_, std::nullopt);
+  if (asked) service.operators().Hear("a terminal", *asked);
   const std::string& request = (*frame)->payload;
   if (why_only_stop_ && request != "stop") return Refuse(*why_only_stop_);
   auto command = MakeCommand(request, service, tasks, asked);

@@ -33,7 +33,8 @@ template <typename T>
 }
 
 /// The time-out of an input, as parameter `<input>_timeout`: a value counts if it has come, is no older than that by its
-/// stamp, is measured and a number; the safe value of a stop counts as long as that is in force. Why another one does not count it says in the same words in each module, and in the
+/// stamp, is measured and a number; the safe value of a stop counts as long as that is in force. Why another one does not
+/// count it says in the same words in each module, and in the
 /// log once for each change.
 ///
 ///     Input<Pose2> pose{this, "pose", {.ageing = Ageing::kTimesOut}};
@@ -49,6 +50,8 @@ class InputTimeout {
     double seconds = 0.5;
     const char* former_name = nullptr;  ///< of the parameter; nullptr: none
     Logger* log = nullptr;              ///< nullptr: the module itself says what is amiss
+    /// From when it was said, not from when anything was measured: of signals that go round, whose measurements never renew.
+    bool counts_from_publication = false;
   };
   InputTimeout(FrameworkElement* module, const Port& input, const Options& options)
       : limit(module, input.name() + "_timeout",
@@ -56,7 +59,8 @@ class InputTimeout {
                .bounds = {0.0, 3600.0},
                .unit = "s",
                .description = "a value of " + input.name() + " that is older does not count"}),
-        log_(options.log) {
+        log_(options.log),
+        counts_from_publication_(options.counts_from_publication) {
     if (options.former_name != nullptr) limit.Annotate(std::make_unique<FormerName>(options.former_name));
     constexpr std::array kWords = {"is there again", "has never come", "is old", "is not measured",
                                    "is not a number"};
@@ -69,9 +73,11 @@ class InputTimeout {
   template <typename T>
   [[nodiscard]] Lease<T> Read(Input<T>& input, Time now) {
     Lease<T> lease = input.Read();
-    Note(!lease                                                       ? InputLack::kNeverCame
-         : IsOld(lease.timestamp(), now) && !input.is_stop_in_force() ? InputLack::kOld
-                                                                      : FindLack(*lease),
+    const bool is_old = lease && now - (counts_from_publication_ ? lease.publication_time() : lease.timestamp()) >
+                                     FromSeconds(limit.Get());
+    Note(!lease                     ? InputLack::kNeverCame
+         : is_old && !IsHeld(input) ? InputLack::kOld
+                                    : FindLack(*lease),
          now);
     if (lack_ != InputLack::kNone) return {};
     return lease;
@@ -84,7 +90,11 @@ class InputTimeout {
   }
 
  private:
-  [[nodiscard]] bool IsOld(Time stamp, Time now) const { return now - stamp > FromSeconds(limit.Get()); }
+  // On the way of a brake values are as old as the one that was read last.
+  template <typename T>
+  [[nodiscard]] static bool IsHeld(const Input<T>& input) noexcept {
+    return input.is_stopped() && input.is_stop_in_force();
+  }
   // What has not come yet is told when it should have.
   void Note(InputLack lack, Time now) noexcept {
     if (!began_) began_ = now;
@@ -100,6 +110,7 @@ class InputTimeout {
   }
 
   Logger* const log_;
+  const bool counts_from_publication_;
   std::array<std::string, 5> texts_;
   std::optional<Time> began_;
   InputLack lack_ = InputLack::kNeverCame;

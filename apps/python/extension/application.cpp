@@ -241,8 +241,9 @@ void BindApplication(py::module_& module) {
       .def("_release", [](const Open& open, const std::string& path) { Checked(WithoutGil(open, [&](Application& it) { return it.Release(path); })); })
       .def("_block", [](const Open& open, const std::string& path) { Checked(WithoutGil(open, [&](Application& it) { return Block(it, path); })); })
       .def("_robot_stop", [](const Open& open, bool is_pressed) {
-        const Use use(*open);
-        Checked(WithoutGil([&] { return SetStop(*use, is_pressed); }));
+        // Also while close() waits for calls under way: cycles go on until then.
+        const auto application = open->application ? open->application : open->Get();
+        Checked(WithoutGil([&] { return SetStop(*application, is_pressed); }));
       })
       .def("_call", Call)
       .def("_run", Run)

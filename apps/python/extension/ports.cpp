@@ -47,12 +47,12 @@ void OpenApplication::Close() {
   }
   if (!application) return;
   is_closing_ = true;
-  WithoutGil([this] {
+  WithoutGil([this, closed = std::move(application)]() mutable {
     for (const auto& each : std::exchange(recordings, {})) (void)each->Finish();
-    application->Stop();
+    closed->Stop();
     Diagnostics problems;
-    for (const auto& each : application->extensions()) (void)each->Finish(problems);
-    application.reset();
+    for (const auto& each : closed->extensions()) (void)each->Finish(problems);
+    closed.reset();
   });
   is_closing_ = false;
 }

@@ -165,6 +165,20 @@ TEST(StoppedRobot, ItsSafeValueDoesNotGrowOld) {
   EXPECT_EQ(rig.module.twist_timeout.lack(), InputLack::kOld) << "nobody commands it";
 }
 
+// A command that was old before is no way to brake on: the robot stands.
+TEST(StoppedRobot, DoesNotDriveOffByAnOldCommandWhereItBrakes) {
+  test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
+  ASSERT_TRUE(rig.module.twist.SetDriving(true, {}, std::chrono::seconds(2)));
+  rig.Feed(rig.module.twist, {0.5, 0});
+  rig.RunCycles(30);
+  ASSERT_EQ(rig.Last(rig.module.wheels).left, 0.0) << "it is old";
+  ASSERT_TRUE(rig.runtime.robot_stop().Press("a test"));
+  for (int i = 0; i < 30; ++i) {
+    rig.RunCycle();
+    EXPECT_EQ(rig.Last(rig.module.wheels).left, 0.0) << i;
+  }
+}
+
 TEST(StoppedRobot, ItsGateSaysSo) {
   test::ModuleRig<CommandGate> rig;
   rig.Feed(rig.module.wanted, {0.3, 0});

@@ -67,6 +67,13 @@ TEST(RateLimiterTest, BeginsFromAStandstillAfterAStop) {
   (void)After(rig, 1);  // of the time of the release itself
   (void)After(rig, 1);
   EXPECT_THAT(wheels.Get(), DoubleNear(0.3, 1e-12)) << "1 m/s^2, of three cycles";
+  // However long nothing has come: it is no time in which the robot has driven.
+  rig.runtime.robot_stop().Press("a test");
+  rig.RunCycles(200);
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  rig.Wait(1ms);
+  (void)After(rig, 1);
+  EXPECT_LT(wheels.Get(), 0.2);
   wheels.DisconnectAll();
 }
 

@@ -184,6 +184,23 @@ TEST(BehaviourTest, WhoIsNotToldAnyMoreWhetherItMayIsActiveInNothing) {
   EXPECT_EQ(tell(false, true), 1.0) << "then the port does not count";
 }
 
+// Two that inhibit each other make each other's signals of them: what they were measured by never renews.
+TEST(BehaviourTest, ASignalThatGoesRoundDoesNotGrowOldAsLongAsItIsSpoken) {
+  ModuleRig<Told> rig;
+  rig.Set("stimulation_mode", "enabled");
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Output<Activity> inhibitor(others, "inhibitor");
+  ASSERT_TRUE(Port::Connect(inhibitor, rig.module.inhibition(0)));
+  const Time measured = rig.now();
+  for (int i = 0; i < 30; ++i) {
+    inhibitor.Publish(Activity(0.25), measured);
+    rig.RunCycle();
+    EXPECT_EQ(rig.Last(rig.module.activity).value(), 0.75) << i;
+  }
+  rig.module.inhibition(0).DisconnectAll();
+}
+
 TEST(BehaviourTest, AnInhibitorThatHasNeverSpokenInhibits) {
   ModuleRig<Told> rig;
   rig.Set("stimulation_mode", "enabled");

@@ -163,6 +163,11 @@ TEST_F(StatesTest, WhatWasAskedForBeforeTheLastPressNeitherReleasesNorMoves) {
   EXPECT_THAT(ask(between, "stop"), testing::Not(HasSubstr("STOP was pressed after")));
   EXPECT_THAT(ask(SteadyClock().Now(), "release stop"), HasSubstr("released the STOP"));
   EXPECT_FALSE(runtime.robot_stop().in_force());
+  runtime.robot_stop().Press("the test");
+  const int says_no_time = RawClient();  // as an older one
+  SendAll(says_no_time, FrameBytes("request", "release stop"));
+  EXPECT_THAT(ReadAll(says_no_time, "end "), HasSubstr("released the STOP"));
+  close(says_no_time);
 }
 
 TEST_F(StatesTest, QuitEndsTheRunAndNotTheRobot) {
