@@ -25,7 +25,6 @@ Result<void> Behaviour::Construct() {
     inhibition_ports_.emplace_back(this, "inhibition" + std::to_string(i),
                                    InputOptions{.description = "how much it is held back; the greatest counts",
                                                 .ageing = Ageing::kSetOnce});
-    inhibition_timeouts_.emplace_back(this, inhibition_ports_.back(), InputTimeout::Options{.counts_from_publication = true});
   }
   inhibition_values_.assign(inhibition_ports_.size(), 0.0);
   return {};
@@ -82,34 +81,30 @@ std::optional<Behaviour::Outcome> Behaviour::TryToBehave(double& activation) {
   return Behave(activation);
 }
 
-std::optional<double> Behaviour::ReadStimulation() {
+double Behaviour::ReadStimulation() {
+  const auto wanted = stimulation.Peek();
   const auto mode = stimulation_mode.Get();
   if (mode != StimulationMode::kAuto) {
-    if (stimulation.Peek()) Warn("what comes to its stimulation does not count: stimulation_mode is not auto");
+    if (wanted) Warn("what comes to its stimulation does not count: stimulation_mode is not auto");
     return mode == StimulationMode::kEnabled ? 1.0 : 0.0;
   }
-  const auto wanted = stimulation_timeout.Read(stimulation, now());
   if (wanted) return CheckSignal("its stimulation", wanted->value());
-  if (stimulation_timeout.lack() != InputLack::kNeverCame) return Miss(stimulation_timeout.words());
   Warn("nothing comes to its stimulation, so it does nothing: connect it, or set stimulation_mode to enabled");
   return 0.0;
 }
 
+// Of an inhibitor that does not run any more the last word stands. It counts from when it was said: signals may go round, and
+// what they were measured by never renews then.
 std::optional<double> Behaviour::ReadActivation() {
   if (!began_) began_ = now();
-  const auto wanted = ReadStimulation();
-  if (!wanted) return {};
   for (std::size_t i = 0; i < inhibition_ports_.size(); ++i) {
-    inhibition_values_[i] = 0.0;
-    if (!inhibition_ports_[i].is_bound()) continue;
-    InputTimeout& timeout = inhibition_timeouts_[i];
-    const auto held_back = timeout.Read(inhibition_ports_[i], now());
-    // Who has just begun, and runs later in the cycle, is not silent yet.
-    const bool is_early = timeout.lack() == InputLack::kNeverCame && now() - *began_ <= FromSeconds(timeout.limit.Get());
-    if (!held_back && !is_early) return Miss(timeout.words());
-    if (held_back) inhibition_values_[i] = CheckSignal("an inhibition", held_back->value());
+    const auto held_back = inhibition_ports_[i].Peek();
+    inhibition_values_[i] = held_back ? CheckSignal("an inhibition", held_back->value()) : 0.0;
+    const Time said = held_back ? held_back.publication_time() : *began_;
+    const bool is_silent = inhibition_ports_[i].is_bound() && now() - said > FromSeconds(inhibition_timeout.Get());
+    if (is_silent) return Miss("who inhibits it is silent");
   }
-  return Activation(*wanted, inhibition_values_);
+  return Activation(ReadStimulation(), inhibition_values_);
 }
 
 bool Behaviour::HasSameActivities() {

@@ -14,7 +14,6 @@
 #include "core/types/type_of.h"
 #include "plugins/behaviours/algorithm/behaviour_rules.h"
 #include "plugins/behaviours/meta_signal.h"
-#include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 
@@ -164,7 +163,6 @@ class Behaviour : public Module {
   explicit Behaviour(const Placement& placement);
 
   Input<Stimulation> stimulation{this, "stimulation", {.description = "how much it is wanted", .ageing = Ageing::kSetOnce}};
-  InputTimeout stimulation_timeout{this, stimulation, {.counts_from_publication = true}};
   Output<Activity> activity{this, "activity", {.description = "how much it does"}};
   Output<TargetRating> target_rating{
       this, "target_rating", {.description = "0: content; 1: as far from what it wants as can be"}};
@@ -175,6 +173,10 @@ class Behaviour : public Module {
       this,
       "inhibitions",
       {.default_value = 1, .bounds = {0, kMostInhibitions}, .description = "how many ports: inhibition1, inhibition2 …"}};
+  Parameter<double> inhibition_timeout{
+      this,
+      "inhibition_timeout",
+      {.default_value = 0.5, .bounds = {0.0, 3600.0}, .unit = "s", .description = "of who is silent for longer nobody knows"}};
   Parameter<StimulationMode> stimulation_mode{
       this,
       "stimulation_mode",
@@ -219,9 +221,9 @@ class Behaviour : public Module {
 
   void Update() final;
   void OnParametersChanged() final;
-  // Nothing: who stimulates or inhibits it has not been heard for long, so it cannot tell.
+  // Nothing: who inhibits it has not been heard for long, so it cannot tell.
   [[nodiscard]] std::optional<double> ReadActivation();
-  [[nodiscard]] std::optional<double> ReadStimulation();
+  [[nodiscard]] double ReadStimulation();
   [[nodiscard]] std::optional<Outcome> TryToBehave(double& activation);
   [[nodiscard]] bool HasSameActivities();
   void Hold(double activation);
@@ -230,7 +232,6 @@ class Behaviour : public Module {
   double CheckSignal(const char* name, double value) const;
 
   std::deque<Input<Inhibition>> inhibition_ports_;
-  std::deque<InputTimeout> inhibition_timeouts_;
   std::optional<Time> began_;
   std::vector<double> inhibition_values_;
   std::vector<Input<Activity>*> activity_inputs_;

@@ -47,7 +47,6 @@ std::optional<Time> OperatorWatch::Look() {
 }
 
 namespace {
-
 constexpr Duration kBlockPatience = std::chrono::milliseconds(5);
 
 // Writes into the log what others than clients change: those have their changes logged as they wrote them.

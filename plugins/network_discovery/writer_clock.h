@@ -28,7 +28,7 @@ class WriterClock {
   /// however many come so. Only if the delay jumps from one value to the next, which came soon after, has the clock been
   /// set. After Note().
   [[nodiscard]] Duration HeldUp(Duration delay, Time now) {
-    constexpr int kDrift = 10'000;  // of two clocks; one part in so many
+    constexpr int kDrift = 1000;  // of two clocks, one of which may be slewed; one part in so many
     const Duration gap = now - came_;
     const bool is_set = usual_ && delay - last_ > kMostOfNetworks && gap < (delay - last_) / 2;
     usual_ = is_set || !usual_ ? delay : std::min(*usual_ + gap / kDrift, delay);

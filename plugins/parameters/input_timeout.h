@@ -72,12 +72,13 @@ class InputTimeout {
   /// Empty: it does not count. `now`: what its age is reckoned from.
   template <typename T>
   [[nodiscard]] Lease<T> Read(Input<T>& input, Time now) {
+    const bool is_held = IsHeld(input);  // first: what was old is no news by a press in between
     Lease<T> lease = input.Read();
     const bool is_old = lease && now - (counts_from_publication_ ? lease.publication_time() : lease.timestamp()) >
                                      FromSeconds(limit.Get());
-    Note(!lease                     ? InputLack::kNeverCame
-         : is_old && !IsHeld(input) ? InputLack::kOld
-                                    : FindLack(*lease),
+    Note(!lease                ? InputLack::kNeverCame
+         : is_old && !is_held ? InputLack::kOld
+                              : FindLack(*lease),
          now);
     if (lack_ != InputLack::kNone) return {};
     return lease;

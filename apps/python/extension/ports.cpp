@@ -47,7 +47,8 @@ void OpenApplication::Close() {
   }
   if (!application) return;
   is_closing_ = true;
-  WithoutGil([this, closed = std::move(application)]() mutable {
+  auto closed = std::move(application);
+  WithoutGil([&] {
     for (const auto& each : std::exchange(recordings, {})) (void)each->Finish();
     closed->Stop();
     Diagnostics problems;

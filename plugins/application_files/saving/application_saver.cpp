@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "core/base/replace_file.h"
@@ -145,7 +146,8 @@ Result<std::string> SaveApplication(FrameworkElement& application, const SaveToo
 
 Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& application, const SaveTools& tools, const fs::path& to) {
   constexpr int kAttempts = 20;
-  std::string checked;
+  std::optional<internal::SavedText> checked;
+  std::uint64_t revision = 0;  // at which it was
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     std::unique_lock lock(runtime.structure_mutex());
     if (std::ranges::find(runtime.root().children(), &application) == runtime.root().children().end()) {
@@ -162,15 +164,18 @@ Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& applicat
     if (source != nullptr && is_its_own) {
       if (auto unchanged = CheckUnchanged(*source); !unchanged) return unchanged.error();
     }
-    auto saved = internal::TextOfApplication(application, tools, file.parent_path());
+    // What modules set by their outputs may be another value each time.
+    const bool is_checked = checked && revision == runtime.revision();
+    auto saved = is_checked ? Result(std::move(*checked)) : internal::TextOfApplication(application, tools, file.parent_path());
     if (!saved) return saved.error();
     const bool is_on_disk = source != nullptr && is_its_own && saved->text == source->text && fs::exists(source->file);
-    if (!is_on_disk && saved->text != checked) {
+    if (!is_on_disk && !is_checked) {
       const bool is_alone = !IsTiedToOthers(application);
+      revision = runtime.revision();
       lock.unlock();
       if (auto good = CheckSavedText(saved->text, file, tools, is_alone); !good) return good.error();
-      checked = std::move(saved->text);
-      continue;  // unless others have changed the application meanwhile, it is the same text again
+      checked = std::move(*saved);
+      continue;  // unless others have changed the application meanwhile, it is written
     }
     // All that needs memory comes before the file is another one.
     const auto now = source != nullptr ? std::make_unique<ApplicationSource>(*source)

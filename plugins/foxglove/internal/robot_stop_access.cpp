@@ -30,9 +30,9 @@ bool SaysFalse(std::string_view json) {
 CommandAnswer Release(FoxgloveShared& shared, std::string_view json) {
   const auto said = Member(json, "number");
   const auto number = said ? said->count() : std::nullopt;
-  const auto stop = shared.runtime().robot_stop().state();
-  if (stop.in_force && !number) {
-    return CommandAnswer::Refused({.message = "say which STOP is meant: {\"number\": " + std::to_string(stop.requests) + "}"});
+  if (!number) {
+    const auto requests = shared.runtime().robot_stop().state().requests;
+    return CommandAnswer::Refused({.message = "say which STOP is meant: {\"number\": " + std::to_string(requests) + "}"});
   }
   return shared.application.service.Begin(RobotStopRequest{false, "Foxglove", {.requests = number}}, *shared.tasks)->Take();
 }
