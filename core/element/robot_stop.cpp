@@ -7,11 +7,9 @@
 namespace runnel {
 
 namespace {
-
 Error PressedSince() {
   return {.message = "STOP was pressed or released after this was asked for", .hint = "look why, then ask again"};
 }
-
 }  // namespace
 
 RobotStop::RobotStop(const Runtime& runtime) : runtime_(runtime) {}

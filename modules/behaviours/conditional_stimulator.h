@@ -9,6 +9,7 @@
 #include "core/types/signal.h"
 #include "modules/behaviours/algorithm/conditions.h"
 #include "plugins/behaviours/behaviour.h"
+#include "plugins/parameters/input_timeout.h"
 
 namespace runnel {
 

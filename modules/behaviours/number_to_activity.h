@@ -4,6 +4,7 @@
 
 #include "modules/behaviours/algorithm/curve.h"
 #include "plugins/behaviours/behaviour.h"
+#include "plugins/parameters/input_timeout.h"
 
 namespace runnel {
 
