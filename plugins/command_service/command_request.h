@@ -80,7 +80,7 @@ struct BlockRequest {
 /// Readers of the port find again what is published: ends its block, and its value by hand.
 struct ReleaseRequest {
   std::string port;
-  std::optional<Time> asked = {};  ///< on the machine's steady clock; blocked since: it stays
+  std::optional<Time> asked = {};  ///< on the machine's steady clock; blocked or set by hand since: it stays
 };
 /// Presses or releases the STOP of the robot (RobotStop). CommandService::Begin() does it at once, in the caller's
 /// thread: neither the worker nor the structure lock is waited for.

@@ -99,7 +99,7 @@ class HandHold final : public HandSlot::Hold {
 Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
                                   const std::string& value);
 /// Gives it back to its publishers, ends its block, too; "" : all that are set. Which these were. Errors: no such port;
-/// nothing is set by hand there; it was blocked after this was `asked` for, on the machine's steady clock.
+/// nothing is set by hand there; it was blocked or set after this was `asked` for, on the machine's steady clock.
 Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, std::optional<Time> asked = {});
 
 /// What people set at the ports of an application: once, again and again, or with a deadline, by the machine's clock,
