@@ -68,7 +68,9 @@ WebSession::SteadyTime ViewerSession::SendAlive() {
   const auto stop = inspection_.application().runtime.robot_stop().state();
   if (now < alive_due_ && told_stop_ == stop.requests) return alive_due_;
   const bool is_sent = client_.SendText(JsonObjectText([&](JsonObject& json) {
-    JsonObject told(json.Add("op", "alive").Add("at", ToSeconds(now.time_since_epoch())).Key("stop"));
+    // Who hears of a STOP asks for everything later than it was pressed.
+    const Duration at = std::max<Duration>(now.time_since_epoch(), stop.requested.time_since_epoch());
+    JsonObject told(json.Add("op", "alive").Add("at", ToSeconds(at)).Key("stop"));
     told.Add("in_force", stop.in_force).Add("by", stop.by);
     told.Add("since", ToSeconds(stop.since - inspection_.start()));
   }));

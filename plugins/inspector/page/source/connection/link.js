@@ -19,11 +19,11 @@ export class Link {
   #onState;
   #timer = null;
   #given = 0; // when the newest sign of life was given, by this page's clock
-  #offset = 0; // of the server's clock to this page's, as of the sign of life that was quickest on its way
+  #offset = Infinity; // of the server's clock to this page's, as of the sign of life that was quickest on its way
   #isSilent = false;
   /** When the newest sign of life of this connection was said, in seconds of the server's machine; 0: there was none yet. */
   at = 0;
-  #heard = 0; // when it came, by this page's clock
+  static #all = [];
 
   /**
    * `onState` is told 'connecting', 'open', 'silent' (there is no fresh sign of life; 'open' again when there is one), 'lost' or
@@ -35,6 +35,7 @@ export class Link {
     this.token = token;
     this.#onMessage = onMessage;
     this.#onState = onState;
+    Link.#all.push(this);
     setInterval(() => this.#listen(), kLook);
   }
 
@@ -67,7 +68,6 @@ export class Link {
     if (!(now - given <= kSilent)) return; // nor what does not say when it was
     this.#hear(given);
     this.at = message.at;
-    this.#heard = now;
     this.#onMessage({ ...message, given });
   }
 
@@ -90,9 +90,13 @@ export class Link {
     this.open();
   }
 
-  /** Now by the server's clock, or somewhat earlier; undefined: it is not known. */
+  /**
+   * Now by the server's clock, or somewhat earlier; undefined: it is not known. What one of the page's connections has told was
+   * before this, whichever is asked.
+   */
   asked() {
-    return this.at ? this.at + (performance.now() - this.#heard) / 1000 : undefined;
+    const offset = Math.min(...Link.#all.map((link) => link.#offset));
+    return offset < Infinity ? (performance.now() - offset) / 1000 : undefined;
   }
 
   /** Without waiting for an answer; false if there is no connection. */
@@ -129,6 +133,7 @@ export class Link {
 
   async #lost(reason, wasOpen) {
     this.#socket = null;
+    this.#offset = Infinity;
     for (const number of [...this.#requests.keys()]) this.#answer(number, Lost('the connection was lost before the answer came: it may have been carried out'));
     // Browsers do not say why a WebSocket is refused.
     const refusal = wasOpen ? '' : await Refusal(this.token);
