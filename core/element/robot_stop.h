@@ -51,6 +51,8 @@ class RobotStop {
   Result<void> Release(std::string by, const AsOf& as_of);
   Result<void> Release(std::string by) { return Release(std::move(by), AsOf()); }
 
+  /// Of what is asked for now and carried out later; `asked`: when, if somebody says so.
+  [[nodiscard]] AsOf AsOfNow(std::optional<Time> asked = {}) const { return {asked, state().requests}; }
   /// An error: STOP was pressed, or released, since what `as_of` knows of.
   Result<void> CheckIsKnown(const AsOf& as_of) const;
 
