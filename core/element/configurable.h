@@ -47,6 +47,9 @@ class Configurable {
   /// lock.
   [[nodiscard]] virtual Port* Feed() { return nullptr; }
 
+  /// An output has given it its value, and nobody has set it since.
+  [[nodiscard]] virtual bool is_fed() const noexcept { return false; }
+
   // The same by the text format.
   Result<void> SetFromText(std::string_view text);
   [[nodiscard]] Result<void> CheckText(std::string_view text) const;

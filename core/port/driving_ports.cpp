@@ -6,7 +6,6 @@
 
 #include "core/element/annotation.h"
 #include "core/element/try_structure_lock.h"
-#include "core/port/port.h"
 
 namespace runnel {
 
@@ -17,10 +16,32 @@ struct DrivingBeside final : Annotation {
   std::vector<std::pair<std::string, std::weak_ptr<const PortStop>>> all;
 };
 
+void VisitPortsOfModule(const Port& port, const std::function<void(Port& each, bool is_feed)>& visit) {
+  FrameworkElement* module = port.parent();
+  while (module != nullptr && module->kind() == ElementKind::kPortGroup) module = module->parent();
+  if (module == nullptr || module->kind() != ElementKind::kModule) return;
+  module->Visit([&](FrameworkElement& each) {
+    auto* const other = dynamic_cast<Port*>(&each);
+    if (other != nullptr) visit(*other, other->parent()->parent()->kind() == ElementKind::kParameter);
+  });
+}
+
 }  // namespace
 
+void VisitPassing(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit) {
+  VisitPortsOfModule(port, [&](Port& each, bool is_feed) {
+    if (!is_feed && each.direction() == direction && &each.type() == &port.type()) visit(each);
+  });
+}
+
+void VisitFeeds(const Port& port, const std::function<void(Port& feed)>& visit) {
+  VisitPortsOfModule(port, [&](Port& each, bool is_feed) {
+    if (is_feed) visit(each);
+  });
+}
+
 std::optional<std::string> FindWhatDrives(Runtime& runtime) {
-  const auto lock = TryStructureLock(runtime, std::chrono::milliseconds(1));
+  const auto lock = TryStructureLock(runtime, std::chrono::milliseconds(20));
   if (!lock) return {};
   std::string names;
   const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };

@@ -1,15 +1,24 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "core/base/error.h"
+#include "core/port/port.h"
 #include "core/port/port_stop.h"
 
 namespace runnel {
 
 class Runtime;
+
+/// The inputs, or outputs, of the port's module that have its type: a filter, gate or merge passes on from them, or to them.
+/// Under the structure lock.
+void VisitPassing(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit);
+
+/// The inputs by which outputs set parameters of the port's module (Configurable::Feed()). Under the structure lock.
+void VisitFeeds(const Port& port, const std::function<void(Port& feed)>& visit);
 
 /// What the STOP of the robot holds, as paths with ", " between them; "": it holds nothing. Nothing while somebody else has
 /// the structure lock, which is waited for some ms at most.

@@ -107,7 +107,7 @@ class Input final : public BoundInput {
   }
   /// Whether that is because a stop is in force: however long ago it was pressed, the safe value is what is meant. Any thread.
   [[nodiscard]] bool is_stop_in_force() const noexcept {
-    return FindsStop([](const internal::StopLink& stop) { return stop.stop().in_force(); });
+    return FindsStop([](const internal::StopLink& stop) { return !stop.is_braking() && stop.stop().in_force(); });
   }
 
   bool VisitLatest(const Visitor& visit) const override {

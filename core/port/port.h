@@ -77,9 +77,10 @@ class Port : public FrameworkElement {
   }
   /// Outputs: whether a value was published with a time of measurement that was more than 100 ms to come. Any thread.
   [[nodiscard]] bool stamps_ahead() const noexcept { return stamps_ahead_.load(std::memory_order_relaxed); }
-  /// Outputs: whether a velocity that moves the robot is made of it, so that it has to begin from a standstill after a STOP.
+  /// Outputs: 0, unless a velocity that moves the robot is made of it, also by modules that pass values of its type on. Then what
+  /// is ramped has to begin from a standstill after a STOP, and whenever this number is another one: a block behind it has ended.
   /// Stays so when that port goes. Any thread; wait-free.
-  [[nodiscard]] bool feeds_velocity() const noexcept { return feeds_velocity_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint32_t velocity_beginnings() const noexcept { return velocity_beginnings_.load(std::memory_order_relaxed); }
   /// Who looks at the port without being connected to it says so. Any thread.
   void NoteLook() const noexcept { is_looked_at_.store(true, std::memory_order_relaxed); }
 
@@ -219,6 +220,8 @@ class Port : public FrameworkElement {
   virtual void ReplaceSource(const Port& /*from*/, Port& /*to*/) noexcept {}
   /// Binds all inputs at the far end anew.
   void RebindSinks();
+  /// Outputs: what is made of it, and of what its module passes on by it, is a velocity; `beginning`: of it.
+  void NoteVelocity(std::uint32_t beginning);
   /// PublishFilled() of ports that have a channel.
   Result<PublishStatus> PublishInto(ChannelBase& channel, const Fill& fill,
                                     std::optional<Time> timestamp);
@@ -294,7 +297,7 @@ class Port : public FrameworkElement {
   std::atomic<bool> has_outgoing_{false};
   mutable std::atomic<bool> is_looked_at_{false};
   mutable std::atomic<bool> stamps_ahead_{false};
-  std::atomic<bool> feeds_velocity_{false};  // relaxed, as it is looked at each cycle
+  std::atomic<std::uint32_t> velocity_beginnings_{0};  // relaxed, as it is looked at each cycle
   std::unique_ptr<internal::PortExtras> extras_;  // what few ports have
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/port/converted_flow.h"
+#include "core/port/driving_ports.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/port/proxy_port.h"
@@ -28,6 +29,17 @@ void DropRepetitions(const std::vector<Connection>& ways, std::vector<Port*>& po
   if (std::ranges::none_of(ways, [](const Connection& each) { return each.to->is_proxy(); })) return;
   std::unordered_set<const Port*> seen;
   std::erase_if(ports, [&](const Port* port) { return !seen.insert(port).second; });
+}
+
+constexpr std::uint32_t kFirstBeginning = 1;
+
+// It moves the robot, or its module passes it on to what does.
+bool IsMadeVelocity(const Port& input) {
+  const auto is_of_robot = [](const internal::PassedStop& each) { return each.stop->robot() != nullptr; };
+  if (IsVelocity(input.type(), input.unit()) && std::ranges::any_of(internal::PassedStops(input), is_of_robot)) return true;
+  bool is_made = false;
+  VisitPassing(input, Port::Direction::kOutput, [&](const Port& output) { is_made = is_made || output.velocity_beginnings() != 0; });
+  return is_made;
 }
 
 // Of two stretches of one way, or two ways from one source, the one that asks for a queue decides;
@@ -91,11 +103,18 @@ std::vector<Port::Source> Port::BoundSources(Links links) const {
 void Port::RebindSinks() {
   for (Port* sink : Sinks()) {
     sink->Rebind(sink->BoundSources(Links::kMake));
-    if (!IsVelocity(sink->type(), sink->unit())) continue;
-    const auto is_of_robot = [](const internal::PassedStop& each) { return each.stop->robot() != nullptr; };
-    if (std::ranges::none_of(internal::PassedStops(*sink), is_of_robot)) continue;
-    for (Port* source : sink->Sources()) source->feeds_velocity_.store(true, std::memory_order_relaxed);
+    if (!IsMadeVelocity(*sink)) continue;
+    for (Port* source : sink->Sources()) source->NoteVelocity(kFirstBeginning);
   }
+}
+
+void Port::NoteVelocity(std::uint32_t beginning) {
+  const std::uint32_t known = velocity_beginnings();
+  if (known == beginning || (known != 0 && beginning == kFirstBeginning)) return;
+  velocity_beginnings_.store(beginning, std::memory_order_relaxed);
+  VisitPassing(*this, Direction::kInput, [&](const Port& input) {
+    for (Port* source : input.Sources()) source->NoteVelocity(beginning);
+  });
 }
 
 // Of conversions on the way from here to the inputs, the links of sources that do not reach them any more.

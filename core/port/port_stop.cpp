@@ -3,7 +3,9 @@
 #include "core/port/port_stop.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <utility>
 
@@ -77,7 +79,13 @@ Result<void> Port::Block() {
 
 bool Port::Unblock() {
   const std::lock_guard lock(runtime().structure_mutex());
-  if (!extras_ || !extras_->stop) return false;
+  static std::atomic<std::uint32_t> last_beginning{1};
+  if (!is_blocked()) return false;
+  // Before it counts what is made from then on.
+  if (IsVelocity(type_, unit())) {
+    const std::uint32_t beginning = ++last_beginning;
+    for (Port* source : Sources()) source->NoteVelocity(beginning);
+  }
   if (!extras_->stop->block()->Release([this] { return runtime().clock().Now(); })) return false;
   TellOfChange();
   return true;

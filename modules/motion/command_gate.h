@@ -72,7 +72,7 @@ class CommandGate final : public Module {
     state.Publish(verdict);
   }
   [[nodiscard]] GateState Check(const Lease<Contact>& touch) const {
-    if (stop.Get() || (wanted.is_stopped() && wanted.is_stop_in_force())) return GateState::kStopped;
+    if (stop.Get() || wanted.is_stop_in_force()) return GateState::kStopped;
     if (wanted_timeout.lack() == InputLack::kNeverCame) return GateState::kNoCommand;
     if (has_bumper_ && !touch) return GateState::kOldContact;
     if (touch && touch->is_touching) return GateState::kContact;

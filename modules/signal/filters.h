@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 
+#include "core/element/robot_stop.h"
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
@@ -13,7 +16,7 @@ namespace runnel::signal {
 /// What small modules for one number have in common: each new value gives one, with the timestamp that it had.
 class Filter : public Module {
  public:
-  using Module::Module;
+  explicit Filter(const Placement& placement) : Module(placement) { KeepState(course_); }
 
   Input<double> in{this, "in", {.required = true}};
   Output<double> out{this, "out"};
@@ -27,10 +30,6 @@ class Filter : public Module {
  private:
   void Update() final {
     if (in.is_stopped()) return PassSafeValue();
-    if (out.feeds_velocity() && runtime().robot_stop().in_force()) {
-      BeginAt(0);
-      last_ = now();
-    }
     if (in.has_queue()) {
       for (auto each = in.Take(); each; each = in.Take()) Pass(each);
     } else if (const auto read = in.Read(); read.is_new()) {
@@ -43,17 +42,36 @@ class Filter : public Module {
     }
     const auto safe = in.Read();
     BeginAt(*safe);
-    last_ = now();
+    course_.last = now();
     out.Publish(*safe, safe.timestamp());
   }
   void Pass(const Lease<double>& value) {
     const Time time = value.timestamp();
-    const double seconds = last_ && time > *last_ ? ToSeconds(time - *last_) : 0;
-    last_ = time;
+    if (HasStoodStill(time)) {
+      BeginAt(0);
+      course_.last = std::max(Time(Duration(course_.bar)), now() - period());
+    }
+    const double seconds = course_.last && time > *course_.last ? ToSeconds(time - *course_.last) : 0;
+    course_.last = time;
     out.Publish(Next(*value, seconds), time);
   }
+  // What moves by it. Asked once a value is there: one that came after a release finds that it was released.
+  [[nodiscard]] bool HasStoodStill(Time time) noexcept {
+    const std::int64_t bar = runtime().robot_stop().signal()->bar();
+    const std::uint32_t beginning = out.velocity_beginnings();
+    const bool is_stopped = bar == StopSignal::kInForce || bar != course_.bar || beginning != course_.beginning;
+    course_.bar = bar;
+    course_.beginning = beginning;
+    return beginning != 0 && (is_stopped || (course_.last && time - *course_.last > std::max(kTimedOut, 2 * period())));
+  }
 
-  std::optional<Time> last_;
+  static constexpr Duration kTimedOut = std::chrono::milliseconds(500);
+  struct Course {
+    std::optional<Time> last;  // of the value before
+    std::int64_t bar = StopSignal::kNever;
+    std::uint32_t beginning = 0;
+  };
+  Course course_;
 };
 
 class LowPassFilter final : public Filter {

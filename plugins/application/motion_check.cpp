@@ -42,13 +42,6 @@ void WarnOfSharedThreads(const ApplicationCheckUse& use) {
     const std::uint64_t id = thread_of(*module);
     const std::size_t count = others[id];
     const std::string name = threads.contains(id) ? threads[id]->name() : "main";
-    if (threads.contains(id) && threads[id]->options().activation == ThreadOptions::Activation::kTrigger) {
-      use.diagnostics.AddWarning({.message = "something moves by it, and the thread '" + name +
-                                             "' runs it only when data come: when none come any more, it does not find that they are old",
-                                  .path = module->path(),
-                                  .position = FindSourcePlace(*module),
-                                  .hint = "give it a thread with a period"});
-    }
     if (count == 0) continue;
     use.diagnostics.AddWarning({.message = "something moves by it, and the thread '" + name + "' runs " + std::to_string(count) +
                                            (count == 1 ? " other module" : " other modules") +

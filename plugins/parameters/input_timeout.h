@@ -72,7 +72,7 @@ class InputTimeout {
   /// Empty: it does not count. `now`: what its age is reckoned from.
   template <typename T>
   [[nodiscard]] Lease<T> Read(Input<T>& input, Time now) {
-    const bool is_held = IsHeld(input);  // first: what was old is no news by a press in between
+    const bool is_held = input.is_stop_in_force();  // first: what was old is no news by a press in between
     Lease<T> lease = input.Read();
     const bool is_old = lease && now - (counts_from_publication_ ? lease.publication_time() : lease.timestamp()) >
                                      FromSeconds(limit.Get());
@@ -91,11 +91,6 @@ class InputTimeout {
   }
 
  private:
-  // On the way of a brake values are as old as the one that was read last.
-  template <typename T>
-  [[nodiscard]] static bool IsHeld(const Input<T>& input) noexcept {
-    return input.is_stopped() && input.is_stop_in_force();
-  }
   // What has not come yet is told when it should have.
   void Note(InputLack lack, Time now) noexcept {
     if (!began_) began_ = now;

@@ -102,6 +102,7 @@ class ParameterBase : public FrameworkElement, public Configurable {
   /// In the group "feed" below: a task of its own, run where the module is, takes over what comes there, unless
   /// it is out of bounds. None of static parameters, and of types that no port has.
   [[nodiscard]] Port* Feed() final;
+  [[nodiscard]] bool is_fed() const noexcept final { return is_fed_.load(std::memory_order_relaxed); }
   [[nodiscard]] const TypeInfo& type() const final { return description_.type; }
   [[nodiscard]] const ConfigurableInfo& info() const final { return description_.info; }
 
@@ -120,6 +121,7 @@ class ParameterBase : public FrameworkElement, public Configurable {
   const internal::ParameterDescription description_;
   Module* const module_;  // nullptr: of something else
   std::atomic_flag is_assigning_ = ATOMIC_FLAG_INIT;
+  std::atomic<bool> is_fed_{false};  // relaxed: it only informs
   Feeder* feeder_ = nullptr;  // once somebody has asked for it; a child
 };
 

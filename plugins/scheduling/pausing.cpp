@@ -77,6 +77,11 @@ std::string Scheduler::WhyUnreached(const Port& port) const {
   return why;
 }
 
+void Scheduler::WakeWithoutData(const FrameworkElement& element) const {
+  const internal::PlannedElement* const around = compiler_.FindAround(element);
+  if (around != nullptr && around->thread->runner->waits_for_data()) around->state->Wake();
+}
+
 void Scheduler::MovePaths(const std::function<void(std::string& path)>& move) {
   faults_.MovePaths(move);
   cycle_watchdog_.MovePaths(move);

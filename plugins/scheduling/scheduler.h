@@ -209,6 +209,9 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// a thread that is stuck at once after kUnreachedAfter. "": it is read. Under the structure lock.
   static constexpr Duration kUnreachedAfter = std::chrono::milliseconds(500);
   [[nodiscard]] std::string WhyUnreached(const Port& port) const;
+  /// Has the module that has the element run soon, if its thread waits for data: of what is old nothing tells it. Under the
+  /// structure lock.
+  void WakeWithoutData(const FrameworkElement& element) const;
   /// Errors: no such element; it is not this path that has been paused.
   [[nodiscard]] Result<void> CheckPaused(std::string_view path) const;
 

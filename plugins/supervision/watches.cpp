@@ -4,6 +4,9 @@
 #include <utility>
 
 #include "core/base/clock.h"
+#include "core/element/configurable.h"
+#include "core/port/driving_ports.h"
+#include "core/port/input_base.h"
 #include "plugins/structure/value_by_hand.h"
 
 namespace runnel::internal {
@@ -20,6 +23,12 @@ struct RestMark final : Annotation {
   std::optional<Time> rested;  // the value in the slot of rules is of here: when its source was last seen at rest
   bool is_unreached = false;
   bool is_ahead_told = false;
+};
+
+// Something is, or was, connected to the input.
+struct FedMark final : Annotation {
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<FedMark>(); }
+  [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
 };
 
 const RestMark* MarkOf(const Port& port) { return port.FindAnnotation<RestMark>(); }
@@ -89,8 +98,7 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
     outputs_.clear();
     runtime.root().Visit([this](FrameworkElement& element) {
       auto* const port = dynamic_cast<Port*>(&element);
-      if (port != nullptr && (port->is_driving() || MarkOf(*port) != nullptr))
-        driven_.push_back({port, port->Sources(), port->Sinks()});
+      if (port != nullptr && (port->is_driving() || MarkOf(*port) != nullptr)) driven_.emplace_back(*port);
       if (port != nullptr && port->direction() == Port::Direction::kOutput && (MarkOf(*port) == nullptr || !MarkOf(*port)->is_ahead_told))
         outputs_.push_back(port);
     });
@@ -107,11 +115,61 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
   });
 }
 
+Standstill::Driven::Driven(Port& driving) : port(&driving), sources(driving.Sources()), sinks(driving.Sinks()) {
+  const auto* const input = dynamic_cast<const InputBase*>(port);
+  LookUpstream(*port, input != nullptr && input->ageing() == Ageing::kTimesOut, *this);
+}
+
+// Over modules that pass on what they get, as far as nobody asks how old it is; what sets parameters there does not grow old.
+void Standstill::LookUpstream(const Port& port, bool times_out, Driven& driven) {
+  for (Port* source : port.Sources()) {
+    if (!driven.seen.insert(source).second) continue;
+    if (&port == driven.port || !times_out) driven.upstream.push_back(source);
+    LookAtParameters(*source, driven);
+    std::vector<const Port*> cut_off;
+    bool is_fed = false;
+    VisitPassing(*source, Port::Direction::kInput, [&](Port& each) {
+      const auto* const input = dynamic_cast<const InputBase*>(&each);
+      const bool ages = times_out || (input != nullptr && input->ageing() != Ageing::kUnspecified);
+      const bool is_by_hand = each.is_set_by_hand(Port::Setter::kPerson);  // whatever comes there does not count
+      const bool is_bound = is_by_hand || !each.Sources().empty();
+      if (is_bound) each.Annotate(std::make_unique<FedMark>());
+      is_fed = is_fed || is_bound;
+      if (!ages && !is_bound && each.FindAnnotation<FedMark>() != nullptr) cut_off.push_back(&each);
+      if (!is_by_hand) LookUpstream(each, ages, driven);
+    });
+    if (!is_fed) driven.cut_off.insert(driven.cut_off.end(), cut_off.begin(), cut_off.end());
+  }
+}
+
+void Standstill::LookAtParameters(const Port& source, Driven& driven) {
+  VisitFeeds(source, [&](Port& feed) {
+    const auto feeding = feed.Sources();
+    driven.upstream.insert(driven.upstream.end(), feeding.begin(), feeding.end());
+    if (feeding.empty()) driven.cut_off.push_back(&feed);
+  });
+}
+
+std::string Standstill::WhyAtRest(const Driven& driven, const Scheduler& scheduler) {
+  if (!driven.port->is_driving()) return "";
+  if (std::string why = internal::WhyAtRest(driven.upstream, scheduler, Duration::max()); !why.empty()) return why;
+  for (const Port* each : driven.cut_off) {
+    // What somebody has set since is his.
+    const auto* const parameter = dynamic_cast<const Configurable*>(each->parent()->parent());
+    if (parameter == nullptr) return "nothing is connected to " + each->path() + " any more";
+    if (parameter->is_fed()) return "nothing sets " + each->parent()->parent()->path() + " any more";
+  }
+  return "";
+}
+
 // Who does not run reads no safe value either.
 void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler, const Tell& tell) {
   Port& port = *driven.port;
+  if (port.is_driving()) {
+    for (const Port* each : driven.sinks) scheduler.WakeWithoutData(*each);
+  }
   const std::string why =
-      port.is_driving() ? WhyAtRest(driven.sinks, scheduler, Scheduler::kUnreachedAfter) : "";
+      port.is_driving() ? internal::WhyAtRest(driven.sinks, scheduler, Scheduler::kUnreachedAfter) : "";
   if (why.empty() && MarkOf(port) == nullptr) return;
   if (std::exchange(Mark(port).is_unreached, !why.empty()) == !why.empty()) return;
   tell(port,
@@ -123,7 +181,7 @@ void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler,
 void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell) {
   Port& port = *driven.port;
   const auto held = MarkOf(port) != nullptr ? MarkOf(port)->rested : std::nullopt;
-  const std::string why = port.is_driving() ? WhyAtRest(driven.sources, scheduler, Duration::max()) : "";
+  const std::string why = WhyAtRest(driven, scheduler);
   const bool is_set = port.is_set_by_hand(Port::Setter::kRule);
   if (!why.empty()) {
     if (is_set) {  // a rule may have been first
@@ -152,7 +210,8 @@ void Standstill::LeaveToRule(Port& port) {
 }
 
 bool Standstill::TakesOver(Port& port, const Scheduler& scheduler, Time now) {
-  if (!port.is_driving() || WhyAtRest(port.Sources(), scheduler, Duration::max()).empty()) return false;
+  Driven driven(port);
+  if (WhyAtRest(driven, scheduler).empty()) return false;
   const auto safe = SafeValueOf(port);
   if (!safe || !PublishByHand(port, safe->get(), Port::Setter::kRule)) return false;
   Mark(port).rested = now;

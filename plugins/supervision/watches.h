@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,10 @@ class StaleWatch {
 };
 
 /// Has ports that drive read their safe value while a module that feeds them does not run: it is paused, has failed, or its
-/// thread is stuck. By the slot of rules, and until the module has published again. Tells where the module that drives does
-/// not run itself, so that neither this nor a STOP reaches it.
+/// thread is stuck. By the slot of rules, and until the module has published again. So do those before it that nobody notices
+/// the silence of: behind them modules only pass values on, without a time-out, or they set a parameter on the way. Modules that
+/// drive and wait for data are run without, since what grows old does not come. Tells where the module that drives does not run
+/// itself, so that neither this nor a STOP reaches it.
 ///
 /// Threads: all under the structure lock.
 class Standstill {
@@ -65,10 +68,17 @@ class Standstill {
 
  private:
   struct Driven {
+    explicit Driven(Port& driving);
     Port* port;
     std::vector<Port*> sources;
     std::vector<Port*> sinks;
+    std::vector<Port*> upstream;       // outputs that it moves by; the sources, too
+    std::vector<const Port*> cut_off;  // inputs on the way that something was connected to
+    std::set<const Port*> seen;
   };
+  static void LookUpstream(const Port& port, bool times_out, Driven& driven);
+  static void LookAtParameters(const Port& source, Driven& driven);
+  [[nodiscard]] static std::string WhyAtRest(const Driven& driven, const Scheduler& scheduler);
   static void LookAtReaders(const Driven& driven, const Scheduler& scheduler, const Tell& tell);
   static void LookAtSources(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell);
 

@@ -56,9 +56,9 @@ TEST(RateLimiterTest, BeginsFromAStandstillAfterAStop) {
   ASSERT_TRUE(rig.Prepare());
   auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
   Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
-  EXPECT_FALSE(rig.module.out.feeds_velocity());
+  EXPECT_EQ(rig.module.out.velocity_beginnings(), 0);
   ASSERT_TRUE(Port::Connect(rig.module.out, wheels));
-  EXPECT_TRUE(rig.module.out.feeds_velocity());
+  EXPECT_NE(rig.module.out.velocity_beginnings(), 0);
   for (int i = 0; i < 20; ++i) (void)After(rig, 1);
   EXPECT_EQ(wheels.Get(), 1);
   rig.runtime.robot_stop().Press("a test");
@@ -74,6 +74,48 @@ TEST(RateLimiterTest, BeginsFromAStandstillAfterAStop) {
   rig.Wait(1ms);
   (void)After(rig, 1);
   EXPECT_LT(wheels.Get(), 0.2);
+  wheels.DisconnectAll();
+}
+
+// Whichever of the two connections is made first.
+TEST(RateLimiterTest, BeginsFromAStandstillAlsoBeforeAModuleThatPassesItOn) {
+  for (const bool is_first : {true, false}) {
+    ModuleRig<RateLimiterFilter> rig(100ms);
+    ASSERT_TRUE(rig.Prepare());
+    auto& gain = rig.runtime.Create<LinearFilter>(rig.runtime.root(), "gain");
+    auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+    Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
+    if (is_first) {
+      ASSERT_TRUE(Port::Connect(rig.module.out, gain.in));
+    }
+    ASSERT_TRUE(Port::Connect(gain.out, wheels));
+    if (!is_first) {
+      ASSERT_TRUE(Port::Connect(rig.module.out, gain.in));
+    }
+    EXPECT_NE(rig.module.out.velocity_beginnings(), 0);
+    for (int i = 0; i < 20; ++i) (void)After(rig, 1);
+    // Pressed and released between two cycles.
+    rig.runtime.robot_stop().Press("a test");
+    ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+    EXPECT_THAT(After(rig, 1), DoubleNear(0.1, 1e-12));
+    wheels.DisconnectAll();
+  }
+}
+
+TEST(RateLimiterTest, BeginsFromAStandstillAfterABlockAndASilence) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
+  ASSERT_TRUE(Port::Connect(rig.module.out, wheels));
+  for (int i = 0; i < 20; ++i) (void)After(rig, 1);
+  ASSERT_TRUE(wheels.Block());
+  for (int i = 0; i < 20; ++i) (void)After(rig, 1);
+  ASSERT_TRUE(wheels.Unblock());
+  EXPECT_THAT(After(rig, 1), DoubleNear(0.1, 1e-12));
+  EXPECT_THAT(After(rig, 1), DoubleNear(0.2, 1e-12));
+  rig.RunCycles(20);  // nothing has come, and so nothing moves
+  EXPECT_THAT(After(rig, 1), DoubleNear(0.1, 1e-12));
   wheels.DisconnectAll();
 }
 

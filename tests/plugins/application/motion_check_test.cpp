@@ -45,12 +45,6 @@ TEST(MotionCheck, NamesAModuleThatDrivesAndSharesItsThread) {
                                ::testing::HasSubstr("give it a thread of its own: <thread name=\"drive\"")));
 }
 
-TEST(MotionCheck, WarnsWhereWhatMovesRunsOnlyWhenDataCome) {
-  EXPECT_THAT(Checked("<thread name='drive' activation='trigger'/>\n"
-                      "<module name='m' type='states/filter' thread='drive'/><driving port='m/queued'/>"),
-              ::testing::HasSubstr("it does not find that they are old"));
-}
-
 TEST(MotionCheck, WarnsOfAMarkBeforeWhatMoves) {
   const std::string moves = "<module name='s' type='states/source'/><module name='m' type='states/filter'/><connect from='s/out' to='m/in'/>";
   EXPECT_THAT(Checked("<clock type='simulated'/>" + moves + "<driving port='s/out'/>"),

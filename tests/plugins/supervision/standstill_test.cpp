@@ -1,5 +1,6 @@
 // Ports that drive, while what feeds them does not run.
 
+#include "plugins/parameters/parameter.h"
 #include "tests/plugins/supervision/supervised_robot.h"
 
 namespace runnel::supervised {
@@ -83,6 +84,113 @@ TEST_F(Driven, ACommandFromBeforeThePauseDoesNotDriveWhenTheRuleTakesItsValueBac
   robot.laser_works = true;
   RunOn();
   EXPECT_EQ(robot.seen, 1);
+}
+
+/// Passes on what is new, as long as `open` says so; nothing here looks how old it is.
+class Passing final : public Module {
+ public:
+  using Module::Module;
+  Input<double> in{this, "in"};
+  Output<double> out{this, "out"};
+  Parameter<bool> open{this, "open", {.default_value = true}};
+
+ private:
+  void Update() override {
+    if (const auto value = in.Read(); value && value.is_new() && open.Get()) out.Publish(*value);
+  }
+};
+
+/// Something moves by what comes over the module.
+class DrivenOver : public Driven {
+ protected:
+  DrivenOver() {
+    MustSucceed(Port::Disconnect(robot.laser.out, robot.reader.in));
+    MustSucceed(Port::Connect(robot.laser.out, passing.in));
+    MustSucceed(Port::Connect(passing.out, robot.reader.in));
+    MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+    RunOn();
+    EXPECT_EQ(robot.seen, 1);
+    (void)robot.Messages();
+  }
+  Passing& passing = robot.runtime.Create<Passing>(robot.runtime.root(), "passing");
+};
+
+TEST_F(DrivenOver, APortHasItsSafeValueWhileWhatComesBeforeIsPaused) {
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+  EXPECT_THAT(robot.Messages(), ElementsAre("has its safe value: /laser is paused"));
+  MustSucceed(robot.supervisor.SetPaused("/laser", false));
+  RunOn();
+  EXPECT_EQ(robot.seen, 1);
+}
+
+TEST_F(DrivenOver, APortHasItsSafeValueWhenWhatComesBeforeIsGone) {
+  MustSucceed(Port::Disconnect(robot.laser.out, passing.in));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+  EXPECT_THAT(robot.Messages(), ElementsAre("has its safe value: nothing is connected to /passing/input/in any more"));
+  MustSucceed(Port::Connect(robot.infrared.out, passing.in));
+  RunOn();
+  EXPECT_EQ(robot.seen, 2);
+}
+
+TEST_F(DrivenOver, WhatLooksHowOldItIsGoesOn) {
+  struct Ageing final : Module {
+    using Module::Module;
+    Input<double> in{this, "in", {.ageing = runnel::Ageing::kTimesOut}};
+    Output<double> out{this, "out"};
+    void Update() override { out.Publish(3); }
+  };
+  auto& ageing = robot.runtime.Create<Ageing>(robot.runtime.root(), "ageing");
+  MustSucceed(Port::Disconnect(passing.out, robot.reader.in));
+  MustSucceed(Port::Connect(passing.out, ageing.in));
+  MustSucceed(Port::Connect(ageing.out, robot.reader.in));
+  MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+  RunOn();
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  RunOn();
+  EXPECT_EQ(robot.seen, 3);
+  MustSucceed(robot.supervisor.SetPaused("/ageing", true));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+}
+
+TEST_F(DrivenOver, APortHasItsSafeValueWhileWhatSetsAParameterOnTheWayIsPausedOrGone) {
+  struct Switch final : Module {
+    using Module::Module;
+    Output<bool> out{this, "out"};
+    void Update() override { out.Publish(true); }
+  };
+  auto& dead_man = robot.runtime.Create<Switch>(robot.runtime.root(), "dead_man");
+  MustSucceed(Port::Connect(dead_man.out, *passing.open.Feed()));
+  MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+  RunOn();
+  EXPECT_EQ(robot.seen, 1);
+  MustSucceed(robot.supervisor.SetPaused("/dead_man", true));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+  MustSucceed(robot.supervisor.SetPaused("/dead_man", false));
+  RunOn();
+  EXPECT_EQ(robot.seen, 1);
+  (void)robot.Messages();
+  MustSucceed(Port::Disconnect(dead_man.out, *passing.open.Feed()));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+  EXPECT_THAT(robot.Messages(), ElementsAre("has its safe value: nothing sets /passing/parameter/open any more"));
+  MustSucceed(passing.open.SetFromText("true"));  // what a person says counts
+  RunOn();
+  EXPECT_EQ(robot.seen, 1);
+}
+
+// What is old does not wake it, nor does that nothing comes.
+TEST_F(Driven, AModuleThatWaitsForDataFindsThatNoneComes) {
+  AssignThread(robot.reader, OnlyOnData());
+  MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+  robot.seen = 0;
+  robot.laser_works = false;
+  RunOn();
+  EXPECT_EQ(robot.seen, 1) << "it has been run, and reads what came last";
 }
 
 // One thread runs them all then.
