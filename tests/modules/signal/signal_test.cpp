@@ -66,7 +66,7 @@ TEST(RateLimiterTest, BeginsFromAStandstillAfterAStop) {
   ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
   (void)After(rig, 1);  // of the time of the release itself
   (void)After(rig, 1);
-  EXPECT_THAT(wheels.Get(), DoubleNear(0.2, 1e-12)) << "1 m/s^2, of two cycles";
+  EXPECT_THAT(wheels.Get(), DoubleNear(0.1, 1e-12)) << "1 m/s^2, of one cycle";
   // However long nothing has come: it is no time in which the robot has driven.
   rig.runtime.robot_stop().Press("a test");
   rig.RunCycles(200);
@@ -97,6 +97,7 @@ TEST(RateLimiterTest, BeginsFromAStandstillAlsoBeforeAModuleThatPassesItOn) {
     // Pressed and released between two cycles.
     rig.runtime.robot_stop().Press("a test");
     ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+    EXPECT_EQ(After(rig, 1), 0) << "of the time of the release itself";
     EXPECT_THAT(After(rig, 1), DoubleNear(0.1, 1e-12));
     wheels.DisconnectAll();
   }
