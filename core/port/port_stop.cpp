@@ -33,13 +33,15 @@ Result<AnyValue> Port::FindSafeValue(const AnyValue& declared) const {
   const auto refuse = [&](std::string message) {
     return Error{.message = std::move(message), .path = path()};
   };
-  const AnyValue& given = declared ? declared : limits().default_value;
+  // What a velocity is read as while nothing comes may well move.
+  const bool is_velocity = IsVelocity(type_, unit());
+  const AnyValue given = declared || is_velocity ? declared : limits().default_value;
   if (given && &given.type() != &type_) {
     return refuse("its safe value is a " + given.type().name() + " and not a " + type_.name());
   }
   if (given && !type_.is_transparent()) return refuse("a " + type_.name() + " cannot be copied");
   if (given) return given;
-  if (!IsVelocity(type_, unit())) {
+  if (!is_velocity) {
     Error error = refuse("something moves by it, and it has no safe value");
     error.hint = "declare which " + type_.name() + " is a standstill";
     return error;

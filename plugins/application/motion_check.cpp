@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -20,7 +21,7 @@ namespace {
 void WarnOfSharedThreads(const ApplicationCheckUse& use) {
   std::set<const FrameworkElement*> driving;
   std::map<std::uint64_t, const ThreadContainer*> threads;
-  std::map<std::uint64_t, std::size_t> others;  // by thread: modules by which nothing moves
+  std::map<std::uint64_t, std::size_t> modules;  // by thread
   FrameworkElement& root = use.application.runtime().root();
   root.Visit([&](FrameworkElement& element) {
     if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) threads[thread->id()] = thread;
@@ -36,11 +37,11 @@ void WarnOfSharedThreads(const ApplicationCheckUse& use) {
     return threads.contains(assigned) || threads.empty() ? assigned : threads.begin()->first;
   };
   root.Visit([&](FrameworkElement& element) {
-    if (element.FindAnnotation<Executable>() != nullptr && !driving.contains(&element)) ++others[thread_of(element)];
+    if (element.FindAnnotation<Executable>() != nullptr) ++modules[thread_of(element)];
   });
   for (const FrameworkElement* module : driving) {
     const std::uint64_t id = thread_of(*module);
-    const std::size_t count = others[id];
+    const std::size_t count = std::max<std::size_t>(modules[id], 1) - 1;
     const std::string name = threads.contains(id) ? threads[id]->name() : "main";
     if (count == 0) continue;
     use.diagnostics.AddWarning({.message = "something moves by it, and the thread '" + name + "' runs " + std::to_string(count) +

@@ -97,7 +97,7 @@ XmlTag DrivingTag() {
           .parents = {"application", "group"},
           .attributes = {PathRule("port", true, "an input of a module, or a port of a group; an output: all that read from it"),
                          {.name = "safe",
-                          .summary = "the value at which it stands still; if left out, the input's default, or zero of a velocity"},
+                          .summary = "the value at which it stands still; if left out, zero of a velocity, or the input's default"},
                          {.name = "brake",
                           .kind = AttributeKind::kDuration,
                           .summary = "how long the way there takes from the value read last, 10 s at most; if left out, no time"}},

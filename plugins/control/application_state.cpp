@@ -56,7 +56,7 @@ std::string StateText(const ServedApplication& application) {
     if (count > 0) text += ", " + std::to_string(count) + (count == 1 ? one : many);
   };
   add(StoppedModules(root, *application.scheduler, nullptr).size(), " module FAILED", " modules FAILED");
-  add(application.scheduler->StuckModules().size(), " module STUCK", " modules STUCK");
+  for (const StuckModule& each : application.scheduler->StuckModules()) text += ", STUCK: " + each.path;
   add(unreached, " driving port CANNOT BE REACHED", " driving ports CANNOT BE REACHED");
   add(paused, " module PAUSED", " modules PAUSED");
   add(blocked, " port BLOCKED", " ports BLOCKED");

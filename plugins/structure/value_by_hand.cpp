@@ -42,7 +42,7 @@ Result<void> PublishByHand(Port& port, const void* value, Port::Setter setter) {
 
 Result<AnyValue> SafeValueOf(const Port& port) {
   if (const auto stop = port.stop()) return stop->safe_value();
-  if (const AnyValue& value = port.limits().default_value) return value;
+  if (const AnyValue& value = port.limits().default_value; value && !IsVelocity(port.type(), port.unit())) return value;
   const std::shared_ptr<const void> value = port.type().Make();
   if (!value) return At(port, "only a module can make values of type " + port.type().name());
   return AnyValue(port.type(), value);

@@ -28,6 +28,12 @@ void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
     each->otherwise.MovePaths(move);
   }
   std::ranges::for_each(later, move);
+  std::set<std::string> moved;
+  for (std::string each : late) {
+    move(each);
+    moved.insert(std::move(each));
+  }
+  late = std::move(moved);
   for (auto& [rule, watch] : watches) std::ranges::for_each(watch.outputs(), move);
   scheduler.MovePaths(move);
 }

@@ -2,6 +2,8 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { ModuleElements } from '../mock/mock_application.mjs';
+import { kCatalogue } from '../mock/mock_structures.mjs';
 import { OpenMockPanel } from '../support/open_mock.mjs';
 import { OpenPanel } from '../support/panel.mjs';
 import { DemoFile, RunApplication } from '../support/runnel.mjs';
@@ -129,6 +131,42 @@ test('without a pointer: arrow keys at the stick, and keys at a button that is h
   await page.locator('#edit').focus();
   await ends('button');
   await page.keyboard.up('Enter');
+});
+
+test('a slider and a plain button at what moves drive only as long as they are held', async (t) => {
+  const kNumber = '/mock/smooth/offset';
+  const { application, page, panel } = await OpenMockPanel(t, { shows: '[data-widget="slider"]', widgets: [
+    { id: 'slider', kind: 'slider', x: 0, y: 0, w: 4, h: 4, target: kNumber, minimum: 0, maximum: 1 },
+    { id: 'plain', kind: 'button', x: 4, y: 0, w: 2, h: 4, target: kTarget, pressed: '{forward: 0.4}' }],
+  prepare: (mock) => {
+    for (const element of ModuleElements(kCatalogue, 'mock/filter', '/mock/smooth')) {
+      mock.elements.set(element.path, element.path === kNumber ? { ...element, driving: true, safe: '0' } : element);
+    }
+  } });
+  const last = () => application.asked.findLast(({ op }) => op === 'publish');
+  const until = async (what) => {
+    for (let tries = 0; !what() && tries < 200; ++tries) await page.waitForTimeout(50);
+    assert.ok(what(), JSON.stringify(last()));
+  };
+  const box = await page.getByRole('slider').boundingBox();
+  await page.mouse.move(box.x + box.width * 0.1, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.6, box.y + box.height / 2, { steps: 3 });
+  await until(() => last()?.path === kNumber && last().deadline > 0 && last().lease);
+  await page.mouse.up();
+  await until(() => last().deadline === undefined && last().value === '0');
+  await page.getByRole('slider').focus();
+  await page.keyboard.down('ArrowRight');
+  await until(() => last().deadline > 0);
+  await page.locator('#edit').focus();
+  await until(() => last().deadline === undefined);
+  await page.keyboard.up('ArrowRight');
+  await panel.drawn();
+  await page.locator('[data-widget="plain"] button').hover();
+  await page.mouse.down();
+  await until(() => last().path === kTarget && last().deadline > 0);
+  await page.mouse.up();
+  await until(() => last().path === kTarget && last().deadline === undefined);
 });
 
 test('a gamepad begins by a shoulder that has been seen released, of the standard layout, in a page that has the focus', async (t) => {

@@ -22,19 +22,29 @@ function Nice(width) {
 }
 
 export function Slider({ widget }) {
-  const { element, value, locked, set, note } = useTarget(widget);
+  const { element, isPort, value, locked, set, note } = useTarget(widget);
   const [draft, setDraft] = useState(null); // while it is dragged, and until the application says so, too
   useEffect(() => setDraft(null), [value]);
   const { minimum, maximum, step } = RangeOf(widget, element);
   const shown = draft ?? (typeof value === 'number' ? value : minimum);
   const part = maximum > minimum ? (shown - minimum) / (maximum - minimum) : 0;
   const send = async (number) => { if (!await set(String(number))) setDraft(null); };
+  // What moves does so only as long as the slider is held.
+  const drives = isPort && element?.driving;
+  const letGo = () => { LetGo(widget.target, widget.id); setDraft(null); };
+  useEffect(() => () => LetGo(widget.target, widget.id), [widget.target, widget.id]);
+  const drag = ({ target }) => {
+    setDraft(target.valueAsNumber);
+    if (drives && !(canDrive.value && Drive(widget.target, widget.id, String(target.valueAsNumber), element.safe ?? '0'))) setDraft(null);
+  };
+  const holding = drives ? { onPointerUp: letGo, onPointerCancel: letGo, onLostPointerCapture: letGo, onKeyUp: letGo, onBlur: letGo }
+    : { onChange: (event) => send(event.target.valueAsNumber) };
   return html`
     <div class="slider">
       <output>${typeof value === 'number' || draft !== null ? FormatNumber(shown) : '–'} <small>${element?.unit ?? ''}</small></output>
       <input type="range" min=${minimum} max=${maximum} step=${step} value=${shown} disabled=${locked} aria-label=${widget.title ?? element?.name ?? 'Slider'}
         style=${{ '--part': `${Math.round(Math.min(1, Math.max(0, part)) * 1000) / 10}%` }}
-        onInput=${(event) => setDraft(event.target.valueAsNumber)} onChange=${(event) => send(event.target.valueAsNumber)} />
+        onInput=${drag} ...${holding} />
       <div class="slider-ends"><span>${FormatNumber(minimum)}</span><span>${FormatNumber(maximum)}</span></div>
       ${note}
     </div>`;
@@ -50,7 +60,7 @@ export function Button({ widget }) {
   const begin = () => canDrive.value && Drive(widget.target, widget.id, text, widget.off ?? element?.safe ?? Rest(element?.data_type));
   const pointer = usePointerHold({ begin, end: letGo });
   const isKey = ({ key }) => key === ' ' || key === 'Enter';
-  const holding = widget.held && isPort ? { ...pointer, onBlur: letGo,
+  const holding = isPort && (widget.held || element?.driving) ? { ...pointer, onBlur: letGo,
     onKeyDown: (event) => {
       if (!isKey(event)) return;
       event.preventDefault();
