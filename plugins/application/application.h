@@ -156,11 +156,12 @@ class Application {
 
   // Changing it.
 
-  /// All of the changes between two cycles, or none. Can be undone.
+  /// All of the changes between two cycles, or none; loads the plugins that the names of types begin with. Can be undone.
+  /// What may let something move is not done, here and below, if STOP was pressed or released since it was called.
   ChangeOutcome Apply(const ChangeSet& changes);
   /// The same from text, see change_text.h: "replace /robot/planner with planning/bug1".
   ChangeOutcome Apply(std::string_view text);
-  /// Puts a module of `type` in the place of another one; loads the plugin that the type's name begins with.
+  /// Puts a module of `type` in the place of another one.
   ChangeOutcome Swap(const std::string& path, const std::string& type,
                      std::vector<Setting> settings = {});
   ChangeOutcome Undo();

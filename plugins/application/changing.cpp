@@ -17,6 +17,7 @@
 #include "plugins/application_files/saving/application_saver.h"
 #include "plugins/application_files/saving/saving.h"
 #include "plugins/command_service/hand_settings.h"
+#include "plugins/command_service/request_table.h"
 #include "plugins/parameters/configuration_saver.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/scheduling/thread_container.h"
@@ -58,16 +59,31 @@ std::string PluginOf(std::string_view type) {
 
 // What cannot be loaded is told by who then misses the type.
 void Application::Parts::LoadPluginOf(std::string_view type) {
-  const std::lock_guard lock(runtime().structure_mutex());
   const std::string plugin = PluginOf(type);
-  if (plugin.empty() || plugins().modules().Find(type) != nullptr) return;
-  (void)plugins().Load(plugin);
+  {
+    const std::lock_guard lock(runtime().structure_mutex());
+    if (plugin.empty() || plugins().modules().Find(type) != nullptr) return;
+  }
+  (void)LoadPlugin(plugin);
 }
 
-void Application::Parts::LoadPluginOf(const Change& change) {
-  if (const auto* const create = std::get_if<runnel::CreateModule>(&change))
-    LoadPluginOf(create->type);
-  if (const auto* const replace = std::get_if<ReplaceModule>(&change)) LoadPluginOf(replace->type);
+// Not while a save walks the plugins that are there.
+Result<void> Application::Parts::LoadPlugin(std::string_view plugin) {
+  const std::lock_guard one_at_a_time(reloading);
+  const auto find = [&] {
+    const std::lock_guard lock(runtime().structure_mutex());
+    return plugins().FindFile(plugin);
+  };
+  if (const auto file = find()) PluginManager::OpenAhead(*file);
+  const std::lock_guard lock(runtime().structure_mutex());
+  return plugins().Load(plugin);
+}
+
+void Application::Parts::LoadPluginsOf(const ChangeSet& changes) {
+  for (const Change& change : changes) {
+    if (const auto* const create = std::get_if<runnel::CreateModule>(&change)) LoadPluginOf(create->type);
+    if (const auto* const replace = std::get_if<ReplaceModule>(&change)) LoadPluginOf(replace->type);
+  }
 }
 
 Result<FrameworkElement*> Application::CreateModule(std::string_view type,
@@ -127,9 +143,11 @@ Result<void> Application::Connect(std::string_view from, std::string_view to,
 }
 
 ChangeOutcome Application::Apply(const ChangeSet& changes) {
+  const RobotStop::AsOf as_of = LetsMove(changes) ? parts_->runtime().robot_stop().AsOfNow() : RobotStop::AsOf();
+  parts_->LoadPluginsOf(changes);
   std::string text;
   for (const Change& change : changes) text += (text.empty() ? "" : "; ") + ChangeText(change);
-  ChangeOutcome outcome = parts_->history->Apply(changes);
+  ChangeOutcome outcome = parts_->history->Apply(changes, {}, {}, {}, as_of);
   parts_->log->Add(ApplicationLog::Kind::kChange, outcome ? std::move(text) : "refused: " + text);
   return outcome;
 }
@@ -145,12 +163,11 @@ ChangeOutcome Application::Apply(std::string_view text) {
 
 ChangeOutcome Application::Swap(const std::string& path, const std::string& type,
                                 std::vector<Setting> settings) {
-  parts_->LoadPluginOf(type);
   return Apply({ReplaceModule{.path = path, .type = type, .settings = std::move(settings)}});
 }
 
-ChangeOutcome Application::Undo() { return parts_->history->Undo(); }
-ChangeOutcome Application::Redo() { return parts_->history->Redo(); }
+ChangeOutcome Application::Undo() { return parts_->history->Undo(parts_->runtime().robot_stop().AsOfNow()); }
+ChangeOutcome Application::Redo() { return parts_->history->Redo(parts_->runtime().robot_stop().AsOfNow()); }
 
 Result<void> Application::PublishByHand(std::string_view port, std::string_view value) {
   const auto set = SetPortByHand(parts_->runtime(), std::string(port), std::string(value));
@@ -158,7 +175,6 @@ Result<void> Application::PublishByHand(std::string_view port, std::string_view 
 }
 
 Result<void> Application::Release(std::string_view port) {
-  if (port.empty()) return Error{.message = "which port is to be released is missing"};
   const auto released = ReleasePort(parts_->runtime(), std::string(port));
   return released ? Result<void>() : released.error();
 }
@@ -236,26 +252,18 @@ bool Application::is_deleted() {
   return !parts_->FindAgain();
 }
 
-Result<void> Application::LoadPlugin(std::string_view plugin) {
-  const std::lock_guard one_at_a_time(parts_->reloading);
-  const auto find = [&] {
-    const std::lock_guard lock(parts_->runtime().structure_mutex());
-    return parts_->plugins().FindFile(plugin);
-  };
-  if (const auto file = find()) PluginManager::OpenAhead(*file);
-  const std::lock_guard lock(parts_->runtime().structure_mutex());
-  return parts_->plugins().Load(plugin);
-}
+Result<void> Application::LoadPlugin(std::string_view plugin) { return parts_->LoadPlugin(plugin); }
 
 ChangeOutcome Application::Reload(const std::string& plugin) {
+  const RobotStop::AsOf as_of = parts_->runtime().robot_stop().AsOfNow();
   const std::lock_guard one_at_a_time(parts_->reloading);
-  return ReloadPlugin(parts_->plugins(), *parts_->editor, parts_->runtime(), plugin);
+  return ReloadPlugin(parts_->plugins(), *parts_->editor, parts_->runtime(), plugin, as_of);
 }
 
 CommandService& Application::service() {
   if (parts_->service) return *parts_->service;
   ServiceHooks hooks = parts_->hooks;
-  hooks.load_plugin = [this](const std::string& plugin) { return LoadPlugin(plugin); };
+  hooks.load_plugins = [this](const ChangeSet& changes) { parts_->LoadPluginsOf(changes); };
   hooks.library_of = [this](const std::string& plugin) -> std::string {
     const auto file = plugins().FindFile(plugin);
     return file ? file->string() : "";
@@ -312,8 +320,7 @@ CommandService& Application::service() {
   }
   hooks.reload = [this](const std::string& plugin) -> Result<std::string> {
     std::string done = "loaded " + plugin + " anew";
-    const auto outcome = Reload(plugin);
-    if (!outcome) return outcome.diagnostics.errors().front();
+    if (const auto reloaded = ResultOf(Reload(plugin)); !reloaded) return reloaded.error();
     AwaitProof(*parts_->editor, parts_->scheduler->pace());
     return done;
   };

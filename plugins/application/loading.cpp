@@ -71,7 +71,7 @@ Result<void> Application::Parts::Schedule() {
   editor.emplace(runtime(), plugins().modules(), &*scheduler);
   history.emplace(*editor);
   supervisor.emplace(runtime(), *scheduler, [this](const ChangeSet& changes) -> Result<void> {
-    for (const Change& change : changes) LoadPluginOf(change);
+    LoadPluginsOf(changes);
     const ChangeOutcome outcome = editor->Apply(changes);
     if (!outcome) return outcome.diagnostics.errors().front();
     return {};

@@ -52,29 +52,6 @@ std::string DeletedApplication(Runtime& runtime, const ChangeSet& changes) {
   return {};
 }
 
-std::string TypeIn(const Change& change) {
-  if (const auto* const create = std::get_if<CreateModule>(&change)) return create->type;
-  if (const auto* const replace = std::get_if<ReplaceModule>(&change)) return replace->type;
-  return {};
-}
-
-// The plugin of type "planning/bug1" is called planning. Loaded without the structure lock, from which a slow disk would
-// keep others.
-void LoadMissingPlugins(const ChangeSet& changes, const ServedApplication& application) {
-  if (!application.hooks.load_plugin) return;
-  const auto is_known = [&](const std::string& type) {
-    const std::lock_guard lock(application.runtime.structure_mutex());
-    return application.modules.Find(type) != nullptr;
-  };
-  for (const Change& change : changes) {
-    const std::string type = TypeIn(change);
-    const std::size_t slash = type.find('/');
-    if (slash == std::string::npos || is_known(type)) continue;
-    // If it cannot be loaded, the error that there is no such type names the nearest.
-    (void)application.hooks.load_plugin(type.substr(0, slash));
-  }
-}
-
 // `room` for all that is said of what was done.
 constexpr std::size_t kRoomForText = 160;
 std::string DoneText(Duration hold_time, std::string room) {
@@ -85,6 +62,16 @@ std::string DoneText(Duration hold_time, std::string room) {
   return room;
 }
 
+// Of what is logged, what it means; "" of other changes.
+std::string MeaningOf(const ChangeSet& changes, Runtime& runtime) {
+  const auto* const log = changes.size() == 1 ? std::get_if<LogElement>(&changes.front()) : nullptr;
+  if (log == nullptr) return {};
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = PathSearch(runtime).Find(log->path);
+  return (found ? (*found)->path() : log->path) +
+         (log->level ? ": logs " + LogLevelName(*log->level) + " and more" : ": logs as what is around it");
+}
+
 // As the history will call it when it is undone, and what that is.
 std::string EntryOf(const ChangeSet& changes, const std::string& label) {
   std::string text;
@@ -93,6 +80,37 @@ std::string EntryOf(const ChangeSet& changes, const std::string& label) {
     if (text.size() > ApplicationLog::kLongestText) break;
   }
   return label.empty() ? text : label + ": " + text;
+}
+
+// What makes the module anew, or those below that have been stopped. Errors: nothing is there to be made anew.
+Result<ChangeSet> MadeAnew(const ServedApplication& application, const std::string& path) {
+  std::vector<std::pair<std::string, std::string>> modules;  // paths and types
+  bool is_module = false;
+  {
+    const std::lock_guard lock(application.runtime.structure_mutex());
+    const auto found = PathSearch(application.runtime).Find(path);
+    if (!found) return found.error();
+    is_module = IsModule(**found);
+    if (!is_module && (*found)->kind() != ElementKind::kGroup) {
+      return Error{.message = "is neither a module nor a group, and cannot be restarted",
+                   .path = (*found)->path()};
+    }
+    (*found)->Visit([&](FrameworkElement& each) {
+      if (IsModule(each) && (!is_module || &each == *found))
+        modules.emplace_back(each.path(), FindModuleType(each));
+    });
+  }
+  ChangeSet changes;
+  for (const auto& [module, type] : modules) {
+    const auto progress = application.scheduler != nullptr ? application.scheduler->ProgressOf(module)
+                                                           : std::nullopt;
+    const bool is_wanted = is_module || (progress && progress->is_stopped);
+    if (is_wanted) changes.push_back(ReplaceModule{module, type});
+  }
+  if (!changes.empty()) return changes;
+  return Error{.message = "nothing in it has been stopped by a fault",
+               .path = path,
+               .hint = "name the module that is to be made anew"};
 }
 
 // A replaced module, to find out whether the new one is still there a moment later.
@@ -114,6 +132,8 @@ struct ChangeTask {
   ChangeRequest request;
   const ServedApplication& application;
   const std::shared_ptr<CommandAnswer> answer;
+  const RobotStop::AsOf as_of;
+  const std::string made_anew;
   std::vector<Swap> swaps = {};
   bool has_begun = false;
   bool is_on_probation = false;
@@ -147,8 +167,19 @@ std::optional<Duration> ChangeTask::Step() {
   return {};
 }
 
-// Nothing brings a deleted application back: its run ends.
+// Nothing brings a deleted application back: its run ends. What is made anew is known only now.
 bool ChangeTask::IsMeant() {
+  if (const auto known = application.runtime.robot_stop().CheckIsKnown(as_of); !known) {
+    *answer = CommandAnswer::Refused(known.error());
+    return false;
+  }
+  if (!made_anew.empty()) {
+    auto changes = MadeAnew(application, made_anew);
+    if (!changes) *answer = CommandAnswer::Refused(changes.error());
+    if (!changes) return false;
+    request.placed.changes = std::move(*changes);
+    request.label = "restart " + made_anew;
+  }
   if (request.may_end_application) return true;
   const std::string deleted = DeletedApplication(application.runtime, request.placed.changes);
   if (deleted.empty()) return true;
@@ -164,20 +195,21 @@ void ChangeTask::Apply() {
   const PlacedChanges& placed = request.placed;
   std::string entry = EntryOf(placed.changes, request.label);
   std::string text(kRoomForText, ' ');
+  std::string meaning = MeaningOf(placed.changes, application.runtime);
   ChangeOutcome outcome;
   try {
-    LoadMissingPlugins(placed.changes, application);
+    if (application.hooks.load_plugins) application.hooks.load_plugins(placed.changes);
     FindSwaps();
     outcome = application.history != nullptr
-                  ? application.history->Apply(placed.changes, placed.positions, request.label, request.client)
-                  : application.editor.Apply(placed.changes, placed.positions);
+                  ? application.history->Apply(placed.changes, placed.positions, request.label, request.client, as_of)
+                  : application.editor.Apply(placed.changes, placed.positions, as_of);
     answer->outcome = outcome ? CommandAnswer::Outcome::kDone : CommandAnswer::Outcome::kRefused;
     answer->diagnostics = std::move(outcome.diagnostics);
   } catch (...) {
     *answer = CommandAnswer::Failed(CaughtError());
   }
   is_on_probation = *answer && !swaps.empty();
-  if (*answer) answer->text = DoneText(outcome.hold_time, std::move(text));
+  if (*answer) answer->text = meaning.empty() ? DoneText(outcome.hold_time, std::move(text)) : std::move(meaning);
   application.log.Add(ApplicationLog::Kind::kChange,
                       *answer ? std::move(entry) : "refused: " + entry);
 }
@@ -222,92 +254,10 @@ void ChangeTask::Conclude() {
 
 }  // namespace
 
-namespace {
-
-// What makes the module anew, or those below that have been stopped. Errors: nothing is there to be made anew.
-Result<ChangeSet> MadeAnew(const ServedApplication& application, const std::string& path) {
-  std::vector<std::pair<std::string, std::string>> modules;  // paths and types
-  bool is_module = false;
-  {
-    const std::lock_guard lock(application.runtime.structure_mutex());
-    const auto found = PathSearch(application.runtime).Find(path);
-    if (!found) return found.error();
-    is_module = IsModule(**found);
-    if (!is_module && (*found)->kind() != ElementKind::kGroup) {
-      return Error{.message = "is neither a module nor a group, and cannot be restarted",
-                   .path = (*found)->path()};
-    }
-    (*found)->Visit([&](FrameworkElement& each) {
-      if (IsModule(each) && (!is_module || &each == *found))
-        modules.emplace_back(each.path(), FindModuleType(each));
-    });
-  }
-  ChangeSet changes;
-  for (const auto& [module, type] : modules) {
-    const auto progress = application.scheduler != nullptr ? application.scheduler->ProgressOf(module)
-                                                           : std::nullopt;
-    const bool is_wanted = is_module || (progress && progress->is_stopped);
-    if (is_wanted) changes.push_back(ReplaceModule{module, type});
-  }
-  if (!changes.empty()) return changes;
-  return Error{.message = "nothing in it has been stopped by a fault",
-               .path = path,
-               .hint = "name the module that is to be made anew"};
-}
-
-}  // namespace
-
-TaskStep RestartSteps(std::string path, const ServedApplication& application,
-                      std::shared_ptr<CommandAnswer> answer) {
-  auto steps = std::make_shared<TaskStep>();
-  return [=, path = std::move(path), &application,
-          answer = std::move(answer)]() -> std::optional<Duration> {
-    if (!*steps) {
-      auto changes = MadeAnew(application, path);
-      if (!changes) {
-        *answer = CommandAnswer::Refused(changes.error());
-        return {};
-      }
-      ChangeRequest request{.placed = {.changes = std::move(*changes), .positions = {}},
-                            .label = "restart " + path};
-      *steps = ChangeSteps(std::move(request), application, answer);
-    }
-    return (*steps)();
-  };
-}
-
-// A change like others, whose answer says what it means.
-TaskStep LogLevelSteps(const LogLevelRequest& request, const ServedApplication& application,
-                       std::shared_ptr<CommandAnswer> answer) {
-  const bool inherits = request.level == "inherit";
-  const auto level = inherits ? LogLevel::kInfo : LogLevelOf(request.level);
-  const std::string path = request.path.empty() ? "/" : request.path;
-  LogElement change{path};
-  if (!inherits && level) change.level = *level;
-  const auto steps = std::make_shared<TaskStep>(
-      ChangeSteps({.placed = {.changes = {change}, .positions = {}}}, application, answer));
-  return [=, &application, answer = std::move(answer)]() -> std::optional<Duration> {
-    if (!level) {
-      *answer = CommandAnswer::Refused(level.error());
-      return {};
-    }
-    std::string whose = path;
-    if (path != "/") {
-      const std::lock_guard lock(application.runtime.structure_mutex());
-      if (const auto found = PathSearch(application.runtime).Find(path)) whose = (*found)->path();
-    }
-    std::string text = whose + (inherits ? ": logs as what is around it"
-                                         : ": logs " + LogLevelName(*level) + " and more");
-    const auto again = (*steps)();
-    if (!again && *answer) answer->text = std::move(text);
-    return again;
-  };
-}
-
 TaskStep ChangeSteps(ChangeRequest request, const ServedApplication& application,
-                     std::shared_ptr<CommandAnswer> answer) {
-  const auto task =
-      std::make_shared<ChangeTask>(ChangeTask{std::move(request), application, std::move(answer)});
+                     std::shared_ptr<CommandAnswer> answer, const RobotStop::AsOf& as_of, std::string made_anew) {
+  const auto task = std::make_shared<ChangeTask>(
+      ChangeTask{std::move(request), application, std::move(answer), as_of, std::move(made_anew)});
   return [task] { return task->Step(); };
 }
 

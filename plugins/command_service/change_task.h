@@ -8,16 +8,10 @@ namespace runnel {
 
 /// A change set on its way through the worker: applied at the first step; at the following ones new
 /// modules that have taken the place of others are looked after until they have proved themselves. Fills
-/// the answer in. The application outlives it.
+/// the answer in. The application outlives it. `as_of`: see CommandService::Begin(). `made_anew`: instead of changes, the module
+/// of this path, or those below it that faults have stopped.
 [[nodiscard]] TaskStep ChangeSteps(ChangeRequest request, const ServedApplication& application,
-                                   std::shared_ptr<CommandAnswer> answer);
-
-/// The same for modules that are made anew: the one at the path, or those at or below it that faults have stopped.
-[[nodiscard]] TaskStep RestartSteps(std::string path, const ServedApplication& application,
-                                    std::shared_ptr<CommandAnswer> answer);
-
-/// The same for what is logged at and below a path.
-[[nodiscard]] TaskStep LogLevelSteps(const LogLevelRequest& request, const ServedApplication& application,
-                                     std::shared_ptr<CommandAnswer> answer);
+                                   std::shared_ptr<CommandAnswer> answer, const RobotStop::AsOf& as_of,
+                                   std::string made_anew = {});
 
 }  // namespace runnel

@@ -12,7 +12,6 @@
 #include "core/base/clock.h"
 #include "core/base/diagnostics.h"
 #include "core/base/result.h"
-#include "core/element/robot_stop.h"
 #include "plugins/structure/change_text.h"
 
 namespace runnel {
@@ -47,11 +46,6 @@ struct SaveRequest {
 struct ReloadRequest {
   std::string plugin;
 };
-/// From which level on modules at and below a path are logged.
-struct LogLevelRequest {
-  std::string path = {};  ///< "" or "/": all
-  std::string level;      ///< as LogLevelName() says it, or "inherit": as above it
-};
 /// Sets the value at a port by hand: readers find it instead of what is published, until a ReleaseRequest.
 struct PublishRequest {
   static constexpr double kSlowestRate = 0.001;
@@ -71,7 +65,6 @@ struct PublishRequest {
   std::string lease = {};
   /// By the machine's clock, from which the deadline counts; CommandService::Begin() says so.
   std::optional<Time> received = {};
-  RobotStop::AsOf as_of = {};  ///< likewise: one from before a STOP must not become one from after its release
 };
 /// Readers of the port find its safe value until a ReleaseRequest, and nobody may set another one (Port::Block()).
 struct BlockRequest {
@@ -80,14 +73,12 @@ struct BlockRequest {
 /// Readers of the port find again what is published: ends its block, and its value by hand.
 struct ReleaseRequest {
   std::string port;
-  std::optional<Time> asked = {};  ///< on the machine's steady clock; blocked or set by hand since: it stays
 };
 /// Presses or releases the STOP of the robot (RobotStop). CommandService::Begin() does it at once, in the caller's
 /// thread: neither the worker nor the structure lock is waited for.
 struct RobotStopRequest {
   bool is_pressed = true;
   std::string by = {};  ///< who wants it, for people: "a terminal", "viewer 2"
-  RobotStop::AsOf as_of = {};  ///< of a release
 };
 
 /// Leaves modules, or what a thread runs, out of cycles, with what the application does then; or no more.
@@ -107,7 +98,7 @@ struct QuitRequest {};
 
 /// What a client may ask a CommandService for.
 using CommandRequest = std::variant<ChangeRequest, UndoRequest, RedoRequest, SaveRequest,
-                                    ReloadRequest, LogLevelRequest, PauseRequest, PublishRequest,
+                                    ReloadRequest, PauseRequest, PublishRequest,
                                     BlockRequest, ReleaseRequest, RobotStopRequest, RestartRequest,
                                     QuitRequest>;
 

@@ -10,8 +10,8 @@
 #include "core/paths/path_search.h"
 #include "core/port/driving_ports.h"
 #include "core/types/duration_text.h"
-#include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/change_task.h"
+#include "plugins/command_service/request_table.h"
 #include "plugins/command_service/save_place.h"
 #include "plugins/structure/change_arguments.h"
 #include "plugins/structure/change_history.h"
@@ -82,17 +82,13 @@ class StructureRecorder final : public ElementListener {
 
 using Hook = std::function<Result<std::string>(const std::string&)>;
 
-CommandAnswer Cannot(const char* what) {
-  return CommandAnswer::Refused(
-      {.message = std::string("the program that runs this application cannot ") + what});
-}
-
 CommandAnswer AnswerOf(Result<std::string> done) {
   return done ? CommandAnswer::Done(std::move(*done)) : CommandAnswer::Failed(done.error());
 }
 
 CommandAnswer Call(const Hook& hook, const std::string& argument, const char* what) {
-  return hook ? AnswerOf(hook(argument)) : Cannot(what);
+  if (hook) return AnswerOf(hook(argument));
+  return CommandAnswer::Refused({.message = std::string("the program that runs this application cannot ") + what});
 }
 
 }  // namespace
@@ -114,52 +110,45 @@ CommandAnswer PendingCommand::Take() {
 }
 
 // Nothing can fail once the task is posted: it would be carried out, and nobody be told.
-// Of what lets something move, and waits for the worker; a publication looks when it is carried out.
-template <typename Request>
-RobotStop::AsOf CommandService::AsOfNow(const Request& request) const {
-  bool lets_move = std::is_same_v<Request, ReleaseRequest>;
-  if constexpr (std::is_same_v<Request, PauseRequest>) lets_move = !request.is_paused;
-  if (!lets_move) return {};
-  return {.requests = application_.runtime.robot_stop().state().requests};
-}
-
 std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, TaskGroup& tasks,
-                                                      std::function<void()> on_done) {
+                                                      std::function<void()> on_done, RobotStop::AsOf as_of) {
   auto pending = std::make_unique<PendingCommand>();
-  if (auto* const publish = std::get_if<PublishRequest>(&request)) {
-    if (!publish->received) publish->received = hand_settings_.Now();
-    if (!publish->as_of.requests) publish->as_of.requests = application_.runtime.robot_stop().state().requests;
+  if (!LetsMove(request)) {
+    as_of = {};
+  } else if (!as_of.requests) {
+    as_of = application_.runtime.robot_stop().AsOfNow(as_of.asked);
   }
+  auto* const publish = std::get_if<PublishRequest>(&request);
+  if (publish != nullptr && !publish->received) publish->received = hand_settings_.Now();
   const std::shared_ptr<CommandAnswer>& answer = pending->answer_;
-  if (const auto* const stop = std::get_if<RobotStopRequest>(&request)) {
-    *answer = Do(*stop);
+  std::optional<CommandAnswer> at_once;
+  if (const auto* const stop = std::get_if<RobotStopRequest>(&request)) at_once = Do(*stop, as_of);
+  // A block is the STOP of one port: it waits for the worker only where it would wait for the structure lock, too.
+  if (const auto* const block = std::get_if<BlockRequest>(&request)) {
+    if (const auto lock = TryStructureLock(application_.runtime, kBlockPatience)) at_once = Do(*block);
+  }
+  if (at_once) {
+    *answer = std::move(*at_once);
     pending->task_ = tasks.Done(std::move(on_done));
     return pending;
   }
-  // A block is the STOP of one port: it waits for the worker only where it would wait for the structure lock, too.
-  if (const auto* const block = std::get_if<BlockRequest>(&request)) {
-    if (const auto lock = TryStructureLock(application_.runtime, kBlockPatience)) {
-      *answer = Do(*block);
-      pending->task_ = tasks.Done(std::move(on_done));
-      return pending;
-    }
-  }
   TaskStep step = std::visit(
       [&](auto& each) -> TaskStep {
-        if constexpr (std::is_same_v<decltype(each), ChangeRequest&>) {
-          return ChangeSteps(std::move(each), application_, answer);
-        } else if constexpr (std::is_same_v<decltype(each), LogLevelRequest&>) {
-          return LogLevelSteps(each, application_, answer);
-        } else if constexpr (std::is_same_v<decltype(each), RestartRequest&>) {
-          if (!each.path.empty()) return RestartSteps(std::move(each.path), application_, answer);
-          return [this, each, answer]() -> std::optional<Duration> {
-            *answer = Do(each);
-            return {};
-          };
+        using Request = std::remove_reference_t<decltype(each)>;
+        if constexpr (std::is_same_v<Request, ChangeRequest>) {
+          return ChangeSteps(std::move(each), application_, answer, as_of);
         } else {
-          return [this, each, answer, as_of = AsOfNow(each)]() -> std::optional<Duration> {
-            const auto known = application_.runtime.robot_stop().CheckIsKnown(as_of);
-            *answer = known ? Do(each) : CommandAnswer::Refused(known.error());
+          if constexpr (std::is_same_v<Request, RestartRequest>) {
+            if (!each.path.empty()) return ChangeSteps({}, application_, answer, as_of, std::move(each.path));
+          }
+          return [this, each, answer, as_of]() -> std::optional<Duration> {
+            if (const auto known = application_.runtime.robot_stop().CheckIsKnown(as_of); !known) {
+              *answer = CommandAnswer::Refused(known.error());
+            } else if constexpr (requires { Do(each, as_of); }) {
+              *answer = Do(each, as_of);
+            } else {
+              *answer = Do(each);
+            }
             return {};
           };
         }
@@ -168,9 +157,6 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
   pending->task_ = tasks.PostSteps(std::move(step), std::move(on_done));
   return pending;
 }
-
-CommandAnswer CommandService::Do(const UndoRequest&) const { return TakeHistoryStep(true); }
-CommandAnswer CommandService::Do(const RedoRequest&) const { return TakeHistoryStep(false); }
 
 CommandAnswer CommandService::Do(const SaveRequest& request) const {
   std::string file = request.file;
@@ -196,18 +182,10 @@ CommandAnswer CommandService::Do(const ReloadRequest& request) const {
   return Call(application_.hooks.reload, request.plugin, "load plugins anew");
 }
 
-CommandAnswer CommandService::Do(const RestartRequest&) const {
-  const auto& restart = application_.hooks.restart;
-  if (!restart) return Cannot("run it again");
-  application_.log.Add(ApplicationLog::Kind::kChange, "restart");
-  return AnswerOf(restart());
-}
-
-CommandAnswer CommandService::Do(const QuitRequest&) const {
-  const auto& quit = application_.hooks.quit;
-  if (!quit) return Cannot("end its run");
-  application_.log.Add(ApplicationLog::Kind::kChange, "quit");
-  return AnswerOf(quit());
+CommandAnswer CommandService::End(const char* name, const char* what, const std::function<Result<std::string>()>& end) const {
+  if (!end) return Call({}, {}, what);
+  application_.log.Add(ApplicationLog::Kind::kChange, name);
+  return AnswerOf(end());
 }
 
 // What has a stuck module between it and its safe value. Nobody's lock is waited for.
@@ -225,7 +203,7 @@ void CommandService::WarnOfUnreached(CommandAnswer& answer) const {
   });
 }
 
-CommandAnswer CommandService::Do(const RobotStopRequest& request) const {
+CommandAnswer CommandService::Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of) const {
   RobotStop& stop = application_.runtime.robot_stop();
   CommandAnswer answer;
   if (request.is_pressed) {
@@ -234,7 +212,7 @@ CommandAnswer CommandService::Do(const RobotStopRequest& request) const {
     WarnOfUnreached(answer);
   } else {
     const std::string pressed_by = stop.state().by;
-    if (const auto done = stop.Release(request.by, request.as_of); !done) return CommandAnswer::Refused(done.error());
+    if (const auto done = stop.Release(request.by, as_of); !done) return CommandAnswer::Refused(done.error());
     answer = CommandAnswer::Done("released the STOP that " + pressed_by + " had pressed");
   }
   if (application_.hooks.is_stop_kept && !application_.hooks.is_stop_kept()) {
@@ -260,24 +238,17 @@ CommandAnswer CommandService::Do(const BlockRequest& request) {
 }
 
 CommandAnswer CommandService::Do(const PauseRequest& request) const {
-  if (!application_.hooks.set_paused) {
-    return CommandAnswer::Refused(
-        {.message = "the program that runs this application cannot pause its modules"});
-  }
+  if (!application_.hooks.set_paused) return Call({}, {}, "pause its modules");
   const std::string what = (request.is_paused ? "paused " : "resumed ") + request.path;
-  try {
-    const auto done = application_.hooks.set_paused(request.path, request.is_paused);
-    if (!done) return CommandAnswer::Refused(done.error());
-  } catch (...) {
-    return CommandAnswer::Failed(CaughtError());
-  }
+  const auto done = application_.hooks.set_paused(request.path, request.is_paused);
+  if (!done) return CommandAnswer::Refused(done.error());
   application_.log.Add(ApplicationLog::Kind::kChange, what);
   return CommandAnswer::Done(what);
 }
 
 // Who drives says so many times a second, which is told once.
-CommandAnswer CommandService::Do(const PublishRequest& request) {
-  const auto set = hand_settings_.Publish(request);
+CommandAnswer CommandService::Do(const PublishRequest& request, const RobotStop::AsOf& as_of) {
+  const auto set = hand_settings_.Publish(request, as_of);
   if (!set) return CommandAnswer::Refused(set.error());
   const std::string& port = set->port;
   if (!set->goes_on) {
@@ -293,18 +264,15 @@ CommandAnswer CommandService::Do(const PublishRequest& request) {
   return CommandAnswer::Done(port + " is set by hand; " + ends);
 }
 
-CommandAnswer CommandService::Do(const ReleaseRequest& request) {
-  const auto released = hand_settings_.Release(request);
+CommandAnswer CommandService::Do(const ReleaseRequest& request, const RobotStop::AsOf& as_of) {
+  const auto released = ReleasePort(application_.runtime, request.port, as_of);
   if (!released) return CommandAnswer::Refused(released.error());
   application_.log.Add(ApplicationLog::Kind::kChange, "release " + *released);
   return CommandAnswer::Done("released " + *released);
 }
 
-CommandAnswer CommandService::TakeHistoryStep(bool goes_back) const {
-  if (application_.history == nullptr) {
-    return CommandAnswer::Refused(
-        {.message = "the program that runs this application remembers no changes"});
-  }
+CommandAnswer CommandService::TakeHistoryStep(bool goes_back, const RobotStop::AsOf& as_of) const {
+  if (application_.history == nullptr) return Call({}, {}, "undo changes");
   ChangeHistory& history = *application_.history;
   const auto label = goes_back ? history.NextUndo() : history.NextRedo();
   std::string client = goes_back ? history.UndoClient() : history.RedoClient();
@@ -312,13 +280,9 @@ CommandAnswer CommandService::TakeHistoryStep(bool goes_back) const {
   if (label) what = (goes_back ? "undone: " : "redone: ") + *label;
   std::string entry = what;
   CommandAnswer answer;
-  try {
-    ChangeOutcome outcome = goes_back ? history.Undo() : history.Redo();
-    answer.diagnostics = std::move(outcome.diagnostics);
-    if (!outcome) answer.outcome = CommandAnswer::Outcome::kRefused;
-  } catch (...) {
-    answer = CommandAnswer::Failed(CaughtError());
-  }
+  ChangeOutcome outcome = goes_back ? history.Undo(as_of) : history.Redo(as_of);
+  answer.diagnostics = std::move(outcome.diagnostics);
+  if (!outcome) answer.outcome = CommandAnswer::Outcome::kRefused;
   if (!label) return answer;
   application_.log.Add(ApplicationLog::Kind::kChange,
                        answer ? std::move(entry) : "could not be " + what);

@@ -87,9 +87,8 @@ using RecordingHook =
 /// What a program may give to clients besides looking at the structure and changing it. All optional;
 /// called by the worker.
 struct ServiceHooks {
-  /// Loads a plugin, under the structure lock: change sets may name types of plugins that are not
-  /// loaded yet.
-  std::function<Result<void>(const std::string& plugin)> load_plugin = {};
+  /// Loads the plugins of the types in it that are not known yet. What cannot be loaded is told by who then misses the type.
+  std::function<void(const ChangeSet& changes)> load_plugins = {};
   /// Saves the structure into the file ("": the one that it came from) and says what was done.
   std::function<Result<std::string>(const std::string& file)> save = {};
   /// What saving would make of the file, of which nothing is written.
@@ -172,30 +171,33 @@ class CommandService {
   [[nodiscard]] CommandWorker& worker() noexcept { return worker_; }
   /// What clients have set by hand. Any thread.
   [[nodiscard]] const HandSettings& hand_settings() const noexcept { return hand_settings_; }
+  /// Of a client that drives no longer: see HandSettings. Any thread.
+  void EndLease(const std::string& lease) { hand_settings_.EndLease(lease); }
   /// Transports tell it whom they hear. Any thread.
   [[nodiscard]] OperatorWatch& operators() noexcept { return operators_; }
 
   /// Carries it out behind what was asked for before. `on_done` is called by the worker when the answer is
   /// there; without it, that of the tasks. A RobotStopRequest is carried out, and `on_done` called, before this returns.
+  /// `as_of`: when it was asked for, and what was known then; what is not said: now. What lets something move (LetsMove())
+  /// is refused if STOP has been pressed or released since, until the moment at which it takes effect.
   [[nodiscard]] std::unique_ptr<PendingCommand> Begin(CommandRequest request, TaskGroup& tasks,
-                                                      std::function<void()> on_done = {});
+                                                      std::function<void()> on_done = {}, RobotStop::AsOf as_of = {});
 
  private:
-  [[nodiscard]] CommandAnswer Do(const UndoRequest& request) const;
-  [[nodiscard]] CommandAnswer Do(const RedoRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const SaveRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const PauseRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const ReloadRequest& request) const;
-  [[nodiscard]] CommandAnswer Do(const PublishRequest& request);
-  [[nodiscard]] CommandAnswer Do(const ReleaseRequest& request);
-  [[nodiscard]] CommandAnswer Do(const RestartRequest& request) const;
-  [[nodiscard]] CommandAnswer Do(const QuitRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const PublishRequest& request, const RobotStop::AsOf& as_of);
+  [[nodiscard]] CommandAnswer Do(const ReleaseRequest& request, const RobotStop::AsOf& as_of);
+  [[nodiscard]] CommandAnswer Do(const RestartRequest&) const { return End("restart", "run it again", application_.hooks.restart); }
+  [[nodiscard]] CommandAnswer Do(const QuitRequest&) const { return End("quit", "end its run", application_.hooks.quit); }
+  [[nodiscard]] CommandAnswer End(const char* name, const char* what, const std::function<Result<std::string>()>& end) const;
   [[nodiscard]] CommandAnswer Do(const BlockRequest& request);
-  [[nodiscard]] CommandAnswer Do(const RobotStopRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of) const;
   void WarnOfUnreached(CommandAnswer& answer) const;
-  template <typename Request>
-  [[nodiscard]] RobotStop::AsOf AsOfNow(const Request& request) const;
-  [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back) const;
+  [[nodiscard]] CommandAnswer Do(const UndoRequest&, const RobotStop::AsOf& as_of) const { return TakeHistoryStep(true, as_of); }
+  [[nodiscard]] CommandAnswer Do(const RedoRequest&, const RobotStop::AsOf& as_of) const { return TakeHistoryStep(false, as_of); }
+  [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back, const RobotStop::AsOf& as_of) const;
 
   const ServedApplication application_;
   const std::unique_ptr<ElementListener> recorder_;  // of what others than clients change

@@ -53,7 +53,7 @@ HandState StateOf(const Port& port) {
 
 Result<AnyValue> SafeAnyValueOf(const Port& port) {
   const auto safe = SafeValueOf(port);
-  if (!safe) return safe.error();
+  if (!safe || port.stop() != nullptr) return safe;
   if (auto good = internal::CheckWithin(port, port.limits(), safe->get()); !good) {
     return At(port, "has no safe value for the end of a deadline; declare a default");
   }
@@ -82,7 +82,9 @@ Result<void> CheckRequest(const PublishRequest& request) {
 
 Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
                                   const std::string& value) {
+  const RobotStop::AsOf as_of = runtime.robot_stop().AsOfNow();
   const std::lock_guard lock(runtime.structure_mutex());
+  if (auto known = runtime.robot_stop().CheckIsKnown(as_of); !known) return known.error();
   const auto found = PathSearch(runtime).FindPort(path, PathKind::kElement);
   if (!found) return found.error();
   const auto made = ValueOf(**found, value);
@@ -91,24 +93,18 @@ Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
   return (*found)->path();
 }
 
-Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, std::optional<Time> asked) {
+Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, RobotStop::AsOf as_of) {
+  if (path.empty()) return Error{.message = "'release' needs the name of what is released"};
+  if (!as_of.requests) as_of = runtime.robot_stop().AsOfNow(as_of.asked);
   const std::lock_guard lock(runtime.structure_mutex());
-  if (!path.empty()) {
-    const auto found = PathSearch(runtime).FindPort(path, PathKind::kElement);
-    if (!found) return found.error();
-    if (asked && HasChangedSince(**found, *asked)) {
-      return At(**found, "was blocked or set by hand after this was asked for; look why, then ask again");
-    }
-    if (Free(**found)) return (*found)->path();
-    return At(**found, "is not set by hand");
+  if (auto known = runtime.robot_stop().CheckIsKnown(as_of); !known) return known.error();
+  const auto found = PathSearch(runtime).FindPort(path, PathKind::kElement);
+  if (!found) return found.error();
+  if (as_of.asked && HasChangedSince(**found, *as_of.asked)) {
+    return At(**found, "was blocked or set by hand after this was asked for; look why, then ask again");
   }
-  std::string released;
-  runtime.root().Visit([&](FrameworkElement& element) {
-    auto* const port = dynamic_cast<Port*>(&element);
-    if (port != nullptr && Free(*port)) released += (released.empty() ? "" : ", ") + port->path();
-  });
-  if (released.empty()) return Error{.message = "no port is set by hand"};
-  return released;
+  if (Free(**found)) return (*found)->path();
+  return At(**found, "is not set by hand");
 }
 
 HandSettings::HandSettings(Runtime& runtime, CommandWorker& worker, ApplicationLog& log,
@@ -148,7 +144,8 @@ Result<std::string> HandSettings::Block(const BlockRequest& request) {
   return (*found)->path();
 }
 
-Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& request) {
+Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& request, RobotStop::AsOf as_of) {
+  if (!as_of.requests) as_of = runtime_.robot_stop().AsOfNow(as_of.asked);  // a STOP of meanwhile counts, too
   if (auto good = CheckRequest(request); !good) return good.error();
   const HandHold::Request wish{request.lease, request.deadline, request.received.value_or(Now())};
   const std::lock_guard structure(runtime_.structure_mutex());
@@ -165,13 +162,10 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
   // Who asks for a deadline is told at once if nothing could be done when it has passed.
   AnyValue safe;
   if (request.deadline) {
-    const auto stop = port.stop();
-    const auto rest = stop ? Result(stop->safe_value()) : SafeAnyValueOf(port);
+    const auto rest = SafeAnyValueOf(port);
     if (!rest) return rest.error();
     safe = *rest;
   }
-  RobotStop::AsOf as_of = request.as_of;  // a STOP of meanwhile counts, too
-  if (!as_of.requests) as_of.requests = runtime_.robot_stop().state().requests;
   Published published{port.path()};
   const Slot slot = HandSlot::Of(port);
   const auto fill = internal::FillWith(value);
@@ -226,9 +220,9 @@ void HandSettings::PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t
   });
 }
 
-Result<std::string> HandSettings::Release(const ReleaseRequest& request) {
-  if (request.port.empty()) return Error{.message = "'release' needs the name of what is released"};
-  return ReleasePort(runtime_, request.port, request.asked);
+void HandSettings::EndLease(const std::string& lease) {
+  ended_->Add(lease);
+  if (watches_) lookout_.Ask();
 }
 
 // Under the slot's mutex.
@@ -268,10 +262,10 @@ std::optional<Time> HandSettings::LookAt(const Slot& slot) {
   // Whatever is thrown, the other slots' deadlines are looked at, and this one is tried again.
   try {
     if (const auto at_rest = slot->Publish(hold->safe_value); at_rest) {
+      const std::string why = hold->has_left() ? "who drove it has left"
+                                               : "nobody has been heard of for " + DurationText(hold->deadline());
       hold->NoteLost();
-      log_.Add(ApplicationLog::Kind::kWarning,
-               hold->path + ": nobody has been heard of for " + DurationText(hold->deadline()) +
-                   "; it is at rest until it is released");
+      log_.Add(ApplicationLog::Kind::kWarning, hold->path + ": " + why + "; it is at rest until it is released");
     } else {
       TellFailure(*hold, at_rest.error());
     }

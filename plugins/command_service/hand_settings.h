@@ -74,9 +74,12 @@ class HandHold final : public HandSlot::Hold {
   /// When it was set for another purpose than to go on with a lease.
   [[nodiscard]] Time began() const noexcept { return began_; }
   /// When he has to be heard of; nothing if he need not.
-  [[nodiscard]] std::optional<Time> due() const noexcept {
-    return state_ == HandState::kDriven ? std::optional(due_) : std::nullopt;
+  [[nodiscard]] std::optional<Time> due() const {
+    if (state_ != HandState::kDriven) return {};
+    return has_left() ? Time() : due_;
   }
+  /// Who drives has said that he does so no longer (HandSettings::EndLease()).
+  [[nodiscard]] bool has_left() const { return ended_->Has(lease_); }
 
   std::string path = {};     ///< of the port when it was set last, for people
   std::uint64_t number = 0;  ///< which publishing is the last one
@@ -95,12 +98,12 @@ class HandHold final : public HandSlot::Hold {
 
 /// Sets the value at a port by hand, from its text format (Port::PublishByHand()); fields that the text leaves
 /// out have their usual values. Which port it was. Locks. Errors: no such port, with the nearest; no value of
-/// its type; a type without a text format.
+/// its type; a type without a text format; STOP was pressed or released meanwhile.
 Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
                                   const std::string& value);
-/// Gives it back to its publishers, ends its block, too; "" : all that are set. Which these were. Errors: no such port;
-/// nothing is set by hand there; it was blocked or set after this was `asked` for, on the machine's steady clock.
-Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, std::optional<Time> asked = {});
+/// Gives it back to its publishers, ends its block, too. Which port it was. Errors: no such port; nothing is set by hand there;
+/// it was blocked or set, or STOP was pressed or released, after this was asked for.
+Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, RobotStop::AsOf as_of = {});
 
 /// What people set at the ports of an application: once, again and again, or with a deadline, by the machine's clock,
 /// before which they have to be heard of again. When that has passed, readers of the port find the safe value of
@@ -110,7 +113,7 @@ Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, std::
 ///
 /// All of it is kept in the port's slot (HandSlot), and goes where the port goes: nothing here is found by a path.
 ///
-/// Threads: the worker's; All() and LookAtDeadlines() by any. One of its own looks at deadlines, from the first on. It
+/// Threads: the worker's; All(), EndLease() and LookAtDeadlines() by any. One of its own looks at deadlines, from the first on. It
 ///          takes a mutex for each slot, and neither the structure lock nor the worker: no change keeps it up.
 class HandSettings {
  public:
@@ -122,10 +125,13 @@ class HandSettings {
     std::string port;
     bool goes_on = false;  ///< with a lease that was there
   };
-  Result<Published> Publish(const PublishRequest& request);
+  /// `as_of`: one from before a STOP must not become one from after its release.
+  Result<Published> Publish(const PublishRequest& request, RobotStop::AsOf as_of = {});
   Result<std::string> Block(const BlockRequest& request);
-  Result<std::string> Release(const ReleaseRequest& request);
 
+  /// Who drives with the lease does so no longer: readers find the safe value, at once, as if its deadline had passed. Nothing
+  /// is waited for; any thread.
+  void EndLease(const std::string& lease);
   /// Publishes the safe value where a deadline has passed. When the next one ends.
   std::optional<Time> LookAtDeadlines();
   /// Ports that are set by hand or blocked, by path. Waits for nobody: while the structure is being changed, as before.

@@ -34,20 +34,51 @@ constexpr std::array kSetFields{
     RequestField{"path", Kind::kText, true, "the parameter"},
     RequestField{"value", Kind::kValue, true, "in the text format of its type"}};
 
+constexpr std::array kReloadFields{RequestField{"plugin", Kind::kText, true, "its name"}};
+constexpr std::array kRestartFields{
+    RequestField{"path", Kind::kText, false, "a module, or a group of which all that faults have stopped; none: the whole application"}};
+
+constexpr std::array kLogFields{
+    RequestField{"path", Kind::kText, false, "a module or a group; none: all"},
+    RequestField{"level", Kind::kText, true, "debug, info, warning, error, off; or inherit, as what is around it"}};
+
+constexpr bool kMoves = true, kMovesNothing = false;
+
 constexpr std::array kTable{
-    DescribedRequest{"stop", {}, "look", "every port that drives has its safe value, until release", "stop"},
-    DescribedRequest{"release", kReleaseFields, "drive",
+    DescribedRequest{"stop", {}, "look", kMovesNothing, "every port that drives has its safe value, until release", "stop"},
+    DescribedRequest{"release", kReleaseFields, "drive", kMoves,
                      "ends the STOP of the robot; or the block and the value by hand of one port",
                      "release stop"},
-    DescribedRequest{"publish", kPublishFields, "drive",
+    DescribedRequest{"publish", kPublishFields, "drive", kMoves,
                      "sets by hand the value that readers of a port see, until release",
                      "publish gate/wanted '{forward: 0.2}' --deadline 300ms"},
-    DescribedRequest{"block", kBlockFields, "drive",
+    DescribedRequest{"block", kBlockFields, "drive", kMovesNothing,
                      "one port has its safe value, whatever anybody sends, until release",
                      "block gate/wanted"},
-    DescribedRequest{"pause", kPauseFields, "change", "leaves modules out of cycles", "pause planner"},
-    DescribedRequest{"resume", kPauseFields, "change", "has paused modules run again", "resume planner"},
-    DescribedRequest{"set", kSetFields, "change", "sets a parameter", "set planner/cruise_speed 0.3"}};
+    DescribedRequest{"pause", kPauseFields, "change", kMovesNothing, "leaves modules out of cycles", "pause planner"},
+    DescribedRequest{"resume", kPauseFields, "change", kMoves, "has paused modules run again", "resume planner"},
+    DescribedRequest{"set", kSetFields, "change", kMoves, "sets a parameter", "set planner/cruise_speed 0.3"},
+    DescribedRequest{"undo", {}, "change", kMoves, "takes back what was changed last", "undo"},
+    DescribedRequest{"redo", {}, "change", kMoves, "does again what was taken back last", "redo"},
+    DescribedRequest{"reload", kReloadFields, "change", kMoves, "loads a plugin anew, and makes its modules anew", "reload planning"},
+    DescribedRequest{"restart", kRestartFields, "change", kMoves, "makes modules, or the whole application, anew", "restart planner"},
+    DescribedRequest{"quit", {}, "change", kMovesNothing, "ends the run", "quit"},
+    DescribedRequest{"log", kLogFields, "change", kMovesNothing, "from which level on modules are logged", "log --level planner=debug"},
+    // Made by clients.
+    DescribedRequest{"change", {}, "change", kMoves, "changes the structure, all of it or nothing", "change"},
+    DescribedRequest{"save", {}, "change", kMovesNothing, "writes the structure into a file", "save robot.xml"},
+    DescribedRequest{"call", {}, "drive", kMoves, "calls a service", "call mapping/save_map"},
+    DescribedRequest{"step", {}, "change", kMoves, "lets some cycles run", "step 10"},
+    DescribedRequest{"speed", {}, "change", kMoves, "how fast simulated time passes", "speed 2"}};
+
+// As in CommandRequest; a change by what is changed.
+std::string_view NameOf(const CommandRequest& request) {
+  if (const auto* const pause = std::get_if<PauseRequest>(&request)) return pause->is_paused ? "pause" : "resume";
+  if (const auto* const stop = std::get_if<RobotStopRequest>(&request)) return stop->is_pressed ? "stop" : "release";
+  constexpr std::array<std::string_view, std::variant_size_v<CommandRequest>> kNames{
+      "change", "undo", "redo", "save", "reload", "", "publish", "block", "release", "", "restart", "quit"};
+  return kNames.at(request.index());
+}
 
 Error WrongField(std::string_view request, const RequestField& field, const std::string& what) {
   return {.message = "'" + std::string(request) + "' " + what + " '" + std::string(field.name) + "'",
@@ -115,6 +146,24 @@ class Reading {
 
 std::span<const DescribedRequest> RequestTable() { return kTable; }
 
+bool LetsMove(std::string_view name) {
+  const auto found = std::ranges::find(kTable, name, &DescribedRequest::name);
+  return found != kTable.end() && found->lets_move;
+}
+
+bool LetsMove(const CommandRequest& request) {
+  const auto* const change = std::get_if<ChangeRequest>(&request);
+  return change != nullptr ? LetsMove(change->placed.changes) : LetsMove(NameOf(request));
+}
+
+// Also by what is taken away: a module that has kept another one from driving, or the connection by which it did so.
+bool LetsMove(const ChangeSet& changes) {
+  return !std::ranges::all_of(changes, [](const Change& each) {
+    return std::holds_alternative<CreateGroup>(each) || std::holds_alternative<AddThread>(each) ||
+           std::holds_alternative<TagElement>(each) || std::holds_alternative<LogElement>(each);
+  });
+}
+
 Result<const DescribedRequest*> FindRequest(std::string_view name) {
   const auto found = std::ranges::find(kTable, name, &DescribedRequest::name);
   if (found != kTable.end()) return &*found;
@@ -140,9 +189,24 @@ Result<CommandRequest> MakeRequest(std::string_view name, const RequestFields& f
     return CommandRequest(PublishRequest{std::move(path), reading.Text("value"), reading.rate,
                                          reading.deadline, reading.Text("lease")});
   }
+  if (name == "undo") return CommandRequest(UndoRequest{});
+  if (name == "redo") return CommandRequest(RedoRequest{});
+  if (name == "reload") return CommandRequest(ReloadRequest{reading.Text("plugin")});
+  if (name == "restart") return CommandRequest(RestartRequest{std::move(path)});
+  if (name == "quit") return CommandRequest(QuitRequest{});
+  if (name != "set" && name != "log") return Error{.message = "'" + std::string(name) + "' is made by its client"};
   ChangeRequest change;
   change.client = client;
-  change.placed.changes.emplace_back(SetParameter{std::move(path), reading.Text("value")});
+  if (name == "set") {
+    change.placed.changes.emplace_back(SetParameter{std::move(path), reading.Text("value")});
+  } else {
+    LogElement log{path.empty() ? "/" : std::move(path)};
+    const std::string wanted = reading.Text("level");
+    const auto level = LogLevelOf(wanted);
+    if (!level && wanted != "inherit") return level.error();
+    if (level) log.level = *level;
+    change.placed.changes.emplace_back(std::move(log));
+  }
   change.placed.positions.push_back({std::string(name), 1, 1});
   return CommandRequest(std::move(change));
 }

@@ -25,11 +25,14 @@ struct RequestField {
   std::string_view help = {};
 };
 
-/// A request that every client offers under the same name: the terminal, pages, Foxglove, Python.
+/// A request that clients offer under the same name: the terminal, pages, Foxglove, Python.
 struct DescribedRequest {
   std::string_view name;
   std::span<const RequestField> fields;
   std::string_view role;     ///< that a client needs: "look", "drive", "change"
+  /// Whether something may move by it, and not only stop: then it is refused if STOP was pressed or released after it was
+  /// asked for (CommandService::Begin()).
+  bool lets_move;
   std::string_view help;     ///< one line
   std::string_view example;  ///< as words of the terminal; required fields without their names
 };
@@ -39,6 +42,12 @@ struct DescribedRequest {
 /// Errors: there is no such request, with the nearest name.
 [[nodiscard]] Result<const DescribedRequest*> FindRequest(std::string_view name);
 
+/// That column. What is no request moves nothing: clients look and write by it. Of changes of the structure: whether one of
+/// them may let something move.
+[[nodiscard]] bool LetsMove(std::string_view name);
+[[nodiscard]] bool LetsMove(const CommandRequest& request);
+[[nodiscard]] bool LetsMove(const ChangeSet& changes);
+
 /// What releases the STOP of the robot, in the place of a port's path.
 inline constexpr std::string_view kRobotStopName = "stop";
 
@@ -46,7 +55,8 @@ inline constexpr std::string_view kRobotStopName = "stop";
 using RequestFields = std::map<std::string, std::variant<std::string, double>, std::less<>>;
 
 /// The request for CommandService::Begin(). `client`: who wants it, for people: "a terminal", "viewer 2".
-/// Errors: an unknown request or field, with the nearest name; a field that is missing, empty or of the wrong kind.
+/// Errors: an unknown request or field, with the nearest name; a field that is missing, empty or of the wrong kind; one
+/// that clients make by themselves.
 [[nodiscard]] Result<CommandRequest> MakeRequest(std::string_view name, const RequestFields& fields,
                                                  const std::string& client);
 

@@ -5,9 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/nearest_name.h"
-#include "core/paths/path_search.h"
-#include "core/port/port.h"
 #include "core/types/duration_text.h"
 #include "core/types/text_format.h"
 #include "plugins/control/command.h"
@@ -20,19 +17,6 @@ namespace {
 constexpr Duration kUsualTimeout = std::chrono::seconds(30);
 constexpr Duration kTellProgress = std::chrono::milliseconds(250);
 
-// Errors: besides, that it is no service.
-Result<Callable*> FindCallable(Runtime& runtime, const std::string& path) {
-  const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
-  if (!found) return found.error();
-  if (auto* const callable = (*found)->FindAnnotation<Callable>()) return callable;
-  std::string hint;
-  runtime.root().Visit([&](FrameworkElement& each) {
-    if (each.FindAnnotation<Callable>() == nullptr) return;
-    hint += (hint.empty() ? "services are " : ", ") + each.path();
-  });
-  return Error{.message = "is no service", .path = (*found)->path(), .hint = hint};
-}
-
 std::string StatusText(CallStatus status) {
   std::string text = CallStatusName(status);
   for (char& each : text) each = each == '_' ? ' ' : each;
@@ -44,7 +28,7 @@ class CallCommand {
  public:
   CallCommand(Runtime& runtime, std::optional<Time> asked, std::string path, std::optional<std::string> arguments, Duration timeout)
       : runtime_(runtime),
-        as_of_{.asked = asked, .requests = runtime.robot_stop().state().requests},
+        as_of_(runtime.robot_stop().AsOfNow(asked)),
         path_(std::move(path)),
         arguments_(std::move(arguments)),
         timeout_(timeout) {}

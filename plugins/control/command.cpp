@@ -6,6 +6,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
+#include "plugins/command_service/request_table.h"
 
 namespace runnel {
 
@@ -108,6 +109,11 @@ CommandResult MakeCommand(const std::string& text, CommandService& service, Task
             kind->needs == Needs::kPace
                 ? "the program that runs this application cannot pause it or change its speed"
                 : "the program that runs this application does not say how it does so"};
+  }
+  // The service looks by itself, and knows what a change is of.
+  if (kind->make != MakeServiceCommand && LetsMove(kind->name)) {
+    const auto known = application.runtime.robot_stop().CheckIsKnown({.asked = asked, .requests = {}});
+    if (!known) return known.error();
   }
   return kind->make(*request, {application, service, tasks, asked});
 }

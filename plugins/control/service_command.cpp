@@ -37,10 +37,10 @@ PlacedChanges ReadChanges(const Request& request, Diagnostics& diagnostics) {
 }
 
 // "/robot=debug", or "debug" for all.
-LogLevelRequest LevelOf(const std::string& wish) {
+RequestFields LevelOf(const std::string& wish) {
   const std::size_t equals = wish.rfind('=');
-  if (equals == std::string::npos) return {.level = wish};
-  return {wish.substr(0, equals), wish.substr(equals + 1)};
+  if (equals == std::string::npos) return {{"level", wish}};
+  return {{"path", wish.substr(0, equals)}, {"level", wish.substr(equals + 1)}};
 }
 
 // One of those that every client offers: words are its fields, in their order.
@@ -55,34 +55,19 @@ Result<CommandRequest> DescribedRequestOf(const DescribedRequest& described, con
 }
 
 Result<CommandRequest> RequestOf(const Request& request, PlacedChanges placed) {
-  if (const auto described = FindRequest(request.command)) return DescribedRequestOf(**described, request);
-  const std::string argument = request.arguments.empty() ? "" : request.arguments[0];
-  if (request.command == "undo") return CommandRequest(UndoRequest{});
-  if (request.command == "redo") return CommandRequest(RedoRequest{});
   if (request.command == "save") {
-    return CommandRequest(SaveRequest{.file = argument,
+    return CommandRequest(SaveRequest{.file = request.arguments.empty() ? "" : request.arguments[0],
                                       .is_configuration = request.Option("config") == "yes",
                                       .overwrites = request.Option("overwrite") == "yes"});
   }
-  if (request.command == "reload") return CommandRequest(ReloadRequest{argument});
-  if (request.command == "restart") return CommandRequest(RestartRequest{argument});
-  if (request.command == "quit") return CommandRequest(QuitRequest{});
-  if (request.command == "log") return CommandRequest(LevelOf(request.Option("level")));
-  return CommandRequest(ChangeRequest{.placed = std::move(placed),
-                                      .client = kClient,
-                                      .may_end_application = request.Option("yes") == "yes"});
-}
-
-// A release of the STOP is compared where it is carried out.
-Result<void> CheckIsStillMeant(CommandRequest& request, const CommandContext& context) {
-  if (auto* const stop = std::get_if<RobotStopRequest>(&request)) {
-    stop->as_of.asked = context.asked;
-    return {};
+  if (request.command == "log") return MakeRequest("log", LevelOf(request.Option("level")), kClient);
+  if (request.command == "change") {
+    return CommandRequest(ChangeRequest{.placed = std::move(placed),
+                                        .client = kClient,
+                                        .may_end_application = request.Option("yes") == "yes"});
   }
-  auto* const release = std::get_if<ReleaseRequest>(&request);
-  if (release != nullptr) release->asked = context.asked;
-  if (release == nullptr && !std::holds_alternative<PublishRequest>(request)) return {};
-  return context.application.runtime.robot_stop().CheckIsKnown({.asked = context.asked});
+  const auto described = FindRequest(request.command);
+  return described ? DescribedRequestOf(**described, request) : described.error();
 }
 
 }  // namespace
@@ -105,9 +90,8 @@ CommandResult MakeServiceCommand(const Request& request, const CommandContext& c
   }
   auto wanted = RequestOf(request, std::move(placed));
   if (!wanted) return wanted.error();
-  if (auto good = CheckIsStillMeant(*wanted, context); !good) return good.error();
   const std::shared_ptr<PendingCommand> pending =
-      context.service.Begin(std::move(*wanted), context.tasks);
+      context.service.Begin(std::move(*wanted), context.tasks, {}, {.asked = context.asked, .requests = {}});
   return Command([pending](Answer& answer) -> CommandStep {
     if (!pending->is_done()) return std::shared_ptr<const WorkerTask>(pending->task());
     const CommandAnswer done = pending->Take();

@@ -26,7 +26,7 @@ internal::FoxgloveShared::FoxgloveShared(FoxgloveApplication given)
 
 internal::FoxgloveShared::~FoxgloveShared() {
   tasks = nullptr;  // they use the rest
-  for (const std::string& path : places) DeletePlace(runtime(), path);
+  for (const std::string& name : places) DeletePlace(runtime(), name);
 }
 
 WebProtocol FoxgloveProtocol(FoxgloveApplication application) {

@@ -15,6 +15,9 @@ struct FoxgloveApplication {
   std::string version = {};  ///< of the program
   /// Clients look, and change nothing.
   bool is_read_only = false;
+  /// What something moves by has its safe value if its client publishes nothing for so long. Foxglove's panel for driving
+  /// publishes once a second, and ceases when its button is let go.
+  Duration drive_deadline = std::chrono::milliseconds(1500);
   /// By which sessions know when to look again; nullptr: the machine's. Outlives the server.
   const Clock* steady_clock = nullptr;
 };

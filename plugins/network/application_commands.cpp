@@ -225,7 +225,8 @@ void ApplicationCommands::Begin(const ServiceMessage& request) {
   }
   std::string text = ChangeText(placed.changes.front());
   errands_.push_back({request.id, who + " has it done: " + text,
-                      service_.Begin(ChangeRequest{.placed = std::move(placed), .client = who}, tasks_, [this] { Serve(); })});
+                      service_.Begin(ChangeRequest{.placed = std::move(placed), .client = who}, tasks_, [this] { Serve(); },
+                                     {.asked = Time(given), .requests = {}})});
 }
 
 void ApplicationCommands::Reply(const CallId& id, const CommandAnswer& answer, const std::string& token) {

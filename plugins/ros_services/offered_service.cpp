@@ -89,7 +89,7 @@ bool OfferedService::Work() {
   while (const auto request = endpoints_->Take()) {
     std::shared_ptr<const ServiceForm> form;
     Result<std::unique_ptr<AnyCall>> begun = std::unique_ptr<AnyCall>();
-    const RobotStop::AsOf as_of{.requests = runtime_.robot_stop().state().requests};
+    const RobotStop::AsOf as_of = runtime_.robot_stop().AsOfNow();
     {
       const std::lock_guard lock(runtime_.structure_mutex());  // which may take its time
       const auto is_meant = runtime_.robot_stop().CheckIsKnown(as_of);

@@ -61,7 +61,7 @@ StopService::Answer StopService::Do(const ServiceMessage& request) {
   }
   if (!may_release_) return {false, "the STOP is not released by this service: its file does not say <ros stop_releases=\"true\">"};
   const auto released = stop.Release(by);
-  return {true, released ? "the STOP is released" : released.error().message};
+  return {released.has_value(), released ? "the STOP is released" : released.error().message};
 }
 
 }  // namespace runnel

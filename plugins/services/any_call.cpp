@@ -1,6 +1,22 @@
 #include "plugins/services/any_call.h"
 
+#include "core/element/runtime.h"
+#include "core/paths/path_search.h"
+#include "core/port/port.h"
+
 namespace runnel {
+
+Result<Callable*> FindCallable(Runtime& runtime, const std::string& path) {
+  const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
+  if (!found) return found.error();
+  if (auto* const callable = (*found)->FindAnnotation<Callable>()) return callable;
+  std::string hint;
+  runtime.root().Visit([&](FrameworkElement& each) {
+    if (each.FindAnnotation<Callable>() == nullptr) return;
+    hint += (hint.empty() ? "services are " : ", ") + each.path();
+  });
+  return Error{.message = "is no service", .path = (*found)->path(), .hint = hint};
+}
 
 OwnCall::OwnCall(ServiceBase& service, std::unique_ptr<CallSlots> slots)
     : service_(service), slots_(std::move(slots)), call_(slots_->Acquire()) {}

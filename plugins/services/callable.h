@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/base/result.h"
 #include "core/element/annotation.h"
 #include "core/types/type_info.h"
 #include "plugins/services/call_status.h"
@@ -13,6 +14,7 @@
 namespace runnel {
 
 struct CallRecordBase;
+class Runtime;
 
 /// One call of a service whose types the caller knows by their descriptions only. Destroyed while it is under way, it
 /// is given up, and an activity is asked to end.
@@ -73,5 +75,9 @@ class Callable : public Annotation {
   /// Asks the activities that are under way to come to their ends; false: there is none.
   virtual bool Abort() = 0;
 };
+
+/// What an output's path calls. Under the structure lock. Errors: no such port, with the nearest; it is no service, with those
+/// that are there.
+[[nodiscard]] Result<Callable*> FindCallable(Runtime& runtime, const std::string& path);
 
 }  // namespace runnel

@@ -30,7 +30,7 @@ ChangeOutcome NotDone(Error error, bool is_refused) {
 
 ChangeOutcome ChangeHistory::Apply(const ChangeSet& changes,
                                    const std::vector<SourcePosition>& places, std::string label,
-                                   std::string client) {
+                                   std::string client, const RobotStop::AsOf& as_of) {
   const std::lock_guard one_after_the_other(applying_);
   Entries entry;
   try {
@@ -38,7 +38,7 @@ ChangeOutcome ChangeHistory::Apply(const ChangeSet& changes,
   } catch (...) {
     return NotDone({.message = DescribeException()}, false);
   }
-  ChangeOutcome outcome = editor_.Apply({changes, places, nullptr, &entry.back().undo_record});
+  ChangeOutcome outcome = editor_.Apply({changes, places, as_of, nullptr, &entry.back().undo_record});
   if (!outcome.is_done || changes.empty()) return outcome;
   const std::lock_guard lock(entries_);
   undone_.clear();
@@ -46,12 +46,7 @@ ChangeOutcome ChangeHistory::Apply(const ChangeSet& changes,
   return outcome;
 }
 
-ChangeOutcome ChangeHistory::Undo() { return Take(done_, undone_, "undone"); }
-
-ChangeOutcome ChangeHistory::Redo() { return Take(undone_, done_, "redone"); }
-
-// What takes back what took back is what was done.
-ChangeOutcome ChangeHistory::Take(Entries& from, Entries& to, const char* what) {
+ChangeOutcome ChangeHistory::Take(Entries& from, Entries& to, const char* what, const RobotStop::AsOf& as_of) {
   const std::lock_guard one_after_the_other(applying_);
   try {
     Entries back;
@@ -67,7 +62,7 @@ ChangeOutcome ChangeHistory::Take(Entries& from, Entries& to, const char* what) 
         entry.undo_record.why_not
             ? NotDone(*entry.undo_record.why_not, true)
             : editor_.Apply(
-                  {entry.undo_record.changes, {}, &entry.undo_record, &back.back().undo_record});
+                  {entry.undo_record.changes, {}, as_of, &entry.undo_record, &back.back().undo_record});
     if (!outcome.is_done && outcome.is_refused) {
       outcome.diagnostics.Add(
           {.message = "'" + entry.label + "' can no longer be " + what + ", and is forgotten"});

@@ -37,11 +37,11 @@ class ChangeHistory {
   /// what people read of it; "": the change in its text format, and how many more there are. `client`: who
   /// wants it, for people.
   ChangeOutcome Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places = {},
-                      std::string label = {}, std::string client = {});
+                      std::string label = {}, std::string client = {}, const RobotStop::AsOf& as_of = {});
   /// Takes back what was done last. Errors: nothing to undo; what makes it impossible.
-  ChangeOutcome Undo();
-  /// Does again what was undone last.
-  ChangeOutcome Redo();
+  ChangeOutcome Undo(const RobotStop::AsOf& as_of = {}) { return Take(done_, undone_, "undone", as_of); }
+  /// Does again what was undone last: what takes back what took back is what was done.
+  ChangeOutcome Redo(const RobotStop::AsOf& as_of = {}) { return Take(undone_, done_, "redone", as_of); }
 
   /// What Undo() would take back, and Redo() do again; nullopt: nothing.
   [[nodiscard]] std::optional<std::string> NextUndo() const { return LastOf(done_, &Entry::label); }
@@ -58,7 +58,7 @@ class ChangeHistory {
   };
   using Entries = std::list<Entry>;  // whose entries go from one to the other without memory
 
-  ChangeOutcome Take(Entries& from, Entries& to, const char* what);
+  ChangeOutcome Take(Entries& from, Entries& to, const char* what, const RobotStop::AsOf& as_of);
   void Add(Entries& to, Entries& entry);
   [[nodiscard]] std::optional<std::string> LastOf(const Entries& entries, std::string Entry::*part) const;
 

@@ -34,7 +34,7 @@ std::optional<std::filesystem::path> FileOf(const PluginManager& plugins, Runtim
 }  // namespace
 
 ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runtime& runtime,
-                           std::string_view plugin) {
+                           std::string_view plugin, const RobotStop::AsOf& as_of) {
   std::optional<PluginReload> reload;
   ChangeOutcome outcome;
   try {
@@ -58,7 +58,7 @@ ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runt
       }
       reload.emplace(std::move(*loaded));
     }
-    outcome = editor.Apply(changes);
+    outcome = editor.Apply(changes, {}, as_of);
   } catch (...) {
     outcome.diagnostics.Add({.message = DescribeException()});
   }

@@ -15,8 +15,8 @@ namespace runnel {
 /// that is in use is missing, if a module cannot be made, or if data types have another layout than those
 /// that the rest of the application knows.
 ///
-/// Threads:  as StructureEditor::Apply(); one at a time.
+/// Threads:  as StructureEditor::Apply(), as is `as_of`; one at a time.
 ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runtime& runtime,
-                           std::string_view plugin);
+                           std::string_view plugin, const RobotStop::AsOf& as_of = {});
 
 }  // namespace runnel

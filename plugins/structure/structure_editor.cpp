@@ -215,11 +215,6 @@ void StructureEditor::Tend() {
   if (shared_->probation) runtime_.Destroy(shared_->probation->Take(/*all=*/false));
 }
 
-ChangeOutcome StructureEditor::Apply(const ChangeSet& changes,
-                                     const std::vector<SourcePosition>& places) {
-  return Apply(ChangeRequest{changes, places});
-}
-
 ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
   RUNNEL_CHECK(!EpochGuard::HeldByThisThread() && !runtime_.structure_mutex().HeldByThisThread(),
                "the structure cannot be changed by an editor from within a cycle, nor under the "
@@ -288,6 +283,10 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
       return Attempt::kOvertaken;
     }
     if (runtime_.revision() != revision) return Attempt::kOvertaken;
+    if (auto known = runtime_.robot_stop().CheckIsKnown(request.as_of); !known) {
+      outcome.diagnostics.Add(known.error());
+      return Attempt::kFailed;
+    }
     if (auto carried = plan.Commit(request.back); !carried) {
       outcome.diagnostics.Add(carried.error());
       outcome.is_refused = true;

@@ -52,8 +52,12 @@ class StructureEditor {
   StructureEditor(const StructureEditor&) = delete;
   StructureEditor& operator=(const StructureEditor&) = delete;
 
-  /// `places` are those of the changes in a user's text, for the errors.
-  ChangeOutcome Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places = {});
+  /// `places` are those of the changes in a user's text, for the errors. `as_of`: when somebody asked for it; if STOP was
+  /// pressed or released since, and be it while new modules are made, nothing is done.
+  ChangeOutcome Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places = {},
+                      const RobotStop::AsOf& as_of = {}) {
+    return Apply(ChangeRequest{changes, places, as_of});
+  }
 
   /// Lets go of replaced modules whose successors have proved themselves. Apply() does it too; call it
   /// now and then to have their memory back earlier.
@@ -70,6 +74,7 @@ class StructureEditor {
   struct ChangeRequest {
     const ChangeSet& changes;
     const std::vector<SourcePosition>& places;
+    const RobotStop::AsOf& as_of;
     const internal::UndoRecord* undo_record = nullptr;  // that `changes` are of
     internal::UndoRecord* back = nullptr;               // is to be filled
   };

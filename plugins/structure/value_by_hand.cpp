@@ -40,9 +40,19 @@ Result<void> PublishByHand(Port& port, const void* value, Port::Setter setter) {
   return port.PublishByHand(fill, setter);
 }
 
+AnyValue SafeValueBehind(const Port& port) {
+  for (const Port* sink : port.Sinks()) {
+    for (const internal::PassedStop& each : internal::PassedStops(*sink)) {
+      if (each.stop->robot() != nullptr) return each.safe_value;
+    }
+  }
+  return {};
+}
+
 Result<AnyValue> SafeValueOf(const Port& port) {
   if (const auto stop = port.stop()) return stop->safe_value();
   if (const AnyValue& value = port.limits().default_value; value && !IsVelocity(port.type(), port.unit())) return value;
+  if (AnyValue behind = SafeValueBehind(port); behind && &behind.type() == &port.type()) return behind;
   const std::shared_ptr<const void> value = port.type().Make();
   if (!value) return At(port, "only a module can make values of type " + port.type().name());
   return AnyValue(port.type(), value);

@@ -180,6 +180,7 @@ Result<void> Supervisor::Add(StopButtonRule rule) {
 
 // Who goes on finds what the rules have taken back.
 Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
+  const RobotStop::AsOf as_of = shared_->runtime.robot_stop().AsOfNow();
   const std::lock_guard lock(shared_->pausing);
   Result<void> paused;
   if (is_paused) {
@@ -188,6 +189,8 @@ Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
     if (!paused && !scheduler_.CheckPaused(path)) return paused;
   } else if (auto known = scheduler_.CheckPaused(path); !known) {
     return known;
+  } else if (auto meant = shared_->runtime.robot_stop().CheckIsKnown(as_of); !meant) {
+    return meant;
   }
   Runtime& runtime = shared_->runtime;
   for (const auto& each : shared_->rules) {

@@ -64,6 +64,7 @@ py::object ReadInput(const Open& open, const std::string& path) {
 void PublishByHand(const Open& open, const std::string& path, const py::object& value) {
   const Use use(*open);
   Runtime& runtime = use->runtime();
+  const RobotStop::AsOf as_of = runtime.robot_stop().AsOfNow();
   Port* port = nullptr;
   const auto find = [&](Application&) -> Result<const TypeInfo*> {
     const std::lock_guard lock(runtime.structure_mutex());
@@ -79,6 +80,7 @@ void PublishByHand(const Open& open, const std::string& path, const py::object& 
     const std::lock_guard lock(runtime.structure_mutex());
     if (auto again = find(application); !again || *again != &type) return Error{.message = "has gone meanwhile", .path = path};
     return port->PublishByHand([&](void* at) -> Result<void> {
+      if (auto known = runtime.robot_stop().CheckIsKnown(as_of); !known) return known;
       if (CopyValue(type, made.at, at)) return {};
       return Error{.message = "cannot have such a value"};
     });
@@ -92,12 +94,13 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
   std::shared_ptr<AnyCall> call;
   const TypeInfo* reply = nullptr;
   std::exception_ptr thrown;
+  const RobotStop::AsOf as_of = use->runtime().robot_stop().AsOfNow();
   const auto begin = [&](Application& application) -> Result<void> {
     const std::lock_guard lock(application.runtime().structure_mutex());
-    const auto found = PathSearch(application.runtime()).FindPort(path, PathKind::kOutput);
+    if (auto known = application.runtime().robot_stop().CheckIsKnown(as_of); !known) return known;
+    const auto found = FindCallable(application.runtime(), path);
     if (!found) return found.error();
-    auto* const callable = (*found)->FindAnnotation<Callable>();
-    if (callable == nullptr) return Error{.message = "is no service", .path = (*found)->path()};
+    Callable* const callable = *found;
     call = callable->NewCall();
     reply = callable->reply();
     {

@@ -73,20 +73,8 @@ Open Load(const std::string& kind, const std::string& text, const std::string& f
   return open;
 }
 
-// What carries out changes: with the plugins that they need.
 void Apply(const Open& open, const ChangeSet& changes) {
-  Check(WithoutGil(open, [&](Application& application) {
-    for (const Change& each : changes) {
-      const auto* const create = std::get_if<CreateModule>(&each);
-      if (create == nullptr) continue;
-      const std::lock_guard lock(application.runtime().structure_mutex());
-      const std::size_t slash = create->type.find('/');
-      if (slash != std::string::npos && application.plugins().modules().Find(create->type) == nullptr) {
-        (void)application.plugins().Load(create->type.substr(0, slash));
-      }
-    }
-    return application.Apply(changes);
-  }));
+  Check(WithoutGil(open, [&](Application& application) { return application.Apply(changes); }));
 }
 
 std::vector<Setting> SettingsOf(const Words& words) {

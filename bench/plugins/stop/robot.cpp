@@ -31,10 +31,11 @@ void Register(ModuleRegistry& modules, const std::string& name) {
 }
 
 ServiceHooks SlowHooks() {
-  return {.load_plugin = [](const std::string&) -> Result<void> {
-            std::this_thread::sleep_for(5s);
-            return Error{.message = "there is no such plugin"};
-          },
+  return {.load_plugins =
+              [](const ChangeSet& changes) {
+                const auto* const create = std::get_if<CreateModule>(&changes.front());
+                if (create != nullptr && create->type.starts_with("elsewhere/")) std::this_thread::sleep_for(5s);
+              },
           .save = [](const std::string&) -> Result<std::string> {
             std::this_thread::sleep_for(5s);
             return std::string("saved");

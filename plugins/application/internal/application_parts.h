@@ -76,8 +76,9 @@ struct Application::Parts final : ApplicationDescription {
   [[nodiscard]] bool IsOwnFile(const std::filesystem::path& file);
   /// What the file has lost, and what passes with the run, for people.
   Result<std::string> Save(const std::filesystem::path& file);
+  Result<void> LoadPlugin(std::string_view plugin);
   void LoadPluginOf(std::string_view type);
-  void LoadPluginOf(const Change& change);
+  void LoadPluginsOf(const ChangeSet& changes);
 
   // Asked now and then for how long it has run. True: it is over.
   using LookAround = std::function<bool(Duration so_far)>;

@@ -5,12 +5,17 @@
 #include <utility>
 
 #include "core/lockfree/thread_epoch.h"
+#include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/values/foxglove_channel.h"
 #include "plugins/values/json_values.h"
 
 namespace runnel::internal {
+
+namespace {
+std::atomic<std::uint64_t> numbers{0};  // of what clients bring
+}  // namespace
 
 /// What holds the output in the tree, beside the application.
 class ClientPublication::Place final : public FrameworkElement {
@@ -21,26 +26,24 @@ class ClientPublication::Place final : public FrameworkElement {
   std::unique_ptr<Port> output;
 };
 
-struct ClientPublication::PendingOutput {
-  Place* place = nullptr;  // the runtime's
-  std::string path;        // of the place
-  std::optional<Error> error;
-};
-
 ClientPublication::ClientPublication(FoxgloveShared& shared, const DirectoryInput& input,
                                      std::function<void()> wake)
-    : shared_(shared), type_(*input.type), pending_(std::make_shared<PendingOutput>()) {
+    : shared_(shared),
+      input_(input),
+      type_(*input.type),
+      wake_(std::move(wake)),
+      place_("foxglove_client_" + std::to_string(++numbers)),
+      is_made_(input.drives) {
   if (const auto usual = type_.Make()) AppendJson(type_, usual.get(), usual_);
+  if (input.drives) return;
   task_ = shared_.tasks->Post(
-      [&shared, input, pending = pending_] {
-        if (auto made = Make(shared, input, *pending); !made) pending->error = made.error();
+      [&shared, input, place = place_] {
+        if (auto made = Make(shared, input, place); !made) throw ElementError(made.error());
       },
-      std::move(wake));
+      wake_);
 }
 
-Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInput& input,
-                                     PendingOutput& pending) {
-  static std::atomic<std::uint64_t> number{0};
+Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInput& input, const std::string& name) {
   Runtime& runtime = shared.runtime();
   const std::lock_guard lock(runtime.structure_mutex());
   const auto found = runtime.root().Find(input.path);
@@ -53,11 +56,8 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
     return Error{.message = "nothing is connected to this port that could read it",
                  .path = input.path};
   }
-  auto& place =
-      runtime.Create<Place>(runtime.root(), "foxglove_client_" + std::to_string(++number));
-  shared.places.insert(place.path());
-  pending.place = &place;
-  pending.path = place.path();
+  auto& place = runtime.Create<Place>(runtime.root(), name);
+  shared.places.insert(name);
   place.output = port->MakeOutput(place, port->name(), {});
   if (!place.output) {
     return Error{.message = "only a module can make a " + input.type->name(), .path = input.path};
@@ -67,10 +67,10 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
 }
 
 ClientPublication::~ClientPublication() {
-  shared_.tasks->Post([&shared = shared_, pending = pending_] {
-    if (pending->place == nullptr) return;
-    DeletePlace(shared.runtime(), pending->path);
-    shared.places.erase(pending->path);
+  if (!lease_.empty()) shared_.application.service.EndLease(lease_);
+  if (input_.drives) return;
+  shared_.tasks->Post([&shared = shared_, place = place_] {
+    if (shared.places.erase(place) > 0) DeletePlace(shared.runtime(), place);
   });
 }
 
@@ -79,9 +79,14 @@ std::optional<Error> ClientPublication::TakeError() { return std::exchange(error
 bool ClientPublication::Continue() {
   if (task_) {
     if (!task_->is_done()) return false;  // the worker tells when it is
-    error_ = task_->failure() ? task_->failure() : pending_->error;
+    error_ = task_->failure();
     task_ = nullptr;
     is_made_ = !error_;
+  }
+  if (driving_ && driving_->is_done()) {
+    const CommandAnswer answer = driving_->Take();
+    if (!answer && !answer.diagnostics.ok()) error_ = answer.diagnostics.errors().front();
+    driving_ = nullptr;
   }
   if (waiting_ && is_made_) {
     if (auto published = PublishWaiting(); !published) error_ = published.error();
@@ -89,39 +94,57 @@ bool ClientPublication::Continue() {
   return waiting_ && is_made_;
 }
 
-Result<void> ClientPublication::Publish(std::string_view json) {
+Result<void> ClientPublication::Publish(std::string_view json, Time received) {
+  if (input_.drives) return Drive(json, received);
   waiting_ = json;
-  as_of_.requests = shared_.runtime().robot_stop().state().requests;
+  as_of_ = shared_.runtime().robot_stop().AsOfNow();
   if (task_) return {};
   return PublishWaiting();
 }
 
+// Whoever has been silent takes hold anew: the protocol does not say when a button is pressed.
+Result<void> ClientPublication::Drive(std::string_view json, Time received) {
+  const Duration deadline = shared_.application.drive_deadline;
+  if (lease_.empty() || received - heard_ > deadline) lease_ = "foxglove " + std::to_string(++numbers);
+  heard_ = received;
+  const std::shared_ptr<void> value = type_.Make();
+  if (!value) return Error{.message = "only a module can make a " + type_.name()};
+  try {
+    if (auto read = Read(json, value.get()); !read) return read;
+    PublishRequest publish{input_.path, ToText(type_, value.get()), {}, deadline, lease_, received};
+    driving_ = shared_.application.service.Begin(std::move(publish), *shared_.tasks, wake_);
+  } catch (...) {  // of a type that throws when it is read
+    return CaughtError();
+  }
+  return {};
+}
+
+Result<void> ClientPublication::Read(std::string_view json, void* value) const {
+  if (auto usual = SetFromJson(type_, usual_, value); !usual) return usual;
+  return SetFromMessage(type_, json, value);
+}
+
 Result<void> ClientPublication::PublishWaiting() {
   const EpochGuard guard;  // what is found stays in memory so long
+  Place* place = nullptr;
+  std::string json;
   {
     // Somebody may have deleted it, as any other element.
     Runtime& runtime = shared_.runtime();
     const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
     if (!lock) return {};  // it goes on waiting
-    if (auto counts = shared_.runtime().robot_stop().CheckIsKnown(as_of_); !counts) {
-      waiting_ = std::nullopt;
-      return counts;
-    }
-    const auto found = runtime.root().Find(pending_->path);
-    if (!found || *found != pending_->place) {
-      waiting_ = std::nullopt;
+    json = *std::exchange(waiting_, std::nullopt);
+    if (auto counts = runtime.robot_stop().CheckIsKnown(as_of_); !counts) return counts;
+    place = dynamic_cast<Place*>(runtime.root().FindChild(place_));
+    if (place == nullptr) {
       return Error{.message = "the output of this channel has been deleted",
-                   .path = pending_->path,
+                   .path = "/" + place_,
                    .hint = "advertise it anew"};
     }
   }
-  const std::string json = *std::exchange(waiting_, std::nullopt);
-  const auto fill = [&](void* value) -> Result<void> {
-    if (auto usual = SetFromJson(type_, usual_, value); !usual) return usual;
-    return SetFromMessage(type_, json, value);
-  };
+  const auto fill = [&](void* value) { return Read(json, value); };
   try {
-    const auto published = pending_->place->output->PublishFilled(fill);
+    const auto published = place->output->PublishFilled(fill);
     if (!published) return published.error();
   } catch (...) {  // of a type that throws when it is read
     return CaughtError();
@@ -129,12 +152,10 @@ Result<void> ClientPublication::PublishWaiting() {
   return {};
 }
 
-void DeletePlace(Runtime& runtime, const std::string& path) {
-  FrameworkElement* place = nullptr;
-  {
-    const std::lock_guard lock(runtime.structure_mutex());
-    if (const auto found = runtime.root().Find(path)) place = *found;
-  }
+void DeletePlace(Runtime& runtime, const std::string& name) {
+  std::unique_lock lock(runtime.structure_mutex());
+  FrameworkElement* const place = runtime.root().FindChild(name);
+  lock.unlock();
   // That somebody else has deleted it is as good.
   if (place != nullptr) (void)runtime.Delete(*place);
 }

@@ -9,6 +9,7 @@
 #include "core/types/type_info.h"
 #include "plugins/foxglove/internal/robot_stop_access.h"
 #include "plugins/services/callable.h"
+#include "plugins/structure/value_by_hand.h"
 #include "plugins/values/foxglove_channel.h"
 
 namespace runnel::internal {
@@ -43,6 +44,7 @@ struct Directory::Search {
     const TypeInfo* type;
     bool is_shown;   // values come out of it
     bool is_target;  // values can be put into it
+    bool drives;     // something moves by these
     std::string owner;
     std::vector<std::string> readers;  // owners of the ports that read what comes out, sorted
   };
@@ -81,6 +83,7 @@ struct Directory::Search {
                     &port.type(),
                     is_output || port.is_proxy(),
                     !is_output,
+                    !is_output && SafeValueBehind(port),
                     OwnerPath(port),
                     {}};
     if (found.is_target) ++target_topics[found.topic];
@@ -132,7 +135,7 @@ Directory::SteadyTime Directory::Look(SteadyTime now) {
   }
   for (const Search::FoundPort& port : search->ports) {
     if (!port.is_target || !port.type->is_transparent()) continue;
-    const DirectoryInput input{port.path, port.type};
+    const DirectoryInput input{port.path, port.type, port.drives};
     content->inputs[port.path] = input;
     content->inputs[NameIn(search->target_topics, port.topic, port.path)] = input;
   }

@@ -34,6 +34,8 @@ struct DirectoryChannel {
 struct DirectoryInput {
   std::string path;
   const TypeInfo* type;
+  bool drives;  ///< something moves by what comes there
+  friend bool operator==(const DirectoryInput&, const DirectoryInput&) = default;
 };
 
 struct DirectoryParameter {

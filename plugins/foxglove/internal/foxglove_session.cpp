@@ -40,8 +40,9 @@ void FoxgloveSession::SendStatus(StatusLevel level, const Error& error) {
 
 bool FoxgloveSession::MayDo(WebRole needed, std::string_view what) {
   const WebRole role = shared_->RoleOf(client_);
-  if (role >= needed && needed > WebRole::kLook && IsLate()) {
-    SendError({.message = std::string(what) + ": " + kIsLate});
+  const auto is_meant = CheckIsMeant();
+  if (role >= needed && needed > WebRole::kLook && !is_meant) {
+    SendError({.message = std::string(what) + ": " + is_meant.error().message});
     return false;
   }
   if (role >= needed) return true;
@@ -50,9 +51,10 @@ bool FoxgloveSession::MayDo(WebRole needed, std::string_view what) {
   return false;
 }
 
-bool FoxgloveSession::IsLate() const {
+Result<void> FoxgloveSession::CheckIsMeant() const {
   const auto arrival = client_.arrival();
-  return arrival && arrival->mark != shared_->runtime().robot_stop().state().requests;
+  if (!arrival) return {};
+  return shared_->runtime().robot_stop().CheckIsKnown({.asked = {}, .requests = arrival->mark});
 }
 
 // A release outranks as well: it must neither wait nor be overtaken by a STOP that was pressed later.
@@ -62,7 +64,7 @@ WebArrival FoxgloveSession::OnArrival(std::string_view message, bool is_text) {
   const std::uint32_t id = ReadNumber(message, 1);
   const auto found = message[0] == kMessageData ? publications_.find(id) : publications_.end();
   arrival.outranks = message[0] == kServiceCall ? calls_.Is(kStopName, id) || calls_.Is(kReleaseName, id)
-                                                : found != publications_.end() && found->second.path == kStopName;
+                                                : found != publications_.end() && found->second == nullptr;
   return arrival;
 }
 
@@ -82,7 +84,7 @@ void FoxgloveSession::OnText(std::string_view message) {
 
 void FoxgloveSession::OnBinary(std::string_view message) {
   if (!message.empty() && message[0] == kServiceCall) {
-    return calls_.Begin(message, shared_->RoleOf(client_) >= WebRole::kDrive, IsLate());
+    return calls_.Begin(message, shared_->RoleOf(client_) >= WebRole::kDrive, CheckIsMeant());
   }
   if (message.size() < kHead || message[0] != kMessageData) {
     return SendError({.message = "there is no binary message of this kind here",
@@ -90,7 +92,7 @@ void FoxgloveSession::OnBinary(std::string_view message) {
   }
   const std::uint32_t id = ReadNumber(message, 1);
   const auto found = publications_.find(id);
-  if (found != publications_.end() && found->second.path == kStopName) {
+  if (found != publications_.end() && found->second == nullptr) {
     (void)SetStop(*shared_, kStopName, message.substr(kHead));
     return;
   }
@@ -98,10 +100,12 @@ void FoxgloveSession::OnBinary(std::string_view message) {
   if (found == publications_.end()) {
     return SendError({.message = "channel " + std::to_string(id) + " is not advertised"});
   }
-  const auto published = found->second.channel->Publish(message.substr(kHead));
+  const auto arrival = client_.arrival();
+  const auto received = arrival ? Time(arrival->at.time_since_epoch()) : SteadyClock().Now();
+  const auto published = found->second->Publish(message.substr(kHead), received);
   if (published) return;
   Error error = published.error();
-  if (error.path.empty()) error.path = found->second.path;
+  if (error.path.empty()) error.path = found->second->input().path;
   SendError(error);
 }
 
@@ -135,7 +139,7 @@ void FoxgloveSession::Advertise(const AdvertiseMessage::Channel& channel, bool& 
         {.message = "advertise: more than " + std::to_string(kMostPublications) + " channels"});
   }
   if (channel.topic == kStopName) {
-    publications_[channel.id] = {channel.topic, nullptr, nullptr};
+    publications_[channel.id] = nullptr;
     return;
   }
   if (!MayDo(WebRole::kDrive, AdvertiseMessage::kName)) return;
@@ -149,9 +153,7 @@ void FoxgloveSession::Advertise(const AdvertiseMessage::Channel& channel, bool& 
     }
     return SendError(error);
   }
-  publications_[channel.id] = {
-      input->second.path, input->second.type,
-      std::make_unique<ClientPublication>(*shared_, input->second, client_.Waker())};
+  publications_[channel.id] = std::make_unique<ClientPublication>(*shared_, input->second, client_.Waker());
 }
 
 void FoxgloveSession::Handle(const UnadvertiseMessage& message) {
@@ -221,12 +223,16 @@ void FoxgloveSession::AdvertiseNew() {
 void FoxgloveSession::DropPublications(const DirectoryContent& content) {
   std::erase_if(publications_, [&](const auto& each) {
     const auto& [id, publication] = each;
-    const auto input = content.inputs.find(publication.path);
-    if (publication.path == kStopName) return false;
-    if (input != content.inputs.end() && input->second.type == publication.type) return false;
+    if (publication == nullptr) return false;
+    const DirectoryInput& before = publication->input();
+    const auto input = content.inputs.find(before.path);
+    const bool is_there = input != content.inputs.end() && input->second.type == before.type;
+    if (is_there && input->second == before) return false;
     SendStatus(StatusLevel::kWarning,
-               {.message = "channel " + std::to_string(id) + " is closed: its input is gone",
-                .path = publication.path});
+               {.message = "channel " + std::to_string(id) +
+                           (is_there ? " is closed: whether something moves by its input has changed; advertise it anew"
+                                     : " is closed: its input is gone"),
+                .path = before.path});
     return true;
   });
 }
@@ -235,11 +241,11 @@ void FoxgloveSession::DropPublications(const DirectoryContent& content) {
 bool FoxgloveSession::ContinuePublications() {
   bool is_any_making = false;
   std::erase_if(publications_, [&](const auto& each) {
-    if (each.second.channel == nullptr) return false;  // of the STOP
-    if (each.second.channel->Continue()) is_any_making = true;
-    const auto error = each.second.channel->TakeError();
+    if (each.second == nullptr) return false;  // of the STOP
+    if (each.second->Continue()) is_any_making = true;
+    const auto error = each.second->TakeError();
     if (error) SendError(*error);
-    return error.has_value() && !each.second.channel->is_made();
+    return error.has_value() && !each.second->is_made();
   });
   return is_any_making;
 }

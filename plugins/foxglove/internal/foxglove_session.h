@@ -35,8 +35,8 @@ class ServiceCalls {
   void Follow(const DirectoryContent& content, bool may_call);
   /// Whether calling it is a STOP of the robot, or ends one (kReleaseName).
   [[nodiscard]] bool Is(std::string_view name, std::uint32_t service) const;
-  /// A binary message: a call. `may_call`: else it is refused, but for the STOP. `is_late`: likewise.
-  void Begin(std::string_view message, bool may_call, bool is_late);
+  /// A binary message: a call. `may_call`: else it is refused, but for the STOP. `is_meant`: likewise, if it is an error.
+  void Begin(std::string_view message, bool may_call, const Result<void>& is_meant);
   /// Answers what can be answered. When it wants to be called again.
   SteadyTime Continue(SteadyTime now);
 
@@ -87,9 +87,9 @@ class FoxgloveSession final : public WebSession {
   /// `may_search`: for the nearest name, which takes time; once in a message.
   void Advertise(const AdvertiseMessage::Channel& channel, bool& may_search);
 
-  /// Whether STOP has been pressed or released since the message came that is being handed over.
-  [[nodiscard]] bool IsLate() const;
-  /// Whether the client may do what takes `needed`, and it is not late; if not, it is told.
+  /// An error: STOP has been pressed or released since the message came that is being handed over.
+  [[nodiscard]] Result<void> CheckIsMeant() const;
+  /// Whether the client may do what takes `needed`, and it is still meant; if not, it is told.
   bool MayDo(WebRole needed, std::string_view what);
   void SendStatus(StatusLevel level, const Error& error);
   void SendError(const Error& error) { SendStatus(StatusLevel::kError, error); }
@@ -99,19 +99,13 @@ class FoxgloveSession final : public WebSession {
   bool ContinuePublications();
   void SendTime(SteadyTime now);
 
-  struct Publication {
-    std::string path;  // of the input
-    const TypeInfo* type;
-    std::unique_ptr<ClientPublication> channel;
-  };
-
   const std::shared_ptr<FoxgloveShared> shared_;
   WebClient& client_;
   SendQueue send_queue_;
   Subscriptions subscriptions_;
   ParameterHandler parameters_;
   ServiceCalls calls_;
-  std::map<std::uint32_t, Publication> publications_;  // by the client's numbers
+  std::map<std::uint32_t, std::unique_ptr<ClientPublication>> publications_;  // by the client's numbers; nullptr: of the STOP
   std::shared_ptr<const DirectoryContent> content_;    // that the client has been told of
   std::set<std::uint32_t> advertised_;
   bool has_graph_ = false;

@@ -35,11 +35,11 @@ struct FoxgloveShared {
   const FoxgloveApplication application;
   const std::string session;  ///< another one with each start
   Directory directory;
-  std::set<std::string> places;  ///< paths of what clients have brought; the worker's
+  std::set<std::string> places;  ///< names of what clients have brought; the worker's
   std::unique_ptr<TaskGroup> tasks;
 };
 
 /// Deletes what a client has brought, if it is still there. Waits.
-void DeletePlace(Runtime& runtime, const std::string& path);
+void DeletePlace(Runtime& runtime, const std::string& name);
 
 }  // namespace runnel::internal

@@ -23,6 +23,7 @@ constexpr std::size_t kMostAtOnce = 1000;
 
 struct ParameterHandler::PendingSet {
   SetParametersMessage message;
+  RobotStop::AsOf as_of;
   bool has_begun = false;
   // One for each parameter: what is wrong with one is no reason to leave out the others.
   std::vector<std::unique_ptr<PendingCommand>> changes = {};
@@ -59,7 +60,7 @@ void ParameterHandler::Set(const SetParametersMessage& message) {
     return SendError({.message = "setParameters: more than " + std::to_string(kMostAtOnce) +
                                  " parameters at once"});
   }
-  sets_.push_back(std::make_shared<PendingSet>(PendingSet{message}));
+  sets_.push_back(std::make_shared<PendingSet>(PendingSet{message, shared_.runtime().robot_stop().AsOfNow()}));
 }
 
 void ParameterHandler::Subscribe(const SubscribeParametersMessage& message) {
@@ -180,7 +181,7 @@ bool ParameterHandler::BeginSet(PendingSet& set) {
         }
         set.changes.push_back(shared_.application.service.Begin(
             ChangeRequest{{.changes = {std::move(*setting)}, .positions = {}}, {}, "Foxglove"},
-            *shared_.tasks, wake_));
+            *shared_.tasks, wake_, set.as_of));
       });
   return set.has_begun;
 }

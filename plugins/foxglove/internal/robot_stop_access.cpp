@@ -34,7 +34,7 @@ CommandAnswer Release(FoxgloveShared& shared, std::string_view json) {
     const auto requests = shared.runtime().robot_stop().state().requests;
     return CommandAnswer::Refused({.message = "say which STOP is meant: {\"number\": " + std::to_string(requests) + "}"});
   }
-  return shared.application.service.Begin(RobotStopRequest{false, "Foxglove", {.requests = number}}, *shared.tasks)->Take();
+  return shared.application.service.Begin(RobotStopRequest{false, "Foxglove"}, *shared.tasks, {}, {.asked = {}, .requests = number})->Take();
 }
 
 }  // namespace

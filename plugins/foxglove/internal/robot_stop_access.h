@@ -15,9 +15,6 @@ inline constexpr std::string_view kStopName = "/stop";
 /// A service that ends it, for who may drive.
 inline constexpr std::string_view kReleaseName = "/release";
 
-/// Of what has waited meanwhile.
-inline constexpr const char* kIsLate = "STOP was pressed or released after this was asked for";
-
 [[nodiscard]] std::vector<DirectoryService> StopServices();
 /// Whether it is in force, and since when by whom; its values are RobotStop::States.
 [[nodiscard]] FoxgloveChannel StopChannel();

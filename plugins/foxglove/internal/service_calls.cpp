@@ -45,12 +45,12 @@ bool ServiceCalls::Is(std::string_view name, std::uint32_t service) const {
   return found != advertised_.end() && found->second == name;
 }
 
-void ServiceCalls::Begin(std::string_view message, bool may_call, bool is_late) {
+void ServiceCalls::Begin(std::string_view message, bool may_call, const Result<void>& is_meant) {
   const auto call = ReadServiceCall(message);
   if (!call) return send_queue_.Send(StatusMessage(StatusLevel::kError, call.error().ToString()));
   Pending pending{.service = call->service, .call = call->call, .path = {}, .json = call->payload, .begun = {}};
   const auto found = advertised_.find(call->service);
-  if (Is(kStopName, call->service) || (may_call && !is_late && Is(kReleaseName, call->service))) {
+  if (Is(kStopName, call->service) || (may_call && is_meant && Is(kReleaseName, call->service))) {
     const std::string reply = SetStop(shared_, found->second, call->payload);
     if (!client_.SendBinary(ServiceReplyMessage(call->service, call->call, reply))) {
       Fail(pending, {.message = "done, but the reply was lost, as too much waits for this viewer"});
@@ -58,14 +58,14 @@ void ServiceCalls::Begin(std::string_view message, bool may_call, bool is_late) 
     return;
   }
   if (!may_call) return Fail(pending, {.message = "calling takes a token for the role 'drive'"});
-  if (is_late) return Fail(pending, {.message = kIsLate});
+  if (!is_meant) return Fail(pending, is_meant.error());
   if (found == advertised_.end()) return Fail(pending, {.message = "there is no such service any more"});
   if (call->encoding != "json") {
     return Fail(pending, {.message = "arguments come as 'json' here, not as '" + call->encoding + "'"});
   }
   if (pending_.size() >= kMostCalls) return Fail(pending, {.message = "too many calls are under way"});
   pending.path = found->second;
-  pending.as_of.requests = shared_.runtime().robot_stop().state().requests;
+  pending.as_of = shared_.runtime().robot_stop().AsOfNow();
   pending_.push_back(std::move(pending));
 }
 
@@ -89,9 +89,7 @@ bool ServiceCalls::ContinueOne(Pending& pending) {
       const std::string why = pending.begun->error();
       Fail(pending, {.message = why.empty() ? CallStatusName(status) : why, .path = pending.path});
     }
-  } catch (const ElementError& wrong) {
-    Fail(pending, wrong.error());
-  } catch (...) {  // of a type that throws when it is read or shown
+  } catch (...) {  // of TryBegin(), or of a type that throws when it is read or shown
     Fail(pending, CaughtError());
   }
   return false;
@@ -103,10 +101,9 @@ bool ServiceCalls::TryBegin(Pending& pending) {
   const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
   if (!lock) return false;
   if (auto is_meant = runtime.robot_stop().CheckIsKnown(pending.as_of); !is_meant) throw ElementError(is_meant.error());
-  const auto found = runtime.root().Find(pending.path);
+  const auto found = FindCallable(runtime, pending.path);
   if (!found) throw ElementError(found.error());
-  auto* const callable = (*found)->FindAnnotation<Callable>();
-  if (callable == nullptr) throw ElementError({.message = "is no service any more", .path = pending.path});
+  Callable* const callable = *found;
   auto call = callable->NewCall();
   if (const TypeInfo* const type = callable->arguments()) {
     if (auto set = SetFromMessage(*type, pending.json, call->arguments()); !set) {

@@ -55,20 +55,11 @@ namespace {
 
 constexpr Duration kTimeout = std::chrono::minutes(10);  // of what a person waits for, who may close the page
 
-Result<Callable*> FindCallable(Runtime& runtime, const std::string& path) {
-  const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
-  if (!found) return found.error();
-  if (auto* const callable = (*found)->FindAnnotation<Callable>()) return callable;
-  return Error{.message = "is no service", .path = (*found)->path()};
-}
-
 /// The server's thread looks again and again whether it has ended, and waits for nothing.
 class ViewerCall {
  public:
   ViewerCall(Runtime& runtime, RobotStop::AsOf as_of, std::string path, std::string arguments)
-      : runtime_(runtime), as_of_(as_of), path_(std::move(path)), arguments_(std::move(arguments)) {
-    if (!as_of_.requests) as_of_.requests = runtime.robot_stop().state().requests;
-  }
+      : runtime_(runtime), as_of_(as_of), path_(std::move(path)), arguments_(std::move(arguments)) {}
 
   bool IsDone() {
     if (outcome_) return true;
@@ -120,7 +111,7 @@ class ViewerCall {
 
 }  // namespace
 
-ViewerRequest BeginCallRequest(Inspection& inspection, const ViewerMessage& message) {
+ViewerRequest BeginCallRequest(Inspection& inspection, ViewerMessage message, std::function<void()> /*on_done*/) {
   const auto call =
       std::make_shared<ViewerCall>(inspection.application().runtime, message.as_of, message.path, message.value);
   return {.task = nullptr,

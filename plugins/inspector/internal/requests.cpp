@@ -80,14 +80,12 @@ CommandOrErrors MakePublish(ViewerMessage& message) {
   if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
   publish.lease = message.lease;
   publish.received = message.received;
-  publish.as_of = message.as_of;
   return CommandRequest(std::move(publish));
 }
 
-// Of the STOP of the robot, or of a port.
-CommandOrErrors MakeRelease(ViewerMessage& message) {
-  if (message.path == kRobotStopName) return CommandRequest(RobotStopRequest{false, message.client, message.as_of});
-  return CommandRequest(ReleaseRequest{message.path, message.at});
+CommandOrErrors MakeDescribed(std::string_view name, const RequestFields& fields, const ViewerMessage& message) {
+  auto made = MakeRequest(name, fields, message.client);
+  return made ? CommandOrErrors(std::move(*made)) : std::vector<RequestError>{{made.error()}};
 }
 
 std::string FindCompatible(Inspection& inspection, const ViewerMessage& message) {
@@ -152,14 +150,14 @@ std::string SetLatency(Inspection& inspection, const ViewerMessage& message) {
 std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
   Pace& pace = inspection.scheduler().pace();
   Result<void> done;
+  if (LetsMove(message.op)) done = inspection.application().runtime.robot_stop().CheckIsKnown(message.as_of);
+  if (!done) return Refusal(message.request, {{done.error()}});
   if (message.op == "pause") {
     done = pace.Pause();
   } else if (message.op == "resume") {
     done = pace.Resume();
   } else if (message.op == "step") {
     done = pace.StepCycles(message.cycles);
-  } else if (message.op != "speed") {
-    done = Error{.message = "time has no '" + message.op + "'"};
   } else if (!message.speed) {
     done = Error{.message = "the speed is missing",
                  .hint = "\"speed\": 1 is real time, 0 as fast as it can"};
@@ -213,7 +211,7 @@ ViewerRequest BeginCommand(Inspection& inspection, const ViewerMessage& message,
   if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command)) return Answered(Refusal(request, *errors));
   const std::string copy = message.op == "save" && message.what.empty() ? message.file : "";
   const std::shared_ptr<PendingCommand> pending = inspection.service().Begin(
-      std::move(std::get<CommandRequest>(command)), inspection.tasks(), std::move(on_done));
+      std::move(std::get<CommandRequest>(command)), inspection.tasks(), std::move(on_done), message.as_of);
   return {pending->task(), [&inspection, request, pending, copy] {
             const CommandAnswer answer = pending->Take();
             if (answer && !copy.empty()) CopyArrangement(inspection, copy);
@@ -267,11 +265,6 @@ std::string SetProfiled(Inspection& inspection, const ViewerMessage& message) {
   return Reply(message.request, "done");
 }
 
-ViewerRequest Call(Inspection& inspection, ViewerMessage message,
-                   std::function<void()> /*on_done*/) {
-  return BeginCallRequest(inspection, message);
-}
-
 }  // namespace
 
 std::string Reply(std::optional<std::uint64_t> request, const std::string& text) {
@@ -301,9 +294,9 @@ std::span<const Operation> AllOperations() {
       Operation("panel", kLook, ByWorker<ReadPanel>),
       Operation("stop", kLook, ByService<[](Message& of) { return CommandRequest(RobotStopRequest{true, of.client}); }>),
       Operation("publish", kDrive, ByService<MakePublish>),
-      Operation("release", kDrive, ByService<MakeRelease>),
+      Operation("release", kDrive, ByService<[](Message& of) { return MakeDescribed("release", {{"path", of.path}}, of); }>),
       Operation("block", kDrive, ByService<[](Message& of) { return CommandRequest(BlockRequest{of.path}); }>),
-      Operation("call", kDrive, Call), Operation("abort", kDrive, ByWorker<AbortCall>),
+      Operation("call", kDrive, BeginCallRequest), Operation("abort", kDrive, ByWorker<AbortCall>),
       // Who drives may stop all of it and let it go on, but not leave out one module, which may be what
       // keeps the robot from colliding.
       Operation("pause", kDrive, kChange, PauseOrResume),
@@ -315,7 +308,8 @@ std::span<const Operation> AllOperations() {
       Operation("arrange", kChange, Arrange), Operation("step", kChange, AtOnce<SetPace>),
       Operation("speed", kChange, AtOnce<SetPace>),
       Operation("reload", kChange, ByService<[](Message& of) { return CommandRequest(ReloadRequest{of.plugin}); }>),
-      Operation("log_level", kChange, ByService<[](Message& of) { return CommandRequest(LogLevelRequest{of.path, of.level}); }>),
+      Operation("log_level", kChange, ByService<[](Message& of) {
+                  return MakeDescribed("log", {{"path", of.path.empty() ? "/" : of.path}, {"level", of.level}}, of); }>),
       Operation("profile", kChange, ByWorker<SetProfiled>),
       Operation("latency", kChange, ByWorker<SetLatency>),
       Operation("preview", kChange, ByWorker<PreviewSave>),

@@ -268,22 +268,17 @@ void ViewerSession::OnText(std::string_view text) {
   }
   const WebRole needed = RoleFor(*operation, message);
   if (role() < needed) return RefuseRole(message, needed);
+  message.as_of = inspection_.application().runtime.robot_stop().AsOfNow(message.at);
   if (const auto arrival = client_.arrival()) {
     message.received = Time(arrival->at.time_since_epoch());
     message.as_of.requests = arrival->mark;
   }
-  message.as_of.asked = message.at;
-  const bool only_stops = message.op == "block" || message.op == "abort" || message.op == "pause";
-  const auto known = inspection_.application().runtime.robot_stop().CheckIsKnown(message.as_of);
-  if (!known && !only_stops && needed != WebRole::kLook) return Refuse(message, known.error());
   if (operation->begin != nullptr) return BeginRequest(*operation, std::move(message));
   if (message.op == "watch") return BeginWatching(message);
   if (message.op == "unwatch") {
     watches_.erase(message.path);
     return;
   }
-  if (message.op != "watch_rates")
-    return Refuse(message, {.message = "nothing does '" + message.op + "'"});
   const double rate = std::min(message.rate.value_or(1), kFastestRates);
   rates_interval_ = rate > 0 ? IntervalOf(std::max(rate, 0.01)) : Duration{};
   rates_due_ = {};

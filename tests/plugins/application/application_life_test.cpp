@@ -1,6 +1,10 @@
 // The end of an application in each of its states, also with clients attached.
 
+#include <atomic>
+#include <functional>
+#include <semaphore>
 #include <thread>
+#include <vector>
 
 #include <sys/stat.h>
 
@@ -71,6 +75,83 @@ TEST(ApplicationLife, IsChangedByOneThreadWhileItRunsAndReadByAnother) {
     ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
   }
   reader.request_stop();
+}
+
+/// Its constructor waits, once the test has said so.
+class CountingSlow final : public Module {
+ public:
+  explicit CountingSlow(const Placement& placement) : Module(placement) {
+    if (!is_slow) return;
+    begun.release();
+    may_end.acquire();
+  }
+  static inline std::atomic<bool> is_slow{false};
+  static inline std::binary_semaphore begun{0};
+  static inline std::binary_semaphore may_end{0};
+
+ private:
+  void Update() override {}
+};
+
+class ApplicationWithSlow : public testing::Test {
+ protected:
+  ApplicationWithSlow()
+      : application(Application::LoadFrom([](const BuildTools& tools) {
+          AddCountingTypes(tools.plugins);
+          AddType<CountingSlow>(tools.plugins, "counting/slow");
+          const auto document = XmlDocument::Parse(kText, "slow.xml");
+          return BuildApplication(*document, "", tools, BuildMode::kConstruct);
+        })) {
+    CountingSlow::is_slow = true;
+  }
+  ~ApplicationWithSlow() override { CountingSlow::is_slow = false; }
+  static constexpr const char* kText = R"(<application name="slow">
+    <clock type="simulated" speed="0"/> <thread name="main" period="10ms"/>
+    <module name="slow" type="counting/slow"/> <module name="source" type="counting/source"/>
+    <module name="judge" type="counting/judge"/> </application>)";
+  LoadedApplication application;
+};
+
+// A save looks at all plugins that are there, and builds the application once more to see whether its text would load.
+TEST_F(ApplicationWithSlow, NoPluginIsLoadedWhileASaveIsUnderWay) {
+  const TemporaryFolder folder;
+  std::jthread saves([&] { EXPECT_TRUE(application->Save(folder.path() / "saved.xml")); });
+  CountingSlow::begun.acquire();
+  std::atomic<int> loaded{0};
+  std::vector<std::jthread> load;
+  load.emplace_back([&] { loaded += application->Swap("/judge", "nowhere/judge") ? 0 : 1; });
+  load.emplace_back([&] { loaded += application->Apply({CreateModule{"/a", "nowhere/judge"}}) ? 0 : 1; });
+  load.emplace_back([&] { loaded += application->CreateModule("nowhere/judge", "b") ? 0 : 1; });
+  std::this_thread::sleep_for(100ms);  // in which they would be over, if they did not wait
+  EXPECT_EQ(loaded, 0);
+  CountingSlow::may_end.release();
+  load.clear();
+  EXPECT_EQ(loaded, 3) << "there is no such plugin";
+}
+
+TEST_F(ApplicationWithSlow, WhatWasAskedForBeforeAStopIsNotDoneAfterIt) {
+  RobotStop& stop = application->runtime().robot_stop();
+  const auto over = [&](const std::function<ChangeOutcome()>& change) {
+    ChangeOutcome outcome;
+    std::jthread changes([&] { outcome = change(); });
+    CountingSlow::begun.acquire();
+    stop.Press("a test");
+    EXPECT_TRUE(stop.Release("a test"));
+    CountingSlow::may_end.release();
+    changes.join();
+    EXPECT_THAT(outcome.diagnostics.ToString(), testing::HasSubstr("STOP was pressed or released after this was asked for"));
+    return outcome.is_done;
+  };
+  EXPECT_FALSE(over([&] { return application->Apply("connect /source/count /judge/in; create /new counting/slow"); }));
+  EXPECT_FALSE(application->Find<CountingSlow>("/new"));
+  EXPECT_FALSE(over([&] { return application->Swap("/judge", "counting/slow"); }));
+  EXPECT_TRUE(application->Find<CountingJudge>("/judge"));
+  ASSERT_TRUE(application->Apply("delete /slow"));
+  EXPECT_FALSE(over([&] { return application->Undo(); }));
+  EXPECT_FALSE(application->Find<CountingSlow>("/slow"));
+  CountingSlow::is_slow = false;
+  EXPECT_TRUE(application->Undo()) << "it is not forgotten";
+  EXPECT_TRUE(application->Find<CountingSlow>("/slow"));
 }
 
 // Nobody writes into it: who read it would wait for ever.

@@ -98,7 +98,7 @@ TEST_F(CommandServiceTest, SaysWhatTheProgramCannotDo) {
   application.history = nullptr;
   EXPECT_THAT(ErrorOf(Ask(SaveRequest{})), HasSubstr("cannot save it"));
   EXPECT_THAT(ErrorOf(Ask(ReloadRequest{"planning"})), HasSubstr("cannot load plugins anew"));
-  EXPECT_THAT(ErrorOf(Ask(UndoRequest{})), HasSubstr("remembers no changes"));
+  EXPECT_THAT(ErrorOf(Ask(UndoRequest{})), HasSubstr("cannot undo changes"));
   EXPECT_EQ(Ask(SaveRequest{}).outcome, Outcome::kRefused);
 }
 
@@ -108,7 +108,7 @@ TEST_F(CommandServiceTest, EndsARequestByWhateverAPluginThrowsAndServesTheNext) 
     if (plugin == "memory") throw std::bad_alloc();
     return "loaded " + plugin;
   };
-  application.hooks.load_plugin = [](const std::string&) -> Result<void> { throw 1; };
+  application.hooks.load_plugins = [](const ChangeSet&) { throw 1; };
   CommandService service(application);
   const CommandAnswer number = Ask(service, ReloadRequest{"number"});
   EXPECT_EQ(number.outcome, Outcome::kFailed);

@@ -96,8 +96,24 @@ TEST_F(DrivingByHand, ReadersFindARestingBaseWhenTheDeadlineHasPassed) {
   EXPECT_EQ(Read(), Motion{});
   EXPECT_EQ(Drive(by_hand, "{forward: 0.3}", "b"), "");
   EXPECT_EQ(Read(), (Motion{0.3, 0}));
-  EXPECT_TRUE(by_hand.Release({kMotion}));
+  EXPECT_TRUE(ReleasePort(runtime, kMotion));
   EXPECT_EQ(Read(), (Motion{0.4, 0}));
+}
+
+TEST_F(DrivingByHand, WhoDrivesMaySayThatHeHasLeft) {
+  HandSettings by_hand(runtime, worker, log, &machine);
+  EXPECT_EQ(Drive(by_hand, "{forward: 0.3}"), "");
+  by_hand.EndLease("b");
+  by_hand.LookAtDeadlines();
+  EXPECT_EQ(Read(), (Motion{0.3, 0})) << "somebody else";
+  by_hand.EndLease("a");
+  by_hand.LookAtDeadlines();
+  EXPECT_EQ(Read(), Motion{});
+  EXPECT_THAT(by_hand.All(), ElementsAre(Pair(kMotion, HandState::kLost)));
+  EXPECT_THAT(log.ReadEntries(0, 9).entries.back().text, HasSubstr("who drove it has left; it is at rest until it is released"));
+  EXPECT_THAT(Drive(by_hand, "{forward: 0.3}"), HasSubstr("this hold has ended"));
+  EXPECT_THAT(Drive(by_hand, "{forward: 0.3}", "b"), HasSubstr("this hold has ended")) << "what is ended before it begins";
+  EXPECT_EQ(Drive(by_hand, "{forward: 0.3}", "c"), "");
 }
 
 TEST_F(DrivingByHand, TheSafeValueOfAnInputIsItsDefault) {
@@ -133,7 +149,7 @@ TEST_F(DrivingByHand, ADeadlineGoesWithThePortThatTakesItsPlace) {
   by_hand.LookAtDeadlines();
   EXPECT_EQ(next.motion.Get(), Motion{});
   EXPECT_THAT(by_hand.All(), ElementsAre(Pair("/renamed/input/motion", HandState::kLost)));
-  EXPECT_TRUE(by_hand.Release({"/renamed/input/motion"}));
+  EXPECT_TRUE(ReleasePort(runtime, "/renamed/input/motion"));
   EXPECT_THAT(by_hand.All(), ::testing::IsEmpty());
 }
 
@@ -184,8 +200,8 @@ TEST_F(DrivingByHand, ABlockKeepsEverybodyElseOff) {
   machine.Advance(1h);
   by_hand.LookAtDeadlines();
   EXPECT_EQ(Read(), Motion{});
-  EXPECT_FALSE(by_hand.Release({""})) << "the name is missing";
-  EXPECT_TRUE(by_hand.Release({kMotion}));
+  EXPECT_FALSE(ReleasePort(runtime, "")) << "the name is missing";
+  EXPECT_TRUE(ReleasePort(runtime, kMotion));
   EXPECT_THAT(Drive(by_hand, "{forward: 0.3}"), HasSubstr("has ended")) << "who held it lets go first";
   EXPECT_EQ(Drive(by_hand, "{forward: 0.3}", "b"), "");
 }

@@ -1,5 +1,7 @@
 #include "plugins/command_service/request_table.h"
 
+#include <set>
+
 #include <gmock/gmock.h>
 
 namespace runnel::test {
@@ -20,7 +22,12 @@ Request Made(const char* name, const RequestFields& fields) {
 }
 
 TEST(RequestTable, EachRequestSaysWhatItNeeds) {
+  const std::set<std::string_view> made_by_clients{"change", "save", "call", "step", "speed"};
   for (const DescribedRequest& each : RequestTable()) {
+    if (made_by_clients.contains(each.name)) {
+      EXPECT_THAT(ErrorOf(each.name.data(), {}), HasSubstr("is made by its client"));
+      continue;
+    }
     EXPECT_THAT(std::string(each.example), ::testing::StartsWith(std::string(each.name)));
     EXPECT_FALSE(each.help.empty());
     EXPECT_TRUE(each.role == "look" || each.role == "drive" || each.role == "change") << each.name;
@@ -28,12 +35,25 @@ TEST(RequestTable, EachRequestSaysWhatItNeeds) {
     for (const RequestField& field : each.fields) {
       if (!field.is_required) continue;
       EXPECT_THAT(ErrorOf(each.name.data(), fields), HasSubstr(std::string(field.name)));
-      fields[std::string(field.name)] = "a";
+      fields[std::string(field.name)] = field.name == "level" ? "info" : "a";
     }
     EXPECT_EQ(ErrorOf(each.name.data(), fields), "");
+    EXPECT_EQ(LetsMove(*MakeRequest(each.name, fields, "a test")), each.lets_move) << each.name << " is called otherwise";
   }
   EXPECT_EQ((*FindRequest("stop"))->role, "look") << "anybody may press";
   EXPECT_EQ((*FindRequest("release"))->role, "drive");
+}
+
+TEST(RequestTable, SaysWhatMayLetSomethingMove) {
+  std::set<std::string_view> rests;
+  for (const DescribedRequest& each : RequestTable()) {
+    EXPECT_EQ(LetsMove(each.name), each.lets_move);
+    if (!each.lets_move) rests.insert(each.name);
+  }
+  EXPECT_THAT(rests, ::testing::ElementsAre("block", "log", "pause", "quit", "save", "stop"));
+  EXPECT_FALSE(LetsMove("arrange")) << "what is no request";
+  EXPECT_FALSE(LetsMove(SaveRequest{}));
+  EXPECT_THAT(ErrorOf("log", {{"level", "loud"}}), HasSubstr("there is no log level 'loud'"));
 }
 
 TEST(RequestTable, StopAndReleaseAreOfTheRobotOrOfAPort) {

@@ -37,13 +37,12 @@ TEST_F(StopAndHand, AValueThatIsPublishedAtARateIsACommandFromBeforeTheRelease) 
 TEST_F(StopAndHand, AValueThatHasWaitedOverAStopIsRefused) {
   auto& wheels = MakeReceiver<double>("wheels", Drives());
   HandSettings by_hand(runtime, worker, log, &machine);
-  PublishRequest request{"/wheels/in", "0.4"};
-  request.as_of.requests = runtime.robot_stop().state().requests;
+  const PublishRequest request{"/wheels/in", "0.4"};
+  const RobotStop::AsOf before = runtime.robot_stop().AsOfNow();
   Press();
   Release();
-  EXPECT_FALSE(by_hand.Publish(request));
+  EXPECT_FALSE(by_hand.Publish(request, before));
   EXPECT_FALSE(wheels.in.is_set_by_hand());
-  request.as_of.requests = runtime.robot_stop().state().requests;
   EXPECT_TRUE(by_hand.Publish(request));
 }
 
@@ -55,9 +54,9 @@ TEST_F(StopAndHand, ReleasingWhatAPersonHasSetLeavesWhatARuleHasSet) {
   HandSettings by_hand(runtime, worker, log, &machine);
   Set(wheels.in, 0.0, Port::Setter::kRule);
   ASSERT_TRUE(by_hand.Publish({"/wheels/in", "0.2"}));
-  ASSERT_TRUE(by_hand.Release({"/wheels/in"}));
+  ASSERT_TRUE(ReleasePort(runtime, "/wheels/in"));
   EXPECT_EQ(wheels.in.Get(), 0.0);
-  ASSERT_TRUE(by_hand.Release({"/wheels/in"})) << "a rule's value, too, if somebody wants that";
+  ASSERT_TRUE(ReleasePort(runtime, "/wheels/in")) << "a rule's value, too, if somebody wants that";
   EXPECT_EQ(wheels.in.Get(), 0.9);
 }
 
@@ -66,15 +65,15 @@ TEST_F(StopAndHand, AReleaseEndsNoBlockThatCameAfterItWasAskedFor) {
   auto& wheels = MakeReceiver<double>("wheels", Drives());
   HandSettings by_hand(runtime, worker, log, &machine);
   ASSERT_TRUE(by_hand.Publish({"/wheels/in", "0.4"}));
-  const Time asked = SteadyClock().Now();
+  const RobotStop::AsOf before = runtime.robot_stop().AsOfNow(SteadyClock().Now());
   ASSERT_TRUE(wheels.in.Block());
-  const auto late = by_hand.Release({"/wheels/in", asked});
+  const auto late = ReleasePort(runtime, "/wheels/in", before);
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error().message, "was blocked or set by hand after this was asked for; look why, then ask again");
   EXPECT_TRUE(wheels.in.is_blocked());
   EXPECT_TRUE(wheels.in.is_set_by_hand());
   ASSERT_TRUE(wheels.in.Block()) << "again, which counts";
-  EXPECT_TRUE(by_hand.Release({"/wheels/in", SteadyClock().Now()}));
+  EXPECT_TRUE(ReleasePort(runtime, "/wheels/in", runtime.robot_stop().AsOfNow(SteadyClock().Now())));
   EXPECT_FALSE(wheels.in.is_blocked());
 }
 

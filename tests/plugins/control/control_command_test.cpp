@@ -214,18 +214,17 @@ TEST_F(ControlTest, SavesIfItsProgramCan) {
   EXPECT_EQ(Ask("save car config=yes").output, "saved values to car\n");
 }
 
-TEST_F(ControlTest, LoadsThePluginThatATypeNeeds) {
+TEST_F(ControlTest, LoadsThePluginsThatTypesNeed) {
   std::vector<std::string> asked;
-  hooks.load_plugin = [&](const std::string& plugin) -> Result<void> {
-    asked.push_back(plugin);
-    if (plugin == "more") Register<Counter>("more/counter");
-    return {};
+  hooks.load_plugins = [&](const ChangeSet& changes) {
+    for (const auto& each : changes) asked.push_back(std::get<CreateModule>(each).type);
+    if (asked.back() == "more/counter") Register<Counter>("more/counter");
   };
   StartServer({.application = "app", .folder = folder.path() / "runnel"});
   EXPECT_EQ(Change("create /m more/counter").code, 0);
   EXPECT_EQ(Change("create /n none/counter").code, 2);
-  EXPECT_EQ(Change("create /o more/counter; create /p test/sink").code, 0);
-  EXPECT_THAT(asked, ::testing::ElementsAre("more", "none"));
+  EXPECT_EQ(Change("create /o test/counter; create /p test/sink").code, 0);
+  EXPECT_THAT(asked, ::testing::ElementsAre("more/counter", "none/counter", "test/counter", "test/sink"));
 }
 
 TEST_F(ControlTest, AnswersSeveralRequestsOneAfterTheOther) {

@@ -159,6 +159,11 @@ TEST_F(StatesTest, WhatWasAskedForBeforeTheLastPressNeitherReleasesNorMoves) {
   runtime.robot_stop().Press("the test, once more");
   EXPECT_THAT(ask(between, "release stop"), HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_THAT(ask(between, "publish /b/in 1"), HasSubstr("STOP was pressed or released after this was asked for"));
+  for (const char* const late : {"change\nconnect /a/out /b/in", "undo", "redo", "restart /app/a", "resume", "resume /app/a", "step 1",
+                                 "speed 1", "call /a/out"}) {
+    EXPECT_THAT(ask(between, late), HasSubstr("STOP was pressed or released after this was asked for")) << late;
+  }
+  EXPECT_THAT(ask(between, "change\nlog /app/a debug"), HasSubstr("end 1\n0\n")) << "nothing moves by it";
   EXPECT_TRUE(runtime.robot_stop().in_force());
   EXPECT_THAT(ask(between, "stop"), testing::Not(HasSubstr("STOP was pressed after")));
   EXPECT_THAT(ask(SteadyClock().Now(), "release stop"), HasSubstr("released the STOP"));

@@ -141,6 +141,7 @@ class FoxgloveTest : public testing::Test {
                               .name = "demo",
                               .version = "1.2",
                               .is_read_only = is_read_only,
+                              .drive_deadline = drive_deadline,
                               .steady_clock = &steady_clock};
     protocol = FoxgloveProtocol(std::move(shown));
     session = protocol.start(client);
@@ -229,6 +230,7 @@ class FoxgloveTest : public testing::Test {
   StructureEditor editor{runtime, modules, nullptr};
   ApplicationLog log{runtime.clock()};
   CommandService service{{runtime, modules, editor, log}};
+  Duration drive_deadline = std::chrono::minutes(1);
   FakeWebClient client;
   WebProtocol protocol;
   std::unique_ptr<WebSession> session;

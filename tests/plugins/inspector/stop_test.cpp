@@ -159,6 +159,28 @@ TEST_F(ViewersStopOvertakes, WhatWasSentBeforeItIsNotCarriedOutAfterItsRelease) 
   EXPECT_EQ(viewer.Ask(Json::parse(seven))["ok"], true);
 }
 
+TEST_F(ViewersStopOvertakes, WhatOnlyStopsOrWritesIsCarriedOutAllTheSame) {
+  Viewer viewer = View();
+  const Json connect{{"change", "connect"}, {"from", "/app/a/output/out"}, {"to", "/app/b/input/in"}};
+  const Json quiet{{"change", "log"}, {"path", "/app/a"}, {"level", "debug"}};
+  const std::vector<Json> late{{{"op", "change"}, {"changes", {connect}}},
+                               {{"op", "undo"}},
+                               {{"op", "resume"}},
+                               {{"op", "step"}},
+                               {{"op", "change"}, {"changes", {quiet}}},
+                               {{"op", "log_level"}, {"path", "/app/a"}, {"level", "debug"}},
+                               {{"op", "block"}, {"path", kIn}},
+                               {{"op", "pause"}, {"path", "/app/a"}}};
+  std::vector<Json> messages = late;
+  messages.push_back({{"op", "stop"}});
+  SendTooFast(viewer, messages);
+  auto replies = Replies(viewer, messages.size());
+  for (int i = 1; i <= static_cast<int>(late.size()); ++i) {
+    const bool is_refused = replies[i].dump().find("STOP was pressed or released after") != std::string::npos;
+    EXPECT_EQ(is_refused, i <= 4) << late[static_cast<std::size_t>(i - 1)] << replies[i];
+  }
+}
+
 TEST_F(ViewersStopOvertakes, AReleaseThatWasSentBeforeItDoesNotEndIt) {
   Viewer viewer = View();
   EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true);

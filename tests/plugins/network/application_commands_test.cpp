@@ -122,5 +122,18 @@ TEST_F(ApplicationCommandsTest, NothingIsDoneWithoutATokenThatHasJustBeenGiven) 
   EXPECT_EQ(robot.planner.speed.Get(), 3);
 }
 
+TEST_F(ApplicationCommandsTest, NothingIsDoneThatWasAskedForBeforeAStopOfTheRobot) {
+  RawAsker asker(planner, robot);
+  const std::string token = asker.Ask("set /planner/speed 2", asker.id).token;
+  RobotStop& stop = robot.member.runtime.robot_stop();
+  stop.Press("a test");
+  EXPECT_TRUE(stop.Release("a test"));
+  const Answer late = asker.Ask("set /planner/speed 2", token);
+  EXPECT_FALSE(late.is_done);
+  EXPECT_THAT(late.said, HasSubstr("STOP was pressed or released after this was asked for"));
+  EXPECT_EQ(robot.planner.speed.Get(), 1);
+  EXPECT_TRUE(asker.Ask("set /planner/speed 2", asker.Ask("set /planner/speed 2", asker.id).token).is_done);
+}
+
 }  // namespace
 }  // namespace runnel::test

@@ -80,7 +80,7 @@ TEST_P(StopServiceTest, IsNoSuccessWhereNothingDrives) {
 
 TEST_P(StopServiceTest, FalseReleasesWhereThatIsSaid) {
   Begin(true);
-  EXPECT_THAT(Call(false), testing::Pair(true, "STOP is not in force"));
+  EXPECT_THAT(Call(false), testing::Pair(false, "STOP is not in force")) << "nothing is released";
   EXPECT_THAT(Call(true), testing::Pair(true, "the robot is stopped"));
   EXPECT_THAT(Call(false), testing::Pair(true, "the STOP is released"));
   EXPECT_FALSE(stop_.in_force());
