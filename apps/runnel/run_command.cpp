@@ -21,6 +21,8 @@
 #include "apps/runnel/other_programs.h"
 #include "apps/runnel/output.h"
 #include "apps/runnel/progress_display.h"
+#include "core/element/own_thread.h"
+#include "core/element/try_structure_lock.h"
 #include "core/log/log_sink.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/application/application.h"
@@ -264,13 +266,35 @@ ApplicationOptions OptionsOf(const RunArguments& arguments) {
   return options;
 }
 
+// Of services whose calls take long. Those that do not end by themselves, "" if all have.
+std::string EndOwnThreads(Runtime& runtime) {
+  constexpr Duration kTold = std::chrono::milliseconds(800);
+  constexpr Duration kLongest = std::chrono::seconds(5);
+  std::string told;
+  for (Duration waited{};; waited += kLookForSignal) {
+    std::string at_work;
+    {
+      const auto lock = TryStructureLock(runtime, kLookForSignal);
+      const auto tell = [&](const FrameworkElement& each) { at_work += (at_work.empty() ? "" : ", ") + each.parent()->path(); };
+      if (!lock || OwnThread::AskToEnd(runtime.root(), tell)) return {};
+    }
+    if (waited >= kLongest) return at_work;
+    if (waited >= kTold && at_work != std::exchange(told, at_work)) {
+      std::cerr << "the run waits for a call of " << at_work << " to come to its end; Ctrl-C again ends the program\n" << std::flush;
+    }
+    std::this_thread::sleep_for(kLookForSignal);
+  }
+}
+
 // A thread that does not end can be left, but what it uses cannot be destroyed: the process ends without.
 void LeaveIfStuck(Application& application) {
   const auto stuck = application.scheduler().StuckModules();
-  if (stuck.empty()) return;
+  const std::string at_work = EndOwnThreads(application.runtime());
+  if (stuck.empty() && at_work.empty()) return;
   for (const StuckModule& each : stuck) {
     PrintError({.message = "has still not returned; the program ends without it", .path = each.path});
   }
+  if (!at_work.empty()) PrintError({.message = "a call has still not come to its end: " + at_work + "; the program ends without it"});
   (void)FinishOutput();
   std::_Exit(static_cast<int>(ExitCode::kRunFailed));
 }

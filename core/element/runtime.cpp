@@ -1,8 +1,10 @@
 #include "core/element/runtime.h"
 
 #include <algorithm>
+#include <thread>
 
 #include "core/base/exception_text.h"
+#include "core/element/own_thread.h"
 #include "core/lockfree/thread_epoch.h"
 
 namespace runnel {
@@ -13,6 +15,10 @@ thread_local std::uint64_t changes_by_this_thread = 0;
 }  // namespace internal
 
 namespace {
+
+// How long those wait who delete something whose thread does not end.
+constexpr Duration kPatience = std::chrono::seconds(1);
+constexpr Duration kLook = std::chrono::milliseconds(1);
 
 Error Refuse(const FrameworkElement& element, std::string message, std::string hint = {}) {
   return Error{.message = std::move(message), .path = element.path(), .hint = std::move(hint)};
@@ -27,6 +33,23 @@ Runtime::~Runtime() {
   while (!root_.owned_.empty()) {
     if (!Delete(*root_.owned_.back())) root_.owned_.pop_back();
   }
+  if (auto* const leaving = root_.FindAnnotation<Leaving>()) leaving->elements.clear();
+}
+
+bool OwnThread::AskToEnd(FrameworkElement& top, const std::function<void(const FrameworkElement& element)>& tell) {
+  bool have_ended = true;
+  const auto ask = [&](FrameworkElement& each) {
+    const auto* const own = each.FindAnnotation<OwnThread>();
+    if (own == nullptr || !own->is_at_work()) return;
+    own->ask_to_end();
+    have_ended = false;
+    if (tell) tell(each);
+  };
+  top.Visit(ask);
+  if (const auto* const leaving = top.FindAnnotation<Leaving>()) {
+    for (const UnlistedElement& each : leaving->elements) each->Visit(ask);
+  }
+  return have_ended;
 }
 
 std::unique_lock<OrderedMutex> Runtime::LockUnlessBeside(const FrameworkElement& element) {
@@ -170,7 +193,23 @@ void Runtime::DestroyAll(UnlistedElement* elements, std::size_t count) {
   // No thread finds the element anew; wait for those that have found it before. The lock is free
   // meanwhile, so that a cycle that needs it can come to its end.
   WaitForReaders();
-  while (count > 0) elements[--count] = {};
+  const Time latest = SteadyClock().Now() + kPatience;
+  for (; count > 0; elements[--count] = {}) {
+    UnlistedElement& last = elements[count - 1];
+    while (!OwnThread::AskToEnd(*last) && SteadyClock().Now() < latest) std::this_thread::sleep_for(kLook);
+    if (OwnThread::AskToEnd(*last)) continue;
+    const std::lock_guard lock(structure_mutex_);
+    auto* const known = root_.FindAnnotation<Leaving>();
+    (known != nullptr ? *known : root_.Annotate(std::make_unique<Leaving>())).elements.push_back(std::move(last));
+  }
+  std::list<UnlistedElement> ended;  // goes without the lock
+  const std::lock_guard lock(structure_mutex_);
+  auto* const leaving = root_.FindAnnotation<Leaving>();
+  if (leaving == nullptr) return;
+  for (auto at = leaving->elements.begin(); at != leaving->elements.end();) {
+    const auto each = at++;
+    if (OwnThread::AskToEnd(**each)) ended.splice(ended.end(), leaving->elements, each);
+  }
 }
 
 Result<void> Runtime::Delete(FrameworkElement& element) {

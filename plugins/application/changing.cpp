@@ -242,9 +242,7 @@ Result<std::string> Application::SaveConfiguration(const std::filesystem::path& 
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   const auto found = parts_->FindAgain();
   if (!found) return found.error();
-  LoadedValues none;  // composed in code
-  auto* const source = (*found)->FindAnnotation<ApplicationSource>();
-  return runnel::SaveConfiguration(**found, source != nullptr ? source->values : none, file);
+  return runnel::SaveConfiguration(**found, file);
 }
 
 bool Application::is_deleted() {

@@ -70,11 +70,12 @@ Result<void> Application::Parts::Schedule() {
   (void)scheduler->SetStuckLimit("", kStuckAfter);
   editor.emplace(runtime(), plugins().modules(), &*scheduler);
   history.emplace(*editor);
-  supervisor.emplace(runtime(), *scheduler, [this](const ChangeSet& changes) -> Result<void> {
+  supervisor.emplace(runtime(), *scheduler, [this](const ChangeSet& changes) -> Result<ChangeSet> {
     LoadPluginsOf(changes);
-    const ChangeOutcome outcome = editor->Apply(changes);
+    ChangeSet back;
+    const ChangeOutcome outcome = editor->Apply(changes, {}, {}, &back);
     if (!outcome) return outcome.diagnostics.errors().front();
-    return {};
+    return back;
   });
   return AddRules(*element_, *scheduler, *supervisor);
 }

@@ -58,7 +58,6 @@ void KeepSource(FrameworkElement& application, const ApplicationFile& file, Buil
   auto source = std::make_unique<ApplicationSource>();
   source->file = file.file;
   source->text = file.text;
-  source->values = context.TakeValues();
   source->parts = context.parts().TakeTexts();
   application.Annotate(std::move(source));
 }

@@ -110,12 +110,6 @@ class BuildContext {
     return faulty_.insert(&element).second;
   }
 
-  /// What the parameters of the file came to, by path.
-  void NoteValue(const std::string& path, std::string text) { values_[path] = std::move(text); }
-  [[nodiscard]] std::map<std::string, std::string, std::less<>> TakeValues() {
-    return std::move(values_);
-  }
-
   /// The command line has set the parameter, which beats all else.
   void NoteCommandLine(const FrameworkElement& parameter) { from_command_line_.insert(&parameter); }
   [[nodiscard]] bool IsFromCommandLine(const FrameworkElement& parameter) const {
@@ -151,7 +145,6 @@ class BuildContext {
   std::set<const FrameworkElement*> unfed_;
   std::set<const FrameworkElement*> faulty_;
   std::set<const FrameworkElement*> from_command_line_;
-  std::map<std::string, std::string, std::less<>> values_;
   bool plugin_is_missing_ = false;
 };
 

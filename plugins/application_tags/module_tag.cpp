@@ -2,6 +2,7 @@
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/saving/saving.h"
 #include "plugins/application_tags/tag_list.h"
+#include "plugins/parameters/value_to_save.h"
 
 namespace runnel {
 
@@ -30,7 +31,7 @@ std::vector<SavedTag> SavedModules(FrameworkElement& parent) {
   std::vector<SavedTag> tags;
   for (FrameworkElement* child : parent.children()) {
     if (!internal::IsSaved(*child) || !IsModule(*child)) continue;
-    tags.push_back({{{"name", child->name()}, {"type", FindModuleType(*child)}}, child});
+    tags.push_back({{{"name", child->name()}, {"type", MadeByRule::Before(*child, FindModuleType(*child))}}, child});
   }
   return tags;
 }

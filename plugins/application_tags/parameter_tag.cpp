@@ -11,7 +11,11 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_tags/tag_list.h"
+#include "plugins/parameters/configuration.h"
+#include "plugins/parameters/configuration_saver.h"
 #include "plugins/parameters/file_path.h"
+#include "plugins/parameters/value_to_save.h"
+#include "plugins/structure/name_in_file.h"
 
 namespace runnel {
 
@@ -102,14 +106,19 @@ void Give(const TagUse& use, PartUse& part) {
       name.value_position, use.parent);
 }
 
-// In any other group: stands for parameters of what is within, and may have a value for them.
-void MakeGroupParameter(const TagUse& use, const XmlAttribute& to) {
+// In any other group: stands for parameters of what is within, and may have a value for them. `may_wait`: modules may
+// make them yet.
+void MakeGroupParameter(const TagUse& use, const XmlAttribute& to, bool may_wait = true) {
+  const auto is_missing = [](const PathUse& each) { return !PathSearch(each.base).Find(each.path, PathKind::kParameter); };
+  const std::vector<PathUse> uses = PathsIn(to, use.parent);
+  if (may_wait && std::ranges::any_of(uses, is_missing)) {
+    return use.context.Defer(BuildStage::kConstruction, [use, &to] { MakeGroupParameter(use, to, false); });
+  }
   if (!use.HasFreeName(use.parent)) return;
   std::vector<std::string> targets;
-  std::vector<const FrameworkElement*> found;
-  for (const PathUse& target : PathsIn(to, use.parent)) {
-    const FrameworkElement* const element =
-        SearchElement(target, use.context, PathKind::kParameter);
+  std::vector<FrameworkElement*> found;
+  for (const PathUse& target : uses) {
+    FrameworkElement* const element = SearchElement(target, use.context, PathKind::kParameter);
     if (element == nullptr) return;
     if (dynamic_cast<const Configurable*>(element) == nullptr) {
       return use.context.Report({.message = element->path() + " is not a parameter"},
@@ -124,9 +133,7 @@ void MakeGroupParameter(const TagUse& use, const XmlAttribute& to) {
   const bool has_value = use.Find("value") || use.Find("config") || use.Find("command_line");
   if (!has_value) return;
   internal::SetValue(use, use.parent, use.parent);
-  for (const FrameworkElement* each : found) {
-    use.context.NoteValue(each->path(), dynamic_cast<const Configurable&>(*each).ToText());
-  }
+  for (FrameworkElement* each : found) internal::NoteLoaded({each, dynamic_cast<Configurable*>(each)});
 }
 
 FrameworkElement* HandleParameter(const TagUse& use) {
@@ -164,8 +171,17 @@ FrameworkElement* HandleParameter(const TagUse& use) {
 // Saving. What came from the command line or a configuration is theirs, as long as it is as it was loaded.
 
 bool IsAsLoaded(const ConfigurableElement& parameter, const std::string* loaded) {
-  const std::string text = parameter.configurable->ToText();
+  const std::string text = TextToSave(*parameter.element, *parameter.configurable);
   return text == (loaded != nullptr ? *loaded : parameter.configurable->info().default_value);
+}
+
+// The entry of the configuration from which it has its value, if by other names round it the section leads to another one.
+const std::string* LostEntry(const FrameworkElement& parameter) {
+  const auto* const entry = parameter.FindAnnotation<ConfigurationEntry>();
+  if (entry == nullptr || LoadedValue::Of(parameter) == nullptr) return nullptr;
+  const FrameworkElement* at = parameter.parent();
+  while (at != nullptr && at->FindAnnotation<ConfigurationSection>() == nullptr && NameInFile::Of(*at) == at->name()) at = at->parent();
+  return at != nullptr && at->FindAnnotation<ConfigurationSection>() == nullptr ? &entry->path : nullptr;
 }
 
 bool HasTag(XmlElement module_tag, const FrameworkElement& module, const FrameworkElement& parameter) {
@@ -174,16 +190,21 @@ bool HasTag(XmlElement module_tag, const FrameworkElement& module, const Framewo
   });
 }
 
+// Of a module that a rule has put in the place of another, which has other parameters.
+bool IsByRule(const FrameworkElement& module) {
+  const std::string type = FindModuleType(module);
+  return MadeByRule::Before(module, type) != type;
+}
+
 // Of a group that no file describes.
 void UpdateGroupParameter(XmlElement tag, FrameworkElement& group, internal::FileUpdate& update) {
   if (tag.Attribute("to") == nullptr || group.FindAnnotation<PartInstance>() != nullptr) return;
-  const auto* const parameter =
-      dynamic_cast<const GroupParameter*>(group.FindChild(internal::NameOf(tag)));
+  auto* const parameter = dynamic_cast<GroupParameter*>(group.FindChild(internal::NameOf(tag)));
   if (parameter == nullptr) return update.editor().Remove(tag);
-  const std::string* const loaded = update.LoadedValue(parameter->path());
+  const std::string* const loaded = LoadedValue::Of(*parameter);
   if (loaded == nullptr) return;
-  const std::string value = internal::SavedValue(*parameter, update.saving());
-  update.saving().values[parameter->path()] = parameter->ToText();
+  const std::string value = internal::SavedValue(*parameter, *parameter, update.saving());
+  update.saving().values[parameter] = TextToSave(*parameter, *parameter);
   if (value != *loaded) update.editor().SetAttribute(tag, "value", value);
 }
 
@@ -206,18 +227,20 @@ std::vector<NewElement> MissingGroupParameters(const XmlElement* tag, FrameworkE
 void UpdateParameter(XmlElement tag, FrameworkElement& module, internal::FileUpdate& update) {
   if (!IsModule(module)) return UpdateGroupParameter(tag, module, update);
   const ConfigurableElement parameter = FindConfigurable(module, internal::NameOf(tag));
-  if (!parameter) return update.editor().Remove(tag);
-  const std::string path = parameter.element->path();
+  if (!parameter) return IsByRule(module) ? void() : update.editor().Remove(tag);
   const std::string& name = parameter.element->name();
   if (name != internal::NameOf(tag) && !update.is_of_part()) update.editor().SetAttribute(tag, "name", name);
-  const std::string* const loaded = update.LoadedValue(path);
-  update.saving().values[path] = parameter.configurable->ToText();
-  if (loaded == nullptr || !IsAsLoaded(parameter, loaded)) {
-    const std::string value = internal::SavedValue(*parameter.configurable, update.saving());
+  const std::string* const loaded = LoadedValue::Of(*parameter.element);
+  update.saving().values[parameter.element] = TextToSave(*parameter.element, *parameter.configurable);
+  const bool names_entry = tag.Attribute("config") != nullptr || tag.Attribute("from") != nullptr;
+  const std::string* const entry = names_entry ? nullptr : LostEntry(*parameter.element);
+  if (loaded == nullptr || !IsAsLoaded(parameter, loaded) || (entry != nullptr && update.is_of_part())) {
+    const std::string value = internal::SavedValue(*parameter.element, *parameter.configurable, update.saving());
     update.saving().CheckText(value, *parameter.element);
     if (update.OverrideValue(*parameter.element, value)) return;
     return update.editor().SetAttribute(tag, "value", value);
   }
+  if (entry != nullptr) update.editor().SetAttribute(tag, "config", *entry);
   const XmlAttribute* const value = tag.Attribute("value");
   const bool is_file = &parameter.configurable->type() == &TypeOf<FilePath>();
   if (value == nullptr || !is_file) return;
@@ -231,17 +254,20 @@ std::vector<NewElement> MissingParameters(const XmlElement* tag, FrameworkElemen
   std::vector<NewElement> missing;
   for (const ConfigurableElement& each : ConfigurablesOf(module)) {
     if (tag != nullptr && HasTag(*tag, module, *each.element)) continue;
-    const std::string path = each.element->path();
     // It may have been set from outside of the part that the module is in.
-    const std::string* const loaded = update != nullptr ? update->LoadedValue(path) : nullptr;
+    const std::string* const loaded = update != nullptr ? LoadedValue::Of(*each.element) : nullptr;
+    if (loaded == nullptr && IsByRule(module) && each.element->FindAnnotation<MadeByRule>() == nullptr) continue;
     const bool is_as_loaded = IsAsLoaded(each, loaded);
-    if (loaded != nullptr || !is_as_loaded) saving.values[path] = each.configurable->ToText();
-    if (is_as_loaded) continue;
-    const std::string value = internal::SavedValue(*each.configurable, saving);
+    if (loaded != nullptr || !is_as_loaded) saving.values[each.element] = TextToSave(*each.element, *each.configurable);
+    const std::string* const entry = is_as_loaded && loaded != nullptr ? LostEntry(*each.element) : nullptr;
+    if (is_as_loaded && entry == nullptr) continue;
+    const std::string value = internal::SavedValue(*each.element, *each.configurable, saving);
     saving.CheckText(value, *each.element);
     if (update != nullptr && update->OverrideValue(*each.element, value)) continue;
-    missing.push_back(
-        {.name = "parameter", .attributes = {{"name", each.element->name()}, {"value", value}}});
+    missing.push_back({.name = "parameter",
+                       .attributes = {{"name", each.element->name()},
+                                      entry != nullptr ? std::pair<std::string, std::string>("config", *entry)
+                                                       : std::pair<std::string, std::string>("value", value)}});
   }
   return missing;
 }

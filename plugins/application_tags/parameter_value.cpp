@@ -14,6 +14,7 @@
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/parameters/configuration.h"
+#include "plugins/parameters/configuration_saver.h"
 #include "plugins/parameters/file_path.h"
 
 namespace runnel::internal {
@@ -25,21 +26,18 @@ namespace fs = std::filesystem;
 constexpr const char* kCommandLine = "command line";  // as Configuration calls it
 constexpr auto kNameOfDeclared = &std::pair<const std::string, TagUse>::first;
 
-Configurable* FindParameter(const TagUse& use, const FrameworkElement& module) {
+// What is wrong with the name that the tag says.
+void CheckName(const TagUse& use, const FrameworkElement& module, const ConfigurableElement& found) {
   const XmlAttribute& name = use.Get("name");
-  if (const auto found = FindConfigurable(module, name.value)) {
-    if (found.element->name() != name.value) {
-      use.context.Warn({.message = "'" + name.value + "' is called '" + found.element->name() + "' now"},
-                       name.value_position, module);
-    }
-    return found.configurable;
+  if (found) {
+    if (found.element->name() == name.value) return;
+    return use.context.Warn({.message = "'" + name.value + "' is called '" + found.element->name() + "' now"},
+                            name.value_position, module);
   }
-  const auto name_of = [](const auto& each) { return each.element->name(); };
-  use.context.Report(
-      {.message = "there is no parameter '" + name.value + "'",
-       .hint = NearestNameHint(name.value, NamesOf(ConfigurablesOf(module), name_of))},
-      name.value_position, module);
-  return nullptr;
+  const auto names = NamesOf(ConfigurablesOf(module), [](const auto& each) { return each.element->name(); });
+  if (!use.context.IsNews(module, name.value, names)) return;
+  use.context.Report({.message = "there is no parameter '" + name.value + "'", .hint = NearestNameHint(name.value, names)},
+                     name.value_position, module);
 }
 
 // A text that wants to become the value, and where relative file names in it start.
@@ -168,16 +166,18 @@ std::string Text(const Candidate& candidate, const Configurable& configurable) {
 
 void SetValue(const TagUse& use, const FrameworkElement& module, const FrameworkElement& scope,
               bool may_wait) {
-  Configurable* const configurable = FindParameter(use, module);
-  // What it stands for may be made only when all other parameters are set.
+  const ConfigurableElement found = FindConfigurable(module, use.Get("name").value);
+  Configurable* const configurable = found.configurable;
+  // It, or what it stands for, may be made only when all other parameters are set.
   const auto* const group = dynamic_cast<const GroupParameter*>(configurable);
-  if (may_wait && group != nullptr && IsModule(module) && group->Find().empty()) {
+  if (may_wait && IsModule(module) && (!found || (group != nullptr && group->Find().empty()))) {
     return use.context.Defer(BuildStage::kConstruction,
                              [use, &module, &scope] { SetValue(use, module, scope, false); });
   }
+  CheckName(use, module, found);
   const std::vector<Candidate> candidates = Candidates(use, scope);
-  if (configurable == nullptr) return;
-  auto& element = dynamic_cast<FrameworkElement&>(*configurable);
+  if (!found) return;
+  FrameworkElement& element = *found.element;
   const std::string path = element.path();
   TieToGroups(use, element, scope);
   if (const XmlAttribute* const entry = EntryAttribute(use, scope)) {
@@ -198,11 +198,15 @@ void SetValue(const TagUse& use, const FrameworkElement& module, const Framework
   // Ports may follow from it.
   if (!all_are_good && configurable->info().is_static) use.context.MarkUnbuilt(module);
   if (!all_are_good) return;
-  if (candidates.empty()) return use.context.NoteValue(path, configurable->ToText());
+  if (candidates.empty()) return NoteLoaded(found);
   const Candidate& strongest = candidates.back();
   const auto set = configurable->SetFromText(Text(strongest, *configurable));
   if (!set) use.context.Report(set.error(), strongest.position, use.parent);
-  use.context.NoteValue(path, configurable->ToText());
+  NoteLoaded(found);
+}
+
+void NoteLoaded(const ConfigurableElement& parameter) {
+  parameter.element->Annotate(std::make_unique<LoadedValue>(parameter.configurable->ToText()));
 }
 
 }  // namespace runnel::internal

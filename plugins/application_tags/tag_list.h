@@ -77,6 +77,9 @@ FrameworkElement* ReadAt(const TagUse& use) {
 void SetValue(const TagUse& use, const FrameworkElement& module, const FrameworkElement& scope,
               bool may_wait = true);
 
+/// That is what the files and the command line have said of it.
+void NoteLoaded(const ConfigurableElement& parameter);
+
 /// Takes the part of the values that is meant off the path of a port: "x" off "world/pose.x".
 [[nodiscard]] std::string TakePart(PathUse& use);
 /// From the root, also if nothing is there.

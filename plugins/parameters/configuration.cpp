@@ -4,6 +4,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
+#include "core/module/group_parameter.h"
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_reading.h"
 
@@ -162,6 +163,22 @@ std::vector<std::string> Configuration::UnusedArguments() const {
     if (!entry.used) names.push_back(name);
   }
   return names;
+}
+
+const FrameworkElement* ConfigurationSection::FindAround(const FrameworkElement& element) {
+  const FrameworkElement* at = &element;
+  while (at != nullptr && at->FindAnnotation<ConfigurationSection>() == nullptr) at = at->parent();
+  return at;
+}
+
+std::string EntryInSection(const FrameworkElement& parameter, const std::string& name) {
+  const FrameworkElement* const section = ConfigurationSection::FindAround(parameter);
+  if (section == nullptr || dynamic_cast<const GroupParameter*>(&parameter) != nullptr) return {};
+  std::string path = "/" + name;
+  for (const FrameworkElement* at = parameter.parent(); at != section; at = at->parent()) {
+    if (at->kind() != ElementKind::kPortGroup) path = "/" + at->name() + path;
+  }
+  return section->FindAnnotation<ConfigurationSection>()->path + path;
 }
 
 std::vector<std::string> Configuration::EntryPaths() const {

@@ -10,6 +10,7 @@
 #include "core/base/diagnostics.h"
 #include "core/base/result.h"
 #include "core/element/annotation.h"
+#include "core/element/framework_element.h"
 
 namespace runnel {
 
@@ -65,7 +66,8 @@ class Configuration {
   std::vector<File> files_;
 };
 
-/// Kept with a parameter that an entry of the configuration may set: which one.
+/// Kept with a parameter that an entry of the configuration sets, or its tag says so: which one. It stays when something
+/// round it gets another name.
 struct ConfigurationEntry final : Annotation {
   explicit ConfigurationEntry(std::string entry) : path(std::move(entry)) {}
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
@@ -85,6 +87,14 @@ struct ConfigurationSection final : Annotation {
   [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
   std::string path;  ///< "/car/left"
   std::string said;  ///< how the file has it: "left", in the section "/car"
+
+  /// nullptr: there is none.
+  [[nodiscard]] static const FrameworkElement* FindAround(const FrameworkElement& element);
 };
+
+/// The entry by the section round the parameter, as all is called now but for itself: "/car/left/motor/radius" of
+/// /robot/left/motor/parameter/radius, if /robot/left has the section /car/left. "": there is no section, or it stands
+/// for other parameters.
+[[nodiscard]] std::string EntryInSection(const FrameworkElement& parameter, const std::string& name);
 
 }  // namespace runnel

@@ -15,6 +15,7 @@
 #include "core/xml/xml_editor.h"
 #include "plugins/parameters/configuration.h"
 #include "plugins/parameters/file_path.h"
+#include "plugins/parameters/value_to_save.h"
 
 namespace runnel {
 
@@ -23,9 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Entry {
-  std::string path;       ///< "/safety/distance"
-  std::string parameter;  ///< its path
-  std::string text;       ///< the value as it is now
+  std::string path;  ///< "/safety/distance"
+  FrameworkElement* parameter;
+  std::string text;  ///< the value as it is now
   bool is_file = false;   ///< the name of one
   bool has_changed = false;
 };
@@ -37,23 +38,24 @@ Error NoEntries(const FrameworkElement& application) {
 }
 
 // In the order of the tree; an entry for several parameters is that of the first that has changed.
-Result<std::vector<Entry>> EntriesOf(FrameworkElement& application, const LoadedValues& values) {
+Result<std::vector<Entry>> EntriesOf(FrameworkElement& application) {
   std::vector<Entry> entries;
   std::optional<Error> error;
   application.Visit([&](FrameworkElement& element) {
-    const auto* const annotation = element.FindAnnotation<ConfigurationEntry>();
     const auto* const parameter = dynamic_cast<const Configurable*>(&element);
-    if (annotation == nullptr || parameter == nullptr) return;
+    if (parameter == nullptr) return;
+    const auto* const own = element.FindAnnotation<ConfigurationEntry>();
+    const std::string path = own != nullptr ? own->path : EntryInSection(element, element.name());
+    if (path.empty()) return;
     std::string normalized;
-    for (const auto name : SplitPath(annotation->path)) normalized.append("/").append(name);
-    Entry entry{normalized, element.path(), parameter->ToText(),
+    for (const auto name : SplitPath(path)) normalized.append("/").append(name);
+    Entry entry{normalized, &element, TextToSave(element, *parameter),
                 &parameter->type() == &TypeOf<FilePath>()};
     if (const std::string fault = UnwritableCharacter(entry.text); !fault.empty() && !error) {
       error = Error{.message = "its value contains " + fault, .path = element.path()};
     }
-    const auto loaded = values.find(entry.parameter);
-    entry.has_changed =
-        entry.text != (loaded != values.end() ? loaded->second : parameter->info().default_value);
+    const std::string* const loaded = LoadedValue::Of(element);
+    entry.has_changed = entry.text != (loaded != nullptr ? *loaded : parameter->info().default_value);
     const auto same = std::ranges::find(entries, entry.path, &Entry::path);
     if (same == entries.end()) {
       entries.push_back(std::move(entry));
@@ -192,10 +194,9 @@ Result<std::string> WriteAll(const std::vector<Entry>& entries, const fs::path& 
 
 }  // namespace
 
-Result<std::string> SaveConfiguration(FrameworkElement& application, LoadedValues& loaded,
-                                      const fs::path& to) {
+Result<std::string> SaveConfiguration(FrameworkElement& application, const fs::path& to) {
   const std::lock_guard lock(application.runtime().structure_mutex());
-  const auto entries = EntriesOf(application, loaded);
+  const auto entries = EntriesOf(application);
   if (!entries) return entries.error();
   if (!to.empty()) return WriteAll(*entries, to);
   auto* const source = application.FindAnnotation<ConfigurationSource>();
@@ -228,7 +229,9 @@ Result<std::string> SaveConfiguration(FrameworkElement& application, LoadedValue
     source->files[i].text = std::move(*text);
   }
   for (const Entry& each : *entries) {
-    if (each.has_changed) loaded[each.parameter] = each.text;
+    if (!each.has_changed) continue;
+    each.parameter->Annotate(std::make_unique<LoadedValue>(each.text));
+    each.parameter->Annotate(std::make_unique<ConfigurationEntry>(each.path));
   }
   if (count == 0) return std::string("no value has changed");
   return "saved " + std::to_string(count) + (count == 1 ? " value" : " values") + " to " + names;

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -20,6 +21,21 @@ struct ConfigurationSource final : Annotation {
   std::vector<File> files = {};
 };
 
+/// Kept with a parameter that a file names, or the configuration: what it came to when these were read, or written last, in
+/// text format. It may be from the command line; as long as it stays so, it is not the file's business.
+struct LoadedValue final : Annotation {
+  explicit LoadedValue(std::string value) : text(std::move(value)) {}
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<LoadedValue>(text); }
+  [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
+  const std::string text;
+
+  /// nullptr: nothing has named it.
+  [[nodiscard]] static const std::string* Of(const FrameworkElement& parameter) {
+    const auto* const known = parameter.FindAnnotation<LoadedValue>();
+    return known != nullptr ? &known->text : nullptr;
+  }
+};
+
 /// Writes values of parameters that have changed since they were loaded back to the entries of the configuration that
 /// they came from, or could come from: what else is in the files stays, byte for byte. Entries that there are none of
 /// yet are added to the file that was loaded last. Saving the application leaves these values to the configuration
@@ -31,12 +47,8 @@ struct ConfigurationSource final : Annotation {
 /// Errors:  the application names no entries; there is no configuration file, and no `to`; a file is not what was
 ///          loaded; a value that no file can carry. Each file is written at once or not at all.
 ///
-/// `loaded`: what the parameters that files name came to when they were loaded, by their paths; the default for others.
-/// What has been written is put in there, so that nobody else takes it for changed any more.
 /// Returns what was done, for a person.
-using LoadedValues = std::map<std::string, std::string, std::less<>>;
 [[nodiscard]] Result<std::string> SaveConfiguration(FrameworkElement& application,
-                                                    LoadedValues& loaded,
                                                     const std::filesystem::path& to = {});
 
 }  // namespace runnel

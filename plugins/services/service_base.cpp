@@ -4,6 +4,7 @@
 
 #include "core/base/exception_text.h"
 #include "core/element/not_saved.h"
+#include "core/element/own_thread.h"
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/cycle.h"
@@ -15,6 +16,7 @@ ServiceWorker::ServiceWorker(const Placement& placement,
                              std::function<void()> tell_free)
     : FrameworkElement(placement), serve_(std::move(serve)), tell_free_(std::move(tell_free)) {
   Annotate(std::make_unique<NotSaved>());
+  Annotate(std::make_unique<OwnThread>([this] { return !is_free(); }, [this] { AskToEnd(); }));
 }
 
 ServiceWorker::~ServiceWorker() {

@@ -46,4 +46,13 @@ struct PathFollowers final : Annotation {
   std::vector<std::function<void(const Move& move)>> all = {};
 };
 
+/// Who knows what rules have switched for the time being, which a file that is saved does not get. Kept with the root of the
+/// tree.
+///
+/// Threads: under the structure lock.
+struct SwitchedByRules final : Annotation {
+  /// Each of these takes back what one rule has changed; the last one first.
+  std::vector<std::function<std::vector<ChangeSet>()>> all = {};
+};
+
 }  // namespace runnel

@@ -6,6 +6,7 @@
 #include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
+#include "core/element/element_path.h"
 #include "core/element/tags.h"
 #include "core/module/group.h"
 #include "core/module/group_parameter.h"
@@ -81,19 +82,24 @@ Result<void> Plan::Check(const CreatePort& change) {
 Result<void> Plan::Check(const CreateParameter& change) {
   const auto place = overlay_.PlaceFor(change.path);
   if (!place) return place.error();
-  for (const std::string& target : change.targets) {
-    const bool is_absolute = !target.empty() && target.front() == '/';
-    const auto found = overlay_.Find(is_absolute ? target : place->parent.path() + "/" + target,
-                                     PathKind::kParameter);
+  const std::string around = place->parent.path() + "/";
+  std::vector<std::string> targets = change.targets;
+  for (std::string& target : targets) {
+    const auto found = overlay_.Find(IsAbsolutePath(target) ? target : around + target, PathKind::kParameter);
     if (!found) return found.error();
-    if (dynamic_cast<Configurable*>(*found) != nullptr) continue;
-    return Error{.message = (*found)->path() + " is not a parameter", .path = change.path};
+    if (dynamic_cast<Configurable*>(*found) == nullptr) {
+      return Error{.message = (*found)->path() + " is not a parameter", .path = change.path};
+    }
+    // The parameter looks for it from its group, where the name of the application cannot be left out.
+    if (!IsAbsolutePath(target)) continue;
+    target = FindOwner(**found)->path() + "/" + (*found)->name();
+    if (target.starts_with(around)) target.erase(0, around.size());
   }
   if (const std::string fault = UnwritableCharacter(change.description); !fault.empty()) {
     return Error{.message = "the description contains " + fault, .path = change.path};
   }
   UnlistedElement made(
-      std::make_unique<GroupParameter>(*place, change.targets, change.description));
+      std::make_unique<GroupParameter>(*place, std::move(targets), change.description));
   return AddNew(std::move(made), change.state);
 }
 

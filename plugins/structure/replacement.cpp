@@ -1,6 +1,7 @@
 #include "plugins/structure/replacement.h"
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include "core/base/exception_text.h"
@@ -41,30 +42,27 @@ Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkE
                         : "disconnect it first"};
 }
 
-bool StandsForOthers(const ConfigurableElement& parameter) {
-  return dynamic_cast<const GroupParameter*>(parameter.element) != nullptr;
-}
+using IsTheirTurn = std::function<bool(const FrameworkElement& parameter)>;
 
-// Those that stand for others, or those that do not. Errors: no such parameter, with the nearest name; a value it
-// refuses.
-Result<void> Configure(FrameworkElement& module, const Setting& setting, bool stand_for_others) {
+// Errors: no such parameter, with the nearest name; a value it refuses.
+Result<void> Configure(FrameworkElement& module, const Setting& setting, bool may_be_missing, const IsTheirTurn& is_its_turn) {
   const ConfigurableElement parameter = FindConfigurable(module, setting.parameter);
   if (!parameter) {
+    if (may_be_missing) return {};
     const auto name_of = [](const auto& each) { return each.element->name(); };
     return Error{
         .message = "there is no parameter '" + setting.parameter + "'",
         .path = module.path(),
         .hint = NearestNameHint(setting.parameter, NamesOf(ConfigurablesOf(module), name_of))};
   }
-  if (StandsForOthers(parameter) != stand_for_others) return {};
+  if (!is_its_turn(*parameter.element)) return {};
   const auto set = parameter.configurable->SetFromText(setting.value);
   return set ? set : Refused(set, *parameter.element);
 }
 
-Result<void> CopySettings(const std::vector<Setting>& inherited, FrameworkElement& after,
-                          bool stand_for_others) {
+Result<void> CopySettings(const std::vector<Setting>& inherited, FrameworkElement& after, const IsTheirTurn& is_its_turn) {
   for (const auto& [element, target] : ConfigurablesOf(after)) {
-    if (StandsForOthers({element, target}) != stand_for_others) continue;
+    if (!is_its_turn(*element)) continue;
     const auto source = std::ranges::find(inherited, element->name(), &Setting::parameter);
     if (source == inherited.end()) continue;
     if (const auto set = target->SetFromText(source->value); !set) return Refused(set, *element);
@@ -86,13 +84,19 @@ std::vector<Setting> SettingsOf(const FrameworkElement& module) {
 
 Result<void> ConfigureNew(FrameworkElement& made, const std::vector<Setting>& inherited,
                           const std::vector<Setting>& settings) {
-  for (const bool stand_for_others : {false, true}) {
-    if (stand_for_others) {
+  // Construct() goes by these, and may make more.
+  std::set<const FrameworkElement*> early;
+  for (const auto& [element, parameter] : ConfigurablesOf(made)) {
+    if (dynamic_cast<const GroupParameter*>(element) == nullptr) early.insert(element);
+  }
+  for (const bool is_early : {true, false}) {
+    if (!is_early) {
       if (auto constructed = Runtime::Construct(made); !constructed) return constructed;
     }
-    if (auto copied = CopySettings(inherited, made, stand_for_others); !copied) return copied;
+    const auto is_its_turn = [&](const FrameworkElement& each) { return early.contains(&each) == is_early; };
+    if (auto copied = CopySettings(inherited, made, is_its_turn); !copied) return copied;
     for (const Setting& each : settings) {
-      if (auto set = Configure(made, each, stand_for_others); !set) return set;
+      if (auto set = Configure(made, each, is_early, is_its_turn); !set) return set;
     }
   }
   return {};

@@ -11,6 +11,7 @@
 #include "core/base/exception_text.h"
 #include "core/base/ordered_mutex.h"
 #include "core/base/retry.h"
+#include "core/element/own_thread.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/structure/plan.h"
@@ -172,6 +173,18 @@ void WarnOfIdleModules(const ChangeSet& changes, Scheduler& scheduler, Diagnosti
   }
 }
 
+// Who deletes it does not wait for ever.
+void WarnOfLeaving(const std::vector<std::string>& removed, Runtime& runtime, Diagnostics& diagnostics) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto* const leaving = runtime.root().FindAnnotation<Leaving>();
+  if (leaving == nullptr) return;
+  for (const UnlistedElement& each : leaving->elements) {
+    if (std::ranges::count(removed, each->path()) == 0) continue;
+    diagnostics.AddWarning({.message = "is deleted; a call of its service that does not come to its end still uses its memory",
+                            .path = each->path()});
+  }
+}
+
 }  // namespace
 
 // Shared with the scheduler's fault handler, so that a fault that is just being answered when the editor
@@ -213,6 +226,14 @@ std::size_t StructureEditor::on_probation() const {
 void StructureEditor::Tend() {
   const std::lock_guard lock(shared_->mutex);
   if (shared_->probation) runtime_.Destroy(shared_->probation->Take(/*all=*/false));
+}
+
+ChangeOutcome StructureEditor::Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places,
+                                     const RobotStop::AsOf& as_of, ChangeSet* back) {
+  internal::UndoRecord record;
+  ChangeOutcome outcome = Apply(ChangeRequest{changes, places, as_of, nullptr, back != nullptr ? &record : nullptr});
+  if (back != nullptr) *back = std::move(record.changes);
+  return outcome;
 }
 
 ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
@@ -299,7 +320,10 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
     outcome.hold_time = SteadyClock().Now() - hold->began();
     hold->Release();
   }
+  std::vector<std::string> removed;
+  for (const UnlistedElement& each : plan.removed()) removed.push_back(each->path());
   runtime_.Destroy(std::move(plan.removed()));
+  WarnOfLeaving(removed, runtime_, outcome.diagnostics);
   if (shared_->probation) {
     runtime_.Destroy(shared_->probation->Take(/*all=*/false));
     shared_->probation->Add(plan.replaced());

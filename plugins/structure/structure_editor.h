@@ -53,11 +53,9 @@ class StructureEditor {
   StructureEditor& operator=(const StructureEditor&) = delete;
 
   /// `places` are those of the changes in a user's text, for the errors. `as_of`: when somebody asked for it; if STOP was
-  /// pressed or released since, and be it while new modules are made, nothing is done.
+  /// pressed or released since, and be it while new modules are made, nothing is done. `back` gets what takes them back.
   ChangeOutcome Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places = {},
-                      const RobotStop::AsOf& as_of = {}) {
-    return Apply(ChangeRequest{changes, places, as_of});
-  }
+                      const RobotStop::AsOf& as_of = {}, ChangeSet* back = nullptr);
 
   /// Lets go of replaced modules whose successors have proved themselves. Apply() does it too; call it
   /// now and then to have their memory back earlier.

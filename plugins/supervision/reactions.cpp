@@ -2,7 +2,9 @@
 
 #include "core/base/exception_text.h"
 #include "core/paths/path_search.h"
+#include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
+#include "plugins/parameters/value_to_save.h"
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/serve_requests.h"
 #include "plugins/supervision/supervisor_shared.h"
@@ -57,6 +59,30 @@ Result<void> Supervisor::Shared::Release(const std::string& port, Time now) {
   if (other != nullptr) return Publish(*other);
   if (!internal::Standstill::TakesOver(**found, scheduler, now)) (*found)->Release(Port::Setter::kRule);
   return {};
+}
+
+// Files that are saved until it is taken back have what people have made there. What a rule before has made is none of theirs.
+void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet back) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto note = [this](const std::string& path, const std::string& before, PathKind kind) {
+    const auto found = PathSearch(runtime).Find(path, kind);
+    if (!found) return;
+    const auto* const parameter = dynamic_cast<const Configurable*>(*found);
+    (*found)->Annotate(std::make_unique<MadeByRule>(MadeByRule::Before(**found, before),
+                                                    parameter != nullptr ? parameter->ToText() : FindModuleType(**found)));
+  };
+  for (const Change& each : back) {
+    if (const auto* const set = std::get_if<SetParameter>(&each)) note(set->path, set->value, PathKind::kParameter);
+    const auto* const replace = std::get_if<ReplaceModule>(&each);
+    if (replace == nullptr) continue;
+    note(replace->path, replace->type, PathKind::kElement);
+    for (const Setting& one : replace->settings) note(replace->path + "/" + one.parameter, one.value, PathKind::kParameter);
+  }
+  std::erase(switched, &rule);
+  rule.back.changes.clear();
+  if (which != &SupervisionRule::reaction) return;
+  rule.back.changes = std::move(back);
+  switched.push_back(&rule);
 }
 
 void Supervisor::Shared::Beside(std::function<void()> act, bool is_long) {
@@ -124,9 +150,13 @@ void Supervisor::Shared::PublishMissed(Time now) {
   }
 }
 
-Result<void> Supervisor::Shared::CarryOut(const Reaction& reaction, Time now) {
+Result<void> Supervisor::Shared::CarryOut(KnownRule& rule, Which which, const Reaction& reaction, Time now) {
   Result<void> done;
-  if (!reaction.changes.empty()) done = perform(reaction.changes);
+  if (!reaction.changes.empty()) {
+    auto back = perform(reaction.changes);
+    if (back) NotePassing(rule, which, std::move(*back));
+    if (!back) done = back.error();
+  }
   for (const std::string& each : reaction.released) {
     auto released = Release(each, now);
     if (released) continue;
@@ -150,8 +180,8 @@ void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& 
   }
   const auto published = Attempt([&] { return PublishAll(rule, which, reaction); });
   const bool is_long = where == Where::kBeside && !reaction.changes.empty();
-  auto rest = [this, published, reaction = std::move(reaction), notice = Notice{path, why, now, false, is_recovery}]() mutable {
-    const auto carried_out = Attempt([&] { return CarryOut(reaction, notice.time); });
+  auto rest = [this, &rule, which, published, reaction = std::move(reaction), notice = Notice{path, why, now, false, is_recovery}]() mutable {
+    const auto carried_out = Attempt([&] { return CarryOut(rule, which, reaction, notice.time); });
     const Result<void>& done = published ? carried_out : published;
     if (reaction.stops_application) scheduler.StopForFault();
     notice.is_failure = !done;

@@ -35,8 +35,8 @@ void ServeRequests(Runtime& runtime, const Supervisor::Perform& perform, const T
   for (const Asked& each : all) {
     Diagnostics diagnostics;
     const PlacedChanges placed = ParseChanges(each.text, {each.path}, diagnostics);
-    const Result<void> done =
-        diagnostics.ok() ? perform(placed.changes) : Result<void>(diagnostics.errors().front());
+    const auto made = diagnostics.ok() ? perform(placed.changes) : Result<ChangeSet>(diagnostics.errors().front());
+    const Result<void> done = made ? Result<void>() : made.error();
     tell(each.path,
          done ? "has had it done: " + each.text
               : "asked in vain for: " + each.text + ": " + done.error().ToString(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <ranges>
 #include <utility>
 
 #include "core/paths/path_search.h"
@@ -19,6 +20,12 @@ namespace {
 // How often modules are asked for what they want.
 constexpr Duration kLookForRequests = std::chrono::milliseconds(50);
 
+template <typename Note>
+Note& RootNote(Runtime& runtime) {
+  auto* const known = runtime.root().FindAnnotation<Note>();
+  return known != nullptr ? *known : runtime.root().Annotate(std::make_unique<Note>());
+}
+
 }  // namespace
 
 void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
@@ -26,6 +33,7 @@ void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
     move(each->of);
     each->reaction.MovePaths(move);
     each->otherwise.MovePaths(move);
+    each->back.MovePaths(move);
   }
   std::ranges::for_each(later, move);
   std::set<std::string> moved;
@@ -111,10 +119,16 @@ Supervisor::Supervisor(Runtime& runtime, Scheduler& scheduler, Perform perform)
       shared_(std::make_shared<Shared>(runtime, scheduler, std::move(perform))) {
   scheduler_.SetWatchdog([shared = shared_](Time now) { return shared->Watch(now); });
   const std::lock_guard lock(runtime.structure_mutex());
-  auto* followers = runtime.root().FindAnnotation<PathFollowers>();
-  if (followers == nullptr) followers = &runtime.root().Annotate(std::make_unique<PathFollowers>());
-  followers->all.push_back([shared = std::weak_ptr(shared_)](const PathFollowers::Move& move) {
+  const std::weak_ptr<Shared> shared = shared_;
+  RootNote<PathFollowers>(runtime).all.push_back([shared](const PathFollowers::Move& move) {
     if (const auto there = shared.lock()) there->MovePaths(move);
+  });
+  RootNote<SwitchedByRules>(runtime).all.push_back([shared] {
+    std::vector<ChangeSet> back;
+    const auto there = shared.lock();
+    if (there == nullptr) return back;
+    for (const Shared::KnownRule* each : std::views::reverse(there->switched)) back.push_back(each->back.changes);
+    return back;
   });
 }
 

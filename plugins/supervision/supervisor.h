@@ -28,9 +28,9 @@ class StopButton;
 /// Ownership:  destroy it after the scheduler has stopped; runtime and scheduler must outlive it.
 class Supervisor {
  public:
-  /// How changes are carried out: all of them, or none with the reason. Called outside of cycles and
-  /// without locks, for example StructureEditor::Apply().
-  using Perform = std::function<Result<void>(const ChangeSet&)>;
+  /// How changes are carried out: all of them, with what takes them back, or none with the reason. Called outside of cycles
+  /// and without locks, for example StructureEditor::Apply().
+  using Perform = std::function<Result<ChangeSet>(const ChangeSet&)>;
 
   Supervisor(Runtime& runtime, Scheduler& scheduler, Perform perform);
   ~Supervisor();

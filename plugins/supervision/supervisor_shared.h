@@ -26,6 +26,7 @@ struct Supervisor::Shared {
     // brings the port back.
     std::vector<bool> holds = {};
     std::vector<bool> misses = {};
+    Reaction back = {};  // under the structure lock: takes back what it has switched, as long as nobody has
   };
   Shared(Runtime& of_runtime, Scheduler& of_scheduler, Perform how)
       : runtime(of_runtime), scheduler(of_scheduler), perform(std::move(how)) {}
@@ -40,7 +41,8 @@ struct Supervisor::Shared {
   void React(KnownRule& rule, Which which, const std::string& path, const std::string& why, Time now, bool is_recovery = false,
              Where where = Where::kBeside);
   Result<void> PublishAll(KnownRule& rule, Which which, const Reaction& reaction);
-  Result<void> CarryOut(const Reaction& reaction, Time now);
+  Result<void> CarryOut(KnownRule& rule, Which which, const Reaction& reaction, Time now);
+  void NotePassing(KnownRule& rule, Which which, ChangeSet back);
   // What may take as long as it takes, and must keep up nobody who looks whether all is well: in real time beside him, one
   // after the other; in simulated time at once.
   void Beside(std::function<void()> act, bool is_long);
@@ -67,6 +69,7 @@ struct Supervisor::Shared {
   std::set<std::string> late;       // threads of which that has been told; of the thread that looks out, as the next one
   std::vector<std::pair<std::shared_ptr<KnownRule>, internal::StaleWatch>> watches;
   std::vector<std::shared_ptr<KnownRule>> rules;  // their paths are guarded by the structure lock
+  std::vector<KnownRule*> switched;  // that have something to take back, the last one last; under the structure lock
   std::vector<std::string> later;  // to be released if an undo brings them back; under the structure lock
   std::mutex pausing;  // one after the other; before all others
   OrderedMutex mutex{LockLevel::kLeaf};

@@ -63,10 +63,10 @@ void UseApplication(const ApplicationChoice& choice, const std::function<void(Ru
   std::optional<Scheduler> scheduler;
   std::optional<StructureEditor> editor;
   std::optional<Supervisor> supervisor;
-  const auto perform = [&](const ChangeSet& changes) -> Result<void> {
+  const auto perform = [&](const ChangeSet& changes) -> Result<ChangeSet> {
     const ChangeOutcome outcome = editor->Apply(changes);
     if (!outcome) return outcome.diagnostics.errors().front();
-    return {};
+    return ChangeSet();
   };
   const auto schedule = [&](FrameworkElement& application) -> Result<void> {
     SchedulerOptions options = SchedulerOptionsOf(application);

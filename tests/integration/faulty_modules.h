@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "core/module/module.h"
 #include "core/module/run_monitor.h"
@@ -16,6 +17,8 @@
 #include "modules/types/surroundings.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
+#include "plugins/services/client.h"
+#include "plugins/services/service.h"
 
 namespace runnel::test {
 
@@ -129,6 +132,27 @@ class SlowToMake final : public Module {
     return {};
   }
   void Update() override {}
+};
+
+/// Has a call that does not come to its end, and makes it when it is connected with itself.
+class DeafWorker final : public Module {
+ public:
+  using Module::Module;
+
+  Service<int(int)> work{this, "work", &DeafWorker::Work};
+  Client<int(int)> ask{this, "ask"};
+
+ private:
+  Result<int> Work(Activity&, int) {
+    log().Info("{}", "works for ever");
+    for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  void Update() override {
+    if (std::exchange(has_asked_, true)) return;
+    ask.Send(1);
+  }
+
+  bool has_asked_ = false;
 };
 
 /// A motor, which moves by what it reads, and says when it begins to and when it stands.

@@ -8,6 +8,7 @@ RUNNEL_PLUGIN(faulty, registry) {
   using namespace runnel::test;
   registry.Add<FaultyRelay>("faulty/relay", "hands on, and fails after a while");
   registry.Add<FaultyWorker>("faulty/worker", "does nothing, and fails after a while");
+  registry.Add<DeafWorker>("faulty/deaf_worker", "has a call that does not come to its end");
   registry.Add<SlowToMake>("faulty/slow_to_make", "is made when there is a file");
   registry.Add<Motor>("faulty/motor", "moves by what it reads");
   registry.Add<FaultyMonitor>("faulty/monitor", "judges the run, and fails at it");

@@ -136,6 +136,18 @@ TEST_F(StuckAndCrash, OnASimulatedClockAStuckModuleCanEndTheRunToo) {
                     HasSubstr("/demo/worker: has still not returned; the program ends")));
 }
 
+TEST_F(StuckAndCrash, ACallThatDoesNotEndIsNamedAndTheProgramEndsWithoutIt) {
+  Write("", R"(<module name="deaf" type="faulty/deaf_worker"/> <connect from="deaf/work" to="deaf/ask"/>)");
+  Program program(Run() + " --record " + Path("run.mcap"));
+  EXPECT_TRUE(program.WaitFor("works for ever"));
+  program.Send(SIGTERM);
+  const Ended ended = program.Wait();
+  EXPECT_EQ(ended.code, kRunFailed) << ended.text;
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("the run waits for a call of /demo/deaf to come to its end"),
+                                HasSubstr("a call has still not come to its end: /demo/deaf; the program ends without it")));
+  EXPECT_THAT(Runnel("info " + Path("run.mcap")).text, HasSubstr("as its writer wanted it"));
+}
+
 class Crashing : public StuckAndCrash, public testing::WithParamInterface<std::pair<const char*, int>> {
  protected:
   void SetUp() override {

@@ -14,6 +14,7 @@
 #include "plugins/application_files/application_builder.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_files/saving/saving.h"
+#include "plugins/parameters/configuration_saver.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/renamed_text.h"
 
@@ -43,7 +44,6 @@ Result<std::string> UpdatedText(Saving& saving, const ApplicationSource& loaded)
   auto renamed = RenamedText(loaded.text, loaded.file, names, PathAttributesIn(saving.tools.tags));
   if (!renamed) return renamed.error();
   source.text = std::move(*renamed);
-  for (const auto& [path, value] : std::exchange(source.values, {})) source.values.emplace(RenamedPath(path, "", names), value);
   const auto document = XmlDocument::Parse(source.text, source.file.string());
   if (!document) return document.error();
   XmlEditor editor(*document, source.text);
@@ -182,13 +182,15 @@ Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& applicat
                                        : std::make_unique<ApplicationSource>();
     now->file = file;
     now->text = saved->text;
-    now->values = std::move(saved->values);
     if (!is_on_disk) {
       if (auto kept = KeepBackup(file); !kept) return kept.error();
       if (auto written = ReplaceFile(file, saved->text); !written) return written.error();
     }
     if (!is_its_own) return std::move(saved->lost);
     ForgetNewNames(application);
+    for (const auto& [parameter, value] : saved->values) {
+      Retry([&] { parameter->Annotate(std::make_unique<LoadedValue>(value)); });
+    }
     if (source != nullptr) {
       *source = std::move(*now);
     } else {

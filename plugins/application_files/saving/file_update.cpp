@@ -43,11 +43,6 @@ std::string FileUpdate::Moved(const std::string& file) const {
   return IsMoved() ? MovedFileName(file, old_folder_, saving_.folder) : file;
 }
 
-const std::string* FileUpdate::LoadedValue(const std::string& path) const {
-  const auto loaded = source_.values.find(path);
-  return loaded != source_.values.end() ? &loaded->second : nullptr;
-}
-
 void FileUpdate::Run(XmlElement root) {
   if (NameOf(root) != saving_.application.name()) {
     editor_.SetAttribute(root, "name", saving_.application.name());

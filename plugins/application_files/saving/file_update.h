@@ -37,8 +37,6 @@ class FileUpdate {
   [[nodiscard]] XmlEditor& editor() noexcept { return editor_; }
   /// Whether the text is that of a group in several applications, in which nothing is changed.
   [[nodiscard]] bool is_of_part() const noexcept { return part_ != nullptr; }
-  /// What a parameter came to when the text was loaded; nullptr if it does not name it.
-  [[nodiscard]] const std::string* LoadedValue(const std::string& path) const;
   /// The name of a file, which may have to be written otherwise, as the text goes to another folder.
   [[nodiscard]] std::string Moved(const std::string& file) const;
   /// The port is at an end of a connection that has come or gone.

@@ -1,4 +1,6 @@
 
+#include <algorithm>
+
 #include "core/element/element_path.h"
 #include "core/element/not_saved.h"
 #include "core/paths/distant_ports.h"
@@ -6,6 +8,7 @@
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "plugins/application_files/saving/saving.h"
+#include "plugins/structure/extension_changes.h"
 
 namespace runnel::internal {
 
@@ -57,6 +60,26 @@ FrameworkElement* HomeOfPaths(const std::string& from, const std::string& to,
   return home != nullptr && home->IsAtOrBelow(application) ? home : nullptr;
 }
 
+// What a rule has switched for the time being is as people have made it, unless they have cut what the rule has made.
+void TakeBack(const ChangeSet& back, FrameworkElement& application, std::vector<SavedEdge>& edges) {
+  const PathSearch search(application.runtime());
+  for (const Change& each : back) {
+    const auto* const cut = std::get_if<DisconnectPorts>(&each);
+    const auto* const tie = std::get_if<ConnectPorts>(&each);
+    if (cut == nullptr && tie == nullptr) continue;
+    const auto from = search.FindPort(cut != nullptr ? cut->from : tie->from, PathKind::kOutput);
+    const auto to = search.FindPort(cut != nullptr ? cut->to : tie->to, PathKind::kInput);
+    if (!from || !to) continue;
+    const auto known = std::ranges::find_if(edges, [&](const SavedEdge& edge) { return edge.from == *from && edge.to == *to; });
+    if (cut != nullptr) {
+      if (known == edges.end()) return;
+      edges.erase(known);
+    } else if (FrameworkElement* const home = Home(**from, **to, application); home != nullptr && known == edges.end()) {
+      edges.push_back({*from, *to, tie->options, home});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
@@ -71,6 +94,11 @@ std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
       edges.push_back({connection.from, connection.to, connection.options, home});
     }
   });
+  if (const auto* const switched = application.runtime().root().FindAnnotation<SwitchedByRules>()) {
+    for (const auto& each : switched->all) {
+      for (const ChangeSet& back : each()) TakeBack(back, application, edges);
+    }
+  }
   const LateConnections* const late = LateConnections::FindIn(application.runtime());
   if (late == nullptr) return edges;
   for (const LateConnection& each : late->all()) {

@@ -5,6 +5,7 @@
 #include "core/base/characters.h"
 #include "core/element/not_saved.h"
 #include "core/plugin/module_type_name.h"
+#include "plugins/parameters/value_to_save.h"
 
 namespace runnel::internal {
 
@@ -39,8 +40,8 @@ void AddInside(const XmlTag& tag, FrameworkElement& element, Saving& saving, New
 
 }  // namespace
 
-std::string SavedValue(const Configurable& configurable, const Saving& saving) {
-  const std::string text = configurable.ToText();
+std::string SavedValue(const FrameworkElement& element, const Configurable& configurable, const Saving& saving) {
+  const std::string text = TextToSave(element, configurable);
   if (&configurable.type() != &TypeOf<FilePath>()) return text;
   return MovedFileName(text, "", saving.folder);
 }

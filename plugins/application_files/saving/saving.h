@@ -40,8 +40,8 @@ struct Saving {
   const SaveTools& tools;
   std::filesystem::path folder;  ///< where the text will stand
   std::vector<SavedEdge> edges;
-  /// What the parameters that the text names come to when it is loaded again.
-  std::map<std::string, std::string, std::less<>> values = {};
+  /// What the parameters that the text names come to when it is loaded again (LoadedValue).
+  std::map<FrameworkElement*, std::string> values = {};
   /// Of the modules that the text names anew.
   std::set<std::string> plugins = {};
   std::optional<Error> error = {};  ///< the first
@@ -65,12 +65,12 @@ struct Saving {
 };
 
 /// The value as text that gives it again when it stands in the file: names of files start there.
-[[nodiscard]] std::string SavedValue(const Configurable& configurable, const Saving& saving);
+[[nodiscard]] std::string SavedValue(const FrameworkElement& element, const Configurable& configurable, const Saving& saving);
 
 struct SavedText {
   std::string text;
-  std::map<std::string, std::string, std::less<>> values;  ///< as Saving::values
-  std::string lost;                                        ///< likewise
+  std::map<FrameworkElement*, std::string> values;  ///< as Saving::values
+  std::string lost;                                 ///< likewise
 };
 /// What SaveApplication() would write into a file in `folder`, but for whether it would load. Under the structure lock.
 [[nodiscard]] Result<SavedText> TextOfApplication(FrameworkElement& application,

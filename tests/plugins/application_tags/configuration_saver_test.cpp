@@ -54,10 +54,22 @@ class ConfigurationSaver : public ::testing::Test {
     const auto outcome = editor.Apply({SetParameter{path, value}});
     ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
   }
+  void Rename(const std::string& path, const std::string& name) {
+    StructureEditor editor(shop.runtime, shop.plugins.modules(), nullptr);
+    const auto outcome = editor.Apply({RenameElement{path, name}});
+    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+  }
+  // By both files, as they are now.
+  double GainAfterRestart(const std::string& path) {
+    SavingWorkshop again;
+    Diagnostics read;
+    again.configuration.Load(entries, read);
+    if (again.Load(file) == nullptr) throw std::runtime_error("the file does not load again");
+    return again.Get<Source>(path).gain.Get();
+  }
   static Result<std::string> Save(FrameworkElement& application,
                                   const std::filesystem::path& to = {}) {
-    return SaveConfiguration(application, application.FindAnnotation<ApplicationSource>()->values,
-                             to);
+    return SaveConfiguration(application, to);
   }
   double Gain(const std::string& path) { return shop.Get<Source>(path).gain.Get(); }
 
@@ -135,6 +147,41 @@ TEST_F(ConfigurationSaver, LeavesAFileThatSomebodyHasChanged) {
   WriteAll(entries, "<configuration/>");
   EXPECT_THAT(Save(application).error().message, HasSubstr("has been changed"));
   EXPECT_EQ(ReadAll(entries), "<configuration/>");
+}
+
+TEST_F(ConfigurationSaver, AnotherNameIsNoOtherValue) {
+  FrameworkElement& application = Load(kCar, kConfiguration);
+  Rename("/demo/left/motor", "drive");
+  Rename("/demo/engine", "motor");
+  EXPECT_EQ(Save(application).value(), "no value has changed");
+  Set("/demo/left/drive/gain", "4");
+  EXPECT_EQ(Save(application).value(), "saved 1 value to " + entries.string());
+  EXPECT_THAT(ReadAll(entries), HasSubstr("<section name=\"motor\"> <value name=\"gain\">4</value> <!-- tried out -->"));
+  EXPECT_EQ(GainAfterRestart("/demo/left/motor"), 4) << "the file still has the old name";
+  ASSERT_TRUE(SaveApplication(application, shop.tools()));
+  EXPECT_EQ(GainAfterRestart("/demo/left/drive"), 4);
+  EXPECT_EQ(GainAfterRestart("/demo/motor"), 2);
+  const std::string saved = ReadAll(file);
+  EXPECT_THAT(saved, HasSubstr(R"(<parameter name="gain" config="/car/left/motor/gain"/>)"));
+  ASSERT_TRUE(SaveApplication(application, shop.tools()));
+  EXPECT_EQ(ReadAll(file), saved);
+}
+
+TEST_F(ConfigurationSaver, WhatHasNoEntryYetHasItUnderTheNameOfNow) {
+  FrameworkElement& application = Load(kCar, kConfiguration);
+  Rename("/demo/left/lamp", "light");
+  Rename("/demo/left", "right");
+  ASSERT_TRUE(SaveApplication(application, shop.tools()));
+  EXPECT_THAT(ReadAll(file), ::testing::Not(HasSubstr("<parameter name=\"gain\" config=\"/car")));
+  Set("/demo/right/light/gain", "6");
+  ASSERT_TRUE(Save(application));
+  EXPECT_EQ(GainAfterRestart("/demo/right/light"), 6);
+  Rename("/demo/right/motor", "drive");
+  Set("/demo/right/drive/count", "9");
+  ASSERT_TRUE(Save(application));
+  ASSERT_TRUE(SaveApplication(application, shop.tools()));
+  EXPECT_EQ(GainAfterRestart("/demo/right/drive"), 3);
+  EXPECT_THAT(ReadAll(entries), HasSubstr("<section name=\"drive\">"));
 }
 
 TEST_F(ConfigurationSaver, TheCommandLineIsNoBusinessOfIt) {

@@ -1,4 +1,4 @@
-// Ports that follow from static parameters, and outputs that set parameters.
+// Ports and parameters that follow from static parameters, and outputs that set parameters.
 
 #include <deque>
 #include <filesystem>
@@ -7,7 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/plugins/application_files/reading/test_application.h"
+#include "plugins/parameters/configuration_saver.h"
+#include "plugins/structure/structure_editor.h"
+#include "tests/plugins/application_files/saving/saving_workshop.h"
 
 namespace runnel::testing {
 namespace {
@@ -20,13 +22,16 @@ class Adder final : public Module {
   using Module::Module;
   StaticParameter<std::uint32_t> count{this, "count", {.default_value = 1, .bounds = {0, 8}}};
   std::deque<Input<double>> inputs;
+  std::deque<Parameter<double>> weights;
   Output<double> sum{this, "sum"};
 
  private:
   Result<void> Construct() override {
     if (count.Get() == 7) return Error{.message = "seven is not to be had"};
-    for (std::uint32_t i = 1; i <= count.Get(); ++i)
+    for (std::uint32_t i = 1; i <= count.Get(); ++i) {
       inputs.emplace_back(this, "in" + std::to_string(i));
+      weights.emplace_back(this, "weight" + std::to_string(i), ParameterOptions<double>{.bounds = {0.0, 9.0}});
+    }
     return {};
   }
   void Update() override {}
@@ -50,7 +55,7 @@ class ConstructedPorts : public ::testing::Test {
       <connect from="source/value" to="adder/in1 group/inner/in1"/>
     </application>)";
   }
-  Workshop workshop_;
+  SavingWorkshop workshop_;
 };
 
 TEST_F(ConstructedPorts, AreThereWhenPortsAreConnected) {
@@ -91,6 +96,74 @@ TEST_F(ConstructedPorts, FollowFromTheParameterOfAPart) {
   </application>)"))
       << workshop_.diagnostics.ToString();
   std::filesystem::remove(file);
+}
+
+constexpr const char* kWeighted = R"(<application name="demo">
+  <group name="group" config="/car">
+    <parameter name="all" to="adder/weight1 adder/weight2" value="4"/>
+    <module name="adder" type="test/adder">
+      <parameter name="weight3" value="2"/>
+      <parameter name="count" value="3"/>
+    </module>
+  </group>
+  <module name="adder" type="test/adder">
+    <parameter name="weight1" value="2" command_line="weight"/>
+  </module>
+</application>
+)";
+
+TEST_F(ConstructedPorts, ParametersThatModulesMakeWithThemAreSet) {
+  ASSERT_TRUE(workshop_.configuration.AddArgument("weight=6"));
+  ASSERT_TRUE(workshop_.Build(kWeighted)) << workshop_.diagnostics.ToString();
+  const auto& adder = workshop_.Get<Adder>("/demo/group/adder");
+  EXPECT_EQ(adder.weights[0].Get(), 4) << "by the group's parameter";
+  EXPECT_EQ(adder.weights[1].Get(), 4);
+  EXPECT_EQ(adder.weights[2].Get(), 2);
+  EXPECT_EQ(workshop_.Get<Adder>("/demo/adder").weights[0].Get(), 6) << "by the command line";
+}
+
+TEST_F(ConstructedPorts, ParametersThatModulesMakeWithThemAreOfTheConfiguration) {
+  const TestFolder folder;
+  WriteAll(folder / "car.xml", R"(<configuration><section name="car"><section name="adder">
+    <value name="weight3">5</value></section></section></configuration>)");
+  Diagnostics diagnostics;
+  workshop_.configuration.Load(folder / "car.xml", diagnostics);
+  ASSERT_TRUE(diagnostics.ok()) << diagnostics.ToString();
+  ASSERT_TRUE(workshop_.Build(kWeighted)) << workshop_.diagnostics.ToString();
+  EXPECT_EQ(workshop_.Get<Adder>("/demo/group/adder").weights[2].Get(), 5);
+}
+
+TEST_F(ConstructedPorts, ParametersThatNoModuleMakesAreErrors) {
+  const auto errors = [&](const std::string& inside) {
+    return workshop_.Errors("<application name=\"demo\">\n<module name=\"adder\" type=\"test/adder\">\n" + inside +
+                            "</module></application>");
+  };
+  EXPECT_THAT(errors("<parameter name=\"weigth1\" value=\"2\"/>"),
+              HasSubstr("app.xml:3:18: error: /demo/adder: there is no parameter 'weigth1'; did you mean 'weight1'?"));
+  EXPECT_THAT(errors("<parameter name=\"weight1\" value=\"12\"/>"), HasSubstr("app.xml:3:34: error: "));
+  const std::string broken = errors("<parameter name=\"count\" value=\"7\"/><parameter name=\"weight1\" value=\"2\"/>");
+  EXPECT_THAT(broken, HasSubstr("seven is not to be had"));
+  EXPECT_EQ(workshop_.diagnostics.errors().size(), 1u) << broken;
+}
+
+TEST_F(ConstructedPorts, ParametersThatModulesMakeWithThemAreSaved) {
+  const TestFolder folder;
+  WriteAll(folder / "app.xml", kWeighted);
+  FrameworkElement* const application = workshop_.Load(folder / "app.xml");
+  ASSERT_NE(application, nullptr);
+  EXPECT_EQ(workshop_.Text(*application, folder.path()), kWeighted);
+  StructureEditor editor(workshop_.runtime, workshop_.plugins.modules(), nullptr);
+  ASSERT_TRUE(editor.Apply({SetParameter{"/demo/group/adder/weight3", "7"}, SetParameter{"/demo/adder/count", "2"},
+                            SetParameter{"/demo/adder/weight2", "8"}}));
+  const auto saved = SaveApplication(*application, workshop_.tools());
+  ASSERT_TRUE(saved) << saved.error().ToString();
+  SavingWorkshop again;
+  again.Add<Adder>("test/adder");
+  ASSERT_TRUE(again.Load(folder / "app.xml"));
+  EXPECT_EQ(again.Get<Adder>("/demo/group/adder").weights[2].Get(), 7);
+  EXPECT_EQ(again.Get<Adder>("/demo/group/adder").weights[0].Get(), 4);
+  EXPECT_EQ(again.Get<Adder>("/demo/adder").weights[0].Get(), 2);
+  EXPECT_EQ(again.Get<Adder>("/demo/adder").weights[1].Get(), 8);
 }
 
 TEST_F(ConstructedPorts, AnOutputMaySetAParameter) {

@@ -45,9 +45,9 @@ struct Supervision {
   Supervision(Workshop& shop, const FrameworkElement& application)
       : scheduler(shop.runtime, SchedulerOptionsOf(application)),
         editor(shop.runtime, shop.plugins.modules(), &scheduler),
-        supervisor(shop.runtime, scheduler, [this](const ChangeSet& changes) -> Result<void> {
+        supervisor(shop.runtime, scheduler, [this](const ChangeSet& changes) -> Result<ChangeSet> {
           const ChangeOutcome outcome = editor.Apply(changes);
-          return outcome ? Result<void>() : outcome.diagnostics.errors().front();
+          return outcome ? Result(ChangeSet()) : outcome.diagnostics.errors().front();
         }) {
     EXPECT_TRUE(AddRules(application, scheduler, supervisor));
   }

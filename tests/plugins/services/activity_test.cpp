@@ -10,11 +10,14 @@ namespace {
 /// Works until it is let go or told to end.
 class Worker final : public Module {
  public:
-  using Module::Module;
   Service<int(int)> work{this, "work", &Worker::Work, {.queue = 4}};
   static inline std::atomic<bool> may_end{false};
   static inline std::atomic<int> begun{0};
   static inline std::atomic<bool> takes_lock{false};
+  static inline std::atomic<bool> is_deaf{false};
+  static inline std::atomic<int> alive{0};
+  explicit Worker(const Placement& placement) : Module(placement) { ++alive; }
+  ~Worker() override { --alive; }
 
  private:
   Result<int> Work(Activity& activity, int value) {
@@ -22,7 +25,7 @@ class Worker final : public Module {
     activity.Report(0.5, "waiting");
     while (!may_end) {
       if (takes_lock) const std::lock_guard lock(runtime().structure_mutex());
-      if (activity.is_abort_asked()) return Error{.message = "stopped halfway"};
+      if (activity.is_abort_asked() && !is_deaf) return Error{.message = "stopped halfway"};
       std::this_thread::yield();
     }
     if (value < 0) throw std::runtime_error("is negative");
@@ -36,6 +39,7 @@ class ActivityTest : public EditorTest {
   ActivityTest() {
     Worker::may_end = false;
     Worker::begun = 0;
+    Worker::is_deaf = false;
     Register<Worker>("test/worker");
     Must({CreateModule{"/app/worker", "test/worker"}});
     client = std::make_unique<Client<int(int)>>(At<Group>("/app"), "client",
@@ -133,6 +137,31 @@ TEST_F(ActivityTest, AHandlerMayTakeTheStructureLockWhileItsModuleIsDeleted) {
   Must({DeleteElement{"/app/worker"}});
   Worker::takes_lock = false;
   EXPECT_TRUE(call.is_done());
+}
+
+// Neither who deletes a module, nor who replaces it, waits for ever for a handler that does not hear that it should end.
+TEST_F(ActivityTest, ADeafHandlerKeepsNobodyWaiting) {
+  Worker::is_deaf = true;
+  Worker::alive = 1;
+  auto replaced = client->Begin(1);
+  Steps(1);
+  WaitUntilBegun();
+  Must({ReplaceModule{"/app/worker", "test/worker", {}, 0}});
+  EXPECT_EQ(Worker::alive, 2) << "the old one, too, as its handler uses it";
+  auto deleted = client->Begin(2);
+  Steps(1);
+  WaitUntilBegun(2);
+  const ChangeOutcome outcome = editor.Apply({DeleteElement{"/app/worker"}});
+  ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+  EXPECT_THAT(outcome.diagnostics.ToString(), HasSubstr("/app/worker: is deleted; a call of its service"));
+  EXPECT_FALSE(Exists("/app/worker"));
+  EXPECT_EQ(deleted.outcome().status(), CallStatus::kDisconnected);
+  EXPECT_EQ(Worker::alive, 2);
+  Worker::may_end = true;
+  WaitUntil("both are destroyed, by whoever changes something next", [&] {
+    Must({CreateGroup{"/app/group"}, DeleteElement{"/app/group"}});
+    return Worker::alive == 0;
+  });
 }
 
 TEST_F(ActivityTest, DeletingTheModuleEndsItsCalls) {

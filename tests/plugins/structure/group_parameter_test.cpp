@@ -32,6 +32,23 @@ TEST_F(GroupParameterTest, SetsAllThatItStandsFor) {
   EXPECT_EQ(Step("right"), 1);
 }
 
+TEST_F(GroupParameterTest, StandsForWhatIsNamedWithoutTheApplication) {
+  Must({CreateParameter{"/group/other", {"/group/left/step", "/app/group/right/parameter/step"}},
+        CreateParameter{"/app/both", {"/group/left/step"}}, CreateGroup{"/app/group/inner"},
+        CreateParameter{"/app/group/inner/outer", {"/group/right/step"}}});
+  EXPECT_THAT(At<GroupParameter>("/app/group/other").targets(), ElementsAre("left/step", "right/step"));
+  EXPECT_THAT(At<GroupParameter>("/app/group/inner/outer").targets(), ElementsAre("/app/group/right/step"));
+  Must({SetParameter{"/app/group/other", "5"}});
+  EXPECT_EQ(Step("left"), 5);
+  EXPECT_EQ(Step("right"), 5);
+  EXPECT_EQ(At<GroupParameter>("/app/both").ToText(), "5");
+  EXPECT_EQ(At<GroupParameter>("/app/group/inner/outer").ToText(), "5");
+  Must({RenameElement{"/app/group", "pair"}});
+  Must({SetParameter{"/app/both", "6"}, SetParameter{"/app/pair/other", "7"}, SetParameter{"/app/both", "6"}});
+  EXPECT_EQ(At<Counter>("/app/pair/left").step.Get(), 6);
+  EXPECT_EQ(At<Counter>("/app/pair/right").step.Get(), 7);
+}
+
 TEST_F(GroupParameterTest, AllOrNothing) {
   EXPECT_THAT(Refusal({SetParameter{"/app/group/step", "many"}}), HasSubstr("no whole number"));
   EXPECT_THAT(Refusal({CreateParameter{"/app/group/more", {"left/stap"}}}),

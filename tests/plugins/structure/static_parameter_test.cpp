@@ -14,6 +14,7 @@ class Adder final : public Module {
   StaticParameter<std::uint32_t> inputs{this, "inputs", {.default_value = 2, .bounds = {1, 8}}};
   Parameter<int> offset{this, "offset"};
   std::deque<Input<int>> in;
+  std::deque<Parameter<int>> weights;
   Output<int> sum{this, "sum"};
   Count count;
   int told = 0;
@@ -21,14 +22,16 @@ class Adder final : public Module {
  private:
   Result<void> Construct() override {
     if (inputs.Get() == 7) return Error{.message = "seven is not to be had"};
-    for (std::uint32_t i = 1; i <= inputs.Get(); ++i)
+    for (std::uint32_t i = 1; i <= inputs.Get(); ++i) {
       in.emplace_back(this, "in" + std::to_string(i));
+      weights.emplace_back(this, "weight" + std::to_string(i), ParameterOptions<int>{.default_value = 1});
+    }
     return {};
   }
   void OnParametersChanged() override { ++told; }
   void Update() override {
     int total = offset.Get();
-    for (const auto& each : in) total += each.Get();
+    for (std::size_t i = 0; i < in.size(); ++i) total += weights[i].Get() * in[i].Get();
     ++count.value;
     sum.Publish(total);
   }
@@ -101,6 +104,25 @@ TEST_F(StaticParameterTest, ASwapGivesThePortsThatAreAskedFor) {
   EXPECT_EQ(adder().offset.Get(), 1);
   Steps(1);
   EXPECT_EQ(At<Sink>("/app/sink").taken.back(), 3);
+}
+
+TEST_F(StaticParameterTest, ParametersThatFollowFromItAreSetAndKept) {
+  Must({CreateModule{"/app/other", "test/adder", {{"inputs", "4"}, {"weight4", "5"}}}});
+  EXPECT_EQ(At<Adder>("/app/other").weights[3].Get(), 5);
+  EXPECT_THAT(Refusal({CreateModule{"/app/bad", "test/adder", {{"inputs", "4"}, {"weight5", "5"}}}}),
+              HasSubstr("/app/bad: there is no parameter 'weight5'; did you mean 'weight"));
+  Must({SetParameter{"/app/adder/weight3", "10"}, ReplaceModule{"/app/adder", "test/adder"}});
+  EXPECT_EQ(adder().weights[2].Get(), 10);
+  Must({CopyElement{"/app/adder", "copy"}});
+  EXPECT_EQ(At<Adder>("/app/copy").weights[2].Get(), 10);
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/app/adder"}, DeleteElement{"/app/sink"}}));
+  const ChangeOutcome back = history_.Undo();
+  ASSERT_TRUE(back) << back.diagnostics.ToString();
+  EXPECT_EQ(adder().weights[2].Get(), 10);
+  ASSERT_TRUE(history_.Apply({SetParameter{"/app/adder/inputs", "1"}}));
+  ASSERT_TRUE(history_.Undo());
+  ASSERT_THAT(adder().weights, SizeIs(3));
+  EXPECT_EQ(adder().weights[2].Get(), 10);
 }
 
 TEST_F(StaticParameterTest, WhatIsWrongLeavesAllAsItWas) {

@@ -78,9 +78,9 @@ class NamesOfRules : public ::testing::TestWithParam<Operation>, public Workshop
     scheduler.emplace(runtime, SchedulerOptionsOf(*application));
     editor.emplace(runtime, plugins.modules(), &*scheduler);
     history.emplace(*editor);
-    supervisor.emplace(runtime, *scheduler, [this](const ChangeSet& changes) -> Result<void> {
+    supervisor.emplace(runtime, *scheduler, [this](const ChangeSet& changes) -> Result<ChangeSet> {
       const ChangeOutcome outcome = editor->Apply(changes);
-      return outcome ? Result<void>() : outcome.diagnostics.errors().front();
+      return outcome ? Result(ChangeSet()) : outcome.diagnostics.errors().front();
     });
     ASSERT_TRUE(AddRules(*application, *scheduler, *supervisor));
   }

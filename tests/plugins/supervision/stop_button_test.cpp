@@ -39,7 +39,7 @@ class StopButtonTest : public ::testing::Test {
   Group& app = runtime.Create<Group>(runtime.root(), "app");
   Doing& panel = runtime.Create<Doing>(app, "panel");
   Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated}};
-  Supervisor supervisor{runtime, scheduler, [](const ChangeSet&) { return Result<void>{}; }};
+  Supervisor supervisor{runtime, scheduler, [](const ChangeSet&) { return Result<ChangeSet>(ChangeSet()); }};
 };
 
 TEST_F(StopButtonTest, TruePressesWhoeverHasTheStructureLock) {
@@ -110,7 +110,7 @@ TEST_F(StopButtonTest, GoesWithItsPortAndPressesWhenThatIsGone) {
   workshop.Build("<application name=\"demo\"><module name=\"panel\" type=\"test/source\"/></application>");
   Scheduler idle(workshop.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
   StructureEditor changes(workshop.runtime, workshop.plugins.modules(), &idle);
-  Supervisor watching(workshop.runtime, idle, [](const ChangeSet&) { return Result<void>{}; });
+  Supervisor watching(workshop.runtime, idle, [](const ChangeSet&) { return Result<ChangeSet>(ChangeSet()); });
   MustSucceed(watching.Add(StopButtonRule{"/demo/panel/value"}));
   const auto change = [&](const ChangeSet& set) {
     const ChangeOutcome outcome = changes.Apply(set);
@@ -162,7 +162,7 @@ TEST(StopButtonTag, IsReadWithItsPortAndRefusesWhatIsNoNumber) {
                            "<stop_button port=\"a/value\" releases=\"true\"/></application>"),
               IsEmpty());
   Scheduler scheduler(other.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
-  Supervisor supervisor(other.runtime, scheduler, [](const ChangeSet&) { return Result<void>{}; });
+  Supervisor supervisor(other.runtime, scheduler, [](const ChangeSet&) { return Result<ChangeSet>(ChangeSet()); });
   ASSERT_TRUE(AddRules(**other.runtime.root().Find("/demo"), scheduler, supervisor));
   other.Get<Source>("/demo/a").value.Publish(1);
   WaitUntil("the STOP is in force", [&] { return other.runtime.robot_stop().in_force(); });

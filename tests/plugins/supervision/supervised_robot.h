@@ -59,11 +59,11 @@ struct Robot {
   std::function<void()> before_changes = [] {};
   Scheduler scheduler;
   StructureEditor editor{runtime, modules, &scheduler};
-  Supervisor supervisor{runtime, scheduler, [this](const ChangeSet& changes) -> Result<void> {
+  Supervisor supervisor{runtime, scheduler, [this](const ChangeSet& changes) -> Result<ChangeSet> {
                           before_changes();
                           const ChangeOutcome outcome = editor.Apply(changes);
                           if (!outcome) return outcome.diagnostics.errors().front();
-                          return {};
+                          return ChangeSet();
                         }};
 };
 

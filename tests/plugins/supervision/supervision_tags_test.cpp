@@ -41,9 +41,9 @@ TEST_F(SupervisionTags, MakeRulesThatSwitchSetAndReplace) {
   ASSERT_THAT(errors, IsEmpty());
   Scheduler scheduler(workshop.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
   std::vector<ChangeSet> done;
-  Supervisor supervisor(workshop.runtime, scheduler, [&](const ChangeSet& changes) -> Result<void> {
+  Supervisor supervisor(workshop.runtime, scheduler, [&](const ChangeSet& changes) -> Result<ChangeSet> {
     done.push_back(changes);
-    return {};
+    return ChangeSet();
   });
   const auto application = workshop.runtime.root().Find("/demo");
   ASSERT_TRUE(AddRules(**application, scheduler, supervisor));
@@ -63,7 +63,7 @@ TEST_F(SupervisionTags, PublishValuesUntilAllIsWellAgain) {
               IsEmpty());
   Scheduler scheduler(workshop.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
   Supervisor supervisor(workshop.runtime, scheduler,
-                        [](const ChangeSet&) { return Result<void>{}; });
+                        [](const ChangeSet&) { return Result<ChangeSet>(ChangeSet()); });
   const auto application = workshop.runtime.root().Find("/demo");
   ASSERT_TRUE(AddRules(**application, scheduler, supervisor));
   const auto found = workshop.runtime.root().Find("/demo/sink/input/value");
@@ -102,9 +102,9 @@ TEST_F(SupervisionTags, MakeRulesOfModulesThatDoNotReturn) {
               IsEmpty());
   Scheduler scheduler(workshop.runtime);
   std::vector<ChangeSet> done;
-  Supervisor supervisor(workshop.runtime, scheduler, [&](const ChangeSet& changes) -> Result<void> {
+  Supervisor supervisor(workshop.runtime, scheduler, [&](const ChangeSet& changes) -> Result<ChangeSet> {
     done.push_back(changes);
-    return {};
+    return ChangeSet();
   });
   ASSERT_TRUE(AddRules(**workshop.runtime.root().Find("/demo"), scheduler, supervisor));
   const auto rules = scheduler.StuckRules();

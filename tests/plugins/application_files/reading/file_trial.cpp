@@ -136,7 +136,7 @@ struct FileTrial::World : Workshop {
   // What a program makes of an application before it is ready.
   Result<void> Schedule(FrameworkElement& application) {
     scheduler.emplace(runtime, SchedulerOptionsOf(application));
-    supervisor.emplace(runtime, *scheduler, [](const ChangeSet&) -> Result<void> { return {}; });
+    supervisor.emplace(runtime, *scheduler, [](const ChangeSet&) { return Result<ChangeSet>(ChangeSet()); });
     return AddRules(application, *scheduler, *supervisor);
   }
   // Schedules what was constructed and makes it ready, or deletes it.

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/element/annotation.h"
+#include "core/element/configurable.h"
+#include "core/element/framework_element.h"
+#include "core/module/group_parameter.h"
+
+namespace runnel {
+
+/// Kept with a parameter that a rule has set for the time being, and a module that it has put in the place of another: the
+/// value, or the type, that a person has made it.
+struct MadeByRule final : Annotation {
+  MadeByRule(std::string of_person, std::string of_rule) : before(std::move(of_person)), now(std::move(of_rule)) {}
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<MadeByRule>(before, now); }
+  [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
+  const std::string before;
+  const std::string now;
+
+  /// What a person has made of the element, which has `now`: just that, unless a rule has made it so.
+  [[nodiscard]] static std::string Before(const FrameworkElement& element, const std::string& now) {
+    const auto* const known = element.FindAnnotation<MadeByRule>();
+    return known != nullptr && known->now == now ? known->before : now;
+  }
+};
+
+/// The value that files get. Under the structure lock.
+[[nodiscard]] inline std::string TextToSave(const FrameworkElement& element, const Configurable& parameter) {
+  const auto* const group = dynamic_cast<const GroupParameter*>(&element);
+  const auto targets = group != nullptr ? group->Find() : std::vector<ConfigurableElement>();
+  if (!targets.empty()) return TextToSave(*targets.front().element, *targets.front().configurable);
+  return MadeByRule::Before(element, parameter.ToText());
+}
+
+}  // namespace runnel
