@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fstream>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,20 @@ inline int Fail(const Error& error, int code = exit_code::kBadInput) {
   diagnostics.Add(error);
   std::cerr << diagnostics.ToString();
   return code;
+}
+
+/// Writes it into a file, or to standard output if that is "". Returns the exit code.
+inline int WriteText(const std::string& text, const std::string& file) {
+  if (file.empty()) {
+    std::cout << text << std::flush;
+    if (std::cout) return exit_code::kDone;
+    return Fail({.message = "standard output could not be written"}, exit_code::kRunFailed);
+  }
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << text << std::flush;
+  if (stream) return exit_code::kDone;
+  return Fail({.message = "cannot be written", .position = {file},
+               .hint = "is its folder there, and may you write in it?"}, exit_code::kRunFailed);
 }
 
 /// Reads the command line into what the options of `program` refer to, and does `work`, which returns the exit code.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "apps/arena/application_text.h"
 #include "core/base/characters.h"
 #include "modules/simulation/algorithm/outline.h"
+#include "modules/simulation/algorithm/trajectory_svg.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 #include "modules/types/algorithm/svg_writer.h"
 
@@ -235,6 +237,27 @@ std::string HtmlReport(const Matrix& matrix, const std::vector<RunRecord>& recor
   }
   text += "<h2>All runs</h2>\n" + RunTable(rows);
   return text + "<script>" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";
+}
+
+Result<void> WritePicture(const std::filesystem::path& folder, const Course& course,
+                          const RunRecord& record) {
+  const RunResult& result = record.result;
+  Trajectory trajectory{
+      .path = result.path,
+      .hits = result.hits,
+      .leaves = result.leaves,
+      .verdict = result.outcome,
+      .tone = course.IsRight(result.outcome) ? VerdictTone::kGood : VerdictTone::kBad,
+      .duration = result.simulated_time,
+      .length = result.path_length};
+  if (result.robot_radius > 0.0) trajectory.robot_radius = result.robot_radius;
+  if (!result.path.empty()) {
+    const PathSample& last = result.path.back();
+    trajectory.end = Pose2{last.position.x, last.position.y, last.heading};
+  }
+  World world = course.world;
+  world.name = record.key.world + " · " + record.key.variant + " · " + record.key.sensor;
+  return WriteFile(folder / (FileNameOf(record.key) + ".svg"), TrajectorySvg(world, trajectory));
 }
 
 }  // namespace runnel::arena

@@ -159,16 +159,12 @@ Result<RunRecord> MakeRun(const PlannedRun& run, const std::string& files,
   if (!ending) return ending.error();
   RunRecord record{
       .key = run.key, .wall_time = ending->wall_time, .processor_time = ending->processor_time};
-  if (ending->has_hung) {
+  if (ending->has_hung || ending->signal != 0) {
     record.has_ended_by_itself = false;
-    record.result.outcome = "timeout";
-    record.result.remark = fmt::format("hung: ended after {} s of real time", wall_limit);
-    return record;
-  }
-  if (ending->signal != 0) {
-    record.has_ended_by_itself = false;
-    record.result.outcome = "error";
-    record.result.remark = std::string("crashed: ") + strsignal(ending->signal);
+    record.result.outcome = ending->has_hung ? "timeout" : "error";
+    record.result.remark = ending->has_hung
+                               ? fmt::format("hung: ended after {} s of real time", wall_limit)
+                               : std::string("crashed: ") + strsignal(ending->signal);
     return record;
   }
   const auto text = ReadFile(result);

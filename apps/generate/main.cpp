@@ -1,7 +1,6 @@
 // The commands `runnel generate` and, for descriptions of components, `runnel check`.
 
-#include <fstream>
-#include <iostream>
+#include <array>
 #include <map>
 #include <sstream>
 
@@ -55,27 +54,9 @@ int Check(const Arguments& arguments) {
   return exit_code::kBadInput;
 }
 
-int Write(const std::string& text, const std::string& file) {
-  if (file.empty()) {
-    std::cout << text << std::flush;
-    return std::cout ? exit_code::kDone : exit_code::kRunFailed;
-  }
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << text << std::flush;
-  if (stream) return exit_code::kDone;
-  return Fail({.message = "cannot be written", .position = {file}}, exit_code::kRunFailed);
-}
-
-std::string_view NameOf(genom::WrittenFile::What what) {
-  switch (what) {
-    case genom::WrittenFile::What::kNew: return "new";
-    case genom::WrittenFile::What::kSame: return "as it was";
-    case genom::WrittenFile::What::kReplaced: return "made anew";
-    case genom::WrittenFile::What::kMerged: return "merged with your changes";
-    case genom::WrittenFile::What::kConflict: return "in conflict with your changes";
-  }
-  return "";
-}
+// By WrittenFile::What.
+constexpr std::array kWhats{"new", "as it was", "made anew", "merged with your changes",
+                            "in conflict with your changes"};
 
 // What make and ninja want to know: of what the made files depend.
 std::string DependenciesText(const std::string& target, const std::vector<std::string>& files) {
@@ -105,7 +86,7 @@ int RunTemplate(const Arguments& arguments, const genom::Description& descriptio
   const std::string output = arguments.output.empty() ? "." : arguments.output;
   int conflicts = 0;
   for (const auto& file : genom::WriteFiles(output, made->files, arguments.overwrites, diagnostics)) {
-    std::cout << file.path << ": " << NameOf(file.what) << "\n";
+    std::cout << file.path << ": " << kWhats[static_cast<std::size_t>(file.what)] << "\n";
     conflicts += file.conflicts;
   }
   std::cout << std::flush;
@@ -116,7 +97,7 @@ int RunTemplate(const Arguments& arguments, const genom::Description& descriptio
     files.insert(files.end(), made->sources.begin(), made->sources.end());
     std::string target = output;
     if (!made->files.empty()) target += "/" + made->files.front().path;
-    const int failed = Write(DependenciesText(target, files), arguments.dependencies);
+    const int failed = WriteText(DependenciesText(target, files), arguments.dependencies);
     if (failed != exit_code::kDone) return failed;
   }
   if (conflicts == 0) return exit_code::kDone;
@@ -132,7 +113,7 @@ int Generate(const Arguments& arguments) {
   std::cerr << diagnostics.ToString();
   if (!diagnostics.ok()) return exit_code::kBadInput;
   if (arguments.what != "json") return RunTemplate(arguments, *description);
-  return Write(genom::DescriptionJson(*description) + "\n", arguments.output);
+  return WriteText(genom::DescriptionJson(*description) + "\n", arguments.output);
 }
 
 std::string KnownTemplates() {

@@ -224,8 +224,7 @@ Command ParseCommandLine(int count, const char* const* words) {
   const ExtensionCatalogue none;
   // Whatever is installed: the robot can be stopped.
   if (!read && (count < 2 || std::string_view(words[1]) != "stop")) {
-    PrintError(read.error());
-    return Ends(ExitCode::kBadInput);
+    return Ends(Fail(read.error(), ExitCode::kBadInput));
   }
   const ExtensionCatalogue* const catalogue = read ? &*read : &none;
   CLI::App program("Runs robot applications that are described in XML files.", "runnel");

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "apps/runnel/commands.h"
+#include "apps/runnel/meant_application.h"
 #include "core/base/nearest_name.h"
-#include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
 
 namespace runnel::program {
@@ -27,16 +27,9 @@ struct Element {
 };
 
 std::vector<std::string> Lines(ControlClient& client, const std::string& request) {
-  std::string text;
-  const auto code = client.Ask(
-      request,
-      [&](std::string_view part) {
-        text += part;
-        return true;
-      },
-      [](std::string_view) { return true; });
+  const auto answer = AskForAll(client, request);
   std::vector<std::string> lines;
-  std::istringstream stream(code ? text : "");
+  std::istringstream stream(answer ? answer->output : "");
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
 }

@@ -131,10 +131,7 @@ Result<std::vector<RunningApplication>> FindThem() {
 
 ExitCode ListApplications() {
   const auto applications = FindThem();
-  if (!applications) {
-    PrintError(applications.error());
-    return ExitCode::kRunFailed;
-  }
+  if (!applications) return Fail(applications.error());
   std::size_t states = 5;
   for (const RunningApplication& each : *applications) states = std::max(states, each.hello.state.size());
   std::cout << fmt::format("{:>8}  {:<20}  {:>12}  {:>12}  {:<{}}  {}\n", "process", "application", "running for",
@@ -233,21 +230,13 @@ Result<int> AskAllForNetwork(const std::vector<RunningApplication>& applications
   for (const RunningApplication& each : applications) {
     auto client = ControlClient::Connect(each.socket);
     if (!client) return client.error();
-    std::string text;
-    std::string errors;
-    const auto keep = [](std::string& in) {
-      return [&in](std::string_view more) {
-        in += more;
-        return true;
-      };
-    };
-    const auto code = client->Ask(request.ToText(), keep(text), keep(errors));
-    if (!code) return code.error();
-    if (*code != 0) {
-      why = errors;
+    const auto answer = AskForAll(*client, request.ToText());
+    if (!answer) return answer.error();
+    if (answer->code != 0) {
+      why = answer->errors;
       continue;
     }
-    std::cout << (is_any ? "\n" : "") << Coloured(text, STDOUT_FILENO) << std::flush;
+    std::cout << (is_any ? "\n" : "") << Coloured(answer->output, STDOUT_FILENO) << std::flush;
     is_any = true;
   }
   if (!is_any) std::cerr << Coloured(why, STDERR_FILENO) << std::flush;
@@ -305,16 +294,9 @@ ExitCode Control(const ControlArguments& arguments) {
   if (arguments.command == "stop") return Stop(arguments);
   if (arguments.command == "complete") return Complete(arguments);
   const auto request = RequestOf(arguments);
-  if (!request) {
-    PrintError(request.error());
-    return ExitCode::kBadInput;
-  }
+  if (!request) return Fail(request.error(), ExitCode::kBadInput);
   const auto code = Ask(arguments, *request);
-  if (!code) {
-    PrintError(code.error());
-    return ExitCode::kRunFailed;
-  }
-  return static_cast<ExitCode>(*code);
+  return code ? static_cast<ExitCode>(*code) : Fail(code.error());
 }
 
 }  // namespace runnel::program

@@ -1,10 +1,8 @@
 #include "apps/runnel/end_watch.h"
 
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
-#include <thread>
 #include <utility>
 
 #include "apps/runnel/commands.h"

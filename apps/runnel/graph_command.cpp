@@ -65,18 +65,15 @@ ExitCode DrawGraph(const GraphArguments& arguments) {
   std::string kind = fs::path(arguments.output).extension().string();
   if (!kind.empty()) kind.erase(0, 1);
   if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
-    PrintError({.message = "no picture can be written as '" + arguments.output + "'",
-                .hint = "its name ends in .svg, .png, .pdf or .dot"});
-    return ExitCode::kBadInput;
+    return Fail({.message = "no picture can be written as '" + arguments.output + "'",
+                 .hint = "its name ends in .svg, .png, .pdf or .dot"}, ExitCode::kBadInput);
   }
   ApplicationDescription description(arguments.application.Options());
   const bool is_right = description.Read(arguments.application.file);
   std::cerr << description.diagnostics().ToString();
   if (!is_right) return ExitCode::kBadInput;
   const auto drawn = Draw(DotText(*description.element()), arguments.output, kind);
-  if (drawn) return ExitCode::kDone;
-  PrintError(drawn.error());
-  return ExitCode::kRunFailed;
+  return drawn ? ExitCode::kDone : Fail(drawn.error());
 }
 
 }  // namespace runnel::program

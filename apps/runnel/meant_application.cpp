@@ -29,15 +29,8 @@ std::string NameInNetwork(std::string_view path) {
 std::string NetworkTextOf(const RunningApplication& application) {
   auto client = ControlClient::Connect(application.socket);
   if (!client) return {};
-  std::string text;
-  const auto code = client->Ask(
-      Request{.command = "network", .arguments = {}, .options = {}, .body = {}}.ToText(),
-      [&](std::string_view more) {
-        text += more;
-        return true;
-      },
-      [](std::string_view) { return true; });
-  return code && *code == 0 ? text : "";
+  const auto answer = AskForAll(*client, "network");
+  return answer && answer->code == 0 ? answer->output : "";
 }
 
 std::string ProcessOf(const RunningApplication& application) { return std::to_string(application.hello.process); }
@@ -66,6 +59,20 @@ std::string ApplicationByWords(const std::vector<RunningApplication>& running, C
     if (found.empty() && !text.empty()) found = ProcessOf(each);
   }
   return found;
+}
+
+Result<Answer> AskForAll(ControlClient& client, const std::string& request) {
+  Answer answer;
+  const auto keep_in = [](std::string& kept) {
+    return [&kept](std::string_view more) {
+      kept += more;
+      return true;
+    };
+  };
+  const auto code = client.Ask(request, keep_in(answer.output), keep_in(answer.errors));
+  if (!code) return code.error();
+  answer.code = *code;
+  return answer;
 }
 
 namespace fs = std::filesystem;

@@ -16,6 +16,13 @@ namespace runnel::program {
 /// other one, if there is only one other. Looks at what others say of the network; waits for them.
 [[nodiscard]] std::string ApplicationByWords(const std::vector<RunningApplication>& running, ControlArguments& arguments);
 
+/// All of an answer at once.
+struct Answer {
+  int code = 0;
+  std::string output = {}, errors = {};
+};
+[[nodiscard]] Result<Answer> AskForAll(ControlClient& client, const std::string& request);
+
 /// The file that is meant by `word`: of an application that comes with Runnel, its name is enough (`bug_demo`). Files
 /// that are there come first; a word that means neither is what it was.
 [[nodiscard]] std::string ApplicationFile(const std::string& word);

@@ -78,6 +78,11 @@ std::string Coloured(std::string_view text, int descriptor) {
 
 void PrintError(const Error& error) { std::cerr << Coloured(ErrorLine(error), STDERR_FILENO); }
 
+ExitCode Fail(const Error& error, ExitCode code) {
+  PrintError(error);
+  return code;
+}
+
 void OutliveReaders() { std::signal(SIGPIPE, SIG_IGN); }
 
 bool FinishOutput() {

@@ -3,12 +3,15 @@
 #include <string>
 #include <string_view>
 
+#include "apps/runnel/command_line.h"
 #include "core/element/framework_element.h"
 
 namespace runnel::program {
 
 /// Writes it to stderr, in one line: "app.xml:3:5: error: /demo/x: …".
 void PrintError(const Error& error);
+/// The same, and returns `code`.
+ExitCode Fail(const Error& error, ExitCode code = ExitCode::kRunFailed);
 
 /// The text with what matters in colours ("error:" in red), if a terminal shows it and NO_COLOR is not set.
 [[nodiscard]] std::string Coloured(std::string_view text, int descriptor);

@@ -92,10 +92,8 @@ class Session {
   }
 
   ExitCode Run() {
-    if (const auto failure = log_file_ ? log_file_->Failure() : std::nullopt) {
-      PrintError(*failure);
-      return ExitCode::kBadInput;
-    }
+    const auto failure = log_file_ ? log_file_->Failure() : std::nullopt;
+    if (failure) return Fail(*failure, ExitCode::kBadInput);
     const StopSignal stop_signal(application_.scheduler());
     RunOptions options;
     if (arguments_.duration) options.limit = FromSeconds(*arguments_.duration);
@@ -113,8 +111,7 @@ class Session {
     if (!ran) {
       Error error = ran.error();
       if (error.position.file.empty()) error.position.file = arguments_.application.file;
-      PrintError(error);
-      return ExitCode::kBadInput;
+      return Fail(error, ExitCode::kBadInput);
     }
     const bool was_asked = StopSignal::has_come() || control_.is_asked();
     const ExitCode code = Conclude(*ran, real, was_asked);
@@ -350,10 +347,7 @@ RunOutcome RunOnce(const RunArguments& arguments) {
 }  // namespace
 
 ExitCode Run(const RunArguments& arguments) {
-  if (const auto preloaded = PreloadAll(arguments.preloads); !preloaded) {
-    PrintError(preloaded.error());
-    return ExitCode::kRunFailed;
-  }
+  if (const auto preloaded = PreloadAll(arguments.preloads); !preloaded) return Fail(preloaded.error());
   RunOutcome outcome = RunOnce(arguments);
   while (outcome.shall_restart) outcome = RunOnce(ArgumentsOfNextRun(arguments));
   return outcome.code;

@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "apps/runnel/commands.h"
+#include "apps/runnel/meant_application.h"
 #include "apps/runnel/output.h"
-#include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
 
 namespace runnel::program {
@@ -29,28 +29,17 @@ Result<Stopped> StopOne(const std::filesystem::path& socket, const std::string& 
   if (!wanted.empty() && wanted != hello.application && wanted != std::to_string(hello.process)) return Stopped();
   client->SetPatience(kPatience);
   const std::string name = hello.application + " (" + std::to_string(hello.process) + "): ";
-  std::string text;
-  std::string problems;
-  const auto keep_in = [](std::string& kept) {
-    return [&kept](std::string_view more) {
-      kept += more;
-      return true;
-    };
-  };
-  const auto code = client->Ask("stop", keep_in(text), keep_in(problems));
-  if (!code) return Error{.message = name + code.error().message};
-  if (text.empty()) return Error{.message = name + problems};
-  return Stopped{name + text + problems, *code == 0 ? ExitCode::kDone : ExitCode::kRunFailed};
+  const auto answer = AskForAll(*client, "stop");
+  if (!answer) return Error{.message = name + answer.error().message};
+  if (answer->output.empty()) return Error{.message = name + answer->errors};
+  return Stopped{name + answer->output + answer->errors, answer->code == 0 ? ExitCode::kDone : ExitCode::kRunFailed};
 }
 
 }  // namespace
 
 ExitCode Stop(const ControlArguments& arguments) {
   const auto sockets = FindControlSockets(ControlFolder());
-  if (!sockets) {
-    PrintError(sockets.error());
-    return ExitCode::kRunFailed;
-  }
+  if (!sockets) return Fail(sockets.error());
   std::mutex mutex;
   std::size_t stopped = 0;                // guarded by mutex
   ExitCode code = ExitCode::kDone;  // guarded by mutex
@@ -63,8 +52,7 @@ ExitCode Stop(const ControlArguments& arguments) {
       if (told->code != ExitCode::kDone) code = told->code;
       return;
     }
-    PrintError({.message = "the STOP is not confirmed: " + told.error().message, .position = {socket.string()}});
-    code = ExitCode::kRunFailed;
+    code = Fail({.message = "the STOP is not confirmed: " + told.error().message, .position = {socket.string()}});
   };
   // All at once: one that hangs delays no other.
   std::vector<std::thread> asking;
@@ -72,8 +60,7 @@ ExitCode Stop(const ControlArguments& arguments) {
   for (std::thread& each : asking) each.join();
   if (stopped > 0 || code != ExitCode::kDone) return code;
   const std::string name = arguments.application.empty() ? "" : " called '" + arguments.application + "'";
-  PrintError({.message = "no application" + name + " is running that could be reached, so nothing has been stopped"});
-  return ExitCode::kRunFailed;
+  return Fail({.message = "no application" + name + " is running that could be reached, so nothing has been stopped"});
 }
 
 }  // namespace runnel::program

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iostream>
 #include <string>
 #include <string_view>
 
@@ -50,31 +48,13 @@ std::string CommandOf(const GeneratorOptions& options) {
   return command + (options.is_enclosed ? " --enclosed" : "");
 }
 
-/// Errors: the file cannot be written.
-Result<void> Write(const std::string& text, const std::string& file) {
-  if (file.empty()) {
-    std::cout << text << std::flush;
-    if (std::cout) return {};
-    return Error{.message = "standard output could not be written"};
-  }
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (stream) return {};
-  return Error{.message = "the world cannot be written",
-               .position = {file},
-               .hint = "is its folder there, and may you write in it?"};
-}
-
 /// Makes it, headed by a comment that says how it was made; file "": to standard output.
 int Make(GeneratorOptions& options, const std::string& kind, const std::string& file) {
   const auto found = KindCalled(kind);
   if (!found) return Fail(found.error());
   options.kind = *found;
   if (const std::string fault = FaultOf(options); !fault.empty()) return Fail({.message = fault});
-  const std::string text = "<!-- Made by: " + CommandOf(options) + " -->\n" + WriteWorld(GenerateWorld(options));
-  const auto written = Write(text, file);
-  return written ? exit_code::kDone : Fail(written.error(), exit_code::kRunFailed);
+  return WriteText("<!-- Made by: " + CommandOf(options) + " -->\n" + WriteWorld(GenerateWorld(options)), file);
 }
 
 }  // namespace

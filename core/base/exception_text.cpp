@@ -13,8 +13,7 @@ namespace {
 // Of the exception that is being handled.
 std::string TypeOfCurrentException() {
   const std::type_info* const type = abi::__cxa_current_exception_type();
-  if (type == nullptr) return "unknown exception";
-  return "exception of type " + Demangled(type->name());
+  return type == nullptr ? "unknown exception" : "exception of type " + Demangled(type->name());
 }
 
 std::string Describe(const std::exception_ptr& exception) {

@@ -1,7 +1,5 @@
 #include "core/channel/probe_queue.h"
 
-#include <utility>
-
 namespace runnel {
 
 void ProbeQueue::PushCopy(const void* value, std::size_t size, const Publication& publication,

@@ -60,10 +60,8 @@ Result<void> ValuePart::TakeField(std::string_view& name) {
   if (type_->kind() != TypeKind::kStructure) return NoPart(*type_, "fields");
   const FieldInfo* const field = type_->FindField(field_name);
   if (field == nullptr) {
-    std::vector<std::string> names;
-    for (const FieldInfo& each : type_->fields()) names.push_back(each.name);
     return Error{.message = type_->name() + " has no field '" + field_name + "'",
-                 .hint = NearestNameHint(field_name, names)};
+                 .hint = NearestNameHint(field_name, NamesOf(type_->fields(), &FieldInfo::name))};
   }
   name.remove_prefix(end);
   steps_.push_back({.field = field});

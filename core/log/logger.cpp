@@ -42,9 +42,8 @@ void Logger::Send(LogLevel level, internal::EncodedMessage& message) noexcept {
 }
 
 bool Logger::TokenBucket::Take(Time now) noexcept {
-  using Seconds = std::chrono::duration<double>;
   // A clock that has been set back fills nothing.
-  const double seconds = std::max(0.0, Seconds(now - filled).count());
+  const double seconds = std::max(0.0, ToSeconds(now - filled));
   tokens = std::min(kCapacity, tokens + seconds * kPerSecond);
   filled = now;
   if (tokens < 1) return false;

@@ -1,7 +1,6 @@
 #include "core/module/kept_state.h"
 
 #include <cstring>
-#include <memory>
 #include <string>
 
 #include "core/base/call_stack.h"

@@ -1,5 +1,7 @@
 #include "core/xml/xml_writing.h"
 
+#include <array>
+
 namespace runnel {
 
 namespace {
@@ -29,30 +31,17 @@ void Write(const NewElement& element, const std::string& margin, const XmlLayout
 }  // namespace
 
 std::string EscapedAttribute(std::string_view value, char quote) {
+  constexpr std::string_view kMeant = "&<\n\r\t";  // of the last three readers make spaces unless they are written so
+  constexpr std::array kNames{"&amp;", "&lt;", "&#10;", "&#13;", "&#9;"};
   std::string text;
   for (const char character : value) {
-    switch (character) {
-      case '&':
-        text += "&amp;";
-        break;
-      case '<':
-        text += "&lt;";
-        break;
-      case '\n':  // readers make spaces of these unless they are written so
-        text += "&#10;";
-        break;
-      case '\r':
-        text += "&#13;";
-        break;
-      case '\t':
-        text += "&#9;";
-        break;
-      default:
-        if (character != quote) {
-          text += character;
-        } else {
-          text += quote == '"' ? "&quot;" : "&apos;";
-        }
+    const std::size_t meant = kMeant.find(character);
+    if (meant != std::string_view::npos) {
+      text += kNames[meant];
+    } else if (character != quote) {
+      text += character;
+    } else {
+      text += quote == '"' ? "&quot;" : "&apos;";
     }
   }
   return text;

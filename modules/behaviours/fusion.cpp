@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "core/conversion/number_conversion.h"
 #include "core/element/framework_element.h"
 #include "core/port/port_stop.h"
 #include "core/types/type_of.h"
 #include "core/types/value_copy.h"
-#include "modules/behaviours/algorithm/fusion.h"
 #include "modules/flow/ports_by_name.h"
 
 namespace runnel {

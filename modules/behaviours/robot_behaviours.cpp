@@ -15,9 +15,7 @@ std::optional<Behaviour::Outcome> DriveToGoalBehaviour::Behave(double activation
   if (!here) return Miss(pose_timeout.words());
   if (!there) return Miss(kNoGoal);
   if (!IsFinite(*there)) return Miss(kUnclearGoal);
-  DriveToGoalConfiguration configuration;
-  configuration.tolerance = goal_tolerance.Get();
-  const Wish wish = DriveToGoal(steering.Get(), configuration, *here, *there);
+  const Wish wish = DriveToGoal(steering.Get(), {.tolerance = goal_tolerance.Get()}, *here, *there);
   twist.Set(wish.twist);
   return Outcome{wish.rating > 0.0 ? activation : 0.0, wish.rating};
 }
@@ -25,9 +23,7 @@ std::optional<Behaviour::Outcome> DriveToGoalBehaviour::Behave(double activation
 std::optional<Behaviour::Outcome> AvoidObstaclesBehaviour::Behave(double activation) {
   const auto view = surroundings_timeout.Read(surroundings, now());
   if (!view) return Miss(surroundings_timeout.words());
-  AvoidObstaclesConfiguration configuration;
-  configuration.near_distance = near_distance.Get();
-  const Wish wish = AvoidObstacles(steering.Get(), configuration, *view);
+  const Wish wish = AvoidObstacles(steering.Get(), {.near_distance = near_distance.Get()}, *view);
   twist.Set(wish.twist);
   return Outcome{activation * wish.rating, wish.rating};
 }
@@ -35,9 +31,7 @@ std::optional<Behaviour::Outcome> AvoidObstaclesBehaviour::Behave(double activat
 std::optional<Behaviour::Outcome> FollowWallBehaviour::Behave(double activation) {
   const auto view = surroundings_timeout.Read(surroundings, now());
   if (!view) return Miss(surroundings_timeout.words());
-  FollowWallConfiguration configuration;
-  configuration.first_turn = first_direction.Get();
-  const Wish wish = FollowWall(steering.Get(), configuration, *view);
+  const Wish wish = FollowWall(steering.Get(), {.first_turn = first_direction.Get()}, *view);
   twist.Set(wish.twist);
   return Outcome{activation, wish.rating};
 }
@@ -50,10 +44,8 @@ std::optional<Behaviour::Outcome> EscapeBehaviour::Behave(double activation) {
   if (!view) return Miss(surroundings_timeout.words());
   if (!there) return Miss(kNoGoal);
   if (!IsFinite(*there)) return Miss(kUnclearGoal);
-  EscapeConfiguration configuration;
-  configuration.patience = patience.Get();
-  configuration.margin = leave_margin.Get();
-  configuration.tolerance = goal_tolerance.Get();
+  const EscapeConfiguration configuration{
+      .patience = patience.Get(), .margin = leave_margin.Get(), .tolerance = goal_tolerance.Get()};
   // While it could not tell, the robot stood.
   const double time_step = last_ ? std::min(ToSeconds(now() - *last_), surroundings_timeout.limit.Get()) : 0.0;
   last_ = now();

@@ -42,10 +42,7 @@ struct SteeringParameters {
   Parameter<double> turn_limit;
 
   [[nodiscard]] SteeringConfiguration Get() const {
-    SteeringConfiguration configuration;
-    configuration.speed = speed.Get();
-    configuration.turn_limit = turn_limit.Get();
-    return configuration;
+    return {.speed = speed.Get(), .turn_limit = turn_limit.Get()};
   }
 };
 

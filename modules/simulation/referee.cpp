@@ -30,18 +30,9 @@ std::string_view Words(Verdict verdict) { return kVerdicts[static_cast<std::size
 std::string_view Words(PlannerMode mode) { return kModes[static_cast<std::size_t>(mode)]; }
 
 PathMode LookOf(PlannerMode mode) {
-  switch (mode) {
-    case PlannerMode::kFollowingBoundary:
-    case PlannerMode::kUnreachable:
-      return PathMode::kFollowingWall;
-    case PlannerMode::kGoingToLeavePoint:
-    case PlannerMode::kFacingGoal:
-      return PathMode::kGoingToLeavePoint;
-    case PlannerMode::kMotionToGoal:
-    case PlannerMode::kReached:
-      break;
-  }
-  return PathMode::kDrivingToGoal;
+  using enum PlannerMode;
+  if (mode == kFollowingBoundary || mode == kUnreachable) return PathMode::kFollowingWall;
+  return mode == kGoingToLeavePoint || mode == kFacingGoal ? PathMode::kGoingToLeavePoint : PathMode::kDrivingToGoal;
 }
 
 /// How it is told to programs that compare runs.

@@ -22,7 +22,6 @@
 #include "plugins/parameters/file_path.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_text.h"
-#include "plugins/structure/element_state.h"
 #include "plugins/structure/reload.h"
 
 namespace runnel {

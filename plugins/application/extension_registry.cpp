@@ -13,8 +13,7 @@ void ExtensionRegistry::Add(ExtensionFactory factory) {
 }
 
 std::function<void()> ExtensionRegistry::SetAside(std::string_view plugin) {
-  using Factories = decltype(factories_);
-  const auto aside = std::make_shared<Factories>();
+  const auto aside = std::make_shared<decltype(factories_)>();
   std::function<void()> back = [this, aside] { factories_.merge(*aside); };
   if (const auto found = factories_.find(plugin); found != factories_.end()) {
     aside->insert(factories_.extract(found));

@@ -1,5 +1,6 @@
 #include "plugins/application/schema.h"
 
+#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -96,31 +97,9 @@ std::vector<NewElement> SimpleTypes(const Known& known) {
   };
 }
 
-std::string TypeOfAttribute(AttributeKind kind) {
-  switch (kind) {
-    case AttributeKind::kName:
-    case AttributeKind::kNewName:
-      return "name";
-    case AttributeKind::kPath:
-      return "path";
-    case AttributeKind::kPathList:
-      return "path_list";
-    case AttributeKind::kCount:
-      return "xs:nonNegativeInteger";
-    case AttributeKind::kNumber:
-      return "number";
-    case AttributeKind::kDuration:
-      return "duration";
-    case AttributeKind::kModuleType:
-      return "module_type";
-    case AttributeKind::kPortType:
-      return "port_type";
-    case AttributeKind::kText:
-    case AttributeKind::kChoice:
-      break;
-  }
-  return "xs:string";
-}
+// By AttributeKind.
+constexpr std::array kAttributeTypes{"xs:string", "name", "name", "path", "path_list", "xs:nonNegativeInteger", "number",
+                                     "duration", "xs:string", "module_type", "port_type"};
 
 /// Writes the schema of one set of words.
 class SchemaWriter {
@@ -192,7 +171,7 @@ class SchemaWriter {
   static NewElement Attribute(const XmlTag& tag, const std::string& parent,
                               const AttributeRule& rule) {
     NewElement attribute{.name = "xs:attribute", .attributes = {{"name", rule.name}}};
-    std::string type = TypeOfAttribute(rule.kind);
+    std::string type = kAttributeTypes[static_cast<std::size_t>(rule.kind)];
     if (parent == "module" && tag.name == "parameter" && rule.name == "name") {
       type = "parameter_name";
     }

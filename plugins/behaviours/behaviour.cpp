@@ -1,7 +1,6 @@
 #include "plugins/behaviours/behaviour.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,5 @@
 #include "plugins/behaviours/behaviour_group.h"
 
-#include <algorithm>
-
 #include "core/element/runtime.h"
 
 namespace runnel {

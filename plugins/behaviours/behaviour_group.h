@@ -3,7 +3,6 @@
 #include <deque>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/base/result.h"
 #include "core/module/group.h"

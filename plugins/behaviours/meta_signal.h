@@ -18,7 +18,7 @@ class MetaSignal {
   constexpr MetaSignal() = default;
   explicit constexpr MetaSignal(double value) : value_(value) {
     if (!IsMetaValue(value)) {
-      throw std::out_of_range(std::string(Kind::kName) + " is within 0 and 1, not " + TextOf(value));
+      throw std::out_of_range(std::string(Kind::kTypeName) + " is within 0 and 1, not " + TextOf(value));
     }
   }
 
@@ -38,22 +38,18 @@ namespace internal {
 struct StimulationKind {
   static constexpr const char* kTypeName = "Stimulation";
   static constexpr const char* kMeaning = "stimulation";
-  static constexpr const char* kName = "a stimulation";
 };
 struct InhibitionKind {
   static constexpr const char* kTypeName = "Inhibition";
   static constexpr const char* kMeaning = "inhibition";
-  static constexpr const char* kName = "an inhibition";
 };
 struct ActivityKind {
   static constexpr const char* kTypeName = "Activity";
   static constexpr const char* kMeaning = "activity";
-  static constexpr const char* kName = "an activity";
 };
 struct TargetRatingKind {
   static constexpr const char* kTypeName = "TargetRating";
   static constexpr const char* kMeaning = "target_rating";
-  static constexpr const char* kName = "a target rating";
 };
 }  // namespace internal
 

@@ -24,14 +24,7 @@ std::string Joined(const std::vector<std::size_t>& places, const char* format, c
 bool HasWill(const NetworkNode& node) { return node.needs_any.empty(); }
 
 std::string Stimulated(const NetworkNode& node) {
-  switch (node.mode) {
-    case StimulationMode::kEnabled:
-      return "true";
-    case StimulationMode::kDisabled:
-      return "false";
-    case StimulationMode::kAuto:
-      break;
-  }
+  if (node.mode != StimulationMode::kAuto) return node.mode == StimulationMode::kEnabled ? "true" : "false";
   if (node.has_foreign_stimulation) return "true";  // whether it is, is part of whether it wants to
   return Joined(node.stimulators, "active_{}", " || ", "false");
 }

@@ -77,22 +77,12 @@ void CrashText::WriteTo(int file) const noexcept {
   }
 }
 
-/// "SIGSEGV", of those that a program crashes by.
+// Those that a program crashes by.
+constexpr std::array kSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+constexpr std::array kNames{"SIGSEGV", "SIGBUS", "SIGFPE", "SIGILL", "SIGABRT", "a signal"};
+
 const char* SignalName(int signal) noexcept {
-  switch (signal) {
-    case SIGSEGV:
-      return "SIGSEGV";
-    case SIGBUS:
-      return "SIGBUS";
-    case SIGFPE:
-      return "SIGFPE";
-    case SIGILL:
-      return "SIGILL";
-    case SIGABRT:
-      return "SIGABRT";
-    default:
-      return "a signal";
-  }
+  return kNames[static_cast<std::size_t>(std::ranges::find(kSignals, signal) - kSignals.begin())];
 }
 
 }  // namespace runnel::internal
@@ -102,9 +92,8 @@ namespace runnel {
 namespace {
 
 using internal::CrashText;
+using internal::kSignals;
 using internal::SignalName;
-
-constexpr std::array kSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
 // What stood in the way of going on.
 const void* PlaceIn(const void* context) noexcept {

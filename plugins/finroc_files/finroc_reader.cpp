@@ -104,8 +104,7 @@ bool FinrocReader::LoadLibrary(const std::string& plugin) {
   };
   if (std::ranges::any_of(context_.plugins().modules().All(), is_of_plugin)) return true;
   const std::vector<std::string> known = context_.plugins().Available();
-  if (std::ranges::find(known, plugin) == known.end()) return false;
-  return context_.plugins().Load(plugin).has_value();
+  return std::ranges::count(known, plugin) > 0 && context_.plugins().Load(plugin);
 }
 
 void FinrocReader::ReadElement(XmlElement element, FrameworkElement& parent, const fs::path& file) {

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <list>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/xml/xml_document.h"

@@ -20,8 +20,7 @@ const std::string& ParameterName(const ConfigurableElement& each) { return each.
 // As everywhere, names of files start in the folder of the file that they stand in.
 std::string TextFor(const Configurable& configurable, const std::string& text,
                     const fs::path& folder) {
-  if (&configurable.type() != &TypeOf<FilePath>()) return text;
-  return ResolvedAgainst(folder, {text}).text;
+  return &configurable.type() == &TypeOf<FilePath>() ? ResolvedAgainst(folder, {text}).text : text;
 }
 
 }  // namespace

@@ -179,9 +179,7 @@ void Parser::NamesProperty(Property& property, PropertyKind kind) {
 
 bool Parser::CodelProperty(Property& property, bool is_async, bool is_validate, Service* draft) {
   property.kind = PropertyKind::kCodel;
-  Codel codel;
-  codel.kind = is_validate ? CodelKind::kValidate : CodelKind::kSimple;
-  codel.is_async = is_async;
+  Codel codel{.kind = is_validate ? CodelKind::kValidate : CodelKind::kSimple, .is_async = is_async};
   const bool is_right = ReadCodel(codel, draft);
   reader_.Semicolon();
   property.codel = is_right ? rules_.MakeCodel(std::move(codel)) : nullptr;

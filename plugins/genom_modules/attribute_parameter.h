@@ -132,10 +132,7 @@ class AttributeParameter final : public ModulePart {
 
  private:
   static ParameterOptions<Value> Options(std::string_view default_text, std::string description) {
-    ParameterOptions<Value> options;
-    options.default_value = ValueOf<Value>(default_text);
-    options.description = std::move(description);
-    return options;
+    return {.default_value = ValueOf<Value>(default_text), .description = std::move(description)};
   }
 
   ComponentModule& module_;

@@ -15,7 +15,6 @@
 namespace runnel::genom_modules {
 
 using genom_execution::Engine;
-using genom_execution::ExecutionTask;
 using genom_execution::Pass;
 using genom_execution::Request;
 
@@ -66,9 +65,8 @@ ComponentModule::ComponentModule(const Placement& placement, const genom_executi
                       }}) {
   Annotate(std::make_unique<BeforeHandOver>([this] { Settle(); }));
   for (const auto& task : component.tasks) {
-    ParameterOptions<std::string> options;
-    options.description = std::string("name of the thread that runs task '") + task.name + "'; empty: the module's own";
-    thread_names_.emplace_back(this, std::string("thread_of_") + task.name, options);
+    thread_names_.emplace_back(this, std::string("thread_of_") + task.name, ParameterOptions<std::string>{
+        .description = std::string("name of the thread that runs task '") + task.name + "'; empty: the module's own"});
   }
 }
 
@@ -265,7 +263,7 @@ void ComponentModule::PublishState() {
   loan->tasks.resize(engine_->tasks().size());
   loan->activities.clear();
   for (std::size_t i = 0; i < engine_->tasks().size(); ++i) {
-    ExecutionTask& task = engine_->tasks()[i];
+    genom_execution::ExecutionTask& task = engine_->tasks()[i];
     const auto figures = task.figures();
     TaskState& state = loan->tasks[i];
     state.name.Set(task.table().name);

@@ -1,7 +1,6 @@
 // The main function of components as processes.
 
 #include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <deque>

@@ -68,10 +68,9 @@ void CheckSetting(JsonMembers& members, const std::string& name, Kind kind) {
     members.Complain("\"" + name + "\" must be a number");
 }
 
-Error Of(std::size_t index, const Error& error) {
-  Error of = error;
-  of.message = "widget " + std::to_string(index + 1) + " of the panel: " + error.message;
-  return of;
+Error Within(const std::string& where, Error error) {
+  error.message = where + error.message;
+  return error;
 }
 
 Result<void> CheckWidget(const JsonPart& json, std::set<std::string>& ids) {
@@ -101,28 +100,21 @@ Result<void> CheckWidget(const JsonPart& json, std::set<std::string>& ids) {
 Result<void> CheckPanel(std::string_view text) {
   if (text.size() > kLongestText) return Error{.message = "the panel is longer than 256 kB"};
   const auto json = JsonPart::Parse(text, kDeepest);
-  if (!json) {
-    Error error = json.error();
-    error.message = "the panel cannot be read: " + error.message;
-    return error;
-  }
+  if (!json) return Within("the panel cannot be read: ", json.error());
   if (!json->is_object()) return Error{.message = "the panel is no JSON object"};
   JsonMembers members(*json);
   const std::uint64_t version = members.NeedCount("panel", 1'000'000);
   const std::vector<JsonPart> widgets = members.NeedList("widgets");
   members.RefuseOthers();
-  if (members.error()) {
-    Error error = *members.error();
-    error.message = "of the panel, " + error.message;
-    return error;
-  }
+  if (members.error()) return Within("of the panel, ", *members.error());
   if (version != kVersion) {
     return Error{.message = "the panel is one of version " + std::to_string(version) + ", not 1"};
   }
   if (widgets.size() > kMostWidgets) return Error{.message = "the panel has more than 200 widgets"};
   std::set<std::string> ids;
   for (std::size_t i = 0; i < widgets.size(); ++i) {
-    if (const auto good = CheckWidget(widgets[i], ids); !good) return Of(i, good.error());
+    const auto good = CheckWidget(widgets[i], ids);
+    if (!good) return Within("widget " + std::to_string(i + 1) + " of the panel: ", good.error());
   }
   return {};
 }

@@ -285,8 +285,7 @@ std::string StructureMirror::Whole() const {
 
 const std::string* StructureMirror::ChangeTo(std::uint64_t revision) const {
   const std::uint64_t oldest = revision_ + 1 - changes_.size();
-  if (revision < oldest || revision > revision_) return nullptr;
-  return &changes_[revision - oldest];
+  return revision >= oldest && revision <= revision_ ? &changes_[revision - oldest] : nullptr;
 }
 
 std::optional<CountSample> StructureMirror::Count() const {

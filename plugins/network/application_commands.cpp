@@ -133,8 +133,7 @@ Result<std::unique_ptr<ApplicationCommands::Question>> ApplicationCommands::Begi
   const auto members = link_.table().members();
   const auto found = std::ranges::find(members, name, &WireMember::name);
   if (found == members.end()) {
-    std::vector<std::string> names;
-    for (const WireMember& each : members) names.push_back("//" + each.name);
+    const auto names = NamesOf(members, [](const WireMember& each) { return "//" + each.name; });
     return Error{.message = "no //" + name + " is in the network", .path = path, .hint = NearestNameHint("//" + name, names)};
   }
   const std::string command = CommandOf(change);

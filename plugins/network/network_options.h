@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,18 +23,18 @@ enum class ValueQuality {
   kLatched,  ///< reliable, and who comes late gets the newest
 };
 
-/// newest, each, sensor, latched. In its order.
-[[nodiscard]] const std::vector<std::string>& ValueQualityNames();
-[[nodiscard]] WireQos QosOf(ValueQuality quality);
+[[nodiscard]] inline WireQos QosOf(ValueQuality quality) {
+  // By ValueQuality.
+  constexpr std::array<WireQos, 4> kQos{
+      {{}, {.depth = 128}, {.is_reliable = false, .depth = 5}, {.is_latched = true}}};
+  return kQos[static_cast<std::size_t>(quality)];
+}
 
 /// Which thread makes octets of values and hands them to the engine.
 enum class ValueSending {
   kNetwork,     ///< the network's, which is woken
   kAfterCycle,  ///< of small ones that whose cycle they have been published in, when it has ended; not with a rate
 };
-
-/// network, after_cycle. In its order.
-[[nodiscard]] const std::vector<std::string>& ValueSendingNames();
 
 /// A port, or ports, that others may read.
 struct OfferOptions {
@@ -69,9 +70,6 @@ struct TakeOptions {
   bool operator==(const TakeOptions&) const = default;
 };
 
-/// set, swap.
-[[nodiscard]] const std::vector<std::string>& FarCommandNames();
-
 /// What <network> says.
 struct NetworkOptions {
   WireMemberOptions member = {};
@@ -79,7 +77,7 @@ struct NetworkOptions {
   bool is_live = false;  ///< TakeOptions::is_live of all
   std::vector<OfferOptions> offers = {};
   std::vector<ServiceOfferOptions> services = {};
-  std::vector<std::string> commands = {};  ///< of FarCommandNames(), that others may ask for
+  std::vector<std::string> commands = {};  ///< set, swap: that others may ask for
   std::shared_ptr<const MessageLibrary> messages = {};  ///< nullptr: those of ROS 2
   std::optional<RosOptions> ros = {};
   SourcePosition position = {};

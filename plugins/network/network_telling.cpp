@@ -129,8 +129,7 @@ Result<std::optional<std::string>> NetworkLink::StructureOf(const std::string& p
   const auto words = SplitPath(path);
   if (words.empty()) return Error{.message = "'" + path + "' names no application", .hint = "//NAME, as runnel network lists them"};
   const std::string name(words.front());
-  std::vector<std::string> names;
-  for (const WireMember& each : table_.members()) names.push_back(each.name);
+  const auto names = NamesOf(table_.members(), &WireMember::name);
   const bool is_there = std::ranges::find(names, name) != names.end();
   if (!is_there && SteadyClock().Now() - began_ > std::chrono::seconds(1)) {  // until then others may not have been found yet
     return Error{.message = "there is no '" + name + "' in the network", .path = path, .hint = NearestNameHint(name, names)};

@@ -1,11 +1,9 @@
 #include "plugins/network/offered_port.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/lockfree/wake_event.h"
 #include "core/port/driving_ports.h"
 #include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/names.h"

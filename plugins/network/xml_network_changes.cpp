@@ -48,9 +48,8 @@ Result<void> CheckWords(const ExtensionChange& change, std::vector<AttributeRule
     }
     const auto rule = std::ranges::find(rules, each.parameter, &AttributeRule::name);
     if (rule == rules.end()) {
-      std::vector<std::string> names;
-      for (const AttributeRule& one : rules) names.push_back(one.name);
-      return Error{.message = "'" + change.verb + "' has no option '" + each.parameter + "'", .hint = NearestNameHint(each.parameter, names)};
+      return Error{.message = "'" + change.verb + "' has no option '" + each.parameter + "'",
+                   .hint = NearestNameHint(each.parameter, NamesOf(rules, &AttributeRule::name))};
     }
     auto checked = CheckAttributeValue(*rule, each.value);
     if (checked && rule->name == "topic") checked = CheckRosName(each.value);

@@ -9,6 +9,7 @@
 #include "core/element/runtime.h"
 #include "core/paths/path_search.h"
 #include "plugins/application_files/build_context.h"
+#include "plugins/ros_messages/names.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {
@@ -46,6 +47,14 @@ std::string BeginOf(const std::string& path, std::size_t words) {
 }
 
 }  // namespace
+
+bool CheckNameIn(const TagUse& use, const char* attribute) {
+  const XmlAttribute* const name = use.Find(attribute);
+  if (name == nullptr) return true;
+  const auto checked = CheckRosName(name->value);
+  if (!checked) use.Report(checked.error(), name->value_position);
+  return checked.has_value();
+}
 
 void CheckPeers(const TagUse& use, const WireMemberOptions& member) {
   const XmlAttribute* const said = use.Find("peers");

@@ -27,6 +27,7 @@ constexpr std::size_t kLargestDatagram = 65'500;
 constexpr Duration kShortestLease = std::chrono::seconds(1);
 constexpr Duration kLongestLease = std::chrono::hours(1);
 const std::vector<std::string> kReaches = {"loopback", "machine", "network"};
+const std::vector<std::string> kFarCommands = {"set", "swap"};
 
 bool IsTrue(const TagUse& use, std::string_view name) { return use.xml.TextOr(name) == "true"; }
 
@@ -49,8 +50,8 @@ void ReadCommands(const TagUse& use, NetworkOptions& options) {
   const XmlAttribute* const said = use.Find("commands");
   if (said == nullptr) return;
   for (const std::string& each : SplitPaths(said->value)) {
-    if (std::ranges::count(FarCommandNames(), each) == 0) {
-      use.Report({.message = "others cannot be allowed to '" + each + "'", .hint = NearestNameHint(each, FarCommandNames())}, said->value_position);
+    if (std::ranges::count(kFarCommands, each) == 0) {
+      use.Report({.message = "others cannot be allowed to '" + each + "'", .hint = NearestNameHint(each, kFarCommands)}, said->value_position);
     }
     options.commands.push_back(each);
   }
@@ -120,15 +121,6 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
   return &use.parent;
 }
 
-// Whether it is a name; else that is reported.
-bool CheckTopicOf(const TagUse& use) {
-  const XmlAttribute* const topic = use.Find("topic");
-  if (topic == nullptr) return true;
-  const auto checked = CheckRosName(topic->value);
-  if (!checked) use.Report(checked.error(), topic->value_position);
-  return checked.has_value();
-}
-
 void AddOffer(const TagUse& use, OfferOptions offer) {
   if (const XmlAttribute* const path = use.Find("port")) {
     const Port* const port = SearchPort(PathIn(*path, use.parent), PathKind::kOutput, use.context);
@@ -171,7 +163,7 @@ FrameworkElement* HandleOffer(const TagUse& use) {
     const auto patterns = PortPatterns::Make(offer.patterns);
     if (!patterns) use.Report(patterns.error(), ports->value_position);
   }
-  if (!CheckTopicOf(use)) return &use.parent;
+  if (!CheckNameIn(use, "topic")) return &use.parent;
   use.context.Defer(BuildStage::kConnections, [use, offer = std::move(offer)] { AddOffer(use, offer); });
   return &use.parent;
 }
@@ -199,7 +191,7 @@ FrameworkElement* HandleTake(const TagUse& use) {
   TakeOptions take = TakeSaid([&](const char* name) { return use.xml.TextOr(name); });
   take.is_live = take.is_live || NetworkElement::FindIn(use.parent)->options().is_live;
   take.position = use.xml.position();
-  const bool is_right = use.Find("topic") != nullptr && CheckTopicOf(use);
+  const bool is_right = use.Find("topic") != nullptr && CheckNameIn(use, "topic");
   use.context.Defer(BuildStage::kConnections, [use, is_right, take = std::move(take)] {
     if (is_right) return AddTake(use, take);
     for (const PathUse& to : PathsIn(use.Get("to"), use.parent)) {

@@ -9,11 +9,15 @@ namespace runnel {
 
 namespace {
 
+// By ValueQuality, and by ValueSending.
+const std::vector<std::string> kQualities = {"newest", "each", "sensor", "latched"};
+const std::vector<std::string> kSendings = {"network", "after_cycle"};
+
 AttributeRule Choice(const char* name, const char* summary, std::vector<std::string> choices = {"true", "false"}) {
   return {.name = name, .kind = AttributeKind::kChoice, .summary = summary, .choices = std::move(choices)};
 }
 
-AttributeRule Quality(const char* summary) { return Choice("qos", summary, ValueQualityNames()); }
+AttributeRule Quality(const char* summary) { return Choice("qos", summary, kQualities); }
 
 AttributeRule MessageTypeRule() {
   return {.name = "as", .summary = "type of the messages: sensor_msgs/msg/LaserScan; without, the values by their description; of services: "
@@ -26,14 +30,14 @@ std::optional<double> NumberIn(const std::string& text) {
 
 std::optional<ValueQuality> QualityIn(const std::string& text) {
   if (text.empty()) return {};
-  return static_cast<ValueQuality>(std::ranges::find(ValueQualityNames(), text) - ValueQualityNames().begin());
+  return static_cast<ValueQuality>(std::ranges::find(kQualities, text) - kQualities.begin());
 }
 
 ValueSending SendingIn(const std::string& text) {
-  return text == ValueSendingNames()[1] ? ValueSending::kAfterCycle : ValueSending::kNetwork;
+  return text == kSendings[1] ? ValueSending::kAfterCycle : ValueSending::kNetwork;
 }
 
-const std::string& NameOf(ValueQuality quality) { return ValueQualityNames()[static_cast<std::size_t>(quality)]; }
+const std::string& NameOf(ValueQuality quality) { return kQualities[static_cast<std::size_t>(quality)]; }
 
 // Those that are usual are left out.
 class Words {
@@ -62,7 +66,7 @@ std::vector<AttributeRule> OfferRules() {
       Quality("newest (default): reliable; each: every value, in a queue; sensor: best effort; latched: "
               "who comes late gets the newest"),
       Choice("sending", "which thread sends: network (default), the network's; after_cycle: for small values, the one that has "
-             "published them, when its cycle has ended", ValueSendingNames()),
+             "published them, when its cycle has ended", kSendings),
       {.name = "rate", .kind = AttributeKind::kNumber, .summary = "most values a second; the newest wins"},
       {.name = "strength",
        .kind = AttributeKind::kCount,
@@ -127,7 +131,7 @@ std::vector<Setting> WordsOf(const OfferOptions& offer) {
       .Add("frame", offer.frame)
       .Add("child_frame", offer.child_frame)
       .Add("qos", offer.quality == ValueQuality::kNewest ? "" : NameOf(offer.quality))
-      .Add("sending", offer.sending == ValueSending::kNetwork ? "" : ValueSendingNames()[1])
+      .Add("sending", offer.sending == ValueSending::kNetwork ? "" : kSendings[1])
       .Add("rate", offer.rate > 0 ? fmt::format("{}", offer.rate) : "")
       .Add("strength", offer.strength ? std::to_string(*offer.strength) : "")
       .AddIf(offer.is_measured, "measured")

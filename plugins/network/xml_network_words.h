@@ -35,6 +35,8 @@ using SaidOf = std::function<std::string(const char* name)>;
 
 // What <network> and its tags say that would do nothing, or not what is meant, without anybody being told.
 
+/// Whether the attribute, if it is said, is a name of ROS 2; else that is reported.
+bool CheckNameIn(const TagUse& use, const char* attribute);
 /// Reports addresses that are none; warns of names that nobody knows here, and of peers out of reach.
 void CheckPeers(const TagUse& use, const WireMemberOptions& member);
 /// Warns of <ros> where no node that is set as usual can be met.

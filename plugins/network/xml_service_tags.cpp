@@ -1,10 +1,14 @@
 #include "plugins/network/xml_network_words.h"
 
+#include <array>
+#include <fstream>
 #include <string>
 #include <utility>
 
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
+#include "plugins/network/network_element.h"
+#include "plugins/network/xml_network_tags.h"
 #include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
@@ -24,14 +28,6 @@ bool SaysNothingElse(const TagUse& use, std::initializer_list<const char*> other
   return true;
 }
 
-bool CheckName(const TagUse& use) {
-  const XmlAttribute* const name = use.Find("service");
-  if (name == nullptr) return true;
-  const auto checked = CheckRosName(name->value);
-  if (!checked) use.Report(checked.error(), name->value_position);
-  return checked.has_value();
-}
-
 const SourcePosition& PlaceOfType(const TagUse& use, const char* otherwise) {
   const XmlAttribute* const as = use.Find("as");
   return (as != nullptr ? *as : use.Get(otherwise)).value_position;
@@ -48,7 +44,8 @@ bool OfferService(const TagUse& use, const Port& port) {
                name->position);
     return true;
   }
-  if (!CheckName(use) || !SaysNothingElse(use, {"topic", "frame", "child_frame", "qos", "sending", "rate", "strength"})) return true;
+  const auto others = {"topic", "frame", "child_frame", "qos", "sending", "rate", "strength"};
+  if (!CheckNameIn(use, "service") || !SaysNothingElse(use, others)) return true;
   NetworkElement& network = *NetworkElement::FindIn(use.parent);
   const NetworkOptions& options = network.options();
   const MessageLibrary& messages = options.messages != nullptr ? *options.messages : MessageLibrary::Standard();
@@ -65,7 +62,8 @@ bool OfferService(const TagUse& use, const Port& port) {
 }
 
 FrameworkElement* TakeService(const TagUse& use) {
-  const bool is_right = CheckName(use) && SaysNothingElse(use, {"topic", "field", "qos", "stamp", "exclusive"});
+  const bool is_right =
+      CheckNameIn(use, "service") && SaysNothingElse(use, {"topic", "field", "qos", "stamp", "exclusive"});
   NetworkElement& network = *NetworkElement::FindIn(use.parent);
   ServiceTakeOptions take{.service = use.Get("service").value,
                           .as = use.xml.TextOr("as"),
@@ -87,6 +85,67 @@ FrameworkElement* TakeService(const TagUse& use) {
     }
   });
   return &use.parent;
+}
+
+namespace {
+
+struct KeyFile {
+  const char* attribute;
+  const char* name;  // in a folder of SROS 2
+  std::string WireSecurity::*file;
+  const char* summary;
+};
+
+constexpr std::array<KeyFile, 6> kFiles = {
+    {{"identity_ca", "identity_ca.cert.pem", &WireSecurity::identity_ca, "certificate of who signs certificates"},
+     {"certificate", "cert.pem", &WireSecurity::certificate, "the application's certificate"},
+     {"key", "key.pem", &WireSecurity::key, "its private key, which nobody else has"},
+     {"permissions_ca", "permissions_ca.cert.pem", &WireSecurity::permissions_ca, "certificate of who signs the two files below"},
+     {"governance", "governance.p7s", &WireSecurity::governance, "what is encrypted, signed"},
+     {"permissions", "permissions.p7s", &WireSecurity::permissions, "what the application may write and read, signed"}}};
+
+FrameworkElement* HandleSecurity(const TagUse& use) {
+  NetworkElement& network = *NetworkElement::FindIn(use.parent);
+  if (network.options().member.security) {
+    use.Report({.message = "<security> stands there already"}, use.xml.position());
+    return &use.parent;
+  }
+  const std::filesystem::path beside = use.context.FolderOf(use.xml.position());
+  const XmlAttribute* const folder = use.Find("keys");
+  WireSecurity security;
+  for (const KeyFile& each : kFiles) {
+    const XmlAttribute* const said = use.Find(each.attribute);
+    if (said == nullptr && folder == nullptr) {
+      use.Report({.message = std::string("<security> does not say where the ") + each.attribute + " is",
+                  .hint = std::string("keys=\"FOLDER\", which 'runnel keys' makes, or ") + each.attribute + "=\"FILE\""},
+                 use.xml.position());
+      continue;
+    }
+    const auto file = (said != nullptr ? beside / said->value : beside / folder->value / each.name).lexically_normal();
+    if (!std::ifstream(file)) {
+      use.Report({.message = std::string("the ") + each.attribute + " cannot be read: " + file.string(),
+                  .hint = "'runnel keys FOLDER " + network.options().member.name + "' makes one of each"},
+                 (said != nullptr ? said : folder)->value_position);
+      continue;
+    }
+    security.*each.file = std::filesystem::absolute(file).string();
+  }
+  network.set_security(std::move(security));
+  return &use.parent;
+}
+
+}  // namespace
+
+void AddSecurityTag(XmlTagRegistry& tags) {
+  std::vector<AttributeRule> attributes = {
+      {.name = "keys", .summary = "folder with identity_ca.cert.pem, cert.pem, key.pem, permissions_ca.cert.pem, "
+                                  "governance.p7s and permissions.p7s, as runnel keys and SROS 2 make it"}};
+  for (const KeyFile& each : kFiles) attributes.push_back({.name = each.attribute, .summary = each.summary});
+  tags.AddTag({.name = "security",
+               .summary = "lets in those only whose keys are trusted, and encrypts what is sent",
+               .parents = {"network"},
+               .attributes = std::move(attributes),
+               .handle = HandleSecurity});
 }
 
 }  // namespace runnel

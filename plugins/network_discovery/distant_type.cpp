@@ -44,8 +44,7 @@ std::string WhyNobodyWrites(const DiscoveryTable& table, const std::string& path
   const std::string name(words.empty() ? "" : words.front());
   const auto with_hint = [](const std::string& text, const std::string& hint) { return text + (hint.empty() ? "" : "; " + hint); };
   if (!MemberOfPath(table, path)) {
-    std::vector<std::string> names;
-    for (const WireMember& each : table.members()) names.push_back("//" + each.name);
+    const auto names = NamesOf(table.members(), [](const WireMember& each) { return "//" + each.name; });
     return with_hint(name + " is not in the network yet, which says what values it has", NearestNameHint("//" + name, names));
   }
   return with_hint(name + " offers no " + path, NearestNameHint(path, OfferedBeside(table, path)));

@@ -12,19 +12,8 @@ namespace {
 
 constexpr std::size_t kMostPlaces = 8;  // of one task
 
-const char* VerbOf(RealTimeOffence offence) {
-  switch (offence) {
-    case RealTimeOffence::kAllocation:
-      return "allocates";
-    case RealTimeOffence::kRelease:
-      return "gives memory back";
-    case RealTimeOffence::kLock:
-      return "locks";
-    case RealTimeOffence::kSystemCall:
-      return "calls the system";
-  }
-  return "?";
-}
+// By RealTimeOffence.
+constexpr std::array<const char*, 4> kVerbs{"allocates", "gives memory back", "locks", "calls the system"};
 
 }  // namespace
 
@@ -151,7 +140,7 @@ std::vector<RealTimeBreaches> RealTimeWatch::Breaches() const {
 }
 
 std::string RealTimeBreach::ToString() const {
-  std::string text = std::string(VerbOf(offence)) + " in its cycle (" + what + ", " +
+  std::string text = std::string(kVerbs[static_cast<std::size_t>(offence)]) + " in its cycle (" + what + ", " +
                      (times == 1 ? "once" : std::to_string(times) + " times") + "):";
   for (const std::string& call : stack.Texts()) text += "\n    " + call;
   return text;

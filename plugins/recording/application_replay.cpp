@@ -1,7 +1,6 @@
 #include "plugins/recording/application_replay.h"
 
 #include <chrono>
-#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -10,7 +9,7 @@
 #include "core/module/executable.h"
 #include "core/module/group.h"
 #include "core/module/port_group.h"
-#include "core/port/port.h"
+#include "core/port/typed_ports.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
 #include "plugins/application/application.h"
@@ -39,34 +38,15 @@ class RecordedModule final : public FrameworkElement {
   void DoNothing() {}
 };
 
-// One port of each type that the modules of plugins have, by the name of the type.
-class KnownTypes {
- public:
-  explicit KnownTypes(const BuildTools& tools) {
-    for (const std::string& plugin : tools.plugins.Available()) {
-      // What cannot be loaded has its say where it is asked for.
-      (void)tools.plugins.Load(plugin);
-    }
-    for (const ModuleType* type : tools.plugins.modules().All()) {
-      const auto module = tools.plugins.modules().CreateSample(type->name, runtime_.root());
-      if (!module) continue;
-      (*module)->Visit([this](FrameworkElement& element) {
-        const auto* const port = dynamic_cast<const Port*>(&element);
-        if (port != nullptr && !port->is_proxy()) ports_.try_emplace(port->type().name(), port);
-      });
-    }
+// The types of all ports that the modules of plugins have.
+void MakeTypesKnown(const BuildTools& tools) {
+  // What cannot be loaded has its say where it is asked for.
+  for (const std::string& plugin : tools.plugins.Available()) (void)tools.plugins.Load(plugin);
+  Runtime scratch;
+  for (const ModuleType* type : tools.plugins.modules().All()) {
+    (void)tools.plugins.modules().CreateSample(type->name, scratch.root());
   }
-  // nullptr if nobody has such a port.
-  [[nodiscard]] std::unique_ptr<Port> MakeOutput(const std::string& type, FrameworkElement& parent,
-                                                 const std::string& name) const {
-    const auto found = ports_.find(type);
-    return found == ports_.end() ? nullptr : found->second->MakeOutput(parent, name, {});
-  }
-
- private:
-  Runtime runtime_;
-  std::map<std::string, const Port*> ports_;
-};
+}
 
 using Parts = std::vector<std::string>;
 
@@ -78,8 +58,7 @@ std::size_t ModuleDepth(const std::string& path, const Parts& parts) {
 // Puts ports where they were recorded, and around them what had them.
 class RecordedTree {
  public:
-  RecordedTree(const McapContents& contents, const KnownTypes& types, Runtime& runtime)
-      : types_(types), runtime_(runtime) {
+  RecordedTree(const McapContents& contents, Runtime& runtime) : runtime_(runtime) {
     for (const auto& [id, channel] : contents.channels) {
       const std::string path = PortOf(channel);
       Parts parts = PartsOf(path);
@@ -103,7 +82,9 @@ class RecordedTree {
               : &Make(*parent, {parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i) + 1},
                       i >= depth);
     }
-    auto port = types_.MakeOutput(type, *parent, parts.back());
+    const TypeInfo* const known_type = FindType(type);
+    const TypedPorts* const ports = known_type != nullptr ? FindTypedPorts(*known_type) : nullptr;
+    auto port = ports != nullptr ? ports->MakeOutput(*parent, parts.back()) : nullptr;
     if (port == nullptr) {
       return Error{.message = "no plugin here has ports of type '" + type + "'",
                    .path = path,
@@ -120,7 +101,6 @@ class RecordedTree {
     return runtime_.Create<Group>(parent, parts.back());
   }
 
-  const KnownTypes& types_;
   Runtime& runtime_;
   std::set<Parts> modules_;
 };
@@ -194,10 +174,10 @@ BuildOutcome BuildRecordedPorts(const std::string& file, const BuildTools& tools
     outcome.diagnostics.Add(reader.error());
     return outcome;
   }
-  const KnownTypes types(tools);
+  MakeTypesKnown(tools);
   Runtime& runtime = tools.runtime;
   const McapContents& contents = (*reader)->contents();
-  RecordedTree tree(contents, types, runtime);
+  RecordedTree tree(contents, runtime);
   std::vector<Error> failures;
   for (const auto& [id, channel] : contents.channels) {
     if (IsView(channel)) continue;

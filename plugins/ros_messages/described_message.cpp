@@ -137,8 +137,7 @@ class Describer {
 
 std::string MessageNameOf(const TypeInfo& type) {
   if (IsLeaf(type)) return StandardNameOf(type);
-  if (!IsElements(type) && IsMessageName(type.name())) return type.name();
-  return kPackage + WordsOf(type);
+  return !IsElements(type) && IsMessageName(type.name()) ? type.name() : kPackage + WordsOf(type);
 }
 
 Result<const MessageDefinition*> MessageLibrary::AddDescribed(const TypeInfo& type) {

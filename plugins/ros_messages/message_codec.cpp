@@ -2,13 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "core/base/clock.h"
 #include "core/types/type_info.h"
 #include "core/types/type_of.h"
 #include "plugins/cdr_values/cdr_values.h"

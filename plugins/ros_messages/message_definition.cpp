@@ -31,18 +31,9 @@ std::string TypeTextOf(const MessageField& field, std::string_view package) {
     text = (own == package ? "" : own + "/") + LastNameOf(field.nested);
   }
   if (field.text_capacity > 0) text += "<=" + std::to_string(field.text_capacity);
-  const std::string capacity = std::to_string(field.capacity);
-  switch (field.count) {
-    case MessageCount::kOne:
-      return text;
-    case MessageCount::kArray:
-      return text + "[" + capacity + "]";
-    case MessageCount::kBounded:
-      return text + "[<=" + capacity + "]";
-    case MessageCount::kList:
-      break;
-  }
-  return text + "[]";
+  if (field.count == MessageCount::kOne) return text;
+  if (field.count == MessageCount::kList) return text + "[]";
+  return text + (field.count == MessageCount::kBounded ? "[<=" : "[") + std::to_string(field.capacity) + "]";
 }
 
 }  // namespace

@@ -7,21 +7,9 @@
 
 namespace runnel {
 
-// Of a message of ROS 2.
+// Of a message of ROS 2: 10 for debug, 20 for info, and so on.
 static std::uint8_t RosLevel(LogLevel level) {
-  switch (level) {
-    case LogLevel::kDebug:
-      return 10;
-    case LogLevel::kInfo:
-      return 20;
-    case LogLevel::kWarning:
-      return 30;
-    case LogLevel::kError:
-      return 40;
-    case LogLevel::kOff:
-      break;
-  }
-  return 0;
+  return static_cast<std::uint8_t>(level == LogLevel::kOff ? 0 : 10 * (static_cast<int>(level) + 1));
 }
 
 RosLog ToRosLog(const LogMessage& said, Time stamp) {

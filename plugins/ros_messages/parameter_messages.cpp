@@ -103,34 +103,20 @@ Result<std::string> TextOf(const RosParameterValue& value, const TypeInfo& type)
   if (value.type >= Type::kByteArray && !is_list) {
     return Error{.message = "a " + type.name() + " is no list", .hint = "give one value"};
   }
-  switch (value.type) {
-    case Type::kBool:
-      return TextOf(value.bool_value);
-    case Type::kInteger:
-      return TextOf(value.integer_value);
-    case Type::kDouble:
-      return TextOf(value.double_value);
-    case Type::kString:
-      return value.string_value;
-    case Type::kByteArray:
-      return TextOf(value.byte_array_value);
-    case Type::kBoolArray: {
-      std::string text = "[";
-      for (const std::uint8_t each : value.bool_array_value) {
-        text += (text.size() > 1 ? ", " : "") + TextOf(each != 0);
-      }
-      return text + "]";
-    }
-    case Type::kIntegerArray:
-      return TextOf(value.integer_array_value);
-    case Type::kDoubleArray:
-      return TextOf(value.double_array_value);
-    case Type::kStringArray:
-      return TextOf(value.string_array_value);
-    case Type::kNotSet:
-      break;
+  if (value.type == Type::kNotSet) return Error{.message = "a parameter cannot be deleted", .hint = "give it a value"};
+  if (value.type == Type::kBool) return TextOf(value.bool_value);
+  if (value.type == Type::kInteger) return TextOf(value.integer_value);
+  if (value.type == Type::kDouble) return TextOf(value.double_value);
+  if (value.type == Type::kString) return value.string_value;
+  if (value.type == Type::kByteArray) return TextOf(value.byte_array_value);
+  if (value.type == Type::kIntegerArray) return TextOf(value.integer_array_value);
+  if (value.type == Type::kDoubleArray) return TextOf(value.double_array_value);
+  if (value.type == Type::kStringArray) return TextOf(value.string_array_value);
+  std::string text = "[";
+  for (const std::uint8_t each : value.bool_array_value) {
+    text += (text.size() > 1 ? ", " : "") + TextOf(each != 0);
   }
-  return Error{.message = "a parameter cannot be deleted", .hint = "give it a value"};
+  return text + "]";
 }
 
 std::string RosParameterName(std::string_view application, std::string_view path) {

@@ -75,15 +75,8 @@ void InjectionPoint() {
 }
 
 std::string NameOf(InjectedFault fault) {
-  switch (fault) {
-    case InjectedFault::kAllocation:
-      return "failing allocation";
-    case InjectedFault::kException:
-      return "throwing call";
-    case InjectedFault::kNumber:
-      return "call that throws a number";
-  }
-  return "?";
+  if (fault == InjectedFault::kAllocation) return "failing allocation";
+  return fault == InjectedFault::kException ? "throwing call" : "call that throws a number";
 }
 
 }  // namespace runnel::test

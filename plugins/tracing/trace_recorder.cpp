@@ -22,10 +22,6 @@ std::string JsonText(std::string_view text) {
 
 }  // namespace
 
-using internal::TracedThread;
-using internal::TraceSpan;
-using internal::TraceWriter;
-
 Result<std::unique_ptr<TraceRecorder>> TraceRecorder::Start(Runtime& runtime,
                                                             TraceOptions options) {
   auto file = TraceFile::Create(options.file, options.most_bytes);
@@ -37,8 +33,7 @@ Result<std::unique_ptr<TraceRecorder>> TraceRecorder::Start(Runtime& runtime,
 TraceRecorder::TraceRecorder(Runtime& runtime, TraceOptions options, TraceFile file)
     : runtime_(runtime),
       options_(std::move(options)),
-      writer_(std::make_unique<TraceWriter>(std::move(file), options_.application,
-                                            options_.is_simulated)) {
+      writer_(std::make_unique<internal::TraceWriter>(std::move(file), options_.application, options_.is_simulated)) {
   runtime_.AddListener(*this);
   thread_ = std::thread([this] { Work(); });
 }
@@ -97,7 +92,7 @@ TraceTrack& TraceRecorder::TrackOf(std::uint64_t id, const std::string& path) {
   for (const auto& each : threads_) {
     if (each->id == id) return each->track;
   }
-  threads_.push_back(std::make_unique<TracedThread>(id, JsonText(path), options_.capacity));
+  threads_.push_back(std::make_unique<internal::TracedThread>(id, JsonText(path), options_.capacity));
   new_threads_.push_back(threads_.back().get());
   return threads_.back()->track;
 }
@@ -139,7 +134,7 @@ void TraceRecorder::OnHold(const std::string& path, Time began, Time ended) noex
   }
 }
 
-void TraceRecorder::Add(TraceSpan span) {
+void TraceRecorder::Add(internal::TraceSpan span) {
   if (options_.is_simulated) {
     if (!span.arguments.empty()) span.arguments += ',';
     internal::AppendSimulatedTime(runtime_.clock().Now(), span.arguments);

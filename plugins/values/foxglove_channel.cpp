@@ -91,21 +91,7 @@ FoxgloveChannel DrawnChannel(const Drawing& drawing, const TypeInfo& type, std::
 }
 
 // By the numbers of foxglove.LogLevel, of which 5 is fatal.
-int NumberOf(LogLevel level) {
-  switch (level) {
-    case LogLevel::kDebug:
-      return 1;
-    case LogLevel::kInfo:
-      return 2;
-    case LogLevel::kWarning:
-      return 3;
-    case LogLevel::kError:
-      return 4;
-    case LogLevel::kOff:
-      break;
-  }
-  return 0;
-}
+int NumberOf(LogLevel level) { return level == LogLevel::kOff ? 0 : static_cast<int>(level) + 1; }
 
 // Where in a source it was said is not known.
 void AppendLog(const LogMessage& said, Time timestamp, std::string& json) {

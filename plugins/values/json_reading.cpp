@@ -14,8 +14,6 @@ namespace runnel {
 
 namespace {
 
-using internal::NumberOf;
-
 template <typename N>
 Result<void> ReadNumber(const TypeInfo& type, const ValueToken& token, N& value) {
   using Limits = std::numeric_limits<N>;
@@ -25,7 +23,7 @@ Result<void> ReadNumber(const TypeInfo& type, const ValueToken& token, N& value)
     return {};
   }
   if (!internal::IsNumber(token)) return Expected(kIsWhole ? "a whole number" : "a number", token);
-  const auto number = NumberOf<N>(token);
+  const auto number = internal::NumberOf<N>(token);
   if (!number) {
     return Error{.message = "'" + token.text + "' does not fit into " + type.name(),
                  .hint = kIsWhole

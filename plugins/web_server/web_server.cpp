@@ -20,7 +20,6 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using internal::ConnectionRegistry;
 using internal::TlsIdentity;
-using internal::WebConnection;
 
 // After accepting has failed, for want of descriptors.
 constexpr auto kPause = std::chrono::milliseconds(100);
@@ -108,7 +107,7 @@ class WebServer::Running {
       boost::system::error_code ignored;
       acceptor_.close(ignored);
       pause_.cancel();
-      registry_->ForEach([](WebConnection& each) { each.End("the application has ended"); });
+      registry_->ForEach([](internal::WebConnection& each) { each.End("the application has ended"); });
       auto timer = std::make_shared<asio::steady_timer>(registry_->context(), kFarewell);
       AwaitEnd(std::move(timer), std::chrono::steady_clock::now() + kFarewell);
     });

@@ -86,9 +86,12 @@ std::string UserDataOf(const dds_qos_t* qos) {
 CycloneDiscovery::CycloneDiscovery(dds_entity_t participant, const WireId& own, WireDiscovery& listener)
     : own_(own),
       listener_(listener),
-      members_(Read(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, OnMembers)),
-      writers_(Read(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, OnWriters)),
-      readers_(Read(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, OnReaders)) {
+      members_(Read(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT,
+          [](dds_entity_t at, void* self) { static_cast<CycloneDiscovery*>(self)->TakeMembers(at); })),
+      writers_(Read(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION,
+          [](dds_entity_t at, void* self) { static_cast<CycloneDiscovery*>(self)->TakeEndpoints(at, true); })),
+      readers_(Read(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION,
+          [](dds_entity_t at, void* self) { static_cast<CycloneDiscovery*>(self)->TakeEndpoints(at, false); })) {
   // What was there before the listeners.
   TakeMembers(members_);
   TakeEndpoints(writers_, true);
@@ -106,16 +109,6 @@ dds_entity_t CycloneDiscovery::Read(dds_entity_t participant, dds_entity_t topic
   const dds_entity_t reader = dds_create_reader(participant, topic, nullptr, listener);
   dds_delete_listener(listener);
   return reader;
-}
-
-void CycloneDiscovery::OnMembers(dds_entity_t reader, void* self) {
-  static_cast<CycloneDiscovery*>(self)->TakeMembers(reader);
-}
-void CycloneDiscovery::OnWriters(dds_entity_t reader, void* self) {
-  static_cast<CycloneDiscovery*>(self)->TakeEndpoints(reader, true);
-}
-void CycloneDiscovery::OnReaders(dds_entity_t reader, void* self) {
-  static_cast<CycloneDiscovery*>(self)->TakeEndpoints(reader, false);
 }
 
 void CycloneDiscovery::TakeMembers(dds_entity_t reader) {

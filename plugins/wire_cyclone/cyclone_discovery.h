@@ -19,9 +19,6 @@ class CycloneDiscovery {
   CycloneDiscovery& operator=(const CycloneDiscovery&) = delete;
 
  private:
-  static void OnMembers(dds_entity_t reader, void* self);
-  static void OnWriters(dds_entity_t reader, void* self);
-  static void OnReaders(dds_entity_t reader, void* self);
   void TakeMembers(dds_entity_t reader);
   void TakeEndpoints(dds_entity_t reader, bool is_writer);
   dds_entity_t Read(dds_entity_t participant, dds_entity_t topic, dds_on_data_available_fn on_data);

@@ -34,9 +34,7 @@ py::object Get(const Open& open, const std::string& path) {
     return {};
   };
   Checked(WithoutGil(open, get));
-  auto memory = std::make_shared<Memory>();
-  memory->kept = value;
-  return ToPython(*type, value.get(), memory);
+  return ToPython(*type, value.get(), std::make_shared<Memory>(Memory{.kept = value}));
 }
 
 py::object ReadInput(const Open& open, const std::string& path) {
@@ -56,9 +54,7 @@ py::object ReadInput(const Open& open, const std::string& path) {
   };
   if (!Checked(WithoutGil(open, look))) return py::cast(std::make_shared<Reader>(open, path, 0));
   if (!value) return py::none();
-  auto memory = std::make_shared<Memory>();
-  memory->kept = value;
-  return ToPython(*type, value.get(), memory);
+  return ToPython(*type, value.get(), std::make_shared<Memory>(Memory{.kept = value}));
 }
 
 void PublishByHand(const Open& open, const std::string& path, const py::object& value) {
@@ -140,9 +136,7 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
     Throw({.message = std::string("the call has ended: ") + CallStatusName(status) + (why.empty() ? "" : ": " + why), .path = path});
   }
   if (reply == nullptr) return py::none();
-  auto memory = std::make_shared<Memory>();
-  memory->kept = call;
-  return ToPython(*reply, ForLooking(call->reply()), memory);
+  return ToPython(*reply, ForLooking(call->reply()), std::make_shared<Memory>(Memory{.kept = call}));
 }
 
 py::list Paths(const Open& open) {

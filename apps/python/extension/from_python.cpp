@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/value.h"
@@ -218,11 +217,8 @@ void FromPython(const TypeInfo& type, py::handle object, void* at, bool is_whole
 Value NewValue(const TypeInfo& type) {
   auto made = type.Make();
   if (!made) throw py::type_error("only a module can make values of type " + type.name());
-  auto memory = std::make_shared<Memory>();
-  memory->is_writable = true;
   void* const at = made.get();
-  memory->kept = std::move(made);
-  return {type, at, std::move(memory), false};
+  return {type, at, std::make_shared<Memory>(Memory{.kept = std::move(made), .is_writable = true}), false};
 }
 
 }  // namespace runnel::python

@@ -1,6 +1,7 @@
 // What modules in Python see of themselves, and how others find their types.
 
 #include "apps/python/extension/bindings.h"
+#include "apps/python/extension/errors.h"
 #include "apps/python/extension/ports.h"
 #include "apps/python/extension/python_module.h"
 #include "apps/python/extension/value.h"
@@ -98,3 +99,13 @@ void BindModules(py::module_& module) {
 }
 
 }  // namespace runnel::python
+
+// The extension module runnel._extension. Its users import `runnel`, whose files are in Python.
+PYBIND11_MODULE(_extension, module) {
+  runnel::python::BindErrors(module);
+  runnel::python::BindValues(module);
+  runnel::python::BindPorts(module);
+  runnel::python::BindApplication(module);
+  runnel::python::BindModules(module);
+  runnel::python::BindRecordings(module);
+}

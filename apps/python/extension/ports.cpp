@@ -60,8 +60,7 @@ void OpenApplication::Close() {
 
 void OpenApplication::Leave() {
   is_closed = is_forked = true;
-  using Left = std::pair<std::shared_ptr<Application>, std::vector<std::shared_ptr<ClientRecording>>>;
-  (void)new Left(std::move(application), std::move(recordings));
+  (void)new std::pair(std::move(application), std::move(recordings));
 }
 
 void LookAround(const OpenApplication& open) {
@@ -72,9 +71,7 @@ void LookAround(const OpenApplication& open) {
 py::object HeldToPython(const TypeInfo& type, std::unique_ptr<HeldValues> held) {
   const void* const value = held->Find(0);
   if (value == nullptr) return py::none();
-  auto memory = std::make_shared<Memory>();
-  memory->kept = std::shared_ptr<const void>(std::move(held));
-  return ToPython(type, ForLooking(value), memory);
+  return ToPython(type, ForLooking(value), std::make_shared<Memory>(Memory{.kept = std::move(held)}));
 }
 
 void PublishFromPython(Port& output, const py::args& positional, const py::kwargs& named,

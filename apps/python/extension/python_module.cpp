@@ -40,10 +40,9 @@ Error ErrorOf(const py::error_already_set& thrown) {
 
 template <template <typename> typename Kind, typename T>
 std::unique_ptr<FrameworkElement> MakeParameterOf(Module& module, const std::string& name, const py::dict& said) {
-  ParameterOptions<T> options;
-  options.default_value = said["default"].cast<T>();
-  options.unit = said["unit"].cast<std::string>();
-  options.description = said["description"].cast<std::string>();
+  ParameterOptions<T> options{.default_value = said["default"].cast<T>(),
+                              .unit = said["unit"].cast<std::string>(),
+                              .description = said["description"].cast<std::string>()};
   if constexpr (Bounded<T>) {
     if (!said["lowest"].is_none()) options.bounds.lowest = said["lowest"].cast<T>();
     if (!said["highest"].is_none()) options.bounds.highest = said["highest"].cast<T>();

@@ -37,6 +37,11 @@ bool HasFreeLists(const TypeInfo& type) {
   });
 }
 
+py::object GetField(const Value& value, const std::string& name) {
+  const FieldInfo& field = FieldOf(value, name);
+  return ToPython(*field.type, field.address(value.at), value.memory, value.counts);
+}
+
 void SetField(Value& value, const std::string& name, const py::object& to) {
   if (!value.memory->is_writable) {
     PyErr_SetString(PyExc_AttributeError, "what has been published does not change; change a copy: value.copy()");
@@ -163,8 +168,7 @@ Pose2 {x: 1, y: 2, heading: 0}
       .def("__getattr__",
            [](const Value& value, const std::string& name) {
              if (name.starts_with("__")) throw py::attribute_error(name);
-             const FieldInfo& field = FieldOf(value, name);
-             return ToPython(*field.type, field.address(value.at), value.memory, value.counts);
+             return GetField(value, name);
            })
       .def("__setattr__", SetField)
       .def("__dir__",
@@ -187,12 +191,7 @@ Pose2 {x: 1, y: 2, heading: 0}
       .def("__len__", CountOf)
       .def("__bool__", [](const Value& value) { return value.type->kind() == TypeKind::kStructure || CountOf(value) > 0; })
       .def("__getitem__", ElementOf)
-      .def("__getitem__",
-           [](const Value& value, const std::string& name) {
-             const FieldInfo& field = FieldOf(value, name);
-             return ToPython(*field.type, field.address(value.at), value.memory, value.counts);
-           },
-           "A field, whatever its name is.")
+      .def("__getitem__", GetField, "A field, whatever its name is.")
       .def("__array__",
            [](const Value& value, const py::object& dtype) {
              const py::object array = AsArray(value);

@@ -27,8 +27,7 @@ constexpr double kLookStep = 0.05;  // rad
 // Where the wall is, as if that were on the right; the nearest one if none is on that hand.
 double WallBearing(const Surroundings& surroundings, double hand) {
   const BoundaryPoint on_hand = NearestBoundary(surroundings, hand * kHandMiddle, kHandHalfWidth);
-  if (on_hand.distance <= kBeside) return hand * on_hand.bearing;
-  return hand * NearestBoundary(surroundings).bearing;
+  return hand * (on_hand.distance <= kBeside ? on_hand : NearestBoundary(surroundings)).bearing;
 }
 
 bool IsWayFree(const EscapeConfiguration& configuration, const Pose2& pose, Point2 goal, double distance,

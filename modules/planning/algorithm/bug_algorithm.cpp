@@ -1,5 +1,5 @@
-// The generic algorithm: what every variant does. What it keeps account of is in bug_memory.cpp, how
-// it gets to leave points in bug_leaving.cpp.
+// The generic algorithm: what every variant does. What it keeps account of, and how it gets to leave
+// points, is in bug_leaving.cpp.
 
 #include "modules/planning/algorithm/bug_algorithm.h"
 

@@ -36,8 +36,7 @@ std::string Points(const std::vector<Point2>& points, const std::string& indent)
 }
 
 std::string Write(const PolygonObstacle& polygon) {
-  std::string text = "  <polygon" + Height(polygon.height) + ">\n";
-  text += Points(polygon.outline, "    ");
+  std::string text = "  <polygon" + Height(polygon.height) + ">\n" + Points(polygon.outline, "    ");
   for (const Ring& hole : polygon.holes) {
     text += "    <hole>\n" + Points(hole, "      ") + "    </hole>\n";
   }

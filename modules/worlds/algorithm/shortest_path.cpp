@@ -12,7 +12,6 @@ namespace runnel {
 namespace {
 
 using Circle = ConfigurationSpace::Circle;
-using internal::PositiveAngle;
 using internal::Sweep;
 
 constexpr double kArcStep = 0.1;  // rad, of the line that is drawn
@@ -70,7 +69,7 @@ class TangentGraph {
   std::size_t AddNode(std::size_t circle, double angle) {
     const Circle& round = space_.circles()[circle];
     nodes_.push_back(
-        {round.centre + round.radius * UnitVector(angle), circle, PositiveAngle(angle)});
+        {round.centre + round.radius * UnitVector(angle), circle, internal::PositiveAngle(angle)});
     tangents_of_.emplace_back();
     nodes_of_[circle].push_back(nodes_.size() - 1);
     return nodes_.size() - 1;

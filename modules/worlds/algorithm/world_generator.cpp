@@ -10,13 +10,12 @@ namespace runnel {
 
 namespace {
 
-using internal::Rounded;
-
 constexpr double kEnclosureThickness = 0.1;  // m
 
 // By kind.
 constexpr std::array kMakers{internal::MakeScatter, internal::MakeMaze, internal::MakeSpiral,
                              internal::MakeComb};
+constexpr std::array kNames{"scatter", "maze", "spiral", "comb"};
 
 struct Range {
   const char* what;
@@ -27,7 +26,7 @@ struct Range {
 WallObstacle Enclosure(Point2 goal, double gap) {
   WallObstacle wall{.points = {}, .thickness = kEnclosureThickness};
   for (int i = 0; i <= 8; ++i) {
-    wall.points.push_back(Rounded(goal + 0.75 * gap * UnitVector(kPi / 8 + i % 8 * kPi / 4)));
+    wall.points.push_back(internal::Rounded(goal + 0.75 * gap * UnitVector(kPi / 8 + i % 8 * kPi / 4)));
   }
   return wall;
 }
@@ -49,7 +48,9 @@ std::string FaultOf(const GeneratorOptions& options) {
 
 World GenerateWorld(const GeneratorOptions& options) {
   Random random(options.seed);
-  World world = kMakers[static_cast<std::size_t>(options.kind)](options, random);
+  const auto kind = static_cast<std::size_t>(options.kind);
+  World world = kMakers[kind](options, random);
+  world.name = fmt::format("{}_{}", kNames[kind], options.seed);
   // A maze has walls enough: there, the goal's cell has no door.
   const bool needs_wall = options.is_enclosed && options.kind != WorldKind::kMaze;
   if (needs_wall) world.walls.push_back(Enclosure(world.goal, options.gap));

@@ -35,8 +35,7 @@ bool MeanTheSame(const AttributeRule& rule, const std::string& one, const std::s
 }
 
 bool FileUpdate::IsMoved() const {
-  if (part_ != nullptr) return false;
-  return Whole(old_folder_) != Whole(saving_.folder);
+  return part_ == nullptr && Whole(old_folder_) != Whole(saving_.folder);
 }
 
 std::string FileUpdate::Moved(const std::string& file) const {

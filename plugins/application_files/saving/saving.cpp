@@ -42,8 +42,7 @@ void AddInside(const XmlTag& tag, FrameworkElement& element, Saving& saving, New
 
 std::string SavedValue(const FrameworkElement& element, const Configurable& configurable, const Saving& saving) {
   const std::string text = TextToSave(element, configurable);
-  if (&configurable.type() != &TypeOf<FilePath>()) return text;
-  return MovedFileName(text, "", saving.folder);
+  return &configurable.type() == &TypeOf<FilePath>() ? MovedFileName(text, "", saving.folder) : text;
 }
 
 void Saving::CheckText(std::string_view text, const FrameworkElement& element) {

@@ -15,7 +15,6 @@
 #include "core/xml/xml_writing.h"
 #include "plugins/application_files/saving/application_saver.h"
 #include "plugins/parameters/file_path.h"
-#include "plugins/structure/renamed_text.h"
 
 namespace runnel::internal {
 

@@ -16,8 +16,6 @@ namespace runnel::internal {
 
 namespace {
 
-using std::chrono::milliseconds;
-
 constexpr std::size_t kLongestText = 2'000;
 constexpr std::size_t kLargestValue = 4'000'000;  // bytes
 constexpr std::size_t kLargestImage = 16'000'000;
@@ -37,7 +35,7 @@ void ViewerSession::SendValues(SteadyTime now) {
     const std::unique_lock lock(inspection_.application().runtime.structure_mutex(),
                                 std::try_to_lock);
     if (!lock) {
-      for (Watch* watch : due) watch->due = now + milliseconds(5);
+      for (Watch* watch : due) watch->due = now + std::chrono::milliseconds(5);
       return;
     }
     for (Watch* watch : due) {

@@ -78,9 +78,7 @@ class Binder {
 
   Result<Step> Structure(const MessageDefinition& definition, const Place& place) {
     if (++depth_ > kDeepest) return Error{.message = "the message '" + definition.name + "' is nested too deep"};
-    Step step;
-    step.kind = Kind::kStructure;
-    step.part = place.type;
+    Step step{.kind = Kind::kStructure, .part = place.type};
     for (const MessageField& field : definition.fields) {
       auto inside = Field(definition, field, place);
       if (!inside) return inside.error();
@@ -129,12 +127,9 @@ class Binder {
     if (rule.source == kInListOfOne) {
       auto element = Itself(One(field), type);
       if (!element || element->part == nullptr) return element ? DefaultStep(field, library_) : element;
-      Step step;
-      step.kind = Kind::kListOfOne;
-      step.inside.push_back(std::move(*element));
       why_no_decoding_ = "a " + place.owner->name + " has any number of " + field.name + ", of which a " +
                          root_.name() + " would be one";
-      return step;
+      return Step{.kind = Kind::kListOfOne, .inside = {std::move(*element)}};
     }
     if (rule.source == kHeadingOf) {
       const FieldInfo* const heading = type.FindField("heading");
@@ -147,11 +142,7 @@ class Binder {
       const bool has_all = ranges != nullptr && IsElements(*ranges->type) && first != nullptr &&
                            IsNumber(*first->type) && step_of != nullptr && IsNumber(*step_of->type);
       if (!has_all) return DefaultStep(field, library_);
-      Step step;
-      step.kind = Kind::kLastAngle;
-      step.type = field.type;
-      step.part = &type;
-      return step;
+      return Step{.kind = Kind::kLastAngle, .type = field.type, .part = &type};
     }
     const FieldInfo* const source = type.FindField(rule.source);
     if (source == nullptr) return DefaultStep(field, library_);
@@ -226,11 +217,7 @@ class Binder {
   Step Used(Kind kind, const FieldInfo* field, const TypeInfo& type) {
     ++bound_;
     if (field != nullptr) used_.insert(field);
-    Step step;
-    step.kind = kind;
-    step.field = field;
-    step.part = &type;
-    return step;
+    return {.kind = kind, .field = field, .part = &type};
   }
 
   std::string HintFor(const MessageDefinition& definition) const {

@@ -41,11 +41,11 @@ struct Step {
   std::size_t index = 0;             ///< of kElement
   const FieldInfo* field = nullptr;  ///< of the value in which the step stands; nullptr: that value itself
   const TypeInfo* part = nullptr;    ///< the type of what the step is about; nullptr if the value has nothing of it
-  std::string name;                  ///< of the message's field
+  std::string name = {};             ///< of the message's field
   long double number = 0;
-  std::string text;
-  std::vector<Step> inside;
-  std::vector<Step> element;  ///< of lists: one, as if the value had nothing of it; else none
+  std::string text = {};
+  std::vector<Step> inside = {};
+  std::vector<Step> element = {};  ///< of lists: one, as if the value had nothing of it; else none
 };
 
 /// The fewest octets that it takes in a message.

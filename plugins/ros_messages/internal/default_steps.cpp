@@ -14,10 +14,7 @@ namespace {
 using Kind = Step::Kind;
 
 Result<Step> DefaultList(const MessageField& field, const MessageLibrary& library) {
-  Step step;
-  step.kind = Kind::kNoList;
-  step.count = field.count;
-  step.capacity = field.capacity;
+  Step step{.kind = Kind::kNoList, .count = field.count, .capacity = field.capacity};
   auto element = DefaultStep(One(field), library);
   if (!element) return element;
   step.element.push_back(std::move(*element));
@@ -36,8 +33,7 @@ Result<Step> DefaultList(const MessageField& field, const MessageLibrary& librar
 }
 
 Result<Step> DefaultStructure(const MessageDefinition& definition, const MessageLibrary& library) {
-  Step step;
-  step.kind = Kind::kStructure;
+  Step step{.kind = Kind::kStructure};
   for (const MessageField& field : definition.fields) {
     auto inside = DefaultStep(field, library);
     if (!inside) return inside;
@@ -79,33 +75,19 @@ Result<Step> DefaultStep(const MessageField& field, const MessageLibrary& librar
 }
 
 Step NumberStep(MessageType type, long double number) {
-  Step step;
-  step.kind = Kind::kNoNumber;
-  step.type = type;
-  step.number = number;
-  return step;
+  return {.kind = Kind::kNoNumber, .type = type, .number = number};
 }
 
 Step TextStep(std::string text) {
-  Step step;
-  step.kind = Kind::kNoText;
-  step.type = MessageType::kString;
-  step.text = std::move(text);
-  return step;
+  return {.kind = Kind::kNoText, .type = MessageType::kString, .text = std::move(text)};
 }
 
 Step StampStep(bool is_own) {
-  Step step;
-  step.kind = Kind::kStamp;
-  step.is_own_stamp = is_own;
-  return step;
+  return {.kind = Kind::kStamp, .is_own_stamp = is_own};
 }
 
 Step HeaderStep(bool is_own, const std::string& frame) {
-  Step step;
-  step.kind = Kind::kStructure;
-  step.inside.push_back(StampStep(is_own));
-  step.inside.push_back(TextStep(frame));
+  Step step{.kind = Kind::kStructure, .inside = {StampStep(is_own), TextStep(frame)}};
   step.inside[0].name = "stamp";
   step.inside[1].name = "frame_id";
   return step;

@@ -12,9 +12,7 @@ namespace runnel::internal {
 namespace {
 
 std::vector<std::string> FieldsOf(const MessageDefinition& definition) {
-  std::vector<std::string> names;
-  for (const MessageField& each : definition.fields) names.push_back(each.name);
-  return names;
+  return NamesOf(definition.fields, &MessageField::name);
 }
 
 /// Follows the name of a field, and notes what is to be passed over on the way there.
@@ -77,11 +75,7 @@ class FieldBinder {
     if (!inside) return inside;
     auto before = DefaultStep(One(field), library_);
     if (!before) return before;
-    Step step;
-    step.kind = Step::Kind::kElement;
-    step.count = field.count;
-    step.capacity = field.capacity;
-    step.index = *index;
+    Step step{.kind = Step::Kind::kElement, .count = field.count, .capacity = field.capacity, .index = *index};
     step.inside.push_back(std::move(*inside));
     step.element.push_back(std::move(*before));
     return step;

@@ -48,28 +48,29 @@ class Scene {
   JsonArray entities_;
 };
 
-void AppendBall(const Place& place, const Colour& colour, std::string& json) {
+void AppendBall(const Place& place, const Colour& colour, std::string& json, double size = kBall) {
   JsonObject ball(json);
   AppendPose({place, 0.0}, ball.Key("pose"));
-  AppendVector({kBall, kBall, kBall}, ball.Key("size"));
+  AppendVector({size, size, size}, ball.Key("size"));
   AppendColour(colour, ball.Key("color"));
 }
 
-void AppendLabel(const Place& place, const std::string& text, const Colour& colour,
+void AppendLabel(const Place& place, std::string_view text, double size, const Colour& colour,
                  std::string& json) {
   JsonObject label(json);
-  AppendPose({{place.x, place.y, place.z + kBall}, 0.0}, label.Key("pose"));
-  label.Add("billboard", true).Add("font_size", kTextHeight).Add("scale_invariant", false);
+  AppendPose({place, 0.0}, label.Key("pose"));
+  label.Add("billboard", true).Add("font_size", size).Add("scale_invariant", false);
   AppendColour(colour, label.Key("color"));
   label.Add("text", text);
 }
 
-// A closed line, `height` above where its points are.
-void AppendRing(const ValueView& points, double height, const Colour& colour, std::string& json) {
+// `height` above where its points are.
+void AppendLine(const ValueView& points, double height, const Colour& colour, std::string& json,
+                bool is_closed = true, double width = kLineWidth) {
   JsonObject line(json);
-  line.Add("type", 1);  // LINE_LOOP
+  line.Add("type", is_closed ? 1 : 0);  // LINE_LOOP, LINE_STRIP
   AppendPose({}, line.Key("pose"));
-  line.Add("thickness", kLineWidth).Add("scale_invariant", false);
+  line.Add("thickness", width).Add("scale_invariant", false);
   {
     JsonArray list(line.Key("points"));
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -92,12 +93,12 @@ void AppendLines(const ValueView& map, std::string& json) {
   const ValueView outlines = map.Field("outlines");
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     const ValueView points = outlines[i].Field("points");
-    AppendRing(points, 0.0, kEdge, lines.Next());
+    AppendLine(points, 0.0, kEdge, lines.Next());
     const double height = HeightOf(outlines[i]);
-    if (height > 0) AppendRing(points, height, kEdge, lines.Next());
+    if (height > 0) AppendLine(points, height, kEdge, lines.Next());
   }
   if (HasPlaces(map.type(), "bounds") && map.Field("bounds").size() > 0) {
-    AppendRing(map.Field("bounds"), 0.0, kBounds, lines.Next());
+    AppendLine(map.Field("bounds"), 0.0, kBounds, lines.Next());
   }
 }
 
@@ -180,7 +181,9 @@ void AddNumbered(Scene& scene, const ValueView& places, const std::string& name,
     }
     JsonArray labels(entity.Key("texts"));
     for (std::size_t i = 0; i < places.size(); ++i) {
-      AppendLabel(PlaceOf(places[i]), name + " " + std::to_string(i + 1), colour, labels.Next());
+      Place above = PlaceOf(places[i]);
+      above.z += kBall;
+      AppendLabel(above, name + " " + std::to_string(i + 1), kTextHeight, colour, labels.Next());
     }
   });
 }
@@ -234,26 +237,11 @@ bool HasItems(const TypeInfo& type) {
 }
 
 void AppendItemLine(const Item& item, std::string& json) {
-  JsonObject line(json);
-  line.Add("type", item.kind == "closed_line" ? 1 : 0);  // LINE_LOOP, LINE_STRIP
-  AppendPose({}, line.Key("pose"));
-  line.Add("thickness", item.size).Add("scale_invariant", false);
-  {
-    JsonArray list(line.Key("points"));
-    for (std::size_t i = 0; i < item.points.size(); ++i) {
-      AppendVector(PlaceOf(item.points[i]), list.Next());
-    }
-  }
-  AppendColour(item.colour, line.Key("color"));
-  line.AddJson("colors", "[]").AddJson("indices", "[]");
+  AppendLine(item.points, 0.0, item.colour, json, item.kind == "closed_line", item.size);
 }
 
 void AppendItemText(const Item& item, std::string& json) {
-  JsonObject label(json);
-  AppendPose({PlaceOf(item.points[0]), 0.0}, label.Key("pose"));
-  label.Add("billboard", true).Add("font_size", item.size).Add("scale_invariant", false);
-  AppendColour(item.colour, label.Key("color"));
-  label.Add("text", item.text);
+  AppendLabel(PlaceOf(item.points[0]), item.text, item.size, item.colour, json);
 }
 
 void AppendDrawing(const ValueView& drawing, const DrawnAt& at, std::string& json) {
@@ -280,10 +268,7 @@ void AppendDrawing(const ValueView& drawing, const DrawnAt& at, std::string& jso
                 for (const Item& each : items) {
                   if (each.kind != "points") continue;
                   for (std::size_t i = 0; i < each.points.size(); ++i) {
-                    JsonObject ball(balls.Next());
-                    AppendPose({PlaceOf(each.points[i]), 0.0}, ball.Key("pose"));
-                    AppendVector({each.size, each.size, each.size}, ball.Key("size"));
-                    AppendColour(each.colour, ball.Key("color"));
+                    AppendBall(PlaceOf(each.points[i]), each.colour, balls.Next(), each.size);
                   }
                 }
               }

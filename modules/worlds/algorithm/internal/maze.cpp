@@ -147,9 +147,7 @@ class Maze {
 }  // namespace
 
 World MakeMaze(const GeneratorOptions& options, Random& random) {
-  World world = Maze(options, random).Make();
-  world.name = "maze_" + std::to_string(options.seed);
-  return world;
+  return Maze(options, random).Make();
 }
 
 }  // namespace runnel::internal

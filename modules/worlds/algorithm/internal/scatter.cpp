@@ -124,9 +124,7 @@ class Scatter {
 }  // namespace
 
 World MakeScatter(const GeneratorOptions& options, Random& random) {
-  World world = Scatter(options, random).Make();
-  world.name = "scatter_" + std::to_string(options.seed);
-  return world;
+  return Scatter(options, random).Make();
 }
 
 }  // namespace runnel::internal

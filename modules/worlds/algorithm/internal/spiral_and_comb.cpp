@@ -52,7 +52,7 @@ World MakeSpiral(const GeneratorOptions& options, Random& random) {
   const double pitch = (options.gap + kRoundingMargin) * random.Between(1.0, 1.6) + kThickness +
                        (options.is_enclosed ? 2.5 * options.gap + 0.1 : 0.0);
   const Turned turned(random);
-  World world{.name = "spiral_" + std::to_string(options.seed)};
+  World world;
   WallObstacle wall{.points = {}, .thickness = kThickness};
   Point2 corner{pitch / 2, pitch / 2}, along{-pitch, 0.0};
   wall.points.push_back(turned(corner));
@@ -74,7 +74,7 @@ World MakeComb(const GeneratorOptions& options, Random& random) {
   double width = 0.0;
   const Ring outline = CombOutline(options, random, width);
   const Turned turned(random);
-  World world{.name = "comb_" + std::to_string(options.seed)};
+  World world;
   PolygonObstacle comb;
   for (const Point2 point : outline) comb.outline.push_back(turned(point));
   world.polygons.push_back(std::move(comb));

@@ -1,8 +1,7 @@
-#include "modules/planning/algorithm/leave_condition.h"
-
 #include <algorithm>
 #include <array>
 
+#include "modules/planning/algorithm/bug_components.h"
 #include "modules/planning/algorithm/tangent_graph.h"
 
 namespace runnel {
