@@ -152,7 +152,7 @@ TEST_F(Supervised, ARuleThatTakesItsValueBackLeavesWhatAnotherOneHolds) {
 
 // What is done about it may not do, and still the other rule's is done.
 TEST_F(Supervised, AReactionThatThrowsKeepsNeitherOthersNorTheEndOfTheRunAway) {
-  Supervisor throwing(robot.runtime, robot.scheduler, [](const ChangeSet&) -> Result<void> { throw std::runtime_error("no memory"); });
+  Supervisor throwing(robot.runtime, robot.scheduler, [](const ChangeSet&) -> Result<ChangeSet> { throw std::runtime_error("no memory"); });
   SupervisionRule rule = robot.SwitchingRule();
   rule.reaction.stops_application = true;
   MustSucceed(throwing.Add(rule));
