@@ -72,7 +72,7 @@ struct InputOptions {
   InputLimits limits = {};
   /// Something moves by what is read here: readers find the safe value while the robot is stopped (RobotStop).
   bool drives = false;
-  /// Of the input's type; without one, the default value of the limits, or zero of a velocity.
+  /// Of the input's type; without one, zero of a velocity, or the default value of the limits.
   AnyValue safe_value = {};
   /// How long it takes from the value read last to the safe one when the robot is stopped; 0: the safe one at once. Of
   /// types that are made of numbers alone.

@@ -63,7 +63,10 @@ ComponentModule::ComponentModule(const Placement& placement, const genom_executi
                       .fill = [](genom_execution::Request& request, auto& arguments) {
                         WithArguments<std::uint32_t>(arguments, [&](std::uint32_t id) { request.abort_id = id; });
                       }}) {
-  Annotate(std::make_unique<BeforeHandOver>([this] { Settle(); }));
+  Annotate(std::make_unique<BeforeHandOver>([this] {
+    Settle();
+    return nullptr;
+  }));
   for (const auto& task : component.tasks) {
     thread_names_.emplace_back(this, std::string("thread_of_") + task.name, ParameterOptions<std::string>{
         .description = std::string("name of the thread that runs task '") + task.name + "'; empty: the module's own"});

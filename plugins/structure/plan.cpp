@@ -73,9 +73,9 @@ Result<void> Plan::Commit(UndoRecord* back) {
     result = Error{.message = DescribeException()};
   }
   has_failed_ = !result;
-  if (result) return result;
   bool is_undone = true;
-  while (begun > 0) is_undone = Retry(steps_[--begun].undo) && is_undone;
+  while (has_failed_ && begun > 0) is_undone = Retry(steps_[--begun].undo) && is_undone;
+  held_.clear();
   if (is_undone) return result;
   Error error = result.error();
   error.message += "; and what had been done before could not be taken back for lack of memory";
@@ -199,6 +199,9 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       next.InheritAnnotations(before);
                       if (change.state) {
                         if (auto given = change.state->GivePorts(next, ports); !given) return given;
+                      }
+                      for (const auto* each : {&before, &next}) {
+                        if (auto settled = Settle(*each, held_); !settled) return settled;
                       }
                       if (auto copied = CopyState(before, next); !copied) return copied;
                       Replaced replaced{{}, next.path(), next.id(), change.probation_cycles};

@@ -211,6 +211,7 @@ class Plan {
   std::vector<Error> warnings_;
   std::vector<UnlistedElement> removed_;
   std::vector<Replaced> replaced_;
+  std::vector<BeforeHandOver::Held> held_;  // during Commit()
 };
 
 }  // namespace runnel::internal

@@ -8,7 +8,6 @@
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
-#include "core/module/hand_over.h"
 #include "core/module/kept_state.h"
 #include "core/paths/path_search.h"
 
@@ -153,15 +152,18 @@ std::vector<Error> StateRefusals(const FrameworkElement& before, const Framework
   return refusals;
 }
 
-Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after) {
-  if (const auto* const first = before.FindAnnotation<BeforeHandOver>()) {
-    try {
-      first->settle();
-    } catch (...) {
-      return Error{.message = "cannot be replaced now: " + DescribeException(),
-                   .path = before.path()};
-    }
+Result<void> Settle(const FrameworkElement& module, std::vector<BeforeHandOver::Held>& held) {
+  const auto* const first = module.FindAnnotation<BeforeHandOver>();
+  if (first == nullptr) return {};
+  try {
+    held.push_back(first->settle());
+    return {};
+  } catch (...) {
+    return Error{.message = "cannot be replaced now: " + DescribeException(), .path = module.path()};
   }
+}
+
+Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after) {
   const auto* const from = before.FindAnnotation<KeptState>();
   auto* const to = after.FindAnnotation<KeptState>();
   if (from == nullptr || to == nullptr) return {};

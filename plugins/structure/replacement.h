@@ -8,6 +8,7 @@
 
 #include "core/base/result.h"
 #include "core/element/framework_element.h"
+#include "core/module/hand_over.h"
 #include "core/port/port.h"
 #include "plugins/structure/change.h"
 
@@ -44,6 +45,9 @@ struct PortMatch {
 /// Which kept states of `before` cannot be handed over to `after`, and why.
 [[nodiscard]] std::vector<Error> StateRefusals(const FrameworkElement& before,
                                                const FrameworkElement& after);
+
+/// What goes on of the module beside cycles ends, or waits until what `held` gets is let go of. Errors: what it throws.
+Result<void> Settle(const FrameworkElement& module, std::vector<BeforeHandOver::Held>& held);
 
 /// Hands over the kept states that can be. Neither module runs. Errors: what copying throws.
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after);

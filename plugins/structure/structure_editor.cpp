@@ -127,6 +127,8 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
   FrameworkElement* const after = Successor(waiting);
   if (after == nullptr) return std::move(waiting.replaced.before);
   const FrameworkElement* const place = NextSibling(*after);
+  std::vector<BeforeHandOver::Held> held;
+  for (const auto* each : {after, &*waiting.replaced.before}) (void)Settle(*each, held);  // it has failed, and goes anyway
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
   const PortMatch match =
       MatchPorts(*after, *waiting.replaced.before, [](const Port&) { return false; });

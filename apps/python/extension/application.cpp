@@ -162,10 +162,10 @@ void Quit(const Open& open) {
   if (open->runs_in == std::this_thread::get_id()) return;  // in update() or a signal handler, within the call
   CheckMayWait();
   const Use use(*open);
-  while (open->runs_in != std::thread::id()) {
-    WithoutGil([] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
+  AwaitWithGil([&] {
     LookAround(*open);
-  }
+    return open->runs_in == std::thread::id();
+  });
   const Running running(open);
   WithoutGil([&] { use->Stop(); });
 }

@@ -1,7 +1,5 @@
 #include "apps/python/extension/interpreter.h"
 
-#include <chrono>
-#include <thread>
 #include <utility>
 
 #include "apps/python/extension/errors.h"
@@ -12,7 +10,7 @@ namespace runnel::python {
 
 void CheckMayWait() {
   if (this_thread_place.cycles == 0) return;
-  Throw({.message = "an application is not waited for in update(), a service or a callback of a module",
+  Throw({.message = "an application is not waited for in update(), a service or a callback of a module, or while a value is made for a port",
          .hint = "use the module's own ports, parameters and clients, or another thread"});
 }
 
@@ -41,10 +39,7 @@ void EndWithoutGil(std::function<void()> end) {
 }
 
 void AwaitAll() {
-  while (threads_without_gil > 0) {
-    const py::gil_scoped_release released;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  AwaitWithGil([] { return threads_without_gil == 0; });
 }
 
 }  // namespace runnel::python

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <functional>
+#include <thread>
 #include <type_traits>
 
 #include <pybind11/pybind11.h>
@@ -24,8 +26,9 @@ class Counted {
 
 /// What a thread is within, and what has interrupted it.
 struct ThreadPlace {
-  int cycles = 0;  ///< cycles, services and locks: see GilInCycle
-  int calls = 0;   ///< calls of applications and of modules
+  int cycles = 0;  ///< cycles, services and locks: see GilInCycle; uses of modules' ports
+  int uses = 0;    ///< these alone
+  int calls = 0;   ///< calls of applications
   std::exception_ptr interrupt = nullptr;
 };
 inline thread_local ThreadPlace this_thread_place;
@@ -66,6 +69,15 @@ auto WithoutGil(const Work& work) {
     auto result = released();
     ThrowInterrupt();
     return result;
+  }
+}
+
+/// Until it is so, with the GIL, which others have meanwhile.
+template <typename Condition>
+void AwaitWithGil(const Condition& is_so) {
+  while (!is_so()) {
+    const ReleasedGil released;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }
 

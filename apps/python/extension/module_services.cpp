@@ -7,6 +7,7 @@
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/interpreter.h"
 #include "apps/python/extension/value.h"
+#include "core/port/cycle.h"
 #include "core/types/value_copy.h"
 
 namespace py = pybind11;
@@ -207,6 +208,8 @@ bool ModuleClient::Send(const py::args& positional, const py::kwargs& named) {
 }
 
 bool ModuleClient::Call(const py::object& callback, const py::args& positional, const py::kwargs& named) {
+  // Who calls back does not take the GIL to look for what has ended.
+  if (CurrentCycle() == nullptr) throw py::value_error("call() is for the module's own cycle; elsewhere begin() is, and send()");
   CallBase* const call = Fill(positional, named);
   if (call == nullptr) return false;
   if (client_->Begin(*call) != CallStatus::kPending) {

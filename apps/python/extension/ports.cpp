@@ -41,10 +41,10 @@ void OpenApplication::Close() {
            .hint = "call quit() in a signal handler, and close() where nothing of the application is under way"});
   }
   is_closed = is_quit = true;
-  while (is_closing_ || application.use_count() > 1) {
-    WithoutGil([] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
+  AwaitWithGil([&] {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  }
+    return !is_closing_ && application.use_count() <= 1;
+  });
   if (!application) return;
   is_closing_ = true;
   auto closed = std::move(application);

@@ -11,6 +11,7 @@
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/value.h"
 #include "core/element/source_place.h"
+#include "core/module/hand_over.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 #include "plugins/scheduling/thread_container.h"
@@ -59,8 +60,20 @@ std::unique_ptr<FrameworkElement> MakeParameter(Module& module, const std::strin
 }  // namespace
 
 ModuleHost::Use ModuleHost::Get() {
+  // A use within another one goes on: while one is left, whoever holds the ports waits. He may wait for this very thread.
+  const auto may_begin = [this] { return holds == 0 || module == nullptr || (this_thread_place.uses > 0 && uses > 0); };
+  if (!may_begin() && this_thread_place.uses > 0) throw py::value_error("another module is just taking its place");
+  AwaitWithGil(may_begin);
   if (module == nullptr) throw py::value_error("the module is gone");
   return {.module = module, .use = Counted(uses)};
+}
+
+std::shared_ptr<void> ModuleHost::Hold() {
+  const GilInCycle gil;
+  ++holds;
+  std::shared_ptr<void> held(nullptr, [host = shared_from_this()](void*) { --host->holds; });
+  AwaitWithGil([this] { return uses == 0; });
+  return held;
 }
 
 template <typename Work>
@@ -80,6 +93,7 @@ void PythonModule::WithPython(const Work& work) {
 
 PythonModule::PythonModule(const Placement& placement, const std::string& type) : Module(placement) {
   host_->module = this;
+  Annotate(std::make_unique<BeforeHandOver>([this] { return host_->Hold(); }));
   const std::string folder = FolderOf(placement.parent);
   try {
     WithPython([&] {
@@ -103,10 +117,7 @@ PythonModule::~PythonModule() {
   {
     const GilInCycle gil;
     host_->module = nullptr;
-    while (host_->uses > 0) {
-      const py::gil_scoped_release released;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    AwaitWithGil([this] { return host_->uses == 0; });
   }
   // Without the GIL, for which their threads may be waiting.
   services_.clear();

@@ -16,18 +16,24 @@ namespace runnel::python {
 class PythonModule;
 
 /// What an object of Python knows of its module, which may be gone.
-struct ModuleHost {
+struct ModuleHost : std::enable_shared_from_this<ModuleHost> {
   PythonModule* module = nullptr;
   int uses = 0;
-  /// A call of its ports or clients, in which Python may do anything: the module stays for as long.
+  std::atomic<int> holds = 0;
+  /// A call of its ports or clients, in which Python may do anything but wait for an application: the module stays, and its
+  /// ports stay its own, for as long.
   struct Use {
     PythonModule* module;
     Counted<int> use;
-    Counted<int> call{this_thread_place.calls};
+    Counted<int> by_this_thread{this_thread_place.uses};
+    Counted<int> no_waiting{this_thread_place.cycles};
     PythonModule* operator->() const { return module; }
   };
-  /// Throws if it is gone.
+  /// Throws if it is gone. With the GIL.
   [[nodiscard]] Use Get();
+  /// Its ports are about to be exchanged with another module's: when uses under way have ended. Others wait, until what is
+  /// returned is let go of. Without the GIL, under the structure lock.
+  [[nodiscard]] std::shared_ptr<void> Hold();
 };
 
 /// A module whose Update() is written in Python: a class below runnel.Module.

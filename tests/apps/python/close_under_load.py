@@ -8,6 +8,7 @@ Nothing is asserted but that the process ends by itself, and that only errors ar
 """
 
 import asyncio
+import collections
 import contextlib
 import faulthandler
 import gc
@@ -23,6 +24,7 @@ import runnel
 
 THREADS = 16
 SEEN = (runnel.Error, ValueError, TypeError, BufferError)
+MODULES = collections.deque(maxlen=12)  # those made last, for threads beside their cycles
 
 
 class Collects:
@@ -30,6 +32,8 @@ class Collects:
 
     def __float__(self):
         collect()
+        if random.random() < 0.1:
+            time.sleep(random.random() / 50)
         return 1.5
 
 
@@ -43,6 +47,7 @@ class Counter(runnel.Module):
     step = runnel.Parameter(1.0)
     out = runnel.Output("double")
     pose = runnel.Output("Pose2")
+    many = runnel.Output("double[]")
     wish = runnel.Input("Twist2")
     other = runnel.Client("double", {"to": "double"})
 
@@ -52,6 +57,7 @@ class Counter(runnel.Module):
         collect()
 
     def prepare(self):
+        MODULES.append(self)
         collect()
 
     @runnel.service
@@ -71,6 +77,7 @@ class Counter(runnel.Module):
         self.count += self.step
         self.out.publish(Collects())
         self.pose.publish(x=self.count, y=Collects())
+        self.many.publish([self.count] * 20)
         self.wish.new()
         self.other.send(1.0)
         leave_garbage(self)
@@ -166,6 +173,21 @@ class Load:
 
     def do_publish_by_hand(self, app):
         app.publish(random.choice(("/one/wish", "/gate/wanted")), {"forward": Collects()})
+
+    def do_use_of_ports(self, app):
+        """Of any application, also where another module is taking its place, and of modules that are gone."""
+        module = random.choice(MODULES)
+        for _ in range(5):
+            random.choice((
+                lambda: module.many.publish([Collects()] * 20),
+                lambda: module.out.publish(Collects()),
+                lambda: module.pose.publish(x=Collects(), y=module.wish.timestamp),
+                lambda: module.wish.read() and module.wish.next(),
+                lambda: module.other.send(Collects()),
+                lambda: module.other.call(lambda call: call.reply, Collects()),
+                lambda: module.other.begin(Collects()).is_done,
+                lambda: module.step,
+            ))()
 
     def do_release(self, app):
         app.release(random.choice((None, "/one/wish", "/gate/wanted")))

@@ -430,6 +430,73 @@ def test_ports_of_a_module_that_goes_while_another_thread_uses_them():
     ''')
 
 
+@pytest.mark.parametrize("how", ["app.swap('/tick', Shares)", "app.reload()", "app.swap('/tick', Shares); app.delete('/tick')"])
+def test_another_module_takes_the_ports_when_calls_of_them_have_ended(how):
+    ends_well(f'''
+    class Shares(runnel.Module):
+        period = 0.002
+        many = runnel.Output("double[]")
+        wish = runnel.Input("Twist2")
+
+        def prepare(self):
+            shared.append(self)
+
+        def update(self):
+            self.many.publish([2.0] * 100)
+
+    class Waits:
+        """A number that is not there before others have gone on, and that looks at another port meanwhile."""
+
+        def __float__(self):
+            inside.set()
+            time.sleep(0.3)
+            shared[0].wish.read()
+            try:
+                app.get("/tick/step")
+            except runnel.Error as error:
+                told.append(error.hint)
+            over.append(True)
+            return 1.0
+
+    def publish():
+        shared[0].many.publish([Waits()])
+
+    shared, over, told = [], [], []
+    inside = threading.Event()
+    app = ticking(Shares)
+    thread = in_threads(1, publish)[0]
+    inside.wait()
+    {how}
+    assert over and told, (over, told)
+    thread.join()
+    app.close()
+    print("done")
+    ''')
+
+
+def test_a_module_is_called_back_in_its_own_cycles_only():
+    ends_well('''
+    class Asks(runnel.Module):
+        period = 0.002
+        other = runnel.Client("double", {"to": "double"})
+
+        def prepare(self):
+            shared.append(self)
+
+        def update(self):
+            pass
+
+    shared = []
+    app = ticking(Asks)
+    try:
+        shared[0].other.call(print, 1.0)
+    except ValueError as error:
+        assert "begin()" in str(error)
+        app.close()
+        print("done")
+    ''')
+
+
 def test_the_one_who_records_is_made_once():
     ends_well('''
     for i in range(20):

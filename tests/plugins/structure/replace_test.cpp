@@ -33,14 +33,17 @@ class Winding final : public Counter {
     Annotate(std::make_unique<BeforeHandOver>([this] {
       if (cannot_end) throw std::runtime_error("one of its helpers does not come back");
       out.Publish(count.value += 100);
+      return std::shared_ptr<void>(nullptr, [this](void*) { ties_at_end = out.outgoing().size(); });
     }));
   }
   bool cannot_end = false;
+  std::optional<std::size_t> ties_at_end;  // of the output, when its ports were where they are
 };
 
 TEST_F(ReplaceTest, WhatGoesOnBesideCyclesEndsBeforePortsAndStateAreHandedOver) {
   ASSERT_TRUE(modules.Add(TypeCalled<Winding>("test/winding")));
   Must({ReplaceModule{"/app/counter", "test/winding"}});
+  EXPECT_THAT(At<Winding>("/app/counter").ties_at_end, testing::Optional(testing::Gt(0u)));
   Steps(2);
   At<Winding>("/app/counter").cannot_end = true;
   EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/counter"}}), HasSubstr("does not come back"));
@@ -49,6 +52,17 @@ TEST_F(ReplaceTest, WhatGoesOnBesideCyclesEndsBeforePortsAndStateAreHandedOver) 
   Must({ReplaceModule{"/app/counter", "test/counter"}});
   Steps(1);
   EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4, 6, 106, 108));
+}
+
+TEST_F(ReplaceTest, WhatGoesOnBesideCyclesLeavesPortsAloneWhileTheyComeBack) {
+  ASSERT_TRUE(modules.Add(TypeCalled<Winding>("test/winding")));
+  Must({ReplaceModule{"/app/counter", "test/winding"}});
+  auto& winding = At<Winding>("/app/counter");
+  Must({ReplaceModule{"/app/counter", "test/faulty", {{"good_cycles", "1"}}}});
+  EXPECT_EQ(winding.ties_at_end, 0u);
+  Steps(2);
+  ASSERT_EQ(&At<Module>("/app/counter"), &winding);
+  EXPECT_THAT(winding.ties_at_end, testing::Optional(testing::Gt(0u)));
 }
 
 TEST_F(ReplaceTest, SettingsComeLast) {
