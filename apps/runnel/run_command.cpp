@@ -272,12 +272,13 @@ std::string EndOwnThreads(Runtime& runtime) {
     std::string at_work;
     {
       const auto lock = TryStructureLock(runtime, kLookForSignal);
-      const auto tell = [&](const FrameworkElement& each) { at_work += (at_work.empty() ? "" : ", ") + each.parent()->path(); };
-      if (!lock || OwnThread::AskToEnd(runtime.root(), tell)) return {};
+      const auto tell = [&](const FrameworkElement& each) { at_work += (at_work.empty() ? "a call of " : ", ") + each.parent()->path(); };
+      if (lock && OwnThread::AskToEnd(runtime.root(), tell)) return {};
+      if (!lock) at_work = "what changes the structure";
     }
     if (waited >= kLongest) return at_work;
     if (waited >= kTold && at_work != std::exchange(told, at_work)) {
-      std::cerr << "the run waits for a call of " << at_work << " to come to its end; Ctrl-C again ends the program\n" << std::flush;
+      std::cerr << "the run waits for " << at_work << " to come to its end; Ctrl-C again ends the program\n" << std::flush;
     }
     std::this_thread::sleep_for(kLookForSignal);
   }
@@ -291,7 +292,7 @@ void LeaveIfStuck(Application& application) {
   for (const StuckModule& each : stuck) {
     PrintError({.message = "has still not returned; the program ends without it", .path = each.path});
   }
-  if (!at_work.empty()) PrintError({.message = "a call has still not come to its end: " + at_work + "; the program ends without it"});
+  if (!at_work.empty()) PrintError({.message = at_work + " has still not come to its end; the program ends without it"});
   (void)FinishOutput();
   std::_Exit(static_cast<int>(ExitCode::kRunFailed));
 }

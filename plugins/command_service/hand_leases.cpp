@@ -40,6 +40,10 @@ Result<void> HandHold::Check(const Request& request, Time now) const {
     if (state_ == HandState::kDriven && lease_ != request.lease) {
       return Error{.message = "somebody else drives it"};
     }
+    // Who holds a button through STOP and release does not mean what it does afterwards.
+    if (state_ == HandState::kDriven && request.deadline && stops_ != request.stops) {
+      return Error{.message = "STOP has ended this hold", .hint = kTakeHoldAgain};
+    }
   }
   if (request.deadline && now - request.received > *request.deadline) {
     return Error{.message = "the value has waited for longer than its deadline of " +
@@ -54,6 +58,7 @@ bool HandHold::Note(const Request& request) {
                        lease_ == request.lease;
   if (!goes_on) EndLease();
   if (!goes_on) began_ = SteadyClock().Now();
+  stops_ = request.stops;
   state_ = request.deadline ? HandState::kDriven : HandState::kSet;
   lease_ = request.lease;
   deadline_ = request.deadline.value_or(Duration::zero());

@@ -147,7 +147,8 @@ Result<std::string> HandSettings::Block(const BlockRequest& request) {
 Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& request, RobotStop::AsOf as_of) {
   if (!as_of.requests) as_of = runtime_.robot_stop().AsOfNow(as_of.asked);  // a STOP of meanwhile counts, too
   if (auto good = CheckRequest(request); !good) return good.error();
-  const HandHold::Request wish{request.lease, request.deadline, request.received.value_or(Now())};
+  const HandHold::Request wish{request.lease, request.deadline, request.received.value_or(Now()),
+                               as_of.requests.value_or(0)};
   const std::lock_guard structure(runtime_.structure_mutex());
   const auto found = PathSearch(runtime_).FindPort(request.port, PathKind::kElement);
   if (!found) return found.error();

@@ -56,13 +56,14 @@ class HandHold final : public HandSlot::Hold {
     std::string lease = {};                 ///< "": none
     std::optional<Duration> deadline = {};  ///< nothing: the last value of the lease, or one without
     Time received{};                        ///< the deadline counts from here
+    std::uint64_t stops = 0;                ///< RobotStop::State::requests
   };
 
   explicit HandHold(std::shared_ptr<EndedLeases> ended) : ended_(std::move(ended)) {}
   ~HandHold() override { EndLease(); }
 
   /// Whether it may be published at a port with this hold. Errors, without a path: the port is driven by another one, the
-  /// lease has ended, its deadline has passed already.
+  /// lease has ended, STOP was pressed or released since it began (let go is accepted), its deadline has passed already.
   [[nodiscard]] Result<void> Check(const Request& request, Time now) const;
   /// That it is to be. True: it goes on with a lease that is there.
   bool Note(const Request& request);
@@ -94,6 +95,7 @@ class HandHold final : public HandSlot::Hold {
   Duration deadline_{};
   Time due_{};
   Time began_{};
+  std::uint64_t stops_ = 0;
 };
 
 /// Sets the value at a port by hand, from its text format (Port::PublishByHand()); fields that the text leaves

@@ -86,6 +86,8 @@ CommandResult MakeServiceCommand(const Request& request, const CommandContext& c
     }
   }
   if (placed.changes.size() == 1 && IsFar(placed.changes.front())) {
+    const auto known = context.application.runtime.robot_stop().CheckIsKnown({.asked = context.asked, .requests = {}});
+    if (!known) return known.error();
     return ShowExtensionText(context.application.runtime, "command", request.body, ExtensionTexts::kFarPatience);
   }
   auto wanted = RequestOf(request, std::move(placed));

@@ -8,12 +8,14 @@
 #include "core/element/tags.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/converted_flow.h"
+#include "core/port/port_stop.h"
 #include "core/paths/late_connections.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/services/callable.h"
+#include "plugins/structure/value_by_hand.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
@@ -95,7 +97,10 @@ void AddPort(const Port& port, const ElementSurroundings& around, JsonObject& js
   json.Add("description", port.description()).Add("unit", port.unit());
   json.Add("by_hand", port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule));
   json.Add("driving", port.is_driving()).Add("blocked", port.is_blocked());
-  if (const auto stop = port.stop()) json.Add("safe", ToText(stop->safe_value().type(), stop->safe_value().get()));
+  const AnyValue behind = SafeValueBehind(port);
+  json.Add("moves", port.is_driving() || behind);
+  const AnyValue safe = port.stop() ? port.stop()->safe_value() : behind;
+  if (safe && &safe.type() == &port.type()) json.Add("safe", ToText(safe.type(), safe.get()));
   if (const std::string why = WhyUnreached(port, around); !why.empty()) json.Add("unreached", why);
   const InputLimits& limits = port.limits();
   json.Add("bounds", BoundsText(limits));
@@ -187,7 +192,7 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return hash;
     Mix(port->is_set_by_hand() || port->is_set_by_hand(Port::Setter::kRule) ? 1 : 0, hash);
-    Mix((port->is_driving() ? 1 : 0) + (port->is_blocked() ? 2 : 0), hash);
+    Mix((port->is_driving() ? 1 : 0) + (port->is_blocked() ? 2 : 0) + (SafeValueBehind(*port) ? 4 : 0), hash);
     Mix(WhyUnreached(*port, around), hash);
     Mix(BoundsText(port->limits()), hash);
     MixAwaited(AwaitedBy(*port), hash);

@@ -1,6 +1,8 @@
 #include "plugins/structure/value_by_hand.h"
 
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/port/port_stop.h"
 #include "core/types/text_format.h"
@@ -13,6 +15,17 @@ namespace {
 
 Error At(const Port& port, std::string message) {
   return {.message = std::move(message), .path = port.path()};
+}
+
+// Of what something moves by if a value comes to the port.
+std::vector<AnyValue> SafeValuesBehind(const Port& port) {
+  std::vector<AnyValue> all;
+  for (const Port* sink : port.Sinks()) {
+    for (const internal::PassedStop& each : internal::PassedStops(*sink)) {
+      if (each.stop->robot() != nullptr) all.push_back(each.safe_value);
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -41,18 +54,23 @@ Result<void> PublishByHand(Port& port, const void* value, Port::Setter setter) {
 }
 
 AnyValue SafeValueBehind(const Port& port) {
-  for (const Port* sink : port.Sinks()) {
-    for (const internal::PassedStop& each : internal::PassedStops(*sink)) {
-      if (each.stop->robot() != nullptr) return each.safe_value;
-    }
-  }
-  return {};
+  const std::vector<AnyValue> all = SafeValuesBehind(port);
+  return all.empty() ? AnyValue() : all.front();
 }
 
 Result<AnyValue> SafeValueOf(const Port& port) {
   if (const auto stop = port.stop()) return stop->safe_value();
   if (const AnyValue& value = port.limits().default_value; value && !IsVelocity(port.type(), port.unit())) return value;
-  if (AnyValue behind = SafeValueBehind(port); behind && &behind.type() == &port.type()) return behind;
+  std::optional<std::string> text;
+  for (const AnyValue& each : SafeValuesBehind(port)) {
+    const bool is_zero = IsVelocity(port.type(), port.unit());
+    if (&each.type() != &port.type() && !is_zero) return At(port, "moves something behind a conversion; only that has a safe value");
+    if (&each.type() != &port.type()) continue;
+    std::string other = ToText(each.type(), each.get());
+    if (text && *text != other) return At(port, "moves several things, and their safe values differ");
+    text = std::move(other);
+  }
+  if (text) return ValueOf(port, *text);
   const std::shared_ptr<const void> value = port.type().Make();
   if (!value) return At(port, "only a module can make values of type " + port.type().name());
   return AnyValue(port.type(), value);

@@ -144,7 +144,7 @@ TEST_F(StuckAndCrash, ACallThatDoesNotEndIsNamedAndTheProgramEndsWithoutIt) {
   const Ended ended = program.Wait();
   EXPECT_EQ(ended.code, kRunFailed) << ended.text;
   EXPECT_THAT(ended.text, AllOf(HasSubstr("the run waits for a call of /demo/deaf to come to its end"),
-                                HasSubstr("a call has still not come to its end: /demo/deaf; the program ends without it")));
+                                HasSubstr("a call of /demo/deaf has still not come to its end; the program ends without it")));
   EXPECT_THAT(Runnel("info " + Path("run.mcap")).text, HasSubstr("as its writer wanted it"));
 }
 

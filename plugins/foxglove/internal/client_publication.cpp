@@ -14,6 +14,9 @@
 namespace runnel::internal {
 
 namespace {
+
+// Hz of the application's time: what looks at the age of commands has a fresh one, as from the page.
+constexpr double kRate = 20;
 std::atomic<std::uint64_t> numbers{0};  // of what clients bring
 }  // namespace
 
@@ -111,7 +114,7 @@ Result<void> ClientPublication::Drive(std::string_view json, Time received) {
   if (!value) return Error{.message = "only a module can make a " + type_.name()};
   try {
     if (auto read = Read(json, value.get()); !read) return read;
-    PublishRequest publish{input_.path, ToText(type_, value.get()), {}, deadline, lease_, received};
+    PublishRequest publish{input_.path, ToText(type_, value.get()), kRate, deadline, lease_, received};
     driving_ = shared_.application.service.Begin(std::move(publish), *shared_.tasks, wake_);
   } catch (...) {  // of a type that throws when it is read
     return CaughtError();

@@ -140,7 +140,7 @@ test('a slider and a plain button at what moves drive only as long as they are h
     { id: 'plain', kind: 'button', x: 4, y: 0, w: 2, h: 4, target: kTarget, pressed: '{forward: 0.4}' }],
   prepare: (mock) => {
     for (const element of ModuleElements(kCatalogue, 'mock/filter', '/mock/smooth')) {
-      mock.elements.set(element.path, element.path === kNumber ? { ...element, driving: true, safe: '0' } : element);
+      mock.elements.set(element.path, element.path === kNumber ? { ...element, driving: true, moves: true, safe: '0' } : element);
     }
   } });
   const last = () => application.asked.findLast(({ op }) => op === 'publish');
@@ -162,6 +162,32 @@ test('a slider and a plain button at what moves drive only as long as they are h
   await until(() => last().deadline === undefined);
   await page.keyboard.up('ArrowRight');
   await panel.drawn();
+  // STOP ends it for good: a key that repeats, or a pointer that goes on, takes no hold.
+  const afterStop = async (goOn) => {
+    await until(() => last().deadline > 0);
+    await page.evaluate(() => document.querySelector('#stop-button').dispatchEvent(new PointerEvent('pointerdown', { bubbles: true, button: 0 })));
+    await until(() => last().deadline === undefined);
+    await page.evaluate(() => document.querySelector('#stop-release').click());
+    await page.locator('#stop-release').waitFor({ state: 'detached' });
+    const count = () => application.asked.filter(({ op }) => op === 'publish').length;
+    const before = count();
+    await goOn();
+    await page.waitForTimeout(300);
+    assert.equal(count(), before);
+  };
+  await page.getByRole('slider').focus();
+  await page.keyboard.down('ArrowRight');
+  await afterStop(() => page.keyboard.down('ArrowRight'));
+  await page.keyboard.up('ArrowRight');
+  await page.mouse.move(box.x + box.width * 0.1, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.6, box.y + box.height / 2, { steps: 3 });
+  await afterStop(() => page.mouse.move(box.x + box.width * 0.7, box.y + box.height / 2, { steps: 3 }));
+  await page.mouse.up();
+  // As a screen reader sets it.
+  await page.getByRole('slider').evaluate((slider) => { slider.value = '0.9'; slider.dispatchEvent(new Event('input', { bubbles: true })); });
+  await panel.drawn();
+  assert.equal(last().deadline, undefined);
   await page.locator('[data-widget="plain"] button').hover();
   await page.mouse.down();
   await until(() => last().path === kTarget && last().deadline > 0);

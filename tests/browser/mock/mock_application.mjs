@@ -146,7 +146,7 @@ export function ModuleElements(catalogue, type, path, { thread = null } = {}) {
   for (const port of module.ports) {
     elements.push({ path: `${path}/${port.name}`, kind: 'port', name: port.name, direction: port.direction,
       data_type: port.type, interface: false, required: port.required ?? false, pullable: port.pullable ?? false,
-      description: '', owner: path, ...(port.driving ? { driving: true } : {}) });
+      description: '', owner: path, ...(port.driving ? { driving: true, moves: true } : {}) });
   }
   for (const parameter of module.parameters) {
     elements.push({ path: `${path}/${parameter.name}`, kind: 'parameter', name: parameter.name, data_type: parameter.type,

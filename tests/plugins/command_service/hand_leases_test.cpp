@@ -56,6 +56,15 @@ TEST_F(HandLeasesTest, WhatComesOfALostHoldIsRefusedAndAnotherHoldIsNot) {
   EXPECT_EQ(hold->state(), HandState::kDriven);
 }
 
+// By a button that is held through STOP and its release; the last value, without a deadline, is no motion.
+TEST_F(HandLeasesTest, AStopEndsAHoldAndWhoLetsGoIsHeard) {
+  EXPECT_TRUE(Drive("a"));
+  EXPECT_FALSE(Ask({.lease = "a", .deadline = 300ms, .stops = 2}));
+  EXPECT_THAT(problem, HasSubstr("STOP has ended this hold"));
+  EXPECT_TRUE(Ask({.lease = "a", .stops = 2}));
+  EXPECT_TRUE(Ask({.lease = "b", .deadline = 300ms, .stops = 2}));
+}
+
 TEST_F(HandLeasesTest, AValueThatHasWaitedForLongerThanItsDeadlineIsRefused) {
   HandHold late(ended);
   const Time received = now;

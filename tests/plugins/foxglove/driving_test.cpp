@@ -116,6 +116,20 @@ TEST_F(FoxgloveDriving, WhatIsReleasedIsNotTakenBackByAButtonThatIsHeld) {
   EXPECT_THAT(Hands(), IsEmpty());
 }
 
+TEST_F(FoxgloveDriving, NorIsWhatAStopHasEndedWhenItIsReleased) {
+  Begin();
+  Advertise(1, "/base/wheels");
+  Publish(1, "0.3");
+  ASSERT_TRUE(Reads(base.wheels, 0.3));
+  runtime.robot_stop().Press("a test");
+  ASSERT_TRUE(runtime.robot_stop().Release("a test"));
+  Publish(1, "0.3");
+  std::string complaint;
+  EXPECT_TRUE(Wait([&] { return !(complaint = Complaint()).empty(); }));
+  EXPECT_THAT(complaint, HasSubstr("STOP has ended this hold"));
+  EXPECT_EQ(base.wheels.Get(), 0);
+}
+
 TEST_F(FoxgloveDriving, NothingIsDoneForWhoHasGoneMeanwhile) {
   Begin();
   Advertise(1, "/base/wheels");

@@ -1,6 +1,6 @@
 // Slider, button, switch.
 
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { FormatNumber } from '../../../page/source/model/value_format.js';
 import { canDrive } from '../../../page/source/state/store.js';
@@ -29,16 +29,23 @@ export function Slider({ widget }) {
   const shown = draft ?? (typeof value === 'number' ? value : minimum);
   const part = maximum > minimum ? (shown - minimum) / (maximum - minimum) : 0;
   const send = async (number) => { if (!await set(String(number))) setDraft(null); };
-  // What moves does so only as long as the slider is held.
-  const drives = isPort && element?.driving;
-  const letGo = () => { LetGo(widget.target, widget.id); setDraft(null); };
-  useEffect(() => () => LetGo(widget.target, widget.id), [widget.target, widget.id]);
+  // What moves does so only as long as the slider is held: by a pointer or key that came down, and that no STOP has ended.
+  const drives = isPort && element?.moves;
+  const isMine = drives && held.value[widget.target] === widget.id;
+  const hasCome = useRef(false); // a pointer or key, by which nothing has been wanted yet
+  const letGo = () => { hasCome.current = false; LetGo(widget.target, widget.id); };
+  useEffect(() => letGo, [widget.target, widget.id]);
+  useEffect(() => { if (drives && !isMine) setDraft(null); }, [isMine]);
   const drag = ({ target }) => {
-    setDraft(target.valueAsNumber);
-    if (drives && !(canDrive.value && Drive(widget.target, widget.id, String(target.valueAsNumber), element.safe ?? '0'))) setDraft(null);
+    const mayDrive = !drives || hasCome.current || held.peek()[widget.target] === widget.id;
+    hasCome.current = false;
+    const isTaken = mayDrive && (!drives || (canDrive.value && Drive(widget.target, widget.id, String(target.valueAsNumber), RestOf(element))));
+    setDraft(isTaken ? target.valueAsNumber : null);
+    if (!isTaken) target.value = String(shown);
   };
-  const holding = drives ? { onPointerUp: letGo, onPointerCancel: letGo, onLostPointerCapture: letGo, onKeyUp: letGo, onBlur: letGo }
-    : { onChange: (event) => send(event.target.valueAsNumber) };
+  const come = ({ repeat, button }) => { hasCome.current = !repeat && !button; };
+  const holding = drives ? { onPointerDown: come, onKeyDown: come, onPointerUp: letGo, onPointerCancel: letGo, onLostPointerCapture: letGo,
+    onKeyUp: letGo, onBlur: letGo } : { onChange: (event) => send(event.target.valueAsNumber) };
   return html`
     <div class="slider">
       <output>${typeof value === 'number' || draft !== null ? FormatNumber(shown) : '–'} <small>${element?.unit ?? ''}</small></output>
@@ -57,10 +64,10 @@ export function Button({ widget }) {
   const letGo = () => LetGo(widget.target, widget.id);
   useEffect(() => letGo, [widget.target, widget.id]);
   // Held, it is sent again and again, as driving is: the server has the port rest when it is not heard of.
-  const begin = () => canDrive.value && Drive(widget.target, widget.id, text, widget.off ?? element?.safe ?? Rest(element?.data_type));
+  const begin = () => canDrive.value && Drive(widget.target, widget.id, text, widget.off ?? RestOf(element));
   const pointer = usePointerHold({ begin, end: letGo });
   const isKey = ({ key }) => key === ' ' || key === 'Enter';
-  const holding = isPort && (widget.held || element?.driving) ? { ...pointer, onBlur: letGo,
+  const holding = isPort && (widget.held || element?.moves) ? { ...pointer, onBlur: letGo,
     onKeyDown: (event) => {
       if (!isKey(event)) return;
       event.preventDefault();
@@ -73,7 +80,9 @@ export function Button({ widget }) {
         onContextMenu=${(event) => event.preventDefault()}>${widget.title ?? element?.name ?? 'Button'}</button>${note}</div>`;
 }
 
-function Rest(type) {
+function RestOf(element) {
+  const type = element?.data_type;
+  if (element?.safe !== undefined) return element.safe;
   return type === 'bool' ? 'false' : /^(double|float|u?int\w*)$/.test(type ?? '') ? '0' : '{}';
 }
 
