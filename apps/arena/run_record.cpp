@@ -50,6 +50,10 @@ std::vector<PathSample> PathOf(const Json& list, const Json& modes) {
   return path;
 }
 
+std::optional<double> OptionalOf(const Json& number) {
+  return number.is_null() ? std::nullopt : std::optional(number.get<double>());
+}
+
 RunResult ResultOf(const Json& object) {
   return {.outcome = object.at("outcome").get<std::string>(),
           .remark = object.at("remark").get<std::string>(),
@@ -64,13 +68,20 @@ RunResult ResultOf(const Json& object) {
 
 Json ObjectOf(const RunRecord& record) {
   const RunResult& result = record.result;
+  const bool is_right = result.outcome == (record.shortest_path ? "reached" : "unreachable");
+  const bool has_ratio = is_right && record.shortest_path.value_or(0.0) > 0.0;
   return {{"world", record.key.world},
           {"variant", record.key.variant},
           {"sensor", record.key.sensor},
           {"direction", record.key.direction},
           {"seed", record.key.seed},
+          {"noise_m", record.noise},
           {"outcome", result.outcome},
+          {"remark", result.remark},
+          {"is_right", is_right},
           {"path_length_m", result.path_length},
+          {"shortest_path_m", record.shortest_path ? Json(*record.shortest_path) : Json()},
+          {"ratio", has_ratio ? Json(result.path_length / *record.shortest_path) : Json()},
           {"sim_time_s", result.simulated_time},
           {"wall_time_s", record.wall_time},
           {"cycles", result.cycles},
@@ -121,7 +132,6 @@ std::string JsonOf(const std::vector<RunRecord>& records) {
 
 std::string JournalLineOf(const RunRecord& record, std::string_view made_of) {
   Json object = ObjectOf(record);
-  object["remark"] = record.result.remark;
   object["robot_radius_m"] = record.result.robot_radius;
   object["processor_time_s"] = record.processor_time;
   object["modes"] = ModesOf(record.result.path);
@@ -141,7 +151,9 @@ Result<JournalEntry> ParseJournalLine(std::string_view line) {
                    .result = ResultOf(object),
                    .wall_time = object.at("wall_time_s").get<double>(),
                    .processor_time = object.at("processor_time_s").get<double>(),
-                   .has_ended_by_itself = object.at("has_ended_by_itself").get<bool>()},
+                   .has_ended_by_itself = object.at("has_ended_by_itself").get<bool>(),
+                   .noise = object.at("noise_m").get<double>(),
+                   .shortest_path = OptionalOf(object.at("shortest_path_m"))},
         .made_of = object.at("made_of").get<std::string>()};
   });
 }

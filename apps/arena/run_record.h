@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,13 +35,14 @@ struct RunRecord {
   double wall_time = 0.0;           ///< s
   double processor_time = 0.0;      ///< s, less than that where processes wait for their turn
   bool has_ended_by_itself = true;  ///< false: crashed, or ended because it hung
+  double noise = 0.0;               ///< m, of the ranges
+  std::optional<double> shortest_path = {};  ///< m, Course::shortest; none: the goal cannot be reached
 };
 
 /// What the referee has written (JsonOf). Errors: it is no such thing.
 [[nodiscard]] Result<RunResult> ParseRunResult(std::string_view text);
 
-/// An object with world, variant, sensor, direction, seed, outcome, path_length_m, sim_time_s,
-/// wall_time_s, cycles, hits, leaves and path, in one line: the published format.
+/// An object in one line: the published format, as the README has it.
 [[nodiscard]] std::string JsonOf(const RunRecord& record);
 /// The records as the published list.
 [[nodiscard]] std::string JsonOf(const std::vector<RunRecord>& records);

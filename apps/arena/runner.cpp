@@ -147,18 +147,22 @@ Result<RunRecord> MakeRun(const PlannedRun& run, const std::string& files,
   const std::string application = files + ".xml", result = files + ".json", output = files + ".txt";
   if (auto written = WriteFile(application, run.application); !written) return written.error();
   const RunSettings& settings = context.arguments.settings;
+  const Course& course = context.matrix.courses[run.course];
   const double wall_limit = context.arguments.wall_limit;
   const auto ending = RunProgram(
       {context.product.program.string(), "run", application, "--fast", "--quiet", "--no-control",
-       "world=" + context.matrix.courses[run.course].file.string(),
+       "world=" + course.file.string(),
        "first_direction=" + run.key.direction, "seed=" + std::to_string(run.key.seed),
        fmt::format("noise={}", settings.noise), fmt::format("path_step={}", settings.path_step),
        fmt::format("time_limit={}", settings.time_limit),
        fmt::format("safe_distance={}", settings.safe_distance), "result=" + result},
       output, std::chrono::duration<double>(wall_limit), context.is_to_stop);
   if (!ending) return ending.error();
-  RunRecord record{
-      .key = run.key, .wall_time = ending->wall_time, .processor_time = ending->processor_time};
+  RunRecord record{.key = run.key,
+                   .wall_time = ending->wall_time,
+                   .processor_time = ending->processor_time,
+                   .noise = settings.noise};
+  if (const auto& shortest = course.shortest) record.shortest_path = shortest->length;
   if (ending->has_hung || ending->signal != 0) {
     record.has_ended_by_itself = false;
     record.result.outcome = ending->has_hung ? "timeout" : "error";

@@ -206,7 +206,8 @@ void AddReplayedApplication(CLI::App& replay, ApplicationArguments& arguments) {
       .add_option("application", arguments.file,
                   "application file (XML): recorded ports are played instead of what its modules "
                   "publish there; without, ports are made for all that is recorded")
-      ->type_name("FILE.xml");
+      ->type_name("FILE.xml")
+      ->transform(ApplicationFile);
   replay.add_option("settings", arguments.settings, "values for parameters of the application")
       ->type_name("NAME=VALUE");
 }

@@ -73,21 +73,18 @@ const ModuleTypes& Import() {
 }
 
 const ModuleTypes& Start() {
-  if (Py_IsInitialized() != 0) {
-    const PyGILState_STATE state = PyGILState_Ensure();
-    struct Release {
-      PyGILState_STATE state;
-      ~Release() { PyGILState_Release(state); }
-    } const release{state};
-    return Import();
+  if (Py_IsInitialized() == 0) {
+    MakePythonGlobal();
+    Py_InitializeEx(0);  // signals are the program's
+    // What modules print is to be seen at once: the interpreter is never brought to an end.
+    (void)PyRun_SimpleString("import sys\nsys.stdout.reconfigure(line_buffering=True)\nsys.argv = ['runnel']\n");
+    (void)PyEval_SaveThread();
   }
-  MakePythonGlobal();
-  Py_InitializeEx(0);  // signals are the program's
+  const PyGILState_STATE state = PyGILState_Ensure();
   struct Release {
-    ~Release() { PyEval_SaveThread(); }
-  } const release;
-  // What modules print is to be seen at once: the interpreter is never brought to an end.
-  (void)PyRun_SimpleString("import sys\nsys.stdout.reconfigure(line_buffering=True)\nsys.argv = ['runnel']\n");
+    PyGILState_STATE state;
+    ~Release() { PyGILState_Release(state); }
+  } const release{state};
   return Import();
 }
 

@@ -67,9 +67,7 @@ Open Load(const std::string& kind, const std::string& text, const std::string& f
     }
   });
   if (!diagnostics.ok()) Throw(diagnostics);
-  for (const Error& warning : diagnostics.warnings()) {
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.ToString().c_str(), 2) != 0) throw py::error_already_set();
-  }
+  Warn(diagnostics.warnings());
   return open;
 }
 

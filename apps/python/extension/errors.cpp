@@ -48,6 +48,12 @@ void Throw(const Error& error) {
   Throw(one);
 }
 
+void Warn(const std::vector<Error>& warnings) {
+  for (const Error& each : warnings) {
+    if (PyErr_WarnEx(PyExc_UserWarning, each.ToString().c_str(), 2) != 0) throw py::error_already_set();
+  }
+}
+
 void BindErrors(py::module_& module) {
   py::exec(R"(
 class Error(Exception):

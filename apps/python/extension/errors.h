@@ -13,6 +13,8 @@ namespace runnel::python {
 [[noreturn]] void Throw(const Diagnostics& diagnostics);
 [[noreturn]] void Throw(const Error& error);
 
+void Warn(const std::vector<Error>& warnings);
+
 template <typename T>
 T Checked(Result<T> result) {
   if (!result) Throw(result.error());

@@ -21,14 +21,18 @@ namespace {
                        py::repr(object).cast<std::string>().substr(0, 60));
 }
 
+// It is none, or its conversion has thrown something of its own, as Ctrl-C does.
+[[noreturn]] void RefuseNumber(const TypeInfo& type, py::handle object) {
+  if (PyErr_ExceptionMatches(PyExc_TypeError) == 0) throw py::error_already_set();
+  PyErr_Clear();
+  Refuse(type, object);
+}
+
 template <typename T>
 bool SetWhole(const TypeInfo& type, py::handle object, void* at) {
   if (type.cpp_type() != typeid(T)) return false;
   const py::object number = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
-  if (!number) {
-    PyErr_Clear();
-    Refuse(type, object);
-  }
+  if (!number) RefuseNumber(type, object);
   try {
     *static_cast<T*>(at) = number.cast<T>();
   } catch (const py::cast_error&) {
@@ -39,10 +43,7 @@ bool SetWhole(const TypeInfo& type, py::handle object, void* at) {
 
 double NumberOf(const TypeInfo& type, py::handle object) {
   const double number = PyFloat_AsDouble(object.ptr());
-  if (number == -1.0 && PyErr_Occurred() != nullptr) {
-    PyErr_Clear();
-    Refuse(type, object);
-  }
+  if (number == -1.0 && PyErr_Occurred() != nullptr) RefuseNumber(type, object);
   return number;
 }
 

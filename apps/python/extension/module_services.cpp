@@ -55,15 +55,6 @@ struct ActivityOfModule {
   Activity* activity;
 };
 
-// Whatever keeps the object finds a call that is over.
-struct OfferedActivity {
-  explicit OfferedActivity(Activity* of) : told(std::make_shared<ActivityOfModule>(ActivityOfModule{of})) {}
-  ~OfferedActivity() { told->activity = nullptr; }
-  OfferedActivity(const OfferedActivity&) = delete;
-  OfferedActivity& operator=(const OfferedActivity&) = delete;
-  const std::shared_ptr<ActivityOfModule> told;
-};
-
 }  // namespace
 
 ModuleService::ModuleService(FrameworkElement& group, const std::string& name, const py::dict& said,
@@ -94,8 +85,10 @@ Result<void> ModuleService::Serve(const CallForm& form, CallBase& call, Activity
       const void* const at = form.ArgumentsOf(call);
       for (const FieldInfo& each : form.arguments()->fields()) named[py::str(each.name)] = CopyToPython(*each.type, each.address(ForLooking(at)));
     }
-    const OfferedActivity offered(activity);
-    const py::object reply = activity != nullptr ? handler_(py::cast(offered.told), **named) : handler_(**named);
+    const auto told = std::make_shared<ActivityOfModule>(ActivityOfModule{activity});
+    // Whatever keeps the object finds a call that is over.
+    const std::shared_ptr<void> end(nullptr, [told](void*) { told->activity = nullptr; });
+    const py::object reply = activity != nullptr ? handler_(py::cast(told), **named) : handler_(**named);
     return form.reply() != nullptr ? TakeReply(*form.reply(), reply, form.ReplyOf(call)) : Result<void>();
   } catch (const py::error_already_set& thrown) {
     (void)KeepInterrupt(thrown);

@@ -11,6 +11,7 @@
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/value.h"
 #include "core/paths/path_search.h"
+#include "plugins/application/run_report.h"
 
 namespace py = pybind11;
 
@@ -48,14 +49,16 @@ void OpenApplication::Close() {
   if (!application) return;
   is_closing_ = true;
   auto closed = std::move(application);
+  Diagnostics problems;
   WithoutGil([&] {
     for (const auto& each : std::exchange(recordings, {})) (void)each->Finish();
     closed->Stop();
-    Diagnostics problems;
+    (void)closed->report().Finish(problems);
     for (const auto& each : closed->extensions()) (void)each->Finish(problems);
     closed.reset();
   });
   is_closing_ = false;
+  Warn(problems.errors());
 }
 
 void OpenApplication::Leave() {
@@ -175,10 +178,7 @@ bool Reader::Wait(double seconds) {
   const Use use(*tied_.open());
   auto& input = dynamic_cast<InputBase&>(tied_.port(use));
   if (std::exchange(is_waited_for_, true)) throw py::value_error("another thread waits already");
-  struct Done {
-    bool& flag;
-    ~Done() { flag = false; }
-  } const done{is_waited_for_};
+  const std::shared_ptr<void> done(nullptr, [this](void*) { is_waited_for_ = false; });
   for (double left = seconds;; left -= kSlice) {
     const double slice = std::clamp(left, 0.0, kSlice);
     if (WithoutGil(tied_.open(), [&](Application&) { return input.Wait(FromSeconds(slice)); })) return true;

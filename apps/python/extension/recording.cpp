@@ -49,26 +49,6 @@ py::dict AboutOf(const RecordingFile& file) {
   return about;
 }
 
-struct Messages {
-  std::vector<std::int64_t> published;
-  std::vector<std::int64_t> measured;
-  std::vector<std::string> texts;
-};
-
-Messages Read(const RecordingFile& file, std::uint16_t channel) {
-  Messages messages;
-  Checked(WithoutGil([&] {
-    return file.reader->ReadMessages([&](const McapMessage& message) -> Result<void> {
-      if (message.channel != channel) return {};
-      messages.published.push_back(static_cast<std::int64_t>(message.log_time));
-      messages.measured.push_back(static_cast<std::int64_t>(message.publish_time));
-      messages.texts.emplace_back(message.data);
-      return {};
-    });
-  }));
-  return messages;
-}
-
 // An array of structures where NumPy has them, else a list of values.
 py::object ValuesOf(const TypeInfo& type, const std::vector<std::string>& texts) {
   const py::object dtype = DtypeOf(type);
@@ -90,6 +70,22 @@ py::object ValuesOf(const TypeInfo& type, const std::vector<std::string>& texts)
     all.append(ToPython(type, value.at, value.memory));
   }
   return all;
+}
+
+// Published when, measured when, values; texts without a type.
+py::tuple Read(const RecordingFile& file, std::uint16_t channel, const std::string& type) {
+  std::vector<std::int64_t> published, measured;
+  std::vector<std::string> texts;
+  Checked(WithoutGil([&] {
+    return file.reader->ReadMessages([&](const McapMessage& message) -> Result<void> {
+      if (message.channel != channel) return {};
+      published.push_back(static_cast<std::int64_t>(message.log_time));
+      measured.push_back(static_cast<std::int64_t>(message.publish_time));
+      texts.emplace_back(message.data);
+      return {};
+    });
+  }));
+  return py::make_tuple(published, measured, type.empty() ? py::cast(texts) : ValuesOf(TypeNamed(type), texts));
 }
 
 // What an application records from now on, until it is finished.
@@ -158,11 +154,7 @@ void BindRecordings(py::module_& module) {
       .def(py::init<const std::string&>())
       .def("channels", ChannelsOf)
       .def("about", AboutOf)
-      .def("read", [](const RecordingFile& file, std::uint16_t channel, const std::string& type) {
-        const Messages messages = Read(file, channel);
-        py::object values = type.empty() ? py::cast(messages.texts) : ValuesOf(TypeNamed(type), messages.texts);
-        return py::make_tuple(messages.published, messages.measured, values);
-      });
+      .def("read", Read);
 }
 
 }  // namespace runnel::python

@@ -3,6 +3,7 @@
 import asyncio
 import atexit
 import os
+import pathlib
 import traceback
 import weakref
 from typing import NamedTuple
@@ -108,15 +109,25 @@ def _options(settings=None, clock="", speed=None, paused=False, control=False, c
             speed, paused, control, list(wanted.items()))
 
 
+def _meant(file):
+    """The file, or that of an application that comes with Runnel, by its name alone."""
+    path = pathlib.Path(file)
+    if len(path.parts) != 1 or path.exists():
+        return str(file)
+    folders = pathlib.Path(_extension.__file__).resolve().parents
+    shipped = (each / "share/runnel/xml/apps" / f"{path.stem}.xml" for each in folders)
+    return str(next((each for each in shipped if each.is_file()), file))
+
+
 def load(file, **options):
-    """Loads an application file, ready to run. Nothing runs yet.
+    """Loads an application file, or one that comes with Runnel by its name ("bug_demo"), ready to run. Nothing runs yet.
 
     settings -- {"goal_x": 4}, for parameters that name a `command_line`; clock -- "real" or "simulated", instead of what
     the file says; speed -- how many times faster than real time, 0: as fast as it can; paused -- begins with a pause;
     control -- others reach it by `runnel ls` and `runnel.connect`, and a STOP outlives this process; record, record_ports -- into an MCAP file;
     extensions -- {"viewers": {"inspect": "8765"}}, as the options of `runnel run`.
     """
-    return Application("file", str(file), "", *_options(**options))
+    return Application("file", _meant(file), "", *_options(**options))
 
 
 def load_text(text, folder="", **options):
@@ -139,7 +150,7 @@ def replay(recording, file, ports=(), begin=None, end=None, **options):
     words |= {"to": repr(float(end))} if end is not None else {}
     arguments = _options(**options)
     arguments[-1].append(("recording", list(words.items()) + [("ports", each) for each in ports]))
-    return Application("file", str(file), "", *arguments)
+    return Application("file", _meant(file), "", *arguments)
 
 
 class Application(_extension.Application):

@@ -13,7 +13,8 @@ from xml.sax.saxutils import quoteattr
 
 from runnel import _extension
 
-COLUMNS = ("world", "variant", "sensor", "direction", "seed", "outcome", "path_length_m", "sim_time_s", "wall_time_s", "cycles")
+COLUMNS = ("world", "variant", "sensor", "direction", "seed", "noise_m", "outcome", "is_right", "path_length_m", "shortest_path_m",
+           "ratio", "sim_time_s", "wall_time_s", "cycles", "remark")
 
 
 @dataclasses.dataclass
@@ -57,7 +58,11 @@ class World:
 
 
 class Table(list):
-    """Runs, a dict each: world, variant, sensor, direction, seed, outcome, path_length_m, sim_time_s, cycles, hits, leaves, path."""
+    """Runs, a dict each: COLUMNS, hits, leaves, path.
+
+    is_right -- whether the verdict is the true one; shortest_path_m -- None where the goal cannot be reached; ratio -- of the path to
+    it, None where it was not rightly reached; remark -- why a run has failed.
+    """
 
     def frame(self):
         """The same for pandas, without the paths."""
@@ -73,9 +78,13 @@ class Table(list):
             writer.writerows(self)
 
     def __str__(self):
-        rows = [[str(round(run[name], 3) if isinstance(run[name], float) else run[name]) for name in COLUMNS] for run in self]
+        rows = [[_text(run[name]) for name in COLUMNS] for run in self]
         widths = [max(map(len, column)) for column in zip(COLUMNS, *rows)]
         return "\n".join("  ".join(each.ljust(width) for each, width in zip(row, widths)).rstrip() for row in [COLUMNS, *rows])
+
+
+def _text(value):
+    return "-" if value is None else str(round(value, 3) if isinstance(value, float) else value)
 
 
 def program(name="runnel"):
@@ -129,9 +138,13 @@ def _ask(command, environment):
 
 
 def _words(folder, worlds, variants, plugins):
-    files = []
+    files, texts = [], {}
     for each in [worlds] if isinstance(worlds, (str, pathlib.Path, World)) else worlds:
         if isinstance(each, World):
+            if not each.name or "/" in each.name:
+                raise _extension.Error(f"a world is called as a file may be, without '/': not {each.name!r}")
+            if texts.setdefault(each.name, each.text()) != each.text():
+                raise _extension.Error(f"two worlds are called '{each.name}'")
             file = pathlib.Path(folder) / f"{each.name}.xml"
             file.write_text(each.text())
             each = file

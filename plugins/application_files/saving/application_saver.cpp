@@ -160,6 +160,11 @@ Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& applicat
                    .hint = "name one"};
     }
     const fs::path file = to.empty() ? source->file : to;
+    if (to.empty() && fs::absolute(file).string().find("/share/runnel/xml/") != std::string::npos) {
+      return Error{.message = "the file comes with Runnel, and its next version would take what is saved there away",
+                   .position = {file.string()},
+                   .hint = "name a file of your own"};
+    }
     const bool is_its_own = source == nullptr || Whole(source->file) == Whole(file);
     if (source != nullptr && is_its_own) {
       if (auto unchanged = CheckUnchanged(*source); !unchanged) return unchanged.error();

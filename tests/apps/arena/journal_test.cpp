@@ -28,7 +28,9 @@ RunRecord SomeRecord(const std::string& variant = "bug1") {
                      .path = {{{0, 0}, PathMode::kDrivingToGoal, 0.5, 0},
                               {{1, 0}, PathMode::kGoingToLeavePoint, -0.5, 2}}},
           .wall_time = 0.25,
-          .processor_time = 0.125};
+          .processor_time = 0.125,
+          .noise = 0.02,
+          .shortest_path = 10.0};
 }
 
 PlannedRun PlannedFor(const RunRecord& record, const std::string& made_of = "abc") {
@@ -110,6 +112,20 @@ TEST(RunRecordJson, SurvivesWhatIsNotUtf8) {
   EXPECT_TRUE(nlohmann::json::accept(JournalLineOf(record, "x")));
   EXPECT_TRUE(nlohmann::json::accept(JsonOf(std::vector{record, record})));
   EXPECT_TRUE(nlohmann::json::accept(JsonOf(std::vector<RunRecord>{})));
+}
+
+TEST(RunRecordJson, SaysWhetherARunIsRightAndWhyItHasFailed) {
+  RunRecord record = SomeRecord();
+  const auto right = nlohmann::json::parse(JsonOf(record));
+  EXPECT_EQ(right.at("is_right"), true);
+  EXPECT_EQ(right.at("ratio"), 1.25);
+  EXPECT_EQ(right.at("noise_m"), 0.02);
+  record.shortest_path.reset();
+  record.result.remark = "no idea";
+  const auto wrong = nlohmann::json::parse(JsonOf(record));
+  EXPECT_EQ(wrong.at("is_right"), false);
+  EXPECT_TRUE(wrong.at("ratio").is_null() && wrong.at("shortest_path_m").is_null());
+  EXPECT_EQ(wrong.at("remark"), "no idea");
 }
 
 TEST(RunRecordJson, ReadsWhatTheRefereeWrites) {

@@ -1,4 +1,5 @@
 import asyncio
+import os
 
 import pytest
 
@@ -111,6 +112,29 @@ def test_recorded_and_replayed_to_the_bit(xml):
     with runnel.replay("run.mcap", file, ports=["/laser/*", "/localisation/*"], speed=0) as again:
         again.run_for(20)
         assert again.read("/robot/planner/twist") == end
+
+
+def test_what_comes_with_runnel_has_a_name_and_is_saved_elsewhere():
+    with runnel.load("bug_demo", speed=0) as app:
+        with pytest.raises(runnel.Error, match="comes with Runnel") as refused:
+            app.save()
+        assert "a file of your own" in refused.value.hint
+        app.save("mine.xml")
+    with pytest.raises(runnel.Error, match="bug_dem"):
+        runnel.load("bug_dem")
+
+
+def test_files_of_who_judges_are_written_at_the_end(xml):
+    def run():
+        with runnel.load(xml / "apps/bug_demo.xml", speed=0, settings={"picture": "way.svg"}) as app:
+            app.run_for(1)
+
+    run()
+    assert "<svg" in open("way.svg").read()
+    os.remove("way.svg")
+    os.mkdir("way.svg")
+    with pytest.warns(UserWarning, match="could not be written"):
+        run()
 
 
 def test_saved_and_loaded_again(app):

@@ -44,6 +44,8 @@ def test_worlds_as_objects_and_results_as_a_table():
     assert {run["outcome"] for run in table} == {"reached"}
     assert table[0]["path_length_m"] > table[1]["path_length_m"] > 6
     assert str(table).splitlines()[0].startswith("world")
+    assert [run["ratio"] for run in table] == [run["path_length_m"] / run["shortest_path_m"] for run in table]
+    assert all(run["is_right"] and run["noise_m"] == 0 and run["remark"] == "" for run in table)
     table.write_csv("runs.csv")
     assert len(open("runs.csv").readlines()) == 5
 
@@ -51,6 +53,21 @@ def test_worlds_as_objects_and_results_as_a_table():
 def test_mistakes_are_told():
     with pytest.raises(runnel.Error, match="did you mean"):
         arena.run("opn", "bug2")
+    with pytest.raises(runnel.Error, match="two worlds are called 'random'"):
+        arena.run([arena.World("random", (0, 0), (3, y)) for y in range(4)], "bug2")
+    with pytest.raises(runnel.Error, match="'b/c'"):
+        arena.run(arena.World("b/c", (0, 0), (3, 0)), "bug2")
+
+
+def test_why_a_variant_has_failed(empty_folder, monkeypatch):
+    first = "        pose, goal = self.pose.read(), self.goal.read()\n"
+    (empty_folder / "failing.py").write_text(PLANNER.replace(first, "        raise ValueError('no idea')\n"))
+    monkeypatch.syspath_prepend(str(empty_folder))
+    import failing
+
+    run, = arena.run("open", failing.Straight, time_limit=5.0)
+    assert not run["is_right"] and run["ratio"] is None and run["shortest_path_m"] > 0
+    assert run["outcome"] == "error" and "no idea" in run["remark"], run
 
 
 def test_shards_are_merged_and_interrupted_ones_resumed():

@@ -285,6 +285,32 @@ print("done")
 ''')
 
 
+def test_an_interrupt_while_a_value_is_made_is_no_fault():
+    ends_well('''
+    class Interrupts:
+        def __float__(self):
+            os.kill(os.getpid(), signal.SIGINT)
+            for _ in range(10**9):
+                pass
+
+    class Publishes(runnel.Module):
+        period = 0.01
+        out = runnel.Output("double")
+
+        def update(self):
+            self.out.publish(Interrupts())
+
+    app = ticking(clock="simulated", start=False)
+    app.create("publishes", Publishes)
+    try:
+        app.run_for(1e9)
+    except KeyboardInterrupt:
+        assert not app.faults(), app.faults()
+        app.close()
+        print("done")
+    ''')
+
+
 def test_an_interrupt_ends_cycles_of_modules_in_cpp():
     ends_well('''
     app = runnel.compose("cpp", clock="simulated")
