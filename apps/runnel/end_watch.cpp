@@ -7,6 +7,8 @@
 
 #include "apps/runnel/commands.h"
 #include "apps/runnel/output.h"
+#include "core/element/own_thread.h"
+#include "core/element/try_structure_lock.h"
 
 namespace runnel::program {
 
@@ -100,6 +102,29 @@ void EndWatch::Leave() {
   print_();
   (void)FinishOutput();
   std::_Exit(static_cast<int>(ExitCode::kRunFailed));
+}
+
+std::string EndOwnThreads(Runtime& runtime) {
+  constexpr Duration kTold = std::chrono::milliseconds(800);
+  constexpr Duration kLongest = std::chrono::seconds(5);
+  std::string told;
+  for (Duration waited{};; waited += kLook) {
+    std::string at_work;
+    {
+      const auto lock = TryStructureLock(runtime, kLook);
+      const auto tell = [&](const FrameworkElement& each) {
+        at_work += (at_work.empty() ? "a call of " : ", ") + each.parent()->path();
+      };
+      if (lock && OwnThread::AskToEnd(runtime.root(), tell)) return {};
+      if (!lock) at_work = "what changes the structure";
+    }
+    if (waited >= kLongest) return at_work;
+    if (waited >= kTold && at_work != std::exchange(told, at_work)) {
+      std::cerr << "the run waits for " << at_work << " to come to its end; Ctrl-C again ends the program\n"
+                << std::flush;
+    }
+    std::this_thread::sleep_for(kLook);
+  }
 }
 
 void RunControl::AddHooks(Application& application, ServiceHooks& hooks) {

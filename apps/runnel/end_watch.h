@@ -59,6 +59,10 @@ class EndWatch {
   std::jthread thread_;  // last: uses all of it
 };
 
+/// Asks services whose calls take long to end them, waits for that, and says so. What has not ended after 5 s, in words;
+/// "" if all has.
+[[nodiscard]] std::string EndOwnThreads(Runtime& runtime);
+
 /// What clients of a running application ask of the program that runs it: that it ends, or runs again.
 ///
 /// Threads: any.

@@ -21,8 +21,6 @@
 #include "apps/runnel/other_programs.h"
 #include "apps/runnel/output.h"
 #include "apps/runnel/progress_display.h"
-#include "core/element/own_thread.h"
-#include "core/element/try_structure_lock.h"
 #include "core/log/log_sink.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/application/application.h"
@@ -261,27 +259,6 @@ ApplicationOptions OptionsOf(const RunArguments& arguments) {
   if (arguments.application.file.empty()) options.clock = ClockKind::kSimulated;
   options.extensions_by_name = arguments.extensions;
   return options;
-}
-
-// Of services whose calls take long. Those that do not end by themselves, "" if all have.
-std::string EndOwnThreads(Runtime& runtime) {
-  constexpr Duration kTold = std::chrono::milliseconds(800);
-  constexpr Duration kLongest = std::chrono::seconds(5);
-  std::string told;
-  for (Duration waited{};; waited += kLookForSignal) {
-    std::string at_work;
-    {
-      const auto lock = TryStructureLock(runtime, kLookForSignal);
-      const auto tell = [&](const FrameworkElement& each) { at_work += (at_work.empty() ? "a call of " : ", ") + each.parent()->path(); };
-      if (lock && OwnThread::AskToEnd(runtime.root(), tell)) return {};
-      if (!lock) at_work = "what changes the structure";
-    }
-    if (waited >= kLongest) return at_work;
-    if (waited >= kTold && at_work != std::exchange(told, at_work)) {
-      std::cerr << "the run waits for " << at_work << " to come to its end; Ctrl-C again ends the program\n" << std::flush;
-    }
-    std::this_thread::sleep_for(kLookForSignal);
-  }
 }
 
 // A thread that does not end can be left, but what it uses cannot be destroyed: the process ends without.

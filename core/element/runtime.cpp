@@ -36,7 +36,7 @@ Runtime::~Runtime() {
   if (auto* const leaving = root_.FindAnnotation<Leaving>()) leaving->elements.clear();
 }
 
-bool OwnThread::AskToEnd(FrameworkElement& top, const std::function<void(const FrameworkElement& element)>& tell) {
+bool OwnThread::AskToEnd(FrameworkElement& top, const Tell& tell) {
   bool have_ended = true;
   const auto ask = [&](FrameworkElement& each) {
     const auto* const own = each.FindAnnotation<OwnThread>();

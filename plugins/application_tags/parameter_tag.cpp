@@ -109,7 +109,9 @@ void Give(const TagUse& use, PartUse& part) {
 // In any other group: stands for parameters of what is within, and may have a value for them. `may_wait`: modules may
 // make them yet.
 void MakeGroupParameter(const TagUse& use, const XmlAttribute& to, bool may_wait = true) {
-  const auto is_missing = [](const PathUse& each) { return !PathSearch(each.base).Find(each.path, PathKind::kParameter); };
+  const auto is_missing = [](const PathUse& each) {
+    return !PathSearch(each.base).Find(each.path, PathKind::kParameter);
+  };
   const std::vector<PathUse> uses = PathsIn(to, use.parent);
   if (may_wait && std::ranges::any_of(uses, is_missing)) {
     return use.context.Defer(BuildStage::kConstruction, [use, &to] { MakeGroupParameter(use, to, false); });
@@ -175,13 +177,15 @@ bool IsAsLoaded(const ConfigurableElement& parameter, const std::string* loaded)
   return text == (loaded != nullptr ? *loaded : parameter.configurable->info().default_value);
 }
 
-// The entry of the configuration from which it has its value, if by other names round it the section leads to another one.
+// The entry of the configuration from which it has its value, if by other names round it the section leads to another
+// one.
 const std::string* LostEntry(const FrameworkElement& parameter) {
   const auto* const entry = parameter.FindAnnotation<ConfigurationEntry>();
-  if (entry == nullptr || LoadedValue::Of(parameter) == nullptr) return nullptr;
+  const FrameworkElement* const section = ConfigurationSection::FindAround(parameter);
+  if (entry == nullptr || section == nullptr || LoadedValue::Of(parameter) == nullptr) return nullptr;
   const FrameworkElement* at = parameter.parent();
-  while (at != nullptr && at->FindAnnotation<ConfigurationSection>() == nullptr && NameInFile::Of(*at) == at->name()) at = at->parent();
-  return at != nullptr && at->FindAnnotation<ConfigurationSection>() == nullptr ? &entry->path : nullptr;
+  while (at != section && NameInFile::Of(*at) == at->name()) at = at->parent();
+  return at != section ? &entry->path : nullptr;
 }
 
 bool HasTag(XmlElement module_tag, const FrameworkElement& module, const FrameworkElement& parameter) {

@@ -36,7 +36,8 @@ void CheckName(const TagUse& use, const FrameworkElement& module, const Configur
   }
   const auto names = NamesOf(ConfigurablesOf(module), [](const auto& each) { return each.element->name(); });
   if (!use.context.IsNews(module, name.value, names)) return;
-  use.context.Report({.message = "there is no parameter '" + name.value + "'", .hint = NearestNameHint(name.value, names)},
+  use.context.Report({.message = "there is no parameter '" + name.value + "'",
+                      .hint = NearestNameHint(name.value, names)},
                      name.value_position, module);
 }
 

@@ -66,8 +66,8 @@ class Configuration {
   std::vector<File> files_;
 };
 
-/// Kept with a parameter that an entry of the configuration sets, or its tag says so: which one. It stays when something
-/// round it gets another name.
+/// Kept with a parameter that an entry of the configuration sets, or its tag says so: which one. It stays when
+/// something round it gets another name.
 struct ConfigurationEntry final : Annotation {
   explicit ConfigurationEntry(std::string entry) : path(std::move(entry)) {}
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {

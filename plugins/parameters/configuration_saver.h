@@ -21,11 +21,13 @@ struct ConfigurationSource final : Annotation {
   std::vector<File> files = {};
 };
 
-/// Kept with a parameter that a file names, or the configuration: what it came to when these were read, or written last, in
-/// text format. It may be from the command line; as long as it stays so, it is not the file's business.
+/// Kept with a parameter that a file names, or the configuration: what it came to when these were read, or written last,
+/// in text format. It may be from the command line; as long as it stays so, it is not the file's business.
 struct LoadedValue final : Annotation {
   explicit LoadedValue(std::string value) : text(std::move(value)) {}
-  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<LoadedValue>(text); }
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<LoadedValue>(text);
+  }
   [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
   const std::string text;
 

@@ -12,11 +12,14 @@
 
 namespace runnel {
 
-/// Kept with a parameter that a rule has set for the time being, and a module that it has put in the place of another: the
-/// value, or the type, that a person has made it.
+/// Kept with a parameter that a rule has set for the time being, and a module that it has put in the place of another:
+/// the value, or the type, that a person has made it.
 struct MadeByRule final : Annotation {
-  MadeByRule(std::string of_person, std::string of_rule) : before(std::move(of_person)), now(std::move(of_rule)) {}
-  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<MadeByRule>(before, now); }
+  MadeByRule(std::string of_person, std::string of_rule)
+      : before(std::move(of_person)), now(std::move(of_rule)) {}
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<MadeByRule>(before, now);
+  }
   [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
   const std::string before;
   const std::string now;

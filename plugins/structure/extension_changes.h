@@ -51,7 +51,7 @@ struct PathFollowers final : Annotation {
 ///
 /// Threads: under the structure lock.
 struct SwitchedByRules final : Annotation {
-  /// Each of these takes back what one rule has changed; the last one first.
+  /// Each of these takes back what one rule has connected and cut; the last one first.
   std::vector<std::function<std::vector<ChangeSet>()>> all = {};
 };
 

@@ -44,7 +44,8 @@ Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkE
 using IsTheirTurn = std::function<bool(const FrameworkElement& parameter)>;
 
 // Errors: no such parameter, with the nearest name; a value it refuses.
-Result<void> Configure(FrameworkElement& module, const Setting& setting, bool may_be_missing, const IsTheirTurn& is_its_turn) {
+Result<void> Configure(FrameworkElement& module, const Setting& setting, bool may_be_missing,
+                       const IsTheirTurn& is_its_turn) {
   const ConfigurableElement parameter = FindConfigurable(module, setting.parameter);
   if (!parameter) {
     if (may_be_missing) return {};
@@ -59,7 +60,8 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting, bool ma
   return set ? set : Refused(set, *parameter.element);
 }
 
-Result<void> CopySettings(const std::vector<Setting>& inherited, FrameworkElement& after, const IsTheirTurn& is_its_turn) {
+Result<void> CopySettings(const std::vector<Setting>& inherited, FrameworkElement& after,
+                          const IsTheirTurn& is_its_turn) {
   for (const auto& [element, target] : ConfigurablesOf(after)) {
     if (!is_its_turn(*element)) continue;
     const auto source = std::ranges::find(inherited, element->name(), &Setting::parameter);

@@ -61,23 +61,29 @@ Result<void> Supervisor::Shared::Release(const std::string& port, Time now) {
   return {};
 }
 
-// Files that are saved until it is taken back have what people have made there. What a rule before has made is none of theirs.
+// Files that are saved until it is taken back have what people have made there. What a rule before has made is none of
+// theirs.
 void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet back) {
   const std::lock_guard lock(runtime.structure_mutex());
   const auto note = [this](const std::string& path, const std::string& before, PathKind kind) {
     const auto found = PathSearch(runtime).Find(path, kind);
     if (!found) return;
     const auto* const parameter = dynamic_cast<const Configurable*>(*found);
-    (*found)->Annotate(std::make_unique<MadeByRule>(MadeByRule::Before(**found, before),
-                                                    parameter != nullptr ? parameter->ToText() : FindModuleType(**found)));
+    std::string now = parameter != nullptr ? parameter->ToText() : FindModuleType(**found);
+    (*found)->Annotate(std::make_unique<MadeByRule>(MadeByRule::Before(**found, before), std::move(now)));
   };
   for (const Change& each : back) {
     if (const auto* const set = std::get_if<SetParameter>(&each)) note(set->path, set->value, PathKind::kParameter);
     const auto* const replace = std::get_if<ReplaceModule>(&each);
     if (replace == nullptr) continue;
     note(replace->path, replace->type, PathKind::kElement);
-    for (const Setting& one : replace->settings) note(replace->path + "/" + one.parameter, one.value, PathKind::kParameter);
+    for (const Setting& one : replace->settings) {
+      note(replace->path + "/" + one.parameter, one.value, PathKind::kParameter);
+    }
   }
+  std::erase_if(back, [](const Change& each) {
+    return !std::holds_alternative<ConnectPorts>(each) && !std::holds_alternative<DisconnectPorts>(each);
+  });
   std::erase(switched, &rule);
   rule.back.changes.clear();
   if (which != &SupervisionRule::reaction) return;

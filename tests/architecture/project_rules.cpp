@@ -144,7 +144,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                     "plugins/scheduling", "plugins/timing", "plugins/structure", "plugins/web_server"}});
   rules.push_back({"plugins/supervision",
                    "plugins/supervision",
-                   {"core", "plugins/scheduling", "plugins/timing", "plugins/structure"}});
+                   {"core", "plugins/parameters/value_to_save.h", "plugins/scheduling", "plugins/timing", "plugins/structure"}});
 }
 
 // A family of modules knows the framework, the types that all share, and itself. Neighbours that a

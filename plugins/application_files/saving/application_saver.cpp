@@ -71,6 +71,7 @@ void CheckRequiredInputs(Saving& saving, bool is_new_file) {
     if (port == nullptr || !port->is_required()) return;
     const std::vector<Port*> sources = port->Sources();
     if (std::ranges::any_of(sources, feeds) || LateConnections::Awaits(*port)) return;
+    if (std::ranges::count(saving.edges, port, &internal::SavedEdge::to) > 0) return;  // a rule has cut it
     const std::string what = sources.empty() ? "nothing is connected to this input"
                                              : "only another application feeds this input";
     saving.Fail(

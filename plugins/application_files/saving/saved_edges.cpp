@@ -1,5 +1,6 @@
 
 #include <algorithm>
+#include <set>
 
 #include "core/element/element_path.h"
 #include "core/element/not_saved.h"
@@ -60,21 +61,25 @@ FrameworkElement* HomeOfPaths(const std::string& from, const std::string& to,
   return home != nullptr && home->IsAtOrBelow(application) ? home : nullptr;
 }
 
-// What a rule has switched for the time being is as people have made it, unless they have cut what the rule has made.
+// What a rule has switched for the time being is as people have made it, but for inputs where they have cut what the rule
+// has made.
 void TakeBack(const ChangeSet& back, FrameworkElement& application, std::vector<SavedEdge>& edges) {
   const PathSearch search(application.runtime());
+  std::set<const Port*> of_people;
   for (const Change& each : back) {
     const auto* const cut = std::get_if<DisconnectPorts>(&each);
     const auto* const tie = std::get_if<ConnectPorts>(&each);
-    if (cut == nullptr && tie == nullptr) continue;
     const auto from = search.FindPort(cut != nullptr ? cut->from : tie->from, PathKind::kOutput);
     const auto to = search.FindPort(cut != nullptr ? cut->to : tie->to, PathKind::kInput);
     if (!from || !to) continue;
-    const auto known = std::ranges::find_if(edges, [&](const SavedEdge& edge) { return edge.from == *from && edge.to == *to; });
-    if (cut != nullptr) {
-      if (known == edges.end()) return;
-      edges.erase(known);
-    } else if (FrameworkElement* const home = Home(**from, **to, application); home != nullptr && known == edges.end()) {
+    const auto is_it = [&](const SavedEdge& edge) { return edge.from == *from && edge.to == *to; };
+    const auto known = std::ranges::find_if(edges, is_it);
+    FrameworkElement* const home = Home(**from, **to, application);
+    if (known != edges.end()) {
+      if (cut != nullptr) edges.erase(known);
+    } else if (cut != nullptr) {
+      of_people.insert(*to);
+    } else if (home != nullptr && !of_people.contains(*to)) {
       edges.push_back({*from, *to, tie->options, home});
     }
   }

@@ -1,4 +1,5 @@
-// A file that is saved while a rule is in force has what people have made, and not what the rule has made for the time being.
+// A file that is saved while a rule is in force has what people have made, and not what the rule has made for the time
+// being.
 
 #include <gmock/gmock.h>
 
@@ -35,6 +36,7 @@ constexpr const char* kFile = R"(<application name="demo">
     <parameter name="count" value="5"/>
   </module>
   <module name="sink" type="test/sink"/>
+  <module name="filter" type="test/filter"/>
   <module name="gauge" type="test/source" config="/gauge"/>
   <group name="both">
     <parameter name="gain" to="one/gain two/gain" value="4"/>
@@ -42,12 +44,15 @@ constexpr const char* kFile = R"(<application name="demo">
     <module name="two" type="test/source"/>
   </group>
   <connect from="a/value" to="sink/value" queue="5"/>
+  <connect from="gauge/value" to="filter/value"/>
   <on_stale input="sink/value" after="30ms" fresh_after="20ms">
+    <switch input="filter/value" from="gauge/value"/>
     <switch input="sink/value" from="a/value" to="b/value"/>
     <set parameter="gauge/gain" value="2"/>
     <set parameter="both/gain" value="1"/>
     <replace module="b" by="test/spare"/>
     <otherwise>
+      <switch input="filter/value" to="gauge/value"/>
       <switch input="sink/value" from="b/value" to="a/value"/>
       <set parameter="gauge/gain" value="6"/>
     </otherwise>
@@ -66,7 +71,7 @@ class SavedRules : public ::testing::Test {
     editor.emplace(shop.runtime, shop.plugins.modules(), &*scheduler);
     supervisor.emplace(shop.runtime, *scheduler, [this](const ChangeSet& changes) -> Result<ChangeSet> {
       ChangeSet back;
-      const ChangeOutcome outcome = editor->Apply(changes, {}, &back);
+      const ChangeOutcome outcome = editor->Apply(changes, {}, {}, &back);
       if (!outcome) return outcome.diagnostics.errors().front();
       return back;
     });
@@ -76,6 +81,7 @@ class SavedRules : public ::testing::Test {
     EXPECT_EQ(shop.Get<Spare>("/demo/b").gain.Get(), 3);
     EXPECT_EQ(GainOf("gauge"), 2);
     EXPECT_EQ(SourceOfSink(), "/demo/b/output/value");
+    EXPECT_TRUE(shop.Get<Port>("/demo/filter/input/value").incoming().empty()) << "though its module requires it";
   }
   ~SavedRules() override {
     supervisor.reset();
@@ -122,7 +128,8 @@ TEST_F(SavedRules, StayTheSameWhenAllIsWellAgain) {
 TEST_F(SavedRules, FollowOtherNames) {
   Must({RenameElement{"/demo/b", "c"}});
   Must({RenameElement{"/demo/a", "b"}});
-  EXPECT_THAT(Text(), AllOf(HasSubstr(R"(<module name="c" type="test/source">)"), HasSubstr(R"(<parameter name="count" value="5"/>)"),
+  EXPECT_THAT(Text(), AllOf(HasSubstr(R"(<module name="c" type="test/source">)"),
+                            HasSubstr(R"(<parameter name="count" value="5"/>)"),
                             HasSubstr(R"(<connect from="b/value" to="sink/value" queue="5"/>)"), Not(HasSubstr("\"a\"")),
                             Not(HasSubstr("own"))));
 }
@@ -132,8 +139,11 @@ TEST_F(SavedRules, HaveWhatPeopleMakeMeanwhile) {
         DisconnectPorts{"/demo/b/value", "/demo/sink/value"}, ConnectPorts{"/demo/gauge/value", "/demo/sink/value"}});
   const std::string text = Text();
   EXPECT_THAT(text, AllOf(HasSubstr(R"(<parameter name="gain" value="9"/>)"),
-                          HasSubstr(R"(<parameter name="gain" value="5"/>)"), HasSubstr(R"(<module name="b" type="test/source">)"),
-                          HasSubstr(R"(<connect from="gauge/value" to="sink/value"/>)"), Not(HasSubstr(R"(<connect from="a/value")"))));
+                          HasSubstr(R"(<parameter name="gain" value="5"/>)"),
+                          HasSubstr(R"(<module name="b" type="test/source">)"),
+                          HasSubstr(R"(<connect from="gauge/value" to="filter/value"/>)"),
+                          HasSubstr(R"(<connect from="gauge/value" to="sink/value"/>)"),
+                          Not(HasSubstr(R"(<connect from="a/value")"))));
   Must({ReplaceModule{"/demo/b", "test/source"}});
   EXPECT_THAT(Text(), HasSubstr(R"(<module name="b" type="test/source">)"));
 }
