@@ -16,27 +16,21 @@ struct DrivingBeside final : Annotation {
   std::vector<std::pair<std::string, std::weak_ptr<const PortStop>>> all;
 };
 
-void VisitPortsOfModule(const Port& port, const std::function<void(Port& each, bool is_feed)>& visit) {
-  FrameworkElement* module = port.parent();
-  while (module != nullptr && module->kind() == ElementKind::kPortGroup) module = module->parent();
-  if (module == nullptr || module->kind() != ElementKind::kModule) return;
-  module->Visit([&](FrameworkElement& each) {
-    auto* const other = dynamic_cast<Port*>(&each);
-    if (other != nullptr) visit(*other, other->parent()->parent()->kind() == ElementKind::kParameter);
-  });
-}
-
 }  // namespace
 
-void VisitPassing(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit) {
-  VisitPortsOfModule(port, [&](Port& each, bool is_feed) {
-    if (!is_feed && each.direction() == direction && &each.type() == &port.type()) visit(each);
-  });
+FrameworkElement* FindModuleOf(const Port& port) {
+  FrameworkElement* module = port.parent();
+  while (module != nullptr && module->kind() == ElementKind::kPortGroup) module = module->parent();
+  return module != nullptr && module->kind() == ElementKind::kModule ? module : nullptr;
 }
 
-void VisitFeeds(const Port& port, const std::function<void(Port& feed)>& visit) {
-  VisitPortsOfModule(port, [&](Port& each, bool is_feed) {
-    if (is_feed) visit(each);
+void VisitSiblings(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit) {
+  FrameworkElement* const module = FindModuleOf(port);
+  if (module == nullptr) return;
+  module->Visit([&](FrameworkElement& each) {
+    auto* const other = dynamic_cast<Port*>(&each);
+    if (other == nullptr || other->direction() != direction) return;
+    if (other->parent()->parent()->kind() != ElementKind::kParameter) visit(*other);
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,12 +14,15 @@ namespace runnel {
 
 class Runtime;
 
-/// The inputs, or outputs, of the port's module that have its type: a filter, gate or merge passes on from them, or to them.
-/// Under the structure lock.
-void VisitPassing(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit);
+namespace internal {
+/// For Port::NoteVelocity(): of what has just been connected; another one, of all that makes the values of the port.
+constexpr std::uint32_t kFirstBeginning = 1, kNextBeginning = 0;
+}  // namespace internal
 
-/// The inputs by which outputs set parameters of the port's module (Configurable::Feed()). Under the structure lock.
-void VisitFeeds(const Port& port, const std::function<void(Port& feed)>& visit);
+/// The module that has the port as its own; nullptr: none. Under the structure lock, as what follows.
+[[nodiscard]] FrameworkElement* FindModuleOf(const Port& port);
+/// The inputs, or outputs, of the port's module, but for those by which its parameters are set.
+void VisitSiblings(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit);
 
 /// What the STOP of the robot holds, as paths with ", " between them; "": it holds nothing. Nothing while somebody else has
 /// the structure lock, which is waited for some ms at most.

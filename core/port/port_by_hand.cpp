@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/element/runtime.h"
+#include "core/port/driving_ports.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/types/type_info.h"
@@ -106,6 +107,7 @@ Result<void> Port::PublishByHand(const Fill& fill, Setter setter, std::optional<
 bool Port::Release(Setter setter) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (!is_set_by_hand(setter)) return false;
+  NoteVelocity(internal::kNextBeginning);  // what is ramped before it has not driven
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;
   try {

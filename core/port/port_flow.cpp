@@ -1,6 +1,7 @@
 // Between which ports data flows: Sources(), Sinks(), and what inputs are bound to.
 
 #include <algorithm>
+#include <atomic>
 #include <unordered_set>
 #include <utility>
 
@@ -31,14 +32,16 @@ void DropRepetitions(const std::vector<Connection>& ways, std::vector<Port*>& po
   std::erase_if(ports, [&](const Port* port) { return !seen.insert(port).second; });
 }
 
-constexpr std::uint32_t kFirstBeginning = 1;
+using internal::kFirstBeginning, internal::kNextBeginning;
 
 // It moves the robot, or its module passes it on to what does.
 bool IsMadeVelocity(const Port& input) {
   const auto is_of_robot = [](const internal::PassedStop& each) { return each.stop->robot() != nullptr; };
   if (IsVelocity(input.type(), input.unit()) && std::ranges::any_of(internal::PassedStops(input), is_of_robot)) return true;
   bool is_made = false;
-  VisitPassing(input, Port::Direction::kOutput, [&](const Port& output) { is_made = is_made || output.velocity_beginnings() != 0; });
+  VisitSiblings(input, Port::Direction::kOutput, [&](const Port& output) {
+    is_made = is_made || (&output.type() == &input.type() && output.velocity_beginnings() != 0);
+  });
   return is_made;
 }
 
@@ -109,10 +112,18 @@ void Port::RebindSinks() {
 }
 
 void Port::NoteVelocity(std::uint32_t beginning) {
+  static std::atomic<std::uint32_t> last{kFirstBeginning};
+  if (beginning == kNextBeginning) {
+    if (!IsVelocity(type_, unit())) return;
+    beginning = ++last;
+    for (Port* source : Sources()) source->NoteVelocity(beginning);
+    return;
+  }
   const std::uint32_t known = velocity_beginnings();
   if (known == beginning || (known != 0 && beginning == kFirstBeginning)) return;
   velocity_beginnings_.store(beginning, std::memory_order_relaxed);
-  VisitPassing(*this, Direction::kInput, [&](const Port& input) {
+  VisitSiblings(*this, Direction::kInput, [&](const Port& input) {
+    if (&input.type() != &type()) return;
     for (Port* source : input.Sources()) source->NoteVelocity(beginning);
   });
 }

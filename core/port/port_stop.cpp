@@ -3,14 +3,13 @@
 #include "core/port/port_stop.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cstdint>
 #include <mutex>
 #include <utility>
 
 #include "core/element/runtime.h"
 #include "core/port/converted_flow.h"
+#include "core/port/driving_ports.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/port/stop_link.h"
@@ -81,13 +80,8 @@ Result<void> Port::Block() {
 
 bool Port::Unblock() {
   const std::lock_guard lock(runtime().structure_mutex());
-  static std::atomic<std::uint32_t> last_beginning{1};
   if (!is_blocked()) return false;
-  // Before it counts what is made from then on.
-  if (IsVelocity(type_, unit())) {
-    const std::uint32_t beginning = ++last_beginning;
-    for (Port* source : Sources()) source->NoteVelocity(beginning);
-  }
+  NoteVelocity(internal::kNextBeginning);  // before it counts what is made from then on
   if (!extras_->stop->block()->Release([this] { return runtime().clock().Now(); })) return false;
   TellOfChange();
   return true;

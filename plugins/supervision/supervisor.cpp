@@ -192,6 +192,26 @@ Result<void> Supervisor::Add(StopButtonRule rule) {
   return {};
 }
 
+// As if what `but_for` pauses went on.
+void Supervisor::Shared::FollowPauses(std::string_view but_for) {
+  for (const auto& each : rules) {
+    if (each->when != SupervisionRule::When::kPaused) continue;
+    bool applies = false;
+    std::string of;
+    {
+      const std::lock_guard structure(runtime.structure_mutex());
+      const auto found = runtime.root().Find(each->of);
+      if (!found) continue;  // it stays as it is
+      applies = scheduler.IsPaused(**found, but_for);
+      of = each->of;
+    }
+    if (applies == std::exchange(each->is_applied, applies)) continue;
+    const Which which = applies ? &SupervisionRule::reaction : &SupervisionRule::otherwise;
+    if (((*each).*which).is_empty()) continue;
+    React(*each, which, of, applies ? "is paused" : "goes on", runtime.clock().Now(), false, Where::kHere);
+  }
+}
+
 // Who goes on finds what the rules have taken back.
 Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
   const RobotStop::AsOf as_of = shared_->runtime.robot_stop().AsOfNow();
@@ -206,22 +226,11 @@ Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
   } else if (auto meant = shared_->runtime.robot_stop().CheckIsKnown(as_of); !meant) {
     return meant;
   }
-  Runtime& runtime = shared_->runtime;
-  for (const auto& each : shared_->rules) {
-    if (each->when != SupervisionRule::When::kPaused) continue;
-    bool applies = false;
-    std::string of;
-    {
-      const std::lock_guard structure(runtime.structure_mutex());
-      const auto found = runtime.root().Find(each->of);
-      if (!found) continue;  // it stays as it is
-      applies = scheduler_.IsPaused(**found, is_paused ? "" : path);
-      of = each->of;
-    }
-    if (applies == std::exchange(each->is_applied, applies)) continue;
-    const Shared::Which which = applies ? &SupervisionRule::reaction : &SupervisionRule::otherwise;
-    if (((*each).*which).is_empty()) continue;
-    shared_->React(*each, which, of, applies ? "is paused" : "goes on", runtime.clock().Now(), false, Shared::Where::kHere);
+  shared_->FollowPauses(is_paused ? "" : path);
+  // It may have taken long.
+  if (auto meant = shared_->runtime.robot_stop().CheckIsKnown(as_of); !is_paused && !meant) {
+    shared_->FollowPauses("");
+    return meant;
   }
   if (is_paused) KeepSafe();
   return is_paused ? paused : scheduler_.SetPaused(path, false);

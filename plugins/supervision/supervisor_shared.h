@@ -46,6 +46,7 @@ struct Supervisor::Shared {
   // What may take as long as it takes, and must keep up nobody who looks whether all is well: in real time beside him, one
   // after the other; in simulated time at once.
   void Beside(std::function<void()> act, bool is_long);
+  void FollowPauses(std::string_view but_for);
   void WorkBeside() noexcept;
   void ServeRequests(Time now);
   [[nodiscard]] bool is_real() const noexcept { return scheduler.options().clock == SchedulerOptions::ClockKind::kReal; }

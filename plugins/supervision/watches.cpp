@@ -25,10 +25,24 @@ struct RestMark final : Annotation {
   bool is_ahead_told = false;
 };
 
-// Something is, or was, connected to the input.
+// Of an input, or a parameter, on the way to what drives: whether something is connected to it.
 struct FedMark final : Annotation {
-  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<FedMark>(); }
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    auto mark = std::make_unique<FedMark>(*this);
+    mark->has_moved = true;
+    return mark;
+  }
   [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
+  bool is_fed = true;
+  bool has_moved = false;
+  Time cut{};        // when it was found that nothing is any more
+  std::string text;  // the parameter's value then
+};
+
+// Of an output that something moves by: when its module was last seen not to run, if it has published nothing since.
+struct SilentMark final : Annotation {
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<SilentMark>(*this); }
+  std::optional<Time> since;
 };
 
 const RestMark* MarkOf(const Port& port) { return port.FindAnnotation<RestMark>(); }
@@ -45,12 +59,40 @@ bool HasPublishedSince(const Port& source, Time since) {
   return has_published;
 }
 
-std::string WhyAtRest(const std::vector<Port*>& ports, const Scheduler& scheduler, Duration patience) {
+std::string WhyUnread(const std::vector<Port*>& sinks, const Scheduler& scheduler) {
   std::string why;
-  for (const Port* each : ports) {
-    if (why.empty()) why = scheduler.WhyAtRest(*each, patience);
+  for (const Port* each : sinks) {
+    if (why.empty()) why = scheduler.WhyAtRest(*each, Scheduler::kUnreachedAfter);
   }
   return why;
+}
+
+template <typename Mark>
+Mark& MarkAt(FrameworkElement& element) {
+  auto* const mark = element.FindAnnotation<Mark>();
+  return mark != nullptr ? *mark : element.Annotate(std::make_unique<Mark>());
+}
+
+// What it said before it was at rest counts no more.
+std::string WhySilent(Port& output, const Scheduler& scheduler, Time now) {
+  const std::string why = scheduler.WhyAtRest(output);
+  auto* const mark = output.FindAnnotation<SilentMark>();
+  if (!why.empty()) {
+    MarkAt<SilentMark>(output).since = now;
+    return why;
+  }
+  if (mark == nullptr || !mark->since) return "";
+  if (!HasPublishedSince(output, *mark->since)) return output.path() + " has published nothing since it was at rest";
+  mark->since.reset();
+  return "";
+}
+
+// A person who sets the parameter has decided; what a replacement has is no word of a person's.
+bool IsStillCut(const FrameworkElement& parameter) {
+  const auto* const configurable = dynamic_cast<const Configurable*>(&parameter);
+  const auto* const mark = parameter.FindAnnotation<FedMark>();
+  if (configurable == nullptr || mark == nullptr) return false;
+  return configurable->is_fed() || (mark->has_moved && configurable->ToText() == mark->text);
 }
 
 }  // namespace
@@ -96,9 +138,9 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
   if (std::exchange(revision_, runtime.revision()) != runtime.revision()) {
     driven_.clear();
     outputs_.clear();
-    runtime.root().Visit([this](FrameworkElement& element) {
+    runtime.root().Visit([this, now](FrameworkElement& element) {
       auto* const port = dynamic_cast<Port*>(&element);
-      if (port != nullptr && (port->is_driving() || MarkOf(*port) != nullptr)) driven_.emplace_back(*port);
+      if (port != nullptr && (port->is_driving() || MarkOf(*port) != nullptr)) driven_.emplace_back(*port, now);
       if (port != nullptr && port->direction() == Port::Direction::kOutput && (MarkOf(*port) == nullptr || !MarkOf(*port)->is_ahead_told))
         outputs_.push_back(port);
     });
@@ -115,51 +157,79 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
   });
 }
 
-Standstill::Driven::Driven(Port& driving) : port(&driving), sources(driving.Sources()), sinks(driving.Sinks()) {
+Standstill::Driven::Driven(Port& driving, Time now)
+    : port(&driving), sources(driving.Sources()), sinks(driving.Sinks()), at(now) {
+  if (!port->is_driving()) return;
   const auto* const input = dynamic_cast<const InputBase*>(port);
-  LookUpstream(*port, input != nullptr && input->ageing() == Ageing::kTimesOut, *this);
+  LookAtParameters(*port);
+  LookUpstream(*port, input != nullptr && input->ageing() == Ageing::kTimesOut);
 }
 
-// Over modules that pass on what they get, as far as nobody asks how old it is; what sets parameters there does not grow old.
-void Standstill::LookUpstream(const Port& port, bool times_out, Driven& driven) {
-  for (Port* source : port.Sources()) {
-    if (!driven.seen.insert(source).second) continue;
-    if (&port == driven.port || !times_out) driven.upstream.push_back(source);
-    LookAtParameters(*source, driven);
-    std::vector<const Port*> cut_off;
-    bool is_fed = false;
-    VisitPassing(*source, Port::Direction::kInput, [&](Port& each) {
-      const auto* const input = dynamic_cast<const InputBase*>(&each);
-      const bool ages = times_out || (input != nullptr && input->ageing() != Ageing::kUnspecified);
-      const bool is_by_hand = each.is_set_by_hand(Port::Setter::kPerson);  // whatever comes there does not count
-      const bool is_bound = is_by_hand || !each.Sources().empty();
-      if (is_bound) each.Annotate(std::make_unique<FedMark>());
-      is_fed = is_fed || is_bound;
-      if (!ages && !is_bound && each.FindAnnotation<FedMark>() != nullptr) cut_off.push_back(&each);
-      if (!is_by_hand) LookUpstream(each, ages, driven);
+// As far as nobody asks how old it is; beyond that by inputs of the same type only, for what sets parameters there, which do not
+// grow old.
+void Standstill::Driven::LookUpstream(const Port& input, bool times_out) {
+  for (Port* source : input.Sources()) {
+    if (!seen.insert({source, times_out}).second) continue;
+    if ((&input == port || !times_out) && std::ranges::find(upstream, source) == upstream.end()) upstream.push_back(source);
+    LookAtParameters(*source);
+    VisitSiblings(*source, Port::Direction::kInput, [&](Port& each) {
+      const auto* const base = dynamic_cast<const InputBase*>(&each);
+      const bool ages = times_out || (base != nullptr && base->ageing() != Ageing::kUnspecified);
+      if (each.is_set_by_hand(Port::Setter::kPerson)) return;  // whatever comes there does not count
+      if (ages && &each.type() != &source->type()) return;
+      LookUpstream(each, ages);
+      if (!ages && LookAtFeeding(each, !each.Sources().empty())) cut_off.push_back(&each);
     });
-    if (!is_fed) driven.cut_off.insert(driven.cut_off.end(), cut_off.begin(), cut_off.end());
   }
 }
 
-void Standstill::LookAtParameters(const Port& source, Driven& driven) {
-  VisitFeeds(source, [&](Port& feed) {
-    const auto feeding = feed.Sources();
-    driven.upstream.insert(driven.upstream.end(), feeding.begin(), feeding.end());
-    if (feeding.empty()) driven.cut_off.push_back(&feed);
+void Standstill::Driven::LookAtParameters(const Port& of) {
+  FrameworkElement* const module = FindModuleOf(of);
+  if (module == nullptr) return;
+  module->Visit([&](FrameworkElement& each) {
+    if (each.kind() != ElementKind::kParameter) return;
+    bool is_fed = false;
+    each.Visit([&](FrameworkElement& below) {
+      const auto* const feed = dynamic_cast<const Port*>(&below);
+      if (feed == nullptr || feed->Sources().empty()) return;
+      is_fed = true;
+      LookUpstream(*feed, false);
+    });
+    if (LookAtFeeding(each, is_fed)) parameters.push_back(&each);
   });
 }
 
-std::string Standstill::WhyAtRest(const Driven& driven, const Scheduler& scheduler) {
-  if (!driven.port->is_driving()) return "";
-  if (std::string why = internal::WhyAtRest(driven.upstream, scheduler, Duration::max()); !why.empty()) return why;
-  for (const Port* each : driven.cut_off) {
-    // What somebody has set since is his.
-    const auto* const parameter = dynamic_cast<const Configurable*>(each->parent()->parent());
-    if (parameter == nullptr) return "nothing is connected to " + each->path() + " any more";
-    if (parameter->is_fed()) return "nothing sets " + each->parent()->parent()->path() + " any more";
+// Whether something was connected to it.
+bool Standstill::Driven::LookAtFeeding(FrameworkElement& element, bool is_fed) const {
+  auto* mark = element.FindAnnotation<FedMark>();
+  if (is_fed) {
+    MarkAt<FedMark>(element).is_fed = true;
+    return false;
   }
-  return "";
+  if (mark == nullptr) return false;
+  if (std::exchange(mark->is_fed, false)) {
+    mark->cut = at;
+    if (const auto* const configurable = dynamic_cast<const Configurable*>(&element)) mark->text = configurable->ToText();
+  }
+  return true;
+}
+
+std::string Standstill::Driven::WhyAtRest(const Scheduler& scheduler, Time now) const {
+  if (!port->is_driving()) return "";
+  std::string why;
+  for (Port* each : upstream) {
+    const std::string silent = WhySilent(*each, scheduler, now);  // of each, for it is noted
+    if (why.empty()) why = silent;
+  }
+  for (const FrameworkElement* each : parameters) {
+    if (why.empty() && IsStillCut(*each)) why = "nothing sets " + each->path() + " any more";
+  }
+  for (const Port* each : cut_off) {
+    const auto* const mark = each->FindAnnotation<FedMark>();
+    const bool is_over = mark == nullptr || std::ranges::any_of(sources, [&](const Port* source) { return HasPublishedSince(*source, mark->cut); });
+    if (why.empty() && !is_over) why = "nothing is connected to " + each->path() + " any more";
+  }
+  return why;
 }
 
 // Who does not run reads no safe value either.
@@ -169,7 +239,7 @@ void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler,
     for (const Port* each : driven.sinks) scheduler.WakeWithoutData(*each);
   }
   const std::string why =
-      port.is_driving() ? internal::WhyAtRest(driven.sinks, scheduler, Scheduler::kUnreachedAfter) : "";
+      port.is_driving() ? WhyUnread(driven.sinks, scheduler) : "";
   if (why.empty() && MarkOf(port) == nullptr) return;
   if (std::exchange(Mark(port).is_unreached, !why.empty()) == !why.empty()) return;
   tell(port,
@@ -181,7 +251,7 @@ void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler,
 void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell) {
   Port& port = *driven.port;
   const auto held = MarkOf(port) != nullptr ? MarkOf(port)->rested : std::nullopt;
-  const std::string why = WhyAtRest(driven, scheduler);
+  const std::string why = driven.WhyAtRest(scheduler, now);
   const bool is_set = port.is_set_by_hand(Port::Setter::kRule);
   if (!why.empty()) {
     if (is_set) {  // a rule may have been first
@@ -210,8 +280,7 @@ void Standstill::LeaveToRule(Port& port) {
 }
 
 bool Standstill::TakesOver(Port& port, const Scheduler& scheduler, Time now) {
-  Driven driven(port);
-  if (WhyAtRest(driven, scheduler).empty()) return false;
+  if (Driven(port, now).WhyAtRest(scheduler, now).empty()) return false;
   const auto safe = SafeValueOf(port);
   if (!safe || !PublishByHand(port, safe->get(), Port::Setter::kRule)) return false;
   Mark(port).rested = now;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/element/runtime.h"
@@ -68,17 +69,24 @@ class Standstill {
 
  private:
   struct Driven {
-    explicit Driven(Port& driving);
+    Driven(Port& driving, Time now);
+    [[nodiscard]] std::string WhyAtRest(const Scheduler& scheduler, Time now) const;
+
     Port* port;
     std::vector<Port*> sources;
     std::vector<Port*> sinks;
-    std::vector<Port*> upstream;       // outputs that it moves by; the sources, too
-    std::vector<const Port*> cut_off;  // inputs on the way that something was connected to
-    std::set<const Port*> seen;
+
+   private:
+    void LookUpstream(const Port& input, bool times_out);
+    void LookAtParameters(const Port& of);
+    [[nodiscard]] bool LookAtFeeding(FrameworkElement& element, bool is_fed) const;
+
+    Time at;
+    std::vector<Port*> upstream;                       // outputs that it moves by; the sources, too
+    std::vector<const Port*> cut_off;                  // inputs on the way that something was connected to
+    std::vector<const FrameworkElement*> parameters;   // those that something set
+    std::set<std::pair<const Port*, bool>> seen;
   };
-  static void LookUpstream(const Port& port, bool times_out, Driven& driven);
-  static void LookAtParameters(const Port& source, Driven& driven);
-  [[nodiscard]] static std::string WhyAtRest(const Driven& driven, const Scheduler& scheduler);
   static void LookAtReaders(const Driven& driven, const Scheduler& scheduler, const Tell& tell);
   static void LookAtSources(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell);
 
