@@ -68,7 +68,7 @@ std::string MeaningOf(const ChangeSet& changes, Runtime& runtime) {
   if (log == nullptr) return {};
   const std::lock_guard lock(runtime.structure_mutex());
   const auto found = PathSearch(runtime).Find(log->path);
-  return (found ? (*found)->path() : log->path) +
+  return (found && log->path != "/" ? (*found)->path() : log->path) +
          (log->level ? ": logs " + LogLevelName(*log->level) + " and more" : ": logs as what is around it");
 }
 

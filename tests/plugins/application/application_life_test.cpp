@@ -117,6 +117,7 @@ TEST_F(ApplicationWithSlow, NoPluginIsLoadedWhileASaveIsUnderWay) {
   const TemporaryFolder folder;
   std::jthread saves([&] { EXPECT_TRUE(application->Save(folder.path() / "saved.xml")); });
   CountingSlow::begun.acquire();
+  CountingSlow::is_slow = false;
   std::atomic<int> loaded{0};
   std::vector<std::jthread> load;
   load.emplace_back([&] { loaded += application->Swap("/judge", "nowhere/judge") ? 0 : 1; });
@@ -133,8 +134,10 @@ TEST_F(ApplicationWithSlow, WhatWasAskedForBeforeAStopIsNotDoneAfterIt) {
   RobotStop& stop = application->runtime().robot_stop();
   const auto over = [&](const std::function<ChangeOutcome()>& change) {
     ChangeOutcome outcome;
+    CountingSlow::is_slow = true;
     std::jthread changes([&] { outcome = change(); });
     CountingSlow::begun.acquire();
+    CountingSlow::is_slow = false;
     stop.Press("a test");
     EXPECT_TRUE(stop.Release("a test"));
     CountingSlow::may_end.release();
@@ -149,7 +152,6 @@ TEST_F(ApplicationWithSlow, WhatWasAskedForBeforeAStopIsNotDoneAfterIt) {
   ASSERT_TRUE(application->Apply("delete /slow"));
   EXPECT_FALSE(over([&] { return application->Undo(); }));
   EXPECT_FALSE(application->Find<CountingSlow>("/slow"));
-  CountingSlow::is_slow = false;
   EXPECT_TRUE(application->Undo()) << "it is not forgotten";
   EXPECT_TRUE(application->Find<CountingSlow>("/slow"));
 }

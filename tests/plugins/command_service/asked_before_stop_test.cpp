@@ -119,7 +119,7 @@ class AskedBeforeStop : public ::testing::Test {
 constexpr const char* kPressedSince = "STOP was pressed or released after this was asked for";
 
 TEST_F(AskedBeforeStop, IsRefusedWhereSomethingMayMoveByIt) {
-  ASSERT_TRUE(Ask(Changes("connect /b/speed /b/wheels")));
+  ASSERT_TRUE(Ask(Changes("connect /a/speed /b/wheels")));
   ASSERT_TRUE(Ask(PublishRequest{"/b/input/wheels", "0.1"}));
   const auto at_hand = [&] {  // something to undo, and something to redo
     ASSERT_TRUE(Ask(Changes("create group /undone")));
@@ -128,9 +128,9 @@ TEST_F(AskedBeforeStop, IsRefusedWhereSomethingMayMoveByIt) {
     done.clear();
   };
   const std::vector<CommandRequest> all{
-      Changes("connect /a/speed /a/wheels"), Changes("disconnect /b/speed /b/wheels"), Changes("create /new test/base"),
+      Changes("connect /b/speed /a/wheels"), Changes("disconnect /a/speed /b/wheels"), Changes("create /new test/base"),
       Changes("create group /new; create /new/base test/base"), Changes("replace /a with test/base"), Changes("copy /a"),
-      Changes("rename /a aa"), Changes("delete /aa"), UndoRequest{}, RedoRequest{}, ReloadRequest{"planning"},
+      Changes("rename /a aa"), Changes("delete /a"), UndoRequest{}, RedoRequest{}, ReloadRequest{"planning"},
       RestartRequest{}, RestartRequest{"/a"}, PauseRequest{"/a", false}, PublishRequest{"/a/input/wheels", "0.1"},
       ReleaseRequest{"/b/input/wheels"}};
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -172,7 +172,7 @@ TEST_F(AskedBeforeStop, IsDoneWhereNothingCanMoveByIt) {
 
 TEST_F(AskedBeforeStop, WhoKnowsOfTheStopIsServedUnderIt) {
   runtime.robot_stop().Press("a test");
-  EXPECT_TRUE(Ask(Changes("connect /a/speed /a/wheels")));
+  EXPECT_TRUE(Ask(Changes("connect /b/speed /a/wheels")));
   EXPECT_TRUE(Ask(UndoRequest{}));
   EXPECT_TRUE(Ask(ReloadRequest{"planning"}));
   EXPECT_THAT(done, ElementsAre("planning"));
@@ -205,7 +205,7 @@ TEST_F(AskedBeforeStop, WhatIsBeingMadeWhenItIsPressedIsNotPutIn) {
     being_made.acquire();
     return answer;
   };
-  const ChangeRequest create = Changes("connect /a/speed /a/wheels; create /slow test/slow");
+  const ChangeRequest create = Changes("connect /b/speed /a/wheels; create /slow test/slow");
   const auto revision = runtime.revision();
   EXPECT_THAT(ErrorOf(make(create)), HasSubstr(kPressedSince));
   EXPECT_FALSE(Has("/slow"));

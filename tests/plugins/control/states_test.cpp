@@ -163,7 +163,7 @@ TEST_F(StatesTest, WhatWasAskedForBeforeTheLastPressNeitherReleasesNorMoves) {
                                  "speed 1", "call /a/out"}) {
     EXPECT_THAT(ask(between, late), HasSubstr("STOP was pressed or released after this was asked for")) << late;
   }
-  EXPECT_THAT(ask(between, "change\nlog /app/a debug"), HasSubstr("end 1\n0\n")) << "nothing moves by it";
+  EXPECT_THAT(ask(between, "change\nlog /app/a debug"), HasSubstr("/app/a: logs debug and more")) << "nothing moves by it";
   EXPECT_TRUE(runtime.robot_stop().in_force());
   EXPECT_THAT(ask(between, "stop"), testing::Not(HasSubstr("STOP was pressed after")));
   EXPECT_THAT(ask(SteadyClock().Now(), "release stop"), HasSubstr("released the STOP"));
