@@ -69,10 +69,15 @@ ModuleHost::Use ModuleHost::Get() {
 }
 
 std::shared_ptr<void> ModuleHost::Hold() {
+  constexpr auto kLongest = std::chrono::seconds(2);  // for which others stand still
+  const auto end = std::chrono::steady_clock::now() + kLongest;
   const GilInCycle gil;
   ++holds;
   std::shared_ptr<void> held(nullptr, [host = shared_from_this()](void*) { --host->holds; });
-  AwaitWithGil([this] { return uses == 0; });
+  AwaitWithGil([&] {
+    if (uses > 0 && std::chrono::steady_clock::now() > end) throw std::runtime_error("a thread still uses its ports");
+    return uses == 0;
+  });
   return held;
 }
 

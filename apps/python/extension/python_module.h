@@ -32,7 +32,7 @@ struct ModuleHost : std::enable_shared_from_this<ModuleHost> {
   /// Throws if it is gone. With the GIL.
   [[nodiscard]] Use Get();
   /// Its ports are about to be exchanged with another module's: when uses under way have ended. Others wait, until what is
-  /// returned is let go of. Without the GIL, under the structure lock.
+  /// returned is let go of. Without the GIL, under the structure lock. Throws if a use does not end.
   [[nodiscard]] std::shared_ptr<void> Hold();
 };
 

@@ -12,15 +12,16 @@ import numpy
 
 from runnel import _extension
 
-_open = weakref.WeakSet()
+_open = weakref.WeakValueDictionary()  # by their ids; valuerefs() may be asked for while others open and close
 
 
 @atexit.register
 def _close_all():
     # No cycle of a module in Python may run, and no thread may want the interpreter, when it goes.
-    for each in list(_open):
+    for each in _open.valuerefs():
         try:
-            each.close()
+            if (app := each()) is not None:
+                app.close()
         except Exception:
             traceback.print_exc()
     _extension.await_all()
@@ -29,8 +30,9 @@ def _close_all():
 def _leave_all():
     # Threads are not forked: what waits for them would wait for ever.
     _extension.forked()
-    for each in list(_open):
-        each._leave()
+    for each in _open.valuerefs():
+        if (app := each()) is not None:
+            app._leave()
 
 
 os.register_at_fork(after_in_child=_leave_all)
@@ -169,7 +171,7 @@ class Application(_extension.Application):
     def __init__(self, *arguments):
         super().__init__(*arguments)
         self._readers = {}
-        _open.add(self)
+        _open[id(self)] = self
 
     def __enter__(self):
         return self

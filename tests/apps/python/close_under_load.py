@@ -96,7 +96,7 @@ class Load:
         self.end = time.monotonic() + (1e9 if closes else 15)
         self.seed = seed
         self.lock = threading.Lock()
-        self.all = weakref.WeakSet()
+        self.all = weakref.WeakValueDictionary()
         self.apps = [self.opened(i) for i in range(3)]
         self.wrong = []
 
@@ -104,7 +104,7 @@ class Load:
         is_simulated = random.random() < 0.6
         app = runnel.compose(f"load{i}", clock="simulated" if is_simulated else "real", speed=0 if is_simulated else None,
                              control=random.random() < 0.2)
-        self.all.add(app)
+        self.all[id(app)] = app
         app.thread("control", 0.005)
         app.create("gate", "motion/command_gate")
         app.create("one", Counter)
@@ -137,8 +137,9 @@ class Load:
     def close_rest(self):
         """Those that nobody closes: calls of a service wait for ever where the cycles have been paused."""
         is_over = self.left <= 0 or time.monotonic() > self.end
-        for app in list(self.all):
-            if is_over or app not in self.apps:
+        for each in self.all.valuerefs():
+            app = each()
+            if app is not None and (is_over or app not in self.apps):
                 with contextlib.suppress(*SEEN):
                     app.close()
 

@@ -468,14 +468,14 @@ def test_another_module_takes_the_ports_when_calls_of_them_have_ended(how):
             shared.append(self)
 
         def update(self):
-            self.many.publish([2.0] * 100)
+            pass
 
     class Waits:
         """A number that is not there before others have gone on, and that looks at another port meanwhile."""
 
         def __float__(self):
             inside.set()
-            time.sleep(0.3)
+            time.sleep(0.1)
             shared[0].wish.read()
             try:
                 app.get("/tick/step")
@@ -497,6 +497,42 @@ def test_another_module_takes_the_ports_when_calls_of_them_have_ended(how):
     thread.join()
     app.close()
     print("done")
+    ''')
+
+
+def test_no_module_takes_ports_that_a_thread_does_not_let_go_of():
+    ends_well('''
+    class Shares(runnel.Module):
+        period = 0.002
+        many = runnel.Output("double[]")
+
+        def prepare(self):
+            shared.append(self)
+
+        def update(self):
+            pass
+
+    class Waits:
+        def __float__(self):
+            inside.set()
+            go.wait()
+            return 1.0
+
+    shared = []
+    inside, go = threading.Event(), threading.Event()
+    app = ticking(Shares)
+    thread = in_threads(1, lambda: shared[0].many.publish([Waits()]))[0]
+    inside.wait()
+    try:
+        app.swap("/tick", Shares)
+    except runnel.Error as error:
+        assert "still uses its ports" in str(error), error
+        go.set()
+        thread.join()
+        assert len(app.read("/tick/many")) == 1  # the one before is in its place
+        app.swap("/tick", Shares)
+        app.close()
+        print("done")
     ''')
 
 
