@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Outcome = CommandAnswer::Outcome;
 
-class Base final : public Module {
+class Platform final : public Module {
  public:
   using Module::Module;
   Input<double> wheels{this, "wheels", {.unit = "m/s", .drives = true}};
@@ -50,7 +50,7 @@ class Slow final : public Module {
 class AskedBeforeStop : public ::testing::Test {
  protected:
   AskedBeforeStop() {
-    Register<Base>("test/base");
+    Register<Platform>("test/base");
     Register<Slow>("test/slow");
     for (const char* const name : {"a", "b"}) EXPECT_TRUE(modules.Create("test/base", runtime.root(), name));
     EXPECT_TRUE(runtime.MakeReady(runtime.root()));
