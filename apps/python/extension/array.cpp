@@ -89,12 +89,7 @@ py::object ArrayOf(const TypeInfo& type, void* at, const std::shared_ptr<Memory>
                                   static_cast<py::ssize_t>(columns - 1) * across) {
     return py::none();
   }
-  struct View {
-    explicit View(std::shared_ptr<Memory> of) : memory(std::move(of)) { ++memory->views; }
-    ~View() { --memory->views; }
-    std::shared_ptr<Memory> memory;
-  };
-  const py::capsule base(new View(memory), [](void* view) { delete static_cast<View*>(view); });
+  const py::capsule base(new Value(type, at, memory, true), [](void* view) { delete static_cast<Value*>(view); });
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(columns)};
   std::vector<py::ssize_t> strides{across};
   if (is_matrix) {

@@ -29,14 +29,10 @@ struct InputOfModule {
   std::size_t index;
   ValueTimes times{};
 
-  py::object Take(bool (HeldValues::*how)(Port&, std::size_t) noexcept, bool only_new) {
+  py::object Give(Taking how, bool only_new) {
     const ModuleHost::Use module = host->Get();
-    PythonModule::BoundInput& input = module->input(index);
-    auto held = input.ports->MakeHeldValues(1);
-    const bool is_new = (held.get()->*how)(*input.port, 0);
-    if (held->Find(0) == nullptr || (only_new && !is_new)) return py::none();
-    times = held->times(0);
-    return HeldToPython(input.port->type(), std::move(held));
+    const PythonModule::BoundInput& input = module->input(index);
+    return Take(*input.ports, *input.port, how, only_new, times);
   }
 };
 
@@ -48,16 +44,12 @@ struct OutputOfModule {
 struct ClientOfModule {
   std::shared_ptr<ModuleHost> host;
   std::size_t index;
-  bool Send(const py::args& positional, const py::kwargs& named) const {
-    return host->Get()->client(index).Send(positional, named);
-  }
-  bool Call(const py::object& callback, const py::args& positional, const py::kwargs& named) const {
-    return host->Get()->client(index).Call(callback, positional, named);
-  }
-  std::unique_ptr<CallOfModule> Begin(const py::args& positional, const py::kwargs& named) const {
-    return host->Get()->client(index).Begin(positional, named);
-  }
 };
+
+template <typename Result, typename... Arguments>
+auto OfClient(Result (ModuleClient::*what)(Arguments...)) {
+  return [what](const ClientOfModule& of, Arguments... all) { return (of.host->Get()->client(of.index).*what)(all...); };
+}
 
 }  // namespace
 
@@ -71,9 +63,9 @@ void BindModules(py::module_& module) {
       .def("period", [](const ModuleHost&) { return ToSeconds(PythonModule::Period()); })
       .def("say", [](ModuleHost& host, const std::string& level, const std::string& text) { host.Get()->Say(level, text); });
   py::class_<InputOfModule>(module, "ModuleInput", "An input of a module in Python, as its update() reads it.")
-      .def("read", [](InputOfModule& input) { return input.Take(&HeldValues::Read, false); }, "The newest value; None if there is none yet.")
-      .def("new", [](InputOfModule& input) { return input.Take(&HeldValues::Read, true); }, "The newest value, unless it has been read; else None.")
-      .def("next", [](InputOfModule& input) { return input.Take(&HeldValues::Next, true); }, "Of a connection with a queue the oldest that waits; None if none does.")
+      .def("read", [](InputOfModule& input) { return input.Give(&HeldValues::Read, false); }, "The newest value; None if there is none yet.")
+      .def("new", [](InputOfModule& input) { return input.Give(&HeldValues::Read, true); }, "The newest value, unless it has been read; else None.")
+      .def("next", [](InputOfModule& input) { return input.Give(&HeldValues::Next, true); }, "Of a connection with a queue the oldest that waits; None if none does.")
       .def_property_readonly("timestamp", [](const InputOfModule& input) { return ToSeconds(input.times.timestamp); },
                              "When the last value was measured (s).");
   py::class_<OutputOfModule>(module, "ModuleOutput", "An output of a module in Python.")
@@ -89,10 +81,10 @@ void BindModules(py::module_& module) {
            "The same of what was measured at `timestamp` (s, of the application's clock).");
   py::class_<ClientOfModule>(module, "ModuleClient", "A client of a module in Python.")
       .def_property_readonly("is_connected", [](const ClientOfModule& client) { return client.host->Get()->client(client.index).is_connected(); })
-      .def("send", &ClientOfModule::Send, "One way: nobody is told what comes of it. Whether it is on its way.")
-      .def("call", &ClientOfModule::Call,
+      .def("send", OfClient(&ModuleClient::Send), "One way: nobody is told what comes of it. Whether it is on its way.")
+      .def("call", OfClient(&ModuleClient::Call),
            "callback(call) is called in a cycle of this module, when it has ended. False: it could not begin, and nobody is called back.")
-      .def("begin", &ClientOfModule::Begin, "A call to be looked at later: is_done, reply, error.");
+      .def("begin", OfClient(&ModuleClient::Begin), "A call to be looked at later: is_done, reply, error.");
   BindModuleServices(module);
   static const ModuleTypes types{&FindModuleType};
   module.attr("module_types") = py::capsule(&types, ModuleTypes::kCapsule);

@@ -17,12 +17,12 @@ namespace py = pybind11;
 
 namespace runnel::python {
 
+using Left = std::pair<std::shared_ptr<Application>, std::vector<std::shared_ptr<ClientRecording>>>;
+
 OpenApplication::~OpenApplication() {
   if (!application) return;
   // The end of the function is the last to have them.
-  const auto mine = std::make_shared<std::pair<decltype(application), decltype(recordings)>>();
-  mine->first.swap(application);
-  mine->second.swap(recordings);
+  const auto mine = std::make_shared<Left>(std::move(application), std::move(recordings));
   EndWithoutGil([mine] { *mine = {}; });
 }
 
@@ -71,10 +71,13 @@ void LookAround(const OpenApplication& open) {
   (void)open.Get();
 }
 
-py::object HeldToPython(const TypeInfo& type, std::unique_ptr<HeldValues> held) {
+py::object Take(const TypedPorts& ports, Port& input, Taking how, bool only_new, ValueTimes& times) {
+  std::shared_ptr<HeldValues> held = ports.MakeHeldValues(1);
+  const bool is_new = (held.get()->*how)(input, 0);
   const void* const value = held->Find(0);
-  if (value == nullptr) return py::none();
-  return ToPython(type, ForLooking(value), std::make_shared<Memory>(Memory{.kept = std::move(held)}));
+  if (value == nullptr || (only_new && !is_new)) return py::none();
+  times = held->times(0);
+  return ToPython(input.type(), ForLooking(value), std::make_shared<Memory>(Memory{.kept = std::move(held)}));
 }
 
 void PublishFromPython(Port& output, const py::args& positional, const py::kwargs& named,
@@ -152,26 +155,6 @@ Port& TiedPort::port(const Use& /*use*/) const { return *place_->port; }
 
 Reader::Reader(Open open, const std::string& path, std::size_t queue)
     : tied_(std::move(open), path, PathKind::kOutput, {.queue = queue}) {}
-
-py::object Reader::Taken(const Port& port, std::unique_ptr<HeldValues> held) {
-  if (held->Find(0) == nullptr) return py::none();
-  times_ = held->times(0);
-  return HeldToPython(port.type(), std::move(held));
-}
-
-py::object Reader::Read() {
-  const Use use(*tied_.open());
-  auto held = tied_.ports().MakeHeldValues(1);
-  (void)held->Read(tied_.port(use), 0);
-  return Taken(tied_.port(use), std::move(held));
-}
-
-py::object Reader::Next() {
-  const Use use(*tied_.open());
-  auto held = tied_.ports().MakeHeldValues(1);
-  if (!held->Next(tied_.port(use), 0)) return py::none();
-  return Taken(tied_.port(use), std::move(held));
-}
 
 bool Reader::Wait(double seconds) {
   constexpr double kSlice = 0.1;  // after which signals are looked at

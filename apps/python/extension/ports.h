@@ -69,8 +69,9 @@ auto WithoutGil(const Open& open, const Work& work) {
 /// Between two waits of a call: throws what a signal has, and that the application has been closed.
 void LookAround(const OpenApplication& open);
 
-/// The value in the first place of `held`, which keeps it; None if there is none.
-[[nodiscard]] pybind11::object HeldToPython(const TypeInfo& type, std::unique_ptr<HeldValues> held);
+/// What the input gives out by `how`, and its times; None if there is none, or with `only_new` none that is new.
+using Taking = bool (HeldValues::*)(Port&, std::size_t) noexcept;
+[[nodiscard]] pybind11::object Take(const TypedPorts& ports, Port& input, Taking how, bool only_new, ValueTimes& times);
 
 /// Has the output publish what Python says, written into a buffer that the output lends. Throws what FromPython() throws,
 /// and then nothing is published.
@@ -104,8 +105,8 @@ class TiedPort {
 class Reader {
  public:
   Reader(Open open, const std::string& path, std::size_t queue);
-  pybind11::object Read();
-  pybind11::object Next();
+  pybind11::object Read() { return Take(tied_.ports(), tied_.port(Use(*tied_.open())), &HeldValues::Read, false, times_); }
+  pybind11::object Next() { return Take(tied_.ports(), tied_.port(Use(*tied_.open())), &HeldValues::Next, true, times_); }
   /// Waits without the GIL; false: nothing new has come. Ctrl-C ends it.
   bool Wait(double seconds);
   [[nodiscard]] std::uint64_t dropped() const;
@@ -114,7 +115,6 @@ class Reader {
   [[nodiscard]] const TiedPort& tied() const noexcept { return tied_; }
 
  private:
-  pybind11::object Taken(const Port& port, std::unique_ptr<HeldValues> held);
   TiedPort tied_;
   ValueTimes times_;
   bool is_waited_for_ = false;

@@ -46,8 +46,6 @@ py::object NameOf(const TypeInfo& type, const void* at) {
 
 bool IsOptional(const TypeInfo& type) { return type.kind() == TypeKind::kSequence && type.name().ends_with('?'); }
 
-std::shared_ptr<Memory> Borrowed() { return std::make_shared<Memory>(); }
-
 }  // namespace
 
 Value::Value(const TypeInfo& of, void* where, std::shared_ptr<Memory> within, bool is_element)
@@ -92,7 +90,7 @@ py::object ToPlain(const TypeInfo& type, const void* at) {
     return ToPlain(*elements.type, elements.element(ForLooking(at), 0));
   }
   if (elements.type->kind() == TypeKind::kLeaf) {
-    const py::object array = ArrayOf(type, ForLooking(at), Borrowed());
+    const py::object array = ArrayOf(type, ForLooking(at), std::make_shared<Memory>());
     if (!array.is_none()) return array.attr("copy")();
   }
   py::list all;

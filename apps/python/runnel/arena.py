@@ -68,7 +68,7 @@ class Table(list):
         """The same for pandas, without the paths."""
         import pandas
 
-        return pandas.DataFrame([{name: run[name] for name in COLUMNS} for run in self], columns=list(COLUMNS))
+        return pandas.DataFrame([{name: run.get(name) for name in COLUMNS} for run in self], columns=list(COLUMNS))
 
     def write_csv(self, file):
         """The same as a CSV file."""
@@ -78,7 +78,7 @@ class Table(list):
             writer.writerows(self)
 
     def __str__(self):
-        rows = [[_text(run[name]) for name in COLUMNS] for run in self]
+        rows = [[_text(run.get(name)) for name in COLUMNS] for run in self]
         widths = [max(map(len, column)) for column in zip(COLUMNS, *rows)]
         return "\n".join("  ".join(each.ljust(width) for each, width in zip(row, widths)).rstrip() for row in [COLUMNS, *rows])
 
