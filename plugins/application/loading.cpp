@@ -86,6 +86,7 @@ RecordingHook Application::Parts::RecordingOnDemand(Application& application) {
           &application](const RecordingRequest& wish) -> Result<std::unique_ptr<ClientRecording>> {
     ServiceHooks found;
     {
+      const std::lock_guard no_save(reloading);
       const std::lock_guard lock(runtime().structure_mutex());  // as for all plugins
       const auto catalogue = ExtensionCatalogue::Read(plugins().search_path());
       if (!catalogue) return catalogue.error();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,36 +17,19 @@ namespace runnel::internal {
 
 std::string TakePart(PathUse& use) {
   const auto found = PathSearch(use.base).FindPortPart(use.path, PathKind::kOutput);
-  std::size_t end = use.path.size();
-  if (found && !found->part.empty()) {
-    end -= found->part.size() + (found->part.front() == '[' ? 0 : 1);
-  } else if (!found) {
-    // Perhaps the port is not there yet.
-    const std::size_t slash = use.path.rfind('/');
-    end = std::min(end, use.path.find_first_of(".[", slash == std::string::npos ? 1 : slash + 2));
-    const bool is_parent = slash != std::string::npos && use.path.substr(slash + 1) == "..";
-    if (use.path == ".." || is_parent) return {};
-  }
-  if (end >= use.path.size()) return {};
-  const std::string part = use.path.substr(use.path[end] == '.' ? end + 1 : end);
-  use.path.resize(end);
-  return part;
+  const std::string part = found ? found->part : "";
+  PortPathPart split{use.path, part};
+  if (!part.empty()) split.path.resize(split.path.size() - part.size() - (part.front() == '[' ? 0 : 1));
+  const bool is_parent = use.path == ".." || use.path.ends_with("/..");
+  if (!found && !is_parent) split = SplitPortPath(use.path);  // perhaps the port is not there yet
+  use.path = split.path;
+  return split.part;
 }
 
 std::string AbsolutePath(const PathUse& use) {
   if (IsAbsolutePath(use.path)) return use.path;
-  std::vector<std::string> names;
-  const std::string whole = use.base.path() + "/" + use.path;
-  for (const std::string_view name : SplitPath(whole)) {
-    if (name == ".") continue;
-    if (name != "..") {
-      names.emplace_back(name);
-    } else if (!names.empty()) {
-      names.pop_back();
-    }
-  }
-  std::string path;
-  for (const std::string& name : names) path += "/" + name;
+  std::string path = std::filesystem::path(use.base.path() + "/" + use.path).lexically_normal().string();
+  if (path.ends_with('/')) path.pop_back();
   return path;
 }
 
@@ -113,6 +97,7 @@ bool SaysConnection(XmlElement tag, const PathUse& from_use, const std::string& 
       late != nullptr ? late->Find(AbsolutePath(from_use), AbsolutePath(to_use)) : nullptr;
   const auto edge = std::ranges::find_if(edges, [&](const SavedEdge& each) {
     if (is_there) return each.from == from && each.to == to;
+    if (to != nullptr && each.to == to && each.from_path == from_use.path) return true;
     return awaited != nullptr && each.from_path == awaited->from && each.to_path == awaited->to;
   });
   // One that leads out of the application is left to whoever wrote it.

@@ -66,9 +66,11 @@ void MarkDriving(const TagUse& use) {
 }
 
 void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update) {
-  const Port* const port = FindMarked(PathIn(*tag.Attribute("port"), parent));
+  const PathUse use = PathIn(*tag.Attribute("port"), parent);
+  const Port* const port = FindMarked(use);
   const auto* const mark = port != nullptr ? port->FindAnnotation<DrivingMark>() : nullptr;
-  if (mark == nullptr) return update.editor().Remove(tag);
+  const bool is_passing = internal::IsByRule(*PathSearch(use.base).Follow(use.path, PathKind::kInput).at);
+  if (mark == nullptr) return is_passing ? void() : update.editor().Remove(tag);
   update.saving().Note<SaidMarks>().ports.insert(port);
 }
 

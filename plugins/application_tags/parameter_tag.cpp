@@ -194,12 +194,6 @@ bool HasTag(XmlElement module_tag, const FrameworkElement& module, const Framewo
   });
 }
 
-// Of a module that a rule has put in the place of another, which has other parameters.
-bool IsByRule(const FrameworkElement& module) {
-  const std::string type = FindModuleType(module);
-  return MadeByRule::Before(module, type) != type;
-}
-
 // Of a group that no file describes.
 void UpdateGroupParameter(XmlElement tag, FrameworkElement& group, internal::FileUpdate& update) {
   if (tag.Attribute("to") == nullptr || group.FindAnnotation<PartInstance>() != nullptr) return;
@@ -231,7 +225,7 @@ std::vector<NewElement> MissingGroupParameters(const XmlElement* tag, FrameworkE
 void UpdateParameter(XmlElement tag, FrameworkElement& module, internal::FileUpdate& update) {
   if (!IsModule(module)) return UpdateGroupParameter(tag, module, update);
   const ConfigurableElement parameter = FindConfigurable(module, internal::NameOf(tag));
-  if (!parameter) return IsByRule(module) ? void() : update.editor().Remove(tag);
+  if (!parameter) return internal::IsByRule(module) ? void() : update.editor().Remove(tag);
   const std::string& name = parameter.element->name();
   if (name != internal::NameOf(tag) && !update.is_of_part()) update.editor().SetAttribute(tag, "name", name);
   const std::string* const loaded = LoadedValue::Of(*parameter.element);
@@ -260,7 +254,7 @@ std::vector<NewElement> MissingParameters(const XmlElement* tag, FrameworkElemen
     if (tag != nullptr && HasTag(*tag, module, *each.element)) continue;
     // It may have been set from outside of the part that the module is in.
     const std::string* const loaded = update != nullptr ? LoadedValue::Of(*each.element) : nullptr;
-    if (loaded == nullptr && IsByRule(module) && each.element->FindAnnotation<MadeByRule>() == nullptr) continue;
+    if (loaded == nullptr && internal::IsByRule(module) && each.element->FindAnnotation<MadeByRule>() == nullptr) continue;
     const bool is_as_loaded = IsAsLoaded(each, loaded);
     if (loaded != nullptr || !is_as_loaded) saving.values[each.element] = TextToSave(*each.element, *each.configurable);
     const std::string* const entry = is_as_loaded && loaded != nullptr ? LostEntry(*each.element) : nullptr;
@@ -270,8 +264,16 @@ std::vector<NewElement> MissingParameters(const XmlElement* tag, FrameworkElemen
     if (update != nullptr && update->OverrideValue(*each.element, value)) continue;
     missing.push_back({.name = "parameter",
                        .attributes = {{"name", each.element->name()},
-                                      entry != nullptr ? std::pair<std::string, std::string>("config", *entry)
-                                                       : std::pair<std::string, std::string>("value", value)}});
+                                      {entry != nullptr ? "config" : "value", entry != nullptr ? *entry : value}}});
+  }
+  const auto* const made = internal::IsByRule(module) ? module.FindAnnotation<MadeByRule>() : nullptr;
+  const auto tags = tag != nullptr ? tag->children() : decltype(tag->children())();
+  for (const auto& [name, value] : made != nullptr ? made->lacking : MadeByRule::Lacking()) {
+    if (value.first == value.second || FindConfigurable(module, name)) continue;
+    const auto is_it = [&name = name](XmlElement each) { return each.name() == "parameter" && internal::NameOf(each) == name; };
+    const auto said = std::ranges::find_if(tags, is_it);
+    said != tags.end() ? update->editor().SetAttribute(*said, "value", value.first)
+                       : missing.push_back({.name = "parameter", .attributes = {{"name", name}, {"value", value.first}}});
   }
   return missing;
 }

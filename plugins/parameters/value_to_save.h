@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,20 +11,24 @@
 #include "core/element/configurable.h"
 #include "core/element/framework_element.h"
 #include "core/module/group_parameter.h"
+#include "plugins/parameters/configuration_saver.h"
 
 namespace runnel {
 
 /// Kept with a parameter that a rule has set for the time being, and a module that it has put in the place of another:
 /// the value, or the type, that a person has made it.
 struct MadeByRule final : Annotation {
-  MadeByRule(std::string of_person, std::string of_rule)
-      : before(std::move(of_person)), now(std::move(of_rule)) {}
+  /// Values of parameters that the module of the rule has not, and what they were loaded as, if they were (LoadedValue).
+  using Lacking = std::map<std::string, std::pair<std::string, std::optional<std::string>>>;
+  MadeByRule(std::string of_person, std::string of_rule, Lacking of_module = {})
+      : before(std::move(of_person)), now(std::move(of_rule)), lacking(std::move(of_module)) {}
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
-    return std::make_unique<MadeByRule>(before, now);
+    return std::make_unique<MadeByRule>(before, now, lacking);
   }
   [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
   const std::string before;
   const std::string now;
+  const Lacking lacking;
 
   /// What a person has made of the element, which has `now`: just that, unless a rule has made it so.
   [[nodiscard]] static std::string Before(const FrameworkElement& element, const std::string& now) {
@@ -36,6 +42,8 @@ struct MadeByRule final : Annotation {
   const auto* const group = dynamic_cast<const GroupParameter*>(&element);
   const auto targets = group != nullptr ? group->Find() : std::vector<ConfigurableElement>();
   if (!targets.empty()) return TextToSave(*targets.front().element, *targets.front().configurable);
+  // Until what it stands for is there again.
+  if (group != nullptr && LoadedValue::Of(element) != nullptr) return *LoadedValue::Of(element);
   return MadeByRule::Before(element, parameter.ToText());
 }
 

@@ -29,6 +29,8 @@ class ElementState {
 
   /// Before `made` is prepared: that may go by what it is annotated with.
   void GiveAnnotations(FrameworkElement& made) const { made.InheritAnnotations(*noted_, how_); }
+  /// The element as it was, with all below it, by their annotations alone.
+  [[nodiscard]] const FrameworkElement& noted() const { return *noted_; }
   /// Ports, each with that which takes over from it.
   using TakenOver = std::vector<std::pair<Port*, Port*>>;
   /// When nobody but its readers can see `made` yet. Nothing to ports that take over from others, as they have that.

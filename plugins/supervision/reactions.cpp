@@ -4,7 +4,9 @@
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
+#include "plugins/parameters/configuration_saver.h"
 #include "plugins/parameters/value_to_save.h"
+#include "plugins/structure/element_state.h"
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/serve_requests.h"
 #include "plugins/supervision/supervisor_shared.h"
@@ -65,21 +67,34 @@ Result<void> Supervisor::Shared::Release(const std::string& port, Time now) {
 // theirs.
 void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet back) {
   const std::lock_guard lock(runtime.structure_mutex());
-  const auto note = [this](const std::string& path, const std::string& before, PathKind kind) {
+  const auto note = [this](const std::string& path, const std::string& before, PathKind kind,
+                           MadeByRule::Lacking lacking = {}) -> FrameworkElement* {
     const auto found = PathSearch(runtime).Find(path, kind);
-    if (!found) return;
+    if (!found) return nullptr;
     const auto* const parameter = dynamic_cast<const Configurable*>(*found);
     std::string now = parameter != nullptr ? parameter->ToText() : FindModuleType(**found);
-    (*found)->Annotate(std::make_unique<MadeByRule>(MadeByRule::Before(**found, before), std::move(now)));
+    (*found)->Annotate(std::make_unique<MadeByRule>(MadeByRule::Before(**found, before), std::move(now), std::move(lacking)));
+    return *found;
   };
   for (const Change& each : back) {
     if (const auto* const set = std::get_if<SetParameter>(&each)) note(set->path, set->value, PathKind::kParameter);
     const auto* const replace = std::get_if<ReplaceModule>(&each);
     if (replace == nullptr) continue;
-    note(replace->path, replace->type, PathKind::kElement);
+    const auto module = PathSearch(runtime).Find(replace->path);
+    const auto* const made = module ? (*module)->FindAnnotation<MadeByRule>() : nullptr;
+    auto lacking = made != nullptr && made->now == replace->type ? made->lacking : MadeByRule::Lacking();
     for (const Setting& one : replace->settings) {
-      note(replace->path + "/" + one.parameter, one.value, PathKind::kParameter);
+      const bool is_there = note(replace->path + "/" + one.parameter, one.value, PathKind::kParameter) != nullptr;
+      const auto before = replace->state->noted().Find("parameter/" + one.parameter);
+      if (is_there || !before) continue;
+      const std::string* const loaded = LoadedValue::Of(**before);
+      lacking[one.parameter] = {MadeByRule::Before(**before, one.value), loaded != nullptr ? std::optional(*loaded) : std::nullopt};
     }
+    for (const auto& [name, value] : lacking) {
+      FrameworkElement* const again = note(replace->path + "/" + name, value.first, PathKind::kParameter);
+      if (again != nullptr && value.second) again->Annotate(std::make_unique<LoadedValue>(*value.second));
+    }
+    note(replace->path, replace->type, PathKind::kElement, std::move(lacking));
   }
   std::erase_if(back, [](const Change& each) {
     return !std::holds_alternative<ConnectPorts>(each) && !std::holds_alternative<DisconnectPorts>(each);

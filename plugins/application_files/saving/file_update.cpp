@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/element/source_place.h"
+#include "core/paths/distant_ports.h"
 #include "core/paths/path_search.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
@@ -15,23 +16,22 @@ namespace runnel::internal {
 
 namespace {
 
-bool LeadsSomewhere(const PathUse& use) { return PathSearch(use.base).Find(use.path).has_value(); }
+bool LeadsSomewhere(const PathUse& use) {
+  const PathEnd end = PathSearch(use.base).Follow(use.path, PathKind::kElement);
+  return end.found != nullptr || IsDistantPath(use.path) || IsByRule(*end.at);
+}
 
 }  // namespace
 
 bool MeanTheSame(const AttributeRule& rule, const std::string& one, const std::string& other) {
+  const auto come_to_the_same = [&](const auto& parse) {
+    const auto first = parse(one);
+    const auto second = parse(other);
+    return first && second && *first == *second;
+  };
   if (one == other) return true;
-  if (rule.kind == AttributeKind::kDuration) {
-    const auto first = ParseDuration(one);
-    const auto second = ParseDuration(other);
-    return first && second && *first == *second;
-  }
-  if (rule.kind == AttributeKind::kNumber || rule.kind == AttributeKind::kCount) {
-    const auto first = ParseNumber(one);
-    const auto second = ParseNumber(other);
-    return first && second && *first == *second;
-  }
-  return false;
+  if (rule.kind == AttributeKind::kDuration) return come_to_the_same(ParseDuration);
+  return (rule.kind == AttributeKind::kNumber || rule.kind == AttributeKind::kCount) && come_to_the_same(ParseNumber);
 }
 
 bool FileUpdate::IsMoved() const {

@@ -32,12 +32,13 @@ bool IsPortOf(const Port& port, const FrameworkElement& module) {
          (parent->kind() == ElementKind::kPortGroup && parent->parent() == &module);
 }
 
-// The innermost group that has both, or nullptr.
-FrameworkElement* Home(const Port& from, const Port& to, const FrameworkElement& application) {
-  const FrameworkElement* const source = StandsFor(from, application);
+// The innermost group that has both, or nullptr. `from`: nullptr is one of another application that has ended.
+FrameworkElement* Home(const Port* from, const Port& to, FrameworkElement& application) {
+  if (from == nullptr || !DistantPathOf(*from).empty()) return to.IsAtOrBelow(application) ? &application : nullptr;
+  const FrameworkElement* const source = StandsFor(*from, application);
   const FrameworkElement* const target = StandsFor(to, application);
   if (source == nullptr || target == nullptr) return nullptr;
-  const bool is_inside = source == target && !(IsPortOf(from, *source) && IsPortOf(to, *source));
+  const bool is_inside = source == target && !(IsPortOf(*from, *source) && IsPortOf(to, *source));
   if (is_inside) return nullptr;
   FrameworkElement* home = source->parent();
   while (!target->parent()->IsAtOrBelow(*home)) home = home->parent();
@@ -50,10 +51,8 @@ FrameworkElement* HomeOfPaths(const std::string& from, const std::string& to,
   std::string common;
   const auto from_names = SplitPath(from);
   const auto to_names = SplitPath(to);
-  for (std::size_t i = 0; i < from_names.size() && i < to_names.size(); ++i) {
-    if (from_names[i] != to_names[i]) break;
-    common += "/" + std::string(from_names[i]);
-  }
+  const auto apart = std::ranges::mismatch(from_names, to_names).in1;
+  for (auto each = from_names.begin(); each != apart; ++each) common += "/" + std::string(*each);
   const auto found = application.runtime().root().Find(common);
   if (!found) return nullptr;
   FrameworkElement* home = *found;
@@ -69,18 +68,21 @@ void TakeBack(const ChangeSet& back, FrameworkElement& application, std::vector<
   for (const Change& each : back) {
     const auto* const cut = std::get_if<DisconnectPorts>(&each);
     const auto* const tie = std::get_if<ConnectPorts>(&each);
-    const auto from = search.FindPort(cut != nullptr ? cut->from : tie->from, PathKind::kOutput);
+    const std::string& from_path = cut != nullptr ? cut->from : tie->from;
+    const auto from = search.FindPort(from_path, PathKind::kOutput);
     const auto to = search.FindPort(cut != nullptr ? cut->to : tie->to, PathKind::kInput);
-    if (!from || !to) continue;
-    const auto is_it = [&](const SavedEdge& edge) { return edge.from == *from && edge.to == *to; };
+    const bool is_of_ended = tie != nullptr && IsDistantPath(from_path);
+    if (!to || (!from && !is_of_ended)) continue;
+    Port* const source = from ? *from : nullptr;
+    const auto is_it = [&](const SavedEdge& edge) { return edge.from == source && edge.to == *to; };
     const auto known = std::ranges::find_if(edges, is_it);
-    FrameworkElement* const home = Home(**from, **to, application);
+    FrameworkElement* const home = Home(source, **to, application);
     if (known != edges.end()) {
       if (cut != nullptr) edges.erase(known);
     } else if (cut != nullptr) {
       of_people.insert(*to);
     } else if (home != nullptr && !of_people.contains(*to)) {
-      edges.push_back({*from, *to, tie->options, home});
+      edges.push_back({source, *to, tie->options, home, false, from ? "" : from_path});
     }
   }
 }
@@ -93,8 +95,7 @@ std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return;
     for (const Connection& connection : port->outgoing()) {
-      const bool is_distant = !DistantPathOf(*port).empty() && connection.to->IsAtOrBelow(application);
-      FrameworkElement* const home = is_distant ? &application : Home(*connection.from, *connection.to, application);
+      FrameworkElement* const home = Home(connection.from, *connection.to, application);
       if (home == nullptr) continue;
       edges.push_back({connection.from, connection.to, connection.options, home});
     }

@@ -68,6 +68,12 @@ void Saving::CheckAttribute(const AttributeRule& rule, const std::string& value,
   if (std::ranges::find(loaded, type->plugin) != loaded.end()) plugins.insert(type->plugin);
 }
 
+bool IsByRule(const FrameworkElement& element) {
+  const std::string type = FindModuleType(element);
+  if (!type.empty() && MadeByRule::Before(element, type) != type) return true;
+  return element.parent() != nullptr && IsByRule(*element.parent());
+}
+
 bool HoldsOnlyThreads(const FrameworkElement& group) {
   const auto is_thread = [](const FrameworkElement* child) {
     return child->kind() == ElementKind::kThread;

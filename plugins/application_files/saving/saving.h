@@ -20,7 +20,7 @@ namespace runnel::internal {
 
 /// A connection that a file has to say: not one within a module, nor one that leads out of the application.
 struct SavedEdge {
-  Port* from;  ///< nullptr: of a connection that waits for its ends (LateConnections)
+  Port* from;  ///< nullptr: of a connection that waits for its ends (LateConnections), or will when a rule is over
   Port* to;    ///< likewise, unless its input is there, and its output another application's
   ConnectOptions options;
   FrameworkElement* home;      ///< the innermost group that has both ends
@@ -84,6 +84,9 @@ struct SavedText {
 
 /// The tags that may stand in another, in the order of XmlTag::place.
 [[nodiscard]] std::vector<const XmlTag*> TagsWithin(std::string_view tag, const Saving& saving);
+
+/// At or in a module that a rule has put in the place of another, which may have other ports and parameters.
+[[nodiscard]] bool IsByRule(const FrameworkElement& element);
 
 /// Such a group is made with its threads.
 [[nodiscard]] bool HoldsOnlyThreads(const FrameworkElement& group);

@@ -1,8 +1,15 @@
 // A file that is saved while a rule is in force has what people have made, and not what the rule has made for the time
 // being.
 
+#include <memory>
+#include <string>
+#include <utility>
+
 #include <gmock/gmock.h>
 
+#include "core/element/not_saved.h"
+#include "core/module/group.h"
+#include "core/paths/distant_ports.h"
 #include "plugins/application_tags/run_description.h"
 #include "plugins/parameters/configuration_saver.h"
 #include "plugins/structure/structure_editor.h"
@@ -60,11 +67,11 @@ constexpr const char* kFile = R"(<application name="demo">
 </application>
 )";
 
-class SavedRules : public ::testing::Test {
+class RulesInForce : public ::testing::Test {
  protected:
-  SavedRules() {
-    shop.Add<Spare>("test/spare");
-    WriteAll(folder / "app.xml", kFile);
+  // Until the source that publishes nothing is stale: all rules are about it.
+  void Run(const std::string& file, const ChangeSet& before = {}) {
+    WriteAll(folder / "app.xml", file);
     application = shop.Load(folder / "app.xml");
     if (application == nullptr) throw std::runtime_error("the file does not load");
     scheduler.emplace(shop.runtime, SchedulerOptions{.clock = SchedulerOptions::ClockKind::kSimulated});
@@ -76,20 +83,24 @@ class SavedRules : public ::testing::Test {
       return back;
     });
     EXPECT_TRUE(AddRules(*application, *scheduler, *supervisor));
-    EXPECT_EQ(Text(), kFile);
-    scheduler->RunUntil(Time(100ms));  // the source publishes nothing
-    EXPECT_EQ(shop.Get<Spare>("/demo/b").gain.Get(), 3);
-    EXPECT_EQ(GainOf("gauge"), 2);
-    EXPECT_EQ(SourceOfSink(), "/demo/b/output/value");
-    EXPECT_TRUE(shop.Get<Port>("/demo/filter/input/value").incoming().empty()) << "though its module requires it";
+    EXPECT_EQ(Text(), file);
+    Must(before);
+    scheduler->RunUntil(Time(100ms));
   }
-  ~SavedRules() override {
+  // Until its values come again.
+  void RunOn() {
+    for (Time now(101ms); now < Time(200ms); now += 1ms) {
+      shop.Get<Source>("/demo/a").value.Publish(1);
+      scheduler->RunUntil(now);
+    }
+  }
+  RulesInForce() { shop.Add<Spare>("test/spare"); }
+  ~RulesInForce() override {
     supervisor.reset();
     editor.reset();
     scheduler.reset();
   }
   std::string Text() { return shop.Text(*application, folder.path()); }
-  double GainOf(const std::string& module) { return shop.Get<Source>("/demo/" + module).gain.Get(); }
   std::string SourceOfSink() { return shop.Get<Port>("/demo/sink/input/value").incoming().front()->path(); }
   void Must(const ChangeSet& changes) {
     const ChangeOutcome outcome = editor->Apply(changes);
@@ -104,6 +115,18 @@ class SavedRules : public ::testing::Test {
   std::optional<Supervisor> supervisor;
 };
 
+class SavedRules : public RulesInForce {
+ protected:
+  SavedRules() {
+    Run(kFile);
+    EXPECT_EQ(shop.Get<Spare>("/demo/b").gain.Get(), 3);
+    EXPECT_EQ(GainOf("gauge"), 2);
+    EXPECT_EQ(SourceOfSink(), "/demo/b/output/value");
+    EXPECT_TRUE(shop.Get<Port>("/demo/filter/input/value").incoming().empty()) << "though its module requires it";
+  }
+  double GainOf(const std::string& module) { return shop.Get<Source>("/demo/" + module).gain.Get(); }
+};
+
 TEST_F(SavedRules, HaveWhatPeopleHaveMade) {
   EXPECT_EQ(Text(), kFile);
   ASSERT_TRUE(SaveApplication(*application, shop.tools(), folder / "saved.xml"));
@@ -114,10 +137,7 @@ TEST_F(SavedRules, HaveWhatPeopleHaveMade) {
 }
 
 TEST_F(SavedRules, StayTheSameWhenAllIsWellAgain) {
-  for (Time now(101ms); now < Time(200ms); now += 1ms) {
-    shop.Get<Source>("/demo/a").value.Publish(1);
-    scheduler->RunUntil(now);
-  }
+  RunOn();
   EXPECT_EQ(SourceOfSink(), "/demo/a/output/value");
   EXPECT_EQ(GainOf("gauge"), 6);
   EXPECT_EQ(Text(), kFile) << "what is not taken back is a rule's all the same";
@@ -146,6 +166,133 @@ TEST_F(SavedRules, HaveWhatPeopleMakeMeanwhile) {
                           Not(HasSubstr(R"(<connect from="a/value")"))));
   Must({ReplaceModule{"/demo/b", "test/source"}});
   EXPECT_THAT(Text(), HasSubstr(R"(<module name="b" type="test/source">)"));
+}
+
+// `modules`: what the application has besides. `reaction`, `otherwise`: what the rule does.
+std::string FileWith(const std::string& modules, const std::string& reaction, const std::string& otherwise = "") {
+  return R"(<application name="demo">
+  <module name="a" type="test/source"/>
+)" + modules + R"(  <module name="sink" type="test/sink"/>
+  <connect from="a/value" to="sink/value"/>
+  <on_stale input="sink/value" after="30ms" fresh_after="20ms">
+    )" + reaction + "\n" + (otherwise.empty() ? "" : "    <otherwise>\n      " + otherwise + "\n    </otherwise>\n") +
+         R"(  </on_stale>
+</application>
+)";
+}
+
+TEST_F(RulesInForce, LeaveWhatAGroupSaysOfAParameterThatTheReplacementLacks) {
+  const std::string file = FileWith(R"(  <group name="both">
+    <parameter name="count" to="b/count" value="5"/>
+    <module name="b" type="test/source">
+      <parameter name="gain" value="3"/>
+    </module>
+  </group>
+)", R"(<replace module="both/b" by="test/spare"/>)");
+  Run(file);
+  ASSERT_EQ(shop.Get<Spare>("/demo/both/b").gain.Get(), 3);
+  EXPECT_EQ(Text(), file);
+}
+
+TEST_F(RulesInForce, LeaveWhatIsSaidOfPortsThatTheReplacementLacks) {
+  const std::string file = FileWith(R"(  <module name="b" type="test/sink"/>
+  <driving port="b/second" safe="0"/>
+)", R"(<replace module="b" by="test/spare"/>)");
+  Run(file);
+  (void)shop.Get<Spare>("/demo/b");
+  EXPECT_EQ(Text(), file);
+}
+
+TEST_F(RulesInForce, HaveWhatPeopleHaveSetBeforeAtWhatTheReplacementLacks) {
+  const ChangeSet settings = {SetParameter{"/demo/b/count", "9"}, SetParameter{"/demo/b/gain", "4"}};
+  Run(FileWith("  <module name=\"b\" type=\"test/source\"/>\n", R"(<replace module="b" by="test/spare"/>)"), settings);
+  (void)shop.Get<Spare>("/demo/b");
+  EXPECT_THAT(Text(), HasSubstr(R"(  <module name="b" type="test/source">
+    <parameter name="gain" value="4"/>
+    <parameter name="count" value="9"/>
+  </module>
+)"));
+}
+
+TEST_F(RulesInForce, KeepWhatWasSaidOfAParameterWhenTheModuleIsBack) {
+  const std::string module = R"(  <module name="b" type="test/source">
+    <parameter name="gain" value="3"/>
+    <parameter name="count" value="5"/>
+  </module>
+)";
+  const std::string file =
+      FileWith(module, R"(<replace module="b" by="test/spare"/>)", R"(<replace module="b" by="test/source"/>)");
+  Run(file);
+  EXPECT_EQ(Text(), file);
+  RunOn();
+  ASSERT_EQ(shop.Get<Source>("/demo/b").count.Get(), 3) << "a rule takes nothing back by itself";
+  EXPECT_EQ(Text(), file);
+  scheduler->RunUntil(Time(400ms));  // it is stale again
+  (void)shop.Get<Spare>("/demo/b");
+  EXPECT_EQ(Text(), file);
+}
+
+TEST_F(RulesInForce, ChangeWhatIsSaidOfAParameterThatTheReplacementLacks) {
+  const std::string module = R"(  <module name="b" type="test/source">
+    <parameter name="gain" value="3"/>
+    <parameter name="count" value="5"/>
+  </module>
+)";
+  Run(FileWith(module, R"(<replace module="b" by="test/spare"/>)"), {SetParameter{"/demo/b/count", "9"}});
+  (void)shop.Get<Spare>("/demo/b");
+  EXPECT_THAT(Text(), AllOf(HasSubstr(R"(<parameter name="count" value="9"/>)"), Not(HasSubstr(R"(value="5")"))));
+}
+
+TEST_F(RulesInForce, KeepTheOnlyConnectionOfARequiredInput) {
+  const std::string file = FileWith(R"(  <module name="f" type="test/filter"/>
+  <connect from="a/value" to="f/value"/>
+)", R"(<switch input="f/value" from="a/value"/>)", R"(<switch input="f/value" to="a/value"/>)");
+  Run(file);
+  ASSERT_TRUE(shop.Get<Port>("/demo/f/input/value").incoming().empty());
+  EXPECT_EQ(Text(), file);
+}
+
+/// Stands for a network with one port of another application.
+class OtherApplication final : public DistantPorts {
+ public:
+  struct Element final : Group {
+    explicit Element(const Placement& placement) : Group(placement) {
+      Annotate(std::make_unique<NotSaved>());
+      value.Annotate(std::make_unique<DistantPort>("//far/a/value"));
+    }
+    Output<double> value{*this, "value"};
+  };
+  [[nodiscard]] Port* Find(std::string_view path) const override {
+    return element != nullptr && path == "//far/a/value" ? &element->value : nullptr;
+  }
+  [[nodiscard]] DistantType TypeOf(std::string_view) const override { return {&runnel::TypeOf<double>()}; }
+  Result<Port*> Make(std::string_view, const Port& to, const ConnectOptions&) override {
+    FrameworkElement* application = to.parent();
+    while (application->parent()->parent() != nullptr) application = application->parent();
+    if (element == nullptr) element = &to.runtime().Create<Element>(*application, "network");
+    return &element->value;
+  }
+  Element* element = nullptr;
+};
+
+TEST_F(RulesInForce, KeepTheConnectionToAnotherApplication) {
+  auto made = std::make_unique<OtherApplication>();
+  OtherApplication& other = *made;
+  shop.runtime.root().Annotate<DistantPorts>(std::move(made));
+  const std::string file = R"(<application name="demo">
+  <module name="b" type="test/source"/>
+  <module name="sink" type="test/sink"/>
+  <connect from="//far/a/value" to="sink/value"/>
+  <on_stale input="sink/value" after="30ms" fresh_after="20ms">
+    <switch input="sink/value" from="//far/a/value" to="b/value"/>
+  </on_stale>
+</application>
+)";
+  Run(file);
+  ASSERT_EQ(SourceOfSink(), "/demo/b/output/value");
+  EXPECT_EQ(Text(), file);
+  ASSERT_TRUE(shop.runtime.Delete(*std::exchange(other.element, nullptr)));
+  EXPECT_EQ(Text(), file) << "also when the other application has ended";
 }
 
 }  // namespace
