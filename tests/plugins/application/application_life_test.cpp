@@ -105,7 +105,7 @@ class ApplicationWithSlow : public testing::Test {
     CountingSlow::is_slow = true;
   }
   ~ApplicationWithSlow() override { CountingSlow::is_slow = false; }
-  static constexpr const char* kText = R"(<application name="slow">
+  static constexpr const char* kText = R"(<application name="robot">
     <clock type="simulated" speed="0"/> <thread name="main" period="10ms"/>
     <module name="slow" type="counting/slow"/> <module name="source" type="counting/source"/>
     <module name="judge" type="counting/judge"/> </application>)";

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Outcome = CommandAnswer::Outcome;
 
-class Platform final : public Module {
+class DrivenBase final : public Module {
  public:
   using Module::Module;
   Input<double> wheels{this, "wheels", {.unit = "m/s", .drives = true}};
@@ -36,9 +36,9 @@ std::binary_semaphore being_made{0};
 std::binary_semaphore may_be_made{0};
 
 /// Its constructor takes as long as the test wants.
-class Slow final : public Module {
+class SlowlyMade final : public Module {
  public:
-  explicit Slow(const Placement& placement) : Module(placement) {
+  explicit SlowlyMade(const Placement& placement) : Module(placement) {
     being_made.release();
     may_be_made.acquire();
   }
@@ -50,8 +50,8 @@ class Slow final : public Module {
 class AskedBeforeStop : public ::testing::Test {
  protected:
   AskedBeforeStop() {
-    Register<Platform>("test/base");
-    Register<Slow>("test/slow");
+    Register<DrivenBase>("test/base");
+    Register<SlowlyMade>("test/slow");
     for (const char* const name : {"a", "b"}) EXPECT_TRUE(modules.Create("test/base", runtime.root(), name));
     EXPECT_TRUE(runtime.MakeReady(runtime.root()));
     application.hooks.reload = application.hooks.save = [this](const std::string& name) -> Result<std::string> {
