@@ -76,4 +76,15 @@ class Supervised : public ::testing::Test {
   Robot robot{SchedulerOptions::ClockKind::kSimulated};
 };
 
+/// Something moves by what the reader reads from the laser.
+class Driven : public Supervised {
+ protected:
+  Driven() {
+    MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+    robot.scheduler.RunUntil(At(100));
+    EXPECT_EQ(robot.seen, 1);
+  }
+  void RunOn() { robot.scheduler.RunUntil(robot.runtime.clock().Now() + 200ms); }
+};
+
 }  // namespace runnel::supervised
