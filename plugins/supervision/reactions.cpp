@@ -4,7 +4,6 @@
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
-#include "plugins/parameters/configuration_saver.h"
 #include "plugins/parameters/value_to_save.h"
 #include "plugins/structure/element_state.h"
 #include "plugins/structure/value_by_hand.h"
