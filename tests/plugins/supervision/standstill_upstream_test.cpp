@@ -41,15 +41,14 @@ class DrivenOver : public Driven {
       if (is_held) out.Publish(true);
     }
   };
-  DeadMan& HeldOpen(Port& input) {
-    auto& dead_man = robot.runtime.Create<DeadMan>(robot.runtime.root(), "dead_man");
+  void HeldOpen(Port& input) {
     MustSucceed(Port::Connect(dead_man.out, input));
     MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
     RunOn();
     EXPECT_EQ(robot.seen, 1);
     (void)robot.Messages();
-    return dead_man;
   }
+  DeadMan& dead_man = robot.runtime.Create<DeadMan>(robot.runtime.root(), "dead_man");
   Passing& passing = robot.runtime.Create<Passing>(robot.runtime.root(), "passing");
 };
 
@@ -95,7 +94,7 @@ TEST_F(DrivenOver, WhatLooksHowOldItIsGoesOn) {
 }
 
 TEST_F(DrivenOver, APortHasItsSafeValueWhileWhatSetsAParameterOnTheWayIsPausedOrGone) {
-  DeadMan& dead_man = HeldOpen(*passing.open.Feed());
+  HeldOpen(*passing.open.Feed());
   MustSucceed(robot.supervisor.SetPaused("/dead_man", true));
   RunOn();
   EXPECT_EQ(robot.seen, -7);
@@ -118,7 +117,7 @@ TEST_F(DrivenOver, APortHasItsSafeValueWhileWhatSetsAParameterOnTheWayIsPausedOr
 
 TEST_F(DrivenOver, AReplacementIsNoPersonWhoHasSetTheParameter) {
   MustSucceed(robot.modules.Add({"test/passing", "passes on", "test", [](const Placement& at) { return std::make_unique<Passing>(at); }}));
-  DeadMan& dead_man = HeldOpen(*passing.open.Feed());
+  HeldOpen(*passing.open.Feed());
   MustSucceed(Port::Disconnect(dead_man.out, *passing.open.Feed()));
   RunOn();
   EXPECT_EQ(robot.seen, -7);
@@ -140,7 +139,7 @@ TEST_F(DrivenOver, WhatSetsAParameterOverAnotherModuleCountsToo) {
   };
   auto& merge = robot.runtime.Create<PassingBool>(robot.runtime.root(), "merge");
   MustSucceed(Port::Connect(merge.out, *passing.open.Feed()));
-  (void)HeldOpen(merge.in);
+  HeldOpen(merge.in);
   MustSucceed(robot.supervisor.SetPaused("/dead_man", true));
   RunOn();
   EXPECT_EQ(robot.seen, -7);
@@ -150,7 +149,7 @@ TEST_F(DrivenOver, SoDoesWhatSetsAParameterOfWhatDrivesItself) {
   auto& gate = robot.runtime.Create<Passing>(robot.runtime.root(), "gate");
   MustSucceed(Port::Connect(robot.laser.out, gate.in));
   MustSucceed(gate.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
-  (void)HeldOpen(*gate.open.Feed());
+  HeldOpen(*gate.open.Feed());
   MustSucceed(robot.supervisor.SetPaused("/dead_man", true));
   RunOn();
   EXPECT_EQ(gate.in.Get(), -7);
