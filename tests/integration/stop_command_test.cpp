@@ -61,7 +61,9 @@ TEST_F(StopCommand, TakesEffectWhileAModuleIsBeingMadeAndEndsWithNewCommandsOnly
   EXPECT_TRUE(program.WaitFor("/robot/other: stands"));
   EXPECT_THAT(Runnel("ps").text, HasSubstr("running, STOP in force for"));
   std::ofstream(made_after) << "\n";
-  EXPECT_EQ(create.Wait().code, kDone);
+  const Ended created = create.Wait();
+  EXPECT_EQ(created.code, kBadInput);
+  EXPECT_THAT(created.text, HasSubstr("STOP was pressed or released after this was asked for"));
 
   const Ended released = Runnel("release");
   EXPECT_EQ(released.code, kDone);

@@ -35,7 +35,8 @@ TEST_F(ArenaTest, WritesTheRunsExactlyAsPublished) {
     EXPECT_THAT(KeysOf(run),
                 testing::UnorderedElementsAre("world", "variant", "sensor", "direction", "seed",
                                               "outcome", "path_length_m", "sim_time_s",
-                                              "wall_time_s", "cycles", "hits", "leaves", "path"));
+                                              "wall_time_s", "cycles", "hits", "leaves", "path", "noise_m",
+                                              "remark", "is_right", "shortest_path_m", "ratio"));
     EXPECT_EQ(run["world"], "one_obstacle");
     EXPECT_EQ(run["variant"], "bug2");
     EXPECT_EQ(run["direction"], "right");
