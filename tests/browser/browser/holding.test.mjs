@@ -167,6 +167,7 @@ test('a slider and a plain button at what moves drive only as long as they are h
     await until(() => last().deadline > 0);
     await page.evaluate(() => document.querySelector('#stop-button').dispatchEvent(new PointerEvent('pointerdown', { bubbles: true, button: 0 })));
     await until(() => last().deadline === undefined);
+    await page.locator('#stop-release').waitFor();
     await page.evaluate(() => document.querySelector('#stop-release').click());
     await page.locator('#stop-release').waitFor({ state: 'detached' });
     const count = () => application.asked.filter(({ op }) => op === 'publish').length;
