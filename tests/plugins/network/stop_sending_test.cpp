@@ -138,6 +138,8 @@ TEST_P(StopSendingTest, VelocitiesStopUnmarkedAndMeasurementsGoOn) {
   Publish(7);
   WaitForGoal(7);
   EXPECT_EQ(wanted.Get().forward, 0);
+  robot_.End();  // values are still on their way to ports that go now
+  planner_.End();
 }
 
 TEST_P(StopSendingTest, ASpeedThatIsANumberStopsAndWhatIsMeasuredGoesOn) {
