@@ -78,7 +78,7 @@ class Port : public FrameworkElement {
   /// Outputs: whether a value was published with a time of measurement that was more than 100 ms to come. Any thread.
   [[nodiscard]] bool stamps_ahead() const noexcept { return stamps_ahead_.load(std::memory_order_relaxed); }
   /// Outputs: 0, unless a velocity that moves the robot is made of it, also by modules that pass values of its type on. Then what
-  /// is ramped has to begin from a standstill after a STOP, and whenever this number is another one: a block behind it has ended.
+  /// is ramped has to begin from a standstill after a STOP, and whenever this number is another one: a block or a value by hand has ended.
   /// Stays so when that port goes. Any thread; wait-free.
   [[nodiscard]] std::uint32_t velocity_beginnings() const noexcept { return velocity_beginnings_.load(std::memory_order_relaxed); }
   /// Who looks at the port without being connected to it says so. Any thread.
