@@ -47,24 +47,11 @@ struct SilentMark final : Annotation {
 
 const RestMark* MarkOf(const Port& port) { return port.FindAnnotation<RestMark>(); }
 
-RestMark& Mark(Port& port) {
-  auto* const mark = port.FindAnnotation<RestMark>();
-  return mark != nullptr ? *mark : port.Annotate(std::make_unique<RestMark>());
-}
-
 bool HasPublishedSince(const Port& source, Time since) {
   bool has_published = false;
   source.VisitLatest(
       [&](const void*, ValueTimes times) { has_published = times.publication_time > since; });
   return has_published;
-}
-
-std::string WhyUnread(const std::vector<Port*>& sinks, const Scheduler& scheduler) {
-  std::string why;
-  for (const Port* each : sinks) {
-    if (why.empty()) why = scheduler.WhyAtRest(*each, Scheduler::kUnreachedAfter);
-  }
-  return why;
 }
 
 template <typename Mark>
@@ -151,7 +138,7 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
   }
   std::erase_if(outputs_, [&](Port* each) {
     if (!each->stamps_ahead()) return false;
-    Mark(*each).is_ahead_told = true;
+    MarkAt<RestMark>(*each).is_ahead_told = true;
     tell(*each, "bears times of measurement that are still to come; they count as the time of publication", false);
     return true;
   });
@@ -238,10 +225,9 @@ void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler,
   if (port.is_driving()) {
     for (const Port* each : driven.sinks) scheduler.WakeWithoutData(*each);
   }
-  const std::string why =
-      port.is_driving() ? WhyUnread(driven.sinks, scheduler) : "";
+  const std::string why = scheduler.WhyUnreached(port);
   if (why.empty() && MarkOf(port) == nullptr) return;
-  if (std::exchange(Mark(port).is_unreached, !why.empty()) == !why.empty()) return;
+  if (std::exchange(MarkAt<RestMark>(port).is_unreached, !why.empty()) == !why.empty()) return;
   tell(port,
        why.empty() ? "can be reached again"
                    : "cannot be reached: " + why + "; until it runs, no STOP counts there but the time-out of what it moves",
@@ -255,13 +241,13 @@ void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler,
   const bool is_set = port.is_set_by_hand(Port::Setter::kRule);
   if (!why.empty()) {
     if (is_set) {  // a rule may have been first
-      if (held) Mark(port).rested = now;
+      if (held) MarkAt<RestMark>(port).rested = now;
       return;
     }
     const auto safe = SafeValueOf(port);
     const auto set = safe ? PublishByHand(port, safe->get(), Port::Setter::kRule) : safe.error();
     if (!set && held) return;  // it has been told
-    Mark(port).rested = now;
+    MarkAt<RestMark>(port).rested = now;
     return tell(port,
                 set ? "has its safe value: " + why
                     : why + ", and it has no safe value: " + set.error().message,
@@ -271,19 +257,19 @@ void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler,
   const bool is_fed = std::ranges::any_of(
       driven.sources, [&](const Port* each) { return HasPublishedSince(*each, *held); });
   if (!is_fed && !driven.sources.empty()) return;
-  Mark(port).rested.reset();
+  MarkAt<RestMark>(port).rested.reset();
   if (port.Release(Port::Setter::kRule)) tell(port, "is driven again: what feeds it runs", true);
 }
 
 void Standstill::LeaveToRule(Port& port) {
-  if (MarkOf(port) != nullptr) Mark(port).rested.reset();
+  if (MarkOf(port) != nullptr) MarkAt<RestMark>(port).rested.reset();
 }
 
 bool Standstill::TakesOver(Port& port, const Scheduler& scheduler, Time now) {
   if (Driven(port, now).WhyAtRest(scheduler, now).empty()) return false;
   const auto safe = SafeValueOf(port);
   if (!safe || !PublishByHand(port, safe->get(), Port::Setter::kRule)) return false;
-  Mark(port).rested = now;
+  MarkAt<RestMark>(port).rested = now;
   return true;
 }
 
