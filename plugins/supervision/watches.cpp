@@ -222,10 +222,12 @@ std::string Standstill::Driven::WhyAtRest(const Scheduler& scheduler, Time now) 
 // Who does not run reads no safe value either.
 void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler, const Tell& tell) {
   Port& port = *driven.port;
-  if (port.is_driving()) {
-    for (const Port* each : driven.sinks) scheduler.WakeWithoutData(*each);
+  std::string why;  // as Scheduler::WhyUnreached(), which allocates
+  for (const Port* each : driven.sinks) {
+    if (!port.is_driving()) break;
+    scheduler.WakeWithoutData(*each);
+    if (why.empty()) why = scheduler.WhyAtRest(*each, Scheduler::kUnreachedAfter);
   }
-  const std::string why = scheduler.WhyUnreached(port);
   if (why.empty() && MarkOf(port) == nullptr) return;
   if (std::exchange(MarkAt<RestMark>(port).is_unreached, !why.empty()) == !why.empty()) return;
   tell(port,
