@@ -78,13 +78,6 @@ OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, cons
       form_(std::move(form)),
       clock_(clock),
       bell_(std::make_shared<OfferBell>(std::move(wake), [this](OfferBell::By by) { SendBy(by); })) {
-  // A command of motion stops whoever moves by it elsewhere, whether or not anybody has marked it here.
-  const bool commands = !options_.is_measured && IsVelocity(type, options_.unit);
-  if (const std::shared_ptr<const void> zero = commands ? type.Make() : nullptr) {
-    const auto& robot = beside.runtime().robot_stop().signal();
-    command_stop_ = std::make_shared<PortStop>(AnyValue(type, zero), Duration{}, robot);
-    AddWhatDrives(beside.runtime(), topic_ + " (in the network)", command_stop_);
-  }
   reader_ = std::make_unique<Reader>(beside, name, type, *this);
   if (options_.quality == ValueQuality::kEach) {
     each_ = std::make_unique<ProbePort>(beside, name + "_each", type);
@@ -122,6 +115,11 @@ Result<void> OfferedPort::Begin(WireParticipant& participant) {
   });
   if (!writer) return writer.error();
   writer_ = std::move(*writer);
+  // A command of motion stops whoever moves by it elsewhere, whether or not anybody has marked it here.
+  if (options_.is_measured || !IsVelocity(type(), options_.unit)) return {};
+  const std::shared_ptr<const void> zero = type().Make();
+  if (auto set = reader_->SetDriving(true, zero ? AnyValue(type(), zero) : AnyValue()); !set) return set;
+  AddWhatDrives(reader_->runtime(), topic_ + " (in the network)", reader_->stop());
   return {};
 }
 
@@ -140,7 +138,6 @@ void OfferedPort::Attach(Port* port) {
 }
 
 void OfferedPort::SetBinding(const Port* source, std::vector<internal::PassedStop> stops) {
-  if (command_stop_) stops.push_back({command_stop_, command_stop_->safe_value()});
   Binding* const before = binding_.load(std::memory_order_relaxed);
   if (before != nullptr && before->IsOf(source, stops)) return;
   // Who stops the robot sends the safe value itself: the network's thread may wait for the structure lock.

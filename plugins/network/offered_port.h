@@ -170,7 +170,6 @@ class OfferedPort {
   const std::shared_ptr<const ValueForm> form_;
   const ClockOffset clock_;
   const std::shared_ptr<OfferBell> bell_;
-  std::shared_ptr<const PortStop> command_stop_;  // of velocities
   std::unique_ptr<Reader> reader_;
   std::unique_ptr<ProbePort> each_;  // if each value is wanted
   std::function<void()> on_matched_;

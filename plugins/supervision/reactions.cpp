@@ -24,6 +24,26 @@ Result<void> Attempt(const Act& act) {
   }
 }
 
+// Kept with a module that a rule has put in the place of another: what had been set at that, and its type.
+struct ReplacedByRule final : Annotation {
+  explicit ReplacedByRule(const ReplaceModule& back) : type(back.type), state(back.state) {}
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<ReplacedByRule>(*this); }
+  [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
+  std::string type;
+  GivenState state;
+};
+
+// A module that comes back gets what has been set where the one of the rule has no place for it: marks, limits, a block.
+void GiveBack(Runtime& runtime, ChangeSet& changes) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  for (Change& each : changes) {
+    auto* const replace = std::get_if<ReplaceModule>(&each);
+    const auto module = replace != nullptr ? PathSearch(runtime).Find(replace->path) : Error{};
+    const auto* const replaced = module ? (*module)->FindAnnotation<ReplacedByRule>() : nullptr;
+    if (replaced != nullptr && replaced->type == replace->type) replace->state = replaced->state;
+  }
+}
+
 }  // namespace
 
 void Supervisor::Shared::VisitHeld(const Port& port, const std::function<void(KnownRule& rule, std::size_t number)>& visit) {
@@ -94,6 +114,9 @@ void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet bac
       if (again != nullptr && value.second) again->Annotate(std::make_unique<LoadedValue>(*value.second));
     }
     note(replace->path, replace->type, PathKind::kElement, std::move(lacking));
+    const auto* const replaced = module ? (*module)->FindAnnotation<ReplacedByRule>() : nullptr;
+    const bool is_first = replaced == nullptr || replaced->type == replace->type;
+    if (module && is_first) (*module)->Annotate(std::make_unique<ReplacedByRule>(*replace));
   }
   std::erase_if(back, [](const Change& each) {
     return !std::holds_alternative<ConnectPorts>(each) && !std::holds_alternative<DisconnectPorts>(each);
@@ -170,9 +193,10 @@ void Supervisor::Shared::PublishMissed(Time now) {
   }
 }
 
-Result<void> Supervisor::Shared::CarryOut(KnownRule& rule, Which which, const Reaction& reaction, Time now) {
+Result<void> Supervisor::Shared::CarryOut(KnownRule& rule, Which which, Reaction& reaction, Time now) {
   Result<void> done;
   if (!reaction.changes.empty()) {
+    GiveBack(runtime, reaction.changes);
     auto back = perform(reaction.changes);
     if (back) NotePassing(rule, which, std::move(*back));
     if (!back) done = back.error();

@@ -41,7 +41,7 @@ struct Supervisor::Shared {
   void React(KnownRule& rule, Which which, const std::string& path, const std::string& why, Time now, bool is_recovery = false,
              Where where = Where::kBeside);
   Result<void> PublishAll(KnownRule& rule, Which which, const Reaction& reaction);
-  Result<void> CarryOut(KnownRule& rule, Which which, const Reaction& reaction, Time now);
+  Result<void> CarryOut(KnownRule& rule, Which which, Reaction& reaction, Time now);
   void NotePassing(KnownRule& rule, Which which, ChangeSet back);
   // What may take as long as it takes, and must keep up nobody who looks whether all is well: in real time beside him, one
   // after the other; in simulated time at once.

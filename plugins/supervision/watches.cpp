@@ -60,6 +60,16 @@ Mark& MarkAt(FrameworkElement& element) {
   return mark != nullptr ? *mark : element.Annotate(std::make_unique<Mark>());
 }
 
+// Whether something moves by it: here, or in another application, to which somebody beside the tree sends it.
+bool Drives(Port& port) {
+  const auto is_beside = [&](const Port* sink) {
+    if (!sink->is_driving()) return false;
+    const auto listed = port.runtime().root().Find(sink->path());
+    return !listed || *listed != sink;
+  };
+  return port.is_driving() || std::ranges::any_of(port.Sinks(), is_beside);
+}
+
 // What it said before it was at rest counts no more.
 std::string WhySilent(Port& output, const Scheduler& scheduler, Time now) {
   const std::string why = scheduler.WhyAtRest(output);
@@ -127,7 +137,7 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
     outputs_.clear();
     runtime.root().Visit([this, now](FrameworkElement& element) {
       auto* const port = dynamic_cast<Port*>(&element);
-      if (port != nullptr && (port->is_driving() || MarkOf(*port) != nullptr)) driven_.emplace_back(*port, now);
+      if (port != nullptr && (Drives(*port) || MarkOf(*port) != nullptr)) driven_.emplace_back(*port, now);
       if (port != nullptr && port->direction() == Port::Direction::kOutput && (MarkOf(*port) == nullptr || !MarkOf(*port)->is_ahead_told))
         outputs_.push_back(port);
     });
@@ -145,8 +155,8 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
 }
 
 Standstill::Driven::Driven(Port& driving, Time now)
-    : port(&driving), sources(driving.Sources()), sinks(driving.Sinks()), at(now) {
-  if (!port->is_driving()) return;
+    : port(&driving), sources(driving.Sources()), sinks(driving.Sinks()), drives(Drives(driving)), at(now) {
+  if (!drives) return;
   const auto* const input = dynamic_cast<const InputBase*>(port);
   LookAtParameters(*port);
   LookUpstream(*port, input != nullptr && input->ageing() == Ageing::kTimesOut);
@@ -202,7 +212,7 @@ bool Standstill::Driven::LookAtFeeding(FrameworkElement& element, bool is_fed) c
 }
 
 std::string Standstill::Driven::WhyAtRest(const Scheduler& scheduler, Time now) const {
-  if (!port->is_driving()) return "";
+  if (!drives) return "";
   std::string why;
   for (Port* each : upstream) {
     const std::string silent = WhySilent(*each, scheduler, now);  // of each, for it is noted

@@ -51,8 +51,9 @@ class StaleWatch {
 /// Has ports that drive read their safe value while a module that feeds them does not run: it is paused, has failed, or its
 /// thread is stuck. By the slot of rules, and until the module has published again. So do those before it that nobody notices
 /// the silence of: behind them modules only pass values on, without a time-out, or they set a parameter on the way. Modules that
-/// drive and wait for data are run without, since what grows old does not come. Tells where the module that drives does not run
-/// itself, so that neither this nor a STOP reaches it.
+/// drive and wait for data are run without, since what grows old does not come. What is sent to others who move by it, as a
+/// command over a network is, is held where it leaves the tree. Tells where the module that drives does not run itself, so
+/// that neither this nor a STOP reaches it.
 ///
 /// Threads: all under the structure lock.
 class Standstill {
@@ -81,6 +82,7 @@ class Standstill {
     void LookAtParameters(const Port& of);
     [[nodiscard]] bool LookAtFeeding(FrameworkElement& element, bool is_fed) const;
 
+    bool drives;
     Time at;
     std::vector<Port*> upstream;                       // outputs that it moves by; the sources, too
     std::vector<const Port*> cut_off;                  // inputs on the way that something was connected to

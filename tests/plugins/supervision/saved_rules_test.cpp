@@ -203,6 +203,17 @@ TEST_F(RulesInForce, LeaveWhatIsSaidOfPortsThatTheReplacementLacks) {
   EXPECT_EQ(Text(), file);
 }
 
+TEST_F(RulesInForce, AModuleThatComesBackHasTheMarksThatTheReplacementLacks) {
+  Run(FileWith(R"(  <module name="b" type="test/sink"/>
+  <driving port="b/second" safe="3"/>
+)", R"(<replace module="b" by="test/spare"/>)", R"(<replace module="b" by="test/sink"/>)"));
+  (void)shop.Get<Spare>("/demo/b");
+  RunOn();
+  const auto& port = shop.Get<Port>("/demo/b/input/second");
+  ASSERT_TRUE(port.is_driving());
+  EXPECT_EQ(ToText(port.type(), port.stop()->safe_value().get()), "3");
+}
+
 TEST_F(RulesInForce, HaveWhatPeopleHaveSetBeforeAtWhatTheReplacementLacks) {
   const ChangeSet settings = {SetParameter{"/demo/b/count", "9"}, SetParameter{"/demo/b/gain", "4"}};
   Run(FileWith("  <module name=\"b\" type=\"test/source\"/>\n", R"(<replace module="b" by="test/spare"/>)"), settings);

@@ -72,6 +72,28 @@ TEST_F(DrivenOver, APortHasItsSafeValueWhenWhatComesBeforeIsGone) {
   EXPECT_EQ(robot.seen, 2);
 }
 
+// As what is offered over a network is read.
+TEST_F(DrivenOver, SoHasWhatDrivesInAnotherApplication) {
+  MustSucceed(Port::Disconnect(passing.out, robot.reader.in));
+  struct Beside final : FrameworkElement {
+    explicit Beside(FrameworkElement& root) : FrameworkElement(Placement{root, "network", false}) {}
+  } beside(robot.runtime.root());
+  Input<double> sent(beside, "sent");
+  MustSucceed(sent.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+  MustSucceed(Port::Connect(passing.out, sent));
+  RunOn();
+  EXPECT_EQ(sent.Get(), 1);
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  RunOn();
+  EXPECT_EQ(sent.Get(), -7);
+  const auto notices = robot.supervisor.TakeNotices();
+  ASSERT_THAT(notices, SizeIs(1));
+  EXPECT_EQ(notices[0].path, "/passing/output/out");
+  MustSucceed(robot.supervisor.SetPaused("/laser", false));
+  RunOn();
+  EXPECT_EQ(sent.Get(), 1);
+}
+
 TEST_F(DrivenOver, WhatLooksHowOldItIsGoesOn) {
   struct Ageing final : Module {
     using Module::Module;
