@@ -202,14 +202,18 @@ test('a gamepad begins by a shoulder that has been seen released, of the standar
   const { page, panel, holds, ends, isFree } = await Open(t);
   const set = (pads) => page.evaluate((all) => { window.pads = all; }, pads);
   const seen = async (text) => { await page.locator('.gamepad-name', { hasText: text }).waitFor(); await panel.drawn(); };
-  await page.addInitScript((first) => { window.pads = first; navigator.getGamepads = () => window.pads; }, [pad(6)]);
+  await page.addInitScript((first) => {
+    Object.assign(window, { pads: first, looks: 0 });
+    navigator.getGamepads = () => { ++window.looks; return window.pads; };
+  }, [pad(6)]);
+  const looked = () => page.evaluate(() => window.looks).then((before) => page.waitForFunction((so_far) => window.looks > so_far + 2, before));
   await page.reload();
   await seen('Pad');
-  await page.waitForTimeout(200); // several looks: what must not happen has no sign
+  await looked(); // what must not happen has no sign
   await isFree('gamepad');
   const pressAnew = async () => {
     await set([pad(-1)]);
-    await page.waitForTimeout(100);
+    await looked();
     await set([pad(6)]);
   };
   /** However it ends, nothing takes hold while its cause goes on. */
@@ -219,7 +223,7 @@ test('a gamepad begins by a shoulder that has been seen released, of the standar
     await cause();
     await ends('gamepad');
     await pressAnew();
-    await page.waitForTimeout(200);
+    await looked();
     await isFree('gamepad');
   };
   await pressAnew();
@@ -230,7 +234,7 @@ test('a gamepad begins by a shoulder that has been seen released, of the standar
     await ends('gamepad');
     await set([pad(6)]);
     await seen('Pad');
-    await page.waitForTimeout(100);
+    await looked();
     await isFree('gamepad');
   });
   await t.test('without the focus, and pressed again', async () => {
@@ -241,7 +245,7 @@ test('a gamepad begins by a shoulder that has been seen released, of the standar
     await set([pad(-1, '')]);
     await seen('no standard layout');
     await set([pad(6, '')]);
-    await page.waitForTimeout(200);
+    await looked();
     await isFree('gamepad');
   });
   await t.test('while the panel is arranged', () => endsBy(() => page.locator('#edit').click()));
