@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "core/module/module.h"
 #include "core/port/input.h"
@@ -63,14 +65,17 @@ class DifferentialDriveModule final : public Module {
     const Twist2 wanted = WithinLimits(drive, command ? *command : Twist2{});
     const double time_step = ToSeconds(now() - last_.value_or(now()));
     last_ = now();
-    // Stopped, or paused for so long that the wheels have come to rest: from a standstill.
-    const bool begins = twist.is_stopped() || time_step > twist_timeout.limit.Get();
+    // Stopped, here or behind it, or paused for so long that the wheels have come to rest: from a standstill.
+    const std::uint32_t beginning = wheels.velocity_beginnings();
+    const bool is_released = std::exchange(beginning_, beginning) != beginning;
+    const bool begins = is_released || twist.is_stopped() || time_step > twist_timeout.limit.Get();
     current_ = begins ? Twist2{} : Approach(limit, current_, wanted, time_step);
     wheels.Publish(WheelSpeedsFor(drive, current_));
   }
 
   Twist2 current_;
   std::optional<Time> last_;
+  std::uint32_t beginning_ = 0;
 };
 
 }  // namespace runnel

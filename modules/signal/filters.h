@@ -16,7 +16,7 @@ namespace runnel::signal {
 /// What small modules for one number have in common: each new value gives one, with the timestamp that it had.
 class Filter : public Module {
  public:
-  explicit Filter(const Placement& placement) : Module(placement) { KeepState(course_); }
+  using Module::Module;
 
   Input<double> in{this, "in", {.required = true}};
   Output<double> out{this, "out"};
@@ -26,6 +26,14 @@ class Filter : public Module {
   [[nodiscard]] virtual double Next(double value, double seconds) noexcept = 0;
   /// What has been put out does not count any more: it goes on from `value`.
   virtual void BeginAt(double /*value*/) noexcept {}
+  /// Whether it goes on from something: nothing has come from a module of another type in whose place it is.
+  [[nodiscard]] virtual bool has_begun() const noexcept { return true; }
+  /// For those that go on from what they have put out.
+  template <typename State>
+  void KeepCourse(State& state) {
+    KeepState(course_);
+    KeepState(state);
+  }
 
  private:
   void Update() final {
@@ -62,7 +70,7 @@ class Filter : public Module {
     const bool is_stopped = bar == StopSignal::kInForce || bar != course_.bar || beginning != course_.beginning;
     course_.bar = bar;
     course_.beginning = beginning;
-    return beginning != 0 && (is_stopped || (course_.last && time - *course_.last > std::max(kTimedOut, 2 * period())));
+    return beginning != 0 && (is_stopped || !has_begun() || (course_.last && time - *course_.last > std::max(kTimedOut, 2 * period())));
   }
 
   static constexpr Duration kTimedOut = std::chrono::milliseconds(500);
@@ -76,7 +84,7 @@ class Filter : public Module {
 
 class LowPassFilter final : public Filter {
  public:
-  explicit LowPassFilter(const Placement& placement) : Filter(placement) { KeepState(state_); }
+  explicit LowPassFilter(const Placement& placement) : Filter(placement) { KeepCourse(state_); }
   Parameter<double> time_constant{this,
                                   "time_constant",
                                   {.default_value = 0.1,
@@ -89,12 +97,13 @@ class LowPassFilter final : public Filter {
     return state_.Next(value, seconds, time_constant.Get());
   }
   void BeginAt(double value) noexcept override { state_.Begin(value); }
+  bool has_begun() const noexcept override { return state_.has_begun(); }
   LowPass state_;
 };
 
 class RateLimiterFilter final : public Filter {
  public:
-  explicit RateLimiterFilter(const Placement& placement) : Filter(placement) { KeepState(state_); }
+  explicit RateLimiterFilter(const Placement& placement) : Filter(placement) { KeepCourse(state_); }
   Parameter<double> rise{
       this, "rise", {.default_value = 1, .bounds = {0, {}}, .description = "per second at most"}};
   Parameter<double> fall{
@@ -105,6 +114,7 @@ class RateLimiterFilter final : public Filter {
     return state_.Next(value, seconds, rise.Get(), fall.Get());
   }
   void BeginAt(double value) noexcept override { state_.Begin(value); }
+  bool has_begun() const noexcept override { return state_.has_begun(); }
   RateLimiter state_;
 };
 

@@ -29,6 +29,7 @@ class LowPass {
     value_ = value;
     has_begun_ = true;
   }
+  [[nodiscard]] bool has_begun() const noexcept { return has_begun_; }
 
  private:
   double value_ = 0;
@@ -51,6 +52,7 @@ class RateLimiter {
     value_ = value;
     has_begun_ = true;
   }
+  [[nodiscard]] bool has_begun() const noexcept { return has_begun_; }
 
  private:
   double value_ = 0;
