@@ -41,11 +41,7 @@ Result<std::string> ApplicationText(const std::filesystem::path& file, const Var
   const std::string planner =
       "<module name=\"planner\" type=\"" + variant.type + "\">" + variant.parameters;
   for (const auto& [what, by] : {std::pair(kPlugin, loads), std::pair(kPlanner, planner)}) {
-    if (auto replaced = ReplaceOnce(*text, what, by); !replaced) {
-      Error error = replaced.error();
-      error.position.file = file.string();
-      return error;
-    }
+    if (auto replaced = ReplaceOnce(*text, what, by); !replaced) return replaced.error().WithPosition(file.string());
   }
   return text;
 }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "apps/arena/course.h"
-#include "modules/simulation/algorithm/path_record.h"
 
 namespace runnel::arena {
 

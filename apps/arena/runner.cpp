@@ -42,10 +42,6 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kLook{50};  // how often it is looked whether to stop
 
-Error SystemError(const std::string& what) {
-  return {.message = what + ": " + std::strerror(errno)};
-}
-
 double Seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }

@@ -93,8 +93,7 @@ Result<void> PreloadAll(const std::vector<std::string>& libraries) {
   std::string text;
   const std::vector<char*> words = OwnWords(text);
   execv("/proc/self/exe", words.data());
-  return Error{.message =
-                   std::string("the program cannot be started anew: ") + std::strerror(errno)};
+  return SystemError("the program cannot be started anew");
 }
 
 }  // namespace runnel::program

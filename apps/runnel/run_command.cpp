@@ -106,11 +106,7 @@ class Session {
     const auto real = std::chrono::steady_clock::now() - real_start;
     PrintEvents();
     ClearProgress();
-    if (!ran) {
-      Error error = ran.error();
-      if (error.position.file.empty()) error.position.file = arguments_.application.file;
-      return Fail(error, ExitCode::kBadInput);
-    }
+    if (!ran) return Fail(ran.error().WithPosition(arguments_.application.file), ExitCode::kBadInput);
     const bool was_asked = StopSignal::has_come() || control_.is_asked();
     const ExitCode code = Conclude(*ran, real, was_asked);
     const auto is_held = [](const auto& extension) { return extension->IsHeld(); };

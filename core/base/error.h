@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace runnel {
@@ -33,7 +34,17 @@ struct Error {
   /// "file:line:column: path: message; hint", leaving out what is unknown.
   [[nodiscard]] std::string ToString() const;
 
+  /// The same error, "context: message": what has failed by it, or where in the input it is.
+  [[nodiscard]] Error WithContext(std::string_view context) const;
+  /// The same error, of the element at `of` unless it names one itself.
+  [[nodiscard]] Error WithPath(std::string_view of) const;
+  /// The same error, at the place `at` unless it names one itself.
+  [[nodiscard]] Error WithPosition(SourcePosition at) const;
+
   friend bool operator==(const Error&, const Error&) = default;
 };
+
+/// What a call of the system that has just failed says by `errno`: "what: why".
+[[nodiscard]] Error SystemError(std::string_view what, std::string file = {});
 
 }  // namespace runnel

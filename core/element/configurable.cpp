@@ -8,10 +8,8 @@ namespace runnel {
 Result<void> Configurable::SetFromText(std::string_view text) {
   const auto value = Parse(text);
   if (value) return SetFrom(value->get());
-  Error error = value.error();
   const auto* const element = dynamic_cast<const FrameworkElement*>(this);
-  if (element != nullptr && error.path.empty()) error.path = element->path();
-  return error;
+  return element != nullptr ? value.error().WithPath(element->path()) : value.error();
 }
 
 Result<void> Configurable::CheckText(std::string_view text) const {

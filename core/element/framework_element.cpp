@@ -28,9 +28,7 @@ FrameworkElement::FrameworkElement(const Placement& placement, ElementKind kind)
       runtime_(parent_->runtime_) {
   const std::lock_guard lock(runtime_->structure_mutex());
   if (const auto name_is_good = CheckElementName(name_); !name_is_good) {
-    Error error = name_is_good.error();
-    error.path = parent_->path();
-    throw ElementError(std::move(error));
+    throw ElementError(name_is_good.error().WithPath(parent_->path()));
   }
   if (placement.is_listed) JoinParent(nullptr);
   id_ = runtime_->NextId();

@@ -88,9 +88,7 @@ Result<void> Runtime::Construct(FrameworkElement& element) {
     each.is_whole_ = true;
     each.has_constructed_ = internal::made_by_this_thread != made_before;
     if (result) return;
-    Error error = result.error();
-    if (error.path.empty()) error.path = each.path();
-    result = std::move(error);
+    result = result.error().WithPath(each.path());
   });
   return result;
 }
@@ -118,11 +116,7 @@ Result<void> Runtime::PrepareAll(FrameworkElement& element) {
     }
     prepared.push_back(&each);
   });
-  if (!result) {
-    Error error = result.error();
-    if (error.path.empty()) error.path = prepared.back()->path();
-    return error;
-  }
+  if (!result) return result.error().WithPath(prepared.back()->path());
   for (FrameworkElement* each : prepared) each->life_cycle_ = LifeCycle::kReady;
   return {};
 }

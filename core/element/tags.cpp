@@ -22,19 +22,13 @@ struct Tags final : Annotation {
 
 Result<void> CheckTags(const std::vector<std::string>& tags) {
   for (const std::string& tag : tags) {
-    if (const auto good = CheckElementName(tag); !good) {
-      return Error{.message = "'" + tag + "' is no tag: " + good.error().message};
-    }
+    if (const auto good = CheckElementName(tag); !good) return good.error().WithContext("'" + tag + "' is no tag");
   }
   return {};
 }
 
 Result<void> SetTags(FrameworkElement& element, std::vector<std::string> tags) {
-  if (const auto good = CheckTags(tags); !good) {
-    Error error = good.error();
-    error.path = element.path();
-    return error;
-  }
+  if (const auto good = CheckTags(tags); !good) return good.error().WithPath(element.path());
   element.Annotate(std::make_unique<Tags>(std::move(tags)));
   return {};
 }

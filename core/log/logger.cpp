@@ -1,7 +1,6 @@
 #include "core/log/logger.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "core/element/runtime.h"

@@ -66,11 +66,7 @@ Result<std::shared_ptr<const void>> GroupParameter::Parse(std::string_view text)
     return Error{.message = "nothing is there any more that could be set by it", .path = path()};
   }
   for (const ConfigurableElement& each : found) {
-    if (auto good = each.configurable->CheckText(text); !good) {
-      Error error = good.error();
-      if (error.path.empty()) error.path = each.element->path();
-      return error;
-    }
+    if (auto good = each.configurable->CheckText(text); !good) return good.error().WithPath(each.element->path());
   }
   const Configurable& first = *found.front().configurable;
   auto value = first.Parse(text);

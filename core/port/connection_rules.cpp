@@ -54,10 +54,8 @@ Result<void> CheckConnectionRules(const Port& from, const Port& to) {
       allowed = Error{.message = DescribeException()};
     }
     if (allowed) continue;
-    Error error = allowed.error();
-    error.message = "must not be connected to " + to.path() + ": " + error.message + " (rule '" +
-                    rule.name + "')";
-    if (error.path.empty()) error.path = from.path();
+    Error error = allowed.error().WithContext("must not be connected to " + to.path()).WithPath(from.path());
+    error.message += " (rule '" + rule.name + "')";
     return error;
   }
   return {};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,11 +12,6 @@
 namespace runnel {
 
 class Runtime;
-
-namespace internal {
-/// For Port::NoteVelocity(): of what has just been connected; another one, of all that makes the values of the port.
-constexpr std::uint32_t kFirstBeginning = 1, kNextBeginning = 0;
-}  // namespace internal
 
 /// The module that has the port as its own; nullptr: none. Under the structure lock, as what follows.
 [[nodiscard]] FrameworkElement* FindModuleOf(const Port& port);

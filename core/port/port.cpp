@@ -6,7 +6,6 @@
 #include <mutex>
 #include <thread>
 
-#include "core/base/check.h"
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
 #include "core/element/runtime.h"

@@ -222,6 +222,8 @@ class Port : public FrameworkElement {
   void RebindSinks();
   /// Outputs: what is made of it, and of what its module passes on by it, is a velocity; `beginning`: of it.
   void NoteVelocity(std::uint32_t beginning);
+  /// Inputs: all that makes the velocity that comes here begins from a standstill. Nothing for what is no velocity.
+  void BeginVelocityAnew();
   /// PublishFilled() of ports that have a channel.
   Result<PublishStatus> PublishInto(ChannelBase& channel, const Fill& fill,
                                     std::optional<Time> timestamp);

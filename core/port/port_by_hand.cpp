@@ -107,7 +107,7 @@ Result<void> Port::PublishByHand(const Fill& fill, Setter setter, std::optional<
 bool Port::Release(Setter setter) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (!is_set_by_hand(setter)) return false;
-  NoteVelocity(internal::kNextBeginning);  // what is ramped before it has not driven
+  BeginVelocityAnew();  // what is ramped before it has not driven
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;
   try {

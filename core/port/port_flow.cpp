@@ -32,7 +32,8 @@ void DropRepetitions(const std::vector<Connection>& ways, std::vector<Port*>& po
   std::erase_if(ports, [&](const Port* port) { return !seen.insert(port).second; });
 }
 
-using internal::kFirstBeginning, internal::kNextBeginning;
+// Of velocities that have just been connected: nothing of theirs has begun anew yet.
+constexpr std::uint32_t kFirstBeginning = 1;
 
 // It moves the robot, or its module passes it on to what does.
 bool IsMadeVelocity(const Port& input) {
@@ -111,14 +112,14 @@ void Port::RebindSinks() {
   }
 }
 
-void Port::NoteVelocity(std::uint32_t beginning) {
+void Port::BeginVelocityAnew() {
   static std::atomic<std::uint32_t> last{kFirstBeginning};
-  if (beginning == kNextBeginning) {
-    if (!IsVelocity(type_, unit())) return;
-    beginning = ++last;
-    for (Port* source : Sources()) source->NoteVelocity(beginning);
-    return;
-  }
+  if (!IsVelocity(type_, unit())) return;
+  const std::uint32_t beginning = ++last;
+  for (Port* source : Sources()) source->NoteVelocity(beginning);
+}
+
+void Port::NoteVelocity(std::uint32_t beginning) {
   const std::uint32_t known = velocity_beginnings();
   if (known == beginning || (known != 0 && beginning == kFirstBeginning)) return;
   velocity_beginnings_.store(beginning, std::memory_order_relaxed);

@@ -20,7 +20,6 @@ class ValueReader {
   Result<void> ReadAll(const TypeInfo& type, const ValueToken& token, void* value) {
     auto read = Read(type, token, value);
     if (read || steps_.empty()) return read;
-    Error error = read.error();
     std::string path;
     for (const Step& step : steps_) {
       if (step.field.empty()) {
@@ -29,8 +28,7 @@ class ValueReader {
         path.append(path.empty() ? "" : ".").append(step.field);
       }
     }
-    error.message = path + ": " + error.message;
-    return error;
+    return read.error().WithContext(path);
   }
 
  private:

@@ -82,11 +82,7 @@ void ValueFusion::Fuse(std::span<const double> weights, std::span<const void* co
 Result<void> FusionBehaviour::Construct() {
   if (auto made = Behaviour::Construct(); !made) return made;
   const auto ports = flow::FindPortsByName(type.Get());
-  if (!ports) {
-    Error error = ports.error();
-    error.path = type.path();
-    return error;
-  }
+  if (!ports) return ports.error().WithPath(type.path());
   const std::uint32_t count = channels.Get();
   for (std::uint32_t i = 1; i <= count; ++i) {
     const std::string number = std::to_string(i);

@@ -6,11 +6,7 @@ namespace runnel::flow {
 
 Result<void> PassingModule::MakePorts(std::size_t inputs, std::size_t places) {
   const auto ports = FindPortsByName(type.Get());
-  if (!ports) {
-    Error error = ports.error();
-    error.path = type.path();
-    return error;
-  }
+  if (!ports) return ports.error().WithPath(type.path());
   for (std::size_t i = 1; i <= inputs; ++i) {
     inputs_.push_back(
         (*ports)->MakeInput(InputGroup(), inputs == 1 ? "in" : "in" + std::to_string(i)));

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "core/base/nearest_name.h"
-#include "core/types/builtin_types.h"
 #include "core/types/type_info.h"
 #include "core/types/type_of.h"
 

@@ -10,7 +10,6 @@
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "modules/places/place.h"
-#include "modules/types/pose.h"
 #include "plugins/blackboards/blackboard.h"
 #include "plugins/blackboards/blackboard_writer.h"
 #include "plugins/parameters/parameter.h"

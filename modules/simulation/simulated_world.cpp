@@ -24,11 +24,7 @@ Result<void> SimulatedWorld::Prepare() {
         .message = "no world file is named", .path = path(), .hint = "set the parameter 'world'"};
   }
   const auto file = FindWorldFile(world.Get().text);
-  if (!file) {
-    Error error = file.error();
-    error.path = path();
-    return error;
-  }
+  if (!file) return file.error().WithPath(path());
   Diagnostics diagnostics;
   auto description = ReadWorldFile(*file, diagnostics);
   if (!description) {

@@ -13,13 +13,10 @@
 #include "core/paths/path_search.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application/what_is_lost.h"
-#include "plugins/application_files/application_builder.h"
 #include "plugins/application_files/saving/application_saver.h"
-#include "plugins/application_files/saving/saving.h"
 #include "plugins/command_service/hand_settings.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/parameters/configuration_saver.h"
-#include "plugins/parameters/file_path.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_text.h"
 #include "plugins/structure/reload.h"
@@ -189,9 +186,7 @@ Result<void> Application::Set(std::string_view path, std::string_view value) {
     if ((*found)->life_cycle() == LifeCycle::kConstructed) {
       auto set = parameter->SetFromText(value);
       if (set) return set;
-      Error error = set.error();
-      if (error.path.empty()) error.path = (*found)->path();
-      return error;
+      return set.error().WithPath((*found)->path());
     }
   }
   return ResultOf(Apply({SetParameter{std::string(path), std::string(value)}}));

@@ -123,9 +123,7 @@ Result<void> Application::Parts::Begin(Application& application, Diagnostics& di
     if (server) {
       control = std::move(*server);
     } else {
-      Error warning = server.error();
-      warning.message = "other processes cannot reach this application: " + warning.message;
-      diagnostics.AddWarning(std::move(warning));
+      diagnostics.AddWarning(server.error().WithContext("other processes cannot reach this application"));
     }
   }
   for (const auto& extension : extensions()) {

@@ -122,10 +122,7 @@ std::string RunReport::Finish(Diagnostics& diagnostics) {
     const auto said = Attempt(source, [](RunMonitor& monitor) { return monitor.Finish(); });
     if (!said) continue;
     if (!*said) {
-      Error error = said->error();
-      if (error.path.empty()) error.path = source.path;
-      if (error.position.file.empty()) error.position = source.position;
-      diagnostics.Add(std::move(error));
+      diagnostics.Add(said->error().WithPath(source.path).WithPosition(source.position));
     } else if (!(*said)->empty()) {
       text += **said + ((*said)->back() == '\n' ? "" : "\n");
     }

@@ -72,11 +72,9 @@ Result<PartUse*> PartFiles::Open(const XmlAttribute& type, XmlElement tag,
   }
   const auto file = Read(name);
   if (!file) {
-    Error error = file.error();
-    if (error.position.line == 0) {  // not what is in it is wrong
-      error.message = name + ": " + error.message;
-      error.position = place;
-    }
+    if (file.error().position.line > 0) return file.error();
+    Error error = file.error().WithContext(name);  // not what is in it is wrong
+    error.position = place;
     return error;
   }
   const XmlElement root = (*file)->document.root();

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/element/former_name.h"
-#include "core/paths/path_search.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_tags/tag_list.h"
 #include "plugins/parameters/configuration.h"

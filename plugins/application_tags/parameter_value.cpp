@@ -12,7 +12,6 @@
 #include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/application_files/build_context.h"
-#include "plugins/application_files/path_use.h"
 #include "plugins/parameters/configuration.h"
 #include "plugins/parameters/configuration_saver.h"
 #include "plugins/parameters/file_path.h"

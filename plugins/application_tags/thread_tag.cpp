@@ -10,7 +10,6 @@
 #include "core/module/group.h"
 #include "core/types/duration_text.h"
 #include "plugins/application_files/build_context.h"
-#include "plugins/application_files/path_use.h"
 #include "plugins/application_tags/run_description.h"
 #include "plugins/application_tags/tag_list.h"
 #include "plugins/scheduling/thread_container.h"

@@ -7,7 +7,6 @@
 
 #include "core/element/try_structure_lock.h"
 #include "core/plugin/module_type_name.h"
-#include "core/paths/path_search.h"
 #include "core/port/driving_ports.h"
 #include "core/types/duration_text.h"
 #include "plugins/command_service/change_task.h"

@@ -176,11 +176,7 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
     if (auto counts = runtime_.robot_stop().CheckIsKnown(as_of); !counts) return At(port, counts.error().message);
     if (!slot->hold) slot->hold = std::make_unique<HandHold>(ended_);
     HandHold& hold = HoldOf(*slot);
-    if (auto allowed = hold.Check(wish, Now()); !allowed) {
-      Error error = allowed.error();
-      error.path = published.port;
-      return error;
-    }
+    if (auto allowed = hold.Check(wish, Now()); !allowed) return allowed.error().WithPath(published.port);
     published.goes_on = hold.Note(wish);
     hold.safe_value = safe;
     hold.is_renewed = true;

@@ -34,10 +34,6 @@ constexpr int kMostSocketsOfAProcess = 100;
 constexpr int kWaitingConnections = 64;
 constexpr time_t kPatience = 2;  // s
 
-Error SystemError(const std::string& what, const fs::path& path) {
-  return {.message = what + ": " + std::strerror(errno), .position = {path.string()}};
-}
-
 Error Untrusted(const fs::path& folder, const std::string& why) {
   return {.message = why,
           .position = {folder.string()},

@@ -4,8 +4,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -17,7 +15,6 @@
 #include <unistd.h>
 
 #include "core/port/port.h"
-#include "core/types/duration_text.h"
 #include "plugins/control/application_state.h"
 #include "plugins/control/client_connection.h"
 #include "plugins/control/control_folder.h"
@@ -185,7 +182,7 @@ Result<std::unique_ptr<ControlServer>> ControlServer::Start(CommandService& serv
   if (wake < 0) {
     close(listening->descriptor);
     unlink(listening->path.c_str());
-    return Error{.message = std::string("no event can be made: ") + std::strerror(errno)};
+    return SystemError("no event can be made");
   }
   return std::unique_ptr<ControlServer>(new ControlServer(
       std::make_unique<Loop>(service, std::move(options), std::move(*listening), wake)));

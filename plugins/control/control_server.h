@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/base/result.h"
 #include "plugins/command_service/command_service.h"

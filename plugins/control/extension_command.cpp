@@ -2,7 +2,6 @@
 #include <memory>
 #include <optional>
 
-#include "core/base/nearest_name.h"
 #include "plugins/command_service/extension_texts.h"
 #include "plugins/control/command.h"
 

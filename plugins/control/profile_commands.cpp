@@ -1,7 +1,6 @@
 // How long modules and chains of them take.
 
 #include <memory>
-#include <optional>
 
 #include <fmt/format.h>
 

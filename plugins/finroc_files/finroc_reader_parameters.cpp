@@ -4,7 +4,6 @@
 
 #include "core/base/nearest_name.h"
 #include "core/types/type_info.h"
-#include "plugins/application_files/path_use.h"
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/finroc_files/finroc_reader.h"
 #include "plugins/parameters/file_path.h"

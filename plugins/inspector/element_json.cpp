@@ -192,7 +192,7 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return hash;
     Mix(port->is_set_by_hand() || port->is_set_by_hand(Port::Setter::kRule) ? 1 : 0, hash);
-    Mix((port->is_driving() ? 1 : 0) + (port->is_blocked() ? 2 : 0) + (SafeValueBehind(*port) ? 4 : 0), hash);
+    Mix((port->is_driving() ? 1 : 0) + (port->is_blocked() ? 2 : 0) + (MovesSomething(*port) ? 4 : 0), hash);
     Mix(WhyUnreached(*port, around), hash);
     Mix(BoundsText(port->limits()), hash);
     MixAwaited(AwaitedBy(*port), hash);

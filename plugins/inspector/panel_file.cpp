@@ -68,11 +68,6 @@ void CheckSetting(JsonMembers& members, const std::string& name, Kind kind) {
     members.Complain("\"" + name + "\" must be a number");
 }
 
-Error Within(const std::string& where, Error error) {
-  error.message = where + error.message;
-  return error;
-}
-
 Result<void> CheckWidget(const JsonPart& json, std::set<std::string>& ids) {
   if (!json.is_object()) return Error{.message = "is no object"};
   JsonMembers members(json);
@@ -100,13 +95,13 @@ Result<void> CheckWidget(const JsonPart& json, std::set<std::string>& ids) {
 Result<void> CheckPanel(std::string_view text) {
   if (text.size() > kLongestText) return Error{.message = "the panel is longer than 256 kB"};
   const auto json = JsonPart::Parse(text, kDeepest);
-  if (!json) return Within("the panel cannot be read: ", json.error());
+  if (!json) return json.error().WithContext("the panel cannot be read");
   if (!json->is_object()) return Error{.message = "the panel is no JSON object"};
   JsonMembers members(*json);
   const std::uint64_t version = members.NeedCount("panel", 1'000'000);
   const std::vector<JsonPart> widgets = members.NeedList("widgets");
   members.RefuseOthers();
-  if (members.error()) return Within("of the panel, ", *members.error());
+  if (members.error()) return members.error()->WithContext("the panel");
   if (version != kVersion) {
     return Error{.message = "the panel is one of version " + std::to_string(version) + ", not 1"};
   }
@@ -114,7 +109,7 @@ Result<void> CheckPanel(std::string_view text) {
   std::set<std::string> ids;
   for (std::size_t i = 0; i < widgets.size(); ++i) {
     const auto good = CheckWidget(widgets[i], ids);
-    if (!good) return Within("widget " + std::to_string(i + 1) + " of the panel: ", good.error());
+    if (!good) return good.error().WithContext("widget " + std::to_string(i + 1) + " of the panel");
   }
   return {};
 }
@@ -134,11 +129,7 @@ Result<std::string> PanelFile::Read() const {
   std::ifstream file(file_, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(file), {});
   if (!file) return Error{.message = "cannot be read", .path = file_.string()};
-  if (auto good = CheckPanel(text); !good) {
-    Error wrong = good.error();
-    wrong.position.file = file_.string();
-    return wrong;
-  }
+  if (auto good = CheckPanel(text); !good) return good.error().WithPosition(file_.string());
   return text;
 }
 

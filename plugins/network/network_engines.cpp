@@ -21,8 +21,7 @@ Result<std::shared_ptr<WireEngine>> FindWireEngine(const std::string& name, Plug
   if (auto known = Engines().Find(plugin)) return known;
   plugins.registry().Offer(Engines());
   if (const auto loaded = plugins.Load(plugin); !loaded) {
-    Error error = loaded.error();
-    error.message = "the network's engine '" + name + "' is not installed: " + error.message;
+    Error error = loaded.error().WithContext("the network's engine '" + name + "' is not installed");
     error.hint = NearestNameHint(name, std::vector<std::string>{"cyclone", "fast"});
     if (name == "cyclone") error.hint = "install Cyclone DDS (cyclonedds-dev), and build Runnel again";
     if (name == "fast") error.hint = "install Fast DDS (libfastrtps-dev), and build Runnel again";

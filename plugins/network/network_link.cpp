@@ -137,11 +137,7 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
     member.user_data.back() = ';';
   }
   auto joined = engine.Join(member, link->table_);
-  if (!joined) {
-    Error error = joined.error();
-    error.position = element.options().position;
-    return error;
-  }
+  if (!joined) return joined.error().WithPosition(element.options().position);
   link->participant_ = std::move(*joined);
   if (member.reach == WireReach::kNetwork && !IsInNetwork()) {
     element.log().Warn("this machine is in no network, so nobody else is reached, nor when it comes into one later: start the "

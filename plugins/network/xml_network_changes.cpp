@@ -53,10 +53,7 @@ Result<void> CheckWords(const ExtensionChange& change, std::vector<AttributeRule
     }
     auto checked = CheckAttributeValue(*rule, each.value);
     if (checked && rule->name == "topic") checked = CheckRosName(each.value);
-    if (checked) continue;
-    Error error = checked.error();
-    error.message = each.parameter + ": " + error.message;
-    return error;
+    if (!checked) return checked.error().WithContext(each.parameter);
   }
   return {};
 }

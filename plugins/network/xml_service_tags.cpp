@@ -11,7 +11,6 @@
 #include "plugins/network/xml_network_tags.h"
 #include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/message_library.h"
-#include "plugins/ros_messages/names.h"
 
 namespace runnel {
 

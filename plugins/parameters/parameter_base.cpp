@@ -130,11 +130,7 @@ Result<void> ParameterBase::SetFrom(const void* value) {
                  .path = path(),
                  .hint = "set it before anything is connected"};
   }
-  if (auto good = Check(value); !good) {
-    Error error = good.error();
-    error.path = path();
-    return error;
-  }
+  if (auto good = Check(value); !good) return good.error().WithPath(path());
   TakeOver(value);
   return {};
 }

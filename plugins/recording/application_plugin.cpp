@@ -256,11 +256,7 @@ Result<void> RecorderModule::Prepare() {
                                   .ports = Words(ports.Get()),
                                   .compression = compression.Get(),
                                   .about = std::move(about)});
-  if (!started) {
-    Error error = started.error();
-    if (error.path.empty()) error.path = path();
-    return error;
-  }
+  if (!started) return started.error().WithPath(path());
   recorder_ = std::move(*started);
   return {};
 }

@@ -225,9 +225,7 @@ Result<void> PlayedCalls::Read(McapReader& reader, Time from, Time to) {
     const auto& [records, callable, module] = found->second;
     OfModule::Made made{callable, records->type().Make(), Time(Duration(message.publish_time))};
     if (auto read = SetFromMessage(records->type(), message.data, made.record.get()); !read) {
-      Error error = read.error();
-      error.path = records->path();
-      return error;
+      return read.error().WithPath(records->path());
     }
     const CallRecordBase& call = made.base();
     if (call.number != 0 || call.begun < from || call.begun > to) return {};

@@ -17,7 +17,6 @@
 #include "core/element/runtime.h"
 #include "core/log/log_sink.h"
 #include "core/port/probe_port.h"
-#include "plugins/mcap/mcap_records.h"
 #include "plugins/values/port_patterns.h"
 #include "plugins/scheduling/backpressure.h"
 #include "plugins/values/foxglove_channel.h"

@@ -99,11 +99,7 @@ Result<std::unique_ptr<Player>> Player::Prepare(Runtime& runtime,
       runtime,
       std::make_unique<PlayedValues>(std::move(reader), options.from, options.to, options.loops)));
   const ChangeScope changes(runtime);
-  if (auto found = player->FindPorts(*patterns); !found) {
-    Error error = found.error();
-    if (error.position.file.empty()) error.position.file = file;
-    return error;
-  }
+  if (auto found = player->FindPorts(*patterns); !found) return found.error().WithPosition(file);
   if (auto found = player->FindCalls(*patterns); !found) return found.error();
   player->WrapTasks();
   player->calls_.WrapTasks([&](const FrameworkElement& module) { return !player->resting_.contains(&module); });
@@ -282,10 +278,9 @@ void Player::Publish(const std::vector<PlayedPort*>& ports) {
         published_.fetch_add(1, std::memory_order_relaxed);
         continue;
       }
-      Error error = published.error();
+      Error error = published.error().WithContext("the value recorded at " + std::to_string(ToSeconds(value->time)) +
+                                                  " s cannot be played");
       error.path = each->path;
-      error.message = "the value recorded at " + std::to_string(ToSeconds(value->time)) +
-                      " s cannot be played: " + error.message;
       return values_->Fail(std::move(error));
     }
   }

@@ -182,11 +182,7 @@ Result<void> MessageLibrary::Read(const fs::path& file_or_folder) {
     if (!definitions) return definitions.error();
     for (MessageDefinition& definition : *definitions) {
       read.emplace_back(definition.name, file.string());
-      if (auto added = wanted.Add(std::move(definition)); !added) {
-        Error error = added.error();
-        error.position = {file.string()};
-        return error;
-      }
+      if (auto added = wanted.Add(std::move(definition)); !added) return added.error().WithPosition(file.string());
     }
   }
   for (const auto& [name, file] : read) {
@@ -207,10 +203,7 @@ Result<void> MessageLibrary::CheckInside(const MessageDefinition& definition, co
   for (const MessageField& field : definition.fields) {
     if (field.type != MessageType::kNested) continue;
     if (auto inside = Get(field.nested); !inside) {
-      Error error = inside.error();
-      error.message = "field '" + field.name + "': " + error.message;
-      error.position = {file};
-      return error;
+      return inside.error().WithContext("field '" + field.name + "'").WithPosition(file);
     }
   }
   std::set<std::string> inside;

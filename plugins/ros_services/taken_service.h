@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/element/annotation.h"
 #include "core/element/runtime.h"
 #include "core/port/port.h"
 #include "plugins/ros_services/service_endpoints.h"

@@ -6,7 +6,6 @@
 
 #include "core/base/diagnostics.h"
 #include "core/base/error.h"
-#include "core/base/result.h"
 #include "plugins/structure/change.h"
 
 namespace runnel {

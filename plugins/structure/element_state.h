@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,8 +8,6 @@
 #include "core/element/framework_element.h"
 #include "core/element/unlisted_element.h"
 #include "core/port/port.h"
-#include "core/port/port_options.h"
-#include "core/types/any_value.h"
 
 namespace runnel::internal {
 

@@ -8,7 +8,6 @@
 #include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/late_connections.h"
-#include "core/paths/path_search.h"
 #include "plugins/structure/element_state.h"
 #include "plugins/structure/replacement.h"
 

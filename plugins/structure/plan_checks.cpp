@@ -17,7 +17,6 @@
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/element_state.h"
-#include "plugins/structure/name_in_file.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/replacement.h"
 
@@ -145,11 +144,7 @@ Result<void> Plan::Check(const SetParameter& change) {
   const bool is_settled =
       parameter->info().is_static && (*found)->life_cycle() == LifeCycle::kReady;
   const auto value = ValueIn(change, *parameter);
-  if (!value) {
-    Error error = value.error();
-    if (error.path.empty()) error.path = (*found)->path();
-    return error;
-  }
+  if (!value) return value.error().WithPath((*found)->path());
   if (is_settled) return CheckStatic(**found, *parameter, value->get());
   Concern(**found);
   auto before = std::make_shared<std::shared_ptr<const void>>();
@@ -312,11 +307,7 @@ Result<void> Plan::Check(const TagElement& change) {
   const auto found = overlay_.Find(change.path);
   if (!found) return found.error();
   FrameworkElement& element = **found;
-  if (const auto good = CheckTags(change.tags); !good) {
-    Error error = good.error();
-    error.path = element.path();
-    return error;
-  }
+  if (const auto good = CheckTags(change.tags); !good) return good.error().WithPath(element.path());
   Concern(element);
   auto before = std::make_shared<std::optional<std::vector<std::string>>>();
   steps_.push_back({[=, &element, tags = change.tags] {

@@ -1,12 +1,9 @@
 // From which level on modules log.
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
-#include "core/element/element_path.h"
 #include "core/log/log_level.h"
 #include "plugins/structure/plan.h"
 

@@ -39,11 +39,7 @@ Result<Workshop::Work> Plan::MakeModule(const Placement& place, const ReplaceMod
         }
         const Unlocked unlocked(runtime_);
         auto made = modules_.Make(change.type, place);
-        if (!made) {
-          Error error = made.error();
-          if (error.path.empty()) error.path = place.parent.path() + "/" + place.name;
-          return error;
-        }
+        if (!made) return made.error().WithPath(place.parent.path() + "/" + place.name);
         if (auto set = ConfigureNew(**made, inherited, change.settings); !set) return set.error();
         if (change.state) change.state->GiveAnnotations(**made);
         if (state) state->GiveAnnotations(**made);

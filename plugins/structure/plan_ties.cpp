@@ -1,9 +1,7 @@
 // Connections of a change set.
 
-#include <algorithm>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"

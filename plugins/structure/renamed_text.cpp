@@ -1,7 +1,6 @@
 #include "plugins/structure/renamed_text.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/element/element_path.h"
 #include "core/xml/xml_editor.h"

@@ -16,9 +16,7 @@ namespace runnel::internal {
 namespace {
 
 Result<void> Refused(const Result<void>& refusal, const FrameworkElement& parameter) {
-  Error error = refusal.error();
-  if (error.path.empty()) error.path = parameter.path();
-  return error;
+  return refusal.error().WithPath(parameter.path());
 }
 
 // The element below `after` that is called as `port` is below `before`.

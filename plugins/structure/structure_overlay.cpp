@@ -34,11 +34,7 @@ std::vector<FrameworkElement*> StructureOverlay::Children(const FrameworkElement
 Result<Placement> StructureOverlay::PlaceFor(std::string_view path) const {
   const std::size_t slash = path.find_last_of('/');
   const std::string name(slash == std::string_view::npos ? path : path.substr(slash + 1));
-  if (auto good = CheckElementName(name); !good) {
-    Error error = good.error();
-    error.path = std::string(path);
-    return error;
-  }
+  if (auto good = CheckElementName(name); !good) return good.error().WithPath(path);
   FrameworkElement* parent = nullptr;
   if (slash == std::string_view::npos || slash == 0) {
     parent = OnlyApplication() != nullptr ? OnlyApplication() : &runtime_.root();

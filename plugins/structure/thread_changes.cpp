@@ -1,7 +1,6 @@
 // Threads that come, go and change while the application runs.
 
 #include <memory>
-#include <mutex>
 #include <utility>
 
 #include "core/element/runtime.h"

@@ -1,5 +1,6 @@
 #include "plugins/structure/value_by_hand.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,6 +29,12 @@ std::vector<AnyValue> SafeValuesBehind(const Port& port) {
   return all;
 }
 
+// It drives, or what comes to it has come by a port that does.
+bool IsHeldByStop(const Port& port) {
+  const std::vector<Port*>& before = port.incoming();
+  return port.is_driving() || std::ranges::any_of(before, [](const Port* each) { return IsHeldByStop(*each); });
+}
+
 }  // namespace
 
 Result<AnyValue> ValueOf(const Port& port, const std::string& text) {
@@ -37,11 +44,7 @@ Result<AnyValue> ValueOf(const Port& port, const std::string& text) {
   }
   const std::shared_ptr<void> value = type.Make();
   if (!value) return At(port, "only a module can make values of type " + type.name());
-  if (auto set = SetFromText(type, text, value.get()); !set) {
-    Error error = set.error();
-    if (error.path.empty()) error.path = port.path();
-    return error;
-  }
+  if (auto set = SetFromText(type, text, value.get()); !set) return set.error().WithPath(port.path());
   return AnyValue(type, value);
 }
 
@@ -51,6 +54,10 @@ Result<void> PublishByHand(Port& port, const void* value, Port::Setter setter) {
     return At(port, "the value does not fit into a buffer of the port");
   };
   return port.PublishByHand(fill, setter);
+}
+
+bool MovesSomething(const Port& port) {
+  return std::ranges::any_of(port.Sinks(), [](const Port* sink) { return IsHeldByStop(*sink); });
 }
 
 AnyValue SafeValueBehind(const Port& port) {

@@ -16,6 +16,8 @@ Result<AnyValue> ValueOf(const Port& port, const std::string& text);
 /// The safe value of what something moves by if a value comes here: this port, or one behind an interface port; none: nothing
 /// moves by it.
 AnyValue SafeValueBehind(const Port& port);
+/// Whether there is one: quicker.
+bool MovesSomething(const Port& port);
 /// What readers shall find when nobody says anything better: the safe value of a port that drives, else the port's
 /// default (InputLimits), else that of what it feeds, else what its type begins with, a command of no motion.
 Result<AnyValue> SafeValueOf(const Port& port);

@@ -1,6 +1,5 @@
 #include "plugins/supervision/supervision_rules.h"
 
-#include <algorithm>
 #include <variant>
 
 namespace runnel {

@@ -1,7 +1,6 @@
 #include "plugins/tracing/trace_file.h"
 
 #include <cerrno>
-#include <cstring>
 #include <iterator>
 #include <utility>
 
@@ -29,9 +28,9 @@ Result<TraceFile> TraceFile::Create(const std::string& file, std::uint64_t most_
   std::FILE* const opened = std::fopen(file.c_str(), "we");  // closed in child processes
   if (opened == nullptr) {
     const bool lacks_folder = errno == ENOENT;
-    return Error{.message = std::string("cannot be written: ") + std::strerror(errno),
-                 .position = {file},
-                 .hint = lacks_folder ? "make its folder first" : ""};
+    Error error = SystemError("cannot be written", file);
+    if (lacks_folder) error.hint = "make its folder first";
+    return error;
   }
   std::setbuf(opened, nullptr);  // text_ is the buffer
   return TraceFile(file, opened, most_bytes);
@@ -119,8 +118,7 @@ void TraceFile::Write(std::string_view bytes) {
 }
 
 void TraceFile::Fail() {
-  error_ = Error{.message = std::string("the trace could not be written: ") + std::strerror(errno),
-                 .position = {name_}};
+  error_ = SystemError("the trace could not be written", name_);
 }
 
 Result<void> TraceFile::Close() {

@@ -196,11 +196,7 @@ Result<void> Viewers::Begin(Application& application, Diagnostics& diagnostics) 
                                                              .version = Application::Version(),
                                                              .is_read_only = is_read_only})},
                   diagnostics);
-  if (!web) {
-    Error error = web.error();
-    error.message = "the inspector cannot be started: " + error.message;
-    return error;
-  }
+  if (!web) return web.error().WithContext("the inspector cannot be started");
   web_ = std::move(*web);
   return TellToken((*request)->place.token.size() + (*request)->place.token_file.size() > 0);
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -50,10 +48,6 @@ Result<AccessToken> ParseToken(std::string_view word) {
                .hint = "take 8 to 128 letters, digits and any of '-', '.', '_', '~'"};
 }
 
-Error SystemError(const std::string& what, const std::filesystem::path& file) {
-  return {.message = what + ": " + std::strerror(errno), .position = {file.string()}};
-}
-
 }  // namespace
 
 Result<std::vector<AccessToken>> ParseAccessTokens(std::string_view text) {
@@ -95,9 +89,7 @@ Result<std::vector<AccessToken>> ReadAccessTokens(const std::filesystem::path& f
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   auto tokens = ParseAccessTokens(text);
   if (tokens) return tokens;
-  Error error = tokens.error();
-  error.position = {file.string()};
-  return error;
+  return tokens.error().WithPosition(file.string());
 }
 
 Result<std::string> MakeToken() {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstring>
 #include <new>
 #include <string>
@@ -49,8 +48,6 @@ constexpr std::size_t kLead = 60;
 std::size_t BeginOf(std::uint32_t slot, std::size_t slot_size) { return kHead + slot * slot_size + kLead; }
 
 }  // namespace
-
-Error SystemError(const char* what) { return {.message = std::string(what) + ": " + std::strerror(errno)}; }
 
 Descriptor::~Descriptor() {
   if (is_open()) close(number_);

@@ -1,7 +1,6 @@
 #include "apps/python/extension/ports.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <mutex>

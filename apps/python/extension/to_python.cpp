@@ -2,7 +2,6 @@
 
 #include <cstring>
 
-#include "apps/python/extension/errors.h"
 #include "apps/python/extension/value.h"
 #include "core/types/type_of.h"
 

@@ -36,12 +36,7 @@ std::uint64_t HashOf(std::string_view text) {
   return hash;
 }
 
-Error Telling(const std::string& what, Error error) {
-  error.message = what + ": " + error.message;
-  return error;
-}
-
-Error SystemError(const fs::path& file) { return {.message = std::strerror(errno), .position = {file.string()}}; }
+Error LastError(const fs::path& file) { return {.message = std::strerror(errno), .position = {file.string()}}; }
 
 // Right after it was opened: what is there and cannot be opened may be held.
 bool IsHeld(int descriptor) { return descriptor < 0 ? errno != ENOENT : flock(descriptor, LOCK_EX | LOCK_NB) != 0; }
@@ -74,7 +69,7 @@ Result<void> RemoveLeft(const std::vector<fs::path>& files) {
   Result<void> done;
   for (const fs::path& each : files) {
     const int descriptor = Open(each);
-    if (!IsHeld(descriptor) && unlink(each.c_str()) != 0 && errno != ENOENT) done = SystemError(each);
+    if (!IsHeld(descriptor) && unlink(each.c_str()) != 0 && errno != ENOENT) done = LastError(each);
     if (descriptor >= 0) close(descriptor);
   }
   return done;
@@ -84,7 +79,7 @@ Result<void> RemoveLeft(const std::vector<fs::path>& files) {
 Result<void> CheckFolder(const fs::path& folder) {
   if (auto trusted = CheckControlFolder(folder); !trusted) return trusted;
   std::error_code ignored;
-  if (fs::exists(folder, ignored) && access(folder.c_str(), R_OK | X_OK) != 0) return SystemError(folder);
+  if (fs::exists(folder, ignored) && access(folder.c_str(), R_OK | X_OK) != 0) return LastError(folder);
   return {};
 }
 
@@ -101,21 +96,22 @@ Result<std::unique_ptr<StopFile>> StopFile::Follow(RobotStop& stop, ApplicationL
                                                    Diagnostics& diagnostics) {
   const fs::path folder = ControlFolder();
   if (auto trusted = CheckFolder(folder); !trusted) {
-    Error error = Telling("whether a STOP is in force cannot be known", trusted.error());
+    Error error = trusted.error().WithContext("whether a STOP is in force cannot be known");
     if (!clears) return error;
     diagnostics.AddWarning(std::move(error));
     return std::unique_ptr<StopFile>();
   }
   std::error_code failure;
   if (!fs::exists(folder, failure) && access(folder.parent_path().c_str(), W_OK | X_OK) != 0) {
-    Error error{.message = std::strerror(errno), .position = {folder.string()}};
-    diagnostics.AddWarning(Telling("a STOP will end with this process", std::move(error)));
+    diagnostics.AddWarning(SystemError("a STOP will end with this process", folder.string()));
     return std::unique_ptr<StopFile>();
   }
   const std::string identity = fs::weakly_canonical(application_file, failure).string() + "\n" + name;
   const std::string file_name = fmt::format("{:016x}-", HashOf(identity));
   if (clears) {
-    if (auto removed = RemoveLeft(FilesOf(folder, file_name)); !removed) return Telling("the STOP cannot be cleared", removed.error());
+    if (auto removed = RemoveLeft(FilesOf(folder, file_name)); !removed) {
+      return removed.error().WithContext("the STOP cannot be cleared");
+    }
   }
   const auto left = clears ? std::vector<fs::path>() : FilesOf(folder, file_name);
   const std::string by = left.empty() ? "" : PressedBy(left.front());
@@ -164,7 +160,9 @@ void StopFile::Write() noexcept {
     const auto done = state.changes == 0 ? Result<void>() : Follow(state);
     if (!done) {
       log_.Add(ApplicationLog::Kind::kWarning,
-               Telling(state.in_force ? "STOP will end with this process" : "the next process will begin under STOP", done.error())
+               done.error()
+                   .WithContext(state.in_force ? "STOP will end with this process"
+                                               : "the next process will begin under STOP")
                    .ToString());
     }
     const std::lock_guard lock(mutex_);
@@ -181,7 +179,7 @@ Result<void> StopFile::Follow(const RobotStop::State& state) {
     if (auto made = MakeControlFolder(folder_); !made) return made;
     if (auto held = Hold(state.by + "\n"); !held) return held;
   } else if (!state.in_force && held_ >= 0) {
-    if (unlink(file_.c_str()) != 0 && errno != ENOENT) return SystemError(file_);
+    if (unlink(file_.c_str()) != 0 && errno != ENOENT) return LastError(file_);
     close(std::exchange(held_, -1));
   }
   auto removed = RemoveLeft(left_);
@@ -198,7 +196,7 @@ Result<void> StopFile::Hold(const std::string& text) {
     held_ = descriptor;
     return {};
   }
-  Error error = SystemError(file_);
+  Error error = LastError(file_);
   if (descriptor >= 0) close(descriptor);
   return error;
 }

@@ -92,10 +92,7 @@ bool IsTiedToOthers(FrameworkElement& application) {
                              [&](const Connection& tie) { return is_there(*tie.from) && is_there(*tie.to); });
 }
 
-Error WouldNotLoad(Error reason) {
-  reason.message = "the file would not load, and is left as it was: " + reason.message;
-  return reason;
-}
+Error WouldNotLoad(const Error& reason) { return reason.WithContext("the file would not load, and is left as it was"); }
 
 // Whether `text`, which is to stand in `file` for the application, would load. It is built without the structure lock, which
 // others need meanwhile. `is_alone`: its file names no ports that are not there when it is built alone.

@@ -139,7 +139,7 @@ Result<ClientMessage> ParseClientMessage(std::string_view text) {
   }
   ClientMessage message = operation->read(members);
   if (!members.error()) return message;
-  return Error{.message = *op + ": " + members.error()->message};
+  return members.error()->WithContext(*op);
 }
 
 }  // namespace runnel::internal

@@ -83,7 +83,7 @@ struct Directory::Search {
                     &port.type(),
                     is_output || port.is_proxy(),
                     !is_output,
-                    !is_output && SafeValueBehind(port),
+                    !is_output && MovesSomething(port),
                     OwnerPath(port),
                     {}};
     if (found.is_target) ++target_topics[found.topic];

@@ -103,10 +103,7 @@ void FoxgloveSession::OnBinary(std::string_view message) {
   const auto arrival = client_.arrival();
   const auto received = arrival ? Time(arrival->at.time_since_epoch()) : SteadyClock().Now();
   const auto published = found->second->Publish(message.substr(kHead), received);
-  if (published) return;
-  Error error = published.error();
-  if (error.path.empty()) error.path = found->second->input().path;
-  SendError(error);
+  if (!published) SendError(published.error().WithPath(found->second->input().path));
 }
 
 void FoxgloveSession::Handle(const SubscribeMessage& message) {

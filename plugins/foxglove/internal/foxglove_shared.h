@@ -4,7 +4,6 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "plugins/foxglove/foxglove.h"
 #include "plugins/foxglove/internal/directory.h"

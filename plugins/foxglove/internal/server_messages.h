@@ -8,7 +8,6 @@
 
 #include "core/base/clock.h"
 #include "plugins/foxglove/internal/directory.h"
-#include "plugins/web_server/web_role.h"
 
 /// What the server says, as the protocol has it.
 namespace runnel::internal {

@@ -107,9 +107,7 @@ bool ServiceCalls::TryBegin(Pending& pending) {
   auto call = callable->NewCall();
   if (const TypeInfo* const type = callable->arguments()) {
     if (auto set = SetFromMessage(*type, pending.json, call->arguments()); !set) {
-      Error error = set.error();
-      if (error.path.empty()) error.path = pending.path;
-      throw ElementError(std::move(error));
+      throw ElementError(set.error().WithPath(pending.path));
     }
   }
   pending.reply = callable->reply();

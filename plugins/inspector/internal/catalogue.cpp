@@ -10,7 +10,6 @@
 #include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
-#include "plugins/inspector/element_json.h"
 #include "plugins/manifest/module_description.h"
 #include "plugins/manifest/plugin_manifest.h"
 #include "plugins/values/json_writer.h"

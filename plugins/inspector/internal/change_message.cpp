@@ -177,9 +177,7 @@ Result<Change> ParseChange(const JsonPart& json) {
   Change change = kind->read(members);
   members.RefuseOthers();
   if (!members.error()) return change;
-  Error error = *members.error();
-  error.message = "of '" + *name + "', " + error.message;
-  return error;
+  return members.error()->WithContext("'" + *name + "'");
 }
 
 }  // namespace runnel::internal

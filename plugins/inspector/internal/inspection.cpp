@@ -24,7 +24,7 @@ Result<void> Arrangement::Read(const std::string& file) {
   if (!stream) return {};
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const auto json = JsonPart::Parse(text, 2);
-  if (!json) return Error{.message = file + " cannot be read: " + json.error().message};
+  if (!json) return json.error().WithContext(file + " cannot be read");
   Entries read;
   for (const auto& [name, value] : json->members()) {
     if (auto each = value.text()) read.emplace(name, std::move(*each));

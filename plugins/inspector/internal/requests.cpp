@@ -5,7 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "core/paths/path_search.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/command_service/save_place.h"
 #include "plugins/inspector/internal/call_request.h"

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/error.h"
 #include "plugins/inspector/internal/inspection.h"
 #include "plugins/inspector/internal/viewer_message.h"
 #include "plugins/web_server/web_role.h"

@@ -33,7 +33,7 @@ void ReadFlag(JsonMembers& members, const std::string& name, bool& flag) {
 Result<ViewerMessage> ParseViewerMessage(std::string_view text,
                                          std::optional<std::uint64_t>* number) {
   const auto json = JsonPart::Parse(text, kDeepest);
-  if (!json) return Error{.message = "the message cannot be read: " + json.error().message};
+  if (!json) return json.error().WithContext("the message cannot be read");
   if (!json->is_object()) return Error{.message = "the message is not a JSON object"};
   ViewerMessage message;
   JsonMembers members(*json);
@@ -67,9 +67,7 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text,
   message.elements = members.Count("elements", kLargestWhole).value_or(message.elements);
   message.cycles = members.Count("cycles", kLargestWhole).value_or(message.cycles);
   if (members.error()) {
-    Error error = *members.error();
-    if (!message.op.empty()) error.message = "of '" + message.op + "', " + error.message;
-    return error;
+    return message.op.empty() ? *members.error() : members.error()->WithContext("'" + message.op + "'");
   }
   if (message.op.empty()) return Error{.message = "the message has no \"op\""};
   return message;

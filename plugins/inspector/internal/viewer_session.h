@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/element/robot_stop.h"
 #include "plugins/inspector/internal/inspection.h"
 #include "plugins/inspector/internal/requests.h"
 #include "plugins/inspector/internal/viewer_message.h"

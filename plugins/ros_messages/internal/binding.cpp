@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "core/base/nearest_name.h"
 #include "core/types/type_of.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/ros_messages/internal/mapping_rules.h"
@@ -151,11 +150,7 @@ class Binder {
 
   Result<Step> PartOf(const MessageField& field, const FieldInfo& source) {
     auto step = Part(field, *source.type);
-    if (!step) {
-      Error error = step.error();
-      error.message = source.name + ": " + error.message;
-      return error;
-    }
+    if (!step) return step.error().WithContext(source.name);
     step->field = &source;
     used_.insert(&source);
     return step;

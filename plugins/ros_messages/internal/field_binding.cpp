@@ -94,8 +94,7 @@ class FieldBinder {
       why_no_decoding_ = std::move(bound->why_no_decoding);
       return std::move(bound->root);
     }
-    Error error = bound.error();
-    error.message = "field '" + options_.field + "': " + error.message;
+    Error error = bound.error().WithContext("field '" + options_.field + "'");
     error.hint = "choose another field, or an input of its type";
     if (field.count != MessageCount::kOne) error.hint = "of its elements, the first is " + options_.field + "[0]";
     const MessageDefinition* const nested = field.count == MessageCount::kOne ? library_.Find(field.nested) : nullptr;

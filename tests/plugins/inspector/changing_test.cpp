@@ -69,7 +69,7 @@ TEST_F(Changing, WordsThatAreNoneAreToldWithTheNearest) {
   EXPECT_THAT(reply["errors"][0]["hint"], HasSubstr("create"));
   const Json member = View().ChangeAsTold(
       Json::array({{{"change", "set"}, {"path", "/app/a/speed"}, {"value", "2"}, {"vale", "3"}}}));
-  EXPECT_EQ(member["errors"][0]["message"], "of 'set', has no \"vale\"");
+  EXPECT_EQ(member["errors"][0]["message"], "'set': has no \"vale\"");
   EXPECT_EQ(member["errors"][0]["hint"], "did you mean 'value'?");
   EXPECT_EQ(View().ChangeAsTold(Json::array())["ok"], false);
   EXPECT_EQ(View().ChangeAsTold(Json::array({"delete /app/a"}))["ok"], false);
@@ -113,18 +113,18 @@ TEST_F(Changing, EachKindOfChangeIsReadAndADetailThatIsWrongIsNamed) {
                   {"from", "/app/a/out"},
                   {"to", "/app/b/in"},
                   {"on_full", "refus"}}),
-            "of 'connect', \"on_full\" cannot be 'refus'");
+            "'connect': \"on_full\" cannot be 'refus'");
   EXPECT_EQ(told({{"change", "connect"}, {"from", "/a"}, {"to", "/b"}, {"queue", -1}}),
-            "of 'connect', \"queue\" must be a count, at most 1000000000");
+            "'connect': \"queue\" must be a count, at most 1000000000");
   EXPECT_EQ(told({{"change", "connect"}, {"from", "/a"}, {"to", "/b"}, {"pull", 1}}),
-            "of 'connect', \"pull\" must be true or false");
+            "'connect': \"pull\" must be true or false");
   EXPECT_EQ(
       told({{"change", "connect"}, {"from", "/app/a/out"}, {"to", "/app/b/in"}, {"pull", true}}),
       "cannot be pulled: it has no provider");
   EXPECT_EQ(told({{"change", "create"}, {"path", "/x"}, {"type", "t"}, {"settings", {{"a", 1}}}}),
-            "of 'create', the setting 'a' must be a text");
+            "'create': the setting 'a' must be a text");
   EXPECT_EQ(told({{"change", "set"}, {"path", 3}, {"value", "2"}}),
-            "of 'set', \"path\" must be a text");
+            "'set': \"path\" must be a text");
 }
 
 TEST_F(Changing, ASwapKeepsThePathsAndIsNoLoss) {

@@ -130,6 +130,27 @@ TEST_F(StructureMirrorTest, TellsWhyNoStopReachesAPort) {
   EXPECT_EQ(told(), "");
 }
 
+// The output itself and its connections stay as they were.
+TEST_F(StructureMirrorTest, TellsThatSomethingMovesByAnOutputOnceWhatItFeedsDrives) {
+  Apply("create group /app/drive");
+  Apply("create /app/drive/motor test/sink");
+  Apply("create port /app/drive/speed input int");
+  Apply("connect /app/a/out /app/drive/speed");
+  Apply("connect /app/drive/speed /app/drive/motor/in");
+  const auto told = [&] {
+    LookUntilDone();
+    Followed viewer;
+    viewer.Follow(mirror.Whole());
+    return viewer.elements["/app/a/output/out"]["moves"] == true;
+  };
+  EXPECT_FALSE(told());
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    ASSERT_TRUE(PortAt("/app/drive/motor/input/in").SetDriving(true, AnyValue(0)));
+  }
+  EXPECT_TRUE(told());
+}
+
 TEST_F(StructureMirrorTest, WhoFollowsTheChangesKnowsTheWhole) {
   std::mt19937 random(11);
   const auto below = [&](int end) { return std::uniform_int_distribution<>(0, end - 1)(random); };

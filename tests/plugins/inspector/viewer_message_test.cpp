@@ -54,7 +54,7 @@ TEST(ViewerMessage, WhatIsNoneIsRefused) {
 TEST(ViewerMessage, SaysWhichMemberIsWrong) {
   const auto message = ParseViewerMessage(R"({"op":"watch","rate":"fast"})");
   ASSERT_FALSE(message);
-  EXPECT_EQ(message.error().message, "of 'watch', \"rate\" must be a number, not below 0");
+  EXPECT_EQ(message.error().message, "'watch': \"rate\" must be a number, not below 0");
 }
 
 TEST(ViewerMessage, IsNotReadIntoDepths) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <initializer_list>
 #include <string>
 #include <string_view>
