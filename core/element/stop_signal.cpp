@@ -38,6 +38,15 @@ bool StopSignal::Release(const std::function<Time()>& now, const Listener& note)
   return true;
 }
 
+void StopSignal::Bar(const std::function<Time()>& now) {
+  const std::lock_guard releaser(releasers_);
+  const std::int64_t bar = now().time_since_epoch().count();
+  // release: as above. In force it is later than any time.
+  for (std::int64_t known = this->bar(); known < bar;) {
+    if (bar_.compare_exchange_weak(known, bar, std::memory_order_acq_rel)) return;
+  }
+}
+
 StopSignal::Subscription StopSignal::Listen(Listener listener) {
   Subscription subscription;
   const std::lock_guard lock(mutex_);

@@ -130,7 +130,8 @@ class Port : public FrameworkElement {
   /// `timestamp`: of a value that was set before, and is set again.
   Result<void> PublishByHand(const Fill& fill, Setter setter = Setter::kPerson,
                              std::optional<Time> timestamp = {});
-  /// Readers find again what is published. False: it was not set by hand.
+  /// Readers find again what is published; where something moves by it, what is published from now on. False: it was not
+  /// set by hand.
   bool Release(Setter setter = Setter::kPerson);
   /// Under the structure lock.
   [[nodiscard]] bool is_set_by_hand(Setter setter = Setter::kPerson) const noexcept;
@@ -222,7 +223,7 @@ class Port : public FrameworkElement {
   void RebindSinks();
   /// Outputs: what is made of it, and of what its module passes on by it, is a velocity; `beginning`: of it.
   void NoteVelocity(std::uint32_t beginning);
-  /// Inputs: all that makes the velocity that comes here begins from a standstill. Nothing for what is no velocity.
+  /// All that makes the velocity which comes here begins from a standstill. Nothing where nothing moves by it.
   void BeginVelocityAnew();
   /// PublishFilled() of ports that have a channel.
   Result<PublishStatus> PublishInto(ChannelBase& channel, const Fill& fill,

@@ -10,6 +10,8 @@
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/port/proxy_port.h"
+#include "core/types/text_format.h"
+#include "core/types/type_info.h"
 
 namespace runnel {
 
@@ -35,10 +37,17 @@ void DropRepetitions(const std::vector<Connection>& ways, std::vector<Port*>& po
 // Of velocities that have just been connected: nothing of theirs has begun anew yet.
 constexpr std::uint32_t kFirstBeginning = 1;
 
-// It moves the robot, or its module passes it on to what does.
+bool IsZero(const AnyValue& value) {
+  const std::shared_ptr<const void> zero = value.type().Make();
+  return zero != nullptr && value.type().is_transparent() && ToText(value.type(), value.get()) == ToText(value.type(), zero.get());
+}
+
+// It moves the robot, and stands at zero, or its module passes it on to what does.
 bool IsMadeVelocity(const Port& input) {
-  const auto is_of_robot = [](const internal::PassedStop& each) { return each.stop->robot() != nullptr; };
-  if (IsVelocity(input.type(), input.unit()) && std::ranges::any_of(internal::PassedStops(input), is_of_robot)) return true;
+  const auto stands_at_zero = [&](const internal::PassedStop& each) {
+    return each.stop->robot() != nullptr && (IsVelocity(input.type(), input.unit()) || IsZero(each.safe_value));
+  };
+  if (std::ranges::any_of(internal::PassedStops(input), stands_at_zero)) return true;
   bool is_made = false;
   VisitSiblings(input, Port::Direction::kOutput, [&](const Port& output) {
     is_made = is_made || (&output.type() == &input.type() && output.velocity_beginnings() != 0);
@@ -114,7 +123,7 @@ void Port::RebindSinks() {
 
 void Port::BeginVelocityAnew() {
   static std::atomic<std::uint32_t> last{kFirstBeginning};
-  if (!IsVelocity(type_, unit())) return;
+  if (std::ranges::none_of(Sinks(), [](const Port* sink) { return IsMadeVelocity(*sink); })) return;
   const std::uint32_t beginning = ++last;
   for (Port* source : Sources()) source->NoteVelocity(beginning);
 }
