@@ -134,7 +134,7 @@ TEST_F(StructureMirrorTest, TellsWhyNoStopReachesAPort) {
 TEST_F(StructureMirrorTest, TellsThatSomethingMovesByAnOutputOnceWhatItFeedsDrives) {
   Apply("create group /app/drive");
   Apply("create /app/drive/motor test/sink");
-  Apply("create port /app/drive/speed input int");
+  Apply("create port /app/drive/speed input int32");
   Apply("connect /app/a/out /app/drive/speed");
   Apply("connect /app/drive/speed /app/drive/motor/in");
   const auto told = [&] {
