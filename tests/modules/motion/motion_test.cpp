@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/module/group.h"
 #include "modules/motion/command_gate.h"
 #include "modules/motion/differential_drive.h"
 #include "plugins/testing/module_rig.h"
@@ -199,6 +200,28 @@ TEST(DifferentialDriveModule, BeginsFromAStandstillAfterAPause) {
   rig.Feed(rig.module.twist, {0.5, 0});
   rig.RunCycle();
   EXPECT_EQ(rig.Last(rig.module.wheels), WheelSpeeds{});
+}
+
+TEST(DifferentialDriveModule, BeginsFromAStandstillAfterOnlyItsWheelsWereHeld) {
+  test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<WheelSpeeds> base(others, "base", {.drives = true});
+  ASSERT_TRUE(Port::Connect(rig.module.wheels, base));
+  const auto drive = [&](int cycles) {
+    for (; cycles > 0; --cycles) {
+      rig.Feed(rig.module.twist, {0.5, 0});
+      rig.RunCycle();
+    }
+    return base.Get().left;
+  };
+  EXPECT_NEAR(drive(10), 10.0, 1e-9);
+  ASSERT_TRUE(base.Block());
+  EXPECT_EQ(drive(10), 0.0);
+  ASSERT_TRUE(base.Unblock());
+  EXPECT_EQ(drive(1), 0.0);
+  EXPECT_NEAR(drive(1), 2.0, 1e-9) << "1 m/s^2 for 0.1 s";
+  base.DisconnectAll();
 }
 
 TEST(DifferentialDriveModule, ComesToAStopWhenNobodyCommands) {

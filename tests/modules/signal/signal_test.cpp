@@ -120,6 +120,50 @@ TEST(RateLimiterTest, BeginsFromAStandstillAfterABlockAndASilence) {
   wheels.DisconnectAll();
 }
 
+// As of a driver whose commands are degrees per second, or just numbers.
+TEST(RateLimiterTest, BeginsFromAStandstillAlsoBeforeANumberWithoutAUnit) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<double> valve(others, "valve");
+  ASSERT_TRUE(valve.SetDriving(true, AnyValue(TypeOf<double>(), std::make_shared<const double>(0))));
+  ASSERT_TRUE(Port::Connect(rig.module.out, valve));
+  rig.runtime.robot_stop().Press("a test");
+  for (int i = 0; i < 20; ++i) (void)After(rig, 1);
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  (void)After(rig, 1);  // of the time of the release itself
+  (void)After(rig, 1);
+  EXPECT_THAT(valve.Get(), DoubleNear(0.1, 1e-12));
+  valve.DisconnectAll();
+}
+
+TEST(RateLimiterTest, BeginsFromAStandstillWhenAValueByHandEnds) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
+  Input<double> shown(others, "shown", {.unit = "m/s"});
+  ASSERT_TRUE(Port::Connect(rig.module.out, wheels));
+  ASSERT_TRUE(Port::Connect(rig.module.out, shown));
+  const Port::Fill zero = [](void* value) -> Result<void> { return *static_cast<double*>(value) = 0, Result<void>(); };
+  for (Port* held : {static_cast<Port*>(&wheels), static_cast<Port*>(&rig.module.out)}) {
+    ASSERT_TRUE(held->PublishByHand(zero));
+    for (int i = 0; i < 20; ++i) (void)After(rig, 1);
+    ASSERT_TRUE(held->Release());
+    EXPECT_EQ(wheels.Get(), 0) << "what it has made meanwhile moves nothing";
+    (void)After(rig, 1);  // of the time of the release itself
+    (void)After(rig, 1);
+    EXPECT_THAT(wheels.Get(), DoubleNear(0.2, 1e-12));
+  }
+  ASSERT_TRUE(shown.PublishByHand(zero));
+  (void)After(rig, 1);
+  ASSERT_TRUE(shown.Release());
+  (void)After(rig, 1);
+  EXPECT_THAT(wheels.Get(), DoubleNear(0.4, 1e-12)) << "nothing moves by what is shown";
+  wheels.DisconnectAll();
+  shown.DisconnectAll();
+}
+
 TEST(RateLimiterTest, PassesTheSafeValueOfItsInputAtOnce) {
   ModuleRig<RateLimiterFilter> rig(100ms);
   ASSERT_TRUE(rig.Prepare());
