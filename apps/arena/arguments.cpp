@@ -109,7 +109,7 @@ Result<ArenaArguments> ParseArguments(int count, const char* const* words) {
   program.footer(
       "Each run is a process of its own: one that crashes or hangs is a row of the table.\n"
       "'runnel arena merge INTO.json PART.json ...' puts the runs of several arenas (--shard) together.\n"
-      "Exit codes: 0 all runs are finished, 1 stopped, or a file could not be written, 2 bad "
+      "Exit codes: 0 all runs are finished, 1 interrupted, or a file could not be written, 2 bad "
       "input.");
   ArenaArguments arguments;
   arguments.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

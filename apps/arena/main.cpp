@@ -157,7 +157,7 @@ class Session {
     const auto failed = std::ranges::count(finished, false, &RunRecord::has_ended_by_itself);
     if (failed > 0) std::cerr << failed << " of the runs crashed or hung\n";
     if (finished.size() == matrix_.runs.size()) return;
-    std::cerr << "stopped: " << finished.size() << " of " << matrix_.runs.size()
+    std::cerr << "interrupted: " << finished.size() << " of " << matrix_.runs.size()
               << " runs are finished";
     std::cerr << (journal_ ? "; --resume goes on from here\n" : "\n");
   }

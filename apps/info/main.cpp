@@ -58,7 +58,7 @@ void Print(const RecordingInfo& info) {
   }
   PrintLine("attached", attachments);
   PrintLine("end", info.ended_properly ? "as its writer wanted it"
-                                       : "missing: its writer was stopped, or is still at work");
+                                       : "missing: its writer was killed, or is still at work");
   if (!info.channels.empty()) PrintChannels(info);
   std::fflush(stdout);
 }

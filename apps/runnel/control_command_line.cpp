@@ -179,7 +179,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   word(reload, "plugin", "its name, as in <load>; build its library first")->type_name("PLUGIN");
 
   Entry& restart = add(kRun, "restart", "restart /robot/planner", "runs the application again from its file; with a path, makes a module anew, as after a fault");
-  word(restart, "path", "module; group: those that faults have stopped")->required(false)->type_name(kElement);
+  word(restart, "path", "module; group: those in it that have failed")->required(false)->type_name(kElement);
   add(kRun, "quit", "quit", "ends the run");
 
   Entry& record = add(kLooking, "record", "record /robot/pose -o run.mcap", "records what ports of a running application publish, until Ctrl-C");

@@ -14,15 +14,15 @@ namespace runnel::program {
 
 namespace {
 
-std::atomic<Scheduler*> to_be_stopped{nullptr};
+std::atomic<Scheduler*> to_be_ended{nullptr};
 std::atomic<int> handlers{0};  // that are under way, in whichever thread
 std::atomic<int> signals{0};   // that have come
 static_assert(std::atomic<Scheduler*>::is_always_lock_free, "a signal handler must not lock");
 
-// The first one stops the run, the second has the program end in order, the third ends it at once.
+// The first one ends the run, the second has the program end in order, the third ends it at once.
 void Handle(int) {
   const bool is_last = signals.fetch_add(1) > 0;
-  for (const int signal : StopSignal::kSignals) {
+  for (const int signal : EndSignal::kSignals) {
     struct sigaction current {};
     sigaction(signal, nullptr, &current);
     if (is_last && current.sa_handler == Handle) std::signal(signal, SIG_DFL);
@@ -30,7 +30,7 @@ void Handle(int) {
   // All of them seq_cst: either the destructor sees this handler, or this sees that there is nothing to
   // stop any more.
   handlers.fetch_add(1);
-  if (Scheduler* scheduler = to_be_stopped.load()) scheduler->RequestStop();
+  if (Scheduler* scheduler = to_be_ended.load()) scheduler->RequestStop();
   handlers.fetch_sub(1);
 }
 
@@ -40,9 +40,9 @@ constexpr Duration kPatience = std::chrono::milliseconds(800);
 
 }  // namespace
 
-StopSignal::StopSignal(Scheduler& scheduler) {
+EndSignal::EndSignal(Scheduler& scheduler) {
   signals.store(0);
-  to_be_stopped.store(&scheduler);
+  to_be_ended.store(&scheduler);
   struct sigaction action {};
   action.sa_handler = Handle;
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
@@ -51,16 +51,16 @@ StopSignal::StopSignal(Scheduler& scheduler) {
   }
 }
 
-StopSignal::~StopSignal() {
+EndSignal::~EndSignal() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
-  to_be_stopped.store(nullptr);
+  to_be_ended.store(nullptr);
   // The scheduler may go after this; a handler that has found it is about to end.
   while (handlers.load() != 0) std::this_thread::yield();
 }
 
-bool StopSignal::has_come() noexcept { return signals.load() > 0; }
+bool EndSignal::has_come() noexcept { return signals.load() > 0; }
 
-bool StopSignal::has_come_again() noexcept { return signals.load() > 1; }
+bool EndSignal::has_come_again() noexcept { return signals.load() > 1; }
 
 EndWatch::EndWatch(Application& application, std::function<void()> print,
                    std::function<void()> rescue)
@@ -73,7 +73,7 @@ void EndWatch::Run(const std::stop_token& stop) {
   Duration since_asked{};
   for (; !stop.stop_requested(); std::this_thread::sleep_for(kLook)) {
     print_();
-    if (StopSignal::has_come_again()) Leave();
+    if (EndSignal::has_come_again()) Leave();
     since_asked = application_.scheduler().stop_requested() ? since_asked + kLook : Duration{};
     if (since_asked > kPatience) Look();
   }
@@ -82,7 +82,7 @@ void EndWatch::Run(const std::stop_token& stop) {
 void EndWatch::Look() {
   const Scheduler& scheduler = application_.scheduler();
   const auto stuck = scheduler.StuckModules();
-  if (!stuck.empty() && scheduler.stopped_by_fault()) Leave();
+  if (!stuck.empty() && scheduler.ended_by_fault()) Leave();
   std::string waits = stuck.empty() ? "the run is still coming to its end" : "the run waits for ";
   for (const StuckModule& each : stuck) {
     waits += (&each != &stuck.front() ? ", " : "") + each.path;

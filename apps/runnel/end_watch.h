@@ -18,15 +18,15 @@ namespace runnel::program {
 /// program has it ignore (nohup) stays ignored.
 ///
 /// One at a time.
-class StopSignal {
+class EndSignal {
  public:
   /// Those that end a run.
   static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
-  explicit StopSignal(Scheduler& scheduler);
-  ~StopSignal();
-  StopSignal(const StopSignal&) = delete;
-  StopSignal& operator=(const StopSignal&) = delete;
+  explicit EndSignal(Scheduler& scheduler);
+  ~EndSignal();
+  EndSignal(const EndSignal&) = delete;
+  EndSignal& operator=(const EndSignal&) = delete;
 
   /// While the newest of them has lived; also after it has gone, since what comes then ends the program at once.
   [[nodiscard]] static bool has_come() noexcept;

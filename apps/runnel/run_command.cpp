@@ -92,7 +92,7 @@ class Session {
   ExitCode Run() {
     const auto failure = log_file_ ? log_file_->Failure() : std::nullopt;
     if (failure) return Fail(*failure, ExitCode::kBadInput);
-    const StopSignal stop_signal(application_.scheduler());
+    const EndSignal end_signal(application_.scheduler());
     RunOptions options;
     if (arguments_.duration) options.limit = FromSeconds(*arguments_.duration);
     options.is_over = [this](Duration so_far) {
@@ -107,7 +107,7 @@ class Session {
     PrintEvents();
     ClearProgress();
     if (!ran) return Fail(ran.error().WithPosition(arguments_.application.file), ExitCode::kBadInput);
-    const bool was_asked = StopSignal::has_come() || control_.is_asked();
+    const bool was_asked = EndSignal::has_come() || control_.is_asked();
     const ExitCode code = Conclude(*ran, real, was_asked);
     const auto is_held = [](const auto& extension) { return extension->IsHeld(); };
     if (!was_asked && std::ranges::any_of(application_.extensions(), is_held)) Hold();
@@ -125,7 +125,7 @@ class Session {
   // What has come of the run can still be looked at.
   void Hold() const {
     std::cout << "held for viewers; Ctrl-C ends it, 'runnel restart' runs it again\n" << std::flush;
-    while (!StopSignal::has_come() && !control_.is_asked()) std::this_thread::sleep_for(kLookForSignal);
+    while (!EndSignal::has_come() && !control_.is_asked()) std::this_thread::sleep_for(kLookForSignal);
   }
 
   void LookAround(Duration so_far) {
@@ -189,17 +189,17 @@ class Session {
     return std::ranges::none_of(application_.extensions(), decides);
   }
 
-  std::string WhyItEnded(bool was_stopped, bool was_asked) {
-    if (was_stopped) return "the run was stopped because of a fault\n";
+  std::string WhyItEnded(bool has_failed, bool was_asked) {
+    if (has_failed) return "the run was ended because of a fault\n";
     if (application_.is_deleted()) return "the application has been deleted\n";
-    if (control_.shall_restart() && !StopSignal::has_come()) return "the run ends, to begin again\n";
-    if (was_asked) return "stopped by the user\n";
+    if (control_.shall_restart() && !EndSignal::has_come()) return "the run ends, to begin again\n";
+    if (was_asked) return "ended by the user\n";
     return report_.IsOver() || !MonitorsDecide() ? "" : "the time is up\n";
   }
 
   ExitCode Conclude(Duration so_far, std::chrono::steady_clock::duration real, bool was_asked) {
     const Scheduler& scheduler = application_.scheduler();
-    const bool was_stopped = scheduler.stopped_by_fault();
+    const bool has_failed = scheduler.ended_by_fault();
     Diagnostics failures;
     std::string verdict = report_.Verdicts();
     std::cout << verdict << report_.Finish(failures);
@@ -209,19 +209,19 @@ class Session {
       verdict += text;
     }
     std::cout << std::flush;
-    const std::string why = WhyItEnded(was_stopped, was_asked);
+    const std::string why = WhyItEnded(has_failed, was_asked);
     application_.NoteEnd(verdict + why);
     AppendToLogFile();
     if (auto failure = log_file_ ? log_file_->Failure() : std::nullopt) failures.Add(*failure);
     std::cerr << Coloured(failures.ToString(), STDERR_FILENO);
-    (was_stopped ? std::cerr : std::cout) << why;
+    (has_failed ? std::cerr : std::cout) << why;
     if (!arguments_.quiet) PrintTimes(so_far, real, scheduler.options().clock);
     if (arguments_.statistics) std::cout << StatisticsTable(application_.runtime().root());
     if (const auto measured = application_.scheduler().profiled_for()) {
       std::cout << ProfileText(application_.scheduler().ReadProfile(), *measured);
     }
     const bool is_well_judged = report_.IsGood() || !MonitorsDecide();
-    return !was_stopped && is_well_judged && failures.ok() ? ExitCode::kDone : ExitCode::kRunFailed;
+    return !has_failed && is_well_judged && failures.ok() ? ExitCode::kDone : ExitCode::kRunFailed;
   }
 
   const RunArguments& arguments_;
@@ -315,7 +315,7 @@ RunOutcome RunOnce(const RunArguments& arguments) {
   const ExitCode code = Session(arguments, *application, *control).Run();
   LeaveIfStuck(*application);
   // Who has sent a signal wants it to end, whoever wants it to begin again.
-  return {code, control->shall_restart() && !StopSignal::has_come()};
+  return {code, control->shall_restart() && !EndSignal::has_come()};
 }
 
 }  // namespace

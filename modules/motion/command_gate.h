@@ -33,7 +33,7 @@ inline void Describe(TypeBuilder<GateState>& type) {
 }
 
 /// Stands between whoever commands and the drive: lets commands pass while they are fresh and
-/// nothing is touched, and commands standstill otherwise. So a planner that was stopped by a fault
+/// nothing is touched, and commands standstill otherwise. So a planner that has failed
 /// cannot leave the robot driving.
 class CommandGate final : public Module {
  public:

@@ -133,7 +133,7 @@ class PlaceDriver final : public Module {
       (void)pose.Wait(std::chrono::milliseconds(50));
     }
     if (const auto here = pose.Read()) goal.Publish(Position(*here));  // stays where it is
-    return Error{.message = "stopped on the way to '" + name + "'"};
+    return Error{.message = "aborted on the way to '" + name + "'"};
   }
   void Update() override {}
 };

@@ -47,7 +47,7 @@ Ending EndingOf(Verdict verdict) {
   if (verdict == Verdict::kMistaken) {
     return {"error", "the planner says that it is at the goal, and is not"};
   }
-  if (verdict == Verdict::kRunning) return {"error", "the run was stopped before it was over"};
+  if (verdict == Verdict::kRunning) return {"error", "the run was ended before it was over"};
   return {Words(verdict)};
 }
 

@@ -113,14 +113,14 @@ class Application {
   Result<void> Start();
   /// Ends all cycles. Idempotent; it can be started again.
   void Stop();
-  /// Start() has been called, and neither Stop() nor a stop that the application itself has requested came since.
+  /// Start() has been called, and neither Stop() nor an end that the application itself has requested came since.
   [[nodiscard]] bool is_running() const noexcept;
 
   /// Runs in the calling thread, on either clock, until a limit, its run monitors, an extension, a fault rule,
   /// RequestStop() or `is_over` ends it. How long it ran on its clock. Errors: there is nothing to run.
   Result<Duration> Run(const RunOptions& options = {});
   /// Simulated time: runs all cycles that are due before `end` of its clock, no faster than its speed allows,
-  /// in the calling thread. Errors: a real clock, a pause; a stop has been requested.
+  /// in the calling thread. Errors: a real clock, a pause; its end has been requested.
   Result<void> RunUntil(Time end);
   Result<void> RunFor(Duration duration) { return RunUntil(runtime().clock().Now() + duration); }
   /// So many cycles, each the one that is due next, with what its data sets off. Errors: as RunUntil(), and

@@ -288,7 +288,7 @@ CommandService& Application::service() {
   if (!hooks.quit) {
     hooks.quit = [this]() -> Result<std::string> {
       RequestStop();
-      return std::string("stops");
+      return std::string("ends");
     };
   }
   for (auto* const ends : {&hooks.quit, &hooks.restart}) {

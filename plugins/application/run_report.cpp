@@ -133,8 +133,7 @@ std::string RunReport::Finish(Diagnostics& diagnostics) {
 }
 
 std::string FaultText(const Fault& fault, Time start, FrameworkElement& root) {
-  const bool is_stopped = fault.kind == Fault::Kind::kThrown;
-  return EventText({.message = (is_stopped ? "has been stopped: " : "") + fault.message,
+  return EventText({.message = (fault.kind == Fault::Kind::kThrown ? "has failed: " : "") + fault.message,
                     .path = fault.path},
                    fault.time, start, fault.is_mended, root);
 }

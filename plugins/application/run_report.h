@@ -15,7 +15,7 @@
 namespace runnel {
 
 /// What the modules that judge a run have to say, all of them together. A monitor that throws, or
-/// whose module has been stopped by a fault, has failed: it comes to no verdict any more, and the
+/// or whose module does, has failed: it comes to no verdict any more, and the
 /// run is not a good one. Modules may come and go meanwhile.
 ///
 /// Threads:  all but what a listener is told by one thread, which takes the structure lock: no monitor
@@ -65,7 +65,7 @@ class RunReport final : public ElementListener {
   std::vector<Error> failures_;
 };
 
-/// "app.xml:3:5: error: /demo/x: has been stopped: boom; 1.25 s after the start". Takes the
+/// "app.xml:3:5: error: /demo/x: has failed: boom; 1.25 s after the start". Takes the
 /// structure lock.
 [[nodiscard]] std::string FaultText(const Fault& fault, Time start, FrameworkElement& root);
 

@@ -18,11 +18,11 @@ using MachineClock = std::chrono::steady_clock;
 constexpr std::size_t kMostEvents = 10'000;
 // How often somebody looks at an application that runs.
 constexpr Duration kLookAround = std::chrono::milliseconds(20);
-// How long real threads go on after a stop has been requested, by a fault or by the user, so that
+// How long real threads go on after the end of the run has been requested, by a fault or by the user, so that
 // what else is there can bring the robot to rest.
 constexpr Duration kGraceTime = std::chrono::milliseconds(500);
 
-Error RunsAlready() { return {.message = "the application runs already", .hint = "stop it first"}; }
+Error RunsAlready() { return {.message = "the application runs already", .hint = "end its run first"}; }
 
 Error NothingToRun() {
   return {.message = "there is nothing to run",
@@ -286,7 +286,7 @@ Result<void> Application::RunUntil(Time end) {
   const bool has_come = parts_->scheduler->RunUntil(end);
   Attend();
   if (has_come) return {};
-  return Error{.message = "a stop has been requested"};
+  return Error{.message = "the end of the run has been requested"};
 }
 
 Result<void> Application::RunCycles(std::uint64_t count) {
@@ -294,7 +294,7 @@ Result<void> Application::RunCycles(std::uint64_t count) {
   Result<void> went;
   for (; count > 0 && went; --count) {
     if (parts_->scheduler->Step()) continue;
-    went = parts_->scheduler->stop_requested() ? Error{.message = "a stop has been requested"}
+    went = parts_->scheduler->stop_requested() ? Error{.message = "the end of the run has been requested"}
                                                : NothingToRun();
   }
   Attend();

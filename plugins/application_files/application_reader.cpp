@@ -108,9 +108,10 @@ std::string PlaceHint(const XmlTag& tag) {
 void ReadMisplacedTag(XmlElement element, const std::vector<std::string>& known,
                       FrameworkElement& around, BuildContext& context) {
   const XmlTag* tag = context.tags().FindTag(element.name());
-  const std::string hint = tag != nullptr  ? PlaceHint(*tag)
-                           : known.empty() ? "leave it out"
-                                           : NearestNameHint(element.name(), known);
+  const std::string hint = tag != nullptr             ? PlaceHint(*tag)
+                           : known.empty()            ? "leave it out"
+                           : element.name() == "stop" ? "what ends the run is called <quit/> now"
+                                                      : NearestNameHint(element.name(), known);
   if (tag != nullptr || context.IsWorthReporting(element.name(), known)) {
     context.Report(
         {.message = "no <" + element.name() + "> may stand in <" + element.parent()->name() + ">",

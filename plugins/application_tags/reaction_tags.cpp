@@ -117,7 +117,7 @@ std::vector<XmlTag> ReactionTags() {
                            .kind = AttributeKind::kModuleType,
                            .required = true,
                            .summary = "a type, as `runnel modules` lists them"}}},
-          {.name = "stop", .summary = "ends the run", .parents = parents}};
+          {.name = "quit", .summary = "ends the run", .parents = parents}};
 }
 
 Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& context) {
@@ -132,7 +132,7 @@ Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& cont
     if (child.name() == "publish") ReadPublish(use);
     if (child.name() == "set") ReadSet(use);
     if (child.name() == "replace") ReadReplace(use);
-    if (child.name() == "stop") reaction.stops_application = true;
+    if (child.name() == "quit") reaction.ends_run = true;
   }
   return reaction;
 }

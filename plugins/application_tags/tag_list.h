@@ -64,7 +64,7 @@ FrameworkElement* ReadAt(const TagUse& use) {
 /// A value of the port's type; nothing after reporting that the text is none.
 [[nodiscard]] AnyValue ReadValue(const TagUse& use, const XmlAttribute& text, const Port& port);
 
-/// The tags <publish>, <switch>, <set>, <replace> and <stop>, which are read by the tag that they stand in.
+/// The tags <publish>, <switch>, <set>, <replace> and <quit>, which are read by the tag that they stand in.
 [[nodiscard]] std::vector<XmlTag> ReactionTags();
 
 /// What the tags directly within `xml` say is to be done; mistakes are reported. Paths start at

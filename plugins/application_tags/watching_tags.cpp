@@ -40,7 +40,7 @@ std::string WatchedBy(const TagUse& use, When when) {
 void ReadFaultAttributes(const TagUse& use, Reaction& reaction) {
   const XmlAttribute* const set = use.Find("set");
   const XmlAttribute* const value = use.Find("value");
-  reaction.stops_application = reaction.stops_application || use.Find("action") != nullptr;
+  reaction.ends_run = reaction.ends_run || use.Find("action") != nullptr;
   if (set == nullptr || value == nullptr) return;
   const FrameworkElement* const target = SearchSettable(*set, *value, use.parent, use.context);
   if (target == nullptr) return;
@@ -70,7 +70,7 @@ void AddRule(const TagUse& use) {
 FrameworkElement* HandleOnStale(const TagUse& use) {
   if (use.xml.children().empty()) {
     use.context.Report({.message = "<on_stale> does not say what is to be done",
-                        .hint = "put <publish>, <switch>, <set>, <replace> or <stop> into it"},
+                        .hint = "put <publish>, <switch>, <set>, <replace> or <quit> into it"},
                        use.xml.position(), use.parent);
   }
   return InTheEnd<AddRule<When::kStale>>(use);
@@ -83,7 +83,7 @@ FrameworkElement* HandleOnFault(const TagUse& use) {
   const bool has_tags = !use.xml.children().empty();
   if (acts + sets + has_tags != 1) {
     use.Report({.message = "<on_fault> must say one thing that is to be done",
-                .hint = "write either action=\"stop_application\" or set=\"…\" value=\"…\""},
+                .hint = "write either action=\"quit\" or set=\"…\" value=\"…\""},
                use.xml.position());
   }
   if (sets != has_value) {
@@ -150,12 +150,10 @@ AddedAttribute StuckAfterAttribute(std::string tag) {
 
 XmlTag OnFaultTag() {
   return {.name = "on_fault",
-          .summary = "what happens when a module has thrown and has been stopped",
+          .summary = "what happens when a module has thrown, and so has failed",
           .parents = {"application", "group"},
           .attributes = {PathRule("of", true, "a module, or a group of which any module may fail"),
-                         {.name = "action",
-                          .kind = AttributeKind::kChoice,
-                          .choices = {"stop_application"}},
+                         {.name = "action", .kind = AttributeKind::kChoice, .choices = {"quit"}},
                          PathRule("set", false, "a parameter that may be set at run time"),
                          {.name = "value", .summary = "what it is set to"}},
           .handle = HandleOnFault};

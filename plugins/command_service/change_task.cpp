@@ -82,7 +82,7 @@ std::string EntryOf(const ChangeSet& changes, const std::string& label) {
   return label.empty() ? text : label + ": " + text;
 }
 
-// What makes the module anew, or those below that have been stopped. Errors: nothing is there to be made anew.
+// What makes the module anew, or those below that have failed. Errors: nothing is there to be made anew.
 Result<ChangeSet> MadeAnew(const ServedApplication& application, const std::string& path) {
   std::vector<std::pair<std::string, std::string>> modules;  // paths and types
   bool is_module = false;
@@ -104,13 +104,11 @@ Result<ChangeSet> MadeAnew(const ServedApplication& application, const std::stri
   for (const auto& [module, type] : modules) {
     const auto progress = application.scheduler != nullptr ? application.scheduler->ProgressOf(module)
                                                            : std::nullopt;
-    const bool is_wanted = is_module || (progress && progress->is_stopped);
+    const bool is_wanted = is_module || (progress && progress->has_failed);
     if (is_wanted) changes.push_back(ReplaceModule{module, type});
   }
   if (!changes.empty()) return changes;
-  return Error{.message = "nothing in it has been stopped by a fault",
-               .path = path,
-               .hint = "name the module that is to be made anew"};
+  return Error{.message = "nothing in it has failed", .path = path, .hint = "name the module that is to be made anew"};
 }
 
 // A replaced module, to find out whether the new one is still there a moment later.

@@ -85,7 +85,7 @@ struct PauseRequest {
   bool is_paused = true;
 };
 
-/// Makes a module anew by its own type, as after a fault; of a group, all that have been stopped by faults. Without a
+/// Makes a module anew by its own type, as after a fault; of a group, all that have failed. Without a
 /// path, the whole application is built anew from its file and run again, with the same settings, also when its run has
 /// ended and is held.
 struct RestartRequest {

@@ -36,7 +36,7 @@ constexpr std::array kSetFields{
 
 constexpr std::array kReloadFields{RequestField{"plugin", Kind::kText, true, "its name"}};
 constexpr std::array kRestartFields{
-    RequestField{"path", Kind::kText, false, "a module, or a group of which all that faults have stopped; none: the whole application"}};
+    RequestField{"path", Kind::kText, false, "a module, or a group of which all that have failed; none: the whole application"}};
 
 constexpr std::array kLogFields{
     RequestField{"path", Kind::kText, false, "a module or a group; none: all"},
@@ -55,8 +55,8 @@ constexpr std::array kTable{
     DescribedRequest{"block", kBlockFields, "drive", kMovesNothing,
                      "one port has its safe value, whatever anybody sends, until release",
                      "block gate/wanted"},
-    DescribedRequest{"pause", kPauseFields, "change", kMovesNothing, "leaves modules out of cycles", "pause planner"},
-    DescribedRequest{"resume", kPauseFields, "change", kMoves, "has paused modules run again", "resume planner"},
+    DescribedRequest{"pause", kPauseFields, "change", kMovesNothing, "leaves modules out of cycles", "pause planner", "drive"},
+    DescribedRequest{"resume", kPauseFields, "change", kMoves, "has paused modules run again", "resume planner", "drive"},
     DescribedRequest{"set", kSetFields, "change", kMoves, "sets a parameter", "set planner/cruise_speed 0.3"},
     DescribedRequest{"undo", {}, "change", kMoves, "takes back what was changed last", "undo"},
     DescribedRequest{"redo", {}, "change", kMoves, "does again what was taken back last", "redo"},
@@ -71,14 +71,19 @@ constexpr std::array kTable{
     DescribedRequest{"step", {}, "change", kMoves, "lets some cycles run", "step 10"},
     DescribedRequest{"speed", {}, "change", kMoves, "how fast simulated time passes", "speed 2"}};
 
-// As in CommandRequest; a change by what is changed.
-std::string_view NameOf(const CommandRequest& request) {
-  if (const auto* const pause = std::get_if<PauseRequest>(&request)) return pause->is_paused ? "pause" : "resume";
-  if (const auto* const stop = std::get_if<RobotStopRequest>(&request)) return stop->is_pressed ? "stop" : "release";
-  constexpr std::array<std::string_view, std::variant_size_v<CommandRequest>> kNames{
-      "change", "undo", "redo", "save", "reload", "", "publish", "block", "release", "", "restart", "quit"};
-  return kNames.at(request.index());
-}
+// One for each kind of CommandRequest: what lacks one does not compile. A change is looked at by what is changed.
+std::string_view NameOf(const ChangeRequest&) { return "change"; }
+std::string_view NameOf(const UndoRequest&) { return "undo"; }
+std::string_view NameOf(const RedoRequest&) { return "redo"; }
+std::string_view NameOf(const SaveRequest&) { return "save"; }
+std::string_view NameOf(const ReloadRequest&) { return "reload"; }
+std::string_view NameOf(const PauseRequest& request) { return request.is_paused ? "pause" : "resume"; }
+std::string_view NameOf(const PublishRequest&) { return "publish"; }
+std::string_view NameOf(const BlockRequest&) { return "block"; }
+std::string_view NameOf(const ReleaseRequest&) { return "release"; }
+std::string_view NameOf(const RobotStopRequest& request) { return request.is_pressed ? "stop" : "release"; }
+std::string_view NameOf(const RestartRequest&) { return "restart"; }
+std::string_view NameOf(const QuitRequest&) { return "quit"; }
 
 Error WrongField(std::string_view request, const RequestField& field, const std::string& what) {
   return {.message = "'" + std::string(request) + "' " + what + " '" + std::string(field.name) + "'",
@@ -153,7 +158,7 @@ bool LetsMove(std::string_view name) {
 
 bool LetsMove(const CommandRequest& request) {
   const auto* const change = std::get_if<ChangeRequest>(&request);
-  return change != nullptr ? LetsMove(change->placed.changes) : LetsMove(NameOf(request));
+  return change != nullptr ? LetsMove(change->placed.changes) : LetsMove(std::visit([](const auto& each) { return NameOf(each); }, request));
 }
 
 // Also by what is taken away: a module that has kept another one from driving, or the connection by which it did so.

@@ -29,12 +29,15 @@ struct RequestField {
 struct DescribedRequest {
   std::string_view name;
   std::span<const RequestField> fields;
-  std::string_view role;     ///< that a client needs: "look", "drive", "change"
+  std::string_view role;  ///< that a client needs: "look", "drive", "change"
   /// Whether something may move by it, and not only stop: then it is refused if STOP was pressed or released after it was
   /// asked for (CommandService::Begin()).
   bool lets_move;
   std::string_view help;     ///< one line
   std::string_view example;  ///< as words of the terminal; required fields without their names
+  /// That a client needs for the whole application, where that is less: who drives may have all of it stand still, but not
+  /// leave out one module, which may be what keeps the robot from colliding. "": as `role`.
+  std::string_view role_of_whole = {};
 };
 
 /// All of them. Static.

@@ -55,7 +55,7 @@ std::string StateText(const ServedApplication& application) {
   const auto add = [&](std::size_t count, const char* one, const char* many) {
     if (count > 0) text += ", " + std::to_string(count) + (count == 1 ? one : many);
   };
-  add(StoppedModules(root, *application.scheduler, nullptr).size(), " module FAILED", " modules FAILED");
+  add(FailedModules(root, *application.scheduler, nullptr).size(), " module FAILED", " modules FAILED");
   for (const StuckModule& each : application.scheduler->StuckModules()) text += ", STUCK: " + each.path;
   add(unreached, " driving port CANNOT BE REACHED", " driving ports CANNOT BE REACHED");
   add(paused, " module PAUSED", " modules PAUSED");
@@ -88,24 +88,24 @@ bool LacksSource(const Port& port) {
          !LateConnections::Awaits(port);
 }
 
-std::map<std::string, std::string> StoppedModules(FrameworkElement& start, Scheduler& scheduler,
+std::map<std::string, std::string> FailedModules(FrameworkElement& start, Scheduler& scheduler,
                                                   const ApplicationLog* log) {
-  std::map<std::string, std::string> stopped;
+  std::map<std::string, std::string> failed;
   try {
     start.Visit([&](FrameworkElement& each) {
       if (!IsModule(each)) return;
       const auto progress = scheduler.ProgressOf(each.path());
-      if (progress && progress->is_stopped) stopped.emplace(each.path(), "");
+      if (progress && progress->has_failed) failed.emplace(each.path(), "");
     });
   } catch (const ElementError&) {  // the threads are such that nothing can be run; the scheduler tells
     return {};
   }
-  if (stopped.empty() || log == nullptr) return stopped;
+  if (failed.empty() || log == nullptr) return failed;
   for (const auto& entry : log->ReadEntries(0, ApplicationLog::kMostEntries).entries) {
-    const auto found = stopped.find(entry.module);
-    if (found != stopped.end() && !entry.cause.empty()) found->second = entry.cause;
+    const auto found = failed.find(entry.module);
+    if (found != failed.end() && !entry.cause.empty()) found->second = entry.cause;
   }
-  return stopped;
+  return failed;
 }
 
 }  // namespace runnel

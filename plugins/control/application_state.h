@@ -26,8 +26,8 @@ class Port;
 /// what is published now and then is not silent. Under the structure lock.
 [[nodiscard]] std::optional<Duration> SilentFor(const Port& port, Time began, Time now);
 
-/// Modules that faults have stopped, by path, with what they have thrown. Under the structure lock.
-[[nodiscard]] std::map<std::string, std::string> StoppedModules(FrameworkElement& start, Scheduler& scheduler,
+/// Modules that have failed, by path, with what they have thrown. Under the structure lock.
+[[nodiscard]] std::map<std::string, std::string> FailedModules(FrameworkElement& start, Scheduler& scheduler,
                                                                 const ApplicationLog* log);
 
 }  // namespace runnel

@@ -57,7 +57,7 @@ class CallCommand {
     switch (status) {
       case CallStatus::kFailed:
       case CallStatus::kTimedOut: return StatusText(status);
-      case CallStatus::kFaulted: return "ended, as the module is stopped by a fault";
+      case CallStatus::kFaulted: return "ended, as the module has failed";
       case CallStatus::kBusy: return "not begun, as too many wait";
       default: return "ended: " + StatusText(status);
     }

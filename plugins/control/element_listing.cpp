@@ -176,9 +176,9 @@ std::string TagMarks(const FrameworkElement& element) {
 
 // ", FAILED: sensor gone"
 std::string StateText(FrameworkElement& element, const ListingOptions& options,
-                      const std::map<std::string, std::string>& stopped) {
-  const auto found = stopped.find(element.path());
-  if (found != stopped.end()) return ", FAILED" + (found->second.empty() ? "" : ": " + found->second);
+                      const std::map<std::string, std::string>& failed) {
+  const auto found = failed.find(element.path());
+  if (found != failed.end()) return ", FAILED" + (found->second.empty() ? "" : ": " + found->second);
   if (options.scheduler == nullptr || !IsModule(element)) return {};
   for (const StuckModule& each : options.scheduler->StuckModules()) {
     if (each.path == element.path()) return ", STUCK" + fmt::format(" for {:.1f} s", ToSeconds(each.since));
@@ -208,17 +208,17 @@ struct Row {
 };
 
 void AddRows(FrameworkElement& element, std::size_t depth, const ListingOptions& options,
-             const std::map<std::string, std::string>& stopped, std::vector<Row>& rows) {
+             const std::map<std::string, std::string>& failed, std::vector<Row>& rows) {
   // The groups of ports say nothing that the ports do not say.
   const bool is_shown = element.kind() != ElementKind::kPortGroup || depth == 0;
   if (is_shown) {
     const std::string name = depth == 0 ? element.path() : element.name();
     rows.push_back(
         {std::string(2 * depth, ' ') + name, KindName(element),
-         About(element, options) + StateText(element, options, stopped) + TagMarks(element)});
+         About(element, options) + StateText(element, options, failed) + TagMarks(element)});
   }
   for (FrameworkElement* child : element.children()) {
-    AddRows(*child, is_shown ? depth + 1 : depth, options, stopped, rows);
+    AddRows(*child, is_shown ? depth + 1 : depth, options, failed, rows);
   }
 }
 
@@ -240,12 +240,12 @@ PublicationRates LookAtRates(FrameworkElement& start) {
 
 std::string ListElements(FrameworkElement& start, const ListingOptions& options) {
   std::vector<Row> rows;
-  const auto stopped = options.scheduler != nullptr ? StoppedModules(start, *options.scheduler, options.log)
+  const auto failed = options.scheduler != nullptr ? FailedModules(start, *options.scheduler, options.log)
                                                     : std::map<std::string, std::string>();
   if (start.kind() == ElementKind::kRuntime) {
-    for (FrameworkElement* child : start.children()) AddRows(*child, 0, options, stopped, rows);
+    for (FrameworkElement* child : start.children()) AddRows(*child, 0, options, failed, rows);
   } else {
-    AddRows(start, 0, options, stopped, rows);
+    AddRows(start, 0, options, failed, rows);
   }
   std::size_t name_width = 0;
   std::size_t kind_width = 0;

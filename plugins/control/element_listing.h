@@ -18,7 +18,7 @@ class Scheduler;
 
 /// What a listing tells besides names and types.
 struct ListingOptions {
-  Scheduler* scheduler = nullptr;       ///< which modules are stopped and paused; optional
+  Scheduler* scheduler = nullptr;       ///< which modules have failed and are paused; optional
   const ApplicationLog* log = nullptr;  ///< and why; optional
   Time now{};                           ///< by the application's clock, for how old values are
   Time began{};                         ///< when it began, for outputs that have fallen silent

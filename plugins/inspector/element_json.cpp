@@ -29,9 +29,9 @@ std::string_view ThreadName(const FrameworkElement& element, const ElementSurrou
   return found == around.thread_names.end() ? std::string_view() : found->second;
 }
 
-std::string_view StoppedBy(const FrameworkElement& element, const ElementSurroundings& around) {
-  const auto found = around.stopped.find(element.id());
-  return found == around.stopped.end() ? std::string_view() : found->second;
+std::string_view FailureOf(const FrameworkElement& element, const ElementSurroundings& around) {
+  const auto found = around.failed.find(element.id());
+  return found == around.failed.end() ? std::string_view() : found->second;
 }
 
 bool IsPaused(const FrameworkElement& element, const ElementSurroundings& around) {
@@ -135,7 +135,7 @@ void AddOther(const FrameworkElement& element, const ElementSurroundings& around
     const ModuleType* const type = around.modules->Find(name);
     json.Add("type", name).Add("summary", type != nullptr ? type->summary : "");
     json.AddTextOrNull("thread", ThreadName(element, around));
-    json.AddTextOrNull("stopped", StoppedBy(element, around));
+    json.AddTextOrNull("failure", FailureOf(element, around));
     if (IsPaused(element, around)) json.Add("paused", true);
     return;
   }
@@ -214,7 +214,7 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
   }
   Mix(TagsText(element), hash);
   Mix(ThreadName(element, around), hash);
-  Mix(StoppedBy(element, around), hash);
+  Mix(FailureOf(element, around), hash);
   const bool is_application = element.kind() == ElementKind::kGroup &&
                               element.parent() != nullptr && element.parent()->parent() == nullptr;
   if (is_application) MixAwaited(AwaitedBelow(element), hash);

@@ -18,7 +18,7 @@ struct ElementSurroundings {
   const Scheduler* scheduler = nullptr;                    ///< who says why a driving port cannot be reached
   std::map<std::uint64_t, std::string> thread_names;       ///< by id
   std::uint64_t default_thread = 0;                        ///< for what is assigned to none
-  std::unordered_map<std::uint64_t, std::string> stopped;  ///< modules, and what they threw
+  std::unordered_map<std::uint64_t, std::string> failed;  ///< modules, and what they threw
   std::vector<std::string> paused;                         ///< paths of elements, of threads
 };
 

@@ -99,9 +99,9 @@ void StructureMirror::NoteFaults() {
     const auto found = runtime_.root().Find(entry.module);
     if (!found) continue;  // it has been deleted since
     if (entry.cause.empty()) {  // it goes on
-      if (around_.stopped.erase((*found)->id()) == 0) continue;
+      if (around_.failed.erase((*found)->id()) == 0) continue;
     } else {
-      around_.stopped[(*found)->id()] = entry.cause;
+      around_.failed[(*found)->id()] = entry.cause;
     }
     walk_.Forget();
   }
@@ -212,7 +212,7 @@ StructureMirror::Difference StructureMirror::TakeNews() {
     if (entry.walk == walks_) return false;
     if (made_anew.count(entry.path) == 0) difference.gone.push_back(entry.path);
     add(difference.disconnected, entry.connections);
-    around_.stopped.erase(each.first);
+    around_.failed.erase(each.first);
     return true;
   });
   // A connection to another element of the same path is the same to a viewer.

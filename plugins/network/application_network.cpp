@@ -34,7 +34,7 @@ namespace runnel {
 
 namespace {
 
-/// How an application is, for /diagnostics: modules that a fault has stopped, inputs to which nothing new comes (<on_stale>),
+/// How an application is, for /diagnostics: modules that have failed, inputs to which nothing new comes (<on_stale>),
 /// threads whose cycles end too late.
 ///
 /// Ownership:  the application must outlive it. Copies begin anew.
@@ -55,7 +55,7 @@ class ApplicationHealth {
 
   Application* application_;
   std::uint64_t next_in_log_ = 0;
-  std::map<std::string, std::string> stopped_;  // modules, and why
+  std::map<std::string, std::string> failed_;  // modules, and why
   std::map<std::string, std::string> silent_;   // inputs, and what was said
   std::map<std::string, Overruns> overruns_;    // by thread
 };
@@ -77,8 +77,8 @@ void ApplicationHealth::ReadLog() {
   const auto news = application_->log().ReadEntries(next_in_log_, ApplicationLog::kMostEntries);
   next_in_log_ = news.next;
   for (const ApplicationLog::Entry& entry : news.entries) {
-    if (!entry.module.empty() && entry.cause.empty()) stopped_.erase(entry.module);
-    if (!entry.module.empty() && !entry.cause.empty()) stopped_[entry.module] = entry.cause;
+    if (!entry.module.empty() && entry.cause.empty()) failed_.erase(entry.module);
+    if (!entry.module.empty() && !entry.cause.empty()) failed_[entry.module] = entry.cause;
     if (const std::size_t place = entry.text.find(kSilent); place != std::string::npos) {
       silent_[PathBefore(entry.text, place)] = entry.text.substr(place + 2);
     } else if (const std::size_t end = entry.text.find(kFresh); end != std::string::npos) {
@@ -116,13 +116,13 @@ std::vector<RosDiagnosticStatus> ApplicationHealth::operator()() {
   const auto add = [&](RosHealth level, const std::string& of, const std::string& message) {
     all.push_back({.level = level, .name = name + ": " + of, .message = message, .hardware_id = name, .values = {}});
   };
-  if (stopped_.empty() && silent_.empty()) {
+  if (failed_.empty() && silent_.empty()) {
     add(RosHealth::kOk, "modules", "no fault");
   } else {
-    add(stopped_.empty() ? RosHealth::kWarning : RosHealth::kError, "modules",
-        std::to_string(stopped_.size()) + " stopped by a fault, " + std::to_string(silent_.size()) + " inputs without news");
+    add(failed_.empty() ? RosHealth::kWarning : RosHealth::kError, "modules",
+        std::to_string(failed_.size()) + " failed, " + std::to_string(silent_.size()) + " inputs without news");
   }
-  for (const auto& [path, why] : stopped_) add(RosHealth::kError, path, why);
+  for (const auto& [path, why] : failed_) add(RosHealth::kError, path, why);
   for (const auto& [path, why] : silent_) add(RosHealth::kStale, path, why);
   AddThreads(all);
   return all;

@@ -41,7 +41,7 @@ Result<void> OfferList::Add(const std::string& path, OfferOptions wanted) {
   const std::string topic = topic_of(wanted);
   for (const OfferOptions& each : offers) {
     if (!IsMeantBy(each, path) || topic_of(each) != topic) continue;
-    return Error{.message = "is offered as " + topic + " already", .path = path, .hint = "stop that first, or say another topic"};
+    return Error{.message = "is offered as " + topic + " already", .path = path, .hint = "remove that first, or say another topic"};
   }
   // One that a pattern has offered before.
   for (OfferOptions& each : offers) {

@@ -32,7 +32,7 @@ bool HasActivated(const Schedule& schedule) noexcept {
                              [](const auto& entry) { return entry.element->is_activated(); });
 }
 
-// One that throws is stopped, and the others go on. The try block is around the loop and not within
+// One that throws fails, and the others go on. The try block is around the loop and not within
 // it: a task costs no more than its call.
 void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now,
                FaultDispatcher& faults) noexcept {

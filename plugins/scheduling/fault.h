@@ -8,7 +8,7 @@
 
 namespace runnel {
 
-/// A module has thrown in its cycle and has been stopped, or does not return from it.
+/// A module has thrown in its cycle, and so has failed, or does not return from it.
 struct Fault {
   enum class Kind {
     kThrown,
@@ -27,7 +27,7 @@ struct Fault {
 
 inline constexpr std::size_t kLongestFaultMessage = 500;
 
-/// What the application does when a module is stopped by a fault (Fault::Kind::kThrown; for others, see StuckRule). Rules are applied in the order of
+/// What the application does when a module fails (Fault::Kind::kThrown; for others, see StuckRule). Rules are applied in the order of
 /// their adding, never in the cycle that failed: after it (simulated clock) or by the supervising
 /// thread (real clock).
 struct FaultRule {

@@ -118,7 +118,7 @@ std::optional<std::string> FaultDispatcher::Handle(const Fault& fault) {
 
 void FaultDispatcher::Apply(const FaultRule& rule, const Fault& fault) {
   try {
-    rule.call ? rule.call(fault) : StopForFault();
+    rule.call ? rule.call(fault) : EndForFault();
   } catch (...) {
     Log({rule.of, "the fault rule failed: " + DescribeException(), fault.time});
   }

@@ -63,12 +63,12 @@ class FaultDispatcher {
   void MovePaths(const std::function<void(std::string& path)>& move);
 
   void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_release); }
-  void StopForFault() noexcept {
-    stopped_by_fault_.store(true, std::memory_order_release);
+  void EndForFault() noexcept {
+    ended_by_fault_.store(true, std::memory_order_release);
     RequestStop();
   }
   void ClearStop() noexcept {
-    stopped_by_fault_.store(false, std::memory_order_release);
+    ended_by_fault_.store(false, std::memory_order_release);
     stop_requested_.store(false, std::memory_order_release);
   }
   [[nodiscard]] bool stop_requested() const noexcept {
@@ -76,8 +76,8 @@ class FaultDispatcher {
   }
 
   /// A rule has requested it, whoever else has, too.
-  [[nodiscard]] bool stopped_by_fault() const noexcept {
-    return stopped_by_fault_.load(std::memory_order_acquire);
+  [[nodiscard]] bool ended_by_fault() const noexcept {
+    return ended_by_fault_.load(std::memory_order_acquire);
   }
 
   /// Notified of each fault.
@@ -94,7 +94,7 @@ class FaultDispatcher {
   std::atomic<FaultRecord*> raised_{nullptr};
   std::atomic<bool> is_dispatching_{false};
   std::atomic<bool> stop_requested_{false};
-  std::atomic<bool> stopped_by_fault_{false};
+  std::atomic<bool> ended_by_fault_{false};
   WakeEvent event_;
   OrderedMutex mutex_{LockLevel::kLeaf};
   Handler handler_;               // guarded by mutex_

@@ -56,7 +56,7 @@ std::string Scheduler::WhyAtRest(const FrameworkElement& element, Duration patie
   const internal::PlannedElement* const around = compiler_.FindAround(element);
   if (around == nullptr) return "";
   const std::string& path = around->element->path();
-  if (around->state->is_stopped()) return path + " has failed";
+  if (around->state->has_ended()) return path + " has failed";
   if (around->state->is_paused()) return path + " is paused";
   // On a simulated clock one thread runs all.
   const bool is_one_thread = options_.clock == SchedulerOptions::ClockKind::kSimulated;

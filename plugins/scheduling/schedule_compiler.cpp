@@ -279,7 +279,7 @@ void ScheduleCompiler::HandOver(PlannedElement& planned, ThreadSchedule& thread)
 void ScheduleCompiler::Release(FrameworkElement& element) noexcept {
   element.Visit([this](FrameworkElement& each) {
     const auto known = elements_.find(each.id());
-    if (known != elements_.end() && known->second.state) known->second.state->Stop();
+    if (known != elements_.end() && known->second.state) known->second.state->End();
   });
   Retry([&] {
     try {

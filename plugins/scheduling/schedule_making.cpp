@@ -95,7 +95,7 @@ ScheduleCompiler::Runners ScheduleCompiler::runners() const {
 
 bool ScheduleCompiler::IsStopped(const FrameworkElement& element) const {
   const auto known = elements_.find(element.id());
-  return known != elements_.end() && known->second.state->is_stopped();
+  return known != elements_.end() && known->second.state->has_ended();
 }
 
 void ScheduleCompiler::AddRunnersOf(FrameworkElement& element, Runners& runners) const {

@@ -54,7 +54,7 @@ BoundCall ScheduledElement::Watched(const Task& task, TaskWatch& watch) {
 
 void ScheduledElement::Fail(std::string_view message, CycleMoment now,
                             FaultDispatcher& faults) noexcept {
-  Stop();
+  End();
   if (!record_) return;
   if (traced_ && traced_->track != nullptr) traced_->track->NoteFault(traced_->number, message);
   record_->Fill(message, now.time, now.number);

@@ -29,7 +29,7 @@ struct CycleMoment {
 /// What the scheduler knows of one element that has tasks: whether it still runs, and whether data
 /// has come for it. Outlives changes of the schedule.
 ///
-/// Threads:  Fail(), is_stopped() and the note of the pass by the thread whose cycle has it (see
+/// Threads:  Fail(), has_ended() and the note of the pass by the thread whose cycle has it (see
 ///           schedule.h for how it changes); Wake() by any publisher; set_runner() under the
 ///           structure lock.
 /// Progress: wait-free. Allocation: in the constructor only.
@@ -41,8 +41,8 @@ class ScheduledElement final : public Waker {
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
-  /// Stops the element for good, whatever schedule has it. Any thread.
-  void Stop() noexcept { rest_.fetch_or(kStopped, std::memory_order_relaxed); }
+  /// Has cycles leave it out for good, whatever schedule has it. Any thread.
+  void End() noexcept { rest_.fetch_or(kEnded, std::memory_order_relaxed); }
   /// Has it left out of cycles, or lets it run again. Any thread.
   void SetPaused(bool is_paused) noexcept {
     is_paused ? rest_.fetch_or(kPaused, std::memory_order_relaxed)
@@ -53,15 +53,15 @@ class ScheduledElement final : public Waker {
   }
   /// Whether cycles leave it out.
   [[nodiscard]] bool is_at_rest() const noexcept {
-    // relaxed: as is_stopped(); one that is paused may run once more.
+    // relaxed: as has_ended(); one that is paused may run once more.
     return rest_.load(std::memory_order_relaxed) != 0;
   }
-  /// Stops it, too, and hands the fault in.
+  /// Ends it, too, and hands the fault in.
   void Fail(std::string_view message, CycleMoment now, FaultDispatcher& faults) noexcept;
-  [[nodiscard]] bool is_stopped() const noexcept {
+  [[nodiscard]] bool has_ended() const noexcept {
     // relaxed: the hand-over from thread to thread orders a fault, and the epoch that is waited for before
-    // an element is destroyed, Stop(); elsewhere it only informs.
-    return (rest_.load(std::memory_order_relaxed) & kStopped) != 0;
+    // an element is destroyed, End(); elsewhere it only informs.
+    return (rest_.load(std::memory_order_relaxed) & kEnded) != 0;
   }
 
   /// How long its runs of this phase take, while that is measured.
@@ -112,7 +112,7 @@ class ScheduledElement final : public Waker {
   const std::unique_ptr<TracedElement> traced_;
   std::vector<std::unique_ptr<WatchedTask>> watched_;  // cycles may be running any of them
   std::unique_ptr<FaultRecord> record_;                // until the element has failed
-  static constexpr std::uint8_t kStopped = 1;
+  static constexpr std::uint8_t kEnded = 1;
   static constexpr std::uint8_t kPaused = 2;
   std::atomic<std::uint8_t> rest_{0};
   std::atomic<bool> activated_{false};

@@ -67,7 +67,7 @@ struct SchedulerOptions {
 /// Ownership:  must be destroyed before the runtime. One per runtime.
 /// Threads:    Start, Stop, Step, RunUntil and NextDue from one thread at a time, outside of cycles
 ///             and without the structure lock; the rest from any thread outside of cycles.
-/// Errors:     a module that throws is stopped for good; the rest runs on (TakeFaults()).
+/// Errors:     a module that throws fails, and does not run again; the rest runs on (TakeFaults()).
 class Scheduler final : public ElementListener, public AssignmentListener {
  public:
   /// On a simulated clock, becomes the clock of the runtime.
@@ -89,7 +89,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   [[nodiscard]] Pace& pace() noexcept { return pace_; }
 
   /// kSimulated: runs the cycle that is due next and what its data sets off, as soon as the pace
-  /// allows it. False, with nothing run, if there is nothing to run or a stop has been requested.
+  /// allows it. False, with nothing run, if there is nothing to run or the end has been requested.
   bool Step();
   /// kSimulated: when Step() would run something; nullopt if there is nothing to run.
   [[nodiscard]] std::optional<Time> NextDue();
@@ -102,7 +102,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
     kCycle,    ///< one has run, and what its data set off
     kEnd,      ///< the clock shows `end`, or there is nothing to run and no end
     kTimeout,  ///< the pace has not allowed it in time; ask again
-    kStopped,  ///< a stop has been requested
+    kStopped,  ///< the end of the run has been requested
   };
   /// kSimulated: one Step() of a RunUntil(end), for those who have other things to do meanwhile: waits
   /// for the pace no longer than `timeout` of the machine's clock.
@@ -116,7 +116,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// does the scheduler forget that of the run before.
   [[nodiscard]] bool stop_requested() const noexcept { return faults_.stop_requested(); }
   /// A fault rule has requested it, whoever else has, too.
-  [[nodiscard]] bool stopped_by_fault() const noexcept { return faults_.stopped_by_fault(); }
+  [[nodiscard]] bool ended_by_fault() const noexcept { return faults_.ended_by_fault(); }
   /// Any thread, also from a signal handler.
   void RequestStop() noexcept { faults_.RequestStop(); }
 
@@ -149,7 +149,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// Of the thread that runs the element; nullopt if none does.
   struct Progress {
     std::uint64_t cycles = 0;  ///< that have begun
-    bool is_stopped = false;   ///< the element has thrown
+    bool has_failed = false;   ///< the element has thrown
   };
   [[nodiscard]] std::optional<Progress> ProgressOf(const std::string& path);
 
@@ -228,8 +228,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void SetWatchdog(Watchdog watchdog);
   /// kSimulated: what may hold simulated time back between cycles; on a real clock it is never asked.
   [[nodiscard]] Backpressure& backpressure() noexcept { return backpressure_; }
-  /// As a fault rule does: stop_requested() and stopped_by_fault() become true.
-  void StopForFault() noexcept { faults_.StopForFault(); }
+  /// As a fault rule does: stop_requested() and ended_by_fault() become true.
+  void EndForFault() noexcept { faults_.EndForFault(); }
 
   void OnReady(FrameworkElement& element) override;
   void OnDeleted(FrameworkElement& element) override;

@@ -112,7 +112,7 @@ void Scheduler::StartAll() {
 
 void Scheduler::Stop() {
   RUNNEL_CHECK(std::this_thread::get_id() != supervisor_.get_id(),
-               "a fault rule cannot stop the scheduler itself; call RequestStop()");
+               "a fault rule cannot end the scheduler itself; call RequestStop()");
   const std::lock_guard start_lock(start_mutex_);
   if (EndAll()) has_run_ = true;
 }

@@ -14,7 +14,7 @@ enum class CallStatus {
   kNotConnected,  ///< there was no service at the other end; nothing has been called
   kBusy,          ///< as many calls as client or service have room for are under way; nothing has been called
   kDisconnected,  ///< the service has been deleted, or is no longer connected
-  kFaulted,       ///< the module that serves has been stopped by a fault
+  kFaulted,       ///< the module that serves has failed
 };
 
 /// "answered", "timed_out", …

@@ -83,7 +83,7 @@ FrameworkElement* Probation::Successor(const Waiting& waiting) {
 bool Probation::HasProved(const Waiting& waiting) {
   if (Successor(waiting) == nullptr) return true;
   const auto progress = scheduler_.ProgressOf(waiting.replaced.path);
-  return !progress || (!progress->is_stopped && progress->cycles > waiting.until_cycle);
+  return !progress || (!progress->has_failed && progress->cycles > waiting.until_cycle);
 }
 
 // Memory comes before anything is taken out: what is lost on the way would be destroyed while others look at it.

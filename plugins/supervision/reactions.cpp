@@ -211,11 +211,11 @@ Result<void> Supervisor::Shared::CarryOut(KnownRule& rule, Which which, Reaction
   return done;
 }
 
-// What can be said of a reaction that failed is told; the application runs on as it is, and stops if it was to stop.
+// What can be said of a reaction that failed is told; the application runs on as it is, and ends if it was to end.
 void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& path,
                                const std::string& why, Time now, bool is_recovery, Where where) {
   const Reaction& given = rule.*which;
-  Reaction reaction{.stops_application = given.stops_application};
+  Reaction reaction{.ends_run = given.ends_run};
   // What only ends the run waits for no lock: the module that is stuck may have it.
   if (!given.published.empty() || !given.released.empty() || !given.changes.empty()) {
     const std::lock_guard lock(runtime.structure_mutex());
@@ -227,14 +227,14 @@ void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& 
   auto rest = [this, &rule, which, published, reaction = std::move(reaction), notice = Notice{path, why, now, false, is_recovery}]() mutable {
     const auto carried_out = Attempt([&] { return CarryOut(rule, which, reaction, notice.time); });
     const Result<void>& done = published ? carried_out : published;
-    if (reaction.stops_application) scheduler.StopForFault();
+    if (reaction.ends_run) scheduler.EndForFault();
     notice.is_failure = !done;
     if (!done) {
       notice.message += "; what was to be done about it failed: " + done.error().ToString();
     } else if (!reaction.description.empty()) {
       notice.message += "; " + reaction.description;
     }
-    if (reaction.stops_application) notice.message += "; stops the application";
+    if (reaction.ends_run) notice.message += "; ends the run";
     Note(std::move(notice));
   };
   if (where == Where::kHere) return rest();

@@ -23,11 +23,11 @@ struct Reaction {
   std::vector<SafeValue> published = {};
   std::vector<std::string> released = {};  ///< paths of ports whose readers find again what is published
   ChangeSet changes = {};
-  bool stops_application = false;
+  bool ends_run = false;
   std::string description = {};  ///< in the past: "switched /a/in from /b/out to /c/out"
 
   [[nodiscard]] bool is_empty() const noexcept {
-    return published.empty() && released.empty() && changes.empty() && !stops_application;
+    return published.empty() && released.empty() && changes.empty() && !ends_run;
   }
   /// `move` is called with each path, and with the description.
   void MovePaths(const std::function<void(std::string& path)>& move);
@@ -42,7 +42,7 @@ struct SupervisionRule {
   enum class When {
     kStale,   ///< an input brings nothing new. Watched are the outputs that feed it when the rule is added, so that the
               ///< rule can switch it to others and still sees the first ones come back; of an output, that output itself
-    kFault,   ///< a module has thrown and has been stopped
+    kFault,   ///< a module has thrown, and so has failed
     kStuck,   ///< a module does not return from its cycle; it goes on when it returns
     kPaused,  ///< somebody has paused modules (Supervisor::SetPaused()): done once they stand still
   };

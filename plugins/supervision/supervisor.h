@@ -24,7 +24,7 @@ class StopButton;
 ///             times per time-out.
 /// Time:       the application's clock, so in simulated time the same thing happens in the same cycle
 ///             in every run.
-/// Ownership:  destroy it after the scheduler has stopped; runtime and scheduler must outlive it.
+/// Ownership:  destroy it after the cycles have ended; runtime and scheduler must outlive it.
 class Supervisor {
  public:
   /// How changes are carried out: all of them, with what takes them back, or none with the reason. Called outside of cycles

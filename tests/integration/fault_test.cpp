@@ -17,7 +17,7 @@ ApplicationChoice WithFaultyRelay(const std::string& rule) {
                       {"from=\"eyes/surroundings\" to=\"planner/surroundings\"",
                        "from=\"eyes/surroundings\" to=\"relay/in\"/> <connect from=\"relay/out\" "
                        "to=\"planner/surroundings\""},
-                      {"<on_fault of=\".\" action=\"stop_application\"/>", rule}},
+                      {"<on_fault of=\".\" action=\"quit\"/>", rule}},
           .arguments = {"world=" RUNNEL_XML "/worlds/open.xml", "picture="},
           .limit = std::chrono::seconds(15)};
 }
@@ -41,7 +41,7 @@ TEST(Fault, StopsItsModuleAloneAndTheGateStopsTheRobot) {
 
 TEST(Fault, StopsTheApplicationWhereItSaysSo) {
   const auto run =
-      RunApplication(WithFaultyRelay("<on_fault of=\"robot\" action=\"stop_application\"/>"));
+      RunApplication(WithFaultyRelay("<on_fault of=\"robot\" action=\"quit\"/>"));
   EXPECT_TRUE(run.was_stopped);
   EXPECT_FALSE(run.outcome);
   EXPECT_LT(run.duration, std::chrono::milliseconds(5200));

@@ -99,7 +99,7 @@ TEST_F(RunningTime, EndsInOrderByASignalInAPause) {
   program.Send(SIGINT);
   const Ended ended = program.Wait();
   EXPECT_EQ(ended.code, kDone);
-  EXPECT_THAT(ended.text, HasSubstr("stopped by the user\nsimulated 0.00 s"));
+  EXPECT_THAT(ended.text, HasSubstr("ended by the user\nsimulated 0.00 s"));
 }
 
 TEST_F(RunningTime, IsOverAtTheEndAndBeginsAgainWhenAsked) {

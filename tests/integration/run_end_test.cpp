@@ -67,7 +67,7 @@ TEST_F(RunEnd, LeavesALogIfOneIsWanted) {
   std::ifstream stream(log);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   EXPECT_THAT(text, AllOf(HasSubstr("0.020 s  warning  /app/a: 2 cycles are enough\n"),
-                          HasSubstr("/app/a: has been stopped: the worker is worn out")));
+                          HasSubstr("/app/a: has failed: the worker is worn out")));
   std::filesystem::remove(log);
 
   const Ended refused = Runnel("run --duration 0.1 --log /no/such/folder/log " + file);
@@ -95,12 +95,12 @@ TEST_F(RunEnd, ByAFaultIsAFailure) {
   for (const std::string& clock : {real_, simulated_}) {
     const Ended ended = Runnel("run " + Write(clock, "period='10ms'", R"(
 <module name="a" type="faulty/worker"><parameter name="good_cycles" value="2"/></module>
-<on_fault of="a" action="stop_application"/>)"));
+<on_fault of="a" action="quit"/>)"));
     EXPECT_EQ(ended.code, kRunFailed);
     EXPECT_THAT(ended.text,
                 AllOf(HasSubstr(file_.string() +
-                                ":6:1: error: /app/a: has been stopped: the worker is worn out"),
-                      HasSubstr("the run was stopped because of a fault")));
+                                ":6:1: error: /app/a: has failed: the worker is worn out"),
+                      HasSubstr("the run was ended because of a fault")));
   }
 }
 
@@ -109,11 +109,11 @@ TEST_F(RunEnd, LeavesTimeToBringTheRobotToRestOnTheRealClock) {
   const Ended ended = Runnel("run " + Write(real_, "period='100ms'", R"(
 <module name="second" type="faulty/worker"/>
 <module name="first" type="faulty/worker"><parameter name="good_cycles" value="2"/></module>
-<on_fault of="first" action="stop_application"/>
+<on_fault of="first" action="quit"/>
 <on_fault of="first" set="second/good_cycles" value="0"/>)"));
   EXPECT_EQ(ended.code, kRunFailed);
-  EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/first: has been stopped"),
-                                HasSubstr("/app/second: has been stopped")));
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/first: has failed"),
+                                HasSubstr("/app/second: has failed")));
 }
 
 TEST_F(RunEnd, ByAnySignalIsInOrder) {
@@ -124,7 +124,7 @@ TEST_F(RunEnd, ByAnySignalIsInOrder) {
     program.Send(signal);
     const Ended ended = program.Wait();
     EXPECT_EQ(ended.code, kDone) << ended.text;
-    EXPECT_THAT(ended.text, HasSubstr("stopped by the user"));
+    EXPECT_THAT(ended.text, HasSubstr("ended by the user"));
     EXPECT_TRUE(std::filesystem::exists(picture_));
   }
 }
@@ -136,7 +136,7 @@ TEST_F(RunEnd, BySignalAsSoonAsItIsHandledIsInOrder) {
   program.Send(SIGINT);
   const Ended ended = program.Wait();
   EXPECT_EQ(ended.code, kDone);
-  EXPECT_THAT(ended.text, HasSubstr("stopped by the user"));
+  EXPECT_THAT(ended.text, HasSubstr("ended by the user"));
 }
 
 TEST_F(RunEnd, ByASecondSignalDoesNotWaitForModulesAndByAThirdForNothing) {
@@ -152,7 +152,7 @@ TEST_F(RunEnd, ByASecondSignalDoesNotWaitForModulesAndByAThirdForNothing) {
 TEST_F(RunEnd, ByASignalAfterAFaultIsStillAFailure) {
   Program program("run " + Write(real_, "period='10ms'", R"(
 <module name="a" type="faulty/worker"><parameter name="good_cycles" value="2"/></module>
-<on_fault of="a" action="stop_application"/>)"));
+<on_fault of="a" action="quit"/>)"));
   EXPECT_TRUE(program.WaitFor("worn out"));
   program.Send(SIGINT);
   EXPECT_EQ(program.Wait().code, kRunFailed);
@@ -175,7 +175,7 @@ TEST_F(RunEnd, ByASignalWinsOverARestart) {
     std::ofstream(go_on) << "\n";
     const Ended ended = program.Wait();
     EXPECT_EQ(ended.code, kDone) << ended.text;
-    EXPECT_THAT(ended.text, AllOf(HasSubstr("stopped by the user"), Not(HasSubstr("the time is up"))));
+    EXPECT_THAT(ended.text, AllOf(HasSubstr("ended by the user"), Not(HasSubstr("the time is up"))));
     unsetenv("XDG_RUNTIME_DIR");
   }
 }
@@ -230,7 +230,7 @@ TEST_F(RunEnd, ComesWhenTheModuleThatWouldJudgeItHasBeenStopped) {
     const Ended ended = Runnel("run " + Write(clock, "period='10ms'", R"(
 <module name="judge" type="faulty/monitor"><parameter name="throws_in" value="update"/></module>)"));
     EXPECT_EQ(ended.code, kRunFailed);
-    EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/judge: has been stopped: thrown in update"),
+    EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/judge: has failed: thrown in update"),
                                   HasSubstr("finished")));
   }
 }

@@ -60,10 +60,10 @@ TEST_F(StuckAndCrash, AStuckModuleIsNamedAndTheRestDoesWhatTheFileSays) {
 }
 
 TEST_F(StuckAndCrash, AStuckModuleCanEndTheRunAndItsRecordingIsWhole) {
-  Write(kHangs, R"(<on_stuck of="." after="50ms"><stop/></on_stuck>)");
+  Write(kHangs, R"(<on_stuck of="." after="50ms"><quit/></on_stuck>)");
   const Ended ended = Runnel(Run() + " --record " + Path("run.mcap") + " --log " + Path("log"));
   EXPECT_EQ(ended.code, kRunFailed) << ended.text;
-  EXPECT_THAT(ended.text, HasSubstr("the run was stopped because of a fault"));
+  EXPECT_THAT(ended.text, HasSubstr("the run was ended because of a fault"));
   EXPECT_THAT(TextOf(Path("log")), HasSubstr("/demo/worker: has not returned from its cycle"));
   const Ended info = Runnel("info " + Path("run.mcap"));
   EXPECT_EQ(info.code, kDone);
@@ -72,7 +72,7 @@ TEST_F(StuckAndCrash, AStuckModuleCanEndTheRunAndItsRecordingIsWhole) {
 
 TEST_F(StuckAndCrash, WhatWouldReplaceAStuckModuleIsRefusedAtOnce) {
   Write(kHangs, R"(<on_stuck of="worker" after="50ms">
-                     <replace module="worker" by="faulty/worker"/> <stop/> </on_stuck>)");
+                     <replace module="worker" by="faulty/worker"/> <quit/> </on_stuck>)");
   const Ended ended = Runnel(Run());
   EXPECT_EQ(ended.code, kRunFailed);
   EXPECT_THAT(ended.text, HasSubstr("one of its modules does not return from its cycle"));
@@ -128,11 +128,11 @@ TEST_F(StuckAndCrash, OnASimulatedClockASecondSignalEndsWhatIsStuckInOrder) {
 }
 
 TEST_F(StuckAndCrash, OnASimulatedClockAStuckModuleCanEndTheRunToo) {
-  Write(kHangs, std::string(kSimulated) + R"(<on_stuck of="." after="50ms"><stop/></on_stuck>)");
+  Write(kHangs, std::string(kSimulated) + R"(<on_stuck of="." after="50ms"><quit/></on_stuck>)");
   const Ended ended = Runnel(Run());
   EXPECT_EQ(ended.code, kRunFailed);
   EXPECT_THAT(ended.text,
-              AllOf(HasSubstr(kTold), HasSubstr("is stuck; stops the application"),
+              AllOf(HasSubstr(kTold), HasSubstr("is stuck; ends the run"),
                     HasSubstr("/demo/worker: has still not returned; the program ends")));
 }
 

@@ -256,7 +256,7 @@ void BindApplication(py::module_& module) {
         return WithoutGil(open, [&](Application& it) { return std::pair(it.report().Verdicts(), it.report().IsGood()); });
       })
       .def_property_readonly("is_running", [](const Open& open) { return !open->is_closed && open->application->is_running(); },
-                             "start() has been called, and it has not been stopped since.")
+                             "start() has been called, and the run has not ended since.")
       .def_property_readonly("name", [](const Open& open) { return Use(*open)->name(); })
       .def_property_readonly("file", [](const Open& open) { return Use(*open)->file(); }, "Where it came from; '' if from no file.")
       .def_property_readonly("time", [](const Open& open) {

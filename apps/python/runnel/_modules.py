@@ -98,7 +98,7 @@ class Module:
     period = 0.05
 
     def update(self):
-        """Called in each cycle. What it throws stops this module alone, and is a fault."""
+        """Called in each cycle. What it throws is a fault, by which this module alone fails."""
         raise NotImplementedError("update() is missing")
 
     def make_ports(self):

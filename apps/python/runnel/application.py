@@ -186,7 +186,7 @@ class Application(_extension.Application):
             return "<runnel.Application, closed>"
 
     def close(self):
-        """Stops, finishes recordings, and lets go of everything. What was read stays valid. Idempotent.
+        """Ends the run, finishes recordings, and lets go of everything. What was read stays valid. Idempotent.
 
         Waits for calls under way in other threads; those that wait or run cycles end, and raise, as do all later ones. Raises
         in update() and other parts of a module, and in a signal handler that comes in a call: quit() ends that.

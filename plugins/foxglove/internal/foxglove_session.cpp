@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
+#include "plugins/command_service/request_table.h"
 #include "plugins/foxglove/internal/robot_stop_access.h"
 
 namespace runnel::internal {
@@ -20,6 +21,8 @@ constexpr std::size_t kMostPublications = 100;
 // Of binary messages: what it is, and the channel or service.
 constexpr std::size_t kHead = 5;
 constexpr char kMessageData = 1, kServiceCall = 2;
+
+WebRole RoleFor(std::string_view request) { return WebRoleNamed(FindRequest(request).value()->role).value(); }
 
 }  // namespace
 
@@ -84,7 +87,7 @@ void FoxgloveSession::OnText(std::string_view message) {
 
 void FoxgloveSession::OnBinary(std::string_view message) {
   if (!message.empty() && message[0] == kServiceCall) {
-    return calls_.Begin(message, shared_->RoleOf(client_) >= WebRole::kDrive, CheckIsMeant());
+    return calls_.Begin(message, shared_->RoleOf(client_) >= RoleFor("call"), CheckIsMeant());
   }
   if (message.size() < kHead || message[0] != kMessageData) {
     return SendError({.message = "there is no binary message of this kind here",
@@ -96,7 +99,7 @@ void FoxgloveSession::OnBinary(std::string_view message) {
     (void)SetStop(*shared_, kStopName, message.substr(kHead));
     return;
   }
-  if (!MayDo(WebRole::kDrive, "publishing")) return;
+  if (!MayDo(RoleFor("publish"), "publishing")) return;
   if (found == publications_.end()) {
     return SendError({.message = "channel " + std::to_string(id) + " is not advertised"});
   }
@@ -139,7 +142,7 @@ void FoxgloveSession::Advertise(const AdvertiseMessage::Channel& channel, bool& 
     publications_[channel.id] = nullptr;
     return;
   }
-  if (!MayDo(WebRole::kDrive, AdvertiseMessage::kName)) return;
+  if (!MayDo(RoleFor("publish"), AdvertiseMessage::kName)) return;
   const auto content = shared_->directory.content();
   const auto input = content->inputs.find(channel.topic);
   if (input == content->inputs.end()) {
@@ -196,7 +199,7 @@ void FoxgloveSession::FollowStructure() {
     subscriptions_.Retain(*content);
     if (!gone.empty()) send_queue_.Send(UnadvertiseMessageFor(gone));
     DropPublications(*content);
-    calls_.Follow(*content, shared_->RoleOf(client_) >= WebRole::kDrive);
+    calls_.Follow(*content, shared_->RoleOf(client_) >= RoleFor("call"));
     if (has_graph_ && content->graph != graph_) {
       send_queue_.Send(GraphMessage(graph_, content->graph));
       graph_ = content->graph;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 #include <variant>
 
@@ -73,17 +74,19 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
   return CommandRequest(std::move(request));
 }
 
-CommandOrErrors MakePublish(ViewerMessage& message) {
-  PublishRequest publish{message.path, message.value, message.rate};
-  // Of what no duration can hold the service says so.
-  if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
-  publish.lease = message.lease;
-  publish.received = message.received;
-  return CommandRequest(std::move(publish));
-}
-
-CommandOrErrors MakeDescribed(std::string_view name, const RequestFields& fields, const ViewerMessage& message) {
-  auto made = MakeRequest(name, fields, message.client);
+// By the table: its fields are members of the message.
+CommandOrErrors MakeDescribed(ViewerMessage& message) {
+  RequestFields fields;
+  const std::map<std::string_view, const std::string*> texts{
+      {"path", &message.path}, {"value", &message.value}, {"lease", &message.lease}, {"plugin", &message.plugin}, {"level", &message.level}};
+  for (const RequestField& field : FindRequest(message.op).value()->fields) {
+    const auto text = texts.find(field.name);
+    const auto number = field.name == "rate" ? message.rate : field.name == "deadline" ? message.deadline : std::nullopt;
+    if (number) fields.emplace(field.name, *number);
+    if (text != texts.end() && (field.is_required || !text->second->empty())) fields.emplace(field.name, *text->second);
+  }
+  auto made = MakeRequest(message.op, fields, message.client);
+  if (auto* const publish = made ? std::get_if<PublishRequest>(&*made) : nullptr) publish->received = message.received;
   return made ? CommandOrErrors(std::move(*made)) : std::vector<RequestError>{{made.error()}};
 }
 
@@ -242,10 +245,8 @@ ViewerRequest AtOnce(Inspection& inspection, ViewerMessage message, std::functio
 // Of all of it at once, of modules by the service.
 ViewerRequest PauseOrResume(Inspection& inspection, ViewerMessage message,
                             std::function<void()> on_done) {
-  if (message.path.empty())
-    return AtOnce<SetPace>(inspection, std::move(message), std::move(on_done));
-  PauseRequest pause{message.path, message.op == "pause"};
-  return BeginCommand(inspection, message, CommandRequest(std::move(pause)), std::move(on_done));
+  const auto begin = message.path.empty() ? AtOnce<SetPace> : ByService<MakeDescribed>;
+  return begin(inspection, std::move(message), std::move(on_done));
 }
 
 ViewerRequest Save(Inspection& inspection, ViewerMessage message, std::function<void()> on_done) {
@@ -284,37 +285,31 @@ std::string Refusal(std::optional<std::uint64_t> request, const std::vector<Requ
 
 std::span<const Operation> AllOperations() {
   using enum WebRole;
-  using Message = ViewerMessage;
-  static constexpr std::array kAll{
+  static const std::array all{
       Operation("watch", kLook, nullptr), Operation("unwatch", kLook, nullptr),
       Operation("watch_rates", kLook, nullptr), Operation("alive", kLook, nullptr),
       Operation("compatible", kLook, ByWorker<FindCompatible>),
       Operation("conversions", kLook, ByWorker<FindConversions>),
       Operation("panel", kLook, ByWorker<ReadPanel>),
-      Operation("stop", kLook, ByService<[](Message& of) { return CommandRequest(RobotStopRequest{true, of.client}); }>),
-      Operation("publish", kDrive, ByService<MakePublish>),
-      Operation("release", kDrive, ByService<[](Message& of) { return MakeDescribed("release", {{"path", of.path}}, of); }>),
-      Operation("block", kDrive, ByService<[](Message& of) { return CommandRequest(BlockRequest{of.path}); }>),
-      Operation("call", kDrive, BeginCallRequest), Operation("abort", kDrive, ByWorker<AbortCall>),
-      // Who drives may stop all of it and let it go on, but not leave out one module, which may be what
-      // keeps the robot from colliding.
-      Operation("pause", kDrive, kChange, PauseOrResume),
-      Operation("resume", kDrive, kChange, PauseOrResume),
-      Operation("change", kChange, ByService<ReadChanges>),
-      Operation("undo", kChange, ByService<[](Message&) { return CommandRequest(UndoRequest{}); }>),
-      Operation("redo", kChange, ByService<[](Message&) { return CommandRequest(RedoRequest{}); }>),
-      Operation("save", kChange, Save), Operation("save_panel", kChange, ByWorker<SavePanel>),
-      Operation("arrange", kChange, Arrange), Operation("step", kChange, AtOnce<SetPace>),
-      Operation("speed", kChange, AtOnce<SetPace>),
-      Operation("reload", kChange, ByService<[](Message& of) { return CommandRequest(ReloadRequest{of.plugin}); }>),
-      Operation("log_level", kChange, ByService<[](Message& of) {
-                  return MakeDescribed("log", {{"path", of.path.empty() ? "/" : of.path}, {"level", of.level}}, of); }>),
-      Operation("profile", kChange, ByWorker<SetProfiled>),
-      Operation("latency", kChange, ByWorker<SetLatency>),
-      Operation("preview", kChange, ByWorker<PreviewSave>),
-      Operation("restart", kChange, ByService<[](Message& of) { return CommandRequest(RestartRequest{of.path}); }>),
-      Operation("quit", kChange, ByService<[](Message&) { return CommandRequest(QuitRequest{}); }>)};
-  return kAll;
+      Operation("stop", ByService<MakeDescribed>), Operation("release", ByService<MakeDescribed>),
+      Operation("block", ByService<MakeDescribed>), Operation("publish", ByService<MakeDescribed>),
+      Operation("call", BeginCallRequest), Operation("abort", kDrive, ByWorker<AbortCall>),
+      Operation("pause", PauseOrResume), Operation("resume", PauseOrResume),
+      Operation("change", ByService<ReadChanges>), Operation("undo", ByService<MakeDescribed>),
+      Operation("redo", ByService<MakeDescribed>), Operation("save", Save),
+      Operation("save_panel", kChange, ByWorker<SavePanel>), Operation("arrange", kChange, Arrange),
+      Operation("step", AtOnce<SetPace>), Operation("speed", AtOnce<SetPace>),
+      Operation("reload", ByService<MakeDescribed>), Operation("log", ByService<MakeDescribed>),
+      Operation("profile", kChange, ByWorker<SetProfiled>), Operation("latency", kChange, ByWorker<SetLatency>),
+      Operation("preview", kChange, ByWorker<PreviewSave>), Operation("restart", ByService<MakeDescribed>),
+      Operation("quit", ByService<MakeDescribed>)};
+  return all;
+}
+
+Operation::Operation(std::string_view its_name, Begin its_begin) : Operation(its_name, WebRole::kChange, its_begin) {
+  const DescribedRequest& described = *FindRequest(its_name).value();
+  role_of_modules = WebRoleNamed(described.role).value();
+  role = described.role_of_whole.empty() ? role_of_modules : WebRoleNamed(described.role_of_whole).value();
 }
 
 const Operation* FindOperation(std::string_view name) {
@@ -323,8 +318,7 @@ const Operation* FindOperation(std::string_view name) {
 }
 
 WebRole RoleFor(const Operation& operation, const ViewerMessage& message) {
-  return message.path.empty() ? operation.role
-                              : std::max(operation.role, operation.role_of_modules);
+  return message.path.empty() ? operation.role : operation.role_of_modules;
 }
 
 }  // namespace runnel::internal

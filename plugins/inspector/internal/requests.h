@@ -37,11 +37,10 @@ struct Operation {
   using Begin = ViewerRequest (*)(Inspection& inspection, ViewerMessage message,
                                   std::function<void()> on_done);
   // Not an aggregate: what has no role does not compile. Without `its_begin` it is the session's and gets no reply.
-  constexpr Operation(std::string_view its_name, WebRole of_all, WebRole of_modules,
-                      Begin its_begin)
-      : name(its_name), role(of_all), role_of_modules(of_modules), begin(its_begin) {}
-  constexpr Operation(std::string_view its_name, WebRole its_role, Begin its_begin)
-      : Operation(its_name, its_role, its_role, its_begin) {}
+  Operation(std::string_view its_name, WebRole its_role, Begin its_begin)
+      : name(its_name), role(its_role), role_of_modules(its_role), begin(its_begin) {}
+  /// Of the table of requests, which says the role.
+  Operation(std::string_view its_name, Begin its_begin);
 
   std::string_view name;
   WebRole role;             ///< that is needed for it

@@ -108,7 +108,7 @@ test('a port is offered from its menu, and no more', async (t) => {
   await page.locator('#offer').click();
   await page.locator('.port.offered[data-port="/follower/gate/output/allowed"]').waitFor();
   await port.locator('circle').click({ button: 'right' });
-  await page.getByRole('menuitem', { name: 'Stop offering /go' }).click();
+  await page.getByRole('menuitem', { name: 'Offer as /go no more' }).click();
   await page.locator('.port.offered').waitFor({ state: 'detached' });
   await page.keyboard.press('Control+z');
   await page.locator('.port.offered[data-port="/follower/gate/output/allowed"]').waitFor();

@@ -59,7 +59,7 @@ test('an application that must only be watched shows everything and offers no ch
 
 test('a module that throws is marked, counted, and told with its reason', async (t) => {
   const { file } = await DemoFile(t, (text) => Replaced(Replaced(kSlow(text), '<parameter name="seed" value="1" command_line="seed"/>',
-    '<parameter name="fails_at" value="1"/> <parameter name="fails_loudly" value="true"/>'), '<on_fault of="." action="stop_application"/>', ''));
+    '<parameter name="fails_at" value="1"/> <parameter name="fails_loudly" value="true"/>'), '<on_fault of="." action="quit"/>', ''));
   const application = await RunApplication(t, file);
   const inspector = await OpenPage(t, application.url);
   const { page } = inspector;

@@ -142,7 +142,7 @@ function LabelOf([{ change, path, value, from, to, type }]) {
 export function ModuleElements(catalogue, type, path, { thread = null } = {}) {
   const module = catalogue.modules.find((candidate) => candidate.type === type);
   if (!module) throw new Error(`the mock has no module type '${type}'`);
-  const elements = [{ path, kind: 'module', type, summary: module.summary, thread, stopped: null }];
+  const elements = [{ path, kind: 'module', type, summary: module.summary, thread, failure: null }];
   for (const port of module.ports) {
     elements.push({ path: `${path}/${port.name}`, kind: 'port', name: port.name, direction: port.direction,
       data_type: port.type, interface: false, required: port.required ?? false, pullable: port.pullable ?? false,

@@ -49,13 +49,13 @@ test('an input that is not required matters if its module has no other source, a
   assert.ok(dependents.includes('/mock/world'));
 });
 
-test('alarms: stopped modules, required inputs without a source, outputs that have fallen silent', () => {
+test('alarms: failed modules, required inputs without a source, outputs that have fallen silent', () => {
   const structure = Robot((told) => {
-    told.elements.find(({ path }) => path === '/mock/laser').stopped = 'sensor gone';
+    told.elements.find(({ path }) => path === '/mock/laser').failure = 'sensor gone';
     told.connections = told.connections.filter(({ to }) => to !== '/mock/robot/goal');
   });
   const alarms = AlarmsOf(structure, new Map([['/mock/world/pose', 12], ['/mock/world/map', 3]]));
-  assert.deepEqual(alarms.map(({ kind, path }) => `${kind} ${path}`), ['stopped /mock/laser', 'unconnected /mock/robot/planner/goal',
+  assert.deepEqual(alarms.map(({ kind, path }) => `${kind} ${path}`), ['failed /mock/laser', 'unconnected /mock/robot/planner/goal',
     'silent /mock/world/pose'], 'nobody misses the map');
   const counts = CountByElement(alarms);
   assert.equal(counts.get('/mock'), 3);

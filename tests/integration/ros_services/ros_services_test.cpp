@@ -142,7 +142,7 @@ TEST_F(ServicesOfRos, TellHowTheApplicationIs) {
   ASSERT_TRUE(node.WaitFor("level 0 house: modules: no fault"));
   ASSERT_TRUE(node.WaitFor("house: thread control: "));
   EXPECT_EQ(Runnel("set /lamp/is_broken true").code, kDone);
-  EXPECT_TRUE(node.WaitFor("level 2 house: modules: 1 stopped by a fault"));
+  EXPECT_TRUE(node.WaitFor("level 2 house: modules: 1 failed"));
   EXPECT_TRUE(node.WaitFor("level 2 house: /house/lamp: the wire is through"));
 }
 

@@ -139,7 +139,7 @@ TEST(ApplicationRunning, TellsOfFaults) {
   const auto events = application->TakeEvents();
   ASSERT_THAT(events, SizeIs(1));
   EXPECT_EQ(events[0].kind, ApplicationEvent::Kind::kFault);
-  EXPECT_THAT(events[0].text, HasSubstr("/counting/judge: has been stopped: that is too much"));
+  EXPECT_THAT(events[0].text, HasSubstr("/counting/judge: has failed: that is too much"));
   ASSERT_TRUE(events[0].fault);
   EXPECT_EQ(events[0].fault->path, "/counting/judge");
   EXPECT_THAT(application->TakeEvents(), IsEmpty());

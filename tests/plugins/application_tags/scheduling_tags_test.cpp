@@ -183,7 +183,7 @@ TEST_F(SchedulingTags, SayWhatHappensOnFaults) {
       <on_fault of="bomb" set="../source/gain" value="7"/>
     </group>
     <module name="source" type="test/source"/>
-    <on_fault of="robot" action="stop_application"/>
+    <on_fault of="robot" action="quit"/>
   </application>)");
   ASSERT_TRUE(application) << diagnostics.ToString();
   const auto* const rules = application->FindAnnotation<RunRules>();
@@ -221,7 +221,7 @@ TEST_F(SchedulingTags, AFaultRuleWhoseParameterIsGoneIsReported) {
 TEST_F(SchedulingTags, TellWhatIsWrongWithFaultRules) {
   EXPECT_EQ(Errors(R"(<application name="demo">
   <module name="source" type="test/source"/>
-  <on_fault of="sorce" action="stop_application"/>
+  <on_fault of="sorce" action="quit"/>
   <on_fault of="source"/>
   <on_fault of="source" set="source/gain"/>
   <on_fault of="source" set="source/gain" value="70"/>
@@ -231,7 +231,7 @@ TEST_F(SchedulingTags, TellWhatIsWrongWithFaultRules) {
 </application>)"),
             "app.xml:3:17: error: /demo: there is no 'sorce' in /demo; did you mean 'source'?\n"
             "app.xml:4:3: error: /demo: <on_fault> must say one thing that is to be done; write "
-            "either action=\"stop_application\" or set=\"…\" value=\"…\"\n"
+            "either action=\"quit\" or set=\"…\" value=\"…\"\n"
             "app.xml:5:3: error: /demo: <on_fault> does not say to which value; add value=\"…\"\n"
             "app.xml:6:50: error: /demo/source/parameter/gain: 70 m is out of bounds; allowed is 0 "
             ".. 10 m\n"

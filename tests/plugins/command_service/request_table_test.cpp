@@ -31,6 +31,7 @@ TEST(RequestTable, EachRequestSaysWhatItNeeds) {
     EXPECT_THAT(std::string(each.example), ::testing::StartsWith(std::string(each.name)));
     EXPECT_FALSE(each.help.empty());
     EXPECT_TRUE(each.role == "look" || each.role == "drive" || each.role == "change") << each.name;
+    EXPECT_TRUE(each.role_of_whole.empty() || each.role_of_whole == "drive") << each.name;
     RequestFields fields;
     for (const RequestField& field : each.fields) {
       if (!field.is_required) continue;
@@ -42,6 +43,10 @@ TEST(RequestTable, EachRequestSaysWhatItNeeds) {
   }
   EXPECT_EQ((*FindRequest("stop"))->role, "look") << "anybody may press";
   EXPECT_EQ((*FindRequest("release"))->role, "drive");
+  for (const char* const name : {"pause", "resume"}) {
+    EXPECT_EQ((*FindRequest(name))->role, "change") << name << " of a module, which may be what keeps the robot from colliding";
+    EXPECT_EQ((*FindRequest(name))->role_of_whole, "drive") << name;
+  }
 }
 
 TEST(RequestTable, SaysWhatMayLetSomethingMove) {

@@ -152,7 +152,7 @@ TEST_F(ControlTest, NamesWhatIsNearestToWhatIsWrong) {
 }
 
 TEST_F(ControlTest, KeepsALogOfFaultsAndChanges) {
-  log.Add(ApplicationLog::Kind::kFault, "/app/a: has been stopped: boom\n");
+  log.Add(ApplicationLog::Kind::kFault, "/app/a: has failed: boom\n");
   ASSERT_EQ(Change("set /a/parameter/speed 4").code, 0);
   ASSERT_EQ(Change("set /a/parameter/speed 44").code, 2);
   const auto other = modules.Create("test/counter", **runtime.root().Find("/app"), "other");
@@ -160,7 +160,7 @@ TEST_F(ControlTest, KeepsALogOfFaultsAndChanges) {
   ASSERT_TRUE(runtime.MakeReady(**other));
   const Told told = Ask("log");
   EXPECT_EQ(told.code, 0);
-  EXPECT_THAT(told.output, HasSubstr("fault    /app/a: has been stopped: boom\n"));
+  EXPECT_THAT(told.output, HasSubstr("fault    /app/a: has failed: boom\n"));
   EXPECT_THAT(told.output, HasSubstr("change   set /a/parameter/speed 4\n"));
   EXPECT_THAT(told.output, HasSubstr("change   refused: set /a/parameter/speed 44\n"));
   EXPECT_THAT(told.output, HasSubstr("change   put in /app/other (test/counter)\n"));

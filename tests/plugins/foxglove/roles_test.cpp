@@ -1,5 +1,6 @@
 // Every operation of the protocol, by clients of every role.
 
+#include "plugins/command_service/request_table.h"
 #include "plugins/foxglove/internal/client_message.h"
 #include "tests/plugins/foxglove/foxglove_fixture.h"
 
@@ -25,6 +26,10 @@ constexpr std::array kCases{
     Case{R"({"op":"subscribeConnectionGraph"})", WebRole::kLook},
 };
 static_assert(kCases.size() == std::variant_size_v<ClientMessage>);
+
+TEST(OperationsOfFoxglove, TakeTheRoleOfTheTable) {
+  EXPECT_EQ(WebRoleName(SetParametersMessage::kRole), FindRequest("set").value()->role);
+}
 
 TEST_F(FoxgloveTest, EveryOperationIsForItsRolesOnly) {
   for (std::size_t i = 0; i < kCases.size(); ++i) {

@@ -52,12 +52,12 @@ TEST_F(Changing, LogLevelsAreSetAndToldToAllViewers) {
     };
   };
   other.Next(levels(Json::object()), "state without levels");
-  const Json reply = viewer.Ask({{"op", "log_level"}, {"path", "/app/a"}, {"level", "debug"}});
+  const Json reply = viewer.Ask({{"op", "log"}, {"path", "/app/a"}, {"level", "debug"}});
   EXPECT_EQ(reply["text"], "/app/a: logs debug and more");
   other.Next(levels({{"/app/a", "debug"}}), "state with the level");
-  viewer.Ask({{"op", "log_level"}, {"path", "/app/a"}, {"level", "inherit"}});
+  viewer.Ask({{"op", "log"}, {"path", "/app/a"}, {"level", "inherit"}});
   other.Next(levels(Json::object()), "state without levels again");
-  const Json wrong = viewer.Ask({{"op", "log_level"}, {"path", "/app/a"}, {"level", "debgu"}});
+  const Json wrong = viewer.Ask({{"op", "log"}, {"path", "/app/a"}, {"level", "debgu"}});
   EXPECT_THAT(wrong["errors"][0]["message"], HasSubstr("debug"));
 }
 

@@ -168,7 +168,7 @@ TEST_F(ViewersStopOvertakes, WhatOnlyStopsOrWritesIsCarriedOutAllTheSame) {
                                {{"op", "resume"}},
                                {{"op", "step"}},
                                {{"op", "change"}, {"changes", {quiet}}},
-                               {{"op", "log_level"}, {"path", "/app/a"}, {"level", "debug"}},
+                               {{"op", "log"}, {"path", "/app/a"}, {"level", "debug"}},
                                {{"op", "block"}, {"path", kIn}},
                                {{"op", "pause"}, {"path", "/app/a"}}};
   std::vector<Json> messages = late;

@@ -239,18 +239,18 @@ TEST_F(SimulatedViewing, ShowsWhichModulesHaveBeenStoppedAndWhy) {
   Start();
   Apply("create /app/broken test/failing");
   Viewer viewer = View();
-  EXPECT_EQ(viewer.Element("/app/broken")["stopped"], nullptr);
+  EXPECT_EQ(viewer.Element("/app/broken")["failure"], nullptr);
   scheduler.RunUntil(Time(10ms));
   for (const Fault& fault : scheduler.TakeFaults()) {
     log.Add(ApplicationLog::Kind::kFault, "a text", fault.path, fault.message);
   }
   log.Add(ApplicationLog::Kind::kFault, "replaced by the supervisor", "/app/a", "");
-  EXPECT_EQ(viewer.Element("/app/broken")["stopped"], "is worn out");
+  EXPECT_EQ(viewer.Element("/app/broken")["failure"], "is worn out");
   EXPECT_EQ(View().Next("state")["faults"], 2);
-  EXPECT_EQ(View().Element("/app/broken")["stopped"], "is worn out");
-  EXPECT_EQ(View().Element("/app/a")["stopped"], nullptr);
+  EXPECT_EQ(View().Element("/app/broken")["failure"], "is worn out");
+  EXPECT_EQ(View().Element("/app/a")["failure"], nullptr);
   Apply("replace /app/broken with test/counter");
-  EXPECT_EQ(viewer.Element("/app/broken")["stopped"], nullptr);
+  EXPECT_EQ(viewer.Element("/app/broken")["failure"], nullptr);
 }
 
 }  // namespace

@@ -169,7 +169,7 @@ TEST_F(RealThreads, HeedAStopThatWasRequestedBeforeTheyStarted) {
   scheduler.RequestStop();
   const Running running(scheduler);
   EXPECT_TRUE(scheduler.stop_requested());
-  EXPECT_FALSE(scheduler.stopped_by_fault());
+  EXPECT_FALSE(scheduler.ended_by_fault());
   scheduler.Stop();
   EXPECT_TRUE(scheduler.stop_requested());
   const Running again(scheduler);

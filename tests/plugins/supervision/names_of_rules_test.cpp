@@ -51,7 +51,7 @@ constexpr const char* kRules = R"(<application name="demo">
     <otherwise><switch input="g/sink/in" from="g/b/out" to="g/a/out"/></otherwise>
   </on_stale>
   <on_pause of="g/a"><publish port="g/sink/in" value="9"/></on_pause>
-  <on_stuck of="g/a" after="60min"><stop/></on_stuck>
+  <on_stuck of="g/a" after="60min"><quit/></on_stuck>
   <latency from="g/a/out" to="g/sink/out"/>
   <on_fault of="g/b" set="g/a/number" value="5"/>
 </application>)";

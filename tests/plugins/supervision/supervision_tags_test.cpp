@@ -37,7 +37,7 @@ TEST_F(SupervisionTags, MakeRulesThatSwitchSetAndReplace) {
       "  <set parameter=\"b/gain\" value=\"2\"/>"
       "  <otherwise><switch input=\"sink/value\" from=\"b/value\" to=\"a/value\"/></otherwise>"
       "</on_stale>"
-      "<on_fault of=\"a\"><replace module=\"a\" by=\"test/source\"/><stop/></on_fault>");
+      "<on_fault of=\"a\"><replace module=\"a\" by=\"test/source\"/><quit/></on_fault>");
   ASSERT_THAT(errors, IsEmpty());
   Scheduler scheduler(workshop.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
   std::vector<ChangeSet> done;
@@ -122,11 +122,11 @@ TEST_F(SupervisionTags, MakeRulesOfModulesThatDoNotReturn) {
 }
 
 TEST_F(SupervisionTags, TellWhatIsWrongWithTheirPlace) {
-  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/valve\" after=\"30ms\"><stop/></on_stale>"),
+  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/valve\" after=\"30ms\"><quit/></on_stale>"),
               AllOf(HasSubstr("app.xml:1:"), HasSubstr("did you mean 'value'?")));
-  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/second\" after=\"1s\"><stop/></on_stale>"),
+  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/second\" after=\"1s\"><quit/></on_stale>"),
               HasSubstr("nothing is connected"));
-  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/value\" after=\"soon\"><stop/></on_stale>"),
+  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/value\" after=\"soon\"><quit/></on_stale>"),
               HasSubstr("'soon'"));
   EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/value\" after=\"1s\"/>"),
               HasSubstr("does not say what is to be done"));
@@ -147,10 +147,16 @@ TEST_F(SupervisionTags, TellWhatIsWrongWithTheirPlace) {
       HasSubstr("test/source"));
   EXPECT_THAT(workshop.ErrorsOf("<on_stuck of=\"nobody\" after=\"1s\"/>"), HasSubstr("nobody"));
   EXPECT_THAT(workshop.ErrorsOf("<on_stuck of=\"a\" after=\"0s\"/>"), HasSubstr("not longer"));
-  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"nobody\"><stop/></on_fault>"), HasSubstr("nobody"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"nobody\"><quit/></on_fault>"), HasSubstr("nobody"));
   EXPECT_THAT(
-      workshop.ErrorsOf("<on_fault of=\"a\" action=\"stop_application\"><stop/></on_fault>"),
+      workshop.ErrorsOf("<on_fault of=\"a\" action=\"quit\"><quit/></on_fault>"),
       HasSubstr("one thing"));
+}
+
+TEST_F(SupervisionTags, AWordOfBeforeIsRefusedWithTheNewOne) {
+  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"a\"><stop/></on_fault>"), HasSubstr("what ends the run is called <quit/> now"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"a\" action=\"stop_application\"/>"),
+              HasSubstr("'stop_application' is not possible for action; there is 'quit'"));
 }
 
 }  // namespace

@@ -75,12 +75,12 @@ TEST_F(Supervised, AModuleThatThrowsIsAnsweredAtOnce) {
 
 TEST_F(Supervised, AReactionMayEndTheRun) {
   SupervisionRule rule = robot.SwitchingRule();
-  rule.reaction = {.stops_application = true};
+  rule.reaction = {.ends_run = true};
   MustSucceed(robot.supervisor.Add(rule));
   robot.laser_works = false;
   EXPECT_FALSE(robot.scheduler.RunUntil(At(1000)));
-  EXPECT_TRUE(robot.scheduler.stopped_by_fault());
-  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("stops the application")));
+  EXPECT_TRUE(robot.scheduler.ended_by_fault());
+  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("ends the run")));
 }
 
 TEST_F(Supervised, WhatCannotBeDoneIsToldAndTheRestRunsOn) {
@@ -154,7 +154,7 @@ TEST_F(Supervised, ARuleThatTakesItsValueBackLeavesWhatAnotherOneHolds) {
 TEST_F(Supervised, AReactionThatThrowsKeepsNeitherOthersNorTheEndOfTheRunAway) {
   Supervisor throwing(robot.runtime, robot.scheduler, [](const ChangeSet&) -> Result<ChangeSet> { throw std::runtime_error("no memory"); });
   SupervisionRule rule = robot.SwitchingRule();
-  rule.reaction.stops_application = true;
+  rule.reaction.ends_run = true;
   MustSucceed(throwing.Add(rule));
   robot.laser_works = false;
   EXPECT_FALSE(robot.scheduler.RunUntil(At(200)));

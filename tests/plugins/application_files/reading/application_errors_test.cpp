@@ -200,7 +200,7 @@ TEST(ApplicationErrors, OfAPluginAreTheOnlyOnesOfWhatItWouldHaveBrought) {
   </group>
   <module name="drive" type="simulation/drive"/>
   <connect from="robot/twist" to="drive/twist"/>
-  <on_stale input="robot/sink/value" after="1s"><stop module="robot/sink"/></on_stale>
+  <on_stale input="robot/sink/value" after="1s"><quit module="robot/sink"/></on_stale>
 </application>)"),
               ::testing::StartsWith("app.xml:2:17: error: /demo: no plugin 'simulatoin' in "));
   EXPECT_EQ(workshop.diagnostics.errors().size(), 1u) << workshop.diagnostics.ToString();

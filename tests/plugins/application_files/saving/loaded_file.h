@@ -31,7 +31,7 @@ inline const char* const kFile = R"(<?xml version="1.0"?>
   </group>
 
   <connect from="source/value" to="inner/in"/>
-  <on_fault of="inner/filter" action="stop_application"/>
+  <on_fault of="inner/filter" action="quit"/>
 </application>
 <!-- the end -->
 )";

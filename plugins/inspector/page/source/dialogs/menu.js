@@ -3,7 +3,7 @@
 import { html } from 'htm/preact';
 import { CanBeDeleted, IsGroup, ParentOf } from '../model/structure.js';
 import { IsFar } from '../model/network.js';
-import { CreateGroup, Reload, StopOffering } from '../state/actions.js';
+import { CreateGroup, Reload, RemoveOffer } from '../state/actions.js';
 import { DeleteCarefully, DisconnectCarefully } from '../state/careful.js';
 import { IsOpen, SetAllOpen, chosen, openDialog } from '../state/choices.js';
 import { CopyChosen, DuplicateChosen, PasteCopied } from '../state/clipboard.js';
@@ -58,7 +58,7 @@ function MenuItems(path) {
 function OfferItems({ path, direction, far, offers, interface: isInterface }, open) {
   if (network.value === null || far || (direction === 'input' && !isInterface)) return [];
   return [{ text: 'Offer in the network …', changes: true, action: open('offer') },
-    ...(offers ?? []).map(({ topic }) => ({ text: `Stop offering ${topic}`, changes: true, action: () => StopOffering(path, topic) }))];
+    ...(offers ?? []).map(({ topic }) => ({ text: `Offer as ${topic} no more`, changes: true, action: () => RemoveOffer(path, topic) }))];
 }
 
 /** Of others, too. */

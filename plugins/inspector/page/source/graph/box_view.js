@@ -27,9 +27,9 @@ export const BoxView = memo(({ box }) => {
   const isFaint = useComputed(() => selectedThread.value !== null && selectedThread.value !== thread);
   const count = useComputed(() => AlarmCount(path)).value;
   const isGroup = element.kind !== 'module';
-  const isAlarmed = element.stopped || count > 0;
+  const isAlarmed = element.failure || count > 0;
   const hasSign = !isGroup && DrawingOf(path) !== undefined;
-  const classes = ['box', element.kind, element.far && 'far', element.far && !element.is_there && 'absent', isSelected.value && 'selected', element.stopped && 'stopped', count > 0 && 'alarmed', element.paused && 'paused',
+  const classes = ['box', element.kind, element.far && 'far', element.far && !element.is_there && 'absent', isSelected.value && 'selected', element.failure && 'failed', count > 0 && 'alarmed', element.paused && 'paused',
     isFaint.value && 'faint'].filter(Boolean).join(' ');
   return html`
     <g class=${classes} transform=${`translate(${box.x},${box.y})`} data-node=${path} id=${NodeId(path)}
@@ -95,7 +95,7 @@ export function DescribeBox({ element, hidden, open, inputs, outputs }, thread) 
   if (element.kind !== 'module' && !element.far) parts.push(open ? 'open' : `folded, ${hidden} modules`);
   parts.push(Count(inputs.length, 'input'), Count(outputs.length, 'output'));
   if (thread) parts.push(`thread ${thread}`);
-  if (element.stopped) parts.push(`stopped: ${element.stopped}`);
+  if (element.failure) parts.push(`failed: ${element.failure}`);
   return parts.join(', ');
 }
 

@@ -1,19 +1,19 @@
-// What is wrong with an application as it is now: modules that have stopped, required inputs that get
+// What is wrong with an application as it is now: modules that have failed, required inputs that get
 // nothing from anywhere, outputs that have fallen silent.
 
 import { OriginsOf } from './origin.js';
 import { NameOf, ParentOf } from './structure.js';
 
 /**
- * [{path, owner, kind: 'stopped' | 'unconnected' | 'silent', text}], the worst first; `path` is of a module or a
+ * [{path, owner, kind: 'failed' | 'unconnected' | 'silent', text}], the worst first; `path` is of a module or a
  * port, `owner` of the module. `silent`: Map port path -> since when, in seconds.
  */
 export function AlarmsOf(structure, silent) {
-  const stopped = [];
+  const failed = [];
   const unconnected = [];
   for (const element of structure.elements.values()) {
-    if (element.kind === 'module' && element.stopped) {
-      stopped.push({ path: element.path, owner: element.path, kind: 'stopped', text: `has stopped: ${element.stopped}` });
+    if (element.kind === 'module' && element.failure) {
+      failed.push({ path: element.path, owner: element.path, kind: 'failed', text: `has failed: ${element.failure}` });
     } else if (LacksSource(structure, element)) {
       unconnected.push({ path: element.path, owner: element.owner, kind: 'unconnected',
         text: `${element.name} is required and has no source` });
@@ -22,7 +22,7 @@ export function AlarmsOf(structure, silent) {
   const quiet = [...silent].filter(([path]) => structure.get(path) && structure.connectionsOf(path).length > 0)
     .map(([path, since]) => ({ path, owner: structure.get(path).owner, kind: 'silent',
       text: `${NameOf(path)} has published nothing since ${since.toFixed(1)} s` }));
-  return [...stopped, ...unconnected, ...quiet];
+  return [...failed, ...unconnected, ...quiet];
 }
 
 /** Whether it is a required input of a module that nothing can come to, not even through groups around it, or is waited for. */

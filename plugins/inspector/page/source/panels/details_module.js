@@ -34,7 +34,7 @@ export function ModuleDetails({ element }) {
     <${Title} kind=${isGroup ? 'group' : element.type} name=${element.name} path=${path}>
       ${(element.summary || element.description) && html`<p class="summary">${element.summary || element.description}</p>`}
       <${NoteLine} path=${path} /><//>
-    ${element.stopped && html`<p class="trouble" role="alert"><strong>Fault:</strong> ${element.stopped}</p>`}
+    ${element.failure && html`<p class="trouble" role="alert"><strong>Fault:</strong> ${element.failure}</p>`}
     <${AlarmList} path=${path} />
     <div class="actions">
       ${!isGroup && html`<${ActionButton} id="swap" icon="swap" text="Swap" disabled=${locked}
@@ -82,7 +82,7 @@ export function ModuleDetails({ element }) {
         ${AlarmCount(member) > 0 && html`<span class="badge bad">${AlarmsAt(member).map(({ kind }) => kAlarmWords[kind]).join(', ')}</span>`}</li>`)}</ul><//>`}`;
 }
 
-const kAlarmWords = { stopped: 'stopped', unconnected: 'without a source', silent: 'silent' };
+const kAlarmWords = { failed: 'failed', unconnected: 'without a source', silent: 'silent' };
 
 /** Words for whoever looks at it, separated by blanks: Enter sets them. */
 function Tags({ path, tags }) {

@@ -11,7 +11,7 @@ export function ProfileTable() {
   const { on, tasks, latencies } = profile.value;
   const byShare = [...tasks].sort((a, b) => b.share - a.share);
   return html`<div class="profile">
-    <div class="actions"><${ActionButton} id="profile" icon="follow" text=${on ? 'Stop measuring' : 'Measure modules'}
+    <div class="actions"><${ActionButton} id="profile" icon="follow" text=${on ? 'End measuring' : 'Measure modules'}
         disabled=${!canChange.value} onClick=${() => SetProfiled(!on)} /></div>
     <${ChainRow} />
     ${latencies.map((latency) => html`<p class="latency" key=${`${latency.from} ${latency.to}`}>

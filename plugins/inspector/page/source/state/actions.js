@@ -57,7 +57,7 @@ export async function Connect(from, to, { part = '', convert = '' } = {}) {
 export const Offer = (path, settings) => Apply([Change.offer(path, settings)], `offer ${Brief(path)}`, { quiet: true });
 /** What others write; `settings`: as texts, by the words of <take>. */
 export const Take = (topic, path, settings) => Apply([Change.take(topic, path, settings)], `take ${topic}`, { quiet: true });
-export const StopOffering = (path, topic) => Apply([Change.offer(path, { topic, remove: 'true' })], `stop offering ${Brief(path)}`);
+export const RemoveOffer = (path, topic) => Apply([Change.offer(path, { topic, remove: 'true' })], `offer ${Brief(path)} no more`);
 
 export async function Disconnect(from, to) {
   const reply = await Apply([Change.disconnect(from, to)], `disconnect ${Brief(from)} from ${Brief(to)}`);
@@ -156,7 +156,7 @@ export function MoveToThread(path, thread) {
 }
 
 /** `level`: debug, info, warning, error, off, or inherit. */
-export const SetLogLevel = (path, level) => Ask({ op: 'log_level', path, level }, `Could not set what ${NameOf(path)} logs`);
+export const SetLogLevel = (path, level) => Ask({ op: 'log', path, level }, `Could not set what ${NameOf(path)} logs`);
 export const SetProfiled = (on) => Ask({ op: 'profile', on }, `Could not ${on ? 'begin' : 'end'} measuring`);
 /** How old what comes of one output at another one is: measured, or no more. */
 export const SetLatency = (from, to, on) => Ask({ op: 'latency', from, to, on }, `Could not ${on ? 'measure' : 'end measuring'} from ${Brief(from)} to ${Brief(to)}`);
