@@ -21,6 +21,7 @@ namespace internal {
 
 namespace {
 constexpr Duration kLookForPort = std::chrono::milliseconds(50);
+constexpr Duration kStuckAfter = std::chrono::seconds(1);
 }  // namespace
 
 /// Beside the tree, as no part of the application.
@@ -31,8 +32,8 @@ class ButtonElement final : public FrameworkElement {
   ProbePort probe;
 };
 
-StopButton::StopButton(Runtime& runtime, StopButtonRule rule, Tell tell)
-    : runtime_(runtime), rule_(std::move(rule)), tell_(std::move(tell)) {
+StopButton::StopButton(Runtime& runtime, const Scheduler& scheduler, StopButtonRule rule, Tell tell)
+    : runtime_(runtime), scheduler_(scheduler), rule_(std::move(rule)), tell_(std::move(tell)) {
   {
     const std::lock_guard lock(runtime_.structure_mutex());
     Port& port = **PathSearch(runtime_).FindPort(rule_.port, PathKind::kOutput);
@@ -83,12 +84,17 @@ bool StopButton::LookForPort() {
   if (!sources.empty()) {
     rule_.port = sources.front()->path();
     is_gone_ = false;
-    // Of many values at once the queue may have had no room for the one that counts.
+    // Of many values at once the queue may have had no room for the one that counts, and others may have released.
     bool is_down = false;
     const auto look = [&](const void* value, ValueTimes) { is_down = NumberIn(element_->probe.type(), value) != 0; };
-    if (!is_covered_ && sources.front()->VisitLatest(look) && is_down && !std::exchange(is_down_, true)) Press(rule_.port);
+    if (!is_covered_ && sources.front()->VisitLatest(look) && is_down) {
+      const bool is_new = !std::exchange(is_down_, true);
+      if (is_new || !runtime_.robot_stop().in_force()) Press(rule_.port);
+    }
     // Whoever presses the button itself is not heard then.
     if (is_covered_ && !was_covered) Press(rule_.port + ", which is set by hand");
+    const std::string why = scheduler_.WhyAtRest(*sources.front(), kStuckAfter);
+    if (!std::exchange(is_at_rest_, !why.empty()) && is_at_rest_) Press(rule_.port + ", as " + why);
     return true;
   }
   if (!is_gone_) Press(rule_.port + ", which is gone");

@@ -10,6 +10,7 @@
 
 #include "core/element/runtime.h"
 #include "core/port/port.h"
+#include "plugins/scheduling/scheduler.h"
 #include "plugins/supervision/supervision_rules.h"
 
 namespace runnel {
@@ -21,15 +22,16 @@ namespace internal {
 
 class ButtonElement;
 
-/// Presses the STOP of the robot for each value that is not 0 at a port; follows the port through renames and swaps. When
-/// the port is gone, or set by hand, nobody can press any more: that presses, too.
+/// Presses the STOP of the robot for each value that is not 0 at a port, and again if somebody else releases it while that is
+/// the newest; follows the port through renames and swaps. When the port is gone, set by hand, or its module does not run,
+/// nobody can press any more: that presses, too.
 ///
 /// Threads: has one of its own, which waits for values, and for no lock. Construct and destroy outside of cycles.
 class StopButton {
  public:
   using Tell = std::function<void(Notice)>;
   /// Precondition: the port is there, and good.
-  StopButton(Runtime& runtime, StopButtonRule rule, Tell tell);
+  StopButton(Runtime& runtime, const Scheduler& scheduler, StopButtonRule rule, Tell tell);
   ~StopButton();
   StopButton(const StopButton&) = delete;
   StopButton& operator=(const StopButton&) = delete;
@@ -42,6 +44,7 @@ class StopButton {
   void Press(const std::string& by);
 
   Runtime& runtime_;
+  const Scheduler& scheduler_;
   StopButtonRule rule_;  // with the path where the port is now
   const Tell tell_;
   std::unique_ptr<ButtonElement> element_;
@@ -49,6 +52,7 @@ class StopButton {
   std::optional<std::uint64_t> let_go_;  // RobotStop::State::requests then; nobody could look yet whether that was by the button itself
   bool is_covered_ = false;  // by a value by hand
   bool is_gone_ = false;
+  bool is_at_rest_ = false;  // its module
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

@@ -188,7 +188,7 @@ Result<void> Supervisor::Add(StopButtonRule rule) {
   if (!port) return port.error();
   if (auto good = CheckStopButton(**port); !good) return good;
   buttons_.push_back(std::make_unique<internal::StopButton>(
-      shared_->runtime, std::move(rule), [shared = shared_](Notice notice) { shared->Note(std::move(notice)); }));
+      shared_->runtime, scheduler_, std::move(rule), [shared = shared_](Notice notice) { shared->Note(std::move(notice)); }));
   return {};
 }
 

@@ -76,6 +76,22 @@ TEST_F(StopButtonTest, WhereItReleasesOnlyLettingGoDoes) {
   EXPECT_EQ(runtime.robot_stop().state().changes, 2u) << "by the 0 after the 1, and not by those before";
 }
 
+TEST_F(StopButtonTest, AsLongAsItIsDownNobodyElseReleases) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
+  Press(1);
+  WaitForStop("the button /app/panel/output/out");
+  ASSERT_TRUE(runtime.robot_stop().Release("the test"));
+  WaitUntil("it is pressed again", [&] { return runtime.robot_stop().state().changes >= 3; });
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+}
+
+TEST_F(StopButtonTest, ItPressesWhenItsModuleDoesNotRun) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
+  MustSucceed(supervisor.SetPaused("/app/panel", true));
+  WaitForStop("/app/panel is paused");
+  ASSERT_TRUE(runtime.robot_stop().Release("the test")) << "it is told once";
+}
+
 // More at once than wait for whoever takes them one by one.
 TEST_F(StopButtonTest, IsHeardAfterABurst) {
   MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
