@@ -1,5 +1,6 @@
 #include "apps/runnel/end_watch.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -22,12 +23,12 @@ static_assert(std::atomic<Scheduler*>::is_always_lock_free, "a signal handler mu
 // The first one ends the run, the second has the program end in order, the third ends it at once.
 void Handle(int) {
   const bool is_last = signals.fetch_add(1) > 0;
-  for (const int signal : EndSignal::kSignals) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction current {};
     sigaction(signal, nullptr, &current);
     if (is_last && current.sa_handler == Handle) std::signal(signal, SIG_DFL);
   }
-  // All of them seq_cst: either the destructor sees this handler, or this sees that there is nothing to
+  // All of them seq_cst: either who leaves the scheduler sees this handler, or this sees that there is nothing to
   // stop any more.
   handlers.fetch_add(1);
   if (Scheduler* scheduler = to_be_ended.load()) scheduler->RequestStop();
@@ -40,94 +41,108 @@ constexpr Duration kPatience = std::chrono::milliseconds(800);
 
 }  // namespace
 
-EndSignal::EndSignal(Scheduler& scheduler) {
-  signals.store(0);
-  to_be_ended.store(&scheduler);
-  struct sigaction action {};
-  action.sa_handler = Handle;
-  for (std::size_t i = 0; i < kSignals.size(); ++i) {
-    sigaction(kSignals[i], nullptr, &before_[i]);
-    if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
-  }
+EndWatch::~EndWatch() {
+  thread_ = {};
+  for (const auto& [signal, action] : before_) sigaction(signal, &action, nullptr);
 }
 
-EndSignal::~EndSignal() {
-  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
-  to_be_ended.store(nullptr);
+void EndWatch::Begin(Application& application, std::function<void()> print, std::function<void()> rescue) {
+  application_ = &application;
+  print_ = std::move(print);
+  rescue_ = std::move(rescue);
+  signals.store(0);
+  to_be_ended.store(&application.scheduler());
+  struct sigaction action {};
+  action.sa_handler = Handle;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    sigaction(signal, nullptr, &before_[signal]);
+    if (before_[signal].sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
+  thread_ = std::jthread([this](const std::stop_token& stop) { Run(stop); });
+}
+
+void EndWatch::WaitFor(std::string what) {
+  const std::lock_guard lock(mutex_);
+  if (awaited_.empty()) seen_ = std::min(signals.load(), 1);
+  awaited_ = std::move(what);
   // The scheduler may go after this; a handler that has found it is about to end.
+  to_be_ended.store(nullptr);
   while (handlers.load() != 0) std::this_thread::yield();
 }
 
-bool EndSignal::has_come() noexcept { return signals.load() > 0; }
-
-bool EndSignal::has_come_again() noexcept { return signals.load() > 1; }
-
-EndWatch::EndWatch(Application& application, std::function<void()> print,
-                   std::function<void()> rescue)
-    : application_(application),
-      print_(std::move(print)),
-      rescue_(std::move(rescue)),
-      thread_([this](const std::stop_token& stop) { Run(stop); }) {}
+bool EndWatch::has_come() noexcept { return signals.load() > 0; }
 
 void EndWatch::Run(const std::stop_token& stop) {
   Duration since_asked{};
   for (; !stop.stop_requested(); std::this_thread::sleep_for(kLook)) {
-    print_();
-    if (EndSignal::has_come_again()) Leave();
-    since_asked = application_.scheduler().stop_requested() ? since_asked + kLook : Duration{};
+    const std::lock_guard lock(mutex_);
+    const int come = signals.load();
+    if (awaited_.empty()) {
+      print_();
+      if (come > 1) Leave(application_->scheduler().StuckModules());
+      since_asked = application_->scheduler().stop_requested() ? since_asked + kLook : Duration{};
+    } else if (come > std::exchange(seen_, come)) {
+      if (!told_.empty()) Leave({});
+      since_asked = kPatience + kLook;
+    } else {
+      since_asked += kLook;
+    }
     if (since_asked > kPatience) Look();
   }
 }
 
 void EndWatch::Look() {
-  const Scheduler& scheduler = application_.scheduler();
-  const auto stuck = scheduler.StuckModules();
-  if (!stuck.empty() && scheduler.ended_by_fault()) Leave();
-  std::string waits = stuck.empty() ? "the run is still coming to its end" : "the run waits for ";
-  for (const StuckModule& each : stuck) {
-    waits += (&each != &stuck.front() ? ", " : "") + each.path;
+  std::string waits = "the run waits for ";
+  if (!awaited_.empty()) {
+    waits += awaited_ + " to come to its end";
+  } else if (const auto stuck = application_->scheduler().StuckModules(); stuck.empty()) {
+    waits = "the run is still coming to its end";
+  } else {
+    if (application_->scheduler().ended_by_fault()) Leave(stuck);
+    for (const StuckModule& each : stuck) {
+      waits += (&each != &stuck.front() ? ", " : "") + each.path;
+    }
+    waits += " to return from its cycle";
   }
-  if (!stuck.empty()) waits += " to return from its cycle";
   if (waits == std::exchange(told_, waits)) return;
   std::cerr << waits << "; Ctrl-C again ends the program\n" << std::flush;
 }
 
-// What a thread that does not end uses cannot be destroyed.
-void EndWatch::Leave() {
-  for (const StuckModule& each : application_.scheduler().StuckModules()) {
-    PrintError(
-        {.message = "has still not returned; the program ends without it", .path = each.path});
+void EndWatch::Leave(const std::vector<StuckModule>& stuck) {
+  for (const StuckModule& each : stuck) {
+    PrintError({.message = "has still not returned; the program ends without it", .path = each.path});
   }
-  rescue_();
-  print_();
+  if (awaited_.empty()) {
+    rescue_();
+    print_();
+  } else if (stuck.empty()) {
+    PrintError({.message = awaited_ + " has still not come to its end; the program ends without it"});
+  }
   (void)FinishOutput();
   std::_Exit(static_cast<int>(ExitCode::kRunFailed));
 }
 
-std::string EndOwnThreads(Runtime& runtime) {
-  constexpr Duration kTold = std::chrono::milliseconds(800);
+void EndWatch::EndThreads() {
   constexpr Duration kLongest = std::chrono::seconds(5);
-  std::string told;
   for (Duration waited{};; waited += kLook) {
     std::string at_work;
     {
-      const auto lock = TryStructureLock(runtime, kLook);
+      const auto lock = TryStructureLock(application_->runtime(), kLook);
       const auto tell = [&](const FrameworkElement& each) {
         at_work += (at_work.empty() ? "a call of " : ", ") + each.parent()->path();
       };
-      if (lock && OwnThread::AskToEnd(runtime.root(), tell)) return {};
+      if (lock && OwnThread::AskToEnd(application_->runtime().root(), tell)) break;
       if (!lock) at_work = "what changes the structure";
     }
-    if (waited >= kLongest) return at_work;
-    if (waited >= kTold && at_work != std::exchange(told, at_work)) {
-      std::cerr << "the run waits for " << at_work << " to come to its end; Ctrl-C again ends the program\n"
-                << std::flush;
-    }
+    WaitFor(at_work);
+    if (waited >= kLongest) Leave({});
     std::this_thread::sleep_for(kLook);
   }
+  WaitFor("one of its connections or extensions");
+  if (const auto stuck = application_->scheduler().StuckModules(); !stuck.empty()) Leave(stuck);
 }
 
-void RunControl::AddHooks(Application& application, ServiceHooks& hooks) {
+void EndWatch::AddHooks(Application& application, ServiceHooks& hooks) {
   hooks.quit = [this, &application]() -> Result<std::string> {
     is_asked_ = true;
     application.RequestStop();

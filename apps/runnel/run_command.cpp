@@ -80,34 +80,32 @@ class LogFile {
 // One run of an application that has been loaded.
 class Session {
  public:
-  Session(const RunArguments& arguments, Application& application, const RunControl& control)
+  Session(const RunArguments& arguments, Application& application, EndWatch& watch)
       : arguments_(arguments),
         application_(application),
-        control_(control),
+        watch_(watch),
         report_(application.report()),
         display_(!arguments.quiet) {
     if (!arguments.log_file.empty()) log_file_.emplace(arguments.log_file);
   }
 
   ExitCode Run() {
+    watch_.Begin(application_, [this] { PrintEvents(); }, [this] { FinishFiles(); });
     const auto failure = log_file_ ? log_file_->Failure() : std::nullopt;
     if (failure) return Fail(*failure, ExitCode::kBadInput);
-    const EndSignal end_signal(application_.scheduler());
     RunOptions options;
     if (arguments_.duration) options.limit = FromSeconds(*arguments_.duration);
     options.is_over = [this](Duration so_far) {
       LookAround(so_far);
       return false;
     };
-    const EndWatch end_watch(
-        application_, [this] { PrintEvents(); }, [this] { FinishFiles(); });
     const auto real_start = std::chrono::steady_clock::now();
     const auto ran = RunReportingCrashes(options);
     const auto real = std::chrono::steady_clock::now() - real_start;
     PrintEvents();
     ClearProgress();
     if (!ran) return Fail(ran.error().WithPosition(arguments_.application.file), ExitCode::kBadInput);
-    const bool was_asked = EndSignal::has_come() || control_.is_asked();
+    const bool was_asked = EndWatch::has_come() || watch_.is_asked();
     const ExitCode code = Conclude(*ran, real, was_asked);
     const auto is_held = [](const auto& extension) { return extension->IsHeld(); };
     if (!was_asked && std::ranges::any_of(application_.extensions(), is_held)) Hold();
@@ -125,7 +123,7 @@ class Session {
   // What has come of the run can still be looked at.
   void Hold() const {
     std::cout << "held for viewers; Ctrl-C ends it, 'runnel restart' runs it again\n" << std::flush;
-    while (!EndSignal::has_come() && !control_.is_asked()) std::this_thread::sleep_for(kLookForSignal);
+    while (!EndWatch::has_come() && !watch_.is_asked()) std::this_thread::sleep_for(kLookForSignal);
   }
 
   void LookAround(Duration so_far) {
@@ -192,7 +190,7 @@ class Session {
   std::string WhyItEnded(bool has_failed, bool was_asked) {
     if (has_failed) return "the run was ended because of a fault\n";
     if (application_.is_deleted()) return "the application has been deleted\n";
-    if (control_.shall_restart() && !EndSignal::has_come()) return "the run ends, to begin again\n";
+    if (watch_.shall_restart() && !EndWatch::has_come()) return "the run ends, to begin again\n";
     if (was_asked) return "ended by the user\n";
     return report_.IsOver() || !MonitorsDecide() ? "" : "the time is up\n";
   }
@@ -226,7 +224,7 @@ class Session {
 
   const RunArguments& arguments_;
   Application& application_;
-  const RunControl& control_;
+  EndWatch& watch_;
   RunReport& report_;
   ProgressDisplay display_;
   std::mutex printing_;  // before the next one
@@ -255,19 +253,6 @@ ApplicationOptions OptionsOf(const RunArguments& arguments) {
   if (arguments.application.file.empty()) options.clock = ClockKind::kSimulated;
   options.extensions_by_name = arguments.extensions;
   return options;
-}
-
-// A thread that does not end can be left, but what it uses cannot be destroyed: the process ends without.
-void LeaveIfStuck(Application& application) {
-  const auto stuck = application.scheduler().StuckModules();
-  const std::string at_work = EndOwnThreads(application.runtime());
-  if (stuck.empty() && at_work.empty()) return;
-  for (const StuckModule& each : stuck) {
-    PrintError({.message = "has still not returned; the program ends without it", .path = each.path});
-  }
-  if (!at_work.empty()) PrintError({.message = at_work + " has still not come to its end; the program ends without it"});
-  (void)FinishOutput();
-  std::_Exit(static_cast<int>(ExitCode::kRunFailed));
 }
 
 // What the file would be refused for, if it were loaded now.
@@ -304,18 +289,18 @@ struct RunOutcome {
 };
 
 RunOutcome RunOnce(const RunArguments& arguments) {
-  const auto control = std::make_shared<RunControl>([&arguments] { return CheckFile(arguments); });
+  const auto watch = std::make_shared<EndWatch>([&arguments] { return CheckFile(arguments); });
   ApplicationOptions options = OptionsOf(arguments);
-  options.extensions.push_back(control);
+  options.extensions.push_back(watch);
   const LoadedApplication application = Application::Load(arguments.application.file, std::move(options));
   std::cerr << Coloured(application.diagnostics().ToString(), STDERR_FILENO);
   if (!application) return {ExitCode::kBadInput};
   for (const auto& extension : application->extensions()) std::cout << extension->StartText();
   std::cout << std::flush;
-  const ExitCode code = Session(arguments, *application, *control).Run();
-  LeaveIfStuck(*application);
-  // Who has sent a signal wants it to end, whoever wants it to begin again.
-  return {code, control->shall_restart() && !EndSignal::has_come()};
+  Session session(arguments, *application, *watch);
+  const ExitCode code = session.Run();
+  watch->EndThreads();
+  return {code, watch->shall_restart()};
 }
 
 }  // namespace
@@ -323,7 +308,8 @@ RunOutcome RunOnce(const RunArguments& arguments) {
 ExitCode Run(const RunArguments& arguments) {
   if (const auto preloaded = PreloadAll(arguments.preloads); !preloaded) return Fail(preloaded.error());
   RunOutcome outcome = RunOnce(arguments);
-  while (outcome.shall_restart) outcome = RunOnce(ArgumentsOfNextRun(arguments));
+  // Who has sent a signal wants it to end, whoever wants it to begin again.
+  while (outcome.shall_restart && !EndWatch::has_come()) outcome = RunOnce(ArgumentsOfNextRun(arguments));
   return outcome.code;
 }
 

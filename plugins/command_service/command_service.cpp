@@ -187,19 +187,24 @@ CommandAnswer CommandService::End(const char* name, const char* what, const std:
   return AnswerOf(end());
 }
 
-// What has a stuck module between it and its safe value. Nobody's lock is waited for.
-void CommandService::WarnOfUnreached(CommandAnswer& answer) const {
+// What has a stuck module between it and its safe value. Nobody's lock is waited for. Names what drives and has a safe value of
+// supervision.
+std::string CommandService::WarnOfUnreached(CommandAnswer& answer) const {
+  std::string at_rest;
   const auto lock = TryStructureLock(application_.runtime, kBlockPatience);
-  if (!lock || application_.scheduler == nullptr) return;
+  if (!lock || application_.scheduler == nullptr) return at_rest;
   application_.runtime.root().Visit([&](const FrameworkElement& element) {
     const auto* const port = dynamic_cast<const Port*>(&element);
-    const std::string why = port != nullptr ? application_.scheduler->WhyUnreached(*port) : "";
+    if (port == nullptr || !port->is_driving()) return;
+    if (port->is_set_by_hand(Port::Setter::kRule)) at_rest += (at_rest.empty() ? "" : ", ") + port->path();
+    const std::string why = application_.scheduler->WhyUnreached(*port);
     if (why.empty()) return;
     answer.leaves_some = true;
     answer.diagnostics.AddWarning({.message = "cannot be reached: " + why,
                                    .path = port->path(),
-                                   .hint = "what moves by it has to come to rest by itself"});
+                                   .hint = "what moves by it keeps its last command, and has to come to rest by its own time-out"});
   });
+  return at_rest;
 }
 
 CommandAnswer CommandService::Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of) const {
@@ -208,7 +213,7 @@ CommandAnswer CommandService::Do(const RobotStopRequest& request, const RobotSto
   if (request.is_pressed) {
     const char* const since = stop.Press(request.by) ? "" : " already";
     answer = CommandAnswer::Done(std::string("STOP is in force") + since + "; 'runnel release' ends it");
-    WarnOfUnreached(answer);
+    (void)WarnOfUnreached(answer);
   } else {
     const std::string pressed_by = stop.state().by;
     if (const auto done = stop.Release(request.by, as_of); !done) return CommandAnswer::Refused(done.error());
@@ -242,7 +247,12 @@ CommandAnswer CommandService::Do(const PauseRequest& request) const {
   const auto done = application_.hooks.set_paused(request.path, request.is_paused);
   if (!done) return CommandAnswer::Refused(done.error());
   application_.log.Add(ApplicationLog::Kind::kChange, what);
-  return CommandAnswer::Done(what);
+  CommandAnswer answer = CommandAnswer::Done(what);
+  const std::lock_guard lock(application_.runtime.structure_mutex());
+  const std::string at_rest = request.is_paused ? WarnOfUnreached(answer) : "";
+  if (!at_rest.empty()) answer.text += "; driving ports with the safe value of supervision now: " + at_rest;
+  answer.leaves_some = false;  // that is said of a STOP
+  return answer;
 }
 
 // Who drives says so many times a second, which is told once.

@@ -194,7 +194,7 @@ class CommandService {
   [[nodiscard]] CommandAnswer End(const char* name, const char* what, const std::function<Result<std::string>()>& end) const;
   [[nodiscard]] CommandAnswer Do(const BlockRequest& request);
   [[nodiscard]] CommandAnswer Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of) const;
-  void WarnOfUnreached(CommandAnswer& answer) const;
+  std::string WarnOfUnreached(CommandAnswer& answer) const;
   [[nodiscard]] CommandAnswer Do(const UndoRequest&, const RobotStop::AsOf& as_of) const { return TakeHistoryStep(true, as_of); }
   [[nodiscard]] CommandAnswer Do(const RedoRequest&, const RobotStop::AsOf& as_of) const { return TakeHistoryStep(false, as_of); }
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back, const RobotStop::AsOf& as_of) const;

@@ -135,7 +135,11 @@ void AddOther(const FrameworkElement& element, const ElementSurroundings& around
     const ModuleType* const type = around.modules->Find(name);
     json.Add("type", name).Add("summary", type != nullptr ? type->summary : "");
     json.AddTextOrNull("thread", ThreadName(element, around));
-    json.AddTextOrNull("failure", FailureOf(element, around));
+    const std::string_view failure = FailureOf(element, around);
+    json.AddTextOrNull("failure", failure);
+    std::vector<StuckModule> stuck;
+    if (!failure.empty() && around.scheduler != nullptr) stuck = around.scheduler->StuckModules();
+    if (std::ranges::find(stuck, element.path(), &StuckModule::path) != stuck.end()) json.Add("stuck", true);
     if (IsPaused(element, around)) json.Add("paused", true);
     return;
   }

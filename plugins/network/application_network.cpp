@@ -179,7 +179,8 @@ class ApplicationNetwork final : public ApplicationExtension {
     FrameworkElement& group = application.element();
     RosHooks hooks{.set_parameters = [&application](const auto& changes) { return SetParameters(application, changes); },
                    .health = ApplicationHealth(application),
-                   .set_time = [&application](Time time) { return application.SetTime(time); }};
+                   .set_time = [&application](Time time) { return application.SetTime(time); },
+                   .is_stop_kept = application.service().application().hooks.is_stop_kept};
     auto link = NetworkLink::Start(group, *element, *engine_, is_simulated_, [&group] { return ListElements(group, {}); },
                                    std::move(hooks));
     if (!link) return link.error();

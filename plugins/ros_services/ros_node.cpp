@@ -70,7 +70,8 @@ Result<std::unique_ptr<RosNode>> RosNode::Start(const RosOptions& options, WireP
     if (!made) return made.error();
     node->parameters_ = std::move(*made);
   }
-  auto stop = StopService::Start(runtime, options.stop_releases, options.node, participant, hooks.dialect);
+  auto stop = StopService::Start(runtime, options.stop_releases, options.node, participant, hooks.dialect,
+                                 std::move(hooks.is_stop_kept));
   if (!stop) return stop.error();
   node->stop_ = std::move(*stop);
   return node;

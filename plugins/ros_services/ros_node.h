@@ -75,6 +75,8 @@ struct RosHooks {
   DiagnosticsTopic::Health health = {};
   /// What /clock shows. By threads of the engine.
   std::function<Result<void>(Time)> set_time = {};
+  /// As ServiceHooks::is_stop_kept.
+  std::function<bool()> is_stop_kept = {};
 };
 
 /// What nodes of ROS 2 are told of this application besides its topics: that it is a node, its clock, its log, its parameters,

@@ -14,8 +14,10 @@ constexpr std::uint32_t kStopIdentity = 0x80000100u;  // beyond those of paramet
 }  // namespace
 
 Result<std::unique_ptr<StopService>> StopService::Start(Runtime& runtime, bool may_release, const std::string& node,
-                                                        WireParticipant& participant, ServiceDialect dialect) {
-  std::unique_ptr<StopService> made(new StopService(runtime, may_release, (node == "/" ? "" : node) + "/stop"));
+                                                        WireParticipant& participant, ServiceDialect dialect,
+                                                        std::function<bool()> is_kept) {
+  const std::string name = (node == "/" ? "" : node) + "/stop";
+  std::unique_ptr<StopService> made(new StopService(runtime, may_release, name, std::move(is_kept)));
   auto endpoints = ServiceEndpoints::Start(ServiceEndpoints::Side::kServer,
                                            {.service = made->name_,
                                             .request_type = DdsType("std_srvs/srv/SetBool_Request"),
@@ -35,7 +37,8 @@ void StopService::Serve() noexcept {
   try {
     const std::lock_guard lock(serving_);
     while (const auto request = endpoints->Take()) {
-      const Answer answer = Do(*request);
+      Answer answer = Do(*request);
+      if (answer.success && is_kept_ && !is_kept_()) answer.message += "; the next process would not know of it yet";
       Octets octets;
       CdrWriter to(octets);
       to.Put(answer.success);

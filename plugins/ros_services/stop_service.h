@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -11,7 +12,8 @@
 namespace runnel {
 
 /// The STOP of the robot as a service of its node, `~/stop` (std_srvs/srv/SetBool): true presses it, false releases it if
-/// that is allowed. Its answer says what has happened; without success also where STOP is in force and stops nothing.
+/// that is allowed. Its answer says what has happened; without success also where STOP is in force and stops nothing. It
+/// waits for `is_kept`, and says if the next process would not know of it.
 ///
 /// Threads:  requests are served by a thread of the engine, so nothing that the application does delays them; the rest any.
 /// Ownership: participant and runtime must outlive it.
@@ -19,13 +21,14 @@ class StopService {
  public:
   /// Errors: of the engine.
   static Result<std::unique_ptr<StopService>> Start(Runtime& runtime, bool may_release, const std::string& node,
-                                                    WireParticipant& participant, ServiceDialect dialect);
+                                                    WireParticipant& participant, ServiceDialect dialect,
+                                                    std::function<bool()> is_kept = {});
 
   [[nodiscard]] const ServiceEndpoints& endpoints() const noexcept { return *endpoints_; }
 
  private:
-  StopService(Runtime& runtime, bool may_release, std::string name)
-      : runtime_(runtime), may_release_(may_release), name_(std::move(name)) {}
+  StopService(Runtime& runtime, bool may_release, std::string name, std::function<bool()> is_kept)
+      : runtime_(runtime), may_release_(may_release), name_(std::move(name)), is_kept_(std::move(is_kept)) {}
   void Serve() noexcept;
   struct Answer {
     bool success;
@@ -36,6 +39,7 @@ class StopService {
   Runtime& runtime_;
   const bool may_release_;
   const std::string name_;  // "/base/stop"
+  const std::function<bool()> is_kept_;
   std::mutex serving_;
   std::atomic<ServiceEndpoints*> known_{nullptr};  // by then they may take requests
   std::unique_ptr<ServiceEndpoints> endpoints_;

@@ -134,6 +134,18 @@ class SlowToMake final : public Module {
   void Update() override {}
 };
 
+/// Goes only when there is the file that its parameter names.
+class SlowToGo final : public Module {
+ public:
+  using Module::Module;
+  ~SlowToGo() override { WaitForFile(gone_after.Get()); }
+
+  StaticParameter<std::string> gone_after{this, "gone_after", {.default_value = ""}};
+
+ private:
+  void Update() override {}
+};
+
 /// Has a call that does not come to its end, and makes it when it is connected with itself.
 class DeafWorker final : public Module {
  public:

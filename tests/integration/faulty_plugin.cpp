@@ -10,6 +10,7 @@ RUNNEL_PLUGIN(faulty, registry) {
   registry.Add<FaultyWorker>("faulty/worker", "does nothing, and fails after a while");
   registry.Add<DeafWorker>("faulty/deaf_worker", "has a call that does not come to its end");
   registry.Add<SlowToMake>("faulty/slow_to_make", "is made when there is a file");
+  registry.Add<SlowToGo>("faulty/slow_to_go", "goes when there is a file");
   registry.Add<Motor>("faulty/motor", "moves by what it reads");
   registry.Add<FaultyMonitor>("faulty/monitor", "judges the run, and fails at it");
   registry.Add<Counter>("faulty/counter", "counts, a value a cycle");

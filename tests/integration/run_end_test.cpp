@@ -180,6 +180,28 @@ TEST_F(RunEnd, ByASignalWinsOverARestart) {
   }
 }
 
+// Cycles have ended, and the application does not go.
+TEST_F(RunEnd, SaysForWhatItWaitsUntilTheApplicationHasGoneAndASignalEndsItInOrder) {
+  const std::string gone_after = TestFile(".gone").string();
+  const std::string run = "run --duration 0.1 " + Write(simulated_, "period='10ms'", R"(
+<module name="a" type="faulty/slow_to_go"><parameter name="gone_after" value=")" + gone_after + R"("/></module>)");
+  const std::string waits = "the run waits for one of its modules or plugins to come to its end; Ctrl-C again ends the program";
+  {
+    Program program(run);
+    ASSERT_TRUE(program.WaitFor(waits));
+    program.Send(SIGINT);
+    const Ended ended = program.Wait();
+    EXPECT_EQ(ended.code, kRunFailed) << ended.text;
+    EXPECT_THAT(ended.text, AllOf(HasSubstr("the time is up"), HasSubstr("one of its modules or plugins has still not come to its end; the program ends without it")));
+  }
+  Program program(run);
+  ASSERT_TRUE(program.WaitFor(waits));
+  std::ofstream(gone_after) << "\n";
+  const Ended ended = program.Wait();
+  EXPECT_EQ(ended.code, kDone) << ended.text;
+  std::filesystem::remove(gone_after);
+}
+
 TEST_F(RunEnd, IsInOrderWhenNobodyReadsTheProgress) {
   const std::filesystem::path code = TestFile(".code");
   const std::string command = "(" RUNNEL_PROGRAM " run --speed 1 --duration 1.5 " + kDemo +

@@ -101,6 +101,65 @@ TEST_F(StopCommand, StopsAllApplicationsAndSaysOfEachWhetherItHas) {
   EXPECT_EQ(Runnel("release").code, kRunFailed) << "of which one must be said";
 }
 
+// At the answer the next process knows of it already.
+TEST_F(StopCommand, OutlivesAProcessThatIsKilledAtTheAnswer) {
+  const std::string run = Write("robot");
+  {
+    Program program(run);
+    ASSERT_TRUE(program.WaitFor("/robot/motor: moves"));
+    Ended stopped;
+    WaitUntil("a disk that is slow has it", [&] {
+      stopped = Runnel("stop");
+      return stopped.code == kDone && stopped.text.find("is not written yet") == std::string::npos;
+    });
+    program.Send(SIGKILL);
+    EXPECT_EQ(program.Wait().signal, SIGKILL);
+  }
+  Program next(run);
+  ASSERT_TRUE(next.WaitFor("the application begins under STOP, pressed by a terminal, in a process before this one"));
+  WaitUntil("it is told", [] { return Runnel("ps").text.find("running, STOP in force for") != std::string::npos; });
+  EXPECT_THAT(Runnel("get /motor/speed").text, HasSubstr("0"));
+  EXPECT_THAT(Runnel("release").text, HasSubstr("released the STOP that a terminal, in a process before this one had pressed"));
+  EXPECT_TRUE(next.WaitFor("/robot/motor: moves"));
+  EXPECT_EQ(Runnel("quit").code, kDone);
+  EXPECT_EQ(next.Wait().code, kDone);
+  Program last(run);
+  EXPECT_TRUE(last.WaitFor("/robot/motor: moves")) << "what is released does not come back";
+}
+
+// Who begins without a STOP means the one of before.
+TEST_F(StopCommand, ARestartDoesNotClearItAgain) {
+  const std::string run = Write("robot");
+  {
+    Program program(run);
+    ASSERT_TRUE(program.WaitFor("/robot/motor: moves"));
+    ASSERT_EQ(Runnel("stop").code, kDone);
+    ASSERT_EQ(Runnel("quit").code, kDone);
+    EXPECT_EQ(program.Wait().code, kDone);
+  }
+  Program cleared(run + " --clear-stop");
+  ASSERT_TRUE(cleared.WaitFor("/robot/motor: moves")) << "without the STOP of before";
+  ASSERT_EQ(Runnel("stop").code, kDone);
+  ASSERT_TRUE(cleared.WaitFor("/robot/motor: stands"));
+  EXPECT_THAT(Runnel("restart").text, HasSubstr("runs again from its file"));
+  ASSERT_TRUE(cleared.WaitFor("the application begins under STOP, pressed by a terminal, in a process before this one"));
+  WaitUntil("it runs again", [] { return Runnel("ps").text.find("running, STOP in force for") != std::string::npos; });
+}
+
+TEST_F(StopCommand, APauseSaysWhichDrivingPortsHaveTheirSafeValueAndWhichKeepTheirLastCommand) {
+  Program program(Write("robot"));
+  ASSERT_TRUE(program.WaitFor("/robot/motor: moves"));
+  const Ended feeds = Runnel("pause /commander");
+  EXPECT_EQ(feeds.code, kDone) << feeds.text;
+  EXPECT_EQ(feeds.text, "paused /commander; driving ports with the safe value of supervision now: /robot/motor/input/speed\n");
+  ASSERT_TRUE(program.WaitFor("/robot/motor: stands"));
+  const Ended drives = Runnel("pause /other");
+  EXPECT_EQ(drives.code, kDone) << "what was asked for is done";
+  EXPECT_THAT(drives.text, AllOf(HasSubstr("/robot/other/input/speed: cannot be reached: /robot/other is paused"),
+                                 HasSubstr("keeps its last command, and has to come to rest by its own time-out"), HasSubstr("paused /other")));
+  EXPECT_EQ(Runnel("resume /other").text, "resumed /other\n");
+}
+
 TEST_F(StopCommand, WhereNothingDrivesItDoesNotSucceedAndSaysWhy) {
   const std::string file = folder_ / "still.xml";
   std::ofstream(file) << R"(<application name="still"> <load plugin="faulty"/> <clock type="real"/> <thread name="main" period="5ms"/>

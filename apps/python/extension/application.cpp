@@ -29,12 +29,16 @@ Result<void> Block(Application& application, const std::string& path) {
   return port ? (*port)->Block() : port.error();
 }
 
-// Without a lock, by whichever thread.
+// Without a lock, by whichever thread. What has no control socket keeps no STOP.
 Result<void> SetStop(Application& application, bool is_pressed) {
   RobotStop& stop = application.runtime().robot_stop();
-  if (!is_pressed) return stop.Release("Python");
-  stop.Press("Python");
-  if (FindWhatDrives(application.runtime()) == "") return NothingDrives();
+  if (auto done = is_pressed ? Result<void>() : stop.Release("Python"); !done) return done;
+  if (is_pressed) stop.Press("Python");
+  const auto is_kept = application.options().has_control ? application.service().application().hooks.is_stop_kept : nullptr;
+  if (is_kept && !is_kept()) {
+    return Error{.message = std::string(is_pressed ? "STOP is in force" : "the STOP is released") + ", and the next process would not know of it yet"};
+  }
+  if (is_pressed && FindWhatDrives(application.runtime()) == "") return NothingDrives();
   return {};
 }
 

@@ -126,7 +126,8 @@ def load(file, **options):
 
     settings -- {"goal_x": 4}, for parameters that name a `command_line`; clock -- "real" or "simulated", instead of what
     the file says; speed -- how many times faster than real time, 0: as fast as it can; paused -- begins with a pause;
-    control -- others reach it by `runnel ls` and `runnel.connect`, and a STOP outlives this process; record, record_ports -- into an MCAP file;
+    control -- others reach it by `runnel ls` and `runnel.connect`, and its STOP outlives this process (not that of load_text()
+    and compose(), which have no file by which the next process would know them); record, record_ports -- into an MCAP file;
     extensions -- {"viewers": {"inspect": "8765"}}, as the options of `runnel run`.
     """
     return Application("file", _meant(file), "", *_options(**options))
@@ -311,7 +312,8 @@ class Application(_extension.Application):
 
     def stop(self):
         """STOP of the robot: all that moves something has its safe value, until release(). At once, whatever else goes on.
-        Raises also where STOP is in force and nothing is marked as driving.
+        With load(…, control=True) it outlives this process, and returns when that is so. It raises also where STOP is in force and
+        nothing is marked as driving, or the next process would not know of it yet.
         """
         self._robot_stop(True)
 

@@ -7,6 +7,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/log/log_level.h"
+#include "core/port/driving_ports.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/structure/change_history.h"
@@ -73,6 +74,9 @@ WebSession::SteadyTime ViewerSession::SendAlive() {
     JsonObject told(json.Add("op", "alive").Add("at", ToSeconds(at)).Key("stop"));
     told.Add("in_force", stop.in_force).Add("by", stop.by);
     told.Add("since", ToSeconds(stop.since - inspection_.start()));
+    Runtime& runtime = inspection_.application().runtime;
+    const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);  // nobody is waited for
+    if (const auto drives = stop.in_force && lock ? FindWhatDrives(runtime) : std::nullopt) told.Add("drives", *drives);
   }));
   if (is_sent) told_stop_ = stop.requests;
   // Pages answer it, by which operators are heard as of now.

@@ -1,5 +1,6 @@
 """STOP of the robot, the block of one port, and the end of a run, in this process and from another."""
 
+import os
 import threading
 import time
 
@@ -27,6 +28,64 @@ def test_stop_is_in_force_until_it_is_released(base):
     base.release()
     with pytest.raises(runnel.Error, match="not in force"):
         base.release()
+
+
+def stop_until_it_is_kept(app):
+    for _ in range(200):
+        try:
+            return app.stop()
+        except runnel.Error as why:  # a disk that is slow
+            assert "would not know of it yet" in str(why)
+    raise AssertionError("it is not kept")
+
+
+def release(app, files):
+    try:
+        app.release()
+    except runnel.Error as why:
+        assert "would not know of it yet" in str(why)
+    for _ in range(1500):
+        if not files():
+            return
+        time.sleep(0.02)
+    raise AssertionError("the next process would begin under STOP")
+
+
+@pytest.fixture
+def robot(tmp_path):
+    """An application's file, and what lists the files by which the next process knows of a STOP."""
+    file = tmp_path / "base.xml"
+    file.write_text(APPLICATION)
+    return file, lambda: [each for each in (tmp_path / "run" / "runnel").glob("*.stop") if not each.name.startswith(".")]
+
+
+def test_a_stop_outlives_the_process_where_the_application_has_a_file(robot):
+    file, files = robot
+    with runnel.load(file, control=True) as app:
+        stop_until_it_is_kept(app)
+        assert len(files()) == 1, "when stop() has returned"
+    with pytest.warns(Warning, match="begins under STOP, pressed by Python"):
+        again = runnel.load(file, control=True)
+    with again:
+        release(again, files)
+    with runnel.load_text(APPLICATION, control=True) as app:
+        app.stop()
+        assert not files(), "it would be nobody's"
+
+
+def test_a_stop_that_is_not_kept_yet_is_in_force_and_says_so(robot):
+    file, files = robot
+    with runnel.load(file, control=True) as app:
+        stop_until_it_is_kept(app)
+        [kept] = files()
+        release(app, files)
+        pipe = kept.parent / ("." + kept.name)
+        os.mkfifo(pipe, 0o600)  # as a disk that does not answer
+        with pytest.raises(runnel.Error, match="STOP is in force, and the next process would not know of it yet"):
+            app.stop()
+        reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+        stop_until_it_is_kept(app)
+        os.close(reader)
 
 
 def test_a_stop_that_stops_nothing_raises_and_is_in_force():

@@ -274,6 +274,16 @@ test('of an application in which nothing is marked it is said that it stops noth
   await page.locator('#stop-banner[data-stop="nothing"]', { hasText: 'stops nothing' }).waitFor();
 });
 
+test('where only the network drives, the banner names what the STOP holds', async (t) => {
+  const { page } = await OpenMockPanel(t, { widgets: [kText], prepare: (application) => {
+    const path = '/mock/world/twist';
+    application.elements.set(path, { ...application.elements.get(path), driving: false });
+    application.drivesBeside = ['/cmd_vel (in the network)'];
+  } });
+  await page.locator('#stop-button').click();
+  await page.locator('#stop-banner[data-stop="in_force"]', { hasText: 'It holds /cmd_vel (in the network).' }).waitFor();
+});
+
 test('while it is in force nothing is driven, and a hold that is under way has ended', async (t) => {
   const drives = { target: '/mock/world/twist', forward: 0.4, turn: 1 };
   const { application, page } = await OpenMockPanel(t, { widgets: [{ id: 'keys', kind: 'keys', x: 0, y: 0, w: 3, h: 4, ...drives }] });

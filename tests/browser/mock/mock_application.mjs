@@ -16,6 +16,7 @@ export class MockApplication {
     this.saidAt = null; // it is frozen, and a slow network still brings what it said then (s of the machine's time); null: it is not
     this.asked = [];  // all requests
     this.stop = { in_force: false, by: '', since: 0 };
+    this.drivesBeside = []; // names of what leaves over a network and drives
     this.isOwnSilent = false; // those of the STOP give no sign of life, and answer
     this.isOwnDeaf = false;   // they do not even read
     this.isHanging = false; // the main connections say nothing more, those of the STOP do

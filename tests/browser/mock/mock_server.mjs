@@ -74,7 +74,9 @@ class LifeSign {
   }
 
   turn() {
-    const { stop } = this.client.application;
+    const { elements, drivesBeside, stop: state } = this.client.application;
+    const driving = [...elements.values()].filter((element) => element.driving).map(({ path }) => path);
+    const stop = state.in_force ? { ...state, drives: [...driving, ...drivesBeside].join(', ') } : state;
     if (++this.#turns % 20 !== 1 && this.#told === JSON.stringify(stop)) return;
     this.#told = JSON.stringify(stop);
     this.client.send({ op: 'alive', at: Now(this.client.application), stop });

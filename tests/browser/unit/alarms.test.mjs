@@ -63,6 +63,14 @@ test('alarms: failed modules, required inputs without a source, outputs that hav
   assert.equal(counts.get('/mock/robot/planner/goal'), 1);
 });
 
+test('alarms: a module that does not return is told by name, and not as one that has failed', () => {
+  const structure = Robot((told) => {
+    Object.assign(told.elements.find(({ path }) => path === '/mock/laser'), { failure: 'has not returned from its cycle for 1s', stuck: true });
+  });
+  const [{ kind, owner, text }] = AlarmsOf(structure, new Map());
+  assert.deepEqual([kind, owner, text], ['stuck', '/mock/laser', 'is stuck: it has not returned from its cycle for 1s']);
+});
+
 test('silent is what has published steadily and does so no more; an empty window is none', () => {
   const silence = new Silence();
   silence.note({ '/steady': 20, '/once': 1, '/slow': 2 }, 0);

@@ -130,6 +130,27 @@ test('a release has the time of the newest sign of life', async () => {
   Loosen();
 });
 
+test('what it holds is what the robot told of this STOP; where it tells nothing, that is not known', async () => {
+  SetRobot(false, 'a colleague');
+  await Sleep(50);
+  assert.equal(stop.held.value, null);
+  const tell = async (drives) => {
+    robot = { in_force: true, by: 'a colleague', since: 1, drives };
+    sockets.forEach((each) => each.alive());
+    await Sleep(50);
+    return stop.held.value;
+  };
+  assert.equal(await tell(undefined), null);
+  assert.deepEqual(await tell(''), [], 'nothing');
+  assert.deepEqual(await tell('/base/wheels, /cmd_vel (in the network)'), ['/base/wheels', '/cmd_vel (in the network)']);
+  assert.equal((await tell(undefined)).length, 2, 'as it was told before the structure was changed');
+  SetRobot(false, 'a colleague');
+  await Sleep(50);
+  assert.equal(await tell(undefined), null, 'of this STOP nothing has been told');
+  SetRobot(false, 'a colleague');
+  await Sleep(50);
+});
+
 test('a request says when the person asked, by the clock of the server', async () => {
   await Sleep(300);
   const before = performance.now() / 1000;

@@ -62,6 +62,23 @@ TEST_F(ServicesOfRos, TheStopIsPressedByNodesAndReleasedWhereTheFileSaysSo) {
   EXPECT_THAT(Node("stop").Wait().text, HasSubstr("stop 0: done 'the STOP is released'"));
 }
 
+// Its port is true while the STOP is in force, and a button of the other one.
+TEST_F(ServicesOfRos, AStopOfOneByItsServiceStopsTheOtherWhereTheFilesSaySo) {
+  const Program house(Arguments("run", "house", R"(<module name="lamp" type="switches/lamp"/>
+  <group name="panel"><port name="stopped" type="bool" direction="output"/></group>
+  <driving port="panel/stopped" safe="true"/>
+  <network name="house"><ros distribution="jazzy"/><offer port="panel/stopped" topic="/stopped" as="std_msgs/msg/Bool"/></network>)"));
+  Program room(Arguments("run", "room", R"(<module name="lamp" type="switches/lamp"/>
+  <group name="panel"><port name="pressed" type="bool" direction="input"/></group>
+  <stop_button port="panel/pressed"/>
+  <network name="room"><take topic="/stopped" as="std_msgs/msg/Bool" to="panel/pressed"/></network>)"));
+  WaitUntil("they have found each other", [] { return Runnel("network --app house").text.find("read by room") != std::string::npos; });
+  EXPECT_THAT(Node("stop").Wait().text, HasSubstr("stop 1: done 'the robot is stopped'"));
+  ASSERT_TRUE(room.WaitFor("STOP, by the button /room/panel/pressed"));
+  const std::string both = Runnel("ps").text;
+  EXPECT_THAT(both, AllOf(HasSubstr("by the service /house/stop"), HasSubstr("by the button /room/panel/pressed")));
+}
+
 TEST_F(ServicesOfRos, AreOfferedToNodes) {
   const Program house(Arguments("run", "house", kHouse));
   Program node = Node("call");

@@ -85,6 +85,41 @@ TEST(SilenceTest, IsToldOfWhatPublishedSteadilyAndDoesSoNoMore) {
   EXPECT_THAT(listed(), HasSubstr("STAMPED AHEAD"));
 }
 
+// Of an application that nobody runs.
+TEST(SilenceTest, IsCountedInTheStateOfTheApplication) {
+  ManualClock clock;
+  Runtime runtime;
+  runtime.set_clock(clock);
+  ModuleRegistry modules;
+  Scheduler scheduler(runtime);
+  StructureEditor editor(runtime, modules, &scheduler);
+  ApplicationLog log(runtime.clock());
+  const ServedApplication application{.runtime = runtime, .modules = modules, .editor = editor, .log = log, .scheduler = &scheduler};
+  auto& app = runtime.Create<Group>(runtime.root(), "app");
+  AssignThread(app, CreateThread(runtime, "main", {.period = 1ms}));
+  auto& counter = runtime.Create<Counter>(app, "counter");
+  auto& other = runtime.Create<Counter>(app, "other");
+  auto& sink = runtime.Create<Sink>(app, "sink");
+  ASSERT_TRUE(Port::Connect(counter.out, sink.in));
+  ASSERT_TRUE(Port::Connect(other.out, sink.in));
+  ASSERT_TRUE(runtime.MakeReady(runtime.root()));
+  for (int i = 1; i <= 40; ++i) {
+    clock.Advance(100ms);
+    counter.out.Publish(i);
+    other.out.Publish(i);
+  }
+  EXPECT_EQ(StateText(application), "running");
+  clock.Advance(1s);
+  other.out.Publish(41);
+  clock.Advance(1s);
+  EXPECT_EQ(StateText(application), "running, 1 output SILENT");
+  clock.Advance(1s);
+  EXPECT_EQ(StateText(application), "running, 2 outputs SILENT");
+  counter.out.Publish(41);
+  other.out.Publish(42);
+  EXPECT_EQ(StateText(application), "running");
+}
+
 TEST_F(ControlTest, MakesAStoppedModuleAnew) {
   ASSERT_EQ(Change("create /worn test/failing").code, 0);
   const auto is_stopped = [&] { return Ask("ls /worn").output.find("FAILED") != std::string::npos; };

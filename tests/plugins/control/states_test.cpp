@@ -192,7 +192,7 @@ TEST_F(StatesTest, AModuleThatDoesNotReturnIsTold) {
   ASSERT_EQ(Change("create thread other period=1ms\ncreate /hang test/hanging\nmove /hang to other").code, 0);
   ASSERT_TRUE(scheduler.SetStuckLimit("/app/hang", 20ms));
   Hanging::hangs = true;
-  WaitUntil("it is told", [&] { return State().find("STUCK: /") != std::string::npos; });
+  WaitUntil("it is told", [&] { return State().find("STUCK: /app/hang") != std::string::npos; });
   EXPECT_THAT(Ask("ls /hang").output, HasSubstr(", STUCK for "));
   Hanging::hangs = false;
   WaitUntil("it is well again", [&] { return State().find("STUCK") == std::string::npos; });

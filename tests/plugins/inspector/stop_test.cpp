@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/element/robot_stop.h"
+#include "core/port/driving_ports.h"
 #include "tests/plugins/inspector/inspector_fixture.h"
 #include "tests/support/wait_until.h"
 
@@ -93,6 +94,28 @@ TEST_F(ViewersStop, NeedsNeitherWorkerNorStructureNorRoomForRequests) {
   EXPECT_EQ(stop.Ask({{"op", "stop"}})["ok"], true);
   EXPECT_TRUE(in_force());
   may_end.set_value();
+}
+
+// What leaves over a network is no port that a viewer knows.
+TEST_F(ViewersStop, ItsSignsOfLifeSayWhatItHoldsWhileItIsInForce) {
+  Start();
+  Viewer viewer = View();
+  EXPECT_FALSE(viewer.Next(InForce(false), "no STOP")["stop"].contains("drives"));
+  runtime.robot_stop().Press("a test");
+  const auto holds = [](const std::string& what) {
+    return [what](const Json& each) { return each["op"] == "alive" && each["stop"].value("drives", "not told") == what; };
+  };
+  viewer.Next(holds(""), "that it holds nothing");
+  const auto elsewhere = std::make_shared<PortStop>(AnyValue(), Duration{}, runtime.robot_stop().signal());
+  AddWhatDrives(runtime, "/cmd_vel (in the network)", elsewhere);
+  viewer.Next(holds("/cmd_vel (in the network)"), "what leaves over the network");
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+  }
+  viewer.Next(holds("/app/b/input/in, /cmd_vel (in the network)"), "both");
+  const std::lock_guard lock(runtime.structure_mutex());
+  viewer.Next(holds("not told"), "a sign of life although somebody changes the structure");
 }
 
 TEST_F(ViewersStop, AnswersWhereItStopsNothing) {

@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "tests/plugins/inspector/inspector_fixture.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 
@@ -10,6 +11,18 @@ namespace {
 
 using Viewing = RunningInspectorTest;
 using SimulatedViewing = SimulatedInspectorTest;
+
+/// Does not return from its cycle as long as somebody wants that.
+class Hanging final : public Module {
+ public:
+  using Module::Module;
+  static inline std::atomic<bool> hangs{false};
+
+ private:
+  void Update() override {
+    while (hangs.load()) std::this_thread::sleep_for(1ms);
+  }
+};
 
 TEST_F(Viewing, BeginsWithWhoIsThere) {
   Start({.application = {}, .file = "/here/app.xml", .version = "0.1.0", .is_read_only = true});
@@ -251,6 +264,32 @@ TEST_F(SimulatedViewing, ShowsWhichModulesHaveBeenStoppedAndWhy) {
   EXPECT_EQ(View().Element("/app/a")["failure"], nullptr);
   Apply("replace /app/broken with test/counter");
   EXPECT_EQ(viewer.Element("/app/broken")["failure"], nullptr);
+}
+
+TEST_F(Viewing, ShowsWhichModuleIsStuckUntilItReturns) {
+  Register<Hanging>("test/hanging");
+  Start();
+  Apply("create /app/hang test/hanging");
+  ASSERT_TRUE(scheduler.SetStuckLimit("/app/hang", 200ms));
+  Viewer viewer = View();
+  EXPECT_EQ(viewer.Element("/app/hang")["failure"], nullptr);
+  const auto is_told = [&] {  // as an application tells it
+    const auto faults = scheduler.TakeFaults();
+    for (const Fault& fault : faults) {
+      log.Add(ApplicationLog::Kind::kFault, "a text", fault.path, fault.is_mended ? "" : fault.message);
+    }
+    return !faults.empty();
+  };
+  Hanging::hangs = true;
+  WaitUntil("it is stuck", is_told);
+  const Json stuck = viewer.Element("/app/hang");
+  EXPECT_EQ(stuck.value("stuck", false), true);
+  EXPECT_THAT(stuck.dump(), HasSubstr("has not returned from its cycle for "));
+  Hanging::hangs = false;
+  WaitUntil("it has returned", is_told);
+  const Json returned = viewer.Element("/app/hang");
+  EXPECT_EQ(returned["failure"], nullptr);
+  EXPECT_FALSE(returned.contains("stuck"));
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // The STOP of the robot as a service of its node, called as nodes of ROS 2 call it.
+#include <atomic>
+
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
@@ -25,7 +27,7 @@ class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
  protected:
   void Begin(bool may_release) {
     AddWhatDrives(runtime_, "the wheels", wheels_);
-    service_ = std::move(*StopService::Start(runtime_, may_release, "/base", *there_, GetParam()));
+    service_ = std::move(*StopService::Start(runtime_, may_release, "/base", *there_, GetParam(), [this] { return is_kept_.load(); }));
     client_ = std::move(*ServiceEndpoints::Start(ServiceEndpoints::Side::kClient,
                                                  {.service = "/base/stop",
                                                   .request_type = "std_srvs::srv::dds_::SetBool_Request_",
@@ -52,6 +54,7 @@ class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
   Runtime runtime_;
   RobotStop& stop_ = runtime_.robot_stop();
   std::shared_ptr<PortStop> wheels_ = std::make_shared<PortStop>(AnyValue(), Duration{}, stop_.signal());
+  std::atomic<bool> is_kept_{true};
   NobodyThere nobody_;
   const std::shared_ptr<WireEngine> engine_ = MakeFakeWire();
   std::unique_ptr<WireParticipant> near_ = std::move(*engine_->Join({.name = "near"}, nobody_));
@@ -69,6 +72,16 @@ TEST_P(StopServiceTest, TrueStopsTheRobotAndFalseDoesNothing) {
   EXPECT_THAT(Call(true), testing::Pair(true, "the robot was stopped already"));
   EXPECT_THAT(Call(false), testing::Pair(false, HasSubstr("stop_releases")));
   EXPECT_TRUE(stop_.in_force());
+}
+
+TEST_P(StopServiceTest, SaysWhereTheNextProcessWouldNotKnowOfIt) {
+  Begin(true);
+  is_kept_ = false;
+  EXPECT_THAT(Call(true), testing::Pair(true, "the robot is stopped; the next process would not know of it yet"));
+  is_kept_ = true;
+  EXPECT_THAT(Call(true), testing::Pair(true, "the robot was stopped already"));
+  is_kept_ = false;
+  EXPECT_THAT(Call(false), testing::Pair(true, "the STOP is released; the next process would not know of it yet"));
 }
 
 TEST_P(StopServiceTest, IsNoSuccessWhereNothingDrives) {

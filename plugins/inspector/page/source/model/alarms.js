@@ -1,11 +1,11 @@
-// What is wrong with an application as it is now: modules that have failed, required inputs that get
+// What is wrong with an application as it is now: modules that have failed or are stuck, required inputs that get
 // nothing from anywhere, outputs that have fallen silent.
 
 import { OriginsOf } from './origin.js';
 import { NameOf, ParentOf } from './structure.js';
 
 /**
- * [{path, owner, kind: 'failed' | 'unconnected' | 'silent', text}], the worst first; `path` is of a module or a
+ * [{path, owner, kind: 'failed' | 'stuck' | 'unconnected' | 'silent', text}], the worst first; `path` is of a module or a
  * port, `owner` of the module. `silent`: Map port path -> since when, in seconds.
  */
 export function AlarmsOf(structure, silent) {
@@ -13,7 +13,8 @@ export function AlarmsOf(structure, silent) {
   const unconnected = [];
   for (const element of structure.elements.values()) {
     if (element.kind === 'module' && element.failure) {
-      failed.push({ path: element.path, owner: element.path, kind: 'failed', text: `has failed: ${element.failure}` });
+      const [kind, text] = element.stuck ? ['stuck', `is stuck: it ${element.failure}`] : ['failed', `has failed: ${element.failure}`];
+      failed.push({ path: element.path, owner: element.path, kind, text });
     } else if (LacksSource(structure, element)) {
       unconnected.push({ path: element.path, owner: element.owner, kind: 'unconnected',
         text: `${element.name} is required and has no source` });

@@ -25,7 +25,7 @@ function CountText(count) {
 
 /** The alarms of an element and of what is in it; of all if none is given. */
 export function AlarmList({ path }) {
-  const found = path ? AlarmsAt(path).filter((alarm) => alarm.path !== path || alarm.kind !== 'failed') : alarms.value;
+  const found = path ? AlarmsAt(path).filter(({ path: at, kind }) => at !== path || !['failed', 'stuck'].includes(kind)) : alarms.value;
   if (found.length === 0) return null;
   return html`<${Section} title="Alarms" count=${found.length} id="alarm-list">
     <ul class="alarm-list" role="alert">${found.slice(0, kListed).map((alarm) => html`<li key=${`${alarm.kind} ${alarm.path}`}

@@ -5,18 +5,13 @@ import { html } from 'htm/preact';
 import { FormatTime } from '../model/value_format.js';
 import { computed } from '@preact/signals';
 import { canDrive, shapeRevision, structure } from '../state/store.js';
-import { PressStop, ReleaseStop, isHeard, isInForce, pressed, releaseProblem, told } from './stop_state.js';
+import { PressStop, ReleaseStop, held, isHeard, isInForce, pressed, releaseProblem, told } from './stop_state.js';
 
 const kHost = 'robot-stop';
 const kPlaceOfBanner = 'stop-place';
 const kGamepadStop = 1; // the right button of the four, red on many: B, circle
 const kLook = 40;       // ms, between two looks at gamepads
-
-/** The structure is known, and no port of it is marked as one by which something moves. */
-const stopsNothing = computed(() => {
-  shapeRevision.value;
-  return structure.root !== null && ![...structure.ofKind('port')].some(({ driving }) => driving);
-});
+const kNamed = 2;       // of so many that it holds, each is named
 
 /** Driving ports that no STOP reaches now, as the robot itself knows. */
 const unreached = computed(() => {
@@ -29,6 +24,12 @@ function Unreached() {
   return `STOP is in force and does not reach ${path}${others.length > 0 ? ` and ${others.length} more` : ''}: ${why}. The robot may move: use its own stop.`;
 }
 
+function InForce() {
+  if (held.value === null) return 'STOP is in force. What it holds is not known while the structure is being changed.';
+  const what = held.value.length > kNamed ? `${held.value.length} ports` : held.value.join(' and ');
+  return `STOP is in force: whatever moves has its safe value, whatever anybody sends. It holds ${what}.`;
+}
+
 /** How it stands: [name, what is said]; '' says nothing. */
 function Standing() {
   const press = pressed.value;
@@ -36,9 +37,9 @@ function Standing() {
   if (press?.isLate) return ['unconfirmed', 'STOP has not been confirmed by the robot: it may move, use its own stop. STOP is sent again until it is confirmed.'];
   if (press) return ['pressed', ''];
   if (isInForce.value && !isHeard.value) return ['unknown', 'STOP was in force when the robot was last heard of. It has not been confirmed since: the robot may move.'];
-  if (isInForce.value && stopsNothing.value) return ['nothing', 'STOP is in force and stops nothing: no port of this application is marked as one by which something moves (<driving port="…"/>). The robot may move: use its own stop.'];
+  if (isInForce.value && held.value?.length === 0) return ['nothing', 'STOP is in force and stops nothing: no port of this application is marked as one by which something moves (<driving port="…"/>). The robot may move: use its own stop.'];
   if (isInForce.value && unreached.value.length > 0) return ['unreached', Unreached()];
-  if (isInForce.value) return ['in_force', 'STOP is in force: whatever moves has its safe value, whatever anybody sends.'];
+  if (isInForce.value) return ['in_force', InForce()];
   return isHeard.value ? ['free', ''] : ['unknown', ''];
 }
 
