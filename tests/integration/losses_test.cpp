@@ -5,12 +5,10 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -32,6 +30,7 @@
 #include "plugins/services/callable.h"
 #include "plugins/services/cycle_work.h"
 #include "tests/integration/application_run.h"
+#include "tests/integration/printed_losses.h"
 #include "tests/integration/values_on_the_way.h"
 
 namespace runnel::test {
@@ -179,8 +178,7 @@ std::string Try(const Demo& demo, const OnTheWay& value, Loss loss) {
   };
   const ApplicationRun run = RunApplication(choice);
   if (!run.faults.empty()) return "fault: " + run.faults.front().message;
-  if (loss != Loss::kNeverComes && Moved(run, kLost - 1s, kLost) < 0.05)
-    return "did not drive before";
+  if (loss != Loss::kNeverComes && Moved(run, kLost - 1s, kLost) < 0.05) return "did not drive before";
   const Duration rested = lost + kStated;
   const Duration stands_until = value.has_stand_in ? std::min(lost + 4s, run.duration) : kBack;
   const bool has_stood = Moved(run, rested, stands_until) <= 1e-6 && run.duration >= stands_until;
@@ -249,27 +247,9 @@ std::string TryStuck(const Demo& demo, const OnTheWay& value) {
   return cell;
 }
 
-std::string Table() {
-  const std::vector<Demo> demos = Demos();
-  std::vector<std::future<std::string>> stuck;  // wait more than they work
-  for (const Demo& demo : demos) {
-    for (const OnTheWay& value : demo.values)
-      stuck.push_back(std::async(std::launch::async, [&] { return TryStuck(demo, value); }));
-  }
-  std::ostringstream table;
-  table << "| value | never comes | ceases | disconnected | stale | not measured | partly not measured | no number | "
-           "source deleted | source swapped | source stuck |\n"
-           "|---|---|---|---|---|---|---|---|---|---|---|\n";
-  auto next_stuck = stuck.begin();
-  for (const Demo& demo : demos) {
-    for (const OnTheWay& value : demo.values) {
-      table << "| " << demo.file.substr(0, demo.file.find('.')) << value.output << " |";
-      for (const Loss loss : kLosses)
-        table << " " << (loss == Loss::kStuck ? (next_stuck++)->get() : Try(demo, value, loss)) << " |";
-      table << "\n";
-    }
-  }
-  return table.str();
+void ExpectStands(const std::string& cell) {
+  for (const char* fault : {"DRIVES ON", "for ever", "fault", "is then", "did not"})
+    EXPECT_THAT(cell, testing::Not(testing::HasSubstr(fault)));
 }
 
 // A module type that commands a motion says of each input whether what comes there grows old.
@@ -317,14 +297,52 @@ TEST(Losses, WhoDrivesInsteadStandsWithoutItsMeasurements) {
   EXPECT_GE(run.duration, kBack) << "nor has it met anything";
 }
 
-TEST(Losses, ARobotThatDoesNotKnowStands) {
-  const std::string table = Table();
-  std::ifstream file(RUNNEL_XML "/../modules/motion/LOSSES.md");
-  std::stringstream manual;
-  manual << file.rdbuf();
-  EXPECT_THAT(manual.str(), testing::HasSubstr(table)) << table;
-  for (const char* fault : {"DRIVES ON", "for ever", "fault", "is then", "did not"}) {
-    EXPECT_THAT(table, testing::Not(testing::HasSubstr(fault)));
+TEST(Losses, TheTableThatIsPrintedHasTheseRows) {
+  auto printed = Printed();
+  EXPECT_THAT(printed["value"], testing::ElementsAre("never comes", "ceases", "disconnected", "stale", "not measured",
+                                                     "partly not measured", "no number", "source deleted", "source swapped",
+                                                     "source stuck"));
+  for (const Row& each : Rows()) EXPECT_EQ(printed[each.name()].size(), kLosses.size()) << each.name();
+  for (const auto& [name, cells] : printed) {  // those of other processes are tried by tests/apps/python/test_losses.py
+    const bool is_ours = name != "value" && !name.starts_with("python/") && !name.starts_with("two processes/");
+    EXPECT_EQ(is_ours, std::ranges::count(Rows(), name, &Row::name) == 1) << name;
+  }
+}
+
+// A test for each value, so that they run beside each other.
+class LossOf : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Losses, LossOf, testing::Range(std::size_t{0}, Rows().size()),
+                         [](const auto& at) { return AsTestName(Rows()[at.param].name()); });
+
+TEST_P(LossOf, ARobotThatDoesNotKnowStands) {
+  const Row& row = Rows()[GetParam()];
+  const std::vector<std::string> printed = Printed()[row.name()];
+  ASSERT_EQ(printed.size(), kLosses.size());
+  for (std::size_t i = 0; i < kLosses.size(); ++i) {
+    if (kLosses[i] == Loss::kStuck) continue;
+    const std::string cell = Try(row.demo, row.value, kLosses[i]);
+    EXPECT_EQ(cell, printed[i]) << "column " << i;
+    ExpectStands(cell);
+  }
+}
+
+class StuckSourceOf : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Losses, StuckSourceOf, testing::Range(std::size_t{0}, Demos().size()),
+                         [](const auto& at) { return AsTestName(Demos()[at.param].file); });
+
+TEST_P(StuckSourceOf, ARobotThatDoesNotKnowStands) {
+  const std::string file = Demos()[GetParam()].file;
+  auto printed = Printed();
+  std::vector<std::pair<std::string, std::future<std::string>>> cells;  // they wait more than they work
+  for (const Row& row : Rows()) {
+    if (row.demo.file != file) continue;
+    cells.emplace_back(row.name(), std::async(std::launch::async, [&row] { return TryStuck(row.demo, row.value); }));
+  }
+  for (auto& [name, future] : cells) {
+    const std::string cell = future.get();
+    ASSERT_EQ(printed[name].size(), kLosses.size()) << name;
+    EXPECT_EQ(cell, printed[name].back()) << name;
+    ExpectStands(cell);
   }
 }
 

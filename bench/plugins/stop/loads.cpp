@@ -10,7 +10,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "core/port/own_cycle.h"
 #include "plugins/control/control_folder.h"
 #include "plugins/control/protocol.h"
 #include "plugins/recording/recorder.h"
@@ -102,14 +101,7 @@ Load::Step RecordToFullDisk(Robot& robot, TaskGroup& /*tasks*/) {
 Load::Step HoldStructure(Robot& robot, TaskGroup& /*tasks*/) {
   return [&] {
     const std::lock_guard lock(robot.runtime.structure_mutex());
-    std::this_thread::sleep_for(2s);
-  };
-}
-
-Load::Step CycleLong(Robot& robot, TaskGroup& /*tasks*/) {
-  return [&] {
-    const OwnCycle cycle(robot.runtime.clock().Now());
-    std::this_thread::sleep_for(2s);
+    Nap(2s);
   };
 }
 
@@ -191,7 +183,7 @@ std::vector<Load> Loads() {
           {"a save of 5 s", Save},
           {"recordings to a full disk", RecordToFullDisk},
           {"the structure's lock held for 2 s", HoldStructure},
-          {"a cycle of 2 s in another thread", CycleLong},
+          {.name = "Update() of 2 s, in threads of their own", .driver = Driver::kSlowPlanners},
           {"a client that floods", Flood},
           {"50 viewers", View, 50},
           {"another connection saturated", Saturate, 1, true},
@@ -199,18 +191,19 @@ std::vector<Load> Loads() {
 }
 
 Burden::Burden(const Load& load, Robot& robot) {
+  loads_end = false;
   for (int i = 0; load.begin && i < load.threads; ++i) {
     threads_.emplace_back([&load, &robot, this] {
       TaskGroup tasks(robot.service->worker());
       const Load::Step step = load.begin(robot, tasks);
-      while (!ends_) step();
+      while (!loads_end) step();
     });
   }
   std::this_thread::sleep_for(50ms);
 }
 
 Burden::~Burden() {
-  ends_ = true;
+  loads_end = true;
   for (std::thread& thread : threads_) thread.join();
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <string>
 #include <thread>
@@ -18,6 +17,7 @@ struct Load {
   std::function<Step(Robot& robot, TaskGroup& tasks)> begin = {};
   int threads = 1;
   bool fills_page = false;  ///< a page in a browser, too, has another connection that is saturated
+  Driver driver = Driver::kPlanner;
 };
 
 [[nodiscard]] std::vector<Load> Loads();
@@ -31,7 +31,6 @@ class Burden {
   Burden& operator=(const Burden&) = delete;
 
  private:
-  std::atomic<bool> ends_{false};
   std::vector<std::thread> threads_;
 };
 

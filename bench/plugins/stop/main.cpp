@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <thread>
 #include <utility>
 
@@ -33,17 +34,17 @@ void PrintRow(const Load& load, std::vector<double> times) {
 
 /// False: that way cannot be had.
 bool MeasureStop(const KindOfWay& kind, const Load& load, int tries) {
-  Robot robot;
+  loads_end = false;
+  Robot robot(load.driver);
   TaskGroup tasks(robot.service->worker());
   const auto way = kind.make(robot, load.fills_page);
   if (way == nullptr) return false;
   std::vector<double> times;
   {
     const Burden burden(load, robot);
-    for (int i = 0; i < tries; ++i) {
-      robot.planner->speed.Publish(0.4);
-      robot.UntilRead(true);
-      times.push_back(way->Press());
+    while (static_cast<int>(times.size()) < tries) {
+      robot.Drive();
+      std::ranges::copy(way->Press(), std::back_inserter(times));
       (void)robot.service->Begin(RobotStopRequest{false, "bench"}, tasks);
     }
   }
@@ -54,8 +55,9 @@ bool MeasureStop(const KindOfWay& kind, const Load& load, int tries) {
 // All bases are driven before the load begins, and not heard of again. Their deadlines end one after the other.
 void MeasureDeadMan(const Load& load, int tries) {
   constexpr Duration kFirst = 250ms;
-  constexpr Duration kStep = 20ms;
-  Robot robot;
+  constexpr Duration kStep = 5ms;
+  loads_end = false;
+  Robot robot(load.driver);
   TaskGroup tasks(robot.service->worker());
   std::vector<double> times;
   for (int round = 0; static_cast<int>(times.size()) < tries; ++round) {

@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 /// Takes its time to be made.
 class Slow final : public Module {
  public:
-  explicit Slow(const Placement& placement) : Module(placement) { std::this_thread::sleep_for(5s); }
+  explicit Slow(const Placement& placement) : Module(placement) { Nap(5s); }
 
  private:
   void Update() override {}
@@ -34,10 +34,10 @@ ServiceHooks SlowHooks() {
   return {.load_plugins =
               [](const ChangeSet& changes) {
                 const auto* const create = std::get_if<CreateModule>(&changes.front());
-                if (create != nullptr && create->type.starts_with("elsewhere/")) std::this_thread::sleep_for(5s);
+                if (create != nullptr && create->type.starts_with("elsewhere/")) Nap(5s);
               },
           .save = [](const std::string&) -> Result<std::string> {
-            std::this_thread::sleep_for(5s);
+            Nap(5s);
             return std::string("saved");
           }};
 }
@@ -55,21 +55,39 @@ void Fail(const std::string& why) {
   std::exit(1);
 }
 
+void Nap(Duration time) {
+  for (const auto until = SteadyClock::now() + time; !loads_end && SteadyClock::now() < until;)
+    std::this_thread::sleep_for(5ms);
+}
+
 void Planner::PublishPicture() {
   auto loan = picture.Loan();
   loan->assign(1'000'000, 7);
   picture.Publish(std::move(loan));
 }
 
-Robot::Robot() {
+Robot::Robot(Driver by) : driver(by) {
   Register<Base>(modules, "bench/base");
   Register<Slow>(modules, "bench/slow");
-  for (int i = 0; i < kBases; ++i) {
+  Register<SlowPlanner>(modules, "bench/slow_planner");
+  for (std::size_t i = 0; i < kBases; ++i) {
     bases.push_back(&runtime.Create<Base>(runtime.root(), "base" + std::to_string(i)));
   }
   planner = &runtime.Create<Planner>(runtime.root(), "planner");
-  if (!Port::Connect(planner->speed, bases.front()->speed)) Fail("cannot connect");
+  if (driver == Driver::kPlanner && !Port::Connect(planner->speed, bases.front()->speed)) Fail("cannot connect");
   if (!runtime.MakeReady(runtime.root())) Fail("cannot begin");
+  if (driver == Driver::kSlowPlanners) {
+    ChangeSet changes;
+    for (std::size_t i = 0; i < kBases; ++i) {
+      const std::string number = std::to_string(i);
+      changes.push_back(AddThread{"own" + number, {.period = 10ms}});
+      changes.push_back(CreateModule{"/slow" + number, "bench/slow_planner"});
+      changes.push_back(AssignToThread{"/slow" + number, "own" + number});
+      changes.push_back(ConnectPorts{"/slow" + number + "/speed", "/base" + number + "/speed"});
+    }
+    if (const ChangeOutcome done = editor.Apply(changes); !done) Fail(done.diagnostics.ToString());
+    if (const auto started = scheduler.Start(); !started) Fail(started.error().ToString());
+  }
   service = std::make_unique<CommandService>(
       ServedApplication{runtime, modules, editor, log, SlowHooks(), &history, &scheduler.pace(), &scheduler});
   std::string name = (std::filesystem::temp_directory_path() / "bench_stop_XXXXXX").string();
@@ -80,14 +98,39 @@ Robot::Robot() {
   web = Started(WebServer::Start({.port = 0}, InspectorPage(), {inspector->Protocol()}));
 }
 
-Robot::~Robot() { std::filesystem::remove_all(folder); }
+Robot::~Robot() {
+  loads_end = true;  // nor is a slow planner waited for
+  if (driver == Driver::kSlowPlanners) scheduler.Stop();
+  std::filesystem::remove_all(folder);
+}
 
-void Robot::UntilRead(bool is_moving, Duration pause) const {
+void Robot::Drive() {
+  const std::size_t driven = driver == Driver::kPlanner ? 1 : bases.size();
+  if (driver == Driver::kPlanner) planner->speed.Publish(0.4);
   const auto limit = SteadyClock::now() + 10s;
-  while ((bases.front()->speed.Get() != 0) != is_moving) {
-    if (SteadyClock::now() > limit) Fail(is_moving ? "the robot does not move" : "the robot moves on");
-    if (pause > Duration{}) std::this_thread::sleep_for(pause);
+  for (std::size_t i = 0; i < driven;) {
+    if (SteadyClock::now() > limit) Fail("the robot does not move");
+    if (bases[i]->speed.Get() != 0) {
+      ++i;
+    } else if (driver != Driver::kPlanner) {
+      std::this_thread::sleep_for(1ms);
+    }
   }
+}
+
+std::vector<SteadyClock::time_point> Robot::UntilSafe(Duration pause) const {
+  std::vector<SteadyClock::time_point> safe(driver == Driver::kPlanner ? 1 : bases.size());
+  const auto limit = SteadyClock::now() + 10s;
+  for (std::size_t left = safe.size(); left > 0;) {
+    if (SteadyClock::now() > limit) Fail("the robot moves on");
+    for (std::size_t i = 0; i < safe.size(); ++i) {
+      if (safe[i] != SteadyClock::time_point() || bases[i]->speed.Get() != 0) continue;
+      safe[i] = SteadyClock::now();
+      --left;
+    }
+    if (pause > Duration{} && left > 0) std::this_thread::sleep_for(pause);
+  }
+  return safe;
 }
 
 }  // namespace runnel::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -32,6 +33,12 @@ using SteadyClock = std::chrono::steady_clock;
 /// Says why to the person who measures, and ends the program.
 [[noreturn]] void Fail(const std::string& why);
 
+/// Set when what goes on beside the tries is to end.
+inline std::atomic<bool> loads_end{false};
+
+/// So long, or until loads end.
+void Nap(Duration time);
+
 /// What is driven.
 class Base final : public Module {
  public:
@@ -55,17 +62,39 @@ class Planner final : public Module {
   void Update() override {}
 };
 
-/// An application whose bases are driven, and all by which clients reach it: the service, the control socket, the server of
-/// the page. The first base is connected to the planner.
-struct Robot {
-  static constexpr int kBases = 100;  ///< as many dead-men are tried at once
+/// Drives in each cycle, from which it returns after 2 s.
+class SlowPlanner final : public Module {
+ public:
+  using Module::Module;
+  Output<double> speed{this, "speed", {.unit = "m/s"}};
 
-  Robot();
+ private:
+  void Update() override {
+    speed.Publish(0.4);
+    Nap(std::chrono::seconds(2));
+  }
+};
+
+/// Who drives the bases.
+enum class Driver {
+  kPlanner,       ///< the first one, when the bench has it publish
+  kSlowPlanners,  ///< each has a slow planner in a thread of its own
+};
+
+/// An application whose bases are driven, and all by which clients reach it: the service, the control socket, the server of
+/// the page.
+struct Robot {
+  static constexpr std::size_t kBases = 100;  ///< as many dead-men are tried at once
+
+  explicit Robot(Driver driver = Driver::kPlanner);
   ~Robot();
 
-  /// Waits until the reader of the first base finds it moving, or finds the safe value.
-  void UntilRead(bool is_moving, Duration pause = {}) const;
+  /// Waits until the readers of all bases that are driven find them moving.
+  void Drive();
+  /// Waits until they find the safe value; when each of them did.
+  std::vector<SteadyClock::time_point> UntilSafe(Duration pause = {}) const;
 
+  const Driver driver;
   Runtime runtime;
   ModuleRegistry modules;
   std::vector<Base*> bases;

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
               static_cast<unsigned long long>(found.checks),
               static_cast<unsigned long long>(found.checks_in_force),
               static_cast<unsigned long long>(found.moving));
+  std::printf("%llu marks and blocks came back with what was deleted\n", static_cast<unsigned long long>(found.came_back));
   for (const auto& violation : found.violations) std::printf("%s\n", violation.c_str());
   std::printf("%zu ways around STOP\n", found.violations.size());
   return found.violations.empty() ? 0 : 1;

@@ -20,14 +20,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
+std::vector<double> Took(SteadyClock::time_point begin, const std::vector<SteadyClock::time_point>& ends) {
+  std::vector<double> took;
+  for (const auto& each : ends) took.push_back(std::chrono::duration<double, std::milli>(each - begin).count());
+  return took;
+}
+
 class ByService final : public Way {
  public:
   explicit ByService(Robot& robot) : robot_(robot), tasks_(robot.service->worker()) {}
-  double Press() override {
+  std::vector<double> Press() override {
     const auto begin = SteadyClock::now();
     (void)robot_.service->Begin(RobotStopRequest{true, "bench"}, tasks_);
-    robot_.UntilRead(false);
-    return Since(begin);
+    return Took(begin, robot_.UntilSafe());
   }
 
  private:
@@ -39,15 +44,14 @@ class ByService final : public Way {
 class ByTerminal final : public Way {
  public:
   explicit ByTerminal(Robot& robot) : robot_(robot) {}
-  double Press() override {
+  std::vector<double> Press() override {
     const auto begin = SteadyClock::now();
     auto client = ControlClient::Connect(robot_.control->socket());
     if (!client) Fail(client.error().ToString());
     const auto pass = [](std::string_view) { return true; };
     const auto code = client->Ask("stop", pass, pass);
     if (!code || *code != 0) Fail("the STOP of a terminal has been refused");
-    robot_.UntilRead(false);
-    return Since(begin);
+    return Took(begin, robot_.UntilSafe());
   }
 
  private:
@@ -60,11 +64,10 @@ class ByWebSocket final : public Way {
   explicit ByWebSocket(Robot& robot) : robot_(robot), client_(robot.web->port()) {
     (void)client_.Upgrade("runnel.stop.v1");
   }
-  double Press() override {
+  std::vector<double> Press() override {
     const auto begin = SteadyClock::now();
     if (!client_.SendText(R"({"op":"stop","request":1})")) Fail("the connection of the STOP has been closed");
-    robot_.UntilRead(false);
-    const double took = Since(begin);
+    const std::vector<double> took = Took(begin, robot_.UntilSafe());
     for (;;) {
       const auto message = client_.Receive(1);
       if (!message) Fail("the connection of the STOP has been closed");
@@ -77,8 +80,10 @@ class ByWebSocket final : public Way {
   test::RawClient client_;
 };
 
-double WallClock() {
-  return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();
+/// When it was by the machine's wall clock, which is in ms.
+SteadyClock::time_point ByWallClock(double time) {
+  const std::chrono::duration<double, std::milli> now = std::chrono::system_clock::now().time_since_epoch();
+  return SteadyClock::now() - std::chrono::duration_cast<SteadyClock::duration>(now - std::chrono::duration<double, std::milli>(time));
 }
 
 // From the event of the mouse or the key, as the browser has stamped it, in headless Chromium.
@@ -105,14 +110,13 @@ class ByPage final : public Way {
   }
   [[nodiscard]] bool is_there() const noexcept { return is_there_; }
 
-  double Press() override {
+  std::vector<double> Press() override {
     (void)std::fputs("press\n", page_);
     (void)std::fflush(page_);
-    robot_.UntilRead(false, 100us);
-    const double end = WallClock();
+    const auto safe = robot_.UntilSafe(100us);
     const std::string pressed = Line();
     if (pressed.empty()) Fail("the page is gone");
-    return end - std::strtod(pressed.c_str(), nullptr);
+    return Took(ByWallClock(std::strtod(pressed.c_str(), nullptr)), safe);
   }
 
  private:

@@ -12,8 +12,8 @@ namespace runnel::bench {
 class Way {
  public:
   virtual ~Way() = default;
-  /// Presses, waits until the reader of the first base finds the safe value, and says how long that took, in ms.
-  [[nodiscard]] virtual double Press() = 0;
+  /// Presses, and waits until the readers of all bases that are driven find the safe value; how long each of them took, in ms.
+  [[nodiscard]] virtual std::vector<double> Press() = 0;
 };
 
 struct KindOfWay {

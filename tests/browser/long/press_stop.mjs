@@ -1,6 +1,7 @@
 // A person at a page, for bench_stop: node press_stop.mjs URL [saturated]. Says "ready", and presses STOP for each line that it
 // is told, by the mouse and by keys in turn; the answer is when the event was, by the machine's wall clock, in ms.
 
+import { connect, createServer } from 'node:net';
 import { createInterface } from 'node:readline';
 import { OpenPage } from '../support/browser.mjs';
 import { FindBrowser } from '../support/find_browser.mjs';
@@ -9,8 +10,34 @@ const [url, saturated] = process.argv.slice(2);
 process.env.RUNNEL_BROWSER = FindBrowser();
 if (!process.env.RUNNEL_BROWSER) process.exit(77);
 
+// The server's side of all but the connection of the STOP is full, and stays so: far more is watched than passes. What passes is
+// bounded, or the page would do nothing but read it.
+const kPasses = 1000; // octets in a ms
+
+async function Narrow(to) {
+  const server = createServer((near) => {
+    const far = connect(Number(new URL(to).port), '127.0.0.1');
+    let isStop = false;
+    near.on('data', (data) => { isStop ||= data.includes('runnel.stop.v1'); far.write(data); });
+    far.on('data', (data) => {
+      near.write(data);
+      if (isStop) return;
+      far.pause();
+      setTimeout(() => far.resume(), data.length / kPasses);
+    });
+    for (const [one, other] of [[near, far], [far, near]]) {
+      one.setNoDelay(true);
+      one.on('error', () => other.destroy());
+      one.on('close', () => other.destroy());
+    }
+  });
+  await new Promise((done) => { server.listen(0, '127.0.0.1', done); });
+  return `http://127.0.0.1:${server.address().port}/`;
+}
+
 const ends = [];
-const { page } = await OpenPage({ after: (end) => ends.push(end) }, url, { shows: '#stop-button' });
+const address = saturated ? await Narrow(url) : url;
+const { page } = await OpenPage({ after: (end) => ends.push(end) }, address, { shows: '#stop-button' });
 const button = page.locator('#stop-button');
 const { x, y, width, height } = await button.boundingBox();
 await page.evaluate(() => {

@@ -141,10 +141,12 @@ async function Do(actions) {
   return undefined;
 }
 
+/** Each action once, then what the seed chooses. */
 async function Search(steps, actions) {
+  const once = actions.map(([, act]) => act);
   for (const end = counts.steps + steps; counts.steps < end && found.length < kMostFound; ++counts.steps) {
     if (!await watcher.isGood()) await Kill(); // too much has been deleted, or its run has ended
-    await Do(actions);
+    await (once.length > 0 ? once.shift()() : Do(actions));
     await watcher.settle();
     await pages?.check(Found);
   }

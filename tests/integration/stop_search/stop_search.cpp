@@ -4,11 +4,12 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
 #include <random>
 #include <set>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "core/element/runtime.h"
 #include "core/plugin/module_type_name.h"
@@ -25,6 +26,7 @@
 #include "plugins/structure/change_text.h"
 #include "plugins/structure/reload.h"
 #include "plugins/structure/structure_editor.h"
+#include "tests/integration/stop_search/expected_marks.h"
 
 namespace runnel::test {
 
@@ -43,6 +45,7 @@ class Search {
       Check();
       if (DrivingPorts().size() < 3) Build();  // too much has been deleted
     }
+    result_.came_back += expected_.came_back;
     return std::move(result_);
   }
 
@@ -56,9 +59,7 @@ class Search {
     scheduler_.reset();
     runtime_.emplace();
     released_at_.reset();
-    renames_.clear();
-    marked_.clear();
-    blocked_.clear();
+    result_.came_back += std::exchange(expected_, {}).came_back;
     if (is_stopped_) runtime_->robot_stop().Press("the search");
     const auto folder = std::filesystem::path(RUNNEL_XML) / "apps";
     auto document = XmlDocument::Load((folder / "bug_demo.xml").string());
@@ -80,8 +81,7 @@ class Search {
     if (auto ready = MakeApplicationReady(*built.application); !ready) {
       throw std::runtime_error(ready.error().ToString());
     }
-    for (Port* const port :
-         Ports([](const Port& port) { return port.name() == "wheels" || port.name() == "twist"; }))
+    for (Port* const port : Ports([](const Port& each) { return each.name() == "wheels" || each.name() == "twist"; }))
       (void)port->SetDriving(true);
     NoteMarks();
   }
@@ -100,21 +100,25 @@ class Search {
     });
     return ports;
   }
+  ExpectedMarks::Paths Paths() {
+    ExpectedMarks::Paths paths;
+    for (const Port* const port : Ports([](const Port&) { return true; })) paths.insert(port->path());
+    return paths;
+  }
   // As they have to be, whatever the ports themselves say.
   std::vector<Port*> DrivingPorts() {
-    return Ports([&](const Port& port) { return marked_.contains(port.path()); });
+    return Ports([&](const Port& port) { return expected_.marked.contains(port.path()); });
   }
   void NoteMarks() {
     for (Port* const port : Ports([](const Port& port) { return port.is_driving(); }))
-      marked_.insert(port->path());
+      expected_.marked.insert(port->path());
   }
-  // What was marked or blocked and is still there has to be so still; what was deleted is not asked for any more.
+  // What was marked or blocked and is still there has to be so still.
   void CheckMarks() {
     const auto check = [&](std::set<std::string>& paths, bool (Port::*is)() const noexcept,
                            const char* what) {
       std::set<std::string> there;
-      for (Port* const port :
-           Ports([&](const Port& port) { return paths.contains(port.path()); })) {
+      for (Port* const port : Ports([&](const Port& each) { return paths.contains(each.path()); })) {
         if ((port->*is)()) {
           there.insert(port->path());
         } else {
@@ -123,17 +127,9 @@ class Search {
       }
       paths = std::move(there);
     };
-    check(marked_, &Port::is_driving, "its mark as driving");
-    check(blocked_, &Port::is_blocked, "its block");
+    check(expected_.marked, &Port::is_driving, "its mark as driving");
+    check(expected_.blocked, &Port::is_blocked, "its block");
     NoteMarks();  // copies
-  }
-  void Move(const std::string& from, const std::string& to) {
-    for (std::set<std::string>* const paths : {&marked_, &blocked_}) {
-      std::set<std::string> moved;
-      for (const std::string& path : *paths)
-        moved.insert(path.starts_with(from + "/") ? to + path.substr(from.size()) : path);
-      *paths = std::move(moved);
-    }
   }
   void Violate(const std::string& what) {
     result_.violations.push_back("step " + std::to_string(result_.steps) + ", after '" + last_ +
@@ -157,32 +153,38 @@ class Search {
     return all.empty() ? nullptr : all[Below(all.size())];
   }
 
-  bool Change(ChangeSet changes) {
+  void Change(const ChangeSet& changes, const std::string& from = "", const std::string& to = "") {
     last_ = ChangeText(changes.front());
-    const bool is_done = history_->Apply(changes).is_done;
-    if (!is_done) ++result_.refused;
-    return is_done;
+    if (!history_->Apply(changes).is_done) {
+      ++result_.refused;
+      return;
+    }
+    expected_.Did(last_, from, to, Paths());
   }
   void Rename() {
     FrameworkElement* const part = OneOf(Parts());
     if (part == nullptr) return;
     const std::string from = part->path();
     const std::string name = "part" + std::to_string(++names_);
-    if (!Change({RenameElement{from, name}})) return;
-    const auto& moved = renames_[last_] = {from, from.substr(0, from.rfind('/') + 1) + name};
-    Move(moved.first, moved.second);
+    Change({RenameElement{from, name}}, from, from.substr(0, from.rfind('/') + 1) + name);
   }
   void Undo() {
     last_ = "undo";
-    const auto renamed = renames_.find(history_->NextUndo().value_or(""));
-    if (history_->Undo() && renamed != renames_.end())
-      Move(renamed->second.second, renamed->second.first);
+    if (!Follows(history_->NextUndo(), expected_.NextUndo())) return;
+    const ChangeOutcome outcome = history_->Undo();
+    if (outcome.is_done || outcome.is_refused) expected_.Undid(outcome.is_done, Paths());
   }
   void Redo() {
     last_ = "redo";
-    const auto renamed = renames_.find(history_->NextRedo().value_or(""));
-    if (history_->Redo() && renamed != renames_.end())
-      Move(renamed->second.first, renamed->second.second);
+    if (!Follows(history_->NextRedo(), expected_.NextRedo())) return;
+    const ChangeOutcome outcome = history_->Redo();
+    if (outcome.is_done || outcome.is_refused) expected_.Redid(outcome.is_done, Paths());
+  }
+  // Whether there is one.
+  bool Follows(const std::optional<std::string>& next, const std::optional<std::string>& expected) {
+    if (next != expected) throw std::logic_error("the search has not followed the history");
+    if (next) last_ += " of " + *next;
+    return next.has_value();
   }
   void SetByHand(Port::Setter setter) {
     Port* const port = OneOf(DrivingPorts());
@@ -210,7 +212,7 @@ class Search {
     Port* const from = OneOf(Ports([&](const Port& port) {
       return &port.type() == &to->type() && port.direction() == Port::Direction::kOutput;
     }));
-    if (from != nullptr) Change({ConnectPorts{from->path(), to->path()}});
+    if (from) Change({ConnectPorts{from->path(), to->path()}});
   }
   void RunCycles(std::size_t cycles) {
     last_ += ", then " + std::to_string(cycles) + " cycles";
@@ -227,14 +229,14 @@ class Search {
         {2,
          [&] {
            Port* const port = OneOf(DrivingPorts());
-           if (port != nullptr && port->Block()) blocked_.insert(port->path());
+           if (port != nullptr && port->Block()) expected_.blocked.insert(port->path());
          }},
         {2,
          [&] {
            Port* const port = OneOf(DrivingPorts());
            if (port == nullptr) return;
            (void)port->Unblock();
-           blocked_.erase(port->path());
+           expected_.blocked.erase(port->path());
          }},
         {4, [&] { SetByHand(Port::Setter::kPerson); }},
         {2, [&] { SetByHand(Port::Setter::kRule); }},
@@ -261,6 +263,7 @@ class Search {
         {2, [&] { Redo(); }},
         {14, [&] { RunCycles(1 + Below(4)); }},
     };
+    if (result_.steps < actions.size()) return actions[result_.steps].second();  // each of them once
     int sum = 0;
     for (const auto& [weight, act] : actions) sum += weight;
     auto place = static_cast<int>(Below(static_cast<std::size_t>(sum)));
@@ -316,7 +319,7 @@ class Search {
       ++result_.moving;
       const bool is_late_enough = !released_at_ || (times.timestamp > *released_at_ &&
                                                     times.publication_time > *released_at_);
-      if (!is_stopped_ && !blocked_.contains(port.path()) && is_late_enough) return;
+      if (!is_stopped_ && !expected_.blocked.contains(port.path()) && is_late_enough) return;
       Violate(reader.path() + " is " + ToText(port.type(), value));
     });
   }
@@ -328,10 +331,7 @@ class Search {
   std::uint64_t names_ = 0;
   bool is_stopped_ = false;  // as it has to be, whatever the robot says
   std::optional<Time> released_at_;
-  std::set<std::string> marked_;  // paths of ports that drive, and of those that are blocked
-  std::set<std::string> blocked_;
-  std::map<std::string, std::pair<std::string, std::string>>
-      renames_;  // label of the change -> from, to
+  ExpectedMarks expected_;
 
   XmlTagRegistry tags_ = ApplicationTags();
   PluginManager plugins_;

@@ -16,6 +16,7 @@ struct StopSearchResult {
   std::uint64_t checks_in_force = 0;  ///< of those, while STOP was in force
   std::uint64_t moving =
       0;  ///< of those, that had another value than the safe one, as they may when it is not
+  std::uint64_t came_back = 0;  ///< marks and blocks of what was away and has come back by undo or redo
   std::vector<std::string> violations;  ///< with the step and what was done last
 };
 
@@ -24,7 +25,8 @@ struct StopSearchResult {
 /// application again from its file, run cycles.
 /// After each of them no driving port may have another value than its safe one while STOP is in force, and after
 /// that none that was measured or published before the release. What was marked as driving or blocked stays so as
-/// long as it is there. The same seed does the same.
+/// long as it is there, and is so again when an undo or a redo brings it back. It begins with each of these once; the same seed
+/// does the same.
 [[nodiscard]] StopSearchResult SearchForWaysAroundStop(std::uint64_t seed, std::uint64_t steps);
 
 }  // namespace runnel::test

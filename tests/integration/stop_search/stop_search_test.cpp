@@ -12,6 +12,7 @@ TEST(StopSearch, NothingGetsAroundAStop) {
   EXPECT_GT(found.presses, 5u);
   EXPECT_GT(found.reloads, 2u);
   EXPECT_GT(found.checks_in_force, 100u);
+  EXPECT_GT(found.came_back, 0u) << "nothing that was deleted came back";
   EXPECT_GT(found.moving, 100u) << "a robot that never moves need not be stopped";
   EXPECT_LT(found.refused, found.steps / 4);
 }
