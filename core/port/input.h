@@ -105,8 +105,7 @@ class Input final : public BoundInput {
   [[nodiscard]] bool is_stopped() const noexcept {
     return FindsStop([](const internal::StopLink& stop) { return !stop.is_braking(); });
   }
-  /// Whether that is because a stop is in force: however long ago it was pressed, the safe value is what is meant. Any thread.
-  [[nodiscard]] bool is_stop_in_force() const noexcept {
+  [[nodiscard]] bool is_stop_in_force() const noexcept override {
     return FindsStop([](const internal::StopLink& stop) { return !stop.is_braking() && stop.stop().in_force(); });
   }
 

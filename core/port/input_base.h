@@ -49,6 +49,8 @@ class InputBase : public Port {
   /// first again. Where another connection has changed the queue meanwhile, its drops count on.
   [[nodiscard]] virtual std::uint64_t dropped() const noexcept = 0;
   [[nodiscard]] Ageing ageing() const noexcept { return options_.ageing; }
+  /// Whether readers find the safe value because a stop is in force: it is meant, however old it is. Any thread.
+  [[nodiscard]] virtual bool is_stop_in_force() const noexcept { return false; }
 
  protected:
   InputBase(const Placement& placement, const TypeInfo& type, InputOptions options);

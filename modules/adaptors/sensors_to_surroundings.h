@@ -27,12 +27,10 @@ class SensorToSurroundings : public Module {
   /// `port`: the name of the input for what is measured.
   SensorToSurroundings(const Placement& placement, std::string port, std::string description)
       : Module(placement),
-        measurement(this, std::move(port),
-                    {.description = std::move(description), .required = true, .ageing = Ageing::kTimesOut}) {}
+        measurement(this, std::move(port), Measured(std::move(description))) {}
 
   Input<Measurement> measurement;
-  Input<Pose2> pose{
-      this, "pose", {.description = "where it was measured", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<Pose2> pose{this, "pose", Measured("where it was measured")};
   Output<Surroundings> surroundings{this, "surroundings", {.description = "in the robot's frame"}};
 
   StaticParameter<double> safe_distance{

@@ -86,15 +86,11 @@ Result<void> FusionBehaviour::Construct() {
   const std::uint32_t count = channels.Get();
   for (std::uint32_t i = 1; i <= count; ++i) {
     const std::string number = std::to_string(i);
-    activities_.emplace_back(this, "activity" + number,
-                             InputOptions{.description = "how active the behaviour is", .required = true,
-                                          .ageing = Ageing::kTimesOut});
-    target_ratings_.emplace_back(this, "target_rating" + number,
-                                 InputOptions{.description = "how content it is", .required = true,
-                                              .ageing = Ageing::kTimesOut});
-    inputs_.push_back((*ports)->MakeInput(
-        InputGroup(), "in" + number,
-        {.description = "what it wants", .required = true, .unit = unit.Get(), .ageing = Ageing::kTimesOut}));
+    activities_.emplace_back(this, "activity" + number, Measured("how active the behaviour is"));
+    target_ratings_.emplace_back(this, "target_rating" + number, Measured("how content it is"));
+    InputOptions wanted = Measured("what it wants");
+    wanted.unit = unit.Get();
+    inputs_.push_back((*ports)->MakeInput(InputGroup(), "in" + number, wanted));
   }
   output_ = (*ports)->MakeOutput(OutputGroup(), "out",
                                  {.description = "what all of them come to", .unit = unit.Get()});
@@ -147,11 +143,12 @@ void FusionBehaviour::OnBehaviourParametersChanged() {
   throw ElementError({.message = no_fusion_, .path = method.path()});
 }
 
-bool FusionBehaviour::ReadSignals() {
+const char* FusionBehaviour::ReadSignals() {
   for (std::size_t i = 0; i < signals_.size(); ++i) {
-    const auto active = activities_[i].Read();
-    const auto rated = target_ratings_[i].Read();
-    if (!active || !rated) return false;
+    const auto active = activity_timeout.Read(activities_[i], now());
+    if (!active) return activity_timeout.words();
+    const auto rated = target_rating_timeout.Read(target_ratings_[i], now());
+    if (!rated) return target_rating_timeout.words();
     signals_[i] = {active->value(), rated->value()};
     if (!IsMetaValue(signals_[i].activity) || !IsMetaValue(signals_[i].target_rating)) {
       throw ElementError({.message = "what comes to channel " + std::to_string(i + 1) + ", activity " +
@@ -160,26 +157,26 @@ bool FusionBehaviour::ReadSignals() {
                           .path = path()});
     }
   }
-  return true;
+  return nullptr;
 }
 
-bool FusionBehaviour::ReadValues() {
+const char* FusionBehaviour::ReadValues() {
   for (std::size_t i = 0; i < weights_.size(); ++i) {
     found_[i] = nullptr;
     if (weights_[i] == 0.0) continue;
-    (void)values_->Read(*inputs_[i], i);
+    (void)in_timeout.Read(*inputs_[i], *values_, i);
     found_[i] = values_->Find(i);
-    if (found_[i] == nullptr) return false;
+    if (found_[i] == nullptr) return in_timeout.words();
   }
-  return true;
+  return nullptr;
 }
 
 std::optional<Behaviour::Outcome> FusionBehaviour::Behave(double activation) {
-  if (!ReadSignals()) return Miss("a channel has no activity or no target rating");
+  if (const char* const lack = ReadSignals()) return Miss(lack);
   const FusedSignals fused = Fuse(chosen_, signals_, activation);
   winner_ = fused.winner;
   WeighChannels(chosen_, signals_, weights_);
-  if (!ReadValues()) return Miss("a channel is active and has no value");
+  if (const char* const lack = ReadValues()) return Miss(lack);
   has_fused_ = true;
   return Outcome{fused.activity, fused.target_rating};
 }

@@ -14,6 +14,7 @@
 #include "core/types/type_info.h"
 #include "modules/behaviours/algorithm/fusion.h"
 #include "plugins/behaviours/behaviour.h"
+#include "plugins/parameters/input_timeout.h"
 
 namespace runnel {
 
@@ -78,6 +79,9 @@ class FusionBehaviour final : public Behaviour {
       this,
       "method",
       {.default_value = FusionMethod::kWeightedAverage, .description = "how they are made one"}};
+  InputTimeout activity_timeout{this, "activity", {}};
+  InputTimeout target_rating_timeout{this, "target_rating", {}};
+  InputTimeout in_timeout{this, "in", {}};
 
   /// For composites written in C++: connects the three ports of a channel, the first is 1, with a behaviour and what it wants.
   /// After Construct(). Errors: there is no such channel; as Port::Connect().
@@ -102,9 +106,9 @@ class FusionBehaviour final : public Behaviour {
   Result<void> Prepare() override;
   std::optional<Outcome> Behave(double activation) override;
   void OnBehaviourParametersChanged() override;
-  [[nodiscard]] bool ReadSignals();
-  // False: a channel that is active has none.
-  [[nodiscard]] bool ReadValues();
+  // Why they do not count; nullptr: they do. Of values those of the channels that are active.
+  [[nodiscard]] const char* ReadSignals();
+  [[nodiscard]] const char* ReadValues();
   void PublishFused();
   void DiscardFused();
 

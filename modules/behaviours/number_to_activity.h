@@ -25,7 +25,7 @@ class NumberToActivity final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<double> number{this, "number", {.description = "what becomes an activity", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<double> number{this, "number", Measured("what becomes an activity")};
   InputTimeout number_timeout{this, number, {}};
   Parameter<CurveKind> curve{
       this, "curve", {.default_value = Curve{}.kind, .description = "which way it goes, first and then"}};

@@ -25,10 +25,11 @@ Result<void> PlannerStatusTeller::Prepare() {
 }
 
 void PlannerStatusTeller::Update() {
-  const auto here = pose.Read();
+  const auto here = pose_timeout.Read(pose, now());
   const auto there = goal.Read();
-  const auto rating = content.Read();
-  if (!here || !there || !rating) return;
+  const auto rating = content_timeout.Read(content, now());
+  const auto round = detour_timeout.Read(detour, now());
+  if (!here || !there || !rating || (detour.is_bound() && !round)) return;
   const Point2 place = Position(*here);
   if (last_goal_ != std::optional(*there)) {
     told_ = {};
@@ -39,7 +40,7 @@ void PlannerStatusTeller::Update() {
   }
   if (const auto before = std::exchange(last_place_, place)) told_.path_length += Distance(*before, place);
   told_.distance_to_goal = Distance(place, *there);
-  const bool is_round = detour.Get().value() > 0.0;
+  const bool is_round = round && round->value() > 0.0;
   Note(is_round, place);
   told_.mode = is_round                 ? PlannerMode::kFollowingBoundary
                : rating->value() == 0.0 ? PlannerMode::kReached

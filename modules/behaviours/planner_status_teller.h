@@ -9,6 +9,7 @@
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "plugins/behaviours/meta_signal.h"
+#include "plugins/parameters/input_timeout.h"
 
 namespace runnel {
 
@@ -18,11 +19,13 @@ class PlannerStatusTeller final : public Module {
  public:
   explicit PlannerStatusTeller(const Placement& placement) : Module(placement) { RegisterMetaSignals(); }
 
-  Input<Pose2> pose{this, "pose", {.description = "of the robot, world's frame", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<Pose2> pose{this, "pose", Measured("of the robot, world's frame")};
   Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
-  Input<TargetRating> content{
-      this, "content", {.description = "of the behaviour that drives to the goal", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<TargetRating> content{this, "content", Measured("of the behaviour that drives to the goal")};
   Input<Activity> detour{this, "detour", {.description = "of what leads round obstacles", .ageing = Ageing::kTimesOut}};
+  InputTimeout pose_timeout{this, pose, {.log = &log()}};
+  InputTimeout content_timeout{this, content, {.log = &log()}};
+  InputTimeout detour_timeout{this, detour, {.log = &log()}};
   Output<PlannerStatus> status{this, "status", {.description = "as planners say it"}};
   Output<HitAndLeavePoints> points{
       this, "points", {.description = "where detours began and ended, the last of them, whenever there is another one"}};

@@ -14,10 +14,6 @@ namespace runnel {
 
 namespace internal {
 inline constexpr const char* kObstacles = "what a sensor adaptor knows of the obstacles";
-/// Of an input without which a behaviour cannot tell what to do, and which grows old.
-inline InputOptions Measured(const char* description) {
-  return {.description = description, .required = true, .ageing = Ageing::kTimesOut};
-}
 /// Of a parameter of both behaviours that ask whether the robot is there, since they must agree.
 inline ParameterOptions<double> GoalTolerance(double tolerance, const char* description) {
   return {.default_value = tolerance, .bounds = {0.01, 10.0}, .unit = "m", .description = description};
@@ -65,7 +61,7 @@ class DriveToGoalBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Pose2> pose{this, "pose", internal::Measured("of the robot, world's frame")};
+  Input<Pose2> pose{this, "pose", Measured("of the robot, world's frame")};
   Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
   ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
 
@@ -85,7 +81,7 @@ class AvoidObstaclesBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Surroundings> surroundings{this, "surroundings", internal::Measured(internal::kObstacles)};
+  Input<Surroundings> surroundings{this, "surroundings", Measured(internal::kObstacles)};
   ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
 
   SteeringParameters steering{this};
@@ -106,7 +102,7 @@ class FollowWallBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Surroundings> surroundings{this, "surroundings", internal::Measured(internal::kObstacles)};
+  Input<Surroundings> surroundings{this, "surroundings", Measured(internal::kObstacles)};
   ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
 
   SteeringParameters steering{this};
@@ -126,9 +122,9 @@ class EscapeBehaviour final : public Behaviour {
  public:
   explicit EscapeBehaviour(const Placement& placement) : Behaviour(placement) { KeepState(state_); }
 
-  Input<Pose2> pose{this, "pose", internal::Measured("of the robot, world's frame")};
+  Input<Pose2> pose{this, "pose", Measured("of the robot, world's frame")};
   Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
-  Input<Surroundings> surroundings{this, "surroundings", internal::Measured(internal::kObstacles)};
+  Input<Surroundings> surroundings{this, "surroundings", Measured(internal::kObstacles)};
 
   Parameter<double> patience{this,
                              "patience",
@@ -162,8 +158,8 @@ class EmergencyStopBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Input<Surroundings> surroundings{this, "surroundings", internal::Measured(internal::kObstacles)};
-  Input<Twist2> wanted{this, "wanted", internal::Measured("how the others want to move")};
+  Input<Surroundings> surroundings{this, "surroundings", Measured(internal::kObstacles)};
+  Input<Twist2> wanted{this, "wanted", Measured("how the others want to move")};
   ControlOutput<Twist2> twist{this, "twist", {.description = "standstill, or turning on the spot"}};
 
   Parameter<double> least_way{this,

@@ -8,8 +8,8 @@ Result<void> PassingModule::MakePorts(std::size_t inputs, std::size_t places) {
   const auto ports = FindPortsByName(type.Get());
   if (!ports) return ports.error().WithPath(type.path());
   for (std::size_t i = 1; i <= inputs; ++i) {
-    inputs_.push_back(
-        (*ports)->MakeInput(InputGroup(), inputs == 1 ? "in" : "in" + std::to_string(i)));
+    inputs_.push_back((*ports)->MakeInput(InputGroup(), inputs == 1 ? "in" : "in" + std::to_string(i),
+                                          {.ageing = Ageing::kPassedOn}));
   }
   output_ = (*ports)->MakeOutput(OutputGroup(), "out");
   if (output_ == nullptr) {

@@ -26,6 +26,8 @@ class PassingModule : public Module {
       this, "type", {.default_value = "double", .description = "of the values that pass"}};
 
  protected:
+  /// One input, and a place for its value.
+  Result<void> Construct() override { return MakePorts(1, 1); }
   /// In Construct(): inputs called in1, in2 …, or in if there is but one, the output out, and places for values.
   Result<void> MakePorts(std::size_t inputs, std::size_t places);
 
@@ -118,8 +120,6 @@ class Gate final : public PassingModule {
   Parameter<bool> open{this, "open", {.default_value = true, .description = "whether values pass"}};
 
  private:
-  Result<void> Construct() override { return MakePorts(1, 1); }
-
   void Update() override {
     const bool was_open = std::exchange(was_open_, open.Get());
     if (!was_open_) return;
@@ -150,8 +150,6 @@ class Sample final : public PassingModule {
       this, "repeats", {.description = "passes the newest value again where none has come"}};
 
  private:
-  Result<void> Construct() override { return MakePorts(1, 1); }
-
   void Update() override {
     if (has_passed_ && now() - last_ < FromSeconds(interval.Get())) return;
     const bool is_new = values().Read(input(), 0);

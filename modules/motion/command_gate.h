@@ -10,22 +10,22 @@
 
 namespace runnel {
 
-/// Why a command does not pass.
+/// Why a command does not pass: of commands in the words of InputTimeout, which the log has, too.
 enum class GateState {
   kOpen,
-  kNoCommand,   ///< none has come yet
-  kOldCommand,  ///< the last one is older than the gate allows: whoever commands has fallen silent
+  kNeverCame,   ///< no command
+  kOld,         ///< the last command: whoever commands has fallen silent
   kContact,     ///< the body touches something
   kStopped,     ///< somebody has closed the gate, or the robot is stopped
-  kNotANumber,  ///< the command is none that can be driven
+  kNotANumber,  ///< the command
   kOldContact,  ///< the bumper has fallen silent, or has never spoken
 };
 
 inline void Describe(TypeBuilder<GateState>& type) {
   type.Name("GateState")
       .Value("open", GateState::kOpen)
-      .Value("no_command", GateState::kNoCommand)
-      .Value("old_command", GateState::kOldCommand)
+      .Value("never_came", GateState::kNeverCame)
+      .Value("old", GateState::kOld)
       .Value("contact", GateState::kContact)
       .Value("stopped", GateState::kStopped)
       .Value("not_a_number", GateState::kNotANumber)
@@ -39,21 +39,16 @@ class CommandGate final : public Module {
  public:
   explicit CommandGate(const Placement& placement) : Module(placement) { KeepState(has_bumper_); }
 
-  Input<Twist2> wanted{this,
-                       "wanted",
-                       {.description = "what the planner commands",
-                        .required = true,
-                        .drives = true,
-                        .ageing = Ageing::kTimesOut}};
+  Input<Twist2> wanted{this, "wanted", Driving("what the planner commands")};
   /// Commands are no older for it.
   Input<Contact> contact{this, "contact", {.description = "what a bumper says", .ageing = Ageing::kSetOnce}};
   Output<Twist2> allowed{this, "allowed", {.description = "the same, or standstill"}};
   Output<GateState> state{this, "state", {.description = "why commands do not pass"}};
 
-  InputTimeout wanted_timeout{this, wanted, {.former_name = "timeout"}};
+  InputTimeout wanted_timeout{this, wanted, {.former_name = "timeout", .log = &log()}};
   /// A bumper that is connected has to speak, and has to go on speaking, also if it is disconnected or another gate takes the
   /// place of this one. A bumper that says only what has changed needs a longer time-out.
-  InputTimeout contact_timeout{this, contact, {}};
+  InputTimeout contact_timeout{this, contact, {.log = &log()}};
   Parameter<bool> stop{
       this, "stop", {.default_value = false, .description = "holds the robot whatever comes"}};
 
@@ -65,19 +60,19 @@ class CommandGate final : public Module {
   }
   void Update() override {
     const auto command = wanted_timeout.Read(wanted, now());
-    const auto touch = contact_timeout.Read(contact, now());
     has_bumper_ = has_bumper_ || contact.is_bound();
+    const auto touch = has_bumper_ ? contact_timeout.Read(contact, now()) : Lease<Contact>();
     const GateState verdict = Check(touch);
     allowed.Publish(verdict == GateState::kOpen ? *command : Twist2{});
     state.Publish(verdict);
   }
   [[nodiscard]] GateState Check(const Lease<Contact>& touch) const {
     if (stop.Get() || wanted.is_stop_in_force()) return GateState::kStopped;
-    if (wanted_timeout.lack() == InputLack::kNeverCame) return GateState::kNoCommand;
+    if (wanted_timeout.lack() == InputLack::kNeverCame) return GateState::kNeverCame;
     if (has_bumper_ && !touch) return GateState::kOldContact;
     if (touch && touch->is_touching) return GateState::kContact;
     if (wanted_timeout.lack() == InputLack::kNone) return GateState::kOpen;
-    return wanted_timeout.lack() == InputLack::kOld ? GateState::kOldCommand : GateState::kNotANumber;
+    return wanted_timeout.lack() == InputLack::kOld ? GateState::kOld : GateState::kNotANumber;
   }
 
   bool has_bumper_ = false;

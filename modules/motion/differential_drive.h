@@ -22,12 +22,7 @@ class DifferentialDriveModule final : public Module {
  public:
   using Module::Module;
 
-  Input<Twist2> twist{this,
-                      "twist",
-                      {.description = "how the body shall move",
-                       .required = true,
-                       .drives = true,
-                       .ageing = Ageing::kTimesOut}};
+  Input<Twist2> twist{this, "twist", Driving("how the body shall move")};
   Output<WheelSpeeds> wheels{this, "wheels", {.description = "what the wheels shall do"}};
 
   Parameter<double> wheel_radius{

@@ -36,12 +36,8 @@ class BugPlanner : public Module {
  public:
   explicit BugPlanner(const Placement& placement) : Module(placement) { KeepState(state_); }
 
-  Input<Surroundings> surroundings{
-      this,
-      "surroundings",
-      {.description = "what a sensor adaptor knows of the obstacles", .required = true, .ageing = Ageing::kTimesOut}};
-  Input<Pose2> pose{
-      this, "pose", {.description = "of the robot, world's frame", .required = true, .ageing = Ageing::kTimesOut}};
+  Input<Surroundings> surroundings{this, "surroundings", Measured("what a sensor adaptor knows of the obstacles")};
+  Input<Pose2> pose{this, "pose", Measured("of the robot, world's frame")};
   Input<Point2> goal{
       this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
   Output<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};

@@ -14,7 +14,8 @@ class ScanFilter final : public Module {
  public:
   using Module::Module;
 
-  Input<RangeScan> raw{this, "raw", {.description = "scans as measured", .required = true}};
+  Input<RangeScan> raw{
+      this, "raw", {.description = "scans as measured", .required = true, .ageing = Ageing::kPassedOn}};
   Output<RangeScan> filtered{this, "filtered", {.description = "the same without single outliers"}};
 
   Parameter<std::uint32_t> reach{this,

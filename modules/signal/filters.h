@@ -18,7 +18,7 @@ class Filter : public Module {
  public:
   using Module::Module;
 
-  Input<double> in{this, "in", {.required = true}};
+  Input<double> in{this, "in", {.required = true, .ageing = Ageing::kPassedOn}};
   Output<double> out{this, "out"};
 
  protected:

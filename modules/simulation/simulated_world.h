@@ -31,12 +31,7 @@ class SimulatedWorld final : public SenseControlModule {
   explicit SimulatedWorld(const Placement& placement);
   ~SimulatedWorld() override;
 
-  Input<WheelSpeeds> wheels{controller_inputs(),
-                            "wheels",
-                            {.description = "what the wheels shall do",
-                             .required = true,
-                             .drives = true,
-                             .ageing = Ageing::kTimesOut}};
+  Input<WheelSpeeds> wheels{controller_inputs(), "wheels", Driving("what the wheels shall do")};
   Output<Scene> scene{sensor_outputs(), "scene", {.description = "what stands still"}};
   Output<Pose2> pose{sensor_outputs(), "pose", {.description = "where the robot really is"}};
   Output<Twist2> twist{sensor_outputs(), "twist", {.description = "how it really moves"}};
@@ -52,7 +47,7 @@ class SimulatedWorld final : public SenseControlModule {
   Parameter<double> goal_x{this, "goal_x", kGoalOfFile};
   Parameter<double> goal_y{this, "goal_y", kGoalOfFile};
   /// Without newer wheel speeds for so long, the wheels come to rest.
-  InputTimeout wheels_timeout{this, wheels, {.former_name = "timeout"}};
+  InputTimeout wheels_timeout{this, wheels, {.former_name = "timeout", .log = &log()}};
   StaticParameter<double> robot_radius{
       this,
       "robot_radius",

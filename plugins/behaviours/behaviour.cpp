@@ -92,16 +92,12 @@ double Behaviour::ReadStimulation() {
   return 0.0;
 }
 
-// Of an inhibitor that does not run any more the last word stands. It counts from when it was said: signals may go round, and
-// what they were measured by never renews then.
 std::optional<double> Behaviour::ReadActivation() {
-  if (!began_) began_ = now();
   for (std::size_t i = 0; i < inhibition_ports_.size(); ++i) {
-    const auto held_back = inhibition_ports_[i].Peek();
+    const auto held_back = inhibition_timeout.Read(inhibition_ports_[i], now());
+    const bool is_silent = !held_back && inhibition_ports_[i].is_bound() && !inhibition_timeout.is_awaited(now());
+    if (is_silent) return Miss(inhibition_timeout.words());
     inhibition_values_[i] = held_back ? CheckSignal("an inhibition", held_back->value()) : 0.0;
-    const Time said = held_back ? held_back.publication_time() : *began_;
-    const bool is_silent = inhibition_ports_[i].is_bound() && now() - said > FromSeconds(inhibition_timeout.Get());
-    if (is_silent) return Miss("who inhibits it is silent");
   }
   return Activation(ReadStimulation(), inhibition_values_);
 }

@@ -13,6 +13,7 @@
 #include "core/types/type_of.h"
 #include "plugins/behaviours/algorithm/behaviour_rules.h"
 #include "plugins/behaviours/meta_signal.h"
+#include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 
@@ -172,10 +173,8 @@ class Behaviour : public Module {
       this,
       "inhibitions",
       {.default_value = 1, .bounds = {0, kMostInhibitions}, .description = "how many ports: inhibition1, inhibition2 …"}};
-  Parameter<double> inhibition_timeout{
-      this,
-      "inhibition_timeout",
-      {.default_value = 0.5, .bounds = {0.0, 3600.0}, .unit = "s", .description = "of who is silent for longer nobody knows"}};
+  /// It counts from when it was said: signals may go round, and what they were measured by never renews then.
+  InputTimeout inhibition_timeout{this, "inhibition", {.counts_from_publication = true}};
   Parameter<StimulationMode> stimulation_mode{
       this,
       "stimulation_mode",
@@ -231,7 +230,6 @@ class Behaviour : public Module {
   double CheckSignal(const char* name, double value) const;
 
   std::deque<Input<Inhibition>> inhibition_ports_;
-  std::optional<Time> began_;
   std::vector<double> inhibition_values_;
   std::vector<Input<Activity>*> activity_inputs_;
   std::vector<double> last_activities_;  // of those; -1: there is none

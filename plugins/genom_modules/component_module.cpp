@@ -84,7 +84,7 @@ genom_execution::EngineOptions ComponentModule::Options() {
   options.run_async = [](void* glue, std::size_t place, genom_execution::AsyncWork& work) {
     auto& module = *static_cast<ComponentModule*>(glue);
     module.workers_[place]->Begin(work);
-    if (module.is_simulated_ && !work.codel().calls_others) module.workers_[place]->WaitUntilBack();
+    if (module.is_simulated_ && !work.codel().calls_others) (void)module.workers_[place]->WaitUntilBack(Time::max());
   };
   if (has_own || !workers_.empty()) {
     options.wake = [](void* glue) {

@@ -43,11 +43,7 @@ class AsyncWorker {
     work_.store(&work, std::memory_order_release);
     given_.Notify();
   }
-  /// Not in a cycle, but on a simulated clock.
-  void WaitUntilBack() noexcept {
-    while (is_away()) back_.Wait();
-  }
-  /// At most until then, by the machine. False: it is still away.
+  /// Not in a cycle, but on a simulated clock. At most until then, by the machine. False: it is still away.
   [[nodiscard]] bool WaitUntilBack(Time deadline) noexcept {
     while (is_away() && SteadyClock().Now() < deadline) back_.WaitUntil(deadline);
     return !is_away();

@@ -11,6 +11,7 @@
 #include "core/port/output.h"
 #include "plugins/genom_modules/codel_values.h"
 #include "plugins/genom_modules/component_module.h"
+#include "plugins/parameters/input_timeout.h"
 
 namespace runnel::genom_modules {
 
@@ -21,7 +22,8 @@ inline ComponentModule& ComponentOf(const FrameworkElement& port) {
   return dynamic_cast<ComponentModule&>(*at);
 }
 
-/// `port in`: read() fetches, data() has what was fetched last. What codels have is the view itself, or made of it.
+/// `port in`: read() fetches, data() has what was fetched last, null if that did not count (InputTimeout, `<port>_timeout`).
+/// What codels have is the view itself, or made of it.
 /// Threads: the codels', one at a time.
 template <typename View, typename Value, bool is_view>
 class InPort {
@@ -29,11 +31,11 @@ class InPort {
   template <typename Owner>
   InPort(Owner&& owner, const std::string& name, const std::string& description)
       : input_(owner, name, {.description = description, .ageing = Ageing::kTimesOut}) {
-    ComponentOf(input_).AddReading(reading_);
+    component_.AddReading(reading_);
   }
 
   void Fetch(const genom_execution::CodelContext& context) {
-    fetched_ = input_.Read();
+    fetched_ = timeout_.Read(input_, input_.runtime().clock().Now());
     reading_.Note(context.request, fetched_ ? fetched_.timestamp() : Time::max());
     if constexpr (!is_view) {
       if (fetched_) ToCodel(value_, *fetched_);
@@ -51,6 +53,9 @@ class InPort {
  private:
   struct Nothing {};
   Input<View> input_;
+  ComponentModule& component_ = ComponentOf(input_);
+  const std::string group_ = input_.parent()->parent() == &component_ ? "" : input_.parent()->name() + "_";
+  InputTimeout timeout_{&component_, group_ + input_.name(), {.log = &component_.log()}};
   Lease<View> fetched_;
   PortReading reading_;
   [[no_unique_address]] std::conditional_t<is_view, Nothing, Value> value_{};

@@ -171,7 +171,8 @@ void Standstill::Driven::LookUpstream(const Port& input, bool times_out) {
     LookAtParameters(*source);
     VisitSiblings(*source, Port::Direction::kInput, [&](Port& each) {
       const auto* const base = dynamic_cast<const InputBase*>(&each);
-      const bool ages = times_out || (base != nullptr && base->ageing() != Ageing::kUnspecified);
+      const Ageing ageing = base != nullptr ? base->ageing() : Ageing::kUnspecified;
+      const bool ages = times_out || ageing == Ageing::kTimesOut || ageing == Ageing::kSetOnce;
       if (each.is_set_by_hand(Port::Setter::kPerson)) return;  // whatever comes there does not count
       if (ages && &each.type() != &source->type()) return;
       LookUpstream(each, ages);

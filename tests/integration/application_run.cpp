@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/element/runtime.h"
+#include "core/log/log_sink.h"
 #include "core/plugin/plugin_manager.h"
 #include "core/port/port.h"
 #include "plugins/application_files/application_builder.h"
@@ -94,6 +95,9 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
     const auto pose = running.application.Find("world/sensor_output/pose");
     if (!pose) throw std::runtime_error(pose.error().ToString());
     const Time start = running.runtime.clock().Now();
+    const LogSink sink(running.runtime, [&](const LogMessage& message) {
+      if (message.level >= LogLevel::kWarning) run.warnings.emplace_back(message.time - start, message.BodyText());
+    });
     auto change = choice.changes.begin();
     const auto step = [&] {
       for (; change != choice.changes.end() && change->first <= run.duration; ++change) {

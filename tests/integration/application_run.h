@@ -33,6 +33,7 @@ struct ApplicationRun {
   std::vector<Fault> faults;
   std::vector<Notice> notices;  ///< of what was done about faults and silence
   bool was_stopped = false;     ///< by a fault rule
+  std::vector<std::pair<Duration, std::string>> warnings;  ///< and errors of the log, since the start
   Duration duration{};
 };
 

@@ -29,22 +29,21 @@ struct InputOfModule {
   std::size_t index;
   ValueTimes times{};
 
-  py::object Give(Taking how, bool only_new) {
+  // Each that waits in a queue counts, however old.
+  py::object Give(Taking how, bool only_new, bool times_out) {
     const ModuleHost::Use module = host->Get();
     const PythonModule::BoundInput& input = module->input(index);
-    return Take(*input.ports, *input.port, how, only_new, times);
+    return Take(*input.ports, *input.port, how, only_new, times, times_out ? input.timeout.get() : nullptr);
   }
 };
 
-struct OutputOfModule {
+template <typename Kind>
+struct PartOfModule {
   std::shared_ptr<ModuleHost> host;
   std::size_t index;
 };
-
-struct ClientOfModule {
-  std::shared_ptr<ModuleHost> host;
-  std::size_t index;
-};
+using OutputOfModule = PartOfModule<Port>;
+using ClientOfModule = PartOfModule<ModuleClient>;
 
 template <typename Result, typename... Arguments>
 auto OfClient(Result (ModuleClient::*what)(Arguments...)) {
@@ -63,9 +62,12 @@ void BindModules(py::module_& module) {
       .def("period", [](const ModuleHost&) { return ToSeconds(PythonModule::Period()); })
       .def("say", [](ModuleHost& host, const std::string& level, const std::string& text) { host.Get()->Say(level, text); });
   py::class_<InputOfModule>(module, "ModuleInput", "An input of a module in Python, as its update() reads it.")
-      .def("read", [](InputOfModule& input) { return input.Give(&HeldValues::Read, false); }, "The newest value; None if there is none yet.")
-      .def("new", [](InputOfModule& input) { return input.Give(&HeldValues::Read, true); }, "The newest value, unless it has been read; else None.")
-      .def("next", [](InputOfModule& input) { return input.Give(&HeldValues::Next, true); }, "Of a connection with a queue the oldest that waits; None if none does.")
+      .def("read", [](InputOfModule& input) { return input.Give(&HeldValues::Read, false, true); },
+           "The newest value; None if there is none yet, or if it is older than the input's time-out.")
+      .def("new", [](InputOfModule& input) { return input.Give(&HeldValues::Read, true, true); },
+           "The newest value, unless it has been read or is older than the input's time-out; else None.")
+      .def("next", [](InputOfModule& input) { return input.Give(&HeldValues::Next, true, false); },
+           "Of a connection with a queue the oldest that waits; None if none does.")
       .def_property_readonly("timestamp", [](const InputOfModule& input) { return ToSeconds(input.times.timestamp); },
                              "When the last value was measured (s).");
   py::class_<OutputOfModule>(module, "ModuleOutput", "An output of a module in Python.")

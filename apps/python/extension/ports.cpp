@@ -70,9 +70,10 @@ void LookAround(const OpenApplication& open) {
   (void)open.Get();
 }
 
-py::object Take(const TypedPorts& ports, Port& input, Taking how, bool only_new, ValueTimes& times) {
+py::object Take(const TypedPorts& ports, Port& input, Taking how, bool only_new, ValueTimes& times,
+                InputTimeout* timeout) {
   std::shared_ptr<HeldValues> held = ports.MakeHeldValues(1);
-  const bool is_new = (held.get()->*how)(input, 0);
+  const bool is_new = timeout != nullptr ? timeout->Read(input, *held, 0) : (held.get()->*how)(input, 0);
   const void* const value = held->Find(0);
   if (value == nullptr || (only_new && !is_new)) return py::none();
   times = held->times(0);

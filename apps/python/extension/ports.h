@@ -14,6 +14,7 @@
 #include "core/port/typed_ports.h"
 #include "plugins/application/application.h"
 #include "plugins/command_service/command_service.h"
+#include "plugins/parameters/input_timeout.h"
 
 namespace runnel::python {
 
@@ -69,9 +70,11 @@ auto WithoutGil(const Open& open, const Work& work) {
 /// Between two waits of a call: throws what a signal has, and that the application has been closed.
 void LookAround(const OpenApplication& open);
 
-/// What the input gives out by `how`, and its times; None if there is none, or with `only_new` none that is new.
+/// What the input gives out by `how`, and its times; None if there is none, or with `only_new` none that is new. With a
+/// `timeout` the newest one, if that counts.
 using Taking = bool (HeldValues::*)(Port&, std::size_t) noexcept;
-[[nodiscard]] pybind11::object Take(const TypedPorts& ports, Port& input, Taking how, bool only_new, ValueTimes& times);
+[[nodiscard]] pybind11::object Take(const TypedPorts& ports, Port& input, Taking how, bool only_new, ValueTimes& times,
+                                    InputTimeout* timeout = nullptr);
 
 /// Has the output publish what Python says, written into a buffer that the output lends. Throws what FromPython() throws,
 /// and then nothing is published.

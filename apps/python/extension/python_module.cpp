@@ -171,7 +171,13 @@ void PythonModule::MakePorts(const py::dict& described) {
                                .trigger = said["trigger"].cast<bool>(),
                                .unit = said["unit"].cast<std::string>(),
                                .ageing = said["set_once"].cast<bool>() ? Ageing::kSetOnce : Ageing::kTimesOut};
-    inputs_.push_back({WithoutGil([&] { return ports.MakeInput(InputGroup(), name, options); }), &ports});
+    const InputTimeout::Options timeout{.seconds = said["timeout"].cast<double>(), .log = &log()};
+    const bool times_out = options.ageing == Ageing::kTimesOut && !Find("parameter/" + name + "_timeout");
+    inputs_.push_back(WithoutGil([&] {
+      BoundInput input{ports.MakeInput(InputGroup(), name, options), &ports, nullptr};
+      if (times_out) input.timeout = std::make_unique<InputTimeout>(this, *input.port, timeout);
+      return input;
+    }));
   });
   each("outputs", [&](const TypedPorts& ports, const std::string& name, const py::dict& said) {
     const OutputOptions options{.description = said["description"].cast<std::string>(), .unit = said["unit"].cast<std::string>()};

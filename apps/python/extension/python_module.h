@@ -10,6 +10,7 @@
 #include "apps/python/extension/module_services.h"
 #include "core/module/module.h"
 #include "core/port/typed_ports.h"
+#include "plugins/parameters/input_timeout.h"
 
 namespace runnel::python {
 
@@ -50,6 +51,7 @@ class PythonModule final : public Module {
   struct BoundInput {
     std::unique_ptr<Port> port;
     const TypedPorts* ports;
+    std::unique_ptr<InputTimeout> timeout;  ///< nullptr: what comes there is set once, or the class has that parameter itself
   };
   [[nodiscard]] BoundInput& input(std::size_t index) { return inputs_.at(index); }
   [[nodiscard]] Port& output(std::size_t index) { return *outputs_.at(index); }

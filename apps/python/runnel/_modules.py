@@ -25,11 +25,13 @@ class Input(_Described):
 
     required -- an application in which nothing is connected is wrong; trigger -- what a module without a period waits for;
     set_once -- a goal, a map, a mode, which holds until there is another: without it, what update() publishes is as old as what it
-    has read here, so that a silent sensor is seen at the wheels.
+    has read here, so that a silent sensor is seen at the wheels, and an older value than timeout (s) is None for read() and new().
+    The module has a parameter ``scan_timeout`` for that, which the file may set, unless the class has one of that name itself.
     """
 
-    def __init__(self, type, required=False, trigger=False, unit="", description="", set_once=False):
-        self.said = dict(type=_name(type), required=required, trigger=trigger, unit=unit, description=description, set_once=set_once)
+    def __init__(self, type, required=False, trigger=False, unit="", description="", set_once=False, timeout=0.5):
+        self.said = dict(type=_name(type), required=required, trigger=trigger, unit=unit, description=description,
+                         set_once=set_once, timeout=float(timeout))
 
     def __get__(self, instance, owner=None):
         return self if instance is None else instance._runnel_ports[self.name]

@@ -174,6 +174,41 @@ def test_classes_composed_in_code():
         assert app.read("/counter/out")[0] == 20
 
 
+class Late(runnel.Module):
+    """What it has of each of its inputs."""
+    measured = runnel.Input("double", timeout=0.3)
+    usual = runnel.Input("double")
+    goal = runnel.Input("double", set_once=True)
+    own = runnel.Input("double")
+    own_timeout = runnel.Parameter(7.0)
+    seen = runnel.Output("double[]")
+
+    def update(self):
+        self.seen.publish([float(each.read() is not None) for each in (self.measured, self.usual, self.goal, self.own)])
+
+
+def test_what_is_old_is_not_read():
+    with runnel.compose("late", clock="simulated") as app:
+        app.create("late", Late)
+        writers = [app.writer(f"/late/{name}") for name in ("measured", "usual", "goal", "own")]
+        app.step(1)
+        assert app.read("/late/seen").tolist() == [0, 0, 0, 0]
+        for each in writers:
+            each.publish(1.0)
+        app.run_for(0.25)
+        assert app.read("/late/seen").tolist() == [1, 1, 1, 1]
+        app.run_for(0.2)
+        assert app.read("/late/seen").tolist() == [0, 1, 1, 1]
+        app.run_for(0.5)
+        assert app.read("/late/seen").tolist() == [0, 0, 1, 1], "the class looks after the last one itself"
+        assert app["/late/usual_timeout"] == 0.5 and app["/late/own_timeout"] == 7
+        app["/late/measured_timeout"] = 60
+        app.run_for(0.1)
+        assert app.read("/late/seen").tolist() == [1, 0, 1, 1]
+        with pytest.raises(runnel.Error):
+            app["/late/goal_timeout"]
+
+
 def test_a_thread_of_its_own_in_real_time():
     with runnel.compose("numbers") as app:
         app.create("counter", Counter)

@@ -63,7 +63,7 @@ class Speaker(runnel.Module):
 
 
 SPOKEN = {"number": ("double", 1.5), "flag": ("bool", True), "text": ("string", 'a "b"'), "count": ("int64", -3),
-          "state": ("GateState", "no_command"), "numbers": ("double[]", [1.0, 2.5]), "samples": ("float[]", [0.5]),
+          "state": ("GateState", "never_came"), "numbers": ("double[]", [1.0, 2.5]), "samples": ("float[]", [0.5]),
           "bytes": ("uint8[]", [7, 8]), "pose": ("Pose2", {"x": 1.0, "y": 2.0, "heading": 0.5}),
           "way": ("Path2", {"points": [{"x": 1.0, "y": 2.0}]})}
 

@@ -1,8 +1,10 @@
 #include <array>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 
+#include "core/log/log_sink.h"
 #include "core/port/output.h"
 #include "modules/behaviours/fusion.h"
 #include "modules/types/pose.h"
@@ -56,6 +58,11 @@ struct FusionTest : ::testing::Test {
   Output<Mixed> makes_mixed_known{other.root(), "mixed"};
   Output<Named> makes_named_known{other.root(), "named"};
   ModuleRig<FusionBehaviour> rig;
+
+  // What is fed once counts for as long as the test lasts.
+  void NothingGrowsOld() {
+    for (const char* timeout : {"activity_timeout", "target_rating_timeout", "in_timeout"}) rig.Set(timeout, "3600");
+  }
 };
 
 TEST_F(FusionTest, TheWinnerTakesAll) {
@@ -201,7 +208,38 @@ TEST_F(FusionTest, SaysNothingUntilAllWhoAreActiveHaveSaidWhatTheyWant) {
   EXPECT_THAT(rig.output<Twist2>("out"), HasPublished(Twist2{1, 1})) << "who does nothing need not want anything";
 }
 
+// One parameter for all channels, as for inhibitions.
+TEST_F(FusionTest, IsActiveInNothingOnceSomethingIsOld) {
+  const auto feed = [&](const std::string& lost) {
+    for (int i : {1, 2}) {
+      const std::string number = std::to_string(i);
+      if (lost != "activity" || i == 1) rig.Feed("activity" + number, Activity(0.5));
+      if (lost != "target_rating" || i == 1) rig.Feed("target_rating" + number, TargetRating(0.5));
+      if (lost != "in" || i == 1) rig.Feed("in" + number, Twist2{1, 0});
+    }
+    rig.RunCycle();
+  };
+  std::vector<std::string> told;
+  const LogSink sink(rig.runtime, [&](const LogMessage& message) { told.push_back(message.text); });
+  rig.Set("warning_interval", "1");
+  for (const std::string lost : {"activity", "target_rating", "in"}) {
+    feed("");
+    EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.5))) << lost;
+    for (int i = 0; i < 10; ++i) feed(lost);  // 0.5 s
+    const auto published = rig.output<Twist2>("out").publications();
+    feed(lost);
+    EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0))) << lost;
+    EXPECT_EQ(rig.output<Twist2>("out").publications(), published) << lost;
+    FlushLog();
+    EXPECT_THAT(told, ::testing::Contains(lost + " is old"));
+    rig.Set(lost + "_timeout", "10");
+    feed(lost);
+    EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.5))) << lost;
+  }
+}
+
 TEST_F(FusionTest, AllocatesNothingInItsCycles) {
+  NothingGrowsOld();
   rig.Set("channels", "8");
   for (int i = 1; i <= 8; ++i) FeedChannel(rig, i, 0.125 * i, 0.5, Twist2{1.0 * i, 1});
   for (const char* method : {"winner_takes_all", "weighted_average", "weighted_sum"}) {
@@ -212,6 +250,7 @@ TEST_F(FusionTest, AllocatesNothingInItsCycles) {
 }
 
 TEST_F(FusionTest, PassesLargeValuesOnWithoutAllocating) {
+  NothingGrowsOld();
   rig.Set("type", "TestNamed");
   rig.Set("method", "winner_takes_all");
   FeedChannel(rig, 1, 0.25, 0.0, Named{std::string(1000, 'a')});

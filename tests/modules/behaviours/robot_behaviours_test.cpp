@@ -272,5 +272,26 @@ TEST(PlannerStatusTellerTest, SaysHowTheNetworkGetsOn) {
   EXPECT_EQ(rig.Last(rig.module.points).leaves.size(), 1u);
 }
 
+TEST(PlannerStatusTellerTest, IsSilentOnceWhatItTellsOfIsOld) {
+  ModuleRig<PlannerStatusTeller> rig;
+  rig.Feed("goal", Point2{3.0, 4.0});
+  const auto publishes = [&](const std::string& lost, int cycles) {
+    std::uint64_t before = 0;
+    for (; cycles > 0; --cycles) {
+      before = rig.module.status.publications();
+      if (lost != "pose") rig.Feed("pose", Pose2{});
+      if (lost != "content") rig.Feed("content", TargetRating(1.0));
+      if (lost != "detour") rig.Feed("detour", Activity(0.0));
+      rig.RunCycle();
+    }
+    return rig.module.status.publications() > before;
+  };
+  for (const std::string lost : {"pose", "content", "detour"}) {
+    EXPECT_TRUE(publishes("", 1)) << lost;
+    EXPECT_TRUE(publishes(lost, 10)) << lost << ", for 0.5 s";
+    EXPECT_FALSE(publishes(lost, 2)) << lost;
+  }
+}
+
 }  // namespace
 }  // namespace runnel

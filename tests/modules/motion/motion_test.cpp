@@ -1,10 +1,15 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/log/log_sink.h"
 #include "core/module/group.h"
+#include "core/types/text_format.h"
 #include "modules/motion/command_gate.h"
 #include "modules/motion/differential_drive.h"
 #include "plugins/testing/module_rig.h"
@@ -48,7 +53,7 @@ TEST(CommandGateModule, StopsWhenWhoeverCommandsFallsSilent) {
   ASSERT_TRUE(rig.module.wanted_timeout.limit.Set(0.25));
   ASSERT_TRUE(rig.Prepare());
   rig.RunCycle();
-  EXPECT_EQ(rig.Last(rig.module.state), GateState::kNoCommand);
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kNeverCame);
   rig.Feed(rig.module.wanted, {0.3, 0});
   for (int i = 0; i < 3; ++i) {
     rig.RunCycle();
@@ -56,7 +61,7 @@ TEST(CommandGateModule, StopsWhenWhoeverCommandsFallsSilent) {
   }
   rig.RunCycle();
   EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
-  EXPECT_EQ(rig.Last(rig.module.state), GateState::kOldCommand);
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kOld);
 }
 
 TEST(CommandGateModule, StopsAtAContactAndWhenTold) {
@@ -93,6 +98,29 @@ TEST(CommandGateModule, StopsAtWhatIsNoNumberAndWhenTheBumperFallsSilent) {
   EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
   rig.Feed(rig.module.contact, {});
   EXPECT_EQ(drive(0.3, 1), GateState::kOpen);
+}
+
+// The same words as others', in the log, and as the value of `state`.
+TEST(CommandGateModule, SaysWhyACommandDoesNotPass) {
+  test::ModuleRig<CommandGate> rig;
+  std::vector<std::string> told;
+  const LogSink sink(rig.runtime, [&](const LogMessage& message) { told.push_back(message.text); });
+  const auto after = [&](std::optional<Twist2> wanted, int cycles) {
+    told.clear();
+    if (wanted) rig.Feed(rig.module.wanted, *wanted);
+    rig.RunCycles(static_cast<std::uint64_t>(cycles));
+    FlushLog();
+    return TextOf(rig.Last(rig.module.state)) + (told.empty() ? "" : ": " + told.back());
+  };
+  EXPECT_EQ(after({}, 12), "never_came: wanted has never come");
+  EXPECT_EQ(after(Twist2{0.3, 0}, 1), "open: wanted is there again");
+  EXPECT_EQ(after({}, 12), "old: wanted is old");
+  EXPECT_EQ(after(Twist2{std::nan(""), 0}, 1), "not_a_number: wanted is not a number");
+  EXPECT_EQ(after(Twist2{0.3, 0}, 1), "open: wanted is there again");
+  rig.Feed(rig.module.contact, {});
+  EXPECT_EQ(after(Twist2{0.3, 0}, 1), "open");
+  rig.RunCycles(8);
+  EXPECT_EQ(after(Twist2{0.3, 0}, 4), "old_contact: contact is old");
 }
 
 TEST(CommandGateModule, WaitsForABumperThatIsConnectedAndHasNotSpoken) {

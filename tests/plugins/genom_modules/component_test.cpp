@@ -90,6 +90,22 @@ TEST_F(ComponentTest, HasMultiplePortsOfTheNamesThatAreGiven) {
   EXPECT_THAT(Call("copy", "{from: left, to: b}"), HasSubstr("mwerr"));
 }
 
+TEST_F(ComponentTest, WhatIsOldIsForCodelsAsIfNothingHadCome) {
+  rig.Set("many", "[left]");
+  rig.Set("copies", "[a]");
+  rig.RunCycles(2);
+  auto& left = dynamic_cast<Port&>(*rig.module.FindChild("input")->FindChild("many")->FindChild("left"));
+  Output<double> source(rig.runtime.root(), "source");
+  ASSERT_TRUE(Port::Connect(source, left));
+  source.Publish(2.5);
+  EXPECT_EQ(Call("copy", "{from: left, to: a}"), "2.5");
+  rig.RunCycles(60);
+  EXPECT_EQ(Call("copy", "{from: left, to: a}"), "-1");
+  rig.Set("many_left_timeout", "3600");
+  EXPECT_EQ(Call("copy", "{from: left, to: a}"), "2.5");
+  EXPECT_TRUE(rig.module.Find("parameter/sighted_timeout"));
+}
+
 TEST_F(ComponentTest, TellsWhatActivitiesDo) {
   rig.RunCycles(2);
   const auto wait = Begin("wait", "{turns: 3}");
