@@ -34,7 +34,12 @@ Result<void> RobotStop::Release(std::string by, const AsOf& as_of) {
   std::unique_lock lock(mutex_);
   if (!in_force()) return Error{.message = "STOP is not in force"};
   if (!IsKnown(as_of)) return PressedSince();
-  signal_->Release([&] { return runtime_.clock().Now(); },
+  // Two releases have two bars, also while the clock stands.
+  const auto bar = [&] {
+    const Time now = runtime_.clock().Now();
+    return now == state_.since ? now + Duration(state_.changes) : now;
+  };
+  signal_->Release(bar,
                    [&] {
                      Note(false, std::move(by));
                      lock.unlock();

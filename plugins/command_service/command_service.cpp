@@ -187,23 +187,42 @@ CommandAnswer CommandService::End(const char* name, const char* what, const std:
   return AnswerOf(end());
 }
 
-// What has a stuck module between it and its safe value. Nobody's lock is waited for. Names what drives and has a safe value of
-// supervision.
-std::string CommandService::WarnOfUnreached(CommandAnswer& answer) const {
-  std::string at_rest;
-  const auto lock = TryStructureLock(application_.runtime, kBlockPatience);
-  if (!lock || application_.scheduler == nullptr) return at_rest;
-  application_.runtime.root().Visit([&](const FrameworkElement& element) {
+namespace {
+// What has a stuck module between it and its safe value. Nobody's lock is waited for. `at_rest`: names of what drives and has a
+// safe value of supervision.
+std::vector<Error> FindUnreached(Runtime& runtime, const Scheduler* scheduler, std::string& at_rest) {
+  std::vector<Error> unreached;
+  const auto lock = TryStructureLock(runtime, kBlockPatience);
+  if (!lock || scheduler == nullptr) return unreached;
+  runtime.root().Visit([&](const FrameworkElement& element) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr || !port->is_driving()) return;
     if (port->is_set_by_hand(Port::Setter::kRule)) at_rest += (at_rest.empty() ? "" : ", ") + port->path();
-    const std::string why = application_.scheduler->WhyUnreached(*port);
+    const std::string why = scheduler->WhyUnreached(*port);
     if (why.empty()) return;
-    answer.leaves_some = true;
-    answer.diagnostics.AddWarning({.message = "cannot be reached: " + why,
-                                   .path = port->path(),
-                                   .hint = "what moves by it keeps its last command, and has to come to rest by its own time-out"});
+    unreached.push_back({.message = "cannot be reached: " + why,
+                         .path = port->path(),
+                         .hint = "what moves by it keeps its last command, and has to come to rest by its own time-out"});
   });
+  return unreached;
+}
+}  // namespace
+
+Result<void> CheckThatAllStops(Runtime& runtime, const Scheduler* scheduler) {
+  std::string at_rest;
+  std::string left;
+  for (const Error& each : FindUnreached(runtime, scheduler, at_rest)) left += (left.empty() ? "" : "; ") + each.ToString();
+  if (FindWhatDrives(runtime) == "") left = NothingDrives().ToString();
+  if (left.empty()) return {};
+  return Error{.message = "STOP is in force, but " + left};
+}
+
+std::string CommandService::WarnOfUnreached(CommandAnswer& answer) const {
+  std::string at_rest;
+  for (Error& each : FindUnreached(application_.runtime, application_.scheduler, at_rest)) {
+    answer.leaves_some = true;
+    answer.diagnostics.AddWarning(std::move(each));
+  }
   return at_rest;
 }
 

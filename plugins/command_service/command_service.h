@@ -131,6 +131,10 @@ struct ServedApplication {
   Scheduler* scheduler = nullptr;  ///< the same's; optional
 };
 
+/// Whether the STOP that is in force stops all that moves; else an error says what it leaves and why, for those who pressed it
+/// without a CommandService. Nobody's lock is waited for. `scheduler`: that of the application; optional.
+[[nodiscard]] Result<void> CheckThatAllStops(Runtime& runtime, const Scheduler* scheduler);
+
 /// A request while it is carried out. Destroyed before it has begun, it is not done.
 ///
 /// Threads:  one; its task group outlives it.

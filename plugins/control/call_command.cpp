@@ -64,7 +64,6 @@ class CallCommand {
   }
 
   Result<void> Begin() {
-    if (auto is_meant = runtime_.robot_stop().CheckIsKnown(as_of_); !is_meant) return is_meant;
     const auto callable = FindCallable(runtime_, path_);
     if (!callable) return callable.error();
     const TypeInfo* const type = (*callable)->arguments();
@@ -88,7 +87,7 @@ class CallCommand {
       }
     }
     reply_ = (*callable)->reply();
-    (void)call->Begin(runtime_.clock().Now(), timeout_);
+    (void)call->Begin(runtime_.clock().Now(), timeout_, as_of_);
     call_ = std::move(call);
     return {};
   }

@@ -60,12 +60,7 @@ void ComponentServiceBase::BeforePasses(Engine& engine, Time now) {
 
 void ComponentServiceBase::Begin(Engine& engine, UnderWay& each, Time now) {
   ServiceEndpoint* const at = endpoint();
-  CallBase* call = nullptr;
-  while (at->queue.TryPop(call)) {
-    if (call->is_given_up.load(std::memory_order_relaxed) || now >= call->deadline) {
-      at->End(*call, CallStatus::kTimedOut, "given up by its caller, or its turn did not come in time");
-      continue;
-    }
+  while (CallBase* const call = at->Take(now, port().runtime().robot_stop())) {
     Fill(each.request, *call);
     if (!engine.Send(each.request)) {
       at->End(*call, CallStatus::kBusy, "too many requests wait for the component");

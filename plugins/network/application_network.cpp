@@ -20,6 +20,7 @@
 #include "plugins/application/application.h"
 #include "plugins/application/extension_registry.h"
 #include "plugins/command_service/application_log.h"
+#include "plugins/command_service/command_service.h"
 #include "plugins/command_service/extension_texts.h"
 #include "plugins/control/element_listing.h"
 #include "plugins/network/application_commands.h"
@@ -180,7 +181,8 @@ class ApplicationNetwork final : public ApplicationExtension {
     RosHooks hooks{.set_parameters = [&application](const auto& changes) { return SetParameters(application, changes); },
                    .health = ApplicationHealth(application),
                    .set_time = [&application](Time time) { return application.SetTime(time); },
-                   .is_stop_kept = application.service().application().hooks.is_stop_kept};
+                   .is_stop_kept = application.service().application().hooks.is_stop_kept,
+                   .check_stop = [&application] { return CheckThatAllStops(application.runtime(), &application.scheduler()); }};
     auto link = NetworkLink::Start(group, *element, *engine_, is_simulated_, [&group] { return ListElements(group, {}); },
                                    std::move(hooks));
     if (!link) return link.error();

@@ -71,7 +71,7 @@ Result<std::unique_ptr<RosNode>> RosNode::Start(const RosOptions& options, WireP
     node->parameters_ = std::move(*made);
   }
   auto stop = StopService::Start(runtime, options.stop_releases, options.node, participant, hooks.dialect,
-                                 std::move(hooks.is_stop_kept));
+                                 std::move(hooks.is_stop_kept), std::move(hooks.check_stop));
   if (!stop) return stop.error();
   node->stop_ = std::move(*stop);
   return node;

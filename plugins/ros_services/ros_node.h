@@ -77,6 +77,8 @@ struct RosHooks {
   std::function<Result<void>(Time)> set_time = {};
   /// As ServiceHooks::is_stop_kept.
   std::function<bool()> is_stop_kept = {};
+  /// What a STOP that is in force leaves, as an error.
+  std::function<Result<void>()> check_stop = {};
 };
 
 /// What nodes of ROS 2 are told of this application besides its topics: that it is a node, its clock, its log, its parameters,

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "core/port/driving_ports.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/names.h"
@@ -15,9 +14,9 @@ constexpr std::uint32_t kStopIdentity = 0x80000100u;  // beyond those of paramet
 
 Result<std::unique_ptr<StopService>> StopService::Start(Runtime& runtime, bool may_release, const std::string& node,
                                                         WireParticipant& participant, ServiceDialect dialect,
-                                                        std::function<bool()> is_kept) {
+                                                        std::function<bool()> is_kept, std::function<Result<void>()> check) {
   const std::string name = (node == "/" ? "" : node) + "/stop";
-  std::unique_ptr<StopService> made(new StopService(runtime, may_release, name, std::move(is_kept)));
+  std::unique_ptr<StopService> made(new StopService(runtime, may_release, name, std::move(is_kept), std::move(check)));
   auto endpoints = ServiceEndpoints::Start(ServiceEndpoints::Side::kServer,
                                            {.service = made->name_,
                                             .request_type = DdsType("std_srvs/srv/SetBool_Request"),
@@ -58,9 +57,8 @@ StopService::Answer StopService::Do(const ServiceMessage& request) {
   RobotStop& stop = runtime_.robot_stop();
   if (is_press) {
     std::string done = stop.Press(by) ? "the robot is stopped" : "the robot was stopped already";
-    if (FindWhatDrives(runtime_) != "") return {true, std::move(done)};
-    const Error why = NothingDrives();
-    return {false, "STOP is in force, but " + why.message + "; " + why.hint};
+    const auto all = check_ ? check_() : Result<void>();
+    return {all.has_value(), all ? std::move(done) : all.error().message};
   }
   if (!may_release_) return {false, "the STOP is not released by this service: its file does not say <ros stop_releases=\"true\">"};
   const auto released = stop.Release(by);

@@ -22,13 +22,15 @@ class StopService {
   /// Errors: of the engine.
   static Result<std::unique_ptr<StopService>> Start(Runtime& runtime, bool may_release, const std::string& node,
                                                     WireParticipant& participant, ServiceDialect dialect,
-                                                    std::function<bool()> is_kept = {});
+                                                    std::function<bool()> is_kept = {},
+                                                    std::function<Result<void>()> check = {});
 
   [[nodiscard]] const ServiceEndpoints& endpoints() const noexcept { return *endpoints_; }
 
  private:
-  StopService(Runtime& runtime, bool may_release, std::string name, std::function<bool()> is_kept)
-      : runtime_(runtime), may_release_(may_release), name_(std::move(name)), is_kept_(std::move(is_kept)) {}
+  StopService(Runtime& runtime, bool may_release, std::string name, std::function<bool()> is_kept,
+              std::function<Result<void>()> check)
+      : runtime_(runtime), may_release_(may_release), name_(std::move(name)), is_kept_(std::move(is_kept)), check_(std::move(check)) {}
   void Serve() noexcept;
   struct Answer {
     bool success;
@@ -40,6 +42,7 @@ class StopService {
   const bool may_release_;
   const std::string name_;  // "/base/stop"
   const std::function<bool()> is_kept_;
+  const std::function<Result<void>()> check_;  // RosHooks::check_stop
   std::mutex serving_;
   std::atomic<ServiceEndpoints*> known_{nullptr};  // by then they may take requests
   std::unique_ptr<ServiceEndpoints> endpoints_;

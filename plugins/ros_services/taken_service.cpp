@@ -91,6 +91,10 @@ bool TakenService::Work() {
       return true;
     }
     if (!is_matched || each.request.empty()) return false;
+    if (each.call->IsFromBefore(runtime_.robot_stop())) {
+      End(each, CallStatus::kFailed, kCalledBeforeStop);
+      return true;
+    }
     const auto sent = endpoints_->Request(each.request);
     each.request.clear();
     if (!sent) End(each, CallStatus::kFailed, sent.error().message);

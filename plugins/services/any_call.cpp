@@ -27,7 +27,13 @@ OwnCall::~OwnCall() {
   RetireCalls(std::move(slots_));
 }
 
-CallStatus OwnCall::Begin(Time now, Duration timeout) {
+CallStatus OwnCall::Begin(Time now, Duration timeout, const RobotStop::AsOf& as_of) {
+  const RobotStop& stop = service_.port().runtime().robot_stop();
+  call_->NoteStop(stop);  // first: what comes after the comparison is seen when the call is taken out
+  if (!stop.CheckIsKnown(as_of)) {
+    error_ = kCalledBeforeStop;
+    return status_ = CallStatus::kFailed;
+  }
   return status_ = BeginCall(service_.endpoint(), *call_, now, timeout);
 }
 

@@ -15,7 +15,7 @@ class OwnCall : public AnyCall {
  public:
   OwnCall(const OwnCall&) = delete;
   OwnCall& operator=(const OwnCall&) = delete;
-  CallStatus Begin(Time now, Duration timeout) final;
+  CallStatus Begin(Time now, Duration timeout, const RobotStop::AsOf& as_of) final;
   CallStatus Poll(Time now) final;
   [[nodiscard]] std::string error() const final { return error_; }
   [[nodiscard]] double progress() const final { return call_->progress.load(std::memory_order_relaxed); }

@@ -17,6 +17,17 @@ void CallBase::WakeCaller() noexcept {
   if (Waker* const whom = waker.load(std::memory_order_relaxed)) whom->Wake();
 }
 
+void CallBase::NoteStop(const RobotStop& stop) noexcept {
+  stop_bar = stop.signal()->bar();
+  asked = SteadyClock().Now();
+}
+
+bool CallBase::IsFromBefore(const RobotStop& stop) const {
+  const std::int64_t bar = stop.signal()->bar();
+  // Of two STOPs the bar is the same.
+  return bar != stop_bar || (bar == StopSignal::kInForce && !stop.CheckIsKnown({.asked = asked, .requests = {}}));
+}
+
 void CallSlots::SetWaker(Waker* waker) noexcept {
   // acquire: pairs with the release in WakeCaller().
   for (CallBase* call : calls_) (void)call->waker.exchange(waker, std::memory_order_acq_rel);

@@ -10,12 +10,17 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/element/robot_stop.h"
 #include "core/lockfree/wake_event.h"
 #include "core/channel/waker.h"
 #include "core/types/type_of.h"
 #include "plugins/services/call_status.h"
 
 namespace runnel {
+
+/// Why a call is not served that IsFromBefore() a STOP.
+inline constexpr const char* kCalledBeforeStop =
+    "STOP was pressed or released after this was asked for; look why, then ask again";
 
 /// One call on its way. The caller writes what is asked, and hands it over through the service's queue; the
 /// service writes what comes of it, and gives it back by `state`.
@@ -46,6 +51,11 @@ struct CallBase {
     return now == State::kReturned || now == State::kIdle;
   }
 
+  /// The caller: it is asked for now.
+  void NoteStop(const RobotStop& stop) noexcept;
+  /// Whoever takes it out of a queue: STOP was pressed or released since, so it is not known what it would do now. Wait-free;
+  /// of a call that was made under a STOP and is taken out under one, RobotStop's mutex is locked.
+  [[nodiscard]] bool IsFromBefore(const RobotStop& stop) const;
   /// A caller that is run by triggers, and waits for it.
   void WakeCaller() noexcept;
 
@@ -54,6 +64,8 @@ struct CallBase {
   Time called_at{};
   Time deadline{};
   const void* endpoint = nullptr;  // to compare with only
+  std::int64_t stop_bar = StopSignal::kNever;
+  Time asked{};  // on the machine's steady clock
   // The service's.
   CallStatus status = CallStatus::kPending;
   std::string error;

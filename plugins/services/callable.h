@@ -8,6 +8,7 @@
 #include "core/base/clock.h"
 #include "core/base/result.h"
 #include "core/element/annotation.h"
+#include "core/element/robot_stop.h"
 #include "core/types/type_info.h"
 #include "plugins/services/call_status.h"
 
@@ -28,7 +29,8 @@ class AnyCall {
   /// Those of a call that was recorded, in place of filling them: a value of the type that the service's NAME_calls has.
   virtual void TakeArguments(const CallRecordBase& record) = 0;
   /// Puts it into the service's queue: kPending, or why not. Under the structure lock under which the service was found.
-  virtual CallStatus Begin(Time now, Duration timeout) = 0;
+  /// If STOP is pressed or released later than `as_of` and before the service takes it out, it fails, and is not served.
+  virtual CallStatus Begin(Time now, Duration timeout, const RobotStop::AsOf& as_of = {}) = 0;
   /// How it is going. Times are the application's.
   virtual CallStatus Poll(Time now) = 0;
   /// Of the type Callable::reply(), once the status is kAnswered. nullptr if there is none.

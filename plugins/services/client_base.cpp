@@ -62,6 +62,7 @@ Time ClientBase::now() const noexcept {
 
 CallStatus ClientBase::Begin(CallBase& call) noexcept {
   call.number = calls_.fetch_add(1, std::memory_order_relaxed) + 1;
+  call.NoteStop(port_->runtime().robot_stop());
   return Guarded([&] { return BeginCall(endpoint(), call, now(), timeout_); });
 }
 

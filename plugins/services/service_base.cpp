@@ -110,17 +110,14 @@ void ServiceBase::BeforeUpdate() {
   ServiceEndpoint* const at = endpoint();
   if (at->is_faulted.load(std::memory_order_relaxed))
     at->is_faulted.store(false, std::memory_order_relaxed);
+  Runtime& runtime = port_->runtime();
+  const Cycle* const cycle = CurrentCycle();
   // What is called meanwhile has its turn in the next cycle.
   for (std::size_t left = at->queue.size(); left > 0; --left) {
     if (worker_ != nullptr && !worker_->is_free()) return;
-    CallBase* call = nullptr;
-    if (!at->queue.TryPop(call)) return;
-    const Cycle* const cycle = CurrentCycle();
-    const Time now = cycle != nullptr ? cycle->now : port_->runtime().clock().Now();
-    if (call->is_given_up.load(std::memory_order_relaxed) || now >= call->deadline) {
-      at->End(*call, CallStatus::kTimedOut, "given up by its caller, or its turn did not come in time");
-      continue;
-    }
+    const Time now = cycle != nullptr ? cycle->now : runtime.clock().Now();
+    CallBase* const call = at->Take(now, runtime.robot_stop());
+    if (call == nullptr) return;
     call->begun_at = now;
     if (worker_ != nullptr) {
       worker_->Begin(*call);

@@ -2,6 +2,19 @@
 
 namespace runnel {
 
+CallBase* ServiceEndpoint::Take(Time now, const RobotStop& stop) {
+  for (CallBase* call = nullptr; queue.TryPop(call);) {
+    if (call->is_given_up.load(std::memory_order_relaxed) || now >= call->deadline) {
+      End(*call, CallStatus::kTimedOut, "given up by its caller, or its turn did not come in time");
+    } else if (call->IsFromBefore(stop)) {
+      End(*call, CallStatus::kFailed, kCalledBeforeStop);
+    } else {
+      return call;
+    }
+  }
+  return nullptr;
+}
+
 CallStatus BeginCall(ServiceEndpoint* at, CallBase& call, Time now, Duration timeout) noexcept {
   if (at == nullptr) return CallStatus::kNotConnected;
   if (at->is_faulted.load(std::memory_order_relaxed)) return CallStatus::kFaulted;

@@ -20,6 +20,9 @@ namespace runnel {
 struct ServiceEndpoint {
   explicit ServiceEndpoint(std::size_t most_calls) : queue(most_calls) {}
 
+  /// The call that is served next; nullptr: none. Those before it end that nobody waits for any more, or that are from before
+  /// a STOP.
+  [[nodiscard]] CallBase* Take(Time now, const RobotStop& stop);
   /// All that wait end like that.
   void EndAll(CallStatus status, std::string_view why) noexcept {
     for (CallBase* call = nullptr; queue.TryPop(call);) End(*call, status, why);

@@ -93,7 +93,6 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
   const RobotStop::AsOf as_of = use->runtime().robot_stop().AsOfNow();
   const auto begin = [&](Application& application) -> Result<void> {
     const std::lock_guard lock(application.runtime().structure_mutex());
-    if (auto known = application.runtime().robot_stop().CheckIsKnown(as_of); !known) return known;
     const auto found = FindCallable(application.runtime(), path);
     if (!found) return found.error();
     Callable* const callable = *found;
@@ -115,7 +114,7 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
         return {};
       }
     }
-    (void)call->Begin(application.runtime().clock().Now(), FromSeconds(timeout));
+    (void)call->Begin(application.runtime().clock().Now(), FromSeconds(timeout), as_of);
     return {};
   };
   const auto begun = WithoutGil(open, begin);

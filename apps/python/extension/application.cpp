@@ -11,9 +11,9 @@
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/ports.h"
 #include "core/paths/path_search.h"
-#include "core/port/driving_ports.h"
 #include "plugins/application/run_report.h"
 #include "plugins/command_service/application_log.h"
+#include "plugins/command_service/command_service.h"
 
 namespace py = pybind11;
 
@@ -38,8 +38,7 @@ Result<void> SetStop(Application& application, bool is_pressed) {
   if (is_kept && !is_kept()) {
     return Error{.message = std::string(is_pressed ? "STOP is in force" : "the STOP is released") + ", and the next process would not know of it yet"};
   }
-  if (is_pressed && FindWhatDrives(application.runtime()) == "") return NothingDrives();
-  return {};
+  return is_pressed ? CheckThatAllStops(application.runtime(), &application.scheduler()) : Result<void>();
 }
 
 Open Load(const std::string& kind, const std::string& text, const std::string& folder, const Words& settings,

@@ -87,6 +87,16 @@ def _given(path):
     return path
 
 
+_STOP = object()  # what is not said: a variable that is None by mistake must not end the STOP
+
+
+def _port(path):
+    """A path, and neither None nor the terminal's word for the STOP."""
+    if path is None or path == "stop":
+        raise _extension.Error(f"{path!r} is no port; release() without a path ends the STOP")
+    return path
+
+
 def _words(values):
     return [(str(name), text_of(value)) for name, value in values.items()]
 
@@ -317,12 +327,12 @@ class Application(_extension.Application):
         """
         self._robot_stop(True)
 
-    def release(self, path=None):
-        """Ends the STOP; with the path of a port, its block and the value set by hand there."""
-        if path is None:
+    def release(self, path=_STOP):
+        """Ends the STOP; with the path of a port, its block and the value set by hand there. None is no path, and refused."""
+        if path is _STOP:
             self._robot_stop(False)
         else:
-            self._release(_given(path))
+            self._release(_given(_port(path)))
 
     def block(self, path):
         """Stops one port: its readers have the safe value, whatever anybody publishes, until release(path)."""

@@ -10,7 +10,7 @@ import threading
 import time
 
 from runnel import _extension
-from runnel.application import text_of
+from runnel.application import _STOP, _port, text_of
 
 
 def _folder():
@@ -318,11 +318,11 @@ class Remote:
             raise _extension.Error(f"the STOP of {self.name} is not confirmed: {why}") from None
         return _outcome(code, out, errors)
 
-    def release(self, path=None):
-        """Ends the STOP; with the path of a port, its block or the value set by hand there. If STOP is pressed again before the
-        application has it, it raises and STOP stays.
+    def release(self, path=_STOP):
+        """Ends the STOP; with the path of a port, its block and the value set by hand there. None is no path, and refused. If
+        STOP is pressed again before the application has it, it raises and STOP stays.
         """
-        return _outcome(*self._exchange_alone("release", *([] if path is None else [path])))
+        return _outcome(*self._exchange_alone("release", *([] if path is _STOP else [_port(path)])))
 
     def _exchange_alone(self, command, *arguments):
         asked = time.monotonic_ns()

@@ -180,7 +180,7 @@ FoxgloveSession::SteadyTime FoxgloveSession::OnPoll() {
   SteadyTime next = std::min(look_at, parameters_.Continue(now));
   next = std::min(next, calls_.Continue(now));
   SendTime(now);
-  if (now >= sample_at_) sample_at_ = now + (subscriptions_.Sample() ? kBetweenSamples : kSoon);
+  if (now >= sample_at_) sample_at_ = now + (subscriptions_.Sample(now) ? kBetweenSamples : kSoon);
   for (const Error& error : subscriptions_.TakeFailures()) SendError(error);
   if (!subscriptions_.is_empty()) next = std::min(next, sample_at_);
   if (is_publishing || !send_queue_.is_empty()) next = std::min<SteadyTime>(next, now + kSoon);

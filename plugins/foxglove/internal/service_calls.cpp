@@ -100,7 +100,6 @@ bool ServiceCalls::TryBegin(Pending& pending) {
   Runtime& runtime = shared_.runtime();
   const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
   if (!lock) return false;
-  if (auto is_meant = runtime.robot_stop().CheckIsKnown(pending.as_of); !is_meant) throw ElementError(is_meant.error());
   const auto found = FindCallable(runtime, pending.path);
   if (!found) throw ElementError(found.error());
   Callable* const callable = *found;
@@ -111,7 +110,7 @@ bool ServiceCalls::TryBegin(Pending& pending) {
     }
   }
   pending.reply = callable->reply();
-  (void)call->Begin(runtime.clock().Now(), kCallTimeout);
+  (void)call->Begin(runtime.clock().Now(), kCallTimeout, pending.as_of);
   pending.begun = std::move(call);
   return true;
 }

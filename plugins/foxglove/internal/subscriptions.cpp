@@ -1,6 +1,7 @@
 #include "plugins/foxglove/internal/subscriptions.h"
 
 #include <algorithm>
+#include <chrono>
 #include <mutex>
 
 #include "core/lockfree/thread_epoch.h"
@@ -15,6 +16,7 @@ namespace {
 // So much may wait for a client before values are skipped: half a second of a slow network.
 constexpr std::size_t kMuchWaiting = 1 << 20;
 constexpr std::size_t kLogEntriesAtOnce = 500;
+constexpr auto kBetweenStops = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -68,11 +70,11 @@ void Subscriptions::Retain(const DirectoryContent& content) {
   }
 }
 
-bool Subscriptions::Sample() {
-  if (by_id_.empty() || client_.waiting_bytes() > kMuchWaiting) return true;
+bool Subscriptions::Sample(SteadyTime now) {
   for (auto& [id, each] : by_id_) {
-    if (each.channel.encoding->topic == kStopName) ShowStop(id, each);
+    if (each.channel.encoding->topic == kStopName) ShowStop(id, each, now);
   }
+  if (by_id_.empty() || client_.waiting_bytes() > kMuchWaiting) return true;
   const EpochGuard guard;  // what is found stays in memory so long
   {
     Runtime& runtime = application_.runtime;
@@ -97,14 +99,16 @@ bool Subscriptions::Sample() {
   return true;
 }
 
-// As it is, then each change; whoever has the structure lock.
-void Subscriptions::ShowStop(std::uint32_t id, Subscription& subscription) {
+// As it is, then each change, and each second; whoever has the structure lock, and however much waits.
+void Subscriptions::ShowStop(std::uint32_t id, Subscription& subscription, SteadyTime now) {
   const RobotStop::State state = application_.runtime.robot_stop().state();
-  if (subscription.next > state.requests) return;
+  if (subscription.next > state.requests && now < subscription.told_at + kBetweenStops) return;
   std::string bytes;
   AppendMessageHead(id, application_.runtime.clock().Now(), bytes);
   subscription.channel.encoding->Append(&state, state.since, bytes);
-  if (client_.SendBinary(std::move(bytes))) subscription.next = state.requests + 1;
+  if (!client_.SendBinary(std::move(bytes))) return;
+  subscription.next = state.requests + 1;
+  subscription.told_at = now;
 }
 
 // All that is kept, then what comes.

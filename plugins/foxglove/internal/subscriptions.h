@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -15,9 +16,11 @@
 namespace runnel::internal {
 
 /// The channels that one client wants values of, and how it gets them: what is new, at most once each
-/// Sample(), and nothing while much is waiting for a client that is slow.
+/// Sample(), and nothing but the STOP, each second, while much is waiting for a client that is slow.
 class Subscriptions {
  public:
+  using SteadyTime = std::chrono::steady_clock::time_point;
+
   Subscriptions(const ServedApplication& application, WebClient& client)
       : application_(application), client_(client) {}
 
@@ -28,7 +31,7 @@ class Subscriptions {
   void Retain(const DirectoryContent& content);
 
   /// Sends what is new. False if the structure was locked: to be tried again soon.
-  bool Sample();
+  bool Sample(SteadyTime now);
   /// What has become of values whose types throw when they are written: nobody is subscribed to them any
   /// more.
   [[nodiscard]] std::vector<Error> TakeFailures() { return std::exchange(failures_, {}); }
@@ -40,10 +43,11 @@ class Subscriptions {
     std::unique_ptr<WatchedPort> port;  // nullptr for the log and the STOP
     bool is_found = false;
     std::uint64_t next = 0;  // entry of the log, or change of the STOP
+    SteadyTime told_at{};    // of the STOP
   };
 
   [[nodiscard]] static Subscription To(const DirectoryChannel& channel);
-  void ShowStop(std::uint32_t id, Subscription& subscription);
+  void ShowStop(std::uint32_t id, Subscription& subscription, SteadyTime now);
   void ShowLog(std::uint32_t id, Subscription& subscription);
 
   // False if its type has thrown.

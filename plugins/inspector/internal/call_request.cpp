@@ -87,7 +87,6 @@ class ViewerCall {
     return Error{.message = why.empty() ? CallStatusName(status) : why, .path = path_};
   }
   Result<void> Begin() {
-    if (auto is_meant = runtime_.robot_stop().CheckIsKnown(as_of_); !is_meant) return is_meant;
     const auto callable = FindCallable(runtime_, path_);
     if (!callable) return callable.error();
     auto call = (*callable)->NewCall();
@@ -95,7 +94,7 @@ class ViewerCall {
       if (auto set = SetFromText(*type, arguments_, call->arguments()); !set) return set.error();
     }
     reply_ = (*callable)->reply();
-    (void)call->Begin(runtime_.clock().Now(), kTimeout);
+    (void)call->Begin(runtime_.clock().Now(), kTimeout, as_of_);
     call_ = std::move(call);
     return {};
   }

@@ -96,6 +96,17 @@ def test_a_stop_that_stops_nothing_raises_and_is_in_force():
             app.release()  # which raises if it is not in force
 
 
+def test_a_stop_that_does_not_reach_all_raises_and_is_in_force(base):
+    base.pause("/after")
+    with runnel.connect("base") as far:
+        for stop in (base.stop, far.stop):
+            with pytest.raises(runnel.Error, match="after/.*wanted.*cannot be reached: .*is paused"):
+                stop()
+            base.release()  # which raises if it is not in force
+    base.resume("/after")
+    base.stop()
+
+
 def test_one_port_is_blocked_until_it_is_released(base):
     base.block("/gate/wanted")
     with pytest.raises(runnel.Error, match="no 'gat'"):
@@ -105,6 +116,18 @@ def test_one_port_is_blocked_until_it_is_released(base):
         base.release("/gate/wanted")
     with pytest.raises(runnel.Error, match="the path is empty"):
         base.release("")
+
+
+def test_none_and_the_word_of_the_terminal_do_not_end_the_stop(base):
+    with runnel.connect("base") as far:
+        for stop, release in ((base.stop, base.release), (far.stop, far.release)):
+            stop()
+            for wrong in (None, "stop"):
+                with pytest.raises(runnel.Error, match=r"is no port; release\(\) without a path ends the STOP"):
+                    release(wrong)
+            with pytest.raises(runnel.Error, match="is no port"):
+                release(path=None)
+            release()  # which raises if it is not in force
 
 
 def test_an_empty_path_is_not_the_whole_application(base):

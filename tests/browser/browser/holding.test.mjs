@@ -196,6 +196,30 @@ test('a slider and a plain button at what moves drive only as long as they are h
   await until(() => last().path === kTarget && last().deadline === undefined);
 });
 
+test('a switch sets nothing at what moves, and says why', async (t) => {
+  const kMoves = '/mock/smooth/offset';
+  const kStill = '/mock/smooth/raw';
+  const { application, page, panel } = await OpenMockPanel(t, { shows: '[data-widget="moves"]', widgets: [
+    { id: 'moves', kind: 'switch', x: 0, y: 0, w: 4, h: 3, target: kMoves, on: '0.4', off: '0' },
+    { id: 'still', kind: 'switch', x: 4, y: 0, w: 4, h: 3, target: kStill, on: '1', off: '0' }],
+  prepare: (mock) => {
+    for (const element of ModuleElements(kCatalogue, 'mock/filter', '/mock/smooth')) {
+      mock.elements.set(element.path, element.path === kMoves ? { ...element, driving: true, moves: true, safe: '0' } : element);
+    }
+  } });
+  const published = (path) => application.asked.filter((each) => each.op === 'publish' && each.path === path);
+  await page.locator('[data-widget="moves"] .problem', { hasText: 'only what is held drives' }).waitFor();
+  const moves = page.locator('[data-widget="moves"] input');
+  assert.ok(await moves.isDisabled());
+  // As what does not ask whether it is disabled.
+  await moves.evaluate((flip) => { flip.checked = true; flip.dispatchEvent(new Event('change', { bubbles: true })); });
+  await page.locator('[data-widget="still"] input').dispatchEvent('click');
+  for (let tries = 0; published(kStill).length === 0 && tries < 200; ++tries) await page.waitForTimeout(50);
+  assert.equal(published(kStill).length, 1, 'what does not move is set');
+  assert.equal(published(kMoves).length, 0);
+  await panel.drawn();
+});
+
 test('a gamepad begins by a shoulder that has been seen released, of the standard layout, in a page that has the focus', async (t) => {
   const pad = (pressed, mapping = 'standard') => ({ connected: true, index: 0, id: 'Pad', mapping, axes: [0, -1, 0, 0],
     buttons: Array.from({ length: 17 }, (_, at) => ({ pressed: at === pressed })) });

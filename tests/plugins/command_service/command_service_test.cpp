@@ -184,8 +184,12 @@ TEST_F(CommandServiceTest, SaysWhatStopHoldsOrThatItStopsNothing) {
   const CommandAnswer answer = Ask(service, RobotStopRequest{true, "a test"});
   EXPECT_FALSE(answer.stops_nothing);
   EXPECT_THAT(answer.text, HasSubstr("what drives: /cmd_vel (in the network)"));
+  EXPECT_TRUE(CheckThatAllStops(runtime, nullptr));
   elsewhere.reset();
   EXPECT_TRUE(Ask(service, RobotStopRequest{true, "a test"}).stops_nothing);
+  const auto all = CheckThatAllStops(runtime, nullptr);
+  ASSERT_FALSE(all);
+  EXPECT_THAT(all.error().message, HasSubstr("STOP is in force, but no port of this application is marked"));
 }
 
 TEST_F(CommandServiceTest, SaysWhereTheNextProcessWillNotKnowOfAStopYet) {

@@ -178,5 +178,34 @@ TEST_F(FoxgloveStop, IsTold) {
   EXPECT_THAT(TakeValues(), IsEmpty()) << "nothing new";
 }
 
+TEST_F(FoxgloveStop, IsToldEachSecondHoweverMuchWaits) {
+  Begin();
+  Turn();
+  Say({{"op", "subscribe"}, {"subscriptions", {{{"id", 5}, {"channelId", IdOf("/stop")}}}}});
+  Turn();
+  ASSERT_EQ(TakeValues().size(), 1u);
+  client.waiting = 2 << 20;
+  runtime.robot_stop().Press("a button");
+  Turn();
+  auto values = TakeValues();
+  ASSERT_EQ(values.size(), 1u);
+  EXPECT_EQ(values[0].json["data"], true);
+  for (int second = 0; second < 3; ++second) {
+    steady_clock.Advance(std::chrono::seconds(1));
+    session->OnPoll();
+    values = TakeValues();
+    ASSERT_EQ(values.size(), 1u);
+    EXPECT_EQ(values[0].json["data"], true);
+    Turn();
+    EXPECT_THAT(TakeValues(), IsEmpty()) << "it is told already";
+  }
+  client.is_slow = true;  // it takes nothing
+  steady_clock.Advance(std::chrono::seconds(1));
+  session->OnPoll();
+  client.is_slow = false;
+  Turn();
+  EXPECT_EQ(TakeValues().size(), 1u) << "what was not taken is told later";
+}
+
 }  // namespace
 }  // namespace runnel::test

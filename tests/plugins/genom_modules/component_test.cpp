@@ -121,6 +121,17 @@ TEST_F(ComponentTest, TellsWhatActivitiesDo) {
   EXPECT_EQ(Outcome("wait", *wait), "3");
 }
 
+TEST_F(ComponentTest, ServesNoCallFromBeforeAStop) {
+  rig.RunCycles(2);
+  const auto wait = Begin("wait", "{turns: 3}");
+  RobotStop& stop = rig.runtime.robot_stop();
+  stop.Press("a person");
+  ASSERT_TRUE(stop.Release("a person"));
+  rig.RunCycles(6);
+  EXPECT_THAT(Outcome("wait", *wait), HasSubstr("STOP was pressed or released after this was asked for"));
+  EXPECT_EQ(Call("wait", "{turns: 1}"), "1");
+}
+
 TEST_F(ComponentTest, TellsOfEachInstanceOfAnActivity) {
   rig.RunCycles(2);
   const auto first = Begin("tick", "{turns: 100}");

@@ -97,6 +97,18 @@ TEST_F(CarriedCallsTest, WaitForAServiceThatComesLater) {
   EXPECT_EQ(*Await(call), 8);
 }
 
+TEST_F(CarriedCallsTest, AreNotSentIfStopWasPressedWhileTheyWaitForTheService) {
+  auto call = client_.Begin(4);
+  (void)taken_->Work();
+  runtime_.robot_stop().Press("a person");
+  ASSERT_TRUE(runtime_.robot_stop().Release("a person"));
+  Offer();
+  const auto outcome = Await(call);
+  EXPECT_EQ(outcome.status(), CallStatus::kFailed);
+  EXPECT_THAT(std::string(outcome.error()), testing::HasSubstr("STOP was pressed or released after this was asked for"));
+  EXPECT_EQ(service_.state().failed + service_.state().answered, 0u) << "it has not come there";
+}
+
 TEST_F(CarriedCallsTest, EndWithTheNetwork) {
   auto call = client_.Begin(4);
   (void)taken_->Work();

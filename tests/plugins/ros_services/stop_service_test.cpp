@@ -1,10 +1,10 @@
 // The STOP of the robot as a service of its node, called as nodes of ROS 2 call it.
 #include <atomic>
+#include <optional>
 
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
-#include "core/port/driving_ports.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_services/stop_service.h"
@@ -26,8 +26,8 @@ struct NobodyThere final : WireDiscovery {
 class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
  protected:
   void Begin(bool may_release) {
-    AddWhatDrives(runtime_, "the wheels", wheels_);
-    service_ = std::move(*StopService::Start(runtime_, may_release, "/base", *there_, GetParam(), [this] { return is_kept_.load(); }));
+    service_ = std::move(*StopService::Start(runtime_, may_release, "/base", *there_, GetParam(), [this] { return is_kept_.load(); },
+                                                 [this] { return left_ ? Result<void>(*left_) : Result<void>(); }));
     client_ = std::move(*ServiceEndpoints::Start(ServiceEndpoints::Side::kClient,
                                                  {.service = "/base/stop",
                                                   .request_type = "std_srvs::srv::dds_::SetBool_Request_",
@@ -53,8 +53,8 @@ class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
 
   Runtime runtime_;
   RobotStop& stop_ = runtime_.robot_stop();
-  std::shared_ptr<PortStop> wheels_ = std::make_shared<PortStop>(AnyValue(), Duration{}, stop_.signal());
   std::atomic<bool> is_kept_{true};
+  std::optional<Error> left_;  // of the STOP
   NobodyThere nobody_;
   const std::shared_ptr<WireEngine> engine_ = MakeFakeWire();
   std::unique_ptr<WireParticipant> near_ = std::move(*engine_->Join({.name = "near"}, nobody_));
@@ -84,10 +84,10 @@ TEST_P(StopServiceTest, SaysWhereTheNextProcessWouldNotKnowOfIt) {
   EXPECT_THAT(Call(false), testing::Pair(true, "the STOP is released; the next process would not know of it yet"));
 }
 
-TEST_P(StopServiceTest, IsNoSuccessWhereNothingDrives) {
+TEST_P(StopServiceTest, IsNoSuccessWhereItLeavesSomething) {
+  left_ = Error{.message = "STOP is in force, but /base/wheels cannot be reached"};
   Begin(false);
-  wheels_.reset();
-  EXPECT_THAT(Call(true), testing::Pair(false, HasSubstr("STOP is in force, but no port of this application is marked")));
+  EXPECT_THAT(Call(true), testing::Pair(false, "STOP is in force, but /base/wheels cannot be reached"));
   EXPECT_TRUE(stop_.in_force());
 }
 

@@ -6,7 +6,7 @@ import { FormatNumber } from '../../../page/source/model/value_format.js';
 import { canDrive } from '../../../page/source/state/store.js';
 import { Drive, LetGo, held } from '../driving/driving.js';
 import { usePointerHold } from '../driving/held_by.js';
-import { useTarget } from './target.js';
+import { kOnlyHeldDrives, useTarget } from './target.js';
 
 /** From where to where, and in which steps; what the widget does not say, the parameter's bounds do. */
 export function RangeOf(widget, element) {
@@ -87,11 +87,12 @@ function RestOf(element) {
 }
 
 export function Switch({ widget }) {
-  const { element, value, locked, set, note } = useTarget(widget);
+  const { element, isPort, value, locked, set, note } = useTarget(widget);
   const [on, off] = [widget.on ?? 'true', widget.off ?? 'false'];
+  const drives = isPort && element?.moves;
   const isOn = String(value) === on;
   return html`
     <div class="flip"><label><span>${widget.title ?? element?.name ?? 'Switch'}</span>
-      <input type="checkbox" class="switch" role="switch" checked=${isOn} disabled=${locked} onChange=${(event) => set(event.target.checked ? on : off)} /></label>
-      ${note}</div>`;
+      <input type="checkbox" class="switch" role="switch" checked=${isOn} disabled=${locked || drives} onChange=${(event) => set(event.target.checked ? on : off)} /></label>
+      ${drives && html`<p class="problem widget-problem">${kOnlyHeldDrives}</p>`}${note}</div>`;
 }

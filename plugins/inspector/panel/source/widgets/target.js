@@ -7,6 +7,9 @@ import { ErrorText, PublishByHand, SetParameter } from '../../../page/source/sta
 import { canChange, canDrive, refusals, revision, structure } from '../../../page/source/state/store.js';
 import { GiveBack, hands } from '../driving/driving.js';
 
+/** Of what moves: a value that is set once would stay when nobody is there any more. */
+export const kOnlyHeldDrives = 'something moves by it, and only what is held drives: take a slider or a button';
+
 /** {element, isPort, value, locked, problem, set(text), note}: `value` as the application has it, a number, text, flag or null. */
 export function useTarget(widget) {
   revision.value;
@@ -17,6 +20,10 @@ export function useTarget(widget) {
   const watched = useWatched(isPort ? widget.target : '', { rate: 10 });
   const value = isPort ? watched?.value ?? null : Plain(element?.value);
   const set = async (text) => {
+    if (isPort && structure.get(widget.target)?.moves) {
+      setProblem(kOnlyHeldDrives);
+      return false;
+    }
     const reply = isPort ? await PublishByHand(widget.target, text, null) : await SetParameter(widget.target, text, { quiet: true });
     setProblem(reply.ok ? '' : (reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
     return reply.ok;
