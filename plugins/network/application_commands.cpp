@@ -202,6 +202,8 @@ void ApplicationCommands::Begin(const ServiceMessage& request) {
   const Duration now = SteadyClock().Now().time_since_epoch();
   const std::string token = own + ":";
   if (!whom.starts_with(token)) {
+    const auto is_meant = element_.runtime().robot_stop().CheckIsKnown({.asked = request.sent, .requests = {}});
+    if (!is_meant) return Reply(request.id, CommandAnswer::Refused(is_meant.error()));
     const Error other{.message = "both must be of one version of Runnel"};  // for who knows no token
     return Reply(request.id, CommandAnswer::Failed(other), token + std::to_string(now.count()));
   }

@@ -190,7 +190,14 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       // By the clocks of both machines, whatever time the application has.
       const Time machine = SteadyClock().Now();
       const Duration on_its_way = ClockOffset{}.Now() + machine.time_since_epoch() - Duration(sample.source_time);
-      if (!writer.has_simulated_time) held_up = writer.clock.HeldUp(on_its_way, machine);
+      if (!writer.has_simulated_time) {
+        // What a latched writer keeps may have lain there for hours.
+        const Duration longest = writer.kept > 0 ? kFarthest : WriterClock::kLongestDelay;
+        held_up = writer.clock.HeldUp(on_its_way, machine, longest);
+        if (!output_.runtime().robot_stop().CheckIsKnown({.asked = writer.clock.sent(), .requests = {}})) {
+          held_up = clock_.is_simulated ? now.time_since_epoch() : machine - writer.clock.sent();  // simulated time may be faster
+        }
+      }
       if (is_comparable) writer.clock.Note(now - sent, now);
       if (is_comparable) sent -= writer.clock.ahead();
     }

@@ -80,7 +80,7 @@ Result<std::unique_ptr<AnyCall>> OfferedService::Begin(const ServiceMessage& req
   if (pending_.size() >= kMostCalls) return Error{.message = "too many calls are under way"};
   auto call = (*callable)->NewCall();
   if (const auto read = form_->ReadRequest(request.message, call->arguments()); !read) return read.error();
-  (void)call->Begin(runtime_.clock().Now(), kForEver);
+  (void)call->Begin(runtime_.clock().Now(), kForEver, {.asked = request.sent, .requests = {}});
   return call;
 }
 
@@ -89,11 +89,9 @@ bool OfferedService::Work() {
   while (const auto request = endpoints_->Take()) {
     std::shared_ptr<const ServiceForm> form;
     Result<std::unique_ptr<AnyCall>> begun = std::unique_ptr<AnyCall>();
-    const RobotStop::AsOf as_of = runtime_.robot_stop().AsOfNow();
     {
       const std::lock_guard lock(runtime_.structure_mutex());  // which may take its time
-      const auto is_meant = runtime_.robot_stop().CheckIsKnown(as_of);
-      begun = is_meant ? Begin(*request) : is_meant.error();
+      begun = Begin(*request);
       form = form_;
     }
     if (begun) {

@@ -52,7 +52,7 @@ bool IsListed(std::string_view name, const RosListRequest& request) {
 /// One of the six.
 struct ParameterServices::Server {
   std::unique_ptr<ServiceEndpoints> endpoints;
-  std::function<Result<void>(std::span<const std::byte>, Octets&)> answer;
+  std::function<Result<void>(const ServiceMessage&, Octets&)> answer;
 };
 
 ParameterServices::ParameterServices(FrameworkElement& application, std::string node, ServiceDialect dialect,
@@ -78,10 +78,10 @@ Result<void> ParameterServices::Add(const char* name, const char* type, WirePart
   if (!endpoints) return endpoints.error();
   auto server = std::make_unique<Server>();
   server->endpoints = std::move(*endpoints);
-  server->answer = [answer](std::span<const std::byte> message, Octets& octets) -> Result<void> {
+  server->answer = [answer](const ServiceMessage& asked, Octets& octets) -> Result<void> {
     Request request;
-    if (auto read = ReadCdr(TypeOf<Request>(), message, &request); !read) return read.error();
-    Write(answer(request), octets);
+    if (auto read = ReadCdr(TypeOf<Request>(), asked.message, &request); !read) return read.error();
+    Write(answer(request, asked.sent), octets);
     return {};
   };
   servers_.push_back(std::move(server));
@@ -94,18 +94,18 @@ Result<std::unique_ptr<ParameterServices>> ParameterServices::Start(FrameworkEle
   std::unique_ptr<ParameterServices> made(new ParameterServices(application, node, dialect, std::move(set), log));
   ParameterServices& self = *made;
   Result<void> done = self.Add<RosListRequest>("list_parameters", "ListParameters", participant,
-                                               [&self](const auto& request) { return self.List(request); });
+                                               [&self](const auto& request, Time) { return self.List(request); });
   const auto add = [&]<typename Request>(std::type_identity<Request>, const char* name, const char* type, const auto& answer) {
     if (done) done = self.Add<Request>(name, type, participant, answer);
   };
   constexpr std::type_identity<RosParameterNames> kNames;
   constexpr std::type_identity<RosSetRequest> kSet;
-  add(kNames, "get_parameters", "GetParameters", [&self](const auto& request) { return self.Get(request); });
-  add(kNames, "get_parameter_types", "GetParameterTypes", [&self](const auto& request) { return self.GetTypes(request); });
-  add(kNames, "describe_parameters", "DescribeParameters", [&self](const auto& request) { return self.DescribeAll(request); });
-  add(kSet, "set_parameters", "SetParameters", [&self](const auto& request) { return self.Set(request); });
+  add(kNames, "get_parameters", "GetParameters", [&self](const auto& request, Time) { return self.Get(request); });
+  add(kNames, "get_parameter_types", "GetParameterTypes", [&self](const auto& request, Time) { return self.GetTypes(request); });
+  add(kNames, "describe_parameters", "DescribeParameters", [&self](const auto& request, Time) { return self.DescribeAll(request); });
+  add(kSet, "set_parameters", "SetParameters", [&self](const auto& request, Time sent) { return self.Set(request, sent); });
   add(kSet, "set_parameters_atomically", "SetParametersAtomically",
-      [&self](const auto& request) { return self.SetAtomically(request); });
+      [&self](const auto& request, Time sent) { return self.SetAtomically(request, sent); });
   if (!done) return done.error();
   auto events = participant.MakeWriter({.topic = "rt/parameter_events",
                                         .type = "rcl_interfaces::msg::dds_::ParameterEvent_",
@@ -218,13 +218,13 @@ Result<ParameterChange> ParameterServices::Prepare(const RosParameter& wanted) c
   return ParameterChange{found->second.path, std::move(*text)};
 }
 
-RosSetReply ParameterServices::Set(const RosSetRequest& request) const {
+RosSetReply ParameterServices::Set(const RosSetRequest& request, Time sent) const {
   RosSetReply reply;
-  for (const RosParameter& each : request.parameters) reply.results.push_back(SetAtomically({.parameters = {each}}));
+  for (const RosParameter& each : request.parameters) reply.results.push_back(SetAtomically({.parameters = {each}}, sent));
   return reply;
 }
 
-RosSetResult ParameterServices::SetAtomically(const RosSetRequest& request) const {
+RosSetResult ParameterServices::SetAtomically(const RosSetRequest& request, Time sent) const {
   std::vector<ParameterChange> changes;
   for (const RosParameter& each : request.parameters) {
     auto change = Prepare(each);
@@ -232,7 +232,8 @@ RosSetResult ParameterServices::SetAtomically(const RosSetRequest& request) cons
     changes.push_back(std::move(*change));
   }
   if (changes.empty()) return {.successful = true, .reason = ""};
-  const auto done = set_(changes);
+  auto done = application_.runtime().robot_stop().CheckIsKnown({.asked = sent, .requests = {}});
+  if (done) done = set_(changes);
   return {.successful = done.has_value(), .reason = done ? "" : Sentence(done.error())};
 }
 
@@ -243,7 +244,7 @@ void ParameterServices::Run() noexcept {
       for (const auto& each : servers_) {
         while (const auto request = each->endpoints->Take()) {
           // What is no request has no answer.
-          if (each->answer(request->message, octets)) (void)each->endpoints->Reply(request->id, octets);
+          if (each->answer(*request, octets)) (void)each->endpoints->Reply(request->id, octets);
         }
       }
       TellChanges();

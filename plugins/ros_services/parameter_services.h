@@ -47,8 +47,9 @@ class ParameterServices {
   [[nodiscard]] RosParameterValues Get(const RosParameterNames& request) const;
   [[nodiscard]] RosParameterTypes GetTypes(const RosParameterNames& request) const;
   [[nodiscard]] RosParameterDescriptors DescribeAll(const RosParameterNames& request) const;
-  [[nodiscard]] RosSetReply Set(const RosSetRequest& request) const;
-  [[nodiscard]] RosSetResult SetAtomically(const RosSetRequest& request) const;
+  // `sent`: ServiceMessage::sent.
+  [[nodiscard]] RosSetReply Set(const RosSetRequest& request, Time sent) const;
+  [[nodiscard]] RosSetResult SetAtomically(const RosSetRequest& request, Time sent) const;
 
  private:
   struct Server;

@@ -38,6 +38,8 @@ WireId Folded(const WireId& id) {
 // Of eight octets each: what follows is aligned as without it.
 constexpr std::size_t kIdSize = sizeof(std::uint64_t) + sizeof(CallId::number);
 
+constexpr std::size_t kMostClocks = 64;
+
 }  // namespace
 
 void ServiceInbox::Put(ServiceMessage message) {
@@ -95,7 +97,7 @@ Result<std::unique_ptr<ServiceEndpoints>> ServiceEndpoints::Start(Side side, con
 }
 
 // By a thread of the engine, which does not know yet whose the replies are.
-std::optional<ServiceMessage> ServiceEndpoints::Read(const WireSample& sample) const {
+std::optional<ServiceMessage> ServiceEndpoints::Read(const WireSample& sample) {
   std::optional<ServiceMessage> message;
   if (topics_.dialect == ServiceDialect::kInFront) {
     message = SplitCallId(sample.octets);
@@ -107,7 +109,12 @@ std::optional<ServiceMessage> ServiceEndpoints::Read(const WireSample& sample) c
     if (side_ == Side::kServer) message->id.number = sample.identity.number;
     if (side_ == Side::kServer && message->id.client == WireId{}) message->id.client = sample.identity.writer;
   }
-  if (message) message->writer = sample.writer;
+  if (!message) return message;
+  message->writer = sample.writer;
+  if (clocks_.size() >= kMostClocks && !clocks_.contains(sample.writer)) clocks_.clear();  // each call may be of a new client
+  WriterClock& clock = clocks_[sample.writer];
+  (void)clock.HeldUp(SinceEpoch().time_since_epoch() - Duration(sample.source_time), SteadyClock().Now());
+  message->sent = clock.sent();
   return message;
 }
 

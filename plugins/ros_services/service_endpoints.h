@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "plugins/network_discovery/writer_clock.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {
@@ -27,6 +29,7 @@ struct ServiceMessage {
   CallId id;
   Octets message;
   std::uint64_t writer = 0;  ///< WireEndpoint::handle
+  Time sent{};               ///< at the earliest, on this machine's steady clock (WriterClock::sent())
 };
 
 /// As rmw_cyclonedds has it: the call stands in front of the message. `message`: with the encapsulation, of this machine's order
@@ -101,13 +104,14 @@ class ServiceEndpoints {
  private:
   ServiceEndpoints(Side side, ServiceTopics topics, std::function<void()> on_news)
       : side_(side), topics_(std::move(topics)), on_news_(std::move(on_news)) {}
-  [[nodiscard]] std::optional<ServiceMessage> Read(const WireSample& sample) const;
+  [[nodiscard]] std::optional<ServiceMessage> Read(const WireSample& sample);
   [[nodiscard]] bool IsForThis(const CallId& id) const noexcept;
 
   const Side side_;
   const ServiceTopics topics_;
   const std::function<void()> on_news_;
   ServiceInbox inbox_;
+  std::map<std::uint64_t, WriterClock> clocks_;  // of those that write, by their handles; the engine's thread's own
   std::atomic<std::size_t> readers_{0};
   std::atomic<std::size_t> writers_{0};
   WireId client_{};  // by which a client finds its replies among those of others

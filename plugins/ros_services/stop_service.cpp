@@ -61,8 +61,9 @@ StopService::Answer StopService::Do(const ServiceMessage& request) {
     return {all.has_value(), all ? std::move(done) : all.error().message};
   }
   if (!may_release_) return {false, "the STOP is not released by this service: its file does not say <ros stop_releases=\"true\">"};
-  const auto released = stop.Release(by);
-  return {released.has_value(), released ? "the STOP is released" : released.error().message};
+  const auto released = stop.Release(by, {.asked = request.sent, .requests = {}});
+  if (released) return {true, "the STOP is released"};
+  return {false, released.error().ToString()};
 }
 
 }  // namespace runnel

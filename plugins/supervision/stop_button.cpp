@@ -58,20 +58,27 @@ void StopButton::Work() {
     const auto let_go = std::exchange(let_go_, {});
     if (!let_go || !rule_.releases || is_covered_) continue;
     // A STOP that somebody has pressed since it was let go stays.
-    if (!runtime_.robot_stop().Release(rule_.port, {.requests = let_go})) continue;
+    if (!runtime_.robot_stop().Release(rule_.port, *let_go)) continue;
     tell_({rule_.port, "the STOP is released by its button", runtime_.clock().Now(), false, true});
   }
 }
 
 void StopButton::TakeValues() {
   bool is_down = false;
-  const auto look = [&](const void* value, ValueTimes) { is_down = NumberIn(element_->probe.type(), value) != 0; };
+  Time measured;
+  const auto look = [&](const void* value, ValueTimes times) {
+    is_down = NumberIn(element_->probe.type(), value) != 0;
+    measured = times.timestamp;
+  };
   while (element_->probe.Take(look)) {
     if (is_down) Press(rule_.port);
     // Letting go releases, not being up: others may have pressed.
     if (is_down) let_go_.reset();
-    if (is_down_ && !is_down) let_go_ = runtime_.robot_stop().state().requests;
-    is_down_ = is_down;
+    if (std::exchange(is_down_, is_down) && !is_down) {
+      let_go_ = runtime_.robot_stop().AsOfNow();
+      // What was held up on its way is older than what others have pressed since.
+      if (let_go_->requests != pressed_) let_go_->asked = SteadyClock().Now() - (runtime_.clock().Now() - measured);
+    }
   }
 }
 
@@ -106,6 +113,7 @@ bool StopButton::LookForPort() {
 }
 
 void StopButton::Press(const std::string& by) {
+  pressed_ = runtime_.robot_stop().state().requests + 1;
   if (!runtime_.robot_stop().Press("the button " + by)) return;
   tell_({rule_.port, "STOP, by the button " + by, runtime_.clock().Now()});
 }

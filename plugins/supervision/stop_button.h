@@ -49,7 +49,8 @@ class StopButton {
   const Tell tell_;
   std::unique_ptr<ButtonElement> element_;
   bool is_down_ = false;
-  std::optional<std::uint64_t> let_go_;  // RobotStop::State::requests then; nobody could look yet whether that was by the button itself
+  std::uint64_t pressed_ = 0;  // RobotStop::State::requests after its own press, if nobody else has pressed meanwhile
+  std::optional<RobotStop::AsOf> let_go_;  // nobody could look yet whether that was by the button itself
   bool is_covered_ = false;  // by a value by hand
   bool is_gone_ = false;
   bool is_at_rest_ = false;  // its module

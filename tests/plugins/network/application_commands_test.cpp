@@ -1,5 +1,7 @@
 // What one application has another one do: not when it comes so late that nobody waits for it any more.
 
+#include <thread>
+
 #include <gmock/gmock.h>
 
 #include <fmt/ranges.h>
@@ -63,10 +65,16 @@ class RawAsker {
                                                 from.member.link().participant(), 77, [] {}))) {}
 
   Answer Ask(const std::string& change, const std::string& whom) {
+    Send(change, whom);
+    return Receive();
+  }
+  void Send(const std::string& change, const std::string& whom) {
     Octets octets;
     CdrWriter to(octets);
     for (const std::string& each : {std::string("//planner"), change, whom}) to.PutText(each);
     EXPECT_TRUE(endpoints_->Request(octets));
+  }
+  Answer Receive() {
     std::optional<ServiceMessage> reply;
     WaitUntil("it answers", [&] { return (reply = endpoints_->Take()).has_value(); });
     Answer answer;
@@ -132,6 +140,22 @@ TEST_F(ApplicationCommandsTest, NothingIsDoneThatWasAskedForBeforeAStopOfTheRobo
   EXPECT_FALSE(late.is_done);
   EXPECT_THAT(late.said, HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_EQ(robot.planner.speed.Get(), 1);
+  EXPECT_TRUE(asker.Ask("set /planner/speed 2", asker.Ask("set /planner/speed 2", asker.id).token).is_done);
+}
+
+// As while the link is down: it is not as of the token, which is given when it comes.
+TEST_F(ApplicationCommandsTest, NoTokenIsGivenForWhatWasSentBeforeAStop) {
+  RawAsker asker(planner, robot);
+  SetCutOff(*engine, "planner", true);
+  asker.Send("set /planner/speed 2", asker.id);
+  RobotStop& stop = robot.member.runtime.robot_stop();
+  stop.Press("a test");
+  EXPECT_TRUE(stop.Release("a test"));
+  std::this_thread::sleep_for(2 * WriterClock::kMostOfNetworks);  // sooner it may be as the network takes
+  SetCutOff(*engine, "planner", false);
+  const Answer late = asker.Receive();
+  EXPECT_EQ(late.token, "");
+  EXPECT_THAT(late.said, HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_TRUE(asker.Ask("set /planner/speed 2", asker.Ask("set /planner/speed 2", asker.id).token).is_done);
 }
 

@@ -61,6 +61,47 @@ TEST(WriterClockTest, AClockThatHasBeenSetJumps) {
   for (int i = 0; i < 100'000; ++i) ASSERT_EQ(held_up(delay += std::chrono::microseconds(5)), Duration{}) << i;
 }
 
+// What both clocks say, until so much has come that it is known what is usual.
+TEST(WriterClockTest, OfAWriterThatNobodyKnowsWhatComesMayHaveBeenHeldUp) {
+  WriterClock clock;
+  Time now(seconds(1000));
+  const auto ago = [&](Duration delay, Duration gap) {
+    EXPECT_EQ(clock.HeldUp(delay, now += gap), Duration{});
+    return now - clock.sent();
+  };
+  EXPECT_EQ(ago(seconds(3), {}), seconds(3));
+  EXPECT_EQ(ago(seconds(3), milliseconds(100)), seconds(3));
+  EXPECT_EQ(ago(seconds(3), milliseconds(200)), Duration{}) << "its clock is behind";
+  EXPECT_EQ(ago(milliseconds(3200), milliseconds(200)), Duration{}) << "no longer than networks take";
+  (void)clock.HeldUp(seconds(5), now += seconds(2));
+  EXPECT_NEAR(ToSeconds(now - clock.sent()), 2, 0.01) << "this was held up";
+}
+
+TEST(WriterClockTest, OfABurstThatWasHeldUpNothingIsNew) {
+  WriterClock clock;
+  Time now(seconds(1000));
+  for (int i = 0; i < 100; ++i) {  // written 100 ms apart, come 10 ms apart: of 1 s, so that it takes longer than is waited
+    const Duration delay = seconds(9) - milliseconds(90) * i;
+    (void)clock.HeldUp(delay, now += milliseconds(10));
+    ASSERT_EQ(now - clock.sent(), delay > WriterClock::kMostOfNetworks ? delay : Duration{}) << i;
+  }
+  (void)clock.HeldUp(milliseconds(1), now += milliseconds(100));
+  EXPECT_EQ(now, clock.sent());
+}
+
+TEST(WriterClockTest, AnHourIsNoDelayButOfWhatIsKept) {
+  const Time now(std::chrono::hours(2));
+  WriterClock clock;
+  (void)clock.HeldUp(std::chrono::hours(1), now);
+  EXPECT_EQ(clock.sent(), now);
+  WriterClock of_latched;
+  (void)of_latched.HeldUp(std::chrono::hours(1), now, kFarthest);
+  EXPECT_EQ(of_latched.sent(), now - std::chrono::hours(1));
+  WriterClock from_before_this_machine_ran;
+  (void)from_before_this_machine_ran.HeldUp(std::chrono::hours(3), now, kFarthest);
+  EXPECT_EQ(from_before_this_machine_ran.sent(), Time());
+}
+
 class OtherClockTest : public testing::Test {
  protected:
   // Sent by that clock, so long ago by this one; returns when it is said to have been measured here.
@@ -108,6 +149,17 @@ TEST_F(OtherClockTest, WhatWasHeldUpIsAsOldAsItIsThoughItsArrivalCounts) {
   EXPECT_LE(Send(2, seconds(10), milliseconds(600)), before - milliseconds(100));
   before = robot_.runtime.clock().Now();
   EXPECT_GE(Send(3, seconds(10), {}), before);
+}
+
+// As above, but nothing had come before.
+TEST_F(OtherClockTest, TheFirstValuesThatWereSentBeforeAReleaseStayFromBeforeIt) {
+  Begin(false);
+  EXPECT_TRUE(robot_.runtime.robot_stop().Press("a test"));
+  ASSERT_TRUE(robot_.runtime.robot_stop().Release("a test"));
+  const Time released = robot_.runtime.clock().Now();
+  EXPECT_LT(Send(1, {}, seconds(40)), released - seconds(20));
+  EXPECT_LT(Send(2, {}, seconds(10)), released) << "what was held up with it";
+  EXPECT_GT(Send(3, {}, {}), released);
 }
 
 TEST_F(OtherClockTest, WhatIsHeldUpOrOfAClockThatIsBehindIsOld) {

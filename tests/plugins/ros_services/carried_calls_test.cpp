@@ -6,8 +6,11 @@
 #include "core/module/group.h"
 #include "core/port/own_cycle.h"
 #include "core/port/typed_ports.h"
+#include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/message_library.h"
+#include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/offered_service.h"
+#include "plugins/ros_services/ros_time.h"
 #include "plugins/ros_services/taken_service.h"
 #include "plugins/services/client.h"
 #include "plugins/services/service.h"
@@ -28,8 +31,10 @@ struct Nobody final : WireDiscovery {
 struct Doubler {
   Result<int> Double(const int& number) {
     if (number < 0) return Error{.message = "it is negative"};
+    ++doubled;
     return 2 * number;
   }
+  int doubled = 0;
 };
 
 class CarriedCallsTest : public testing::Test {
@@ -51,6 +56,10 @@ class CarriedCallsTest : public testing::Test {
                                                 MessageLibrary::Standard(), ServiceDialect::kInFront, 2, wake_);
     const auto followed = offered_->Follow(*there_, [](std::uint64_t) { return true; });
     ASSERT_TRUE(followed) << followed.error().ToString();
+  }
+  void PressAndRelease() {
+    EXPECT_TRUE(runtime_.robot_stop().Press("a person"));
+    EXPECT_TRUE(runtime_.robot_stop().Release("a person"));
   }
   template <typename Future>
   auto Await(Future& future) {
@@ -114,6 +123,44 @@ TEST_F(CarriedCallsTest, EndWithTheNetwork) {
   (void)taken_->Work();
   taken_.reset();
   EXPECT_EQ(call.outcome().status(), CallStatus::kDisconnected);
+}
+
+TEST_F(CarriedCallsTest, FromBeforeAStopAreRefusedThoughNobodyHasTakenThemYet) {
+  Offer();
+  WaitUntilQuiet(*engine_);  // the two know of each other
+  auto call = client_.Begin(21);
+  (void)taken_->Work();
+  WaitUntilQuiet(*engine_);  // it has come
+  PressAndRelease();
+  const auto outcome = Await(call);
+  EXPECT_EQ(outcome.status(), CallStatus::kFailed);
+  EXPECT_THAT(std::string(outcome.error()), testing::HasSubstr("STOP was pressed or released after this was asked for"));
+  auto again = client_.Begin(21);
+  EXPECT_EQ(*Await(again), 42);
+  EXPECT_EQ(doubler_.doubled, 1);
+}
+
+TEST_F(CarriedCallsTest, FromBeforeAStopAreRefusedThoughTheyComeAfterIt) {
+  Offer();
+  PressAndRelease();
+  const auto writer = std::move(*near_->MakeWriter({.topic = DdsRequestTopic("/double"),
+                                                    .type = offered_->endpoints()->topics().request_type,
+                                                    .qos = {.depth = 10}},
+                                                   {}));
+  const auto send = [&](std::int64_t number, Duration ago) {
+    Octets message;
+    CdrWriter(message).Put(std::int32_t{21});
+    (void)writer->Write(std::make_shared<const Octets>(WithCallId({writer->id(), number}, message)),
+                        (SinceEpoch() - ago).time_since_epoch().count());
+    WaitUntilQuiet(*engine_);
+    (void)offered_->Work();
+    service_.Serve();
+    (void)offered_->Work();
+  };
+  send(1, std::chrono::seconds(20));
+  EXPECT_EQ(doubler_.doubled, 0);
+  send(2, {});
+  EXPECT_EQ(doubler_.doubled, 1);
 }
 
 TEST_F(CarriedCallsTest, CostTheCallersCycleNoMemory) {

@@ -1,12 +1,15 @@
 // The STOP of the robot as a service of its node, called as nodes of ROS 2 call it.
 #include <atomic>
 #include <optional>
+#include <thread>
 
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/ros_messages/names.h"
+#include "plugins/ros_services/ros_time.h"
 #include "plugins/ros_services/stop_service.h"
 #include "tests/support/fake_wire.h"
 #include "tests/support/wait_until.h"
@@ -14,6 +17,7 @@
 namespace runnel::test {
 namespace {
 
+using std::chrono::seconds;
 using testing::HasSubstr;
 
 struct NobodyThere final : WireDiscovery {
@@ -21,6 +25,34 @@ struct NobodyThere final : WireDiscovery {
   void OnMemberGone(const WireId&) override {}
   void OnEndpoint(const WireEndpoint&) override {}
   void OnEndpointGone(const WireId&) override {}
+};
+
+/// Says when it has sent what it sends.
+class OtherClient {
+ public:
+  OtherClient(WireParticipant& participant, ServiceDialect dialect, Duration ago)
+      : dialect_(dialect),
+        ago_(ago),
+        writer_(std::move(*participant.MakeWriter({.topic = DdsRequestTopic("/base/stop"),
+                                                   .type = "std_srvs::srv::dds_::SetBool_Request_",
+                                                   .qos = {.depth = 10}},
+                                                  {}))) {}
+  void Send(bool data) {
+    Octets message;
+    CdrWriter(message).Put(data);
+    const std::int64_t time = (SinceEpoch() - ago_).time_since_epoch().count();
+    if (dialect_ == ServiceDialect::kBeside) {
+      EXPECT_TRUE(writer_->WriteRelated(std::make_shared<const Octets>(message), time, {}));
+    } else {
+      EXPECT_TRUE(writer_->Write(std::make_shared<const Octets>(WithCallId({writer_->id(), ++calls_}, message)), time));
+    }
+  }
+
+ private:
+  const ServiceDialect dialect_;
+  const Duration ago_;
+  std::int64_t calls_ = 0;
+  const std::unique_ptr<WireWriter> writer_;
 };
 
 class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
@@ -97,6 +129,36 @@ TEST_P(StopServiceTest, FalseReleasesWhereThatIsSaid) {
   EXPECT_THAT(Call(true), testing::Pair(true, "the robot is stopped"));
   EXPECT_THAT(Call(false), testing::Pair(true, "the STOP is released"));
   EXPECT_FALSE(stop_.in_force());
+}
+
+// Each call of `ros2 service call` is one of another client, of which nothing is known.
+TEST_P(StopServiceTest, AReleaseThatWasSentBeforeAPressEndsNothing) {
+  Begin(true);
+  ASSERT_TRUE(stop_.Press("a person"));
+  OtherClient late(*near_, GetParam(), seconds(2));
+  late.Send(false);
+  WaitUntilQuiet(*engine_);
+  EXPECT_TRUE(stop_.in_force());
+  EXPECT_THAT(Call(false), testing::Pair(true, "the STOP is released")) << "by who knows of it";
+  late.Send(true);
+  WaitUntilQuiet(*engine_);
+  EXPECT_TRUE(stop_.in_force()) << "a STOP is carried out however late it comes";
+}
+
+TEST_P(StopServiceTest, AClockThatIsBehindKeepsNobodyFromReleasing) {
+  Begin(true);
+  ASSERT_TRUE(stop_.Press("a person"));
+  OtherClient behind(*near_, GetParam(), seconds(2));
+  behind.Send(false);
+  std::this_thread::sleep_for(2 * WriterClock::kMostOfNetworks);  // as for people who ask again
+  behind.Send(false);
+  WaitUntilQuiet(*engine_);
+  EXPECT_FALSE(stop_.in_force()) << "the second time it is known to be the clock";
+  ASSERT_TRUE(stop_.Press("a person"));
+  OtherClient far_behind(*near_, GetParam(), std::chrono::hours(1));
+  far_behind.Send(false);
+  WaitUntilQuiet(*engine_);
+  EXPECT_FALSE(stop_.in_force()) << "nothing is under way for so long";
 }
 
 TEST_P(StopServiceTest, WhatIsNoRequestDoesNothing) {

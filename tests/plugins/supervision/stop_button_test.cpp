@@ -76,6 +76,23 @@ TEST_F(StopButtonTest, WhereItReleasesOnlyLettingGoDoes) {
   EXPECT_EQ(runtime.robot_stop().state().changes, 2u) << "by the 0 after the 1, and not by those before";
 }
 
+// As one that was held up on its way over a network: others who have pressed since know more.
+TEST_F(StopButtonTest, WhatWasLetGoBeforeAnothersPressReleasesNothing) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path(), true}));
+  Press(1);
+  WaitForStop("the button /app/panel/output/out");
+  runtime.robot_stop().Press("a person");
+  panel.out.Publish(0, runtime.clock().Now() - 1s);
+  std::this_thread::sleep_for(300ms);  // it is not told that it does nothing
+  ASSERT_TRUE(runtime.robot_stop().in_force());
+  const auto presses = runtime.robot_stop().state().requests;
+  Press(1);
+  WaitUntil("it is pressed once more", [&] { return runtime.robot_stop().state().requests > presses; });
+  Press(0);
+  WaitUntil("it is released", [&] { return !runtime.robot_stop().in_force(); });
+  EXPECT_EQ(runtime.robot_stop().state().changes, 2u) << "by what was let go last";
+}
+
 TEST_F(StopButtonTest, AsLongAsItIsDownNobodyElseReleases) {
   MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
   Press(1);

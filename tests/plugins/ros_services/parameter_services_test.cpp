@@ -1,0 +1,66 @@
+// Parameters as those of a node of ROS 2, set from elsewhere.
+#include "plugins/ros_services/parameter_services.h"
+
+#include <gmock/gmock.h>
+
+#include "core/log/logger.h"
+#include "core/module/module.h"
+#include "plugins/parameters/parameter.h"
+#include "tests/support/fake_wire.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Planner final : public Module {
+ public:
+  using Module::Module;
+  Parameter<double> speed{this, "speed", {.default_value = 1}};
+
+ private:
+  void Update() override {}
+};
+
+struct NobodyHere final : WireDiscovery {
+  void OnMember(const WireMember&) override {}
+  void OnMemberGone(const WireId&) override {}
+  void OnEndpoint(const WireEndpoint&) override {}
+  void OnEndpointGone(const WireId&) override {}
+};
+
+TEST(ParameterServicesTest, WhatWasSentBeforeAStopIsNotSetAfterIt) {
+  Runtime runtime;
+  Group& robot = runtime.Create<Group>(runtime.root(), "robot");
+  runtime.Create<Planner>(robot, "planner");
+  ASSERT_TRUE(runtime.MakeReady(runtime.root()));
+  Logger log(robot);
+  NobodyHere nobody;
+  const auto engine = MakeFakeWire();
+  const auto here = std::move(*engine->Join({.name = "here"}, nobody));
+  int sets = 0;
+  const auto set = [&](const std::vector<ParameterChange>& changes) -> Result<void> {
+    sets += static_cast<int>(changes.size());
+    return {};
+  };
+  const auto services = std::move(*ParameterServices::Start(robot, "/base", *here, ServiceDialect::kInFront, set, log));
+  RosParameterValue value;
+  value.type = RosParameterType::kDouble;
+  value.double_value = 2;
+  const RosSetRequest request{{{"planner.speed", value}}};
+  const Time before = SteadyClock().Now();
+  EXPECT_TRUE(services->SetAtomically(request, before).successful);
+  EXPECT_EQ(sets, 1);
+  ASSERT_TRUE(runtime.robot_stop().Press("a person"));
+  ASSERT_TRUE(runtime.robot_stop().Release("a person"));
+  const RosSetResult late = services->SetAtomically(request, before);
+  EXPECT_FALSE(late.successful);
+  EXPECT_THAT(late.reason, HasSubstr("STOP was pressed or released after this was asked for"));
+  EXPECT_THAT(services->Set(request, before).results, testing::ElementsAre(testing::Field(&RosSetResult::successful, false)));
+  EXPECT_EQ(sets, 1);
+  EXPECT_TRUE(services->Set(request, SteadyClock().Now()).results.front().successful);
+  EXPECT_EQ(sets, 2);
+}
+
+}  // namespace
+}  // namespace runnel::test
