@@ -44,20 +44,23 @@ Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runn
                      .path = closed.path(),
                      .hint = "one of its modules does not return from its Update()"};
       }
-      if (now - closed_at > kBrief) hold.LetBriefOnesGoOn(left);
+      if (now - closed_at > kBrief) hold.LetOthersGoOn(left, now - closed_at);
       BackOff(round);
     }
   }
   return hold;
 }
 
-// A drive does not stand still for as long as a planner takes this time.
-void CycleHold::LetBriefOnesGoOn(std::deque<std::shared_ptr<CycleRunner>>& left) {
+// A drive does not stand still for as long as a planner takes this time. Those whose own cycles take as long stay, and
+// longer each time that one of them was let go on: else each would be kept while the other one is not, for ever.
+void CycleHold::LetOthersGoOn(std::deque<std::shared_ptr<CycleRunner>>& left, Duration waited) {
   for (auto each = runners_.begin(); each != runners_.end();) {
-    if (*each == left.front() || (*each)->statistics().execution_mean >= kBrief) {
+    const Duration usual = (*each)->statistics().execution_mean;
+    if (*each == left.front() || usual >= std::max(kBrief, waited / patience_)) {
       ++each;
       continue;
     }
+    if (usual >= kBrief) patience_ *= 2;
     left.push_back(*each);
     (*each)->gate().Open();
     each = runners_.erase(each);

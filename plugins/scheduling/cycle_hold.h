@@ -34,7 +34,7 @@ class CycleHold {
   }
 
   /// Waits until all `runners` have come to the end of a cycle, those whose cycles take long first, and those that take
-  /// long now, though they usually do not: so the others are kept for a moment only.
+  /// long now, though they usually do not: so each of the others is kept for two of its own cycles, or for a moment.
   /// Errors: one that has not after `timeout`, of the machine's clock; all go on then.
   /// `tracer`, if there is one, is told when it is over.
   static Result<CycleHold> Take(std::vector<std::shared_ptr<CycleRunner>> runners, Duration timeout,
@@ -46,11 +46,12 @@ class CycleHold {
   [[nodiscard]] Time began() const noexcept { return began_; }
 
  private:
-  void LetBriefOnesGoOn(std::deque<std::shared_ptr<CycleRunner>>& left);
+  void LetOthersGoOn(std::deque<std::shared_ptr<CycleRunner>>& left, Duration waited);
 
   std::vector<std::shared_ptr<CycleRunner>> runners_;
   Time began_{};
   CycleTracer* tracer_ = nullptr;
+  int patience_ = 2;  // of those that are kept, in cycles of their own
 };
 
 }  // namespace runnel

@@ -79,10 +79,37 @@ void FaultDispatcher::Answer(const FaultRecord& record) {
 }
 
 void FaultDispatcher::Report(const Fault& fault) {
-  if (const auto done = Handle(fault)) {
-    Retry([&] { Log({fault.path, fault.message + "; " + *done, fault.time, fault.cycle, true}); });
+  Action action;
+  std::unique_lock lock(mutex_);
+  const Handler handler = handler_;
+  lock.unlock();
+  if (handler) (void)Try(fault, [&] { action = handler(fault); });
+  if (!action) return ApplyRules(fault);
+  lock.lock();
+  if (beside_) {
+    *beside_ = std::jthread([=, this, before = std::move(*beside_)] {
+      if (!Retry([&] { Act(fault, action); })) Note(fault);
+    });
     return;
   }
+  lock.unlock();
+  Act(fault, action);
+}
+
+void FaultDispatcher::SetActsBeside(bool acts_beside) {
+  std::optional<std::jthread> ended;
+  const std::lock_guard lock(mutex_);
+  ended.swap(beside_);
+  if (acts_beside) beside_.emplace();
+}
+
+void FaultDispatcher::Act(const Fault& fault, const Action& action) {
+  std::string done;
+  if (!Try(fault, [&] { done = action(); })) return ApplyRules(fault);
+  Retry([&] { Log({fault.path, fault.message + "; " + done, fault.time, fault.cycle, true}); });
+}
+
+void FaultDispatcher::ApplyRules(const Fault& fault) {
   std::vector<FaultRule> rules;
   {
     const std::lock_guard lock(mutex_);
@@ -99,21 +126,16 @@ void FaultDispatcher::SetHandler(Handler handler) {
   handler_ = std::move(handler);
 }
 
-std::optional<std::string> FaultDispatcher::Handle(const Fault& fault) {
-  Handler handler;
-  {
-    const std::lock_guard lock(mutex_);
-    handler = handler_;
-  }
-  if (!handler) return {};
+bool FaultDispatcher::Try(const Fault& fault, const std::function<void()>& call) {
   try {
-    return handler(fault);
+    call();
+    return true;
   } catch (const std::bad_alloc&) {
     throw;  // it is asked again
   } catch (...) {
     Log({fault.path, "the fault handler failed: " + DescribeException(), fault.time});
   }
-  return {};
+  return false;
 }
 
 void FaultDispatcher::Apply(const FaultRule& rule, const Fault& fault) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -56,8 +57,11 @@ class FaultDispatcher {
   [[nodiscard]] std::vector<Fault> Take();
 
   /// See Scheduler::SetFaultHandler().
-  using Handler = std::function<std::optional<std::string>(const Fault&)>;
+  using Action = std::function<std::string()>;
+  using Handler = std::function<Action(const Fault&)>;
   void SetHandler(Handler handler);
+  /// Whether threads of their own call what a handler returns. Waits for those that do.
+  void SetActsBeside(bool acts_beside);
 
   void AddRule(FaultRule rule);
   void MovePaths(const std::function<void(std::string& path)>& move);
@@ -87,7 +91,9 @@ class FaultDispatcher {
   void DispatchAlone();
   void Answer(const FaultRecord& record);
   void Log(Fault fault);
-  [[nodiscard]] std::optional<std::string> Handle(const Fault& fault);
+  void Act(const Fault& fault, const Action& action);
+  void ApplyRules(const Fault& fault);
+  bool Try(const Fault& fault, const std::function<void()>& call);
   void Apply(const FaultRule& rule, const Fault& fault);
 
   // A stack that is only ever pushed to and taken as a whole, so no address can come back to life.
@@ -100,6 +106,7 @@ class FaultDispatcher {
   Handler handler_;               // guarded by mutex_
   std::vector<FaultRule> rules_;  // guarded by mutex_
   std::vector<Fault> log_;        // guarded by mutex_
+  std::optional<std::jthread> beside_;  // so; waits for the one before it
 };
 
 }  // namespace runnel

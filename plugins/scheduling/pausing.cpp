@@ -3,6 +3,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/lockfree/thread_epoch.h"
 #include "core/paths/path_search.h"
 #include "plugins/scheduling/internal/pause_mark.h"
 #include "plugins/scheduling/scheduler.h"
@@ -79,7 +80,8 @@ std::string Scheduler::WhyUnreached(const Port& port) const {
 
 void Scheduler::WakeWithoutData(const FrameworkElement& element) const {
   const internal::PlannedElement* const around = compiler_.FindAround(element);
-  if (around != nullptr && around->thread->runner->waits_for_data()) around->state->Wake();
+  if (around == nullptr || !around->thread->runner->waits_for_data()) return;
+  Guarded([&] { around->state->Wake(); });  // as publishers are
 }
 
 void Scheduler::MovePaths(const std::function<void(std::string& path)>& move) {

@@ -233,9 +233,6 @@ Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, D
       "threads cannot be kept between cycles under the structure lock, which a cycle might "
       "be waiting for");
   Runners runners = RunnersOf(paths);
-  if (!cycle_watchdog_.has_rules()) {
-    return CycleHold::Take(std::move(runners), timeout, options_.tracer);
-  }
   const auto stuck = [this](const auto& runner) { return cycle_watchdog_.IsStuck(*runner); };
   for (const auto& runner : RunnersOf(at_rest)) {
     if (!stuck(runner)) continue;

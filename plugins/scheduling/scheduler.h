@@ -215,10 +215,10 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// Errors: no such element; it is not this path that has been paused.
   [[nodiscard]] Result<void> CheckPaused(std::string_view path) const;
 
-  /// Is asked first about each fault, outside of cycles and without locks. What it says it has done
-  /// about it is added to the fault's message, and no rule is applied then; nullopt: not its business. Who
-  /// throws std::bad_alloc is asked again.
-  using FaultHandler = std::function<std::optional<std::string>(const Fault&)>;
+  /// Is asked first about each fault, outside of cycles and without locks, and returns at once. What it returns is called,
+  /// kReal by a thread of its own, and may take long; what it says it has done is added to the fault's
+  /// message, and no rule is applied then. nullptr: not its business. Who throws std::bad_alloc is asked again.
+  using FaultHandler = FaultDispatcher::Handler;
   void SetFaultHandler(FaultHandler handler) { faults_.SetHandler(std::move(handler)); }
 
   /// Is called between cycles, without locks, and returns the time, by the runtime's clock, before

@@ -103,6 +103,7 @@ void Scheduler::StartAll() {
   if (has_priorities && options_.lock_memory) {
     if (auto warning = LockMemory()) realtime_warnings_.push_back(std::move(*warning));
   }
+  faults_.SetActsBeside(true);
   supervises_.store(true, std::memory_order_release);
   supervisor_ = std::thread([this] { Supervise(); });
   StartThreads(machine_.Now());
@@ -142,16 +143,12 @@ bool Scheduler::EndAll() noexcept {
 
 // Joins them, but for those that are stuck.
 void Scheduler::EndThreads(RealThreads& threads) noexcept {
-  if (cycle_watchdog_.has_rules()) {
-    for (const auto& thread : threads) {
-      while (!thread->has_ended() && !cycle_watchdog_.IsStuck(*thread->runner())) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      }
+  for (const auto& thread : threads) {
+    while (!thread->has_ended() && !cycle_watchdog_.IsStuck(*thread->runner())) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    std::erase_if(threads, [](const auto& thread) { return thread->has_ended(); });
-  } else {
-    threads.clear();
   }
+  std::erase_if(threads, [](const auto& thread) { return thread->has_ended(); });
 }
 
 bool Scheduler::is_running() const {
@@ -191,6 +188,7 @@ void Scheduler::Maintain() noexcept {
 
 void Scheduler::EndSupervision() {
   supervises_.store(false, std::memory_order_release);
+  faults_.SetActsBeside(false);
   if (!supervisor_.joinable()) return;
   faults_.event().Notify();
   supervisor_.join();

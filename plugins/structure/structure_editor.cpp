@@ -24,7 +24,7 @@ namespace internal {
 /// The trial period of new modules, and the rollback: keeps replaced modules until their successors have run
 /// some cycles without throwing, and puts them back if they do throw.
 ///
-/// Threads:  all under the editor's mutex, and not under the structure lock.
+/// Threads:  all under the editor's mutex, but for PutBack(), which may take long; not under the structure lock.
 class Probation {
  public:
   Probation(Runtime& runtime, Scheduler& scheduler, Duration timeout)
@@ -35,19 +35,21 @@ class Probation {
   void Add(std::vector<Replaced>& replaced);
   /// Takes out all, or those whose successors have proved themselves, or are gone.
   [[nodiscard]] std::vector<UnlistedElement> Take(bool all);
-  /// The module of the fault has thrown: if it is on probation, its predecessor is back when this returns.
-  /// What has been done, in words; nullopt if it is not on probation. Throws if it could not be done.
-  [[nodiscard]] std::optional<std::string> Answer(const Fault& fault);
+  /// Whether the module of the fault, which has thrown, is on probation.
+  [[nodiscard]] bool Concerns(const Fault& fault);
+  /// The predecessor of that module is back when this returns. What has been done, in words. Throws if it could not be.
+  [[nodiscard]] std::string PutBack(const Fault& fault, OrderedMutex& mutex);
   [[nodiscard]] std::size_t size() const noexcept { return waiting_.size(); }
 
  private:
   struct Waiting {
     Replaced replaced;
-    std::uint64_t until_cycle = 0;
+    std::uint64_t until_cycle = 0;  // 0: it has proved itself
   };
 
   [[nodiscard]] FrameworkElement* Successor(const Waiting& waiting);
   [[nodiscard]] bool HasProved(const Waiting& waiting);
+  [[nodiscard]] std::vector<Waiting>::iterator Find(const std::string& path);
   Result<UnlistedElement> PutBack(Waiting& waiting);
 
   Runtime& runtime_;
@@ -81,7 +83,7 @@ FrameworkElement* Probation::Successor(const Waiting& waiting) {
 
 // Who has thrown waits for the answer, however long that takes.
 bool Probation::HasProved(const Waiting& waiting) {
-  if (Successor(waiting) == nullptr) return true;
+  if (waiting.until_cycle == 0 || Successor(waiting) == nullptr) return true;
   const auto progress = scheduler_.ProgressOf(waiting.replaced.path);
   return !progress || (!progress->has_failed && progress->cycles > waiting.until_cycle);
 }
@@ -96,33 +98,36 @@ std::vector<UnlistedElement> Probation::Take(bool all) {
   return std::exchange(proved_, {});
 }
 
-std::optional<std::string> Probation::Answer(const Fault& fault) {
-  const auto found = std::ranges::find_if(
-      waiting_, [&](const Waiting& each) { return each.replaced.path == fault.path; });
-  if (found == waiting_.end() || Successor(*found) == nullptr) return {};
-  if (fault.cycle > found->until_cycle) {
-    proved_.reserve(proved_.size() + 1);
-    proved_.push_back(std::move(found->replaced.before));
-    waiting_.erase(found);
-    return {};
-  }
+std::vector<Probation::Waiting>::iterator Probation::Find(const std::string& path) {
+  return std::ranges::find_if(
+      waiting_, [&](const Waiting& each) { return each.replaced.path == path && Successor(each) != nullptr; });
+}
+
+bool Probation::Concerns(const Fault& fault) {
+  const auto found = Find(fault.path);
+  if (found == waiting_.end()) return false;
+  if (fault.cycle > found->until_cycle) found->until_cycle = 0;
+  return found->until_cycle > 0;
+}
+
+std::string Probation::PutBack(const Fault& fault, OrderedMutex& mutex) {
+  auto hold = scheduler_.HoldCycles({fault.path}, timeout_);
+  std::unique_lock lock(mutex);
+  const auto found = Find(fault.path);
+  if (found == waiting_.end()) return "others have removed it meanwhile";
   const std::string before = FindModuleType(*found->replaced.before);
-  std::string done =
-      "the module before (" + (before.empty() ? "made by code" : before) + ") is back in its place";
-  auto gone = PutBack(*found);
-  if (!gone) {
-    throw std::runtime_error("the module before could not be put back: " + gone.error().ToString());
-  }
+  std::string done = "the module before (" + (before.empty() ? "made by code" : before) + ") is back in its place";
+  auto gone = hold ? PutBack(*found) : hold.error();
+  if (!gone) throw std::runtime_error("the module before could not be put back: " + gone.error().ToString());
   waiting_.erase(found);
+  lock.unlock();
+  hold->Release();
   runtime_.Destroy(std::move(*gone));
   return done;
 }
 
-// Leaves `waiting` as it is if it fails.
+// Between two cycles. Leaves `waiting` as it is if it fails.
 Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
-  const std::string& path = waiting.replaced.path;
-  auto hold = scheduler_.HoldCycles({path}, timeout_);
-  if (!hold) return hold.error();
   const ChangeScope all_at_once(runtime_);
   FrameworkElement* const after = Successor(waiting);
   if (after == nullptr) return std::move(waiting.replaced.before);
@@ -196,6 +201,10 @@ struct StructureEditor::Shared {
       applying;  // change sets, one after the other; comes first. Faults are answered meanwhile
   OrderedMutex mutex{LockLevel::kEditor};
   std::optional<internal::Probation> probation;  // guarded by mutex; none without a scheduler
+  std::vector<UnlistedElement> Take(bool all) {
+    const std::lock_guard lock(mutex);
+    return probation ? probation->Take(all) : std::vector<UnlistedElement>();
+  }
 };
 
 StructureEditor::StructureEditor(Runtime& runtime, const ModuleRegistry& modules,
@@ -207,17 +216,17 @@ StructureEditor::StructureEditor(Runtime& runtime, const ModuleRegistry& modules
       shared_(std::make_shared<Shared>()) {
   if (scheduler_ == nullptr) return;
   shared_->probation.emplace(runtime_, *scheduler_, options_.timeout);
-  scheduler_->SetFaultHandler([shared = shared_](const Fault& fault) {
+  scheduler_->SetFaultHandler([shared = shared_](const Fault& fault) -> FaultDispatcher::Action {
     const std::lock_guard lock(shared->mutex);
-    return shared->probation->Answer(fault);
+    if (!shared->probation->Concerns(fault)) return {};
+    return [shared, fault] { return shared->probation->PutBack(fault, shared->mutex); };
   });
 }
 
 StructureEditor::~StructureEditor() {
   if (scheduler_ == nullptr) return;
   scheduler_->SetFaultHandler({});
-  const std::lock_guard lock(shared_->mutex);
-  runtime_.Destroy(shared_->probation->Take(/*all=*/true));
+  runtime_.Destroy(shared_->Take(/*all=*/true));
 }
 
 std::size_t StructureEditor::on_probation() const {
@@ -225,10 +234,7 @@ std::size_t StructureEditor::on_probation() const {
   return shared_->probation ? shared_->probation->size() : 0;
 }
 
-void StructureEditor::Tend() {
-  const std::lock_guard lock(shared_->mutex);
-  if (shared_->probation) runtime_.Destroy(shared_->probation->Take(/*all=*/false));
-}
+void StructureEditor::Tend() { runtime_.Destroy(shared_->Take(/*all=*/false)); }
 
 ChangeOutcome StructureEditor::Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places,
                                      const RobotStop::AsOf& as_of, ChangeSet* back) {
@@ -296,7 +302,7 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
     }
     hold = std::move(*held);
   }
-  const std::lock_guard lock(shared_->mutex);
+  std::unique_lock lock(shared_->mutex);
   {
     // Threads are not kept waiting for somebody who holds the lock.
     std::unique_lock structure(runtime_.structure_mutex(), std::try_to_lock);
@@ -322,14 +328,13 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
     outcome.hold_time = SteadyClock().Now() - hold->began();
     hold->Release();
   }
+  if (shared_->probation) shared_->probation->Add(plan.replaced());
+  lock.unlock();
   std::vector<std::string> removed;
   for (const UnlistedElement& each : plan.removed()) removed.push_back(each->path());
   runtime_.Destroy(std::move(plan.removed()));
   WarnOfLeaving(removed, runtime_, outcome.diagnostics);
-  if (shared_->probation) {
-    runtime_.Destroy(shared_->probation->Take(/*all=*/false));
-    shared_->probation->Add(plan.replaced());
-  }
+  Tend();
   for (internal::Replaced& each : plan.replaced()) runtime_.Destroy(std::move(each.before));
   return Attempt::kDone;
 }

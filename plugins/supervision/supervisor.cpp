@@ -212,20 +212,14 @@ void Supervisor::Shared::FollowPauses(std::string_view but_for) {
   }
 }
 
-// Who goes on finds what the rules have taken back.
+// Who goes on finds what the rules have taken back. Who is paused waits for the end of no other one's cycle.
 Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
   const RobotStop::AsOf as_of = shared_->runtime.robot_stop().AsOfNow();
+  const Result<void> paused = is_paused ? scheduler_.SetPaused(path, true) : Result<void>();
   const std::lock_guard lock(shared_->pausing);
-  Result<void> paused;
-  if (is_paused) {
-    paused = scheduler_.SetPaused(path, true);
-    // What is stuck is paused all the same.
-    if (!paused && !scheduler_.CheckPaused(path)) return paused;
-  } else if (auto known = scheduler_.CheckPaused(path); !known) {
-    return known;
-  } else if (auto meant = shared_->runtime.robot_stop().CheckIsKnown(as_of); !meant) {
-    return meant;
-  }
+  // What is stuck is paused all the same.
+  if (auto known = scheduler_.CheckPaused(path); !known) return paused ? known : paused;
+  if (auto meant = shared_->runtime.robot_stop().CheckIsKnown(as_of); !is_paused && !meant) return meant;
   shared_->FollowPauses(is_paused ? "" : path);
   // It may have taken long.
   if (auto meant = shared_->runtime.robot_stop().CheckIsKnown(as_of); !is_paused && !meant) {

@@ -135,13 +135,36 @@ TEST_F(FaultOf, ARuleThatThrowsAnythingIsReportedToo) {
 }
 
 TEST_F(FaultOf, AFaultHandlerThatThrowsAnythingIsReportedAndTheFaultIsNotLost) {
-  scheduler.SetFaultHandler([](const Fault&) -> std::optional<std::string> { throw 7; });
+  scheduler.SetFaultHandler([](const Fault&) -> FaultDispatcher::Action { throw 7; });
   Ready();
   EXPECT_TRUE(scheduler.RunUntil(At(100)));
   const auto faults = scheduler.TakeFaults();
   ASSERT_THAT(faults, SizeIs(2));
   EXPECT_EQ(faults[0].message, "the fault handler failed: exception of type int");
   EXPECT_EQ(faults[1].message, "the sensor is on fire");
+}
+
+TEST_F(FaultOf, WhatAFaultHandlerReturnsIsDoneAndToldAndIfItFailsTheRulesApply) {
+  bool is_possible = true;
+  int applied = 0;
+  scheduler.SetFaultHandler([&](const Fault&) -> FaultDispatcher::Action {
+    return [&] { return is_possible ? std::string("it is mended") : throw 7; };
+  });
+  scheduler.AddFaultRule({.of = "/robot/healthy", .call = [&](const Fault&) { ++applied; }});
+  Ready();
+  EXPECT_TRUE(scheduler.RunUntil(At(100)));
+  const auto mended = scheduler.TakeFaults();
+  ASSERT_THAT(mended, SizeIs(1));
+  EXPECT_EQ(mended[0].message, "the sensor is on fire; it is mended");
+  EXPECT_TRUE(mended[0].is_mended);
+  is_possible = false;
+  healthy.action = [](Doing&) { throw std::runtime_error("too"); };
+  EXPECT_TRUE(scheduler.RunUntil(At(200)));
+  const auto faults = scheduler.TakeFaults();
+  ASSERT_THAT(faults, SizeIs(2));
+  EXPECT_EQ(faults[0].message, "the fault handler failed: exception of type int");
+  EXPECT_EQ(faults[1].message, "too");
+  EXPECT_EQ(applied, 1);
 }
 
 TEST_F(FaultOf, AWatchThatThrowsAnythingIsReportedAndTriedAgain) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <future>
 #include <thread>
 
 #include "core/module/group.h"
+#include "plugins/scheduling/cycle_runner.h"
 #include "tests/plugins/scheduling/real_threads_fixture.h"
 
 namespace runnel {
@@ -76,6 +78,45 @@ TEST_F(RealThreadsAndChanges, WhoWaitsForALongCycleLetsTheOthersGoOn) {
   EXPECT_EQ(runs, held);
   is_seen = true;
   changer.join();
+}
+
+// Its own cycles take long enough for it to be kept first, and are short against the one that is waited for.
+TEST_F(RealThreadsAndChanges, WhoWaitsForALongCycleLetsAlsoAModerateOneGoOn) {
+  std::atomic<int> runs{0};
+  std::atomic<bool> may_return{true};
+  std::atomic<bool> waits{false};
+  auto& drive = runtime.Create<Doing>(runtime.root(), "drive");
+  drive.action = [&](Doing&) {
+    ++runs;
+    std::this_thread::sleep_for(60ms);
+  };
+  auto& planner = runtime.Create<Doing>(runtime.root(), "planner");
+  planner.action = [&](Doing&) {
+    waits = !may_return;
+    while (!may_return) std::this_thread::sleep_for(1ms);
+  };
+  AssignThread(drive, CreateThread(runtime, "driving", {.period = 1ms}));
+  auto& planning = CreateThread(runtime, "planning", {.period = 1ms});
+  AssignThread(planner, planning);
+  Ready();
+  const Running running(scheduler);
+  WaitUntil("both run", [&] { return runs > 5 && planning.statistics().cycles > 5; });
+  may_return = false;
+  WaitUntil("one is in a long cycle", [&] { return waits.load(); });
+  auto held = std::async(std::launch::async, [&] {
+    return scheduler.HoldCycles({"/drive", "/planner"}, 10min).has_value();
+  });
+  struct LetReturn {
+    ~LetReturn() { may_return = true; }
+    std::atomic<bool>& may_return;
+  } const at_the_end{may_return};
+  WaitUntil("the drive is kept, and the planner waited for", [&] { return planning.runner()->gate().is_closed(); });
+  const int before = runs;
+  WaitUntil("the drive goes on", [&] { return runs > before + 3; });
+  EXPECT_TRUE(waits);
+  EXPECT_NE(held.wait_for(0s), std::future_status::ready);
+  may_return = true;
+  EXPECT_TRUE(held.get());
 }
 
 // Everything that can change does, while three threads run; ThreadSanitizer and AddressSanitizer

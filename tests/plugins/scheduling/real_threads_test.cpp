@@ -216,7 +216,7 @@ TEST_F(RealThreads, RunOnWhenWhatSupervisesThemThrowsAnything) {
   runtime.Create<Doing>(runtime.root(), "failing").action = [](Doing&) { throw 1; };
   CreateThread(runtime, "main", {.period = 1ms});
   scheduler.SetWatchdog([](Time) -> Time { throw 2; });
-  scheduler.SetFaultHandler([&](const Fault&) -> std::optional<std::string> {
+  scheduler.SetFaultHandler([&](const Fault&) -> FaultDispatcher::Action {
     ++handled;
     throw 3;
   });

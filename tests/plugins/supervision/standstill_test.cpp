@@ -1,5 +1,7 @@
 // Ports that drive, while what feeds them does not run.
 
+#include <future>
+
 #include "tests/plugins/supervision/supervised_robot.h"
 
 namespace runnel::supervised {
@@ -147,6 +149,36 @@ TEST(StandstillInRealTime, AChangeThatTakesLongKeepsUpNoOtherRule) {
   WaitUntil("the safe value is seen", [&] { return robot.seen == 5; });
   hangs = false;
   hangs.notify_all();
+  robot.scheduler.Stop();
+}
+
+TEST(StandstillInRealTime, APauseWaitsForNoOtherOne) {
+  Robot robot(SchedulerOptions::ClockKind::kReal);
+  std::atomic<bool> hangs{false}, is_hanging{false};
+  auto& other = robot.runtime.Create<Doing>(robot.runtime.root(), "other");
+  other.action = [&](Doing&) {
+    is_hanging = hangs.load();
+    hangs.wait(true);
+  };
+  AssignThread(other, CreateThread(robot.runtime, "apart", {.period = 10ms}));
+  MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+  MustSucceed(robot.scheduler.Start());
+  WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
+  hangs = true;
+  WaitUntil("the other one is in a long cycle", [&] { return is_hanging.load(); });
+  const auto pause = [&robot](const char* path) {
+    return std::async(std::launch::async, [&robot, path] { return robot.supervisor.SetPaused(path, true).has_value(); });
+  };
+  auto first = pause("/other");
+  WaitUntil("it is paused from its next cycle on", [&] { return robot.scheduler.IsPaused(other); });
+  auto second = pause("/laser");
+  WaitUntil("the safe value is seen", [&] { return robot.seen == -7; });
+  EXPECT_EQ(first.wait_for(0s), std::future_status::timeout) << "it still waits for the end of the cycle";
+  EXPECT_TRUE(second.get());
+  hangs = false;
+  hangs.notify_all();
+  first.get();
   robot.scheduler.Stop();
 }
 
