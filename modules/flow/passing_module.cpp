@@ -21,4 +21,16 @@ Result<void> PassingModule::MakePorts(std::size_t inputs, std::size_t places) {
   return {};
 }
 
+bool PassingModule::PassSafeValue() {
+  const auto is_in_force = [this] { return static_cast<const InputBase&>(input()).is_stop_in_force(); };
+  if (!is_in_force()) return false;
+  while (values_->Next(input(), 0)) {
+  }
+  (void)values_->Read(input(), 0);
+  // Asked again: a command that came after a release has to pass by the usual way.
+  if (is_in_force() && values_->Find(0) != nullptr) Pass(0);
+  values_->Drop(0);
+  return true;
+}
+
 }  // namespace runnel::flow

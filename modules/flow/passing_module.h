@@ -36,6 +36,9 @@ class PassingModule : public Module {
   }
   [[nodiscard]] Port& input() const noexcept { return *inputs_.front(); }
   [[nodiscard]] HeldValues& values() const noexcept { return *values_; }
+  /// While a stop of the only input is in force: has the safe value pass in each cycle, and what waits at the input go.
+  /// Whether one is.
+  bool PassSafeValue();
   /// Publishes what is in the place, and lets go of it.
   void Pass(std::size_t place) {
     values_->Forward(*output_, place);
@@ -111,8 +114,8 @@ class Merge final : public PassingModule {
   }
 };
 
-/// Passes values on while it is open, which may be said by an output. When it opens, the newest of what has come
-/// meanwhile passes, and what has come before that is forgotten.
+/// Passes values on while it is open, which may be said by an output; a safe value also while it is closed. When it
+/// opens, the newest of what has come meanwhile passes, and what has come before that is forgotten.
 class Gate final : public PassingModule {
  public:
   using PassingModule::PassingModule;
@@ -122,7 +125,7 @@ class Gate final : public PassingModule {
  private:
   void Update() override {
     const bool was_open = std::exchange(was_open_, open.Get());
-    if (!was_open_) return;
+    if (PassSafeValue() || !was_open_) return;
     if (was_open) {
       while (values().Next(input(), 0)) Pass(0);
       return;
@@ -135,7 +138,8 @@ class Gate final : public PassingModule {
   bool was_open_ = true;
 };
 
-/// Passes the newest value on, no more often than every `period`; with `repeats` also if none has come since.
+/// Passes the newest value on, no more often than every `period`, but a safe value at once; with `repeats` also if none
+/// has come since.
 class Sample final : public PassingModule {
  public:
   using PassingModule::PassingModule;
@@ -151,7 +155,7 @@ class Sample final : public PassingModule {
 
  private:
   void Update() override {
-    if (has_passed_ && now() - last_ < FromSeconds(interval.Get())) return;
+    if (PassSafeValue() || (has_passed_ && now() - last_ < FromSeconds(interval.Get()))) return;
     const bool is_new = values().Read(input(), 0);
     if (values().Find(0) == nullptr || !(is_new || repeats.Get())) return values().Drop(0);
     Pass(0);
@@ -165,8 +169,8 @@ class Sample final : public PassingModule {
   Time last_{};
 };
 
-/// Passes each value on `delay` after it came, with the timestamp that it had. Holds so many at most: of more, the
-/// oldest pass early.
+/// Passes each value on `delay` after it came, with the timestamp that it had, but a safe value at once. Holds so many
+/// at most: of more, the oldest pass early.
 class Delay final : public PassingModule {
  public:
   using PassingModule::PassingModule;
@@ -187,6 +191,10 @@ class Delay final : public PassingModule {
   }
 
   void Update() override {
+    for (const bool is_stopped = PassSafeValue(); count_ > 0 && is_stopped; --count_) {
+      values().Drop(oldest_);
+      oldest_ = (oldest_ + 1) % came_.size();
+    }
     const Duration wanted = FromSeconds(delay.Get());
     std::size_t place = oldest_ + count_;
     while (values().Next(input(), place % came_.size())) {

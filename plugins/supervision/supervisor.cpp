@@ -226,7 +226,7 @@ Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
     shared_->FollowPauses("");
     return meant;
   }
-  if (is_paused) KeepSafe();
+  KeepSafe();  // of who goes on, too: what a rule has connected again has said nothing yet
   return is_paused ? paused : scheduler_.SetPaused(path, false);
 }
 

@@ -39,7 +39,7 @@ struct FedMark final : Annotation {
   std::string text;  // the parameter's value then
 };
 
-// Of an output that something moves by: when its module was last seen not to run, if it has published nothing since.
+// Of an output: when its module was last seen not to run, if it has published nothing since.
 struct SilentMark final : Annotation {
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<SilentMark>(*this); }
   std::optional<Time> since;
@@ -60,14 +60,21 @@ Mark& MarkAt(FrameworkElement& element) {
   return mark != nullptr ? *mark : element.Annotate(std::make_unique<Mark>());
 }
 
-// Whether something moves by it: here, or in another application, to which somebody beside the tree sends it.
-bool Drives(Port& port) {
-  const auto is_beside = [&](const Port* sink) {
-    if (!sink->is_driving()) return false;
+// By which something moves: the port itself, or whoever beside the tree sends it to another application; nullptr: none.
+const Port* FindWhatMoves(const Port& port) {
+  if (port.is_driving()) return &port;
+  for (const Port* sink : port.Sinks()) {
+    if (!sink->is_driving()) continue;
     const auto listed = port.runtime().root().Find(sink->path());
-    return !listed || *listed != sink;
-  };
-  return port.is_driving() || std::ranges::any_of(port.Sinks(), is_beside);
+    if (!listed || *listed != sink) return sink;
+  }
+  return nullptr;
+}
+
+// What moves here by what is sent is held itself: only the value of those elsewhere counts.
+Result<AnyValue> SafeValueToHold(const Port& port) {
+  const Port* const moves = FindWhatMoves(port);
+  return SafeValueOf(moves != nullptr ? *moves : port);
 }
 
 // What it said before it was at rest counts no more.
@@ -137,33 +144,32 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
     outputs_.clear();
     runtime.root().Visit([this, now](FrameworkElement& element) {
       auto* const port = dynamic_cast<Port*>(&element);
-      if (port != nullptr && (Drives(*port) || MarkOf(*port) != nullptr)) driven_.emplace_back(*port, now);
-      if (port != nullptr && port->direction() == Port::Direction::kOutput && (MarkOf(*port) == nullptr || !MarkOf(*port)->is_ahead_told))
-        outputs_.push_back(port);
+      if (port == nullptr) return;
+      if (FindWhatMoves(*port) != nullptr || MarkOf(*port) != nullptr) driven_.emplace_back(*port, now);
+      if (port->direction() == Port::Direction::kOutput) outputs_.push_back(port);
     });
   }
   for (const Driven& each : driven_) {
     LookAtReaders(each, scheduler, tell);
     LookAtSources(each, scheduler, now, tell);
   }
-  std::erase_if(outputs_, [&](Port* each) {
-    if (!each->stamps_ahead()) return false;
-    MarkAt<RestMark>(*each).is_ahead_told = true;
+  for (Port* const each : outputs_) {
+    (void)WhySilent(*each, scheduler, now);  // it is noted: a rule may have switched it away, and switch it back
+    if (!each->stamps_ahead() || std::exchange(MarkAt<RestMark>(*each).is_ahead_told, true)) continue;
     tell(*each, "bears times of measurement that are still to come; they count as the time of publication", false);
-    return true;
-  });
+  }
 }
 
 Standstill::Driven::Driven(Port& driving, Time now)
-    : port(&driving), sources(driving.Sources()), sinks(driving.Sinks()), drives(Drives(driving)), at(now) {
+    : port(&driving), sources(driving.Sources()), sinks(driving.Sinks()), drives(FindWhatMoves(*port) != nullptr), at(now) {
   if (!drives) return;
   const auto* const input = dynamic_cast<const InputBase*>(port);
   LookAtParameters(*port);
   LookUpstream(*port, input != nullptr && input->ageing() == Ageing::kTimesOut);
 }
 
-// As far as nobody asks how old it is; beyond that by inputs of the same type only, for what sets parameters there, which do not
-// grow old.
+// As far as nobody asks how old it is: what a module does not ask it puts out as new, so that nobody behind it can tell.
+// Beyond that by inputs of the same type only, for what sets parameters there, which do not grow old.
 void Standstill::Driven::LookUpstream(const Port& input, bool times_out) {
   for (Port* source : input.Sources()) {
     if (!seen.insert({source, times_out}).second) continue;
@@ -172,7 +178,7 @@ void Standstill::Driven::LookUpstream(const Port& input, bool times_out) {
     VisitSiblings(*source, Port::Direction::kInput, [&](Port& each) {
       const auto* const base = dynamic_cast<const InputBase*>(&each);
       const Ageing ageing = base != nullptr ? base->ageing() : Ageing::kUnspecified;
-      const bool ages = times_out || ageing == Ageing::kTimesOut || ageing == Ageing::kSetOnce;
+      const bool ages = ageing == Ageing::kPassedOn ? times_out : ageing != Ageing::kUnspecified;
       if (each.is_set_by_hand(Port::Setter::kPerson)) return;  // whatever comes there does not count
       if (ages && &each.type() != &source->type()) return;
       LookUpstream(each, ages);
@@ -257,7 +263,7 @@ void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler,
       if (held) MarkAt<RestMark>(port).rested = now;
       return;
     }
-    const auto safe = SafeValueOf(port);
+    const auto safe = SafeValueToHold(port);
     const auto set = safe ? PublishByHand(port, safe->get(), Port::Setter::kRule) : safe.error();
     if (!set && held) return;  // it has been told
     MarkAt<RestMark>(port).rested = now;
@@ -280,7 +286,7 @@ void Standstill::LeaveToRule(Port& port) {
 
 bool Standstill::TakesOver(Port& port, const Scheduler& scheduler, Time now) {
   if (Driven(port, now).WhyAtRest(scheduler, now).empty()) return false;
-  const auto safe = SafeValueOf(port);
+  const auto safe = SafeValueToHold(port);
   if (!safe || !PublishByHand(port, safe->get(), Port::Setter::kRule)) return false;
   MarkAt<RestMark>(port).rested = now;
   return true;

@@ -50,10 +50,10 @@ class StaleWatch {
 
 /// Has ports that drive read their safe value while a module that feeds them does not run: it is paused, has failed, or its
 /// thread is stuck. By the slot of rules, and until the module has published again. So do those before it that nobody notices
-/// the silence of: behind them modules only pass values on, without a time-out, or they set a parameter on the way. Modules that
-/// drive and wait for data are run without, since what grows old does not come. What is sent to others who move by it, as a
-/// command over a network is, is held where it leaves the tree. Tells where the module that drives does not run itself, so
-/// that neither this nor a STOP reaches it.
+/// the silence of: a module on the way does not look how old it is what they say, or they set a parameter there. Modules
+/// that drive and wait for data are run without, since what grows old does not come. What is sent to others who move by it,
+/// as a command over a network is, is held where it leaves the tree. Tells where the module that drives does not run itself,
+/// so that neither this nor a STOP reaches it.
 ///
 /// Threads: all under the structure lock.
 class Standstill {
@@ -93,7 +93,7 @@ class Standstill {
   static void LookAtSources(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell);
 
   std::vector<Driven> driven_;  // as of the structure's revision
-  std::vector<Port*> outputs_;  // likewise: whose stamps have not been told of
+  std::vector<Port*> outputs_;  // likewise
   std::uint64_t revision_ = ~std::uint64_t{};
 };
 

@@ -1,7 +1,9 @@
+#include <memory>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "core/element/robot_stop.h"
 #include "modules/flow/passing_module.h"
 #include "plugins/testing/matchers.h"
 #include "plugins/testing/module_rig.h"
@@ -163,6 +165,83 @@ TEST(DelayTest, LetsTheOldestPassWhereTooManyWait) {
   rig.Set("delay", "0");
   rig.RunCycle();
   EXPECT_THAT(Taken(out), ElementsAre(2.0, 3.0));
+}
+
+/// Something moves by what passes; the module's input is marked, and STOP is pressed while it holds a value back.
+template <typename M>
+class StoppedPassing {
+ public:
+  StoppedPassing(const char* parameter, const char* value) : out(rig.template output<double>("out")) {
+    rig.Set(parameter, value);
+    EXPECT_TRUE(rig.Prepare());
+    EXPECT_TRUE(rig.template input<double>("in").SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+    Run(1);
+    Run(2);
+    EXPECT_TRUE(rig.runtime.robot_stop().Press("a test"));
+    Run(3);
+  }
+  void Run(double fed) {
+    rig.Feed("in", fed);
+    rig.RunCycle();
+  }
+  void Release() {
+    rig.Wait(10ms);
+    EXPECT_TRUE(rig.runtime.robot_stop().Release("a test"));
+    rig.Wait(10ms);
+  }
+  double Last() { return rig.Last(out); }
+
+  ModuleRig<M> rig{10ms};
+  Output<double>& out;
+};
+
+TEST(StopTest, ASafeValuePassesASampleAtOnce) {
+  StoppedPassing<Sample> stopped("period", "5 s");
+  EXPECT_EQ(stopped.Last(), -7);
+  stopped.Release();
+  stopped.Run(4);
+  EXPECT_EQ(stopped.Last(), -7) << "the next one is not due yet";
+  stopped.rig.Wait(5s);
+  stopped.Run(5);
+  EXPECT_EQ(stopped.Last(), 5);
+}
+
+TEST(StopTest, ASafeValuePassesAClosedGate) {
+  StoppedPassing<Gate> stopped("open", "false");
+  EXPECT_EQ(stopped.Last(), -7);
+  stopped.Release();
+  stopped.Run(4);
+  EXPECT_EQ(stopped.Last(), -7) << "it is closed";
+  stopped.rig.Set("open", "true");
+  stopped.Run(5);
+  EXPECT_EQ(stopped.Last(), 5);
+}
+
+TEST(StopTest, ASafeValueDoesNotWaitInADelayNorDoesWhatWasThere) {
+  StoppedPassing<Delay> stopped("delay", "100ms");
+  EXPECT_EQ(stopped.Last(), -7);
+  stopped.rig.RunCycles(20);
+  EXPECT_EQ(stopped.Last(), -7) << "what waited is gone";
+  stopped.Release();
+  stopped.Run(4);
+  stopped.rig.RunCycles(5);
+  EXPECT_EQ(stopped.Last(), -7);
+  stopped.rig.RunCycles(10);
+  EXPECT_EQ(stopped.Last(), 4);
+}
+
+TEST(StopTest, OfAQueueNothingOfBeforePasses) {
+  ModuleRig<Gate> rig(10ms);
+  rig.UseQueue("in", 10);
+  rig.Feed("in", 1.0);
+  rig.RunCycle();
+  ASSERT_TRUE(rig.input<double>("in").SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+  for (const double value : {2.0, 3.0}) rig.Feed("in", value);
+  ASSERT_TRUE(rig.runtime.robot_stop().Press("a test"));
+  auto& out = rig.Follow(rig.output<double>("out"));
+  (void)Taken(out);
+  rig.RunCycles(2);
+  EXPECT_THAT(Taken(out), ElementsAre(-7, -7));
 }
 
 TEST(FlowTest, NeitherAllocatesNorLocks) {

@@ -94,16 +94,142 @@ TEST_F(DrivenOver, SoHasWhatDrivesInAnotherApplication) {
   EXPECT_EQ(sent.Get(), 1);
 }
 
-TEST_F(DrivenOver, WhatLooksHowOldItIsGoesOn) {
-  struct Ageing final : Module {
+// What moves here by what is sent has another safe value, and is held itself.
+TEST_F(DrivenOver, SoHasWhatDrivesElsewhereBesideWhatDrivesHereByAnotherSafeValue) {
+  struct Beside final : FrameworkElement {
+    explicit Beside(FrameworkElement& root) : FrameworkElement(Placement{root, "network", false}) {}
+  } beside(robot.runtime.root());
+  Input<double> sent(beside, "sent");
+  MustSucceed(sent.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}));
+  MustSucceed(Port::Connect(passing.out, sent));
+  RunOn();
+  EXPECT_EQ(sent.Get(), 1);
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  RunOn();
+  EXPECT_EQ(sent.Get(), 0);
+  EXPECT_EQ(robot.seen, -7);
+  MustSucceed(robot.supervisor.SetPaused("/laser", false));
+  RunOn();
+  EXPECT_EQ(sent.Get(), 1);
+  EXPECT_EQ(robot.seen, 1);
+}
+
+/// Puts out what it has read last as new in each cycle; its input says whether it looks how old that is.
+template <Ageing kAgeing>
+struct Repeating final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.ageing = kAgeing}};
+  Output<double> out{this, "out"};
+  void Update() override {
+    if (in.Peek()) out.Publish(in.Get());
+  }
+};
+
+/// Something moves by what comes over `on_the_way` to a port with a time-out.
+template <Ageing kAgeing>
+struct BaseOver {
+  BaseOver(Robot& robot, Port& source) {
+    auto& on_the_way = robot.runtime.Create<Repeating<kAgeing>>(robot.runtime.root(), "on_the_way");
+    base = &robot.runtime.Create<Base>(robot.runtime.root(), "base");
+    MustSucceed(Port::Connect(source, on_the_way.in));
+    MustSucceed(Port::Connect(on_the_way.out, base->in));
+    MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+  }
+  struct Base final : Module {
     using Module::Module;
-    Input<double> in{this, "in", {.ageing = runnel::Ageing::kTimesOut}};
+    Input<double> in{this,
+                     "in",
+                     {.drives = true,
+                      .safe_value = {TypeOf<double>(), std::make_shared<double>(-7)},
+                      .ageing = Ageing::kTimesOut}};
+    double seen = 0;
+    void Update() override { seen = in.Get(); }
+  };
+  [[nodiscard]] double seen() const { return base->seen; }
+
+  Base* base = nullptr;
+};
+
+// By its own time-out it does not notice that, as what it gets is never old.
+TEST_F(DrivenOver, APortWithATimeOutHasItsSafeValueWhileWhatIsPutOutAsNewIsOfAModuleAtRest) {
+  const BaseOver<Ageing::kUnspecified> over(robot, robot.laser.out);
+  RunOn();
+  EXPECT_EQ(over.seen(), 1);
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  RunOn();
+  EXPECT_EQ(over.seen(), -7);
+  MustSucceed(robot.supervisor.SetPaused("/laser", false));
+  RunOn();
+  EXPECT_EQ(over.seen(), 1);
+  robot.laser_throws = true;
+  RunOn();
+  EXPECT_EQ(over.seen(), -7);
+}
+
+TEST_F(DrivenOver, NorIsThatNoticedByWhoLooksOnTheWayHowOldItIs) {
+  const BaseOver<Ageing::kTimesOut> over(robot, passing.out);
+  RunOn();
+  EXPECT_EQ(over.seen(), 1);
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  RunOn();
+  EXPECT_EQ(over.seen(), -7);
+}
+
+// As over a mux: another one may be selected there, and of this one the stamp tells.
+TEST_F(DrivenOver, WhatPassesWithItsStampIsTheBusinessOfThePortsTimeOut) {
+  const BaseOver<Ageing::kPassedOn> over(robot, robot.laser.out);
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  RunOn();
+  EXPECT_EQ(over.seen(), 1);
+}
+
+TEST_F(DrivenOver, ASourceThatARuleHasSwitchedAwayCountsAgainOnceItHasPublished) {
+  MustSucceed(Port::Disconnect(passing.out, robot.reader.in));
+  MustSucceed(Port::Connect(robot.laser.out, robot.reader.in));
+  MustSucceed(robot.supervisor.Add(SupervisionRule{
+      .when = SupervisionRule::When::kPaused,
+      .of = "/laser",
+      .reaction = {.changes = Switch(robot.reader.in, robot.laser.out, robot.infrared.out)},
+      .otherwise = {.changes = Switch(robot.reader.in, robot.infrared.out, robot.laser.out)}}));
+  MustSucceed(robot.supervisor.SetPaused("/laser", true));
+  robot.laser_works = false;
+  RunOn();
+  EXPECT_EQ(robot.seen, 2);
+  MustSucceed(robot.supervisor.SetPaused("/laser", false));
+  EXPECT_EQ(robot.reader.in.Get(), -7) << "at once";
+  RunOn();
+  EXPECT_EQ(robot.seen, -7) << "it has said nothing yet";
+  robot.laser_works = true;
+  RunOn();
+  EXPECT_EQ(robot.seen, 1);
+}
+
+TEST_F(DrivenOver, SoDoesOneThatNobodyReadWhenItWasAtRest) {
+  MustSucceed(robot.supervisor.SetPaused("/infrared", true));
+  RunOn();
+  robot.infrared.action = [](Doing&) {};
+  MustSucceed(robot.supervisor.SetPaused("/infrared", false));
+  RunOn();
+  EXPECT_EQ(robot.seen, 1);
+  MustSucceed(Port::Disconnect(passing.out, robot.reader.in));
+  MustSucceed(Port::Connect(robot.infrared.out, robot.reader.in));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+  robot.infrared.action = [](Doing& module) { module.out.Publish(2); };
+  RunOn();
+  EXPECT_EQ(robot.seen, 2);
+}
+
+TEST_F(DrivenOver, WhatLooksHowOldItIsGoesOn) {
+  struct Looking final : Module {
+    using Module::Module;
+    Input<double> in{this, "in", {.ageing = Ageing::kTimesOut}};
     Output<double> out{this, "out"};
     void Update() override { out.Publish(3); }
   };
-  auto& ageing = robot.runtime.Create<Ageing>(robot.runtime.root(), "ageing");
+  auto& ageing = robot.runtime.Create<Looking>(robot.runtime.root(), "ageing");
   MustSucceed(Port::Disconnect(passing.out, robot.reader.in));
-  MustSucceed(Port::Connect(passing.out, ageing.in));
+  MustSucceed(Port::Connect(robot.laser.out, ageing.in));
   MustSucceed(Port::Connect(ageing.out, robot.reader.in));
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
   RunOn();
