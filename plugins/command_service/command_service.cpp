@@ -1,5 +1,6 @@
 #include "plugins/command_service/command_service.h"
 
+#include <algorithm>
 #include <mutex>
 #include <type_traits>
 #include <utility>
@@ -47,6 +48,12 @@ std::optional<Time> OperatorWatch::Look() {
 
 namespace {
 constexpr Duration kBlockPatience = std::chrono::milliseconds(5);
+
+Error UnreachedError(const std::pair<std::string, std::string>& port_and_why) {
+  return {.message = "cannot be reached: " + port_and_why.second,
+          .path = port_and_why.first,
+          .hint = "what moves by it keeps its last command, and has to come to rest by its own time-out"};
+}
 
 // Writes into the log what others than clients change: those have their changes logged as they wrote them.
 class StructureRecorder final : public ElementListener {
@@ -187,43 +194,29 @@ CommandAnswer CommandService::End(const char* name, const char* what, const std:
   return AnswerOf(end());
 }
 
-namespace {
-// What has a stuck module between it and its safe value. Nobody's lock is waited for. `at_rest`: names of what drives and has a
-// safe value of supervision.
-std::vector<Error> FindUnreached(Runtime& runtime, const Scheduler* scheduler, std::string& at_rest) {
-  std::vector<Error> unreached;
-  const auto lock = TryStructureLock(runtime, kBlockPatience);
-  if (!lock || scheduler == nullptr) return unreached;
+std::optional<StopReach> FindStopReach(Runtime& runtime, const Scheduler* scheduler) {
+  const auto lock = TryStructureLock(runtime, std::chrono::milliseconds(20));
+  if (!lock) return {};
+  StopReach reach{.drives = FindWhatDrives(runtime).value_or(""), .unreached = {}};
   runtime.root().Visit([&](const FrameworkElement& element) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr || !port->is_driving()) return;
-    if (port->is_set_by_hand(Port::Setter::kRule)) at_rest += (at_rest.empty() ? "" : ", ") + port->path();
-    const std::string why = scheduler->WhyUnreached(*port);
-    if (why.empty()) return;
-    unreached.push_back({.message = "cannot be reached: " + why,
-                         .path = port->path(),
-                         .hint = "what moves by it keeps its last command, and has to come to rest by its own time-out"});
+    reach.brake = std::max(reach.brake, port->stop()->brake());
+    if (port->is_set_by_hand(Port::Setter::kRule)) reach.at_rest += (reach.at_rest.empty() ? "" : ", ") + port->path();
+    const std::string why = scheduler != nullptr ? scheduler->WhyUnreached(*port) : "";
+    if (!why.empty()) reach.unreached.emplace_back(port->path(), why);
   });
-  return unreached;
+  return reach;
 }
-}  // namespace
 
 Result<void> CheckThatAllStops(Runtime& runtime, const Scheduler* scheduler) {
-  std::string at_rest;
+  const auto reach = FindStopReach(runtime, scheduler);
+  if (!reach) return {};
   std::string left;
-  for (const Error& each : FindUnreached(runtime, scheduler, at_rest)) left += (left.empty() ? "" : "; ") + each.ToString();
-  if (FindWhatDrives(runtime) == "") left = NothingDrives().ToString();
+  for (const auto& each : reach->unreached) left += (left.empty() ? "" : "; ") + UnreachedError(each).ToString();
+  if (reach->drives.empty()) left = NothingDrives().ToString();
   if (left.empty()) return {};
   return Error{.message = "STOP is in force, but " + left};
-}
-
-std::string CommandService::WarnOfUnreached(CommandAnswer& answer) const {
-  std::string at_rest;
-  for (Error& each : FindUnreached(application_.runtime, application_.scheduler, at_rest)) {
-    answer.leaves_some = true;
-    answer.diagnostics.AddWarning(std::move(each));
-  }
-  return at_rest;
 }
 
 CommandAnswer CommandService::Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of) const {
@@ -232,7 +225,6 @@ CommandAnswer CommandService::Do(const RobotStopRequest& request, const RobotSto
   if (request.is_pressed) {
     const char* const since = stop.Press(request.by) ? "" : " already";
     answer = CommandAnswer::Done(std::string("STOP is in force") + since + "; 'runnel release' ends it");
-    (void)WarnOfUnreached(answer);
   } else {
     const std::string pressed_by = stop.state().by;
     if (const auto done = stop.Release(request.by, as_of); !done) return CommandAnswer::Refused(done.error());
@@ -241,15 +233,17 @@ CommandAnswer CommandService::Do(const RobotStopRequest& request, const RobotSto
   if (application_.hooks.is_stop_kept && !application_.hooks.is_stop_kept()) {
     answer.text += "; the file by which the next process knows of it is not written yet";
   }
-  const auto drives = FindWhatDrives(application_.runtime);
-  if (!drives) {
-    answer.text += "; what drives cannot be told while the structure is being changed";
-  } else if (!drives->empty()) {
-    answer.text += "; what drives: " + *drives;
-  } else if (request.is_pressed) {
-    answer.stops_nothing = true;
-    answer.diagnostics.AddWarning(NothingDrives());
+  const auto reach = FindStopReach(application_.runtime, application_.scheduler);
+  if (!reach) {
+    answer.text += "; what drives cannot be told while the structure is being changed, nor whether STOP reaches all of it";
+    return answer;
   }
+  if (!reach->drives.empty()) answer.text += "; what drives: " + reach->drives;
+  if (!request.is_pressed) return answer;
+  for (const auto& each : reach->unreached) answer.diagnostics.AddWarning(UnreachedError(each));
+  answer.leaves_some = !reach->unreached.empty();
+  answer.stops_nothing = reach->drives.empty();
+  if (answer.stops_nothing) answer.diagnostics.AddWarning(NothingDrives());
   return answer;
 }
 
@@ -268,9 +262,10 @@ CommandAnswer CommandService::Do(const PauseRequest& request) const {
   application_.log.Add(ApplicationLog::Kind::kChange, what);
   CommandAnswer answer = CommandAnswer::Done(what);
   const std::lock_guard lock(application_.runtime.structure_mutex());
-  const std::string at_rest = request.is_paused ? WarnOfUnreached(answer) : "";
-  if (!at_rest.empty()) answer.text += "; driving ports with the safe value of supervision now: " + at_rest;
-  answer.leaves_some = false;  // that is said of a STOP
+  if (!request.is_paused) return answer;
+  const StopReach reach = FindStopReach(application_.runtime, application_.scheduler).value();
+  for (const auto& each : reach.unreached) answer.diagnostics.AddWarning(UnreachedError(each));
+  if (!reach.at_rest.empty()) answer.text += "; driving ports with the safe value of supervision now: " + reach.at_rest;
   return answer;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/clock.h"
@@ -131,8 +132,18 @@ struct ServedApplication {
   Scheduler* scheduler = nullptr;  ///< the same's; optional
 };
 
+/// What the STOP of the robot holds, or would hold, and what of that it does not reach now.
+struct StopReach {
+  std::string drives;                                          ///< as FindWhatDrives() says it
+  std::vector<std::pair<std::string, std::string>> unreached;  ///< ports, and why
+  std::string at_rest = {};  ///< with the safe value of supervision, as `drives`
+  Duration brake{};          ///< the longest of all ports (PortStop::brake())
+};
+/// Nothing while somebody else has the structure lock, which is waited for some ms at most. `scheduler`: that of the
+/// application; optional, here and below.
+[[nodiscard]] std::optional<StopReach> FindStopReach(Runtime& runtime, const Scheduler* scheduler);
 /// Whether the STOP that is in force stops all that moves; else an error says what it leaves and why, for those who pressed it
-/// without a CommandService. Nobody's lock is waited for. `scheduler`: that of the application; optional.
+/// without a CommandService. Nobody's lock is waited for.
 [[nodiscard]] Result<void> CheckThatAllStops(Runtime& runtime, const Scheduler* scheduler);
 
 /// A request while it is carried out. Destroyed before it has begun, it is not done.
@@ -198,7 +209,6 @@ class CommandService {
   [[nodiscard]] CommandAnswer End(const char* name, const char* what, const std::function<Result<std::string>()>& end) const;
   [[nodiscard]] CommandAnswer Do(const BlockRequest& request);
   [[nodiscard]] CommandAnswer Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of) const;
-  std::string WarnOfUnreached(CommandAnswer& answer) const;
   [[nodiscard]] CommandAnswer Do(const UndoRequest&, const RobotStop::AsOf& as_of) const { return TakeHistoryStep(true, as_of); }
   [[nodiscard]] CommandAnswer Do(const RedoRequest&, const RobotStop::AsOf& as_of) const { return TakeHistoryStep(false, as_of); }
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back, const RobotStop::AsOf& as_of) const;

@@ -39,7 +39,6 @@ std::string StateText(const ServedApplication& application) {
   std::size_t unfed = 0;
   std::size_t silent = 0;
   std::size_t overrunning = 0;
-  std::size_t unreached = 0;
   root.Visit([&](FrameworkElement& each) {
     if (IsModule(each) && application.scheduler->IsPaused(each)) ++paused;
     const auto* const thread = dynamic_cast<const ThreadContainer*>(&each);
@@ -48,7 +47,6 @@ std::string StateText(const ServedApplication& application) {
     if (port == nullptr) return;
     if (port->is_set_by_hand() || port->is_set_by_hand(Port::Setter::kRule)) ++by_hand;
     if (port->is_blocked()) ++blocked;
-    if (!application.scheduler->WhyUnreached(*port).empty()) ++unreached;
     if (LacksSource(*port)) ++unfed;
     if (SilentFor(*port, application.log.start(), now)) ++silent;
   });
@@ -57,7 +55,7 @@ std::string StateText(const ServedApplication& application) {
   };
   add(FailedModules(root, *application.scheduler, nullptr).size(), " module FAILED", " modules FAILED");
   for (const StuckModule& each : application.scheduler->StuckModules()) text += ", STUCK: " + each.path;
-  add(unreached, " driving port CANNOT BE REACHED", " driving ports CANNOT BE REACHED");
+  add(FindStopReach(application.runtime, application.scheduler).value().unreached.size(), " driving port CANNOT BE REACHED", " driving ports CANNOT BE REACHED");
   add(paused, " module PAUSED", " modules PAUSED");
   add(blocked, " port BLOCKED", " ports BLOCKED");
   add(by_hand, " port set by hand", " ports set by hand");

@@ -84,11 +84,7 @@ void AddService(Callable& callable, JsonObject& json) {
   }
 }
 
-std::string WhyUnreached(const Port& port, const ElementSurroundings& around) {
-  return around.scheduler != nullptr ? around.scheduler->WhyUnreached(port) : "";
-}
-
-void AddPort(const Port& port, const ElementSurroundings& around, JsonObject& json) {
+void AddPort(const Port& port, JsonObject& json) {
   const FrameworkElement* const owner = FindOwner(port);
   json.Add("kind", "port").Add("name", port.name());
   json.Add("direction", port.direction() == Port::Direction::kInput ? "input" : "output");
@@ -101,7 +97,6 @@ void AddPort(const Port& port, const ElementSurroundings& around, JsonObject& js
   json.Add("moves", port.is_driving() || behind);
   const AnyValue safe = port.stop() ? port.stop()->safe_value() : behind;
   if (safe && &safe.type() == &port.type()) json.Add("safe", ToText(safe.type(), safe.get()));
-  if (const std::string why = WhyUnreached(port, around); !why.empty()) json.Add("unreached", why);
   const InputLimits& limits = port.limits();
   json.Add("bounds", BoundsText(limits));
   json.AddTextOrNull("default", limits.default_value ? ToText(limits.default_value.type(),
@@ -178,7 +173,7 @@ std::string ElementJson(const FrameworkElement& element, const ElementSurroundin
     const std::string tags = TagsText(element);
     if (!tags.empty()) json.Add("tags", tags);
     if (const auto* const port = dynamic_cast<const Port*>(&element)) {
-      AddPort(*port, around, json);
+      AddPort(*port, json);
     } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
       AddParameter(element, *parameter, json);
     } else if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) {
@@ -197,7 +192,6 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
     if (port == nullptr) return hash;
     Mix(port->is_set_by_hand() || port->is_set_by_hand(Port::Setter::kRule) ? 1 : 0, hash);
     Mix((port->is_driving() ? 1 : 0) + (port->is_blocked() ? 2 : 0) + (MovesSomething(*port) ? 4 : 0), hash);
-    Mix(WhyUnreached(*port, around), hash);
     Mix(BoundsText(port->limits()), hash);
     MixAwaited(AwaitedBy(*port), hash);
     return hash;

@@ -15,7 +15,7 @@ namespace runnel::internal {
 /// What there is to know of elements besides themselves.
 struct ElementSurroundings {
   const ModuleRegistry* modules = nullptr;                 ///< their summaries
-  const Scheduler* scheduler = nullptr;                    ///< who says why a driving port cannot be reached
+  const Scheduler* scheduler = nullptr;                    ///< who says which modules are stuck
   std::map<std::uint64_t, std::string> thread_names;       ///< by id
   std::uint64_t default_thread = 0;                        ///< for what is assigned to none
   std::unordered_map<std::uint64_t, std::string> failed;  ///< modules, and what they threw

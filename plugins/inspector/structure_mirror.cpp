@@ -40,7 +40,7 @@ bool IsObserver(const Port& port) { return dynamic_cast<const ProbePort*>(&port)
 
 StructureMirror::StructureMirror(Runtime& runtime, const ModuleRegistry& modules,
                                  const Scheduler& scheduler, const ApplicationLog& log)
-    : runtime_(runtime), scheduler_(scheduler), log_(log), walk_(runtime) {
+    : runtime_(runtime), log_(log), walk_(runtime) {
   around_.modules = &modules;
   around_.scheduler = &scheduler;
 }
@@ -61,9 +61,7 @@ void StructureMirror::Forget() noexcept {
   order_.clear();
   walk_.Forget();
   found_ = {};
-  ports_.clear();
-  threads_.clear();
-  parameters_.clear();
+  seen_ = {};
   next_parameter_ = 0;
   metered_ = nullptr;
 }
@@ -88,7 +86,7 @@ bool StructureMirror::LookOn() {
 }
 
 void StructureMirror::NoteFaults() {
-  if (auto paused = scheduler_.PausedPaths(); paused != around_.paused) {
+  if (auto paused = around_.scheduler->PausedPaths(); paused != around_.paused) {
     around_.paused = std::move(paused);
     walk_.Forget();
   }
@@ -114,7 +112,7 @@ void StructureMirror::NoteThreads() {
     for (const FrameworkElement* each : folder.children()) {
       if (each->kind() != ElementKind::kThread) continue;
       around_.thread_names[each->id()] = each->name();
-      const bool is_default = each->name() == scheduler_.options().default_thread;
+      const bool is_default = each->name() == around_.scheduler->options().default_thread;
       if (around_.default_thread == 0 || is_default) around_.default_thread = each->id();
     }
   };
@@ -226,10 +224,8 @@ void StructureMirror::FinishWalk() {
   order_.clear();
   order_.reserve(found_.order.size());
   for (const std::uint64_t id : found_.order) order_.push_back(&entries_.at(id));
-  ports_ = std::move(found_.ports);
-  threads_ = std::move(found_.threads);
-  parameters_ = std::move(found_.parameters);
-  metered_ = std::make_shared<const MeteredElements>(std::move(found_.metered));
+  seen_ = std::move(found_);
+  metered_ = std::make_shared<const MeteredElements>(std::move(seen_.metered));
   next_parameter_ = 0;
   walk_.Confirm();
   Tell(std::move(difference));
@@ -240,9 +236,9 @@ void StructureMirror::SweepParameters() {
   const auto until = std::chrono::steady_clock::now() + kHold;
   const auto is_late = [&] { return std::chrono::steady_clock::now() >= until; };
   Difference difference;
-  for (std::size_t i = 0; i < parameters_.size() && (i % kStride != 0 || !is_late()); ++i) {
-    const FrameworkElement& parameter = *parameters_[next_parameter_];
-    next_parameter_ = (next_parameter_ + 1) % parameters_.size();
+  for (std::size_t i = 0; i < seen_.parameters.size() && (i % kStride != 0 || !is_late()); ++i) {
+    const FrameworkElement& parameter = *seen_.parameters[next_parameter_];
+    next_parameter_ = (next_parameter_ + 1) % seen_.parameters.size();
     const std::uint64_t fingerprint = Fingerprint(parameter);
     Entry& entry = entries_[parameter.id()];
     if (entry.fingerprint == fingerprint) continue;
@@ -293,9 +289,9 @@ std::optional<CountSample> StructureMirror::Count() const {
   if (!lock || !walk_.is_current()) return {};
   CountSample sample{
       .of = metered_, .publications = {}, .threads = {}, .time = runtime_.clock().Now()};
-  sample.publications.reserve(ports_.size());
-  for (const Port* port : ports_) sample.publications.push_back(Publications::Of(*port));
-  for (const ThreadContainer* thread : threads_) sample.threads.push_back(thread->statistics());
+  sample.publications.reserve(seen_.ports.size());
+  for (const Port* port : seen_.ports) sample.publications.push_back(Publications::Of(*port));
+  for (const ThreadContainer* thread : seen_.threads) sample.threads.push_back(thread->statistics());
   return sample;
 }
 

@@ -111,7 +111,6 @@ class StructureMirror {
   void Tell(Difference difference);
 
   Runtime& runtime_;
-  const Scheduler& scheduler_;
   const ApplicationLog& log_;
   std::uint64_t next_in_log_ = 0;
   ElementSurroundings around_;
@@ -124,10 +123,7 @@ class StructureMirror {
   std::uint64_t walks_ = 0;
   Findings found_;  // valid while the walk is under way
 
-  // Valid while the walk is current.
-  std::vector<const Port*> ports_;
-  std::vector<const ThreadContainer*> threads_;
-  std::vector<const FrameworkElement*> parameters_;
+  Findings seen_;   // of the walk before it; valid while that is current
   std::size_t next_parameter_ = 0;
   std::shared_ptr<const MeteredElements> metered_;
 };

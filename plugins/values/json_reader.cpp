@@ -77,6 +77,10 @@ std::optional<std::uint64_t> JsonMembers::Count(const std::string& name, std::ui
   });
 }
 
+std::optional<bool> JsonMembers::Flag(const std::string& name) {
+  return Take(name, "true or false", [](const JsonPart& part) { return part.boolean(); });
+}
+
 std::optional<std::vector<JsonPart>> JsonMembers::List(const std::string& name) {
   return Take(name, "a list", [](const JsonPart& part) {
     return part.is_list() ? std::optional(part.items()) : std::nullopt;

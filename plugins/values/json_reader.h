@@ -65,6 +65,7 @@ class JsonMembers {
   /// Finite, and not below 0.
   std::optional<double> Number(const std::string& name);
   std::optional<std::uint64_t> Count(const std::string& name, std::uint64_t most);
+  std::optional<bool> Flag(const std::string& name);
   std::optional<std::vector<JsonPart>> List(const std::string& name);
 
   // It is an error if there is none.

@@ -31,14 +31,6 @@ T OneOf(JsonMembers& members, const std::string& key, const std::vector<std::str
   return {};
 }
 
-bool IsTrue(JsonMembers& members, const std::string& key) {
-  const JsonPart* const found = members.Find(key);
-  if (found == nullptr || found->is_null()) return false;
-  const auto is_true = found->boolean();
-  if (!is_true) members.Complain("\"" + key + "\" must be true or false");
-  return is_true.value_or(false);
-}
-
 // {"step": "0.1"}: values of parameters in their text format.
 std::vector<Setting> SettingsIn(JsonMembers& members) {
   std::vector<Setting> settings;
@@ -81,9 +73,9 @@ Change ReadConnect(JsonMembers& m) {
                       m.NeedText("to"),
                       {.queue = m.Count("queue", kLargestCount).value_or(0),
                        .on_full = OneOf<OnFull>(m, "on_full", OnFullNames()),
-                       .pull = IsTrue(m, "pull"),
-                       .when_present = IsTrue(m, "when_present"),
-                       .late = IsTrue(m, "late"),
+                       .pull = m.Flag("pull").value_or(false),
+                       .when_present = m.Flag("when_present").value_or(false),
+                       .late = m.Flag("late").value_or(false),
                        .convert = m.Text("convert").value_or("")}};
 }
 Change ReadDisconnect(JsonMembers& m) {

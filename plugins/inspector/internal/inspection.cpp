@@ -94,6 +94,7 @@ constexpr auto kLook = milliseconds(50);
 // While there is more to look at, or the structure is locked.
 constexpr auto kLookOn = milliseconds(2);
 constexpr auto kLookAtRegistry = milliseconds(1000);
+constexpr auto kLookAtReach = milliseconds(500);
 
 std::string RunName() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -138,6 +139,13 @@ Inspection::SteadyTime Inspection::Look() {
   LookAtRegistry(now);
   look_at_ = now + (mirror_.Look() ? Duration(kLook) : Duration(kLookOn));
   return look_at_;
+}
+
+const std::optional<StopReach>& Inspection::stop_reach() {
+  const SteadyTime now = std::chrono::steady_clock::now();
+  if (now < look_at_reach_) return reach_;
+  look_at_reach_ = now + kLookAtReach;
+  return reach_ = FindStopReach(application_.runtime, &scheduler_);
 }
 
 void Inspection::LookAtRegistry(SteadyTime now) {

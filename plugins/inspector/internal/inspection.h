@@ -84,6 +84,9 @@ class Inspection {
   /// Of the server's thread.
   [[nodiscard]] Arrangement& arrangement() noexcept { return arrangement_; }
   [[nodiscard]] TaskGroup& tasks() noexcept { return tasks_; }
+  /// What the STOP holds and does not reach, half a second old at most; nothing: it could not be known then. For all
+  /// viewers at once, since everything is walked through for it.
+  [[nodiscard]] const std::optional<StopReach>& stop_reach();
   /// nullptr until it has been made. Any thread.
   [[nodiscard]] std::shared_ptr<const Catalogue> catalogue() const;
 
@@ -111,6 +114,8 @@ class Inspection {
   std::uint64_t viewers_ = 0;
   SteadyTime look_at_{};
   SteadyTime look_at_registry_{};
+  SteadyTime look_at_reach_{};
+  std::optional<StopReach> reach_;
   std::uint64_t registry_ = 0;  // the fingerprint that the catalogue is of
   mutable std::mutex mutex_;    // a leaf; of the two below
   std::shared_ptr<const Catalogue> catalogue_;

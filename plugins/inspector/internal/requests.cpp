@@ -50,6 +50,7 @@ std::string ReplyTo(std::optional<std::uint64_t> request, const CommandAnswer& a
     json.Add("text", text);
     if (!answer.client.empty()) json.Add("client", answer.client);
     if (answer.stops_nothing) json.Add("stops_nothing", true);
+    if (answer.leaves_some) json.Add("leaves_some", true);
   });
 }
 

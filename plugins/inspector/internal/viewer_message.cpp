@@ -21,13 +21,6 @@ void ReadChanges(const std::vector<JsonPart>& changes, ViewerMessage& message) {
   }
 }
 
-void ReadFlag(JsonMembers& members, const std::string& name, bool& flag) {
-  const JsonPart* const found = members.Find(name);
-  if (found == nullptr || found->is_null()) return;
-  if (!found->boolean()) members.Complain("\"" + name + "\" is neither true nor false");
-  flag = found->boolean().value_or(flag);
-}
-
 }  // namespace
 
 Result<ViewerMessage> ParseViewerMessage(std::string_view text,
@@ -53,9 +46,9 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text,
   message.from = members.Text("from").value_or("");
   message.to = members.Text("to").value_or("");
   message.wants_image = members.Text("as").value_or("") == "image";
-  ReadFlag(members, "on", message.is_on);
-  ReadFlag(members, "overwrite", message.overwrites);
-  ReadFlag(members, "yes", message.may_end_application);
+  message.is_on = members.Flag("on").value_or(message.is_on);
+  message.overwrites = members.Flag("overwrite").value_or(message.overwrites);
+  message.may_end_application = members.Flag("yes").value_or(message.may_end_application);
   if (members.Find("stop") != nullptr)
     members.Complain("\"stop\" is an operation of its own: of one port 'block'");
   message.value = members.Text("value").value_or("");

@@ -7,7 +7,6 @@
 
 #include "core/base/nearest_name.h"
 #include "core/log/log_level.h"
-#include "core/port/driving_ports.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/structure/change_history.h"
@@ -74,9 +73,14 @@ WebSession::SteadyTime ViewerSession::SendAlive() {
     JsonObject told(json.Add("op", "alive").Add("at", ToSeconds(at)).Key("stop"));
     told.Add("in_force", stop.in_force).Add("by", stop.by);
     told.Add("since", ToSeconds(stop.since - inspection_.start()));
-    Runtime& runtime = inspection_.application().runtime;
-    const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);  // nobody is waited for
-    if (const auto drives = stop.in_force && lock ? FindWhatDrives(runtime) : std::nullopt) told.Add("drives", *drives);
+    const auto& reach = inspection_.stop_reach();
+    if (!reach) return;
+    AppendList(reach->unreached, told.Key("unreached"), [](const auto& each, std::string& to) {
+      JsonObject(to).Add("path", each.first).Add("why", each.second);
+    });
+    if (!stop.in_force) return;
+    told.Add("drives", reach->drives);
+    told.Add("braking", inspection_.application().runtime.clock().Now() < stop.since + reach->brake);
   }));
   if (is_sent) told_stop_ = stop.requests;
   // Pages answer it, by which operators are heard as of now.
@@ -133,12 +137,6 @@ void ViewerSession::SendArrangement() {
   if (client_.SendText(arrangement.MessageSince(arrangement_))) arrangement_ = arrangement.revision();
 }
 
-std::string ViewerSession::NextStep(std::optional<std::string> (ChangeHistory::*next)()
-                                        const) const {
-  const ChangeHistory* const history = inspection_.application().history;
-  return history != nullptr ? (history->*next)().value_or("") : "";
-}
-
 void ViewerSession::SendState(SteadyTime now) {
   state_due_ = now + kState;
   if (IsSlow()) return;
@@ -148,9 +146,10 @@ void ViewerSession::SendState(SteadyTime now) {
   std::string state = JsonObjectText([&](JsonObject& json) {
     json.Add("paused", pace.is_paused());
     json.AddOrNull("speed", pace.is_simulated() ? std::optional(pace.speed()) : std::nullopt);
-    json.AddTextOrNull("undo", NextStep(&ChangeHistory::NextUndo));
-    json.AddTextOrNull("redo", NextStep(&ChangeHistory::NextRedo));
-    if (const ChangeHistory* const history = inspection_.application().history) {
+    const ChangeHistory* const history = inspection_.application().history;
+    json.AddTextOrNull("undo", history != nullptr ? history->NextUndo().value_or("") : "");
+    json.AddTextOrNull("redo", history != nullptr ? history->NextRedo().value_or("") : "");
+    if (history != nullptr) {
       json.AddTextOrNull("undo_client", history->UndoClient());
       json.AddTextOrNull("redo_client", history->RedoClient());
     }

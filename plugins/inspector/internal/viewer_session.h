@@ -52,8 +52,6 @@ class ViewerSession final : public WebSession {
   void SendLog();
   void SendNetwork(SteadyTime now);
   void SendState(SteadyTime now);
-  [[nodiscard]] std::string NextStep(std::optional<std::string> (ChangeHistory::*next)()
-                                         const) const;
   void SendReplies();
   void SendValues(SteadyTime now);
   // Whether the port is a service, and does otherwise than told last. Under the structure lock.

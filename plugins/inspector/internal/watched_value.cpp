@@ -49,7 +49,8 @@ void ViewerSession::SendValues(SteadyTime now) {
   if (IsSlow()) return;
   std::string items;
   for (Watch* watch : found) {
-    std::string item;
+    std::string item = "{\"path\":";
+    AppendJsonString(watch->port.path(), item);
     std::optional<std::uint64_t> count;
     try {
       count = LookAt(*watch, item);
@@ -59,12 +60,9 @@ void ViewerSession::SendValues(SteadyTime now) {
       error.path = path;
       Refuse({}, std::move(error));
       watches_.erase(path);
+      continue;  // the watch is gone
     }
     if (!count && watch->is_service_told) continue;
-    if (!count) {
-      item = "{\"path\":";
-      AppendJsonString(watch->port.path(), item);
-    }
     if (!std::exchange(watch->is_service_told, true)) item += ",\"service\":" + watch->service;
     const std::uint64_t dropped = watch->port.dropped();
     if (dropped > 0) item += ",\"drops\":" + std::to_string(dropped);
@@ -78,8 +76,6 @@ void ViewerSession::SendValues(SteadyTime now) {
 
 std::optional<std::uint64_t> ViewerSession::LookAt(Watch& watch, std::string& item) const {
   return watch.port.VisitIfNew([&](const void* value, ValueTimes times) {
-    item = "{\"path\":";
-    AppendJsonString(watch.port.path(), item);
     item += ",\"stamp\":";
     AppendJsonNumber(ToSeconds(times.publication_time - inspection_.start()), item);
     if (times.timestamp != times.publication_time) {

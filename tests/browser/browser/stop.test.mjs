@@ -238,15 +238,51 @@ test('while the own connection is not heard the other one alone confirms it', as
 
 test('a driving port that no STOP reaches is named in the place of what is said of a STOP in force', async (t) => {
   const path = '/mock/world/twist';
-  const { application, page } = await OpenMockPanel(t, { widgets: [kText], prepare: (mock) => {
-    mock.elements.set(path, { ...mock.elements.get(path), unreached: 'its cycle hangs' });
-  } });
-  await page.locator('#stop-button').click();
+  const { application, page } = await OpenMockPanel(t, { widgets: [kText] });
+  await Presses(application, page);
+  application.unreached = [{ path, why: 'its cycle hangs' }]; // since then: no revision of the structure tells it
   await page.locator('#stop-banner[data-stop="unreached"]', { hasText: `does not reach ${path}: its cycle hangs. The robot may move` }).waitFor();
   assert.match(await page.locator('#stop-spoken').textContent(), /does not reach/);
   assert.equal(application.stop.in_force, true);
   await page.locator('#stop-release').click();
   await Stands(page, 'free');
+});
+
+test('what it holds and reaches is said to be old, or not known, while the robot does not tell it', async (t) => {
+  const { application, page } = await OpenMockPanel(t, { widgets: [kText] });
+  const says = (hasText) => page.locator('#stop-banner[data-stop="in_force"]', { hasText }).waitFor();
+  await Presses(application, page);
+  await says('whatever moves has its safe value');
+  application.unreached = null;
+  await says('whether it is still so is not known');
+  await Releases(page);
+  await page.locator('#stop-button').click();
+  await says('whether it reaches all of that, is not known');
+  application.unreached = [];
+  application.isBraking = true;
+  await says('the robot is braking: whatever moves comes to its safe value');
+  application.isBraking = false;
+  await says('in force: whatever moves has its safe value');
+});
+
+test('the details of a port say that no STOP reaches it, in force or not', async (t) => {
+  const path = '/mock/world/twist';
+  const { application, inspector, page } = await OpenMock(t);
+  await inspector.select(path);
+  await page.locator('#details', { hasText: 'something moves by it' }).waitFor();
+  assert.equal(await page.locator('#details', { hasText: 'CANNOT BE REACHED' }).count(), 0);
+  application.unreached = [{ path, why: 'its cycle hangs' }];
+  await page.locator('#details', { hasText: 'no STOP counts there: its cycle hangs' }).waitFor();
+});
+
+test('nothing is said of the STOP before the robot has said anything, although there is a connection', async (t) => {
+  const { application, page } = await OpenMockPanel(t, { widgets: [kText], prepare: (mock) => { mock.isUnheard = true; } });
+  await Stands(page, 'unknown');
+  assert.match(await page.locator('#stop-spoken').textContent(), /not known/);
+  const said = await Listens(page);
+  application.isUnheard = false;
+  await Stands(page, 'free');
+  assert.deepEqual([...new Set(await said())], ['free']);
 });
 
 test('a release says which sign of life it answers, and one from before another press is refused, and shown', async (t) => {

@@ -17,6 +17,9 @@ export class MockApplication {
     this.asked = [];  // all requests
     this.stop = { in_force: false, by: '', since: 0 };
     this.drivesBeside = []; // names of what leaves over a network and drives
+    this.unreached = [];    // {path, why}: driving ports that no STOP reaches; null: the structure is being changed, nobody can tell
+    this.isBraking = false; // while STOP is in force
+    this.isUnheard = false; // connections open, and bear no sign of life
     this.isOwnSilent = false; // those of the STOP give no sign of life, and answer
     this.isOwnDeaf = false;   // they do not even read
     this.isHanging = false; // the main connections say nothing more, those of the STOP do

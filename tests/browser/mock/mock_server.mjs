@@ -74,9 +74,11 @@ class LifeSign {
   }
 
   turn() {
-    const { elements, drivesBeside, stop: state } = this.client.application;
+    const { elements, drivesBeside, unreached, isBraking, isUnheard, stop: state } = this.client.application;
+    if (isUnheard) return;
     const driving = [...elements.values()].filter((element) => element.driving).map(({ path }) => path);
-    const stop = state.in_force ? { ...state, drives: [...driving, ...drivesBeside].join(', ') } : state;
+    const reach = unreached && { unreached, ...state.in_force && { drives: [...driving, ...drivesBeside].join(', '), braking: isBraking } };
+    const stop = { ...state, ...reach };
     if (++this.#turns % 20 !== 1 && this.#told === JSON.stringify(stop)) return;
     this.#told = JSON.stringify(stop);
     this.client.send({ op: 'alive', at: Now(this.client.application), stop });

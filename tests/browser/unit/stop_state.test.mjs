@@ -135,7 +135,7 @@ test('what it holds is what the robot told of this STOP; where it tells nothing,
   await Sleep(50);
   assert.equal(stop.held.value, null);
   const tell = async (drives) => {
-    robot = { in_force: true, by: 'a colleague', since: 1, drives };
+    robot = { in_force: true, by: 'a colleague', since: 1, drives, unreached: drives === undefined ? undefined : [] };
     sockets.forEach((each) => each.alive());
     await Sleep(50);
     return stop.held.value;
@@ -149,6 +149,21 @@ test('what it holds is what the robot told of this STOP; where it tells nothing,
   assert.equal(await tell(undefined), null, 'of this STOP nothing has been told');
   SetRobot(false, 'a colleague');
   await Sleep(50);
+});
+
+test('what it does not reach is what the robot told last, and it is known that this is old', async () => {
+  const tell = async (unreached) => {
+    robot = { ...robot, unreached };
+    sockets.forEach((each) => each.alive());
+    await Sleep(50);
+    return [stop.unreached.value, stop.told.value.isReachOld ?? false];
+  };
+  const stuck = [{ path: '/wheels', why: 'its cycle hangs' }];
+  assert.deepEqual(await tell([]), [[], false]);
+  assert.deepEqual(await tell(stuck), [stuck, false]);
+  assert.deepEqual(await tell(undefined), [stuck, true]);
+  assert.deepEqual(await tell(undefined), [stuck, true]);
+  assert.deepEqual(await tell([]), [[], false]);
 });
 
 test('a request says when the person asked, by the clock of the server', async () => {

@@ -37,8 +37,8 @@ TEST_F(HostileViewer, IsAnsweredWithTheNumberOfItsRequestWhateverIsWrong) {
       HasSubstr("\"rate\" must be a number, not below 0"));
   EXPECT_THAT(refused({{"op", "speed"}, {"speed", -1}}), HasSubstr("\"speed\" must be"));
   EXPECT_THAT(refused({{"op", "profile"}, {"on", "no"}}),
-              HasSubstr("\"on\" is neither true nor false"));
-  EXPECT_THAT(refused({{"op", "save"}, {"overwrite", 1}}), HasSubstr("neither true nor false"));
+              HasSubstr("\"on\" must be true or false"));
+  EXPECT_THAT(refused({{"op", "save"}, {"overwrite", 1}}), HasSubstr("must be true or false"));
   EXPECT_THAT(refused({{"op", 7}}), HasSubstr("must be a text"));
   EXPECT_THAT(refused({{"path", "/"}}), HasSubstr("no \"op\""));
   EXPECT_THAT(refused({{"op", "safe"}}), HasSubstr("no operation 'safe'"));

@@ -118,6 +118,58 @@ TEST_F(ViewersStop, ItsSignsOfLifeSayWhatItHoldsWhileItIsInForce) {
   viewer.Next(holds("not told"), "a sign of life although somebody changes the structure");
 }
 
+// No revision of the structure tells of it, so each sign of life does, over both connections.
+TEST_F(ViewersStop, ItsSignsOfLifeAndItsAnswerSayWhatItDoesNotReach) {
+  Start();
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+  }
+  Viewer viewer = View();
+  Viewer stop(server->port(), "", "runnel.stop.v1");
+  const auto tells = [](const Json& unreached) {
+    return [unreached](const Json& each) {
+      return each["op"] == "alive" && each["stop"].value("unreached", Json()) == unreached;
+    };
+  };
+  const Json all = Json::array();
+  const Json paused = Json::array({Json{{"path", "/app/b/input/in"}, {"why", "/app/b is paused"}}});
+  for (Viewer* each : {&viewer, &stop}) each->Next(tells(all), "that all is reached");
+  EXPECT_FALSE(viewer.Ask({{"op", "stop"}}).contains("leaves_some"));
+  ASSERT_TRUE(scheduler.SetPaused("/app/b", true));
+  for (Viewer* each : {&viewer, &stop}) each->Next(tells(paused), "what is paused");
+  const Json answer = viewer.Ask({{"op", "stop"}});
+  EXPECT_EQ(answer["ok"], true) << "it is in force";
+  EXPECT_EQ(answer.value("leaves_some", false), true);
+  EXPECT_THAT(answer["text"], HasSubstr("/app/b/input/in: cannot be reached: /app/b is paused"));
+  EXPECT_EQ(viewer.Ask({{"op", "release"}, {"path", "stop"}})["ok"], true);
+  for (Viewer* each : {&viewer, &stop}) each->Next(tells(paused), "what is paused, although no STOP is in force");
+  ASSERT_TRUE(scheduler.SetPaused("/app/b", false));
+  for (Viewer* each : {&viewer, &stop}) each->Next(tells(all), "that all is reached again");
+  const std::lock_guard lock(runtime.structure_mutex());
+  for (Viewer* each : {&viewer, &stop}) each->Next(tells(Json()), "that it is not known now");
+}
+
+TEST_F(ViewersStop, ItsSignsOfLifeSayWhetherTheRobotMayStillBrake) {
+  Start();
+  Viewer viewer = View();
+  const auto brakes = [](bool is_braking) {
+    return [is_braking](const Json& each) {
+      return each["op"] == "alive" && each["stop"].value("braking", Json()) == is_braking;
+    };
+  };
+  const auto set_brake = [&](Duration brake) {
+    const std::lock_guard lock(runtime.structure_mutex());
+    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), brake));
+  };
+  set_brake(std::chrono::hours(1));
+  EXPECT_FALSE(viewer.Next(InForce(false), "no STOP")["stop"].contains("braking"));
+  runtime.robot_stop().Press("a test");
+  viewer.Next(brakes(true), "that it brakes");
+  set_brake(Duration{});
+  viewer.Next(brakes(false), "that it has its safe value");
+}
+
 TEST_F(ViewersStop, AnswersWhereItStopsNothing) {
   Start();
   Viewer viewer = View();

@@ -112,24 +112,6 @@ TEST_F(StructureMirrorTest, TellsOfThreadsThatModulesAreMovedTo) {
   EXPECT_EQ(viewer.elements["/app/a"]["thread"], "main");
 }
 
-TEST_F(StructureMirrorTest, TellsWhyNoStopReachesAPort) {
-  {
-    const std::lock_guard lock(runtime.structure_mutex());
-    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
-  }
-  const auto told = [&] {
-    LookUntilDone();
-    Followed viewer;
-    viewer.Follow(mirror.Whole());
-    return viewer.elements["/app/b/input/in"].value("unreached", "");
-  };
-  EXPECT_EQ(told(), "");
-  ASSERT_TRUE(scheduler.SetPaused("/app/b", true));
-  EXPECT_EQ(told(), "/app/b is paused");
-  ASSERT_TRUE(scheduler.SetPaused("/app/b", false));
-  EXPECT_EQ(told(), "");
-}
-
 // The output itself and its connections stay as they were.
 TEST_F(StructureMirrorTest, TellsThatSomethingMovesByAnOutputOnceWhatItFeedsDrives) {
   Apply("create group /app/drive");

@@ -7,6 +7,7 @@ import { FormatNumber, FormatRate } from '../model/value_format.js';
 import { DisconnectCarefully } from '../state/careful.js';
 import { openDialog, selected } from '../state/choices.js';
 import { FlowRate, canChange, catalogue, revision, structure } from '../state/store.js';
+import { unreached } from '../stop/stop_state.js';
 import { AlarmList } from './alarms.js';
 import { BlackboardSection } from './blackboard_section.js';
 import { ByHand } from './by_hand.js';
@@ -18,6 +19,11 @@ import { ValueTable } from './value_table.js';
 
 const kFew = 12;
 const kMany = 400;
+
+function WhyUnreached(path) {
+  const found = unreached.value?.find((each) => each.path === path);
+  return found ? `no STOP counts there: ${found.why}` : '';
+}
 
 export function PortDetails({ element }) {
   revision.value;
@@ -48,7 +54,7 @@ export function PortDetails({ element }) {
       ['topic', element.topic], ['state', element.far && element.state], ['why', element.misfit], ['heard', element.master],
       ...(element.offers ?? []).map(({ topic, readers, misfit, is_stopped }) => ['offered', `${topic}${readers.length > 0 ? `, read by ${readers.join(', ')}` : ''}${is_stopped ? ', STOPPED: its safe value is sent' : ''}${misfit ? `; ${misfit}` : ''}`]),
       ['drives', element.driving ? 'something moves by it: under the STOP of the robot' : ''],
-      ['CANNOT BE REACHED', element.unreached ? `no STOP counts there: ${element.unreached}` : ''],
+      ['CANNOT BE REACHED', WhyUnreached(path)],
       ['blocked', element.blocked ? 'readers find its safe value, until it is released' : ''],
       ['set by hand', element.by_hand ? 'what is published is not read' : ''],
     ]} />

@@ -6,7 +6,10 @@ import { CurrentToken } from '../connection/token.js';
 
 const kConfirmed = 1000; // ms within which the robot confirms; then it is asked once more, and the page says so
 
-/** {in_force, by, since, drives: what it holds; undefined: not known} as the robot told it last; null: never yet. */
+/**
+ * {in_force, by, since, unreached, drives, braking; isReachOld: the three are of an earlier message, undefined: never told} as the
+ * robot told it last; null: never yet.
+ */
 export const told = signal(null);
 /** What this page has pressed and the robot has not confirmed: {since, isLate, problem: why it was refused}; null: nothing. */
 export const pressed = signal(null);
@@ -20,6 +23,8 @@ export const isHeard = computed(() => isOwnHeard.value || otherState.value === '
 export const isInForce = computed(() => told.value?.in_force === true);
 /** What it holds, as the robot told it last: paths of ports, and names of what leaves over a network; null: not known. */
 export const held = computed(() => told.value?.drives?.split(', ').filter(Boolean) ?? null);
+/** [{path, why}]: the driving ports that no STOP reaches, in force or not, as the robot told it last; null: not known. */
+export const unreached = computed(() => told.value?.unreached ?? null);
 /** In force, as far as anybody can know now. */
 export const isConfirmed = computed(() => isInForce.value && isHeard.value && !pressed.value?.isLate);
 
@@ -54,9 +59,10 @@ export function ShowToken(token) {
   own?.show(token);
 }
 
-/** What was said before it was pressed does not confirm it. What it holds is not told while the structure is being changed. */
+/** What was said before it was pressed does not confirm it. What it holds and reaches is not told while the structure is being changed. */
 function Take({ stop, given }) {
-  told.value = { ...stop, drives: stop.drives ?? (stop.in_force ? told.value?.drives : undefined) };
+  const { unreached: before, drives, braking } = told.value ?? {};
+  told.value = stop.unreached ? stop : { ...stop, unreached: before, ...stop.in_force && { drives, braking }, isReachOld: true };
   if (stop.in_force && !(given < pressed.value?.since)) Confirmed();
   else releaseProblem.value = '';
 }

@@ -3,9 +3,8 @@
 import { render } from 'preact';
 import { html } from 'htm/preact';
 import { FormatTime } from '../model/value_format.js';
-import { computed } from '@preact/signals';
-import { canDrive, shapeRevision, structure } from '../state/store.js';
-import { PressStop, ReleaseStop, held, isHeard, isInForce, pressed, releaseProblem, told } from './stop_state.js';
+import { canDrive } from '../state/store.js';
+import { PressStop, ReleaseStop, held, isHeard, isInForce, pressed, releaseProblem, told, unreached } from './stop_state.js';
 
 const kHost = 'robot-stop';
 const kPlaceOfBanner = 'stop-place';
@@ -13,21 +12,18 @@ const kGamepadStop = 1; // the right button of the four, red on many: B, circle
 const kLook = 40;       // ms, between two looks at gamepads
 const kNamed = 2;       // of so many that it holds, each is named
 
-/** Driving ports that no STOP reaches now, as the robot itself knows. */
-const unreached = computed(() => {
-  shapeRevision.value;
-  return [...structure.ofKind('port')].filter(({ driving, unreached: why }) => driving && why);
-});
+const kOld = ' This was told last before the structure began to be changed: whether it is still so is not known.';
 
 function Unreached() {
-  const [{ path, unreached: why }, ...others] = unreached.value;
+  const [{ path, why }, ...others] = unreached.value;
   return `STOP is in force and does not reach ${path}${others.length > 0 ? ` and ${others.length} more` : ''}: ${why}. The robot may move: use its own stop.`;
 }
 
 function InForce() {
-  if (held.value === null) return 'STOP is in force. What it holds is not known while the structure is being changed.';
+  if (held.value === null) return 'STOP is in force. What it holds, and whether it reaches all of that, is not known while the structure is being changed.';
   const what = held.value.length > kNamed ? `${held.value.length} ports` : held.value.join(' and ');
-  return `STOP is in force: whatever moves has its safe value, whatever anybody sends. It holds ${what}.`;
+  const how = told.value.braking ? ', and the robot is braking: whatever moves comes to its safe value' : ': whatever moves has its safe value';
+  return `STOP is in force${how}, whatever anybody sends. It holds ${what}.${told.value.isReachOld ? kOld : ''}`;
 }
 
 /** How it stands: [name, what is said]; '' says nothing. */
@@ -38,9 +34,9 @@ function Standing() {
   if (press) return ['pressed', ''];
   if (isInForce.value && !isHeard.value) return ['unknown', 'STOP was in force when the robot was last heard of. It has not been confirmed since: the robot may move.'];
   if (isInForce.value && held.value?.length === 0) return ['nothing', 'STOP is in force and stops nothing: no port of this application is marked as one by which something moves (<driving port="…"/>). The robot may move: use its own stop.'];
-  if (isInForce.value && unreached.value.length > 0) return ['unreached', Unreached()];
+  if (isInForce.value && unreached.value?.length > 0) return ['unreached', Unreached()];
   if (isInForce.value) return ['in_force', InForce()];
-  return isHeard.value ? ['free', ''] : ['unknown', ''];
+  return isHeard.value && told.value ? ['free', ''] : ['unknown', ''];
 }
 
 const kLabels = { free: 'STOP', pressed: 'STOP …', in_force: 'STOPPED', unconfirmed: 'STOP ?', unknown: 'STOP ?', refused: 'STOP !', nothing: 'STOP !', unreached: 'STOP !' };
