@@ -1,7 +1,5 @@
 #include "core/element/robot_stop.h"
 
-#include <utility>
-
 #include "core/element/runtime.h"
 
 namespace runnel {

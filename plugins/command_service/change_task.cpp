@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
-#include <new>
 #include <optional>
 #include <string>
 #include <utility>

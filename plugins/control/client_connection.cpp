@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <utility>
 
-#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 

@@ -22,7 +22,6 @@
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/services/callable.h"
-#include "plugins/values/watched_port.h"
 
 namespace runnel {
 
@@ -247,17 +246,15 @@ std::string ListElements(FrameworkElement& start, const ListingOptions& options)
   } else {
     AddRows(start, 0, options, failed, rows);
   }
+  for (const LateConnection* each : AwaitedBelow(start)) {
+    rows.push_back({each->SourceText() + " -> " + each->to, "connection",
+                    "waits: " + *each->waits_for});
+  }
   std::size_t name_width = 0;
   std::size_t kind_width = 0;
   for (const Row& row : rows) {
     name_width = std::max(name_width, CharacterCount(row.name));
     kind_width = std::max(kind_width, row.kind.size());
-  }
-  for (const LateConnection* each : AwaitedBelow(start)) {
-    rows.push_back({each->SourceText() + " -> " + each->to, "connection",
-                    "waits: " + *each->waits_for});
-    name_width = std::max(name_width, CharacterCount(rows.back().name));
-    kind_width = std::max(kind_width, rows.back().kind.size());
   }
   std::string text = StopText(start.runtime());
   const auto is_unreached = [](const Row& row) { return row.about.find(kUnreached) != row.about.npos; };

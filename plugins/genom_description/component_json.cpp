@@ -113,11 +113,8 @@ Json JsonWriter::InitialJson(const Initializer& initial) const {
 namespace {
 
 Json Texts(const Properties& properties, PropertyKind kind) {
-  Json texts = Json::array();
-  if (const Property* found = Find(properties, kind)) {
-    for (const std::string& each : found->texts) texts.push_back(each);
-  }
-  return texts;
+  const Property* found = Find(properties, kind);
+  return found == nullptr ? Json::array() : Json(found->texts);
 }
 
 Json Interfaces(const Properties& properties, PropertyKind kind) {

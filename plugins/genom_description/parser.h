@@ -22,7 +22,6 @@ class TokenReader {
 
   /// The next token; pragmas before it are carried out.
   [[nodiscard]] const Token& Peek();
-  [[nodiscard]] const Token& PeekSecond() const;
   Token Take();
 
   [[nodiscard]] bool IsMark(std::string_view mark) { return Peek().IsMark(mark); }

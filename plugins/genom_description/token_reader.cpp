@@ -7,12 +7,6 @@ const Token& TokenReader::Peek() {
   return tokens_[at_];
 }
 
-const Token& TokenReader::PeekSecond() const {
-  std::size_t second = at_ + 1;
-  while (second < tokens_.size() && tokens_[second].kind == Token::Kind::kPragma) ++second;
-  return second < tokens_.size() ? tokens_[second] : tokens_.back();
-}
-
 Token TokenReader::Take() {
   const Token& token = Peek();
   last_ = token.place;

@@ -30,7 +30,6 @@ class Outcome {
   [[nodiscard]] bool is_success() const noexcept { return exception_ == nullptr; }
   [[nodiscard]] Event exception() const noexcept { return exception_; }
   [[nodiscard]] const void* detail() const noexcept { return detail_size_ > 0 ? detail_.data() : nullptr; }
-  [[nodiscard]] std::size_t detail_size() const noexcept { return detail_size_; }
   [[nodiscard]] const std::array<const char*, 2>& words() const noexcept { return words_; }
   /// "bad_transition {from: go, to: ::courier::halt}". Allocates.
   [[nodiscard]] std::string Text(const ComponentTable& component) const;

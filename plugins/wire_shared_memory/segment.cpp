@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstring>
 #include <new>
-#include <string>
 #include <utility>
 
 #include <sys/mman.h>

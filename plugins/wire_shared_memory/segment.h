@@ -72,9 +72,6 @@ class SegmentHolders {
   std::vector<std::shared_ptr<const HoldTable>> tables_;
 };
 
-/// "WHAT: why" of the last call of the system.
-[[nodiscard]] Error SystemError(const char* what);
-
 using SegmentId = std::array<std::byte, 16>;
 
 /// Never twice, in whatever process.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "core/base/nearest_name.h"
 #include "plugins/command_service/request_table.h"

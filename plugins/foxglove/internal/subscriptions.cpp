@@ -1,7 +1,6 @@
 #include "plugins/foxglove/internal/subscriptions.h"
 
 #include <algorithm>
-#include <chrono>
 #include <mutex>
 
 #include "core/lockfree/thread_epoch.h"

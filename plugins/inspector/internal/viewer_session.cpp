@@ -1,7 +1,6 @@
 #include "plugins/inspector/internal/viewer_session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 #include <utility>
 
