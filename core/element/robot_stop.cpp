@@ -1,5 +1,7 @@
 #include "core/element/robot_stop.h"
 
+#include <utility>
+
 #include "core/element/runtime.h"
 
 namespace runnel {

@@ -1,12 +1,14 @@
 #include "core/port/port.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <thread>
 
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
+#include "core/element/runtime.h"
 #include "core/channel/channel_base.h"
 #include "core/port/connection_rules.h"
 #include "core/conversion/conversion.h"

@@ -2,8 +2,10 @@
 
 #include "core/port/port_stop.h"
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <utility>
 
 #include "core/element/runtime.h"
 #include "core/port/converted_flow.h"

@@ -1,5 +1,6 @@
 #include "modules/behaviours/fusion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/conversion/number_conversion.h"

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 #include "core/paths/path_search.h"
 #include "core/port/port_extras.h"

@@ -1,5 +1,6 @@
 #include "plugins/control/control_client.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>

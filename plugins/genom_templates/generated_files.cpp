@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "core/base/replace_file.h"
 #include "plugins/genom_templates/file_text.h"

@@ -1,8 +1,10 @@
 #include "plugins/parameters/configuration_saver.h"
 
 #include <algorithm>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "core/base/characters.h"
 #include "core/base/replace_file.h"

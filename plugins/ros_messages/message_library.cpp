@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <string>
+#include <string_view>
 
 #include <fmt/ranges.h>
 #include <openssl/sha.h>

@@ -1,6 +1,7 @@
 #include "plugins/structure/plan.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/base/exception_text.h"
@@ -8,6 +9,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/late_connections.h"
 #include "plugins/structure/element_state.h"
+#include "plugins/structure/replacement.h"
 
 namespace runnel::internal {
 

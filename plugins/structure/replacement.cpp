@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 
 #include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 #include <new>
+#include <string>
 #include <utility>
 
 #include <sys/mman.h>

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
+#include "plugins/values/json_reader.h"
 
 namespace runnel::internal {
 

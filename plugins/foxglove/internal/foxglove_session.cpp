@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/base/nearest_name.h"
 #include "plugins/command_service/request_table.h"

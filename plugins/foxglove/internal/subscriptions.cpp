@@ -1,6 +1,7 @@
 #include "plugins/foxglove/internal/subscriptions.h"
 
 #include <algorithm>
+#include <chrono>
 #include <mutex>
 
 #include "core/lockfree/thread_epoch.h"

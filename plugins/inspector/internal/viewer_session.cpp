@@ -1,6 +1,7 @@
 #include "plugins/inspector/internal/viewer_session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <utility>
 
