@@ -50,10 +50,12 @@ class EndWatch final : public ApplicationExtension {
   /// A signal has come since the newest Begin().
   [[nodiscard]] static bool has_come() noexcept;
 
+  /// The run is over, and neither function of Begin() is called any more. `what`: what comes to its end now, in words.
+  void WaitFor(std::string what);
+
  private:
   void Run(const std::stop_token& stop);
   void Look();
-  void WaitFor(std::string what);
   [[noreturn]] void Leave(const std::vector<StuckModule>& stuck);
 
   const Check check_;

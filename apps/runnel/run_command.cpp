@@ -89,6 +89,8 @@ class Session {
     if (!arguments.log_file.empty()) log_file_.emplace(arguments.log_file);
   }
 
+  ~Session() { watch_.WaitFor("one of its connections or extensions"); }
+
   ExitCode Run() {
     watch_.Begin(application_, [this] { PrintEvents(); }, [this] { FinishFiles(); });
     const auto failure = log_file_ ? log_file_->Failure() : std::nullopt;

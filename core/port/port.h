@@ -130,8 +130,8 @@ class Port : public FrameworkElement {
   /// `timestamp`: of a value that was set before, and is set again.
   Result<void> PublishByHand(const Fill& fill, Setter setter = Setter::kPerson,
                              std::optional<Time> timestamp = {});
-  /// Readers find again what is published; where something moves by it, what is published from now on. False: it was not
-  /// set by hand.
+  /// Readers find again what is published; if something moves by the port and a person releases, what is published from
+  /// now on. False: it was not set by hand.
   bool Release(Setter setter = Setter::kPerson);
   /// Under the structure lock.
   [[nodiscard]] bool is_set_by_hand(Setter setter = Setter::kPerson) const noexcept;

@@ -107,13 +107,10 @@ Result<void> Port::PublishByHand(const Fill& fill, Setter setter, std::optional<
 bool Port::Release(Setter setter) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (!is_set_by_hand(setter)) return false;
-  BeginVelocityAnew();  // what is ramped before it has not driven, and what it has made meanwhile moves nothing
-  const bool is_free = !is_set_by_hand(setter == Setter::kPerson ? Setter::kRule : Setter::kPerson);
-  for (const Port* sink : is_free ? Sinks() : std::vector<Port*>()) {
-    for (const internal::PassedStop& each : internal::PassedStops(*sink)) {
-      if (each.stop->robot()) each.stop->block()->Bar([this] { return runtime().clock().Now(); });
-    }
-  }
+  BeginVelocityAnew();  // what is ramped before it has not driven
+  // Nor does what it has made meanwhile drive. Who releases for a rule has seen that what comes is new.
+  const bool is_free = setter == Setter::kPerson && !is_set_by_hand(Setter::kRule);
+  if (is_free && is_driving()) extras_->stop->block()->Bar([this] { return runtime().clock().Now(); });
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;
   try {

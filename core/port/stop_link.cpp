@@ -71,9 +71,12 @@ StopLink::StopLink(PassedStop stop, std::unique_ptr<ChannelBase> channel, const 
       runtime_(runtime),
       braking_(stop_.stop->brake() > Duration{} ? MakeBraking(stop_.safe_value, *channel_) : nullptr) {
   Publish();
-  const auto look = [this] {
+  const auto look = [this, seen = std::make_shared<std::atomic<std::int64_t>>(stop_.stop->bar())] {
     if (braking_) (void)Rest(runtime_.clock().Now());
-    if (stop_.stop->in_force()) Publish();
+    // Also if it has been released meanwhile, or just counts from now on; not by the release of what was told.
+    const std::int64_t bar = stop_.stop->bar();
+    const std::int64_t before = seen->exchange(bar);
+    if (bar == StopSignal::kInForce || (before != StopSignal::kInForce && bar != before)) Publish();
   };
   if (stop_.stop->robot()) robot_ = stop_.stop->robot()->Listen(look);
   block_ = stop_.stop->block()->Listen(look);

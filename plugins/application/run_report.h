@@ -14,7 +14,7 @@
 
 namespace runnel {
 
-/// What the modules that judge a run have to say, all of them together. A monitor that throws, or
+/// What the modules that judge a run have to say, all of them together. A monitor that throws,
 /// or whose module does, has failed: it comes to no verdict any more, and the
 /// run is not a good one. Modules may come and go meanwhile.
 ///

@@ -80,15 +80,14 @@ std::optional<Behaviour::Outcome> Behaviour::TryToBehave(double& activation) {
   return Behave(activation);
 }
 
-std::optional<double> Behaviour::ReadStimulation() {
-  const auto wanted = stimulation_timeout.Read(stimulation, now());
+double Behaviour::ReadStimulation() {
+  const auto wanted = stimulation.Peek();
   const auto mode = stimulation_mode.Get();
   if (mode != StimulationMode::kAuto) {
     if (wanted) Warn("what comes to its stimulation does not count: stimulation_mode is not auto");
     return mode == StimulationMode::kEnabled ? 1.0 : 0.0;
   }
   if (wanted) return CheckSignal("its stimulation", wanted->value());
-  if (stimulation_timeout.lack() != InputLack::kNeverCame) return Miss(stimulation_timeout.words());
   Warn("nothing comes to its stimulation, so it does nothing: connect it, or set stimulation_mode to enabled");
   return 0.0;
 }
@@ -100,8 +99,7 @@ std::optional<double> Behaviour::ReadActivation() {
     if (is_silent) return Miss(inhibition_timeout.words());
     inhibition_values_[i] = held_back ? CheckSignal("an inhibition", held_back->value()) : 0.0;
   }
-  const auto wanted = ReadStimulation();
-  return wanted ? std::optional(Activation(*wanted, inhibition_values_)) : std::nullopt;
+  return Activation(ReadStimulation(), inhibition_values_);
 }
 
 bool Behaviour::HasSameActivities() {

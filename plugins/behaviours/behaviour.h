@@ -155,7 +155,6 @@ struct ActivityNeeds {
 /// One cycle:   stimulation and inhibitions make the activation; Behave(); the rules are checked (behaviour_rules.h); then
 ///              activity, target rating, derived activities, state and control outputs are published.
 /// Stimulation: of a port that nothing comes to it is 0, and a warning says so. Inhibitions that nothing comes to do not count.
-///              One that has not been said again for long is not known: the behaviour cannot tell then.
 /// Threads:     as Module. Allocation: none in a cycle.
 /// Errors:      a rule that is broken, or a signal that is not within 0 and 1, is a fault with the figures, before anything
 ///              of that cycle is published.
@@ -174,8 +173,7 @@ class Behaviour : public Module {
       this,
       "inhibitions",
       {.default_value = 1, .bounds = {0, kMostInhibitions}, .description = "how many ports: inhibition1, inhibition2 …"}};
-  /// Both count from when it was said: signals may go round, and what they were measured by never renews then.
-  InputTimeout stimulation_timeout{this, "stimulation", {.counts_from_publication = true}};
+  /// It counts from when it was said: signals may go round, and what they were measured by never renews then.
   InputTimeout inhibition_timeout{this, "inhibition", {.counts_from_publication = true}};
   Parameter<StimulationMode> stimulation_mode{
       this,
@@ -221,9 +219,9 @@ class Behaviour : public Module {
 
   void Update() final;
   void OnParametersChanged() final;
-  // Nothing: who stimulates or inhibits it has not been heard for long, so it cannot tell.
+  // Nothing: who inhibits it has not been heard for long, so it cannot tell.
   [[nodiscard]] std::optional<double> ReadActivation();
-  [[nodiscard]] std::optional<double> ReadStimulation();
+  [[nodiscard]] double ReadStimulation();
   [[nodiscard]] std::optional<Outcome> TryToBehave(double& activation);
   [[nodiscard]] bool HasSameActivities();
   void Hold(double activation);

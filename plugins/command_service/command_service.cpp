@@ -211,7 +211,7 @@ std::optional<StopReach> FindStopReach(Runtime& runtime, const Scheduler* schedu
 
 Result<void> CheckThatAllStops(Runtime& runtime, const Scheduler* scheduler) {
   const auto reach = FindStopReach(runtime, scheduler);
-  if (!reach) return {};
+  if (!reach) return Error{.message = "STOP is in force, but nobody can tell whether it reaches all of it while the structure is being changed"};
   std::string left;
   for (const auto& each : reach->unreached) left += (left.empty() ? "" : "; ") + UnreachedError(each).ToString();
   if (reach->drives.empty()) left = NothingDrives().ToString();

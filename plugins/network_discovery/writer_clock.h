@@ -32,8 +32,13 @@ class WriterClock {
     const Duration gap = now - came_;
     const bool is_set = usual_ && delay - last_ > kMostOfNetworks && gap < (delay - last_) / 2;
     const bool is_new = is_set || !usual_;
-    // Of a burst of what was held up, each took less time than the one before: only what comes later tells what is usual.
-    if (is_new || (!is_known_ && *usual_ - delay > gap / 2)) known_from_ = now + kMostOfNetworks;
+    // Of a burst of what was held up, each took less time than the one before, but for pauses in it: only what comes later
+    // tells what is usual.
+    const bool is_burst = least_since_ - delay > kFall || delay - last_ > std::max<Duration>(gap / 2, kRise);
+    if (is_new || (!is_known_ && is_burst)) {
+      known_from_ = now + kToKnow;
+      least_since_ = is_new ? delay : std::min(least_since_, delay);
+    }
     is_known_ = !is_new && (is_known_ || now >= known_from_);
     const Duration least = is_known_ ? *usual_ : delay > longest ? delay : Duration{};
     sent_ = std::max(Time(), now - BeyondNetworks(delay - least));
@@ -58,6 +63,8 @@ class WriterClock {
   static constexpr Duration kLongestDelay = std::chrono::minutes(1);
 
  private:
+  static constexpr Duration kFall = std::chrono::milliseconds(10), kRise = std::chrono::milliseconds(50);
+  static constexpr Duration kToKnow = std::chrono::seconds(1);
   [[nodiscard]] static Duration BeyondNetworks(Duration delay) { return delay > kMostOfNetworks ? delay : Duration{}; }
 
   Time began_{};
@@ -69,6 +76,7 @@ class WriterClock {
   Time sent_{};
   bool is_known_ = false;  // what is usual
   Time known_from_{};
+  Duration least_since_{};  // the least delay when that wait began
 };
 
 }  // namespace runnel

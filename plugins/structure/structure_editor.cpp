@@ -114,7 +114,9 @@ std::string Probation::PutBack(const Fault& fault, OrderedMutex& mutex) {
   auto hold = scheduler_.HoldCycles({fault.path}, timeout_);
   std::unique_lock lock(mutex);
   const auto found = Find(fault.path);
-  if (found == waiting_.end()) return "others have removed it meanwhile";
+  const auto progress = scheduler_.ProgressOf(fault.path);
+  const bool is_there = found != waiting_.end() && progress && progress->has_failed;
+  if (!is_there) return "others have removed it meanwhile";
   const std::string before = FindModuleType(*found->replaced.before);
   std::string done = "the module before (" + (before.empty() ? "made by code" : before) + ") is back in its place";
   auto gone = hold ? PutBack(*found) : hold.error();

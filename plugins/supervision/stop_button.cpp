@@ -100,7 +100,10 @@ bool StopButton::LookForPort() {
     }
     // Whoever presses the button itself is not heard then.
     if (is_covered_ && !was_covered) Press(rule_.port + ", which is set by hand");
-    const std::string why = scheduler_.WhyAtRest(*sources.front(), kStuckAfter);
+    std::string why;
+    for (const Port* each : sources.front()->Sources()) {
+      if (why.empty()) why = scheduler_.WhyAtRest(*each, kStuckAfter);
+    }
     if (!std::exchange(is_at_rest_, !why.empty()) && is_at_rest_) Press(rule_.port + ", as " + why);
     return true;
   }

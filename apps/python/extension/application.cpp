@@ -34,11 +34,12 @@ Result<void> SetStop(Application& application, bool is_pressed) {
   RobotStop& stop = application.runtime().robot_stop();
   if (auto done = is_pressed ? Result<void>() : stop.Release("Python"); !done) return done;
   if (is_pressed) stop.Press("Python");
+  auto all = is_pressed ? CheckThatAllStops(application.runtime(), &application.scheduler()) : Result<void>();
   const auto is_kept = application.options().has_control ? application.service().application().hooks.is_stop_kept : nullptr;
-  if (is_kept && !is_kept()) {
+  if (all && is_kept && !is_kept()) {
     return Error{.message = std::string(is_pressed ? "STOP is in force" : "the STOP is released") + ", and the next process would not know of it yet"};
   }
-  return is_pressed ? CheckThatAllStops(application.runtime(), &application.scheduler()) : Result<void>();
+  return all;
 }
 
 Open Load(const std::string& kind, const std::string& text, const std::string& folder, const Words& settings,

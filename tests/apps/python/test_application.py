@@ -85,7 +85,7 @@ def test_publishing_by_a_writer_and_by_hand(app):
     app.publish("/robot/drive/twist", {"turn": 1})
     assert app.read("/robot/drive/twist") == runnel.make("Twist2", turn=1)
     app.release("/robot/drive/twist")
-    assert app.read("/robot/drive/twist").forward == 1.5
+    assert app.read("/robot/drive/twist").forward == 1.5, "of this very moment"
     with pytest.raises(runnel.Error, match="did you mean 'forward'"):
         writer.publish(forwart=1)
 

@@ -189,9 +189,10 @@ class Late(runnel.Module):
 
 def test_what_is_old_is_not_read():
     with runnel.compose("late", clock="simulated") as app:
+        app.thread("control", 0.05)
         app.create("late", Late)
         writers = [app.writer(f"/late/{name}") for name in ("measured", "usual", "goal", "own")]
-        app.step(1)
+        app.run_for(0.1)
         assert app.read("/late/seen").tolist() == [0, 0, 0, 0]
         for each in writers:
             each.publish(1.0)

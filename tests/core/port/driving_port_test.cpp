@@ -55,6 +55,26 @@ TEST_F(StopTest, ASafeValueIsStampedByTheClockThatTheApplicationRunsBy) {
   runtime.set_clock(clock);
 }
 
+// Nothing moves by a command from before; and whoever looks for what is new finds each time that it ends.
+TEST_F(StopTest, WhenAPersonsValueEndsOnlyWhatIsPublishedAfterwardsCounts) {
+  auto& sender = MakeSender<double>();
+  auto& wheels = MakeReceiver<double>("wheels", Drives());
+  Connect(sender.out, wheels.in);
+  sender.out.Publish(4.0);
+  for (int i = 0; i < 3; ++i) {
+    clock.Advance(std::chrono::seconds(1));
+    Set(wheels.in, 1.0);
+    EXPECT_EQ(wheels.in.Get(), 1.0);
+    clock.Advance(std::chrono::seconds(1));
+    ASSERT_TRUE(wheels.in.Release());
+    const auto read = wheels.in.Read();
+    EXPECT_TRUE(read.is_new()) << i;
+    EXPECT_EQ(*read, 0.0);
+  }
+  sender.out.Publish(4.0);
+  EXPECT_EQ(wheels.in.Get(), 4.0) << "also of the very moment of its end";
+}
+
 TEST_F(StopTest, ABlockStopsOnePortAlone) {
   auto& sender = MakeSender<double>("sender", {.unit = "m/s"});
   auto& blocked = MakeReceiver<double>("blocked", {.unit = "m/s"});

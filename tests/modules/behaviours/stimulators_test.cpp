@@ -19,7 +19,6 @@ struct ConditionalStimulatorTest : ::testing::Test {
     rig.Set("inputs", "2");
     rig.Set("feedbacks", "1");
     rig.Set("stimulation_mode", "auto");
-    rig.Set("stimulation_timeout", "3600");  // it is said once
     rig.Feed("stimulation", Stimulation(0.75));
     Feed(0, 0, 0);
   }

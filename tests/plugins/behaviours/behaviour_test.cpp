@@ -166,7 +166,6 @@ TEST(BehaviourTest, WhoCannotTellIsActiveInNothing) {
 // Of an inhibitor that is paused or stuck the last word stands: "not inhibited" is not to be believed for ever.
 TEST(BehaviourTest, WhoIsNotToldAnyMoreWhetherItMayIsActiveInNothing) {
   ModuleRig<Told> rig;
-  rig.Set("stimulation_timeout", "3600");
   rig.Feed("stimulation", Stimulation(0.5));
   const auto tell = [&](bool inhibits) {
     if (inhibits) rig.Feed("inhibition1", Inhibition(0.0));
@@ -177,30 +176,9 @@ TEST(BehaviourTest, WhoIsNotToldAnyMoreWhetherItMayIsActiveInNothing) {
   for (int i = 0; i < 10; ++i) EXPECT_EQ(tell(false), 0.5);  // 0.5 s
   EXPECT_EQ(tell(false), 0.0);
   EXPECT_EQ(tell(false), 0.0);
-  EXPECT_EQ(tell(true), 0.5) << "a stimulation that is said once holds for as long as its time-out says";
+  EXPECT_EQ(tell(true), 0.5) << "a stimulation that is set once holds";
   rig.Set("inhibition_timeout", "3600");
   for (int i = 0; i < 30; ++i) EXPECT_EQ(tell(false), 0.5);
-}
-
-TEST(BehaviourTest, WhoIsNotToldAnyMoreThatItIsWantedIsActiveInNothing) {
-  ModuleRig<Told> rig;
-  auto& out = rig.Follow(rig.module.out.port);
-  const auto tell = [&](bool stimulates) {
-    if (stimulates) rig.Feed("stimulation", Stimulation(0.5));
-    rig.RunCycle();
-    return rig.Last(rig.module.activity).value();
-  };
-  EXPECT_EQ(tell(true), 0.5);
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(tell(false), 0.5);  // 0.5 s
-  EXPECT_GT(out.Drain([](const auto&) {}), 0u);
-  EXPECT_EQ(tell(false), 0.0);
-  EXPECT_EQ(tell(false), 0.0);
-  EXPECT_FALSE(out.Take()) << "nor does it command anything";
-  EXPECT_EQ(tell(true), 0.5);
-  EXPECT_TRUE(out.Take());
-  rig.RunCycles(20);
-  rig.Set("stimulation_mode", "enabled");
-  EXPECT_EQ(tell(false), 1.0) << "whoever stimulates does not count then";
 }
 
 // Two that inhibit each other make each other's signals of them: what they were measured by never renews.
@@ -249,7 +227,6 @@ TEST(BehaviourTest, WhoNeverCouldTellIsNotContent) {
 TEST(BehaviourTest, AllocatesNothingInItsCycles) {
   ModuleRig<Told> rig;
   rig.Set("inhibitions", "3");
-  rig.Set("stimulation_timeout", "3600");
   rig.Feed("stimulation", Stimulation(0.5));
   rig.Feed("inhibition3", Inhibition(0.25));
   rig.RunCycles(10);

@@ -82,7 +82,7 @@ export function ModuleDetails({ element }) {
         ${AlarmCount(member) > 0 && html`<span class="badge bad">${AlarmsAt(member).map(({ kind }) => kAlarmWords[kind]).join(', ')}</span>`}</li>`)}</ul><//>`}`;
 }
 
-const kAlarmWords = { failed: 'failed', unconnected: 'without a source', silent: 'silent' };
+const kAlarmWords = { failed: 'failed', unconnected: 'without a source', silent: 'silent', stuck: 'stuck' };
 
 /** Words for whoever looks at it, separated by blanks: Enter sets them. */
 function Tags({ path, tags }) {
