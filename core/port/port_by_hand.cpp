@@ -109,7 +109,7 @@ bool Port::Release(Setter setter) {
   if (!is_set_by_hand(setter)) return false;
   BeginVelocityAnew();  // what is ramped before it has not driven
   // Nor does what it has made meanwhile drive. Who releases for a rule has seen that what comes is new.
-  const bool is_free = setter == Setter::kPerson && !is_set_by_hand(Setter::kRule);
+  const bool is_free = setter == Setter::kPerson && !is_set_by_hand(Setter::kRule) && life_cycle() != LifeCycle::kDeleted;
   if (is_free && is_driving()) extras_->stop->block()->Bar([this] { return runtime().clock().Now(); });
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;

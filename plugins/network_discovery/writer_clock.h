@@ -62,9 +62,11 @@ class WriterClock {
   /// More is the difference of two clocks.
   static constexpr Duration kLongestDelay = std::chrono::minutes(1);
 
+  /// After so long without a sign of a burst it is known what is usual.
+  static constexpr Duration kToKnow = std::chrono::seconds(1);
+
  private:
   static constexpr Duration kFall = std::chrono::milliseconds(10), kRise = std::chrono::milliseconds(50);
-  static constexpr Duration kToKnow = std::chrono::seconds(1);
   [[nodiscard]] static Duration BeyondNetworks(Duration delay) { return delay > kMostOfNetworks ? delay : Duration{}; }
 
   Time began_{};

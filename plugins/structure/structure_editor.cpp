@@ -92,7 +92,10 @@ bool Probation::HasProved(const Waiting& waiting) {
 std::vector<UnlistedElement> Probation::Take(bool all) {
   proved_.reserve(proved_.size() + waiting_.size());
   for (Waiting& each : waiting_) {
-    if (all || HasProved(each)) proved_.push_back(std::move(each.replaced.before));
+    if (all || HasProved(each)) each.until_cycle = 0;
+  }
+  for (Waiting& each : waiting_) {
+    if (each.until_cycle == 0) proved_.push_back(std::move(each.replaced.before));
   }
   std::erase_if(waiting_, [](const Waiting& each) { return !each.replaced.before; });
   return std::exchange(proved_, {});

@@ -205,7 +205,7 @@ class InspectorTest : public ::testing::Test {
     server.reset();
     inspector.reset();
     service = std::make_unique<CommandService>(
-        ServedApplication{runtime, modules, editor, log, hooks, &history, &scheduler.pace()});
+        ServedApplication{runtime, modules, editor, log, hooks, &history, &scheduler.pace(), &scheduler});
     inspector = std::make_unique<Inspector>(*service, scheduler, options);
     web.port = 0;
     auto started = WebServer::Start(web, {}, {inspector->Protocol()});

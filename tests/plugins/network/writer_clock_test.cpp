@@ -71,7 +71,8 @@ TEST(WriterClockTest, OfAWriterThatNobodyKnowsWhatComesMayHaveBeenHeldUp) {
   };
   EXPECT_EQ(ago(seconds(3), {}), seconds(3));
   EXPECT_EQ(ago(seconds(3), milliseconds(100)), seconds(3));
-  EXPECT_EQ(ago(seconds(3), milliseconds(200)), Duration{}) << "its clock is behind";
+  EXPECT_EQ(ago(milliseconds(3200), milliseconds(200)), milliseconds(3200)) << "as within a burst with a pause";
+  EXPECT_EQ(ago(seconds(3), WriterClock::kToKnow), Duration{}) << "its clock is behind";
   EXPECT_EQ(ago(milliseconds(3200), milliseconds(200)), Duration{}) << "no longer than networks take";
   (void)clock.HeldUp(seconds(5), now += seconds(2));
   EXPECT_NEAR(ToSeconds(now - clock.sent()), 2, 0.01) << "this was held up";

@@ -150,7 +150,7 @@ TEST_P(StopServiceTest, AClockThatIsBehindKeepsNobodyFromReleasing) {
   ASSERT_TRUE(stop_.Press("a person"));
   OtherClient behind(*near_, GetParam(), seconds(2));
   behind.Send(false);
-  std::this_thread::sleep_for(2 * WriterClock::kMostOfNetworks);  // as for people who ask again
+  std::this_thread::sleep_for(WriterClock::kToKnow + WriterClock::kMostOfNetworks);  // as for people who ask again
   behind.Send(false);
   WaitUntilQuiet(*engine_);
   EXPECT_FALSE(stop_.in_force()) << "the second time it is known to be the clock";
