@@ -138,7 +138,7 @@ TEST_F(ViewersStop, ItsSignsOfLifeSayWhetherTheRobotMayStillBrake) {
     const std::lock_guard lock(runtime.structure_mutex());
     ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), brake));
   };
-  set_brake(std::chrono::hours(1));
+  set_brake(std::chrono::seconds(9));
   EXPECT_FALSE(viewer.Next(InForce(false), "no STOP")["stop"].contains("braking"));
   runtime.robot_stop().Press("a test");
   viewer.Next(brakes(true), "that it brakes");
