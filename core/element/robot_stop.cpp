@@ -23,7 +23,7 @@ bool RobotStop::Press(std::string by) {
     if (signal_->Press(note)) return true;
     const std::lock_guard lock(mutex_);
     if (!in_force()) continue;  // somebody has released it since: who presses now ends that
-    ++state_.requests;
+    requests_.fetch_add(1, std::memory_order_release);
     state_.requested = SteadyClock().Now();
     return false;
   }
@@ -57,17 +57,22 @@ RobotStop::State RobotStop::state() const {
   const std::lock_guard lock(mutex_);
   State state = state_;
   state.in_force = in_force();  // it may have changed, and not be noted yet
+  state.requests = requests();
   return state;
 }
 
 bool RobotStop::IsKnown(const AsOf& as_of) const {
   if (in_force() && !state_.in_force) return false;  // it is being pressed just now
-  return (!as_of.asked || *as_of.asked >= state_.requested) && (!as_of.requests || *as_of.requests == state_.requests);
+  return (!as_of.asked || *as_of.asked >= state_.requested) && (!as_of.requests || *as_of.requests == requests());
 }
 
 void RobotStop::Note(bool in_force, std::string by) {
-  state_ = {in_force, std::move(by), runtime_.clock().Now(), state_.changes + 1, state_.requests + 1,
-            SteadyClock().Now()};
+  state_ = {.in_force = in_force,
+            .by = std::move(by),
+            .since = runtime_.clock().Now(),
+            .changes = state_.changes + 1,
+            .requested = SteadyClock().Now()};
+  requests_.fetch_add(1, std::memory_order_release);
 }
 
 }  // namespace runnel

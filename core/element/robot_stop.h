@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -51,8 +52,10 @@ class RobotStop {
   Result<void> Release(std::string by, const AsOf& as_of);
   Result<void> Release(std::string by) { return Release(std::move(by), AsOf()); }
 
+  /// State::requests. Wait-free; while it is being pressed or released, still that of before.
+  [[nodiscard]] std::uint64_t requests() const noexcept { return requests_.load(std::memory_order_acquire); }
   /// Of what is asked for now and carried out later; `asked`: when, if somebody says so.
-  [[nodiscard]] AsOf AsOfNow(std::optional<Time> asked = {}) const { return {asked, state().requests}; }
+  [[nodiscard]] AsOf AsOfNow(std::optional<Time> asked = {}) const { return {asked, requests()}; }
   /// An error: STOP was pressed, or released, since what `as_of` knows of.
   Result<void> CheckIsKnown(const AsOf& as_of) const;
 
@@ -70,7 +73,8 @@ class RobotStop {
   const std::shared_ptr<StopSignal> signal_ =
       std::make_shared<StopSignal>();  // outlives the runtime at readers
   mutable std::mutex mutex_;
-  State state_;  // guarded by mutex_
+  State state_;  // guarded by mutex_, but for `requests`
+  std::atomic<std::uint64_t> requests_{0};  // written with mutex_; release: pairs with the acquire in requests()
 };
 
 }  // namespace runnel

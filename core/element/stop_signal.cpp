@@ -38,10 +38,9 @@ bool StopSignal::Release(const std::function<Time()>& now, const Listener& note)
   return true;
 }
 
-void StopSignal::Bar(const std::function<Time()>& now) {
+void StopSignal::Bar(const std::function<Time()>& at) {
   const std::lock_guard releaser(releasers_);
-  // What is published at this very moment counts, as also where the clock stands.
-  const std::int64_t bar = now().time_since_epoch().count() - 1;
+  const std::int64_t bar = at().time_since_epoch().count();
   // release: as above. In force it is later than any time.
   for (std::int64_t known = this->bar(); known < bar;) {
     if (bar_.compare_exchange_weak(known, bar, std::memory_order_acq_rel)) return Tell({});

@@ -48,9 +48,9 @@ class StopSignal : public std::enable_shared_from_this<StopSignal> {
   /// `now`: the time by which values are stamped, at the release. False: it was not in force.
   bool Release(const std::function<Time()>& now, const Listener& note = {});
 
-  /// As if it had been pressed and released just before that moment: what was published before does not count any more.
+  /// As if it had been pressed and released at that moment: what was published by then does not count any more.
   /// Nothing while it is in force.
-  void Bar(const std::function<Time()>& now);
+  void Bar(const std::function<Time()>& at);
 
   /// acquire: what the one who pressed or released did before is seen.
   [[nodiscard]] std::int64_t bar() const noexcept { return bar_.load(std::memory_order_acquire); }

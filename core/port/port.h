@@ -77,10 +77,17 @@ class Port : public FrameworkElement {
   }
   /// Outputs: whether a value was published with a time of measurement that was more than 100 ms to come. Any thread.
   [[nodiscard]] bool stamps_ahead() const noexcept { return stamps_ahead_.load(std::memory_order_relaxed); }
-  /// Outputs: 0, unless a velocity that moves the robot is made of it, also by modules that pass values of its type on. Then what
-  /// is ramped has to begin from a standstill after a STOP, and whenever this number is another one: a block or a value by hand has ended.
+  /// Outputs: 0, unless something that moves the robot is made of it, also by modules that pass values of its type on. Then what
+  /// is ramped has to begin anew after a STOP, and whenever this number is another one: a block or a value by hand has ended.
   /// Stays so when that port goes. Any thread; wait-free.
-  [[nodiscard]] std::uint32_t velocity_beginnings() const noexcept { return velocity_beginnings_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint32_t motion_beginnings() const noexcept { return motion_beginnings_.load(std::memory_order_acquire); }
+  /// The same by a module that does so, in each cycle.
+  [[nodiscard]] std::uint32_t FollowMotionBeginnings() noexcept {
+    follows_motion_.store(true, std::memory_order_relaxed);
+    return motion_beginnings();
+  }
+  /// Where it begins: 0, the standstill of velocities, or the safe number of what moves. Any thread; wait-free.
+  [[nodiscard]] double motion_begins_at() const noexcept { return motion_begins_at_.load(std::memory_order_relaxed); }
   /// Who looks at the port without being connected to it says so. Any thread.
   void NoteLook() const noexcept { is_looked_at_.store(true, std::memory_order_relaxed); }
 
@@ -221,10 +228,11 @@ class Port : public FrameworkElement {
   virtual void ReplaceSource(const Port& /*from*/, Port& /*to*/) noexcept {}
   /// Binds all inputs at the far end anew.
   void RebindSinks();
-  /// Outputs: what is made of it, and of what its module passes on by it, is a velocity; `beginning`: of it.
-  void NoteVelocity(std::uint32_t beginning);
-  /// All that makes the velocity which comes here begins from a standstill. Nothing where nothing moves by it.
-  void BeginVelocityAnew();
+  /// Outputs: what is made of it, and of what its module passes on by it, moves; `beginning`: of it. Whether a module follows.
+  bool NoteMotion(std::uint32_t beginning, double begins_at);
+  /// All that makes what moves by the values that come here begins anew. Nothing where nothing moves by them. Whether a
+  /// module follows: what it puts out after this has begun anew.
+  bool BeginMotionAnew();
   /// PublishFilled() of ports that have a channel.
   Result<PublishStatus> PublishInto(ChannelBase& channel, const Fill& fill,
                                     std::optional<Time> timestamp);
@@ -300,7 +308,9 @@ class Port : public FrameworkElement {
   std::atomic<bool> has_outgoing_{false};
   mutable std::atomic<bool> is_looked_at_{false};
   mutable std::atomic<bool> stamps_ahead_{false};
-  std::atomic<std::uint32_t> velocity_beginnings_{0};  // relaxed, as it is looked at each cycle
+  std::atomic<std::uint32_t> motion_beginnings_{0};
+  std::atomic<double> motion_begins_at_{0};
+  std::atomic<bool> follows_motion_{false};
   std::unique_ptr<internal::PortExtras> extras_;  // what few ports have
 };
 

@@ -107,10 +107,14 @@ Result<void> Port::PublishByHand(const Fill& fill, Setter setter, std::optional<
 bool Port::Release(Setter setter) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (!is_set_by_hand(setter)) return false;
-  BeginVelocityAnew();  // what is ramped before it has not driven
-  // Nor does what it has made meanwhile drive. Who releases for a rule has seen that what comes is new.
-  const bool is_free = setter == Setter::kPerson && !is_set_by_hand(Setter::kRule) && life_cycle() != LifeCycle::kDeleted;
-  if (is_free && is_driving()) extras_->stop->block()->Bar([this] { return runtime().clock().Now(); });
+  const bool is_ramped = BeginMotionAnew();  // what is ramped before it has not driven
+  // Nor does what a ramp, or anybody before what a person has set, has made meanwhile. Else, who releases for a rule has
+  // seen that what comes is new.
+  const Setter other = setter == Setter::kPerson ? Setter::kRule : Setter::kPerson;
+  const bool is_barred = (setter == Setter::kPerson || is_ramped) && !is_set_by_hand(other) && life_cycle() != LifeCycle::kDeleted;
+  // What is published at this very moment counts, as also where the clock stands; a ramp may not have begun anew by then.
+  const Duration before(is_ramped ? 0 : 1);
+  if (is_barred && is_driving()) extras_->stop->block()->Bar([&] { return runtime().clock().Now() - before; });
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;
   try {

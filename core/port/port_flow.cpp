@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <optional>
 #include <unordered_set>
 #include <utility>
 
+#include "core/conversion/number_conversion.h"
 #include "core/port/converted_flow.h"
 #include "core/port/driving_ports.h"
 #include "core/port/port.h"
@@ -34,7 +37,7 @@ void DropRepetitions(const std::vector<Connection>& ways, std::vector<Port*>& po
   std::erase_if(ports, [&](const Port* port) { return !seen.insert(port).second; });
 }
 
-// Of velocities that have just been connected: nothing of theirs has begun anew yet.
+// Of what has just been connected: nothing of it has begun anew yet.
 constexpr std::uint32_t kFirstBeginning = 1;
 
 bool IsZero(const AnyValue& value) {
@@ -42,17 +45,19 @@ bool IsZero(const AnyValue& value) {
   return zero != nullptr && value.type().is_transparent() && ToText(value.type(), value.get()) == ToText(value.type(), zero.get());
 }
 
-// It moves the robot, and stands at zero, or its module passes it on to what does.
-bool IsMadeVelocity(const Port& input) {
-  const auto stands_at_zero = [&](const internal::PassedStop& each) {
-    return each.stop->robot() != nullptr && (IsVelocity(input.type(), input.unit()) || IsZero(each.safe_value));
-  };
-  if (std::ranges::any_of(internal::PassedStops(input), stands_at_zero)) return true;
-  bool is_made = false;
+// At which number begins what moves the robot by `input`, or by what its module passes on; nothing: none does.
+std::optional<double> FindBeginning(const Port& input) {
+  for (const internal::PassedStop& each : internal::PassedStops(input)) {
+    if (each.stop->robot() == nullptr) continue;
+    if (IsVelocity(input.type(), input.unit()) || IsZero(each.safe_value)) return 0;
+    const double safe = internal::IsNumber(input.type()) ? internal::NumberIn(input.type(), each.safe_value.get()) : NAN;
+    if (std::isfinite(safe)) return safe;
+  }
+  std::optional<double> begins_at;
   VisitSiblings(input, Port::Direction::kOutput, [&](const Port& output) {
-    is_made = is_made || (&output.type() == &input.type() && output.velocity_beginnings() != 0);
+    if (&output.type() == &input.type() && output.motion_beginnings() != 0) begins_at = output.motion_begins_at();
   });
-  return is_made;
+  return begins_at;
 }
 
 // Of two stretches of one way, or two ways from one source, the one that asks for a queue decides;
@@ -116,26 +121,38 @@ std::vector<Port::Source> Port::BoundSources(Links links) const {
 void Port::RebindSinks() {
   for (Port* sink : Sinks()) {
     sink->Rebind(sink->BoundSources(Links::kMake));
-    if (!IsMadeVelocity(*sink)) continue;
-    for (Port* source : sink->Sources()) source->NoteVelocity(kFirstBeginning);
+    const auto begins_at = FindBeginning(*sink);
+    if (!begins_at) continue;
+    for (Port* source : sink->Sources()) source->NoteMotion(kFirstBeginning, *begins_at);
   }
 }
 
-void Port::BeginVelocityAnew() {
+bool Port::BeginMotionAnew() {
   static std::atomic<std::uint32_t> last{kFirstBeginning};
-  if (std::ranges::none_of(Sinks(), [](const Port* sink) { return IsMadeVelocity(*sink); })) return;
+  std::optional<double> begins_at;
+  for (const Port* sink : Sinks()) {
+    if (!begins_at) begins_at = FindBeginning(*sink);
+  }
+  if (!begins_at) return false;
   const std::uint32_t beginning = ++last;
-  for (Port* source : Sources()) source->NoteVelocity(beginning);
+  bool is_followed = false;
+  for (Port* source : Sources()) is_followed = source->NoteMotion(beginning, *begins_at) || is_followed;
+  return is_followed;
 }
 
-void Port::NoteVelocity(std::uint32_t beginning) {
-  const std::uint32_t known = velocity_beginnings();
-  if (known == beginning || (known != 0 && beginning == kFirstBeginning)) return;
-  velocity_beginnings_.store(beginning, std::memory_order_relaxed);
+bool Port::NoteMotion(std::uint32_t beginning, double begins_at) {
+  const std::uint32_t known = motion_beginnings();
+  const bool is_known = known == beginning || (known != 0 && beginning == kFirstBeginning);
+  if (is_known && motion_begins_at() == begins_at) return false;
+  motion_begins_at_.store(begins_at, std::memory_order_relaxed);
+  // release: pairs with the acquire in motion_beginnings(): who sees that it begins anew sees where.
+  if (!is_known) motion_beginnings_.store(beginning, std::memory_order_release);
+  bool is_followed = follows_motion_.load(std::memory_order_relaxed);
   VisitSiblings(*this, Direction::kInput, [&](const Port& input) {
     if (&input.type() != &type()) return;
-    for (Port* source : input.Sources()) source->NoteVelocity(beginning);
+    for (Port* source : input.Sources()) is_followed = source->NoteMotion(beginning, begins_at) || is_followed;
   });
+  return is_followed;
 }
 
 // Of conversions on the way from here to the inputs, the links of sources that do not reach them any more.

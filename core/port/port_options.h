@@ -60,6 +60,7 @@ enum class Ageing {
   kUnspecified,
   kTimesOut,  ///< a measurement, or what was made of one: what is published by it is as old as it is
   kSetOnce,   ///< a goal, a map, a mode: it holds until there is another
+  kWhileSourceRuns,  ///< a wish, a stimulation: its last word holds as long as the module runs that has said it
   kPassedOn,  ///< each value goes on with its own stamp: whoever reads it there sees how old it is
 };
 

@@ -81,7 +81,7 @@ Result<void> Port::Block() {
 bool Port::Unblock() {
   const std::lock_guard lock(runtime().structure_mutex());
   if (!is_blocked()) return false;
-  BeginVelocityAnew();  // before it counts what is made from then on
+  BeginMotionAnew();  // before it counts what is made from then on
   if (!extras_->stop->block()->Release([this] { return runtime().clock().Now(); })) return false;
   TellOfChange();
   return true;

@@ -85,7 +85,7 @@ void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noex
     }
   }
   extras_.swap(from.extras_);
-  velocity_beginnings_ = from.velocity_beginnings_.exchange(velocity_beginnings_);
+  motion_beginnings_ = from.motion_beginnings_.exchange(motion_beginnings_);
   for (const Port* port : {static_cast<const Port*>(this), static_cast<const Port*>(&from)}) {
     if (port->extras_) port->extras_->StandFor(*port);
   }

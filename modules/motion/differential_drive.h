@@ -61,7 +61,7 @@ class DifferentialDriveModule final : public Module {
     const double time_step = ToSeconds(now() - last_.value_or(now()));
     last_ = now();
     // Stopped, here or behind it, or paused for so long that the wheels have come to rest: from a standstill.
-    const std::uint32_t beginning = wheels.velocity_beginnings();
+    const std::uint32_t beginning = wheels.FollowMotionBeginnings();
     const bool is_released = std::exchange(beginning_, beginning) != beginning;
     const bool begins = is_released || twist.is_stopped() || time_step > twist_timeout.limit.Get();
     current_ = begins ? Twist2{} : Approach(limit, current_, wanted, time_step);

@@ -55,22 +55,25 @@ class Filter : public Module {
   }
   void Pass(const Lease<double>& value) {
     const Time time = value.timestamp();
-    if (HasStoodStill(time)) {
-      BeginAt(0);
+    if (BeginsAnew(time)) {
+      BeginAt(out.motion_begins_at());
       course_.last = std::max(Time(Duration(course_.bar)), now() - period());
     }
     const double seconds = course_.last && time > *course_.last ? ToSeconds(time - *course_.last) : 0;
     course_.last = time;
     out.Publish(Next(*value, seconds), time);
   }
-  // What moves by it. Asked once a value is there: one that came after a release finds that it was released.
-  [[nodiscard]] bool HasStoodStill(Time time) noexcept {
+  // With what moves by it. Asked once a value is there: one that came after a release finds that it was released.
+  [[nodiscard]] bool BeginsAnew(Time time) noexcept {
     const std::int64_t bar = runtime().robot_stop().signal()->bar();
-    const std::uint32_t beginning = out.velocity_beginnings();
-    const bool is_stopped = bar == StopSignal::kInForce || bar != course_.bar || beginning != course_.beginning;
+    const Course before = course_;
     course_.bar = bar;
-    course_.beginning = beginning;
-    return beginning != 0 && (is_stopped || !has_begun() || (course_.last && time - *course_.last > std::max(kTimedOut, 2 * period())));
+    course_.beginning = out.FollowMotionBeginnings();
+    if (course_.beginning == 0) return false;
+    if (bar == StopSignal::kInForce || bar != before.bar) return true;
+    // What is no velocity stays where it is while nothing comes, and begins at the first value.
+    if (out.motion_begins_at() != 0) return before.beginning != 0 && course_.beginning != before.beginning;
+    return course_.beginning != before.beginning || !has_begun() || (before.last && time - *before.last > std::max(kTimedOut, 2 * period()));
   }
 
   static constexpr Duration kTimedOut = std::chrono::milliseconds(500);

@@ -162,7 +162,8 @@ class Behaviour : public Module {
  public:
   explicit Behaviour(const Placement& placement);
 
-  Input<Stimulation> stimulation{this, "stimulation", {.description = "how much it is wanted", .ageing = Ageing::kSetOnce}};
+  Input<Stimulation> stimulation{
+      this, "stimulation", {.description = "how much it is wanted", .ageing = Ageing::kWhileSourceRuns}};
   Output<Activity> activity{this, "activity", {.description = "how much it does"}};
   Output<TargetRating> target_rating{
       this, "target_rating", {.description = "0: content; 1: as far from what it wants as can be"}};

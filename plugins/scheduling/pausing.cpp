@@ -69,11 +69,10 @@ std::string Scheduler::WhyAtRest(const FrameworkElement& element, Duration patie
   return "";
 }
 
-std::string Scheduler::WhyUnreached(const Port& port) const {
+std::string Scheduler::WhyUnreached(const Port& port, std::span<Port* const> sinks) const {
   std::string why;
-  if (!port.is_driving()) return why;
-  for (const Port* sink : port.Sinks()) {
-    if (why.empty()) why = WhyAtRest(*sink, kUnreachedAfter);
+  for (const Port* sink : sinks) {
+    if (why.empty() && port.is_driving()) why = WhyAtRest(*sink, kUnreachedAfter);
   }
   return why;
 }

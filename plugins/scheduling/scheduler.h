@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -206,9 +207,10 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// stuck. "": it runs. Under the structure lock.
   [[nodiscard]] std::string WhyAtRest(const FrameworkElement& element, Duration patience = Duration::max()) const;
   /// Why nobody reads a driving port, so that no STOP reaches it either: as WhyAtRest() of a module that reads it, but for
-  /// a thread that is stuck at once after kUnreachedAfter. "": it is read. Under the structure lock.
+  /// a thread that is stuck at once after kUnreachedAfter. `sinks`: its own. "": it is read. Under the structure lock.
   static constexpr Duration kUnreachedAfter = std::chrono::milliseconds(500);
-  [[nodiscard]] std::string WhyUnreached(const Port& port) const;
+  [[nodiscard]] std::string WhyUnreached(const Port& port, std::span<Port* const> sinks) const;
+  [[nodiscard]] std::string WhyUnreached(const Port& port) const { return WhyUnreached(port, port.Sinks()); }
   /// Has the module that has the element run soon, if its thread waits for data: of what is old nothing tells it. Under the
   /// structure lock.
   void WakeWithoutData(const FrameworkElement& element) const;

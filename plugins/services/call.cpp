@@ -19,13 +19,12 @@ void CallBase::WakeCaller() noexcept {
 
 void CallBase::NoteStop(const RobotStop& stop) noexcept {
   stop_bar = stop.signal()->bar();
-  asked = SteadyClock().Now();
+  stop_requests = stop.requests();
 }
 
-bool CallBase::IsFromBefore(const RobotStop& stop) const {
-  const std::int64_t bar = stop.signal()->bar();
-  // Of two STOPs the bar is the same.
-  return bar != stop_bar || (bar == StopSignal::kInForce && !stop.CheckIsKnown({.asked = asked, .requests = {}}));
+// In force is what is being pressed before it is counted.
+bool CallBase::IsFromBefore(const RobotStop& stop) const noexcept {
+  return stop.signal()->bar() != stop_bar || stop.requests() != stop_requests;
 }
 
 void CallSlots::SetWaker(Waker* waker) noexcept {

@@ -53,9 +53,8 @@ struct CallBase {
 
   /// The caller: it is asked for now.
   void NoteStop(const RobotStop& stop) noexcept;
-  /// Whoever takes it out of a queue: STOP was pressed or released since, so it is not known what it would do now. Wait-free;
-  /// of a call that was made under a STOP and is taken out under one, RobotStop's mutex is locked.
-  [[nodiscard]] bool IsFromBefore(const RobotStop& stop) const;
+  /// Whoever takes it out of a queue: STOP was pressed or released since, so it is not known what it would do now. Wait-free.
+  [[nodiscard]] bool IsFromBefore(const RobotStop& stop) const noexcept;
   /// A caller that is run by triggers, and waits for it.
   void WakeCaller() noexcept;
 
@@ -65,7 +64,7 @@ struct CallBase {
   Time deadline{};
   const void* endpoint = nullptr;  // to compare with only
   std::int64_t stop_bar = StopSignal::kNever;
-  Time asked{};  // on the machine's steady clock
+  std::uint64_t stop_requests = 0;
   // The service's.
   CallStatus status = CallStatus::kPending;
   std::string error;

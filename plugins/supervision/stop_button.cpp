@@ -21,7 +21,6 @@ namespace internal {
 
 namespace {
 constexpr Duration kLookForPort = std::chrono::milliseconds(50);
-constexpr Duration kStuckAfter = std::chrono::seconds(1);
 }  // namespace
 
 /// Beside the tree, as no part of the application.
@@ -100,10 +99,9 @@ bool StopButton::LookForPort() {
     }
     // Whoever presses the button itself is not heard then.
     if (is_covered_ && !was_covered) Press(rule_.port + ", which is set by hand");
-    std::string why;
-    for (const Port* each : sources.front()->Sources()) {
-      if (why.empty()) why = scheduler_.WhyAtRest(*each, kStuckAfter);
-    }
+    const Time now = runtime_.clock().Now();
+    if (std::exchange(revision_, runtime_.revision()) != runtime_.revision()) feeding_.emplace(element_->probe, now);
+    const std::string why = feeding_->WhyAtRest(scheduler_, now);
     if (!std::exchange(is_at_rest_, !why.empty()) && is_at_rest_) Press(rule_.port + ", as " + why);
     return true;
   }
@@ -116,7 +114,7 @@ bool StopButton::LookForPort() {
 }
 
 void StopButton::Press(const std::string& by) {
-  pressed_ = runtime_.robot_stop().state().requests + 1;
+  pressed_ = runtime_.robot_stop().requests() + 1;
   if (!runtime_.robot_stop().Press("the button " + by)) return;
   tell_({rule_.port, "STOP, by the button " + by, runtime_.clock().Now()});
 }

@@ -12,6 +12,7 @@
 #include "core/port/port.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/supervision/supervision_rules.h"
+#include "plugins/supervision/watches.h"
 
 namespace runnel {
 
@@ -23,7 +24,7 @@ namespace internal {
 class ButtonElement;
 
 /// Presses the STOP of the robot for each value that is not 0 at a port, and again if somebody else releases it while that is
-/// the newest; follows the port through renames and swaps. When the port is gone, set by hand, or its module does not run,
+/// the newest; follows the port through renames and swaps. When the port is gone, set by hand, or what feeds it does not run,
 /// nobody can press any more: that presses, too.
 ///
 /// Threads: has one of its own, which waits for values, and for no lock. Construct and destroy outside of cycles.
@@ -53,7 +54,9 @@ class StopButton {
   std::optional<RobotStop::AsOf> let_go_;  // nobody could look yet whether that was by the button itself
   bool is_covered_ = false;  // by a value by hand
   bool is_gone_ = false;
-  bool is_at_rest_ = false;  // its module
+  bool is_at_rest_ = false;  // what feeds it
+  std::optional<Feeding> feeding_;  // as of the structure's revision
+  std::uint64_t revision_ = ~std::uint64_t{};
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

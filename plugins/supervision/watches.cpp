@@ -145,7 +145,8 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
     runtime.root().Visit([this, now](FrameworkElement& element) {
       auto* const port = dynamic_cast<Port*>(&element);
       if (port == nullptr) return;
-      if (FindWhatMoves(*port) != nullptr || MarkOf(*port) != nullptr) driven_.emplace_back(*port, now);
+      const bool drives = FindWhatMoves(*port) != nullptr;
+      if (drives || MarkOf(*port) != nullptr) driven_.push_back({port, port->Sinks(), Feeding(*port, now), drives});
       if (port->direction() == Port::Direction::kOutput) outputs_.push_back(port);
     });
   }
@@ -160,34 +161,32 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
   }
 }
 
-Standstill::Driven::Driven(Port& driving, Time now)
-    : port(&driving), sources(driving.Sources()), sinks(driving.Sinks()), drives(FindWhatMoves(*port) != nullptr), at(now) {
-  if (!drives) return;
-  const auto* const input = dynamic_cast<const InputBase*>(port);
-  LookAtParameters(*port);
-  LookUpstream(*port, input != nullptr && input->ageing() == Ageing::kTimesOut);
+Feeding::Feeding(Port& port, Time now) : port_(port), at_(now), sources_(port.Sources()) {
+  const auto* const input = dynamic_cast<const InputBase*>(&port);
+  LookAtParameters(port);
+  LookUpstream(port, input != nullptr && input->ageing() == Ageing::kTimesOut);
 }
 
 // As far as nobody asks how old it is: what a module does not ask it puts out as new, so that nobody behind it can tell.
 // Beyond that by inputs of the same type only, for what sets parameters there, which do not grow old.
-void Standstill::Driven::LookUpstream(const Port& input, bool times_out) {
+void Feeding::LookUpstream(const Port& input, bool times_out) {
   for (Port* source : input.Sources()) {
-    if (!seen.insert({source, times_out}).second) continue;
-    if ((&input == port || !times_out) && std::ranges::find(upstream, source) == upstream.end()) upstream.push_back(source);
+    if (!seen_.insert({source, times_out}).second) continue;
+    if ((&input == &port_ || !times_out) && std::ranges::find(upstream_, source) == upstream_.end()) upstream_.push_back(source);
     LookAtParameters(*source);
     VisitSiblings(*source, Port::Direction::kInput, [&](Port& each) {
       const auto* const base = dynamic_cast<const InputBase*>(&each);
       const Ageing ageing = base != nullptr ? base->ageing() : Ageing::kUnspecified;
-      const bool ages = ageing == Ageing::kPassedOn ? times_out : ageing != Ageing::kUnspecified;
+      const bool ages = ageing == Ageing::kPassedOn ? times_out : ageing == Ageing::kTimesOut || ageing == Ageing::kSetOnce;
       if (each.is_set_by_hand(Port::Setter::kPerson)) return;  // whatever comes there does not count
       if (ages && &each.type() != &source->type()) return;
       LookUpstream(each, ages);
-      if (!ages && LookAtFeeding(each, !each.Sources().empty())) cut_off.push_back(&each);
+      if (!ages && LookAtCut(each, !each.Sources().empty())) cut_off_.push_back(&each);
     });
   }
 }
 
-void Standstill::Driven::LookAtParameters(const Port& of) {
+void Feeding::LookAtParameters(const Port& of) {
   FrameworkElement* const module = FindModuleOf(of);
   if (module == nullptr) return;
   module->Visit([&](FrameworkElement& each) {
@@ -199,12 +198,12 @@ void Standstill::Driven::LookAtParameters(const Port& of) {
       is_fed = true;
       LookUpstream(*feed, false);
     });
-    if (LookAtFeeding(each, is_fed)) parameters.push_back(&each);
+    if (LookAtCut(each, is_fed)) parameters_.push_back(&each);
   });
 }
 
 // Whether something was connected to it.
-bool Standstill::Driven::LookAtFeeding(FrameworkElement& element, bool is_fed) const {
+bool Feeding::LookAtCut(FrameworkElement& element, bool is_fed) const {
   auto* mark = element.FindAnnotation<FedMark>();
   if (is_fed) {
     MarkAt<FedMark>(element).is_fed = true;
@@ -212,25 +211,24 @@ bool Standstill::Driven::LookAtFeeding(FrameworkElement& element, bool is_fed) c
   }
   if (mark == nullptr) return false;
   if (std::exchange(mark->is_fed, false)) {
-    mark->cut = at;
+    mark->cut = at_;
     if (const auto* const configurable = dynamic_cast<const Configurable*>(&element)) mark->text = configurable->ToText();
   }
   return true;
 }
 
-std::string Standstill::Driven::WhyAtRest(const Scheduler& scheduler, Time now) const {
-  if (!drives) return "";
+std::string Feeding::WhyAtRest(const Scheduler& scheduler, Time now) const {
   std::string why;
-  for (Port* each : upstream) {
+  for (Port* each : upstream_) {
     const std::string silent = WhySilent(*each, scheduler, now);  // of each, for it is noted
     if (why.empty()) why = silent;
   }
-  for (const FrameworkElement* each : parameters) {
+  for (const FrameworkElement* each : parameters_) {
     if (why.empty() && IsStillCut(*each)) why = "nothing sets " + each->path() + " any more";
   }
-  for (const Port* each : cut_off) {
+  for (const Port* each : cut_off_) {
     const auto* const mark = each->FindAnnotation<FedMark>();
-    const bool is_over = mark == nullptr || std::ranges::any_of(sources, [&](const Port* source) { return HasPublishedSince(*source, mark->cut); });
+    const bool is_over = mark == nullptr || std::ranges::any_of(sources_, [&](const Port* source) { return HasPublishedSince(*source, mark->cut); });
     if (why.empty() && !is_over) why = "nothing is connected to " + each->path() + " any more";
   }
   return why;
@@ -239,12 +237,10 @@ std::string Standstill::Driven::WhyAtRest(const Scheduler& scheduler, Time now) 
 // Who does not run reads no safe value either.
 void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler, const Tell& tell) {
   Port& port = *driven.port;
-  std::string why;  // as Scheduler::WhyUnreached(), which allocates
   for (const Port* each : driven.sinks) {
-    if (!port.is_driving()) break;
-    scheduler.WakeWithoutData(*each);
-    if (why.empty()) why = scheduler.WhyAtRest(*each, Scheduler::kUnreachedAfter);
+    if (port.is_driving()) scheduler.WakeWithoutData(*each);
   }
+  const std::string why = scheduler.WhyUnreached(port, driven.sinks);
   if (why.empty() && MarkOf(port) == nullptr) return;
   if (std::exchange(MarkAt<RestMark>(port).is_unreached, !why.empty()) == !why.empty()) return;
   tell(port,
@@ -256,7 +252,7 @@ void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler,
 void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell) {
   Port& port = *driven.port;
   const auto held = MarkOf(port) != nullptr ? MarkOf(port)->rested : std::nullopt;
-  const std::string why = driven.WhyAtRest(scheduler, now);
+  const std::string why = driven.drives ? driven.feeding.WhyAtRest(scheduler, now) : "";
   const bool is_set = port.is_set_by_hand(Port::Setter::kRule);
   if (!why.empty()) {
     if (is_set) {  // a rule may have been first
@@ -274,8 +270,8 @@ void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler,
   }
   if (!held) return;
   const bool is_fed = std::ranges::any_of(
-      driven.sources, [&](const Port* each) { return HasPublishedSince(*each, *held); });
-  if (!is_fed && !driven.sources.empty()) return;
+      driven.feeding.sources(), [&](const Port* each) { return HasPublishedSince(*each, *held); });
+  if (!is_fed && !driven.feeding.sources().empty()) return;
   MarkAt<RestMark>(port).rested.reset();
   if (port.Release(Port::Setter::kRule)) tell(port, "is driven again: what feeds it runs", true);
 }
@@ -285,7 +281,7 @@ void Standstill::LeaveToRule(Port& port) {
 }
 
 bool Standstill::TakesOver(Port& port, const Scheduler& scheduler, Time now) {
-  if (Driven(port, now).WhyAtRest(scheduler, now).empty()) return false;
+  if (FindWhatMoves(port) == nullptr || Feeding(port, now).WhyAtRest(scheduler, now).empty()) return false;
   const auto safe = SafeValueToHold(port);
   if (!safe || !PublishByHand(port, safe->get(), Port::Setter::kRule)) return false;
   MarkAt<RestMark>(port).rested = now;

@@ -48,9 +48,33 @@ class StaleWatch {
   Time next_look_{};
 };
 
+/// What a port gets its values by: all whose silence nobody notices, since a module on the way does not look how old it is
+/// what they say, or they set a parameter there.
+///
+/// Threads: all under the structure lock. It is of one revision of the structure.
+class Feeding {
+ public:
+  Feeding(Port& port, Time now);
+  /// "": all that feed it run, and have published since they were at rest.
+  [[nodiscard]] std::string WhyAtRest(const Scheduler& scheduler, Time now) const;
+  [[nodiscard]] const std::vector<Port*>& sources() const noexcept { return sources_; }
+
+ private:
+  void LookUpstream(const Port& input, bool times_out);
+  void LookAtParameters(const Port& of);
+  [[nodiscard]] bool LookAtCut(FrameworkElement& element, bool is_fed) const;
+
+  const Port& port_;
+  const Time at_;
+  const std::vector<Port*> sources_;
+  std::vector<Port*> upstream_;                      // outputs that it moves by; the sources, too
+  std::vector<const Port*> cut_off_;                 // inputs on the way that something was connected to
+  std::vector<const FrameworkElement*> parameters_;  // those that something set
+  std::set<std::pair<const Port*, bool>> seen_;
+};
+
 /// Has ports that drive read their safe value while a module that feeds them does not run: it is paused, has failed, or its
-/// thread is stuck. By the slot of rules, and until the module has published again. So do those before it that nobody notices
-/// the silence of: a module on the way does not look how old it is what they say, or they set a parameter there. Modules
+/// thread is stuck. By the slot of rules, and until the module has published again. Feeding says who counts. Modules
 /// that drive and wait for data are run without, since what grows old does not come. What is sent to others who move by it,
 /// as a command over a network is, is held where it leaves the tree. Tells where the module that drives does not run itself,
 /// so that neither this nor a STOP reaches it.
@@ -70,24 +94,10 @@ class Standstill {
 
  private:
   struct Driven {
-    Driven(Port& driving, Time now);
-    [[nodiscard]] std::string WhyAtRest(const Scheduler& scheduler, Time now) const;
-
     Port* port;
-    std::vector<Port*> sources;
     std::vector<Port*> sinks;
-
-   private:
-    void LookUpstream(const Port& input, bool times_out);
-    void LookAtParameters(const Port& of);
-    [[nodiscard]] bool LookAtFeeding(FrameworkElement& element, bool is_fed) const;
-
+    Feeding feeding;
     bool drives;
-    Time at;
-    std::vector<Port*> upstream;                       // outputs that it moves by; the sources, too
-    std::vector<const Port*> cut_off;                  // inputs on the way that something was connected to
-    std::vector<const FrameworkElement*> parameters;   // those that something set
-    std::set<std::pair<const Port*, bool>> seen;
   };
   static void LookAtReaders(const Driven& driven, const Scheduler& scheduler, const Tell& tell);
   static void LookAtSources(const Driven& driven, const Scheduler& scheduler, Time now, const Tell& tell);

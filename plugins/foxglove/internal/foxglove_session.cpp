@@ -62,7 +62,7 @@ Result<void> FoxgloveSession::CheckIsMeant() const {
 
 // A release outranks as well: it must neither wait nor be overtaken by a STOP that was pressed later.
 WebArrival FoxgloveSession::OnArrival(std::string_view message, bool is_text) {
-  WebArrival arrival{.mark = shared_->runtime().robot_stop().state().requests};
+  WebArrival arrival{.mark = shared_->runtime().robot_stop().requests()};
   if (is_text || message.size() < kHead) return arrival;
   const std::uint32_t id = ReadNumber(message, 1);
   const auto found = message[0] == kMessageData ? publications_.find(id) : publications_.end();

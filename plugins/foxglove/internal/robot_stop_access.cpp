@@ -31,7 +31,7 @@ CommandAnswer Release(FoxgloveShared& shared, std::string_view json) {
   const auto said = Member(json, "number");
   const auto number = said ? said->count() : std::nullopt;
   if (!number) {
-    const auto requests = shared.runtime().robot_stop().state().requests;
+    const auto requests = shared.runtime().robot_stop().requests();
     return CommandAnswer::Refused({.message = "say which STOP is meant: {\"number\": " + std::to_string(requests) + "}"});
   }
   return shared.application.service.Begin(RobotStopRequest{false, "Foxglove"}, *shared.tasks, {}, {.asked = {}, .requests = number})->Take();

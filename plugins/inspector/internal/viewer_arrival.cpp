@@ -18,7 +18,7 @@ constexpr std::size_t kLongestNumbered = 16'384;
 
 // A release of the STOP outranks as well: it must neither wait nor be overtaken by a STOP that was pressed later.
 WebArrival ViewerSession::OnArrival(std::string_view message, bool is_text) {
-  WebArrival arrival{.mark = inspection_.application().runtime.robot_stop().state().requests};
+  WebArrival arrival{.mark = inspection_.application().runtime.robot_stop().requests()};
   const auto says = [head = message.substr(0, kLongestStop)](const char* text) { return head.find(text) != head.npos; };
   arrival.may_be_late = says(R"("op":"watch")") || says(R"("op":"unwatch")");
   if (!is_text || message.size() > kLongestStop || !(says("\"stop\"") || says("\"alive\""))) return arrival;

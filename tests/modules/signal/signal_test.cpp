@@ -56,9 +56,9 @@ TEST(RateLimiterTest, BeginsFromAStandstillAfterAStop) {
   ASSERT_TRUE(rig.Prepare());
   auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
   Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
-  EXPECT_EQ(rig.module.out.velocity_beginnings(), 0);
+  EXPECT_EQ(rig.module.out.motion_beginnings(), 0);
   ASSERT_TRUE(Port::Connect(rig.module.out, wheels));
-  EXPECT_NE(rig.module.out.velocity_beginnings(), 0);
+  EXPECT_NE(rig.module.out.motion_beginnings(), 0);
   for (int i = 0; i < 20; ++i) (void)After(rig, 1);
   EXPECT_EQ(wheels.Get(), 1);
   rig.runtime.robot_stop().Press("a test");
@@ -92,7 +92,7 @@ TEST(RateLimiterTest, BeginsFromAStandstillAlsoBeforeAModuleThatPassesItOn) {
     if (!is_first) {
       ASSERT_TRUE(Port::Connect(rig.module.out, gain.in));
     }
-    EXPECT_NE(rig.module.out.velocity_beginnings(), 0);
+    EXPECT_NE(rig.module.out.motion_beginnings(), 0);
     for (int i = 0; i < 20; ++i) (void)After(rig, 1);
     // Pressed and released between two cycles.
     rig.runtime.robot_stop().Press("a test");
@@ -135,6 +135,49 @@ TEST(RateLimiterTest, BeginsFromAStandstillAlsoBeforeANumberWithoutAUnit) {
   (void)After(rig, 1);
   EXPECT_THAT(valve.Get(), DoubleNear(0.1, 1e-12));
   valve.DisconnectAll();
+}
+
+// As of a joint that has a position to wait in.
+TEST(RateLimiterTest, BeginsAtTheSafeNumberAfterAStop) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<double> joint(others, "joint", {.unit = "rad"});
+  ASSERT_TRUE(joint.SetDriving(true, AnyValue(TypeOf<double>(), std::make_shared<const double>(0.5))));
+  ASSERT_TRUE(Port::Connect(rig.module.out, joint));
+  EXPECT_EQ(After(rig, 3), 3) << "begins where the values begin";
+  rig.RunCycles(20);
+  EXPECT_THAT(After(rig, 2.9), DoubleNear(2.9, 1e-12)) << "and waits there";
+  rig.runtime.robot_stop().Press("a test");
+  for (int i = 0; i < 20; ++i) (void)After(rig, 3);
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  (void)After(rig, 3);  // of the time of the release itself
+  (void)After(rig, 3);
+  EXPECT_THAT(joint.Get(), DoubleNear(0.6, 1e-12));
+  ASSERT_TRUE(joint.SetDriving(true, AnyValue(TypeOf<double>(), std::make_shared<const double>(0.25))));
+  rig.runtime.robot_stop().Press("a test");
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  (void)After(rig, 3);
+  (void)After(rig, 3);
+  EXPECT_THAT(joint.Get(), DoubleNear(0.35, 1e-12)) << "at the one that it has now";
+  joint.DisconnectAll();
+}
+
+TEST(RateLimiterTest, WhatItHasMadeWhileARuleHeldThePortMovesNothing) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
+  ASSERT_TRUE(Port::Connect(rig.module.out, wheels));
+  const Port::Fill zero = [](void* value) -> Result<void> { return *static_cast<double*>(value) = 0, Result<void>(); };
+  ASSERT_TRUE(wheels.PublishByHand(zero, Port::Setter::kRule));
+  for (int i = 0; i < 20; ++i) (void)After(rig, 1);
+  ASSERT_TRUE(wheels.Release(Port::Setter::kRule));
+  EXPECT_EQ(wheels.Get(), 0);
+  (void)After(rig, 1);
+  (void)After(rig, 1);
+  EXPECT_THAT(wheels.Get(), DoubleNear(0.2, 1e-12));
+  wheels.DisconnectAll();
 }
 
 TEST(RateLimiterTest, BeginsFromAStandstillWhenAValueByHandEnds) {

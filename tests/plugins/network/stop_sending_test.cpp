@@ -154,7 +154,7 @@ TEST_P(StopSendingTest, ASpeedThatIsANumberStopsAndWhatIsMeasuredGoesOn) {
   planner_.Begin();
   robot_.Begin();
   WaitUntil("both are read", [&] { return IsConnected(speed) && IsConnected(measured); });
-  EXPECT_NE(speed.velocity_beginnings(), 0u) << "a ramp before it begins from a standstill";
+  EXPECT_NE(speed.motion_beginnings(), 0u) << "a ramp before it begins from a standstill";
   WaitUntil("it has come", [&] {
     speed.Publish(1);
     return wanted.Get() == 1;

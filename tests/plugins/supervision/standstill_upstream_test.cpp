@@ -128,6 +128,32 @@ TEST_F(DrivenOver, NorIsThatNoticedByWhoLooksOnTheWayHowOldItIs) {
   EXPECT_EQ(over.seen(), -7);
 }
 
+// As a stimulation, which is said once and looks at no age.
+TEST_F(DrivenOver, SoItHasWhileWhoHasSaidAWishDoesNotRun) {
+  struct Wishing final : Module {
+    using Module::Module;
+    Input<bool> wish{this, "wish", {.ageing = Ageing::kWhileSourceRuns}};
+    Input<double> goal{this, "goal", {.ageing = Ageing::kSetOnce}};
+    Output<double> out{this, "out"};
+    void Update() override { out.Publish(wish.Peek() ? 4 : 0); }
+  };
+  auto& wishing = robot.runtime.Create<Wishing>(robot.runtime.root(), "wishing");
+  MustSucceed(Port::Disconnect(passing.out, robot.reader.in));
+  MustSucceed(Port::Connect(wishing.out, robot.reader.in));
+  MustSucceed(Port::Connect(robot.infrared.out, wishing.goal));
+  MustSucceed(Port::Connect(dead_man.out, wishing.wish));
+  MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+  RunOn();
+  EXPECT_EQ(robot.seen, 4);
+  dead_man.is_held = false;  // it has been said
+  MustSucceed(robot.supervisor.SetPaused("/infrared", true));
+  RunOn();
+  EXPECT_EQ(robot.seen, 4) << "a goal holds until there is another";
+  MustSucceed(robot.supervisor.SetPaused("/dead_man", true));
+  RunOn();
+  EXPECT_EQ(robot.seen, -7);
+}
+
 // As over a mux: another one may be selected there, and of this one the stamp tells.
 TEST_F(DrivenOver, WhatPassesWithItsStampIsTheBusinessOfThePortsTimeOut) {
   const BaseOver<Ageing::kPassedOn> over(robot, robot.laser.out);

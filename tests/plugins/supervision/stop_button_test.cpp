@@ -109,6 +109,22 @@ TEST_F(StopButtonTest, ItPressesWhenItsModuleDoesNotRun) {
   ASSERT_TRUE(runtime.robot_stop().Release("the test")) << "it is told once";
 }
 
+// As over a gate that lets no bouncing through.
+TEST_F(StopButtonTest, ItPressesWhenWhatComesBeforeItsModuleDoesNotRun) {
+  struct Debouncing final : Module {
+    using Module::Module;
+    Input<double> in{this, "in", {.ageing = Ageing::kPassedOn}};
+    Output<double> out{this, "out"};
+    void Update() override {}
+  };
+  auto& debouncing = runtime.Create<Debouncing>(app, "debouncing");
+  MustSucceed(Port::Connect(panel.out, debouncing.in));
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  MustSucceed(supervisor.Add(StopButtonRule{debouncing.out.path()}));
+  MustSucceed(supervisor.SetPaused("/app/panel", true));
+  WaitForStop("/app/panel is paused");
+}
+
 // More at once than wait for whoever takes them one by one.
 TEST_F(StopButtonTest, IsHeardAfterABurst) {
   MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
