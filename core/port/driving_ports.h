@@ -18,6 +18,12 @@ class Runtime;
 /// The inputs, or outputs, of the port's module, but for those by which its parameters are set.
 void VisitSiblings(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit);
 
+namespace internal {
+/// At which number begins what moves the robot by the port, or by what a module behind it passes on: as
+/// Port::motion_begins_at(); nothing: none does.
+[[nodiscard]] std::optional<double> FindBeginning(const Port& port);
+}  // namespace internal
+
 /// What the STOP of the robot holds, as paths with ", " between them; "": it holds nothing. Nothing while somebody else has
 /// the structure lock, which is waited for some ms at most.
 [[nodiscard]] std::optional<std::string> FindWhatDrives(Runtime& runtime);

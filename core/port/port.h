@@ -86,7 +86,7 @@ class Port : public FrameworkElement {
     follows_motion_.store(true, std::memory_order_relaxed);
     return motion_beginnings();
   }
-  /// Where it begins: 0, the standstill of velocities, or the safe number of what moves. Any thread; wait-free.
+  /// Where it begins: NaN is the standstill of a velocity, else it is the safe number of what moves. Any thread; wait-free.
   [[nodiscard]] double motion_begins_at() const noexcept { return motion_begins_at_.load(std::memory_order_relaxed); }
   /// Who looks at the port without being connected to it says so. Any thread.
   void NoteLook() const noexcept { is_looked_at_.store(true, std::memory_order_relaxed); }

@@ -45,12 +45,12 @@ bool IsZero(const AnyValue& value) {
   return zero != nullptr && value.type().is_transparent() && ToText(value.type(), value.get()) == ToText(value.type(), zero.get());
 }
 
-// At which number begins what moves the robot by `input`, or by what its module passes on; nothing: none does.
-std::optional<double> FindBeginning(const Port& input) {
+std::optional<double> FindBeginningAt(const Port& input) {
   for (const internal::PassedStop& each : internal::PassedStops(input)) {
     if (each.stop->robot() == nullptr) continue;
-    if (IsVelocity(input.type(), input.unit()) || IsZero(each.safe_value)) return 0;
-    const double safe = internal::IsNumber(input.type()) ? internal::NumberIn(input.type(), each.safe_value.get()) : NAN;
+    const bool is_number = internal::IsNumber(input.type());
+    if (IsVelocity(input.type(), input.unit()) || (IsZero(each.safe_value) && (!is_number || input.unit().empty()))) return NAN;
+    const double safe = is_number ? internal::NumberIn(input.type(), each.safe_value.get()) : NAN;
     if (std::isfinite(safe)) return safe;
   }
   std::optional<double> begins_at;
@@ -121,18 +121,23 @@ std::vector<Port::Source> Port::BoundSources(Links links) const {
 void Port::RebindSinks() {
   for (Port* sink : Sinks()) {
     sink->Rebind(sink->BoundSources(Links::kMake));
-    const auto begins_at = FindBeginning(*sink);
+    const auto begins_at = FindBeginningAt(*sink);
     if (!begins_at) continue;
     for (Port* source : sink->Sources()) source->NoteMotion(kFirstBeginning, *begins_at);
   }
 }
 
+std::optional<double> internal::FindBeginning(const Port& port) {
+  std::optional<double> begins_at;
+  for (const Port* sink : port.Sinks()) {
+    if (!begins_at) begins_at = FindBeginningAt(*sink);
+  }
+  return begins_at;
+}
+
 bool Port::BeginMotionAnew() {
   static std::atomic<std::uint32_t> last{kFirstBeginning};
-  std::optional<double> begins_at;
-  for (const Port* sink : Sinks()) {
-    if (!begins_at) begins_at = FindBeginning(*sink);
-  }
+  const auto begins_at = internal::FindBeginning(*this);
   if (!begins_at) return false;
   const std::uint32_t beginning = ++last;
   bool is_followed = false;
@@ -143,7 +148,8 @@ bool Port::BeginMotionAnew() {
 bool Port::NoteMotion(std::uint32_t beginning, double begins_at) {
   const std::uint32_t known = motion_beginnings();
   const bool is_known = known == beginning || (known != 0 && beginning == kFirstBeginning);
-  if (is_known && motion_begins_at() == begins_at) return false;
+  const double known_at = motion_begins_at();
+  if (is_known && (known_at == begins_at || (std::isnan(known_at) && std::isnan(begins_at)))) return false;
   motion_begins_at_.store(begins_at, std::memory_order_relaxed);
   // release: pairs with the acquire in motion_beginnings(): who sees that it begins anew sees where.
   if (!is_known) motion_beginnings_.store(beginning, std::memory_order_release);

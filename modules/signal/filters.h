@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -26,7 +27,9 @@ class Filter : public Module {
   [[nodiscard]] virtual double Next(double value, double seconds) noexcept = 0;
   /// What has been put out does not count any more: it goes on from `value`.
   virtual void BeginAt(double /*value*/) noexcept {}
-  /// Whether it goes on from something: nothing has come from a module of another type in whose place it is.
+  /// Whether it goes on from what it has put out.
+  [[nodiscard]] virtual bool is_ramp() const noexcept { return false; }
+  /// Whether there is something to go on from: nothing has come from a module of another type in whose place it is.
   [[nodiscard]] virtual bool has_begun() const noexcept { return true; }
   /// For those that go on from what they have put out.
   template <typename State>
@@ -37,6 +40,7 @@ class Filter : public Module {
 
  private:
   void Update() final {
+    if (runtime().robot_stop().in_force()) course_.bar = StopSignal::kInForce;  // also while nothing comes
     if (in.is_stopped()) return PassSafeValue();
     if (in.has_queue()) {
       for (auto each = in.Take(); each; each = in.Take()) Pass(each);
@@ -49,6 +53,7 @@ class Filter : public Module {
     while (in.Take()) {
     }
     const auto safe = in.Read();
+    if (!in.is_stopped()) return Pass(safe);  // it has come after a release in between
     BeginAt(*safe);
     course_.last = now();
     out.Publish(*safe, safe.timestamp());
@@ -56,7 +61,7 @@ class Filter : public Module {
   void Pass(const Lease<double>& value) {
     const Time time = value.timestamp();
     if (BeginsAnew(time)) {
-      BeginAt(out.motion_begins_at());
+      BeginAt(moves_by_velocity() ? 0 : out.motion_begins_at());
       course_.last = std::max(Time(Duration(course_.bar)), now() - period());
     }
     const double seconds = course_.last && time > *course_.last ? ToSeconds(time - *course_.last) : 0;
@@ -65,16 +70,21 @@ class Filter : public Module {
   }
   // With what moves by it. Asked once a value is there: one that came after a release finds that it was released.
   [[nodiscard]] bool BeginsAnew(Time time) noexcept {
+    if (!is_ramp()) return false;
     const std::int64_t bar = runtime().robot_stop().signal()->bar();
     const Course before = course_;
     course_.bar = bar;
     course_.beginning = out.FollowMotionBeginnings();
     if (course_.beginning == 0) return false;
+    const bool is_new = course_.beginning != before.beginning;
+    // What is no velocity rests where it is while nothing comes, and begins at the first value.
+    if (!moves_by_velocity() && !before.last) return bar == StopSignal::kInForce || before.bar == StopSignal::kInForce;
     if (bar == StopSignal::kInForce || bar != before.bar) return true;
-    // What is no velocity stays where it is while nothing comes, and begins at the first value.
-    if (out.motion_begins_at() != 0) return before.beginning != 0 && course_.beginning != before.beginning;
-    return course_.beginning != before.beginning || !has_begun() || (before.last && time - *before.last > std::max(kTimedOut, 2 * period()));
+    if (!moves_by_velocity()) return is_new && before.beginning != 0;
+    return is_new || !has_begun() || (before.last && time - *before.last > std::max(kTimedOut, 2 * period()));
   }
+
+  [[nodiscard]] bool moves_by_velocity() const noexcept { return std::isnan(out.motion_begins_at()); }
 
   static constexpr Duration kTimedOut = std::chrono::milliseconds(500);
   struct Course {
@@ -100,6 +110,7 @@ class LowPassFilter final : public Filter {
     return state_.Next(value, seconds, time_constant.Get());
   }
   void BeginAt(double value) noexcept override { state_.Begin(value); }
+  bool is_ramp() const noexcept override { return true; }
   bool has_begun() const noexcept override { return state_.has_begun(); }
   LowPass state_;
 };
@@ -117,6 +128,7 @@ class RateLimiterFilter final : public Filter {
     return state_.Next(value, seconds, rise.Get(), fall.Get());
   }
   void BeginAt(double value) noexcept override { state_.Begin(value); }
+  bool is_ramp() const noexcept override { return true; }
   bool has_begun() const noexcept override { return state_.has_begun(); }
   RateLimiter state_;
 };

@@ -42,7 +42,7 @@ class WriterClock {
     is_known_ = !is_new && (is_known_ || now >= known_from_);
     const Duration least = is_known_ ? *usual_ : delay > longest ? delay : Duration{};
     sent_ = std::max(Time(), now - BeyondNetworks(delay - least));
-    usual_ = is_new ? delay : std::min(*usual_ + gap / kDrift, delay);
+    usual_ = is_new ? delay : std::min(*usual_ + std::min<Duration>(gap / kDrift, kMostOfNetworks), delay);
     last_ = delay;
     came_ = now;
     return BeyondNetworks(delay - *usual_);

@@ -2,9 +2,12 @@
 
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "core/conversion/number_conversion.h"
 #include "core/paths/path_search.h"
+#include "core/port/driving_ports.h"
+#include "core/port/input_base.h"
 #include "core/port/probe_port.h"
 #include "core/types/type_info.h"
 
@@ -21,6 +24,48 @@ namespace internal {
 
 namespace {
 constexpr Duration kLookForPort = std::chrono::milliseconds(50);
+constexpr Duration kStuckAfter = std::chrono::seconds(1);
+
+/// Why nobody can press by a port, one sentence for each place on the way to it.
+class WayToButton {
+ public:
+  WayToButton(const Scheduler& scheduler, const Port& port) : scheduler_(scheduler) { Look(port); }
+  std::set<std::string> lacks;
+  bool is_covered = false;  // by a value by hand
+
+ private:
+  void Look(const Port& port) {
+    if (!seen_.insert(&port).second) return;
+    if (port.is_set_by_hand()) {
+      is_covered = true;
+      lacks.insert(port.path() + " is set by hand");
+    }
+    const bool is_output = port.direction() == Port::Direction::kOutput && !port.is_proxy();
+    if (is_output) return LookAtModule(port);
+    if (port.incoming().empty()) lacks.insert("nothing is connected to " + port.path());
+    for (const Port* each : port.incoming()) Look(*each);
+  }
+  void LookAtModule(const Port& output) {
+    const std::string why = scheduler_.WhyAtRest(output, kStuckAfter);
+    if (!why.empty()) lacks.insert(why);
+    std::vector<const Port*> passed;
+    bool is_fed = false;
+    VisitSiblings(output, Port::Direction::kInput, [&](const Port& each) {
+      const auto* const input = dynamic_cast<const InputBase*>(&each);
+      const bool is_passed = input != nullptr && &each.type() == &output.type() &&
+                             (input->ageing() == Ageing::kPassedOn || input->ageing() == Ageing::kTimesOut);
+      if (!is_passed) return;
+      passed.push_back(&each);
+      is_fed = is_fed || !each.incoming().empty() || each.is_set_by_hand();
+    });
+    for (const Port* each : passed) {
+      if (!is_fed || !each->incoming().empty() || each->is_set_by_hand()) Look(*each);  // not all of a choice need be fed
+    }
+  }
+
+  const Scheduler& scheduler_;
+  std::set<const Port*> seen_;
+};
 }  // namespace
 
 /// Beside the tree, as no part of the application.
@@ -86,27 +131,27 @@ bool StopButton::LookForPort() {
   const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
   if (!lock) return false;
   const auto& sources = element_->probe.incoming();
-  const bool was_covered = std::exchange(is_covered_, !sources.empty() && sources.front()->is_set_by_hand());
   if (!sources.empty()) {
     rule_.port = sources.front()->path();
     is_gone_ = false;
+    WayToButton way(scheduler_, *sources.front());
     // Of many values at once the queue may have had no room for the one that counts, and others may have released.
     bool is_down = false;
     const auto look = [&](const void* value, ValueTimes) { is_down = NumberIn(element_->probe.type(), value) != 0; };
+    is_covered_ = way.is_covered;
     if (!is_covered_ && sources.front()->VisitLatest(look) && is_down) {
       const bool is_new = !std::exchange(is_down_, true);
       if (is_new || !runtime_.robot_stop().in_force()) Press(rule_.port);
     }
-    // Whoever presses the button itself is not heard then.
-    if (is_covered_ && !was_covered) Press(rule_.port + ", which is set by hand");
-    const Time now = runtime_.clock().Now();
-    if (std::exchange(revision_, runtime_.revision()) != runtime_.revision()) feeding_.emplace(element_->probe, now);
-    const std::string why = feeding_->WhyAtRest(scheduler_, now);
-    if (!std::exchange(is_at_rest_, !why.empty()) && is_at_rest_) Press(rule_.port + ", as " + why);
+    for (const std::string& each : way.lacks) {
+      if (!lacks_.contains(each)) Press(rule_.port + ", as " + each);
+    }
+    lacks_ = std::move(way.lacks);
     return true;
   }
   if (!is_gone_) Press(rule_.port + ", which is gone");
   is_gone_ = true;
+  lacks_.clear();
   is_down_ = false;  // letting go counts after a press that has come by the next connection
   const auto found = PathSearch(runtime_).FindPort(rule_.port, PathKind::kOutput);
   if (found && &(*found)->type() == &element_->probe.type()) (void)Port::Connect(**found, element_->probe);

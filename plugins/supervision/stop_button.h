@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -12,7 +13,6 @@
 #include "core/port/port.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/supervision/supervision_rules.h"
-#include "plugins/supervision/watches.h"
 
 namespace runnel {
 
@@ -24,8 +24,9 @@ namespace internal {
 class ButtonElement;
 
 /// Presses the STOP of the robot for each value that is not 0 at a port, and again if somebody else releases it while that is
-/// the newest; follows the port through renames and swaps. When the port is gone, set by hand, or what feeds it does not run,
-/// nobody can press any more: that presses, too.
+/// the newest; follows the port through renames and swaps. When the port is gone, or somewhere on the way to it a value is set by
+/// hand, a module does not run or nothing is connected any more, nobody can press: each of these presses, too. The way goes
+/// through modules that pass on values of the button's type, as an input says that has an age or passes it on (Ageing).
 ///
 /// Threads: has one of its own, which waits for values, and for no lock. Construct and destroy outside of cycles.
 class StopButton {
@@ -54,9 +55,7 @@ class StopButton {
   std::optional<RobotStop::AsOf> let_go_;  // nobody could look yet whether that was by the button itself
   bool is_covered_ = false;  // by a value by hand
   bool is_gone_ = false;
-  bool is_at_rest_ = false;  // what feeds it
-  std::optional<Feeding> feeding_;  // as of the structure's revision
-  std::uint64_t revision_ = ~std::uint64_t{};
+  std::set<std::string> lacks_;  // why nobody could press, as of the last look
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

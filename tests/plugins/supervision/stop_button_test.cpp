@@ -10,37 +10,10 @@
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/supervisor.h"
 #include "tests/plugins/application_files/reading/test_application.h"
-#include "tests/plugins/scheduling/test_modules.h"
-#include "tests/support/wait_until.h"
+#include "tests/plugins/supervision/stop_button_fixture.h"
 
 namespace runnel::testing {
 namespace {
-
-using test::WaitUntil;
-
-/// Nothing runs but the button: what it is fed with is the test's.
-class StopButtonTest : public ::testing::Test {
- protected:
-  StopButtonTest() { MustSucceed(runtime.MakeReady(runtime.root())); }
-  void Press(double value) { panel.out.Publish(value); }
-  void WaitForStop(const std::string& by) {
-    WaitUntil("the STOP is in force", [&] { return runtime.robot_stop().in_force(); });
-    WaitUntil("it is known who has pressed it",
-              [&] { return runtime.robot_stop().state().by.find(by) != std::string::npos; });
-  }
-  /// Values are taken in their order: when something has come of this one, those before have been looked at.
-  void WaitUntilTaken() {
-    const auto before = runtime.robot_stop().state().changes;
-    Press(1);
-    WaitUntil("the button has been pressed", [&] { return runtime.robot_stop().state().changes > before; });
-  }
-
-  Runtime runtime;
-  Group& app = runtime.Create<Group>(runtime.root(), "app");
-  Doing& panel = runtime.Create<Doing>(app, "panel");
-  Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated}};
-  Supervisor supervisor{runtime, scheduler, [](const ChangeSet&) { return Result<ChangeSet>(ChangeSet()); }};
-};
 
 TEST_F(StopButtonTest, TruePressesWhoeverHasTheStructureLock) {
   MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
@@ -102,29 +75,6 @@ TEST_F(StopButtonTest, AsLongAsItIsDownNobodyElseReleases) {
   EXPECT_TRUE(runtime.robot_stop().in_force());
 }
 
-TEST_F(StopButtonTest, ItPressesWhenItsModuleDoesNotRun) {
-  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
-  MustSucceed(supervisor.SetPaused("/app/panel", true));
-  WaitForStop("/app/panel is paused");
-  ASSERT_TRUE(runtime.robot_stop().Release("the test")) << "it is told once";
-}
-
-// As over a gate that lets no bouncing through.
-TEST_F(StopButtonTest, ItPressesWhenWhatComesBeforeItsModuleDoesNotRun) {
-  struct Debouncing final : Module {
-    using Module::Module;
-    Input<double> in{this, "in", {.ageing = Ageing::kPassedOn}};
-    Output<double> out{this, "out"};
-    void Update() override {}
-  };
-  auto& debouncing = runtime.Create<Debouncing>(app, "debouncing");
-  MustSucceed(Port::Connect(panel.out, debouncing.in));
-  MustSucceed(runtime.MakeReady(runtime.root()));
-  MustSucceed(supervisor.Add(StopButtonRule{debouncing.out.path()}));
-  MustSucceed(supervisor.SetPaused("/app/panel", true));
-  WaitForStop("/app/panel is paused");
-}
-
 // More at once than wait for whoever takes them one by one.
 TEST_F(StopButtonTest, IsHeardAfterABurst) {
   MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
@@ -144,13 +94,6 @@ TEST_F(StopButtonTest, AValueByHandPressesAndDoesNotRelease) {
   WaitUntil("it is pressed once more", [&] { return runtime.robot_stop().state().requests > presses; });
   for (int i = 0; i < 3; ++i) MustSucceed(PublishByHand(panel.out, &up));
   EXPECT_TRUE(runtime.robot_stop().in_force());
-}
-
-TEST_F(StopButtonTest, AButtonThatNobodyHearsPressesWithItsCause) {
-  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path(), true}));
-  const double up = 0;
-  MustSucceed(PublishByHand(panel.out, &up));
-  WaitForStop("the button /app/panel/output/out, which is set by hand");
 }
 
 TEST_F(StopButtonTest, GoesWithItsPortAndPressesWhenThatIsGone) {

@@ -1,0 +1,122 @@
+// What a stop button does when nobody can press by it any more.
+
+#include "core/port/proxy_port.h"
+#include "plugins/structure/value_by_hand.h"
+#include "tests/plugins/supervision/stop_button_fixture.h"
+
+namespace runnel::testing {
+namespace {
+
+/// Passes on what comes to it, as what keeps a switch from bouncing does.
+template <Ageing kAgeing>
+struct Debouncing final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.ageing = kAgeing}};
+  Output<double> out{this, "out"};
+  void Update() override {}
+};
+
+class WayToStopButton : public StopButtonTest {
+ protected:
+  template <Ageing kAgeing>
+  Debouncing<kAgeing>& Debounced() {
+    auto& debouncing = runtime.Create<Debouncing<kAgeing>>(app, "debouncing");
+    MustSucceed(Port::Connect(panel.out, debouncing.in));
+    MustSucceed(runtime.MakeReady(runtime.root()));
+    Add(debouncing.out);
+    return debouncing;
+  }
+  /// It is known once it has been looked at: what is pressed from then on is news.
+  void Add(const Port& port) {
+    MustSucceed(supervisor.Add(StopButtonRule{port.path()}));
+    panel.out.Publish(0);
+    std::this_thread::sleep_for(200ms);
+    ASSERT_FALSE(runtime.robot_stop().in_force());
+  }
+  void SetByHand(Port& port) {
+    const double up = 0;
+    const std::lock_guard lock(runtime.structure_mutex());
+    MustSucceed(PublishByHand(port, &up));
+  }
+};
+
+TEST_F(WayToStopButton, ItPressesWhenItsModuleDoesNotRun) {
+  Add(panel.out);
+  MustSucceed(supervisor.SetPaused("/app/panel", true));
+  WaitForStop("/app/panel is paused");
+  ASSERT_TRUE(runtime.robot_stop().Release("the test")) << "it is told once";
+}
+
+// Also of one that speaks only when it changes, and so says nothing when it goes on.
+TEST_F(WayToStopButton, ItPressesEachTimeThatItsModuleIsPaused) {
+  Add(panel.out);
+  for (int i = 0; i < 2; ++i) {
+    MustSucceed(supervisor.SetPaused("/app/panel", true));
+    WaitForStop("/app/panel is paused");
+    MustSucceed(supervisor.SetPaused("/app/panel", false));
+    std::this_thread::sleep_for(200ms);  // it is not told that it runs again
+    ASSERT_TRUE(runtime.robot_stop().Release("the test"));
+  }
+}
+
+TEST_F(WayToStopButton, WhatElseItsModuleReadsIsNoButton) {
+  struct Panel final : Module {
+    using Module::Module;
+    Input<double> lamp{this, "lamp"};
+    Output<double> out{this, "out"};
+    void Update() override {}
+  };
+  auto& desk = runtime.Create<Panel>(app, "desk");
+  MustSucceed(Port::Connect(panel.out, desk.lamp));
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  Add(desk.out);
+  MustSucceed(supervisor.SetPaused("/app/panel", true));
+  std::this_thread::sleep_for(200ms);
+  EXPECT_FALSE(runtime.robot_stop().in_force()) << runtime.robot_stop().state().by;
+  MustSucceed(supervisor.SetPaused("/app/desk", true));
+  WaitForStop("/app/desk is paused");
+}
+
+TEST_F(WayToStopButton, ItPressesWhenWhatComesBeforeItsModuleDoesNotRun) {
+  (void)Debounced<Ageing::kPassedOn>();
+  MustSucceed(supervisor.SetPaused("/app/panel", true));
+  WaitForStop("/app/panel is paused");
+}
+
+TEST_F(WayToStopButton, AlsoOverOneThatLooksHowOldItIs) {
+  (void)Debounced<Ageing::kTimesOut>();
+  MustSucceed(supervisor.SetPaused("/app/panel", true));
+  WaitForStop("/app/panel is paused");
+}
+
+TEST_F(WayToStopButton, ItPressesWhenWhatComesBeforeItIsCutOff) {
+  auto& debouncing = Debounced<Ageing::kPassedOn>();
+  MustSucceed(Port::Disconnect(panel.out, debouncing.in));
+  WaitForStop("nothing is connected to /app/debouncing/input/in");
+}
+
+TEST_F(WayToStopButton, ItPressesWhenWhatComesBeforeItIsSetByHand) {
+  SetByHand(Debounced<Ageing::kPassedOn>().in);
+  WaitForStop("/app/debouncing/input/in is set by hand");
+}
+
+TEST_F(WayToStopButton, ItPressesWhenItIsSetByHand) {
+  Add(panel.out);
+  SetByHand(panel.out);
+  WaitForStop("the button /app/panel/output/out, as /app/panel/output/out is set by hand");
+}
+
+TEST_F(WayToStopButton, ItPressesBehindAnInterfacePort) {
+  auto& port = runtime.Create<ProxyPort>(app, "stop", Port::Direction::kOutput, TypeOf<double>());
+  MustSucceed(Port::Connect(panel.out, port));
+  Add(port);
+  SetByHand(panel.out);
+  WaitForStop("/app/panel/output/out is set by hand");
+  panel.out.Release();
+  ASSERT_TRUE(runtime.robot_stop().Release("the test"));
+  MustSucceed(Port::Disconnect(panel.out, port));
+  WaitForStop("nothing is connected to " + port.path());
+}
+
+}  // namespace
+}  // namespace runnel::testing
