@@ -49,6 +49,7 @@ class Scopes {
  private:
   Scope* MakeScope(const std::string& name, Place place, bool is_module);
   [[nodiscard]] bool IsNameFree(const std::string& name, Place place, TypeKind kind);
+  Type* Name(Type& type, const std::string& name);
   [[nodiscard]] Type* Completed(TypeKind kind, Type* forward, Place place);
 
   Problems& problems_;

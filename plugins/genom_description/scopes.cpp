@@ -6,6 +6,7 @@ namespace runnel::genom {
 
 namespace {
 
+constexpr auto kOfModule = TypeKind::kInvalid;  // a module is opened again
 constexpr std::size_t kLongestGuess = 100;  // guessing what was meant is not cheap
 
 bool IsForwardOf(TypeKind forward, TypeKind kind) {
@@ -42,11 +43,14 @@ bool Scopes::IsNameFree(const std::string& name, Place place, TypeKind kind) {
     }
     return false;
   }
-  return true;
+  const auto child = current_->children.find(name);
+  if (child == current_->children.end() || kind == kOfModule) return true;
+  problems_.Add(place, "there is a module '" + name + "' already", problems_.DeclaredAt(child->second->place));
+  return false;
 }
 
 Scope* Scopes::EnterModule(const std::string& name, Place place) {
-  const bool is_free = IsNameFree(name, place, TypeKind::kInvalid);
+  const bool is_free = IsNameFree(name, place, kOfModule);
   const auto child = current_->children.find(name);
   if (is_free && child != current_->children.end()) return current_ = child->second;
   Scope* scope = MakeScope(is_free ? name : "&" + name, place, true);
@@ -55,12 +59,7 @@ Scope* Scopes::EnterModule(const std::string& name, Place place) {
 }
 
 Scope* Scopes::EnterMembers(const std::string& name, Place place, TypeKind kind) {
-  bool is_free = IsNameFree(name, place, kind);
-  if (const auto child = current_->children.find(name); is_free && child != current_->children.end()) {
-    problems_.Add(place, "there is a module '" + name + "' already", problems_.DeclaredAt(child->second->place));
-    is_free = false;
-  }
-  return current_ = MakeScope(is_free ? name : "&" + name, place, false);
+  return current_ = MakeScope(IsNameFree(name, place, kind) ? name : "&" + name, place, false);
 }
 
 Type* Scopes::Make(TypeKind kind, Place place, Type* of) {
@@ -94,25 +93,20 @@ Type* Scopes::Declare(TypeKind kind, const std::string& name, Place place) {
   if (const auto before = current_->types.find(name); before != current_->types.end()) {
     return Completed(kind, before->second, place);
   }
-  if (const auto child = current_->children.find(name); child != current_->children.end()) {
-    problems_.Add(place, "there is a module '" + name + "' already", problems_.DeclaredAt(child->second->place));
-    return nullptr;
-  }
-  Type* type = Make(kind, place);
-  type->name = name;
-  type->full_name = current_->full_name + "::" + name;
-  current_->types.emplace(name, type);
-  by_full_name_.emplace(type->full_name, type);
-  return type;
+  return Name(*Make(kind, place), name);
+}
+
+Type* Scopes::Name(Type& type, const std::string& name) {
+  type.name = name;
+  type.full_name = current_->full_name + "::" + name;
+  current_->types.emplace(name, &type);
+  by_full_name_.emplace(type.full_name, &type);
+  return &type;
 }
 
 void Scopes::DeclareInvalid(const std::string& name, Place place) {
   if (current_->types.contains(name) || current_->children.contains(name)) return;
-  Type* type = Make(TypeKind::kInvalid, place);
-  type->name = name;
-  type->full_name = current_->full_name + "::" + name;
-  current_->types.emplace(name, type);
-  by_full_name_.emplace(type->full_name, type);
+  (void)Name(*Make(TypeKind::kInvalid, place), name);
 }
 
 Type* Scopes::Find(std::string_view name) const {

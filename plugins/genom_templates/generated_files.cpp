@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/replace_file.h"
-#include "plugins/genom_templates/file_text.h"
+#include "plugins/genom_text/file_text.h"
 
 namespace runnel::genom {
 

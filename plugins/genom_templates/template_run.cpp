@@ -8,7 +8,7 @@
 #include <lua.hpp>
 #include <nlohmann/json.hpp>
 
-#include "plugins/genom_templates/file_text.h"
+#include "plugins/genom_text/file_text.h"
 
 namespace runnel::genom {
 

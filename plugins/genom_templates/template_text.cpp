@@ -5,6 +5,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/base/characters.h"
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
 
@@ -89,23 +90,6 @@ void JoinLonelyScripts(std::vector<Piece>& pieces) {
     }
     i = last;
   }
-}
-
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '\n') {
-      quoted += "\\n";
-    } else if (c == '\r') {
-      quoted += "\\r";
-    } else if (c == '\0') {
-      quoted += "\\0";
-    } else {
-      if (c == '"' || c == '\\') quoted += '\\';
-      quoted += c;
-    }
-  }
-  return quoted + "\"";
 }
 
 // A line of the template is a line of the program.

@@ -26,14 +26,9 @@ std::string Stringified(const Tokens& tokens) {
 
 // "a ## b": what the two make, cut anew.
 Tokens Pasted(const TextToken& left, const TextToken& right, Problems& problems) {
-  TextLexer lexer(left.text + right.text, left.place.file, problems);
-  Tokens pasted;
-  for (TextToken next = lexer.Next(true); next.kind != Kind::kEnd && next.kind != Kind::kNewline;
-       next = lexer.Next(true)) {
-    next.place = left.place;
-    if (pasted.empty()) next.has_space_before = left.has_space_before;
-    pasted.push_back(std::move(next));
-  }
+  Tokens pasted = TextLexer(left.text + right.text, left.place.file, problems).LineTokens();
+  for (TextToken& each : pasted) each.place = left.place;
+  if (!pasted.empty()) pasted.front().has_space_before = left.has_space_before;
   return pasted;
 }
 
@@ -92,13 +87,7 @@ void MacroTable::DefineByText(const std::string& text) {
   const std::string line = equals == std::string::npos
                                ? text + " 1"
                                : text.substr(0, equals) + " " + text.substr(equals + 1);
-  TextLexer lexer(line, -1, problems_);  // in no file
-  Tokens tokens;
-  for (TextToken next = lexer.Next(true); next.kind != Kind::kEnd && next.kind != Kind::kNewline;
-       next = lexer.Next(true)) {
-    tokens.push_back(std::move(next));
-  }
-  Define(tokens, {});
+  Define(TextLexer(line, -1, problems_).LineTokens(), {});  // in no file
 }
 
 void MacroTable::Define(const Tokens& line, Place place) {

@@ -2,22 +2,14 @@
 
 #include <charconv>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+
+#include "plugins/genom_text/file_text.h"
 
 namespace runnel::genom {
 
 namespace {
 
 using Kind = TextToken::Kind;
-
-std::optional<std::string> TextOf(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
 
 std::string FolderOf(const std::string& file) {
   return std::filesystem::path(file).parent_path().string();
@@ -108,20 +100,11 @@ void Preprocessor::Word(const TextToken& word) {
   for (TextToken& each : macros_.Expand(word, source)) Put(std::move(each));
 }
 
-std::vector<TextToken> Preprocessor::LineTokens() {
-  std::vector<TextToken> tokens;
-  for (TextToken next = lexer().Next(true); next.kind != Kind::kNewline && next.kind != Kind::kEnd;
-       next = lexer().Next(true)) {
-    tokens.push_back(std::move(next));
-  }
-  return tokens;
-}
-
 void Preprocessor::Directive(Place place) {
   const TextToken word = lexer().Next(true);
   if (word.kind == Kind::kNewline || word.kind == Kind::kEnd) return;  // "#" alone
   if (word.kind == Kind::kNumber) {                                    // "# 12 "file"", as other preprocessors write
-    std::vector<TextToken> line = LineTokens();
+    std::vector<TextToken> line = lexer().LineTokens();
     line.insert(line.begin(), word);
     Line(line, place);
     return;
@@ -136,7 +119,7 @@ void Preprocessor::Open(bool is_true, Place place) {
 
 bool Preprocessor::IsTrue(Place place) {
   std::vector<TextToken> tokens;
-  std::vector<TextToken> line = LineTokens();
+  std::vector<TextToken> line = lexer().LineTokens();
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (!line[i].Is(Kind::kWord, "defined")) {
       tokens.push_back(line[i]);
@@ -165,7 +148,7 @@ bool Preprocessor::TakesBranch(const std::string& word, Place place) {
   if (word == "elif" && is_taken) {
     is_taken = IsTrue(place);
   } else {
-    (void)LineTokens();
+    (void)lexer().LineTokens();
   }
   if (is_taken) condition.was_true = true;
   return is_taken;
@@ -202,7 +185,7 @@ bool Preprocessor::ConditionDirective(const std::string& word, Place place) {
     return true;
   }
   if (word == "ifdef" || word == "ifndef") {
-    const auto tokens = LineTokens();
+    const auto tokens = lexer().LineTokens();
     if (tokens.size() != 1 || tokens[0].kind != Kind::kWord) {
       problems_.Add(place, "#" + word + " needs the name of a macro, and nothing else");
     }
@@ -213,11 +196,11 @@ bool Preprocessor::ConditionDirective(const std::string& word, Place place) {
   if (word != "elif" && word != "else" && word != "endif") return false;
   if (conditions.empty()) {
     problems_.Add(place, "#" + word + " without #if");
-    (void)LineTokens();
+    (void)lexer().LineTokens();
     return true;
   }
   if (word == "endif") {
-    (void)LineTokens();
+    (void)lexer().LineTokens();
     conditions.pop_back();
   } else if (!TakesBranch(word, place)) {
     SkipBranch();
@@ -227,9 +210,9 @@ bool Preprocessor::ConditionDirective(const std::string& word, Place place) {
 
 void Preprocessor::OtherDirective(const std::string& word, Place place) {
   if (word == "define") {
-    macros_.Define(LineTokens(), place);
+    macros_.Define(lexer().LineTokens(), place);
   } else if (word == "undef") {
-    const auto tokens = LineTokens();
+    const auto tokens = lexer().LineTokens();
     if (tokens.size() == 1 && tokens[0].kind == Kind::kWord) {
       macros_.Undefine(tokens[0].text);
     } else {
@@ -240,14 +223,14 @@ void Preprocessor::OtherDirective(const std::string& word, Place place) {
   } else if (word == "pragma") {
     Pragma(place);
   } else if (word == "line") {
-    Line(LineTokens(), place);
+    Line(lexer().LineTokens(), place);
   } else if (word == "error") {
     GiveUp(place, "#error " + lexer().RestOfLine());
   } else if (word == "warning") {
     problems_.Warn(place, "#warning " + lexer().RestOfLine());
   } else {
     problems_.Warn(place, "nobody knows #" + word + ", it changes nothing");
-    (void)LineTokens();
+    (void)lexer().LineTokens();
   }
 }
 
@@ -269,12 +252,7 @@ void Preprocessor::Line(const std::vector<TextToken>& line_tokens, Place place) 
 void Preprocessor::Include(Place place) {
   std::string rest = lexer().RestOfLine();
   if (!rest.starts_with('"') && !rest.starts_with('<')) {  // a macro
-    TextLexer own(rest, place.file, problems_);
-    std::vector<TextToken> tokens;
-    for (TextToken next = own.Next(true); next.kind != Kind::kNewline && next.kind != Kind::kEnd;
-         next = own.Next(true)) {
-      tokens.push_back(std::move(next));
-    }
+    const std::vector<TextToken> tokens = TextLexer(rest, place.file, problems_).LineTokens();
     rest.clear();
     for (const TextToken& each : macros_.ExpandAll(tokens)) rest += each.text;
   }

@@ -72,6 +72,8 @@ class TextLexer {
   /// The next token; kNewline between lines, kEnd at the end and from then on.
   [[nodiscard]] TextToken Next(bool is_directive = false);
 
+  /// The tokens of the rest of a directive's line, and moves behind it.
+  [[nodiscard]] std::vector<TextToken> LineTokens();
   /// The rest of the line as text without comments, and moves behind it.
   [[nodiscard]] std::string RestOfLine();
 
@@ -170,7 +172,6 @@ class Preprocessor {
   void Word(const TextToken& word);
   void Put(TextToken token);
   void GiveUp(Place place, std::string message, std::string hint = {});
-  [[nodiscard]] std::vector<TextToken> LineTokens();
 
   PreprocessorOptions options_;
   Problems& problems_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "core/base/characters.h"
+
 namespace runnel::genom {
 
 namespace {
@@ -189,9 +191,15 @@ std::string TextLexer::RestOfLine() {
       rest += text_[position_++];
     }
   }
-  const std::size_t first = rest.find_first_not_of(" \t");
-  const std::size_t last = rest.find_last_not_of(" \t\r");
-  return first == std::string::npos ? "" : rest.substr(first, last - first + 1);
+  return std::string(Trimmed(rest));
+}
+
+std::vector<TextToken> TextLexer::LineTokens() {
+  std::vector<TextToken> tokens;
+  for (TextToken next = Next(true); next.kind != Kind::kNewline && next.kind != Kind::kEnd; next = Next(true)) {
+    tokens.push_back(std::move(next));
+  }
+  return tokens;
 }
 
 bool TextLexer::SkipToDirective() {
@@ -201,13 +209,7 @@ bool TextLexer::SkipToDirective() {
       ++position_;
       return true;
     }
-    while (!IsAtEnd() && At() != '\n') {
-      if (At() == '/' && (At(1) == '*' || At(1) == '/')) {
-        SkipBlanks();
-      } else {
-        ++position_;
-      }
-    }
+    (void)RestOfLine();
     ++position_;
   }
   position_ = text_.size();

@@ -1,4 +1,4 @@
-#include "plugins/inspector/element_json.h"
+#include "plugins/inspector/structure_mirror.h"
 
 #include <algorithm>
 #include <functional>

@@ -28,19 +28,11 @@ bool IsKnownName(const std::string& name) {
   return is_known;
 }
 
-// Without the words from the first with a * on: "gate" of "gate/*"; and of a path as many words as that has.
-std::string PlainBegin(const std::string& pattern) {
-  std::string begin;
-  for (const std::string& word : PartsOf(pattern)) {
-    if (word.find('*') != std::string::npos) break;
-    begin += (begin.empty() ? "" : "/") + word;
-  }
-  return begin;
-}
-std::string BeginOf(const std::string& path, std::size_t words) {
+// The first words of a path, at most so many, and none from the first with a * on: "gate" of "gate/*".
+std::string BeginOf(const std::string& path, std::size_t most) {
   std::string begin;
   for (const std::string& word : PartsOf(path)) {
-    if (words-- == 0) break;
+    if (most-- == 0 || word.find('*') != std::string::npos) break;
     begin += (begin.empty() ? "" : "/") + word;
   }
   return begin;
@@ -94,7 +86,7 @@ void CheckPatterns(const TagUse& use, const OfferOptions& offer) {
     const auto alone = PortPatterns::Make({pattern});
     const bool is_exclusion = pattern.starts_with('!');
     if (!alone || is_exclusion || std::ranges::any_of(paths, [&](const std::string& path) { return alone->Fit(path); })) continue;
-    const std::string begin = PlainBegin(pattern);
+    const std::string begin = BeginOf(pattern, pattern.size());
     std::vector<std::string> begins;
     for (const std::string& path : paths) begins.push_back(BeginOf(ShortPortPath(path), PartsOf(begin).size()));
     const std::string nearest = begin.empty() ? "" : NearestName(begin, begins);

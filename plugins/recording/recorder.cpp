@@ -38,6 +38,14 @@ bool Feeds(const Port& port, const FrameworkElement& below) {
                              [&](const Connection& each) { return each.to->IsAtOrBelow(below); });
 }
 
+std::vector<Port*> PortsWithin(FrameworkElement& element) {
+  std::vector<Port*> ports;
+  element.Visit([&](FrameworkElement& each) {
+    if (auto* const port = dynamic_cast<Port*>(&each)) ports.push_back(port);
+  });
+  return ports;
+}
+
 std::string NowText() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
@@ -104,9 +112,7 @@ Result<void> Recorder::Begin() {
     // One change: nobody publishes to some of the probes only.
     const ChangeScope changes(runtime_);
     element_ = std::make_unique<RecorderElement>(runtime_.root());
-    runtime_.root().Visit([this](FrameworkElement& element) {
-      if (auto* const port = dynamic_cast<Port*>(&element)) Follow(*port);
-    });
+    for (Port* const each : PortsWithin(runtime_.root())) Follow(*each);
     ShowWhereTheRobotIs();
     runtime_.AddListener(*this);
   }
@@ -120,16 +126,12 @@ Result<void> Recorder::Begin() {
 // A port that is named is meant; one that only fits a pattern is taken as it is.
 Result<void> Recorder::CheckNames() {
   std::vector<std::string> paths;
-  std::vector<const Port*> ports;
-  runtime_.root().Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr) return;
-    ports.push_back(port);
-    if (port->is_proxy() || port->direction() == Port::Direction::kOutput) {
-      paths.push_back(PlainPortPath(port->path()));
-      paths.push_back(TopicOf(*port));
-    }
-  });
+  const std::vector<Port*> ports = PortsWithin(runtime_.root());
+  for (const Port* const port : ports) {
+    if (!port->is_proxy() && port->direction() != Port::Direction::kOutput) continue;
+    paths.push_back(PlainPortPath(port->path()));
+    paths.push_back(TopicOf(*port));
+  }
   for (const std::string& name : patterns_.Names()) {
     const auto one = PortPatterns::Make({name});
     const auto meant =
@@ -293,11 +295,8 @@ void Recorder::NoteUse(const Port& port) {
 
 // The poses of the port that says it, as the transform that scans are drawn by.
 void Recorder::ShowWhereTheRobotIs() {
-  std::vector<const Port*> ports;
-  runtime_.root().Visit([&](FrameworkElement& element) {
-    if (const auto* const port = dynamic_cast<const Port*>(&element)) ports.push_back(port);
-  });
-  const Port* const pose = RobotPose(ports);
+  const std::vector<Port*> ports = PortsWithin(runtime_.root());
+  const Port* const pose = RobotPose({ports.begin(), ports.end()});
   if (pose == nullptr) return;
   const auto transform = TransformChannelFor(pose->type());
   for (const auto& each : All()) {
@@ -308,9 +307,7 @@ void Recorder::ShowWhereTheRobotIs() {
 void Recorder::OnReady(FrameworkElement& element) {
   if (has_failed_) return;
   try {
-    element.Visit([this](FrameworkElement& each) {
-      if (auto* const port = dynamic_cast<Port*>(&each)) Follow(*port);
-    });
+    for (Port* const each : PortsWithin(element)) Follow(*each);
   } catch (
       ...) {  // the recording would lack something; the change of the structure is none of its business
     NoteException();

@@ -94,7 +94,7 @@ std::uint64_t Recorder::WriteLog() {
   for (const LogMessage& message : said) {
     if (has_failed_) break;
     std::string json;
-    form.Append(&message, message.time, json);
+    form.append(&message, message.time, json);
     const std::uint64_t time = Nanoseconds(message.time);
     Note(writer_->AddMessage({*channel, ++written_messages_, time, time, json}));
   }
@@ -113,7 +113,7 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
         recorded.messages.resize(recorded.forms.size());
         for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
           recorded.messages[i].clear();
-          recorded.forms[i].Append(value, of.timestamp, recorded.messages[i]);
+          recorded.forms[i].append(value, of.timestamp, recorded.messages[i]);
         }
       } catch (...) {
         failure = std::current_exception();

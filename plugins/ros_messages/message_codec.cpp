@@ -262,25 +262,14 @@ Made MakeBound(const TypeInfo& type, const std::string& as, const MessageOptions
   const auto definition = library.Get(as);
   if (!definition) return definition.error();
   const MessageField whole{.name = {}, .type = MessageType::kNested, .nested = (*definition)->name};
-  if (internal::IsSame(whole, type, library)) {
+  const bool is_whole = options.field.empty();
+  if (is_whole && internal::IsSame(whole, type, library)) {
     return {std::make_shared<DescribedCodec>(type, **definition, library)};
   }
-  if ((*definition)->name == kGridMessage && CanBecomeGrid(type)) {
+  if (is_whole && (*definition)->name == kGridMessage && CanBecomeGrid(type)) {
     return {std::make_shared<GridCodec>(type, options, **definition, library)};
   }
-  auto binding = internal::Bind(**definition, type, options, library);
-  if (!binding) return binding.error();
-  return {std::make_shared<BoundCodec>(type, std::move(*binding), **definition, library)};
-}
-
-Made MakeField(const TypeInfo& type, const MessageOptions& options, const MessageLibrary& library) {
-  if (options.as.empty()) {
-    return Error{.message = "the field '" + options.field + "' is one of a message, and nobody says of which",
-                 .hint = "say it: as=\"sensor_msgs/msg/BatteryState\""};
-  }
-  const auto definition = library.Get(options.as);
-  if (!definition) return definition.error();
-  auto binding = internal::BindField(**definition, type, options, library);
+  auto binding = (is_whole ? internal::Bind : internal::BindField)(**definition, type, options, library);
   if (!binding) return binding.error();
   return {std::make_shared<BoundCodec>(type, std::move(*binding), **definition, library)};
 }
@@ -300,7 +289,11 @@ std::string DefaultMessageOf(const TypeInfo& type) {
 Made MessageCodec::Make(const TypeInfo& type, const MessageOptions& options,
                         const MessageLibrary& library) {
   if (auto checked = CheckCdr(type); !checked) return checked.error();
-  if (!options.field.empty()) return MakeField(type, options, library);
+  if (!options.field.empty()) {
+    if (!options.as.empty()) return MakeBound(type, options.as, options, library);
+    return Error{.message = "the field '" + options.field + "' is one of a message, and nobody says of which",
+                 .hint = "say it: as=\"sensor_msgs/msg/BatteryState\""};
+  }
   if (options.by_description) return MakeDescribed(type, library);
   if (!options.as.empty()) {
     const bool is_own = library.Find(options.as) == nullptr && options.as == MessageNameOf(type);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/nearest_name.h"
 #include "plugins/ros_messages/names.h"
 
 namespace runnel {
@@ -52,6 +53,14 @@ std::size_t SizeOf(MessageType type) {
   const auto* const found = std::ranges::find(kTypes, type, &TypeName::type);
   return found == std::end(kTypes) ? 0 : found->size;
 }
+
+std::optional<MessageType> FindMessageType(std::string_view name) {
+  if (name == "char") return MessageType::kUint8;
+  const auto* const found = std::ranges::find(kTypes, name, &TypeName::name);
+  return found == std::end(kTypes) ? std::nullopt : std::optional(found->type);
+}
+
+std::vector<std::string> MessageTypeNames() { return NamesOf(kTypes, &TypeName::name); }
 
 std::string TextOf(const MessageDefinition& definition) {
   const std::string package = PackageOf(definition.name);

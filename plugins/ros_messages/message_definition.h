@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,6 +74,9 @@ struct MessageDefinition {
 [[nodiscard]] std::string_view NameOf(MessageType type);
 /// How many octets a number has on the wire; 0 for nested ones and strings.
 [[nodiscard]] std::size_t SizeOf(MessageType type);
+/// The number or text of that name in .msg files; nothing if it is none.
+[[nodiscard]] std::optional<MessageType> FindMessageType(std::string_view name);
+[[nodiscard]] std::vector<std::string> MessageTypeNames();
 
 /// Reads the text of a .msg file. `name`: of the message. Whether nested messages exist is not looked at.
 /// Errors: what is wrong with which line of `file`, and the cure.

@@ -1,21 +1,15 @@
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "core/base/characters.h"
 #include "core/base/nearest_name.h"
+#include "core/base/number_text.h"
 #include "plugins/ros_messages/message_definition.h"
 #include "plugins/ros_messages/names.h"
 
 namespace runnel {
 
 namespace {
-
-constexpr MessageType kNumbersAndTexts[] = {
-    MessageType::kInt8,    MessageType::kUint8,   MessageType::kInt16, MessageType::kUint16,
-    MessageType::kInt32,   MessageType::kUint32,  MessageType::kInt64, MessageType::kUint64,
-    MessageType::kFloat32, MessageType::kFloat64, MessageType::kBool,  MessageType::kByte,
-    MessageType::kString,  MessageType::kWideString};
 
 // Up to a '#' that stands in no text.
 std::string_view WithoutComment(std::string_view line) {
@@ -33,19 +27,10 @@ std::string_view WithoutComment(std::string_view line) {
   return line;
 }
 
+// Above 0.
 std::optional<std::size_t> NumberOf(std::string_view text) {
-  std::size_t number = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || number == 0) return {};
-  return number;
-}
-
-std::optional<MessageType> FindPrimitive(std::string_view name) {
-  if (name == "char") return MessageType::kUint8;
-  for (const MessageType type : kNumbersAndTexts) {
-    if (NameOf(type) == name) return type;
-  }
-  return std::nullopt;
+  const auto number = NumberIn<std::size_t>(text);
+  return number && *number > 0 ? number : std::nullopt;
 }
 
 /// Reads one line after the other.
@@ -88,7 +73,7 @@ class MessageParser {
   }
 
   Result<void> AddConstant(std::string_view type, std::string_view name, std::string_view value) {
-    const bool is_good_type = FindPrimitive(type.substr(0, type.find('<'))).has_value();
+    const bool is_good_type = FindMessageType(type.substr(0, type.find('<'))).has_value();
     if (!is_good_type) return Wrong("a constant is a number, a bool or a string, no '" + std::string(type) + "'", "write 'uint8 ON=1'");
     if (value.empty()) return Wrong("the constant '" + std::string(name) + "' has no value", "write 'uint8 ON=1'");
     definition_.constants.push_back({std::string(type), std::string(name), std::string(value)});
@@ -133,7 +118,7 @@ class MessageParser {
   }
 
   Result<void> SetType(std::string_view type, MessageField& field) {
-    if (const auto primitive = FindPrimitive(type)) {
+    if (const auto primitive = FindMessageType(type)) {
       field.type = *primitive;
       return {};
     }
@@ -146,8 +131,7 @@ class MessageParser {
       if (name.starts_with("msg/")) name.remove_prefix(4);
     }
     if (!IsRosPackageName(package) || !IsRosMessageName(name)) {
-      std::vector<std::string> types = NamesOf(kNumbersAndTexts, [](MessageType each) { return std::string(NameOf(each)); });
-      return Wrong("there is no type '" + std::string(type) + "'", NearestNameHint(type, types));
+      return Wrong("there is no type '" + std::string(type) + "'", NearestNameHint(type, MessageTypeNames()));
     }
     field.type = MessageType::kNested;
     field.nested = package + "/msg/" + std::string(name);

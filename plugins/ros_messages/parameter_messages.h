@@ -90,20 +90,8 @@ struct RosSetResult {
   std::string reason;
 };
 
-// Requests and replies; rcl_interfaces/srv/GetParameters_Request and so on.
-/// Of describe_parameters, get_parameter_types, get_parameters.
-struct RosParameterNames {
-  std::vector<std::string> names;
-};
-struct RosParameterDescriptors {
-  std::vector<RosParameterDescriptor> descriptors;
-};
-struct RosParameterTypes {
-  std::vector<RosParameterType> types;
-};
-struct RosParameterValues {
-  std::vector<RosParameterValue> values;
-};
+// Requests and replies; rcl_interfaces/srv/ListParameters_Request and so on. Those that have one list alone are that list,
+// whose octets are the same: names, values, types, descriptors, parameters, results.
 struct RosListRequest {
   std::vector<std::string> prefixes;
   std::uint64_t depth = 0;  ///< 0: all
@@ -111,13 +99,6 @@ struct RosListRequest {
 struct RosListReply {
   std::vector<std::string> names;
   std::vector<std::string> prefixes;
-};
-/// Of set_parameters and set_parameters_atomically.
-struct RosSetRequest {
-  std::vector<RosParameter> parameters;
-};
-struct RosSetReply {
-  std::vector<RosSetResult> results;
 };
 /// rcl_interfaces/msg/ParameterEvent, of the topic /parameter_events.
 struct RosParameterEvent {
@@ -183,18 +164,6 @@ inline void Describe(TypeBuilder<RosSetResult>& type) {
       .Field("successful", &RosSetResult::successful)
       .Field("reason", &RosSetResult::reason);
 }
-inline void Describe(TypeBuilder<RosParameterNames>& type) {
-  type.Name("ros.ParameterNames").Field("names", &RosParameterNames::names);
-}
-inline void Describe(TypeBuilder<RosParameterDescriptors>& type) {
-  type.Name("ros.ParameterDescriptors").Field("descriptors", &RosParameterDescriptors::descriptors);
-}
-inline void Describe(TypeBuilder<RosParameterTypes>& type) {
-  type.Name("ros.ParameterTypes").Field("types", &RosParameterTypes::types);
-}
-inline void Describe(TypeBuilder<RosParameterValues>& type) {
-  type.Name("ros.ParameterValues").Field("values", &RosParameterValues::values);
-}
 inline void Describe(TypeBuilder<RosListRequest>& type) {
   type.Name("ros.ListParameters_Request")
       .Field("prefixes", &RosListRequest::prefixes)
@@ -204,12 +173,6 @@ inline void Describe(TypeBuilder<RosListReply>& type) {
   type.Name("ros.ListParametersResult")
       .Field("names", &RosListReply::names)
       .Field("prefixes", &RosListReply::prefixes);
-}
-inline void Describe(TypeBuilder<RosSetRequest>& type) {
-  type.Name("ros.SetParameters_Request").Field("parameters", &RosSetRequest::parameters);
-}
-inline void Describe(TypeBuilder<RosSetReply>& type) {
-  type.Name("ros.SetParameters_Response").Field("results", &RosSetReply::results);
 }
 inline void Describe(TypeBuilder<RosParameterEvent>& type) {
   type.Name("ros.ParameterEvent")

@@ -98,8 +98,8 @@ Result<std::unique_ptr<ParameterServices>> ParameterServices::Start(FrameworkEle
   const auto add = [&]<typename Request>(std::type_identity<Request>, const char* name, const char* type, const auto& answer) {
     if (done) done = self.Add<Request>(name, type, participant, answer);
   };
-  constexpr std::type_identity<RosParameterNames> kNames;
-  constexpr std::type_identity<RosSetRequest> kSet;
+  constexpr std::type_identity<Names> kNames;
+  constexpr std::type_identity<Wanted> kSet;
   add(kNames, "get_parameters", "GetParameters", [&self](const auto& request, Time) { return self.Get(request); });
   add(kNames, "get_parameter_types", "GetParameterTypes", [&self](const auto& request, Time) { return self.GetTypes(request); });
   add(kNames, "describe_parameters", "DescribeParameters", [&self](const auto& request, Time) { return self.DescribeAll(request); });
@@ -165,40 +165,40 @@ RosListReply ParameterServices::List(const RosListRequest& request) const {
 }
 
 template <typename Use>
-void ParameterServices::ForEach(const RosParameterNames& request, const Use& use) const {
+void ParameterServices::ForEach(const Names& names, const Use& use) const {
   const std::lock_guard lock(application_.runtime().structure_mutex());
   const Parameters all = FindAll();
-  for (const std::string& name : request.names) {
+  for (const std::string& name : names) {
     const auto found = all.find(name);
     use(name, found != all.end() ? found->second.parameter : nullptr);
   }
 }
 
-RosParameterValues ParameterServices::Get(const RosParameterNames& request) const {
-  RosParameterValues reply;
-  ForEach(request, [&](const std::string&, const Configurable* parameter) {
-    reply.values.push_back(parameter != nullptr ? ToRosParameter(parameter->type(), parameter->Value().get())
-                                                : RosParameterValue());
+std::vector<RosParameterValue> ParameterServices::Get(const Names& names) const {
+  std::vector<RosParameterValue> values;
+  ForEach(names, [&](const std::string&, const Configurable* parameter) {
+    values.push_back(parameter != nullptr ? ToRosParameter(parameter->type(), parameter->Value().get())
+                                          : RosParameterValue());
   });
-  return reply;
+  return values;
 }
 
-RosParameterTypes ParameterServices::GetTypes(const RosParameterNames& request) const {
-  RosParameterTypes reply;
-  for (const RosParameterValue& each : Get(request).values) reply.types.push_back(each.type);
-  return reply;
+std::vector<RosParameterType> ParameterServices::GetTypes(const Names& names) const {
+  std::vector<RosParameterType> types;
+  for (const RosParameterValue& each : Get(names)) types.push_back(each.type);
+  return types;
 }
 
-RosParameterDescriptors ParameterServices::DescribeAll(const RosParameterNames& request) const {
-  RosParameterDescriptors reply;
-  ForEach(request, [&](const std::string& name, const Configurable* parameter) {
+std::vector<RosParameterDescriptor> ParameterServices::DescribeAll(const Names& names) const {
+  std::vector<RosParameterDescriptor> descriptors;
+  ForEach(names, [&](const std::string& name, const Configurable* parameter) {
     RosParameterDescriptor descriptor;
     descriptor.name = name;
     if (parameter != nullptr) descriptor = DescribeRosParameter(name, *parameter);
     descriptor.read_only = descriptor.read_only || set_ == nullptr;
-    reply.descriptors.push_back(std::move(descriptor));
+    descriptors.push_back(std::move(descriptor));
   });
-  return reply;
+  return descriptors;
 }
 
 Result<ParameterChange> ParameterServices::Prepare(const RosParameter& wanted) const {
@@ -218,15 +218,15 @@ Result<ParameterChange> ParameterServices::Prepare(const RosParameter& wanted) c
   return ParameterChange{found->second.path, std::move(*text)};
 }
 
-RosSetReply ParameterServices::Set(const RosSetRequest& request, Time sent) const {
-  RosSetReply reply;
-  for (const RosParameter& each : request.parameters) reply.results.push_back(SetAtomically({.parameters = {each}}, sent));
-  return reply;
+std::vector<RosSetResult> ParameterServices::Set(const Wanted& wanted, Time sent) const {
+  std::vector<RosSetResult> results;
+  for (const RosParameter& each : wanted) results.push_back(SetAtomically({each}, sent));
+  return results;
 }
 
-RosSetResult ParameterServices::SetAtomically(const RosSetRequest& request, Time sent) const {
+RosSetResult ParameterServices::SetAtomically(const Wanted& wanted, Time sent) const {
   std::vector<ParameterChange> changes;
-  for (const RosParameter& each : request.parameters) {
+  for (const RosParameter& each : wanted) {
     auto change = Prepare(each);
     if (!change) return {.successful = false, .reason = Sentence(change.error())};
     changes.push_back(std::move(*change));

@@ -44,12 +44,14 @@ class ParameterServices {
 
   // What the services say; of threads that do not have the structure lock.
   [[nodiscard]] RosListReply List(const RosListRequest& request) const;
-  [[nodiscard]] RosParameterValues Get(const RosParameterNames& request) const;
-  [[nodiscard]] RosParameterTypes GetTypes(const RosParameterNames& request) const;
-  [[nodiscard]] RosParameterDescriptors DescribeAll(const RosParameterNames& request) const;
+  using Names = std::vector<std::string>;
+  [[nodiscard]] std::vector<RosParameterValue> Get(const Names& names) const;
+  [[nodiscard]] std::vector<RosParameterType> GetTypes(const Names& names) const;
+  [[nodiscard]] std::vector<RosParameterDescriptor> DescribeAll(const Names& names) const;
   // `sent`: ServiceMessage::sent.
-  [[nodiscard]] RosSetReply Set(const RosSetRequest& request, Time sent) const;
-  [[nodiscard]] RosSetResult SetAtomically(const RosSetRequest& request, Time sent) const;
+  using Wanted = std::vector<RosParameter>;
+  [[nodiscard]] std::vector<RosSetResult> Set(const Wanted& wanted, Time sent) const;
+  [[nodiscard]] RosSetResult SetAtomically(const Wanted& wanted, Time sent) const;
 
  private:
   struct Server;
@@ -65,7 +67,7 @@ class ParameterServices {
   // Under the structure lock.
   [[nodiscard]] Parameters FindAll() const;
   template <typename Use>
-  void ForEach(const RosParameterNames& request, const Use& use) const;
+  void ForEach(const Names& names, const Use& use) const;
   [[nodiscard]] Result<ParameterChange> Prepare(const RosParameter& wanted) const;
   void Run() noexcept;
   void TellChanges();

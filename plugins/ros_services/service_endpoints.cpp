@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include <fmt/ranges.h>
+
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/names.h"
@@ -17,15 +19,7 @@ namespace {
 std::string UserData(ServiceEndpoints::Side side, const WireId& participant, std::uint32_t identity) {
   WireId id = participant;
   std::memcpy(id.data() + id.size() - sizeof identity, &identity, sizeof identity);
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string text = side == ServiceEndpoints::Side::kServer ? "serviceid=" : "clientid=";
-  for (const std::uint8_t octet : id) {
-    text += kDigits[octet >> 4];
-    text += kDigits[octet & 15];
-    text += '.';
-  }
-  text.back() = ';';
-  return text;
+  return fmt::format("{}={:02x};", side == ServiceEndpoints::Side::kServer ? "serviceid" : "clientid", fmt::join(id, "."));
 }
 
 // What eight octets can have of sixteen.
@@ -41,23 +35,6 @@ constexpr std::size_t kIdSize = sizeof(std::uint64_t) + sizeof(CallId::number);
 constexpr std::size_t kMostClocks = 64;
 
 }  // namespace
-
-void ServiceInbox::Put(ServiceMessage message) {
-  const std::lock_guard lock(mutex_);
-  if (messages_.size() >= kMost) {
-    lost_.fetch_add(1, std::memory_order_relaxed);
-  } else {
-    messages_.push_back(std::move(message));
-  }
-}
-
-std::optional<ServiceMessage> ServiceInbox::Take() {
-  const std::lock_guard lock(mutex_);
-  if (messages_.empty()) return {};
-  std::optional<ServiceMessage> first = std::move(messages_.front());
-  messages_.pop_front();
-  return first;
-}
 
 Result<std::unique_ptr<ServiceEndpoints>> ServiceEndpoints::Start(Side side, const ServiceTopics& topics,
                                                                   WireParticipant& participant, std::uint32_t identity,
@@ -83,7 +60,7 @@ Result<std::unique_ptr<ServiceEndpoints>> ServiceEndpoints::Start(Side side, con
       [&self](const WireSample& sample) {
         auto message = self.Read(sample);
         if (!message) return;
-        self.inbox_.Put(std::move(*message));
+        self.Keep(std::move(*message));
         self.on_news_();
       },
       [&self](std::size_t count) {
@@ -123,35 +100,43 @@ bool ServiceEndpoints::IsForThis(const CallId& id) const noexcept {
   return id.client == client_ || (topics_.dialect == ServiceDialect::kBeside && id.client == writer_->id());
 }
 
-std::optional<ServiceMessage> ServiceEndpoints::Take() {
-  for (;;) {
-    auto message = inbox_.Take();
-    if (!message || side_ == Side::kServer || IsForThis(message->id)) return message;
+void ServiceEndpoints::Keep(ServiceMessage message) {
+  const std::lock_guard lock(mutex_);
+  if (messages_.size() >= kMostMessages) {
+    lost_.fetch_add(1, std::memory_order_relaxed);
+  } else {
+    messages_.push_back(std::move(message));
   }
+}
+
+std::optional<ServiceMessage> ServiceEndpoints::Take() {
+  const std::lock_guard lock(mutex_);
+  while (!messages_.empty()) {
+    ServiceMessage first = std::move(messages_.front());
+    messages_.pop_front();
+    if (side_ == Side::kServer || IsForThis(first.id)) return first;
+  }
+  return {};
+}
+
+Result<std::int64_t> ServiceEndpoints::Send(const CallId& id, std::span<const std::byte> message) {
+  const std::int64_t now = SinceEpoch().time_since_epoch().count();
+  if (topics_.dialect == ServiceDialect::kInFront) {
+    const auto sent = writer_->Write(std::make_shared<const Octets>(WithCallId(id, message)), now);
+    return sent ? Result<std::int64_t>(id.number) : sent.error();
+  }
+  const auto octets = std::make_shared<const Octets>(message.begin(), message.end());
+  const auto sent = writer_->WriteRelated(octets, now, {.writer = id.client, .number = id.number});
+  return sent ? Result<std::int64_t>(sent->number) : sent.error();
 }
 
 Result<std::int64_t> ServiceEndpoints::Request(std::span<const std::byte> message) {
-  const std::int64_t now = SinceEpoch().time_since_epoch().count();
-  if (topics_.dialect == ServiceDialect::kBeside) {
-    const auto octets = std::make_shared<const Octets>(message.begin(), message.end());
-    const auto written = writer_->WriteRelated(octets, now, {.writer = client_, .number = 0});
-    if (!written) return written.error();
-    return written->number;
-  }
-  const CallId id{client_, ++made_};
-  const auto written = writer_->Write(std::make_shared<const Octets>(WithCallId(id, message)), now);
-  if (!written) return written.error();
-  return id.number;
+  return Send({client_, topics_.dialect == ServiceDialect::kInFront ? ++made_ : 0}, message);
 }
 
 Result<void> ServiceEndpoints::Reply(const CallId& id, std::span<const std::byte> message) {
-  const std::int64_t now = SinceEpoch().time_since_epoch().count();
-  if (topics_.dialect == ServiceDialect::kInFront) {
-    return writer_->Write(std::make_shared<const Octets>(WithCallId(id, message)), now);
-  }
-  const auto octets = std::make_shared<const Octets>(message.begin(), message.end());
-  const auto written = writer_->WriteRelated(octets, now, {.writer = id.client, .number = id.number});
-  return written ? Result<void>() : written.error();
+  const auto sent = Send(id, message);
+  return sent ? Result<void>() : sent.error();
 }
 
 Octets WithCallId(const CallId& id, std::span<const std::byte> message) {

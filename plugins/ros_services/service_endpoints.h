@@ -56,23 +56,6 @@ struct ServiceTopics {
   friend bool operator==(const ServiceTopics&, const ServiceTopics&) = default;
 };
 
-/// What has come, until somebody takes it. Of more than 128 the newest are left out and counted.
-///
-/// Threads: any.
-class ServiceInbox {
- public:
-  static constexpr std::size_t kMost = 128;
-
-  void Put(ServiceMessage message);
-  [[nodiscard]] std::optional<ServiceMessage> Take();
-  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
-
- private:
-  std::mutex mutex_;
-  std::deque<ServiceMessage> messages_;
-  std::atomic<std::uint64_t> lost_{0};
-};
-
 /// Two endpoints of one service, of which one sends and the other takes.
 ///
 /// Ownership:  the participant must outlive it.
@@ -99,18 +82,24 @@ class ServiceEndpoints {
   }
   [[nodiscard]] const WireId& reader_id() const noexcept { return reader_->id(); }
   [[nodiscard]] const WireId& writer_id() const noexcept { return writer_->id(); }
-  [[nodiscard]] std::uint64_t lost() const noexcept { return inbox_.lost(); }
+  /// Of more than 128 that wait to be taken the newest are left out and counted.
+  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 
  private:
   ServiceEndpoints(Side side, ServiceTopics topics, std::function<void()> on_news)
       : side_(side), topics_(std::move(topics)), on_news_(std::move(on_news)) {}
   [[nodiscard]] std::optional<ServiceMessage> Read(const WireSample& sample);
   [[nodiscard]] bool IsForThis(const CallId& id) const noexcept;
+  void Keep(ServiceMessage message);
+  Result<std::int64_t> Send(const CallId& id, std::span<const std::byte> message);
 
+  static constexpr std::size_t kMostMessages = 128;
   const Side side_;
   const ServiceTopics topics_;
   const std::function<void()> on_news_;
-  ServiceInbox inbox_;
+  std::mutex mutex_;
+  std::deque<ServiceMessage> messages_;  // that have come, until somebody takes them; guarded by mutex_
+  std::atomic<std::uint64_t> lost_{0};
   std::map<std::uint64_t, WriterClock> clocks_;  // of those that write, by their handles; the engine's thread's own
   std::atomic<std::size_t> readers_{0};
   std::atomic<std::size_t> writers_{0};

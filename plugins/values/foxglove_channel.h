@@ -35,10 +35,6 @@ struct FoxgloveChannel {
   /// Appends the message for a value of the type, with the time it was measured.
   /// Threads: as for the value. Allocates what the message needs.
   std::function<void(const void* value, Time timestamp, std::string& json)> append;
-
-  void Append(const void* value, Time timestamp, std::string& json) const {
-    append(value, timestamp, json);
-  }
 };
 
 struct FoxgloveOptions {

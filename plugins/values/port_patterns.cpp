@@ -1,6 +1,7 @@
 #include "plugins/values/port_patterns.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 #include "core/element/element_path.h"
@@ -17,29 +18,25 @@ bool IsPortGroup(const std::string& name) {
   return std::ranges::count(kGroups, name) > 0;
 }
 
-// One part of a path, of whose pattern each * stands for any characters.
-bool FitsPart(std::string_view pattern, std::string_view part) {
-  if (pattern.empty()) return part.empty();
-  if (pattern.front() == '*') {
-    for (std::size_t skip = 0; skip <= part.size(); ++skip) {
-      if (FitsPart(pattern.substr(1), part.substr(skip))) return true;
-    }
-    return false;
+// Pieces, of whose pattern each `any` stands for any number of them; others fit by `fits`.
+template <typename Piece, typename Any, typename Fits>
+bool FitPieces(std::span<const Piece> pattern, std::span<const Piece> pieces, const Any& any, const Fits& fits) {
+  if (pattern.empty()) return pieces.empty();
+  if (pattern.front() != any) {
+    return !pieces.empty() && fits(pattern.front(), pieces.front()) &&
+           FitPieces(pattern.subspan(1), pieces.subspan(1), any, fits);
   }
-  return !part.empty() && pattern.front() == part.front() &&
-         FitsPart(pattern.substr(1), part.substr(1));
+  for (std::size_t skip = 0; skip <= pieces.size(); ++skip) {
+    if (FitPieces(pattern.subspan(1), pieces.subspan(skip), any, fits)) return true;
+  }
+  return false;
 }
 
+// A path of parts, which are characters.
 bool FitsParts(std::span<const std::string> pattern, std::span<const std::string> path) {
-  if (pattern.empty()) return path.empty();
-  if (pattern.front() == "**") {
-    for (std::size_t skip = 0; skip <= path.size(); ++skip) {
-      if (FitsParts(pattern.subspan(1), path.subspan(skip))) return true;
-    }
-    return false;
-  }
-  return !path.empty() && FitsPart(pattern.front(), path.front()) &&
-         FitsParts(pattern.subspan(1), path.subspan(1));
+  return FitPieces(pattern, path, "**", [](const std::string& a, const std::string& b) {
+    return FitPieces(std::span(a), std::span(b), '*', std::equal_to<char>());
+  });
 }
 
 // The path as it stands, and without its port group.

@@ -8,7 +8,7 @@ namespace runnel {
 
 namespace {
 
-constexpr int kMostLooks = 3;   // at a port that publishes meanwhile
+constexpr int kMostLooks = 3;   // at a port that publishes meanwhile: not for ever
 constexpr double kPeriods = 2;  // without a publication, and it publishes no more
 
 }  // namespace
@@ -41,9 +41,6 @@ double PublicationRate::Look(const Publications& publications, Time time) {
 }
 
 namespace {
-
-// A port that publishes during a look is looked at again, but not for ever.
-constexpr int kLooks = 3;
 
 std::uint64_t CountOf(const std::vector<const Port*>& ports) {
   std::uint64_t count = 0;
@@ -122,7 +119,7 @@ std::optional<std::uint64_t> WatchedPort::VisitIfNew(const Port::Visitor& look) 
   std::uint64_t count = CountOf(sources_);
   const std::int64_t bar = BarOf(stops_);
   if (shown_ == std::pair(count, bar)) return {};
-  for (int looks = kLooks; looks > 0; --looks) {
+  for (int looks = kMostLooks; looks > 0; --looks) {
     if (!Visit(sources_, stops_, *clock_, look)) return {};
     const std::uint64_t after = CountOf(sources_);
     if (after == count) break;

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <sstream>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <openssl/crypto.h>
 #include <sys/random.h>
 #include <sys/stat.h>
@@ -98,9 +98,7 @@ Result<std::string> MakeToken() {
     return Error{.message = "no token can be made: the system has no random numbers",
                  .hint = "give one"};
   }
-  std::string text;
-  for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
-  return text;
+  return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
 bool AreEqualSecrets(std::string_view a, std::string_view b) {

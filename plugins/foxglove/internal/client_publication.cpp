@@ -1,4 +1,4 @@
-#include "plugins/foxglove/internal/client_publication.h"
+#include "plugins/foxglove/internal/foxglove_session.h"
 
 #include <atomic>
 #include <mutex>

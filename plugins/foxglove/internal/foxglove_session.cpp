@@ -197,7 +197,7 @@ void FoxgloveSession::FollowStructure() {
     }
     for (const std::uint32_t id : gone) advertised_.erase(id);
     subscriptions_.Retain(*content);
-    if (!gone.empty()) send_queue_.Send(UnadvertiseMessageFor(gone));
+    if (!gone.empty()) send_queue_.Send(UnadvertiseMessageFor("unadvertise", "channelIds", gone));
     DropPublications(*content);
     calls_.Follow(*content, shared_->RoleOf(client_) >= RoleFor("call"));
     if (has_graph_ && content->graph != graph_) {

@@ -2,24 +2,129 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "plugins/foxglove/internal/client_publication.h"
+#include "core/port/port.h"
+#include "plugins/command_service/command_service.h"
+#include "plugins/foxglove/internal/client_message.h"
 #include "plugins/foxglove/internal/directory.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
 #include "plugins/foxglove/internal/parameter_handler.h"
 #include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"
-#include "plugins/foxglove/internal/subscriptions.h"
 #include "plugins/services/callable.h"
+#include "plugins/values/watched_port.h"
 #include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {
+
+/// The channel on which a client publishes into an input: an output beside the application, connected to
+/// the input for as long as this lives. Where something moves by it, the client drives it by hand instead, with a deadline:
+/// the safe value is there at once when this goes, and after a while if the client falls silent (HandSettings).
+///
+/// Threads:    the server's; making and removing the output are left to the worker, which may wait.
+/// Ownership:  what is shared outlives it, and sees to what it has left to do.
+class ClientPublication {
+ public:
+  /// `wake` has the session take a turn, from any thread.
+  ClientPublication(FoxgloveShared& shared, const DirectoryInput& input,
+                    std::function<void()> wake);
+  ~ClientPublication();
+  ClientPublication(const ClientPublication&) = delete;
+  ClientPublication& operator=(const ClientPublication&) = delete;
+
+  /// Publishes a value that is told in JSON as its channel would tell it; fields that are left out have
+  /// their usual values. One that comes before the output is there, or while the structure is locked,
+  /// waits, and only the last one does.
+  /// `received`: by the machine's clock. Errors: the JSON is none of the type; the input cannot be had (any more).
+  Result<void> Publish(std::string_view json, Time received);
+  [[nodiscard]] const DirectoryInput& input() const noexcept { return input_; }
+  /// What has come of making the output, once; nothing if that is not known yet, or all is well.
+  [[nodiscard]] std::optional<Error> TakeError();
+  /// Whether values can be published (which some may still not be good for).
+  [[nodiscard]] bool is_made() const noexcept { return is_made_; }
+  /// Publishes what has waited. Whether it is still to be called.
+  bool Continue();
+
+ private:
+  class Place;  // the output's, in the tree
+
+  static Result<void> Make(FoxgloveShared& shared, const DirectoryInput& input, const std::string& name);
+  Result<void> Drive(std::string_view json, Time received);
+  Result<void> PublishWaiting();
+  // Of what the client leaves out, the type's own value.
+  Result<void> Read(std::string_view json, void* value) const;
+
+  FoxgloveShared& shared_;
+  const DirectoryInput input_;
+  const TypeInfo& type_;
+  const std::function<void()> wake_;
+  const std::string place_;           // its name, below the root
+  std::shared_ptr<WorkerTask> task_;  // until it is done
+  bool is_made_ = false;
+  std::optional<std::string> waiting_;
+  RobotStop::AsOf as_of_;  // of what waits
+  std::optional<Error> error_;
+  // Of what drives: one hold, for as long as values come in time, and the newest of them while it is carried out.
+  std::string lease_;
+  Time heard_{};
+  std::unique_ptr<PendingCommand> driving_;
+  std::string usual_;  // the value that T{} has, as JSON
+};
+
+/// The channels that one client wants values of, and how it gets them: what is new, at most once each
+/// Sample(), and nothing but the STOP, each second, while much is waiting for a client that is slow.
+class Subscriptions {
+ public:
+  using SteadyTime = std::chrono::steady_clock::time_point;
+
+  Subscriptions(const ServedApplication& application, WebClient& client)
+      : application_(application), client_(client) {}
+
+  /// Returns what is wrong with it; the rest is done.
+  std::vector<Error> Add(const SubscribeMessage& message, const DirectoryContent& content);
+  std::vector<Error> Remove(const UnsubscribeMessage& message);
+  /// Lets go of those whose channels are gone.
+  void Retain(const DirectoryContent& content);
+
+  /// Sends what is new. False if the structure was locked: to be tried again soon.
+  bool Sample(SteadyTime now);
+  /// What has become of values whose types throw when they are written: nobody is subscribed to them any
+  /// more.
+  [[nodiscard]] std::vector<Error> TakeFailures() { return std::exchange(failures_, {}); }
+  [[nodiscard]] bool is_empty() const noexcept { return by_id_.empty(); }
+
+ private:
+  struct Subscription {
+    DirectoryChannel channel;
+    std::unique_ptr<WatchedPort> port;  // nullptr for the log and the STOP
+    bool is_found = false;
+    std::uint64_t next = 0;  // entry of the log, or change of the STOP
+    SteadyTime told_at{};    // of the STOP
+  };
+
+  [[nodiscard]] static Subscription To(const DirectoryChannel& channel);
+  void ShowStop(std::uint32_t id, Subscription& subscription, SteadyTime now);
+  void ShowLog(std::uint32_t id, Subscription& subscription);
+
+  // False if its type has thrown.
+  bool Show(std::uint32_t id, Subscription& subscription);
+
+  const ServedApplication& application_;
+  WebClient& client_;
+  std::map<std::uint32_t, Subscription> by_id_;
+  std::vector<Error> failures_;
+  std::uint64_t found_at_ = 0;  // the structure's revision when the ports were found
+  bool is_any_lost_ = true;     // not all ports have been found
+};
 
 /// What one client is told of services, and its calls that are under way; they are given up when it goes.
 ///

@@ -65,9 +65,9 @@ std::string AdvertiseMessageFor(std::span<const DirectoryChannel* const> channel
   });
 }
 
-std::string UnadvertiseMessageFor(std::span<const std::uint32_t> ids) {
+std::string UnadvertiseMessageFor(std::string_view op, std::string_view key, std::span<const std::uint32_t> ids) {
   return JsonObjectText([&](JsonObject& message) {
-    JsonArray list(message.Add("op", "unadvertise").Key("channelIds"));
+    JsonArray list(message.Add("op", op).Key(key));
     for (const std::uint32_t id : ids) AppendJsonNumber(id, list.Next());
   });
 }
@@ -90,13 +90,6 @@ std::string AdvertiseServicesMessage(std::span<const DirectoryService* const> se
       add("request", each->request_schema);
       add("response", each->reply_schema);
     }
-  });
-}
-
-std::string UnadvertiseServicesMessage(std::span<const std::uint32_t> ids) {
-  return JsonObjectText([&](JsonObject& message) {
-    JsonArray list(message.Add("op", "unadvertiseServices").Key("serviceIds"));
-    for (const std::uint32_t id : ids) AppendJsonNumber(id, list.Next());
   });
 }
 

@@ -19,9 +19,10 @@ enum class StatusLevel { kInformation = 0, kWarning = 1, kError = 2 };
 [[nodiscard]] std::string ServerInfoMessage(const FoxgloveShared& shared);
 [[nodiscard]] std::string StatusMessage(StatusLevel level, std::string_view text);
 [[nodiscard]] std::string AdvertiseMessageFor(std::span<const DirectoryChannel* const> channels);
-[[nodiscard]] std::string UnadvertiseMessageFor(std::span<const std::uint32_t> ids);
+/// `op` and `key`: "unadvertise", "channelIds"; "unadvertiseServices", "serviceIds".
+[[nodiscard]] std::string UnadvertiseMessageFor(std::string_view op, std::string_view key,
+                                                std::span<const std::uint32_t> ids);
 [[nodiscard]] std::string AdvertiseServicesMessage(std::span<const DirectoryService* const> services);
-[[nodiscard]] std::string UnadvertiseServicesMessage(std::span<const std::uint32_t> ids);
 [[nodiscard]] std::string ServiceFailureMessage(std::uint32_t service, std::uint32_t call,
                                                 std::string_view why);
 /// Binary.

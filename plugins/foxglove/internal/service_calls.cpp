@@ -36,7 +36,7 @@ void ServiceCalls::Follow(const DirectoryContent& content, bool may_call) {
     if (!may_call && service.path != kStopName) continue;
     if (advertised_.try_emplace(id, service.path).second) fresh.push_back(&service);
   }
-  if (!gone.empty()) send_queue_.Send(UnadvertiseServicesMessage(gone));
+  if (!gone.empty()) send_queue_.Send(UnadvertiseMessageFor("unadvertiseServices", "serviceIds", gone));
   if (!fresh.empty()) send_queue_.Send(AdvertiseServicesMessage(fresh));
 }
 
@@ -120,7 +120,7 @@ void ServiceCalls::SendReply(const Pending& pending) {
   if (pending.reply != nullptr) {
     const auto forms = ChannelsFor(*pending.reply, "");
     json.clear();
-    if (!forms.empty()) forms.front().Append(pending.begun->reply(), Time(), json);
+    if (!forms.empty()) forms.front().append(pending.begun->reply(), Time(), json);
   }
   if (!client_.SendBinary(ServiceReplyMessage(pending.service, pending.call, json))) {
     Fail(pending, {.message = "the reply was lost, as too much waits for this viewer"});

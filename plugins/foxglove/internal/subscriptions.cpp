@@ -1,4 +1,4 @@
-#include "plugins/foxglove/internal/subscriptions.h"
+#include "plugins/foxglove/internal/foxglove_session.h"
 
 #include <algorithm>
 #include <chrono>
@@ -105,7 +105,7 @@ void Subscriptions::ShowStop(std::uint32_t id, Subscription& subscription, Stead
   if (subscription.next > state.requests && now < subscription.told_at + kBetweenStops) return;
   std::string bytes;
   AppendMessageHead(id, application_.runtime.clock().Now(), bytes);
-  subscription.channel.encoding->Append(&state, state.since, bytes);
+  subscription.channel.encoding->append(&state, state.since, bytes);
   if (!client_.SendBinary(std::move(bytes))) return;
   subscription.next = state.requests + 1;
   subscription.told_at = now;
@@ -121,7 +121,7 @@ void Subscriptions::ShowLog(std::uint32_t id, Subscription& subscription) {
     const LogMessage message = log.MessageOf(entry);
     std::string bytes;
     AppendMessageHead(id, message.time, bytes);
-    subscription.channel.encoding->Append(&message, message.time, bytes);
+    subscription.channel.encoding->append(&message, message.time, bytes);
     if (!client_.SendBinary(std::move(bytes))) return;
     ++next;
   }
@@ -135,7 +135,7 @@ bool Subscriptions::Show(std::uint32_t id, Subscription& subscription) {
                  ->VisitIfNew([&](const void* value, ValueTimes times) {
                    bytes.clear();
                    AppendMessageHead(id, times.publication_time, bytes);
-                   subscription.channel.encoding->Append(value, times.timestamp, bytes);
+                   subscription.channel.encoding->append(value, times.timestamp, bytes);
                  })
                  .has_value();
   } catch (...) {

@@ -1,4 +1,4 @@
-#include "plugins/inspector/internal/call_request.h"
+#include "plugins/inspector/internal/requests.h"
 
 #include <chrono>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "plugins/inspector/internal/catalogue.h"
+#include "plugins/inspector/internal/inspection.h"
 
 #include <algorithm>
 #include <array>

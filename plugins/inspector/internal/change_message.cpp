@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -45,14 +44,6 @@ std::vector<Setting> SettingsIn(JsonMembers& members) {
   return settings;
 }
 
-Change ReadCreate(JsonMembers& m) {
-  return CreateModule{m.NeedText("path"), m.NeedText("type"), SettingsIn(m)};
-}
-Change ReadCreateGroup(JsonMembers& m) { return CreateGroup{m.NeedText("path")}; }
-Change ReadCreatePort(JsonMembers& m) {
-  return CreatePort{m.NeedText("path"), OneOf<Port::Direction>(m, "direction", DirectionNames()),
-                    m.NeedText("type"), m.Text("description").value_or("")};
-}
 // Texts, of which there must be some.
 std::vector<std::string> NeedTexts(JsonMembers& m, const std::string& name) {
   std::vector<std::string> texts;
@@ -63,11 +54,7 @@ std::vector<std::string> NeedTexts(JsonMembers& m, const std::string& name) {
   }
   return texts;
 }
-Change ReadCreateParameter(JsonMembers& m) {
-  return CreateParameter{m.NeedText("path"), NeedTexts(m, "targets"),
-                         m.Text("description").value_or("")};
-}
-Change ReadDelete(JsonMembers& m) { return DeleteElement{m.NeedText("path")}; }
+
 Change ReadConnect(JsonMembers& m) {
   return ConnectPorts{m.NeedText("from"),
                       m.NeedText("to"),
@@ -78,18 +65,11 @@ Change ReadConnect(JsonMembers& m) {
                        .late = m.Flag("late").value_or(false),
                        .convert = m.Text("convert").value_or("")}};
 }
-Change ReadDisconnect(JsonMembers& m) {
-  return DisconnectPorts{m.NeedText("from"), m.NeedText("to")};
-}
-Change ReadSet(JsonMembers& m) { return SetParameter{m.NeedText("path"), m.NeedText("value")}; }
 Change ReadReplace(JsonMembers& m) {
   ReplaceModule change{m.NeedText("path"), m.NeedText("type"), SettingsIn(m)};
   change.probation_cycles = m.Count("probation", kLargestCount).value_or(change.probation_cycles);
   return change;
 }
-Change ReadMove(JsonMembers& m) { return AssignToThread{m.NeedText("path"), m.NeedText("thread")}; }
-Change ReadRename(JsonMembers& m) { return RenameElement{m.NeedText("path"), m.NeedText("name")}; }
-Change ReadTag(JsonMembers& m) { return TagElement{m.NeedText("path"), TagsInText(m.NeedText("tags"))}; }
 Change ReadLog(JsonMembers& m) {
   std::vector<std::string> levels(LogLevelNames().begin(), LogLevelNames().end());
   levels.emplace_back("inherit");
@@ -99,11 +79,6 @@ Change ReadLog(JsonMembers& m) {
   if (static_cast<std::size_t>(level) + 1 < levels.size()) change.level = level;
   return change;
 }
-Change ReadCopy(JsonMembers& m) { return CopyElement{m.NeedText("path"), m.Text("name").value_or("")}; }
-
-// Of the network.
-Change ReadOffer(JsonMembers& m) { return ExtensionChange{"offer", NeedTexts(m, "words"), SettingsIn(m)}; }
-Change ReadTake(JsonMembers& m) { return ExtensionChange{"take", NeedTexts(m, "words"), SettingsIn(m)}; }
 
 // In seconds.
 std::optional<Duration> PeriodIn(JsonMembers& m) {
@@ -132,26 +107,34 @@ Change ReadSchedule(JsonMembers& m) {
 
 struct Kind {
   std::string_view name;
-  Change (*read)(JsonMembers& members);
+  Change (*read)(JsonMembers& m);
 };
-constexpr std::array<Kind, 18> kKinds{{{"create", ReadCreate},
-                                       {"create_group", ReadCreateGroup},
-                                       {"create_port", ReadCreatePort},
-                                       {"create_parameter", ReadCreateParameter},
-                                       {"delete", ReadDelete},
-                                       {"connect", ReadConnect},
-                                       {"disconnect", ReadDisconnect},
-                                       {"set", ReadSet},
-                                       {"replace", ReadReplace},
-                                       {"move", ReadMove},
-                                       {"rename", ReadRename},
-                                       {"tag", ReadTag},
-                                       {"log", ReadLog},
-                                       {"copy", ReadCopy},
-                                       {"offer", ReadOffer},
-                                       {"take", ReadTake},
-                                       {"create_thread", ReadCreateThread},
-                                       {"schedule", ReadSchedule}}};
+constexpr Kind kKinds[] = {
+    {"create", [](JsonMembers& m) -> Change { return CreateModule{m.NeedText("path"), m.NeedText("type"), SettingsIn(m)}; }},
+    {"create_group", [](JsonMembers& m) -> Change { return CreateGroup{m.NeedText("path")}; }},
+    {"create_port",
+     [](JsonMembers& m) -> Change {
+       return CreatePort{m.NeedText("path"), OneOf<Port::Direction>(m, "direction", DirectionNames()),
+                         m.NeedText("type"), m.Text("description").value_or("")};
+     }},
+    {"create_parameter",
+     [](JsonMembers& m) -> Change {
+       return CreateParameter{m.NeedText("path"), NeedTexts(m, "targets"), m.Text("description").value_or("")};
+     }},
+    {"delete", [](JsonMembers& m) -> Change { return DeleteElement{m.NeedText("path")}; }},
+    {"connect", ReadConnect},
+    {"disconnect", [](JsonMembers& m) -> Change { return DisconnectPorts{m.NeedText("from"), m.NeedText("to")}; }},
+    {"set", [](JsonMembers& m) -> Change { return SetParameter{m.NeedText("path"), m.NeedText("value")}; }},
+    {"replace", ReadReplace},
+    {"move", [](JsonMembers& m) -> Change { return AssignToThread{m.NeedText("path"), m.NeedText("thread")}; }},
+    {"rename", [](JsonMembers& m) -> Change { return RenameElement{m.NeedText("path"), m.NeedText("name")}; }},
+    {"tag", [](JsonMembers& m) -> Change { return TagElement{m.NeedText("path"), TagsInText(m.NeedText("tags"))}; }},
+    {"log", ReadLog},
+    {"copy", [](JsonMembers& m) -> Change { return CopyElement{m.NeedText("path"), m.Text("name").value_or("")}; }},
+    {"offer", [](JsonMembers& m) -> Change { return ExtensionChange{"offer", NeedTexts(m, "words"), SettingsIn(m)}; }},
+    {"take", [](JsonMembers& m) -> Change { return ExtensionChange{"take", NeedTexts(m, "words"), SettingsIn(m)}; }},
+    {"create_thread", ReadCreateThread},
+    {"schedule", ReadSchedule}};
 
 }  // namespace
 
@@ -161,8 +144,8 @@ Result<Change> ParseChange(const JsonPart& json) {
   const JsonPart* const named = members.Find("change");
   const auto name = named != nullptr ? named->text() : std::nullopt;
   if (!name) return Error{.message = "\"change\" must be a text that says what to do"};
-  const auto kind = std::ranges::find(kKinds, *name, &Kind::name);
-  if (kind == kKinds.end()) {
+  const Kind* const kind = std::ranges::find(kKinds, *name, &Kind::name);
+  if (kind == std::end(kKinds)) {
     return Error{.message = "there is no change '" + *name + "'",
                  .hint = NearestNameHint(*name, NamesOf(kKinds, &Kind::name))};
   }

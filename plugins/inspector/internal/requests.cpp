@@ -8,7 +8,6 @@
 
 #include "plugins/command_service/request_table.h"
 #include "plugins/command_service/save_place.h"
-#include "plugins/inspector/internal/call_request.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {

@@ -10,6 +10,13 @@ constexpr int kDeepest = 4;
 // Whole numbers that every JSON reader gets right.
 constexpr std::uint64_t kLargestWhole = 9007199254740992;
 
+using Text = std::pair<const char*, std::string ViewerMessage::*>;
+constexpr Text kTexts[] = {
+    {"op", &ViewerMessage::op},         {"path", &ViewerMessage::path},   {"label", &ViewerMessage::label},
+    {"file", &ViewerMessage::file},     {"what", &ViewerMessage::what},   {"plugin", &ViewerMessage::plugin},
+    {"level", &ViewerMessage::level},   {"from", &ViewerMessage::from},   {"to", &ViewerMessage::to},
+    {"value", &ViewerMessage::value},   {"lease", &ViewerMessage::lease}};
+
 void ReadChanges(const std::vector<JsonPart>& changes, ViewerMessage& message) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
     auto change = ParseChange(changes[i]);
@@ -32,29 +39,19 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text,
   JsonMembers members(*json);
   message.request = members.Count("request", kLargestWhole);
   if (number != nullptr) *number = message.request;
-  message.op = members.Text("op").value_or("");
-  message.path = members.Text("path").value_or("");
-  message.label = members.Text("label").value_or("");
+  for (const auto& [name, member] : kTexts) message.*member = members.Text(name).value_or("");
   if (const auto changes = members.List("changes")) ReadChanges(*changes, message);
   if (const JsonPart* const entries = members.Find("entries")) {
     for (const auto& [name, value] : entries->members()) message.entries[name] = value.text().value_or("");
   }
-  message.file = members.Text("file").value_or("");
-  message.what = members.Text("what").value_or("");
-  message.plugin = members.Text("plugin").value_or("");
-  message.level = members.Text("level").value_or("");
-  message.from = members.Text("from").value_or("");
-  message.to = members.Text("to").value_or("");
   message.wants_image = members.Text("as").value_or("") == "image";
   message.is_on = members.Flag("on").value_or(message.is_on);
   message.overwrites = members.Flag("overwrite").value_or(message.overwrites);
   message.may_end_application = members.Flag("yes").value_or(message.may_end_application);
   if (members.Find("stop") != nullptr)
     members.Complain("\"stop\" is an operation of its own: of one port 'block'");
-  message.value = members.Text("value").value_or("");
   message.rate = members.Number("rate");
   message.deadline = members.Number("deadline");
-  message.lease = members.Text("lease").value_or("");
   if (const auto at = members.Number("at")) message.at = Time(FromSeconds(std::clamp(*at, 0.0, 9e9)));
   message.speed = members.Number("speed");
   message.elements = members.Count("elements", kLargestWhole).value_or(message.elements);

@@ -5,28 +5,17 @@
 
 namespace runnel::internal {
 
-namespace {
-
-std::unordered_map<std::string_view, WebResource> ByPath(
-    const std::vector<WebResource>& resources) {
-  std::unordered_map<std::string_view, WebResource> by_path;
-  for (const WebResource& each : resources) by_path.emplace(each.path, each);
-  return by_path;
-}
-
-}  // namespace
-
 ConnectionRegistry::ConnectionRegistry(WebServerOptions options, AccessRules rules,
                                        const std::vector<WebResource>& resources,
                                        std::vector<WebProtocol> protocols)
     : options_(std::move(options)),
       rules_(std::move(rules)),
-      resources_(ByPath(resources)),
+      resources_(resources),
       protocols_(std::move(protocols)) {}
 
 const WebResource* ConnectionRegistry::FindResource(std::string_view path) const {
-  const auto found = resources_.find(path);
-  return found == resources_.end() ? nullptr : &found->second;
+  const auto found = std::ranges::find(resources_, path, &WebResource::path);
+  return found == resources_.end() ? nullptr : &*found;
 }
 
 const WebProtocol* ConnectionRegistry::FindProtocol(std::string_view name) const {

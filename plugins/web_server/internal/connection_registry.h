@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -85,7 +84,7 @@ class ConnectionRegistry {
   boost::asio::io_context context_{1};
   const WebServerOptions options_;
   const AccessRules rules_;
-  const std::unordered_map<std::string_view, WebResource> resources_;
+  const std::vector<WebResource> resources_;
   const std::vector<WebProtocol> protocols_;
   std::unordered_set<std::shared_ptr<WebConnection>> connections_;
   std::atomic<std::size_t> sessions_{0};

@@ -100,31 +100,29 @@ class HttpConnection final : public WebConnection,
     WebRequest asked = RequestOf(request_);
     asked.user = user_;
     if (const auto refusal = registry_.rules().Check(asked)) return Refuse(*refusal);
-    if (beast::websocket::is_upgrade(request_)) return Upgrade();
+    if (beast::websocket::is_upgrade(request_)) return ForAdmitted(&HttpConnection::Upgrade);
     if (request_.method() != http::verb::get && request_.method() != http::verb::head) {
       return Refuse(http::status::method_not_allowed, "this server only answers GET and HEAD");
     }
-    if (PathOf(View(request_.target())) == kAccessPath) return TellAccess();
+    if (PathOf(View(request_.target())) == kAccessPath) return ForAdmitted(&HttpConnection::TellAccess);
     const WebResource* const resource = registry_.FindResource(PathOf(View(request_.target())));
     if (resource == nullptr) return Refuse(http::status::not_found, "there is no such page");
     Send(http::status::ok, resource->content_type, resource->content, request_.keep_alive());
   }
 
-  void TellAccess() {
-    const auto access = registry_.rules().Admit(RequestOf(request_));
-    if (const auto* const refusal = std::get_if<AccessRules::Refusal>(&access)) {
-      return Refuse(*refusal);
-    }
-    text_ = WebRoleName(std::get<WebRole>(access));
+  void TellAccess(WebRole role) {
+    text_ = WebRoleName(role);
     Send(http::status::ok, "text/plain; charset=utf-8", text_, request_.keep_alive());
   }
 
-  void Upgrade() {
+  // Hands what is asked for to `serve`, if its sender may have it.
+  void ForAdmitted(void (HttpConnection::*serve)(WebRole role)) {
     const auto access = registry_.rules().Admit(RequestOf(request_));
-    if (const auto* const refusal = std::get_if<AccessRules::Refusal>(&access)) {
-      return Refuse(*refusal);
-    }
-    const WebRole role = std::get<WebRole>(access);
+    if (const auto* const refusal = std::get_if<AccessRules::Refusal>(&access)) return Refuse(*refusal);
+    (this->*serve)(std::get<WebRole>(access));
+  }
+
+  void Upgrade(WebRole role) {
     const auto offered = View(request_[http::field::sec_websocket_protocol]);
     for (const auto& each : http::token_list(request_[http::field::sec_websocket_protocol])) {
       const WebProtocol* const protocol = registry_.FindProtocol(View(each));

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/genom_templates/file_text.h"
+#include "plugins/genom_text/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::genom {

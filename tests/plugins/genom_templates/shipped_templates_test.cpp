@@ -7,7 +7,7 @@
 
 #include "core/xml/xml_document.h"
 #include "plugins/genom_description/description.h"
-#include "plugins/genom_templates/file_text.h"
+#include "plugins/genom_text/file_text.h"
 #include "plugins/genom_templates/template_run.h"
 #include "tests/support/temporary_folder.h"
 

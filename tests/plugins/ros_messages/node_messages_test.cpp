@@ -42,16 +42,16 @@ TEST(NodeMessages, AreThoseOfRos2) {
   CheckSameAs<RosParameter>("rcl_interfaces/msg/Parameter");
   CheckSameAs<RosParameterDescriptor>("rcl_interfaces/msg/ParameterDescriptor");
   CheckSameAs<RosParameterEvent>("rcl_interfaces/msg/ParameterEvent");
-  CheckSameAs<RosParameterNames>("rcl_interfaces/srv/GetParameters_Request");
-  CheckSameAs<RosParameterNames>("rcl_interfaces/srv/GetParameterTypes_Request");
-  CheckSameAs<RosParameterNames>("rcl_interfaces/srv/DescribeParameters_Request");
-  CheckSameAs<RosParameterValues>("rcl_interfaces/srv/GetParameters_Response");
-  CheckSameAs<RosParameterTypes>("rcl_interfaces/srv/GetParameterTypes_Response");
-  CheckSameAs<RosParameterDescriptors>("rcl_interfaces/srv/DescribeParameters_Response");
+  CheckSameAs<std::vector<std::string>>("rcl_interfaces/srv/GetParameters_Request");
+  CheckSameAs<std::vector<std::string>>("rcl_interfaces/srv/GetParameterTypes_Request");
+  CheckSameAs<std::vector<std::string>>("rcl_interfaces/srv/DescribeParameters_Request");
+  CheckSameAs<std::vector<RosParameterValue>>("rcl_interfaces/srv/GetParameters_Response");
+  CheckSameAs<std::vector<RosParameterType>>("rcl_interfaces/srv/GetParameterTypes_Response");
+  CheckSameAs<std::vector<RosParameterDescriptor>>("rcl_interfaces/srv/DescribeParameters_Response");
   CheckSameAs<RosListRequest>("rcl_interfaces/srv/ListParameters_Request");
   CheckSameAs<RosListReply>("rcl_interfaces/msg/ListParametersResult");
-  CheckSameAs<RosSetRequest>("rcl_interfaces/srv/SetParameters_Request");
-  CheckSameAs<RosSetReply>("rcl_interfaces/srv/SetParameters_Response");
+  CheckSameAs<std::vector<RosParameter>>("rcl_interfaces/srv/SetParameters_Request");
+  CheckSameAs<std::vector<RosSetResult>>("rcl_interfaces/srv/SetParameters_Response");
   CheckSameAs<RosSetResult>("rcl_interfaces/msg/SetParametersResult");
 }
 

@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include "core/element/runtime.h"
 #include "core/log/logger.h"
+#include "core/module/group.h"
 #include "core/module/module.h"
 #include "plugins/parameters/parameter.h"
 #include "tests/support/fake_wire.h"
@@ -47,7 +49,7 @@ TEST(ParameterServicesTest, WhatWasSentBeforeAStopIsNotSetAfterIt) {
   RosParameterValue value;
   value.type = RosParameterType::kDouble;
   value.double_value = 2;
-  const RosSetRequest request{{{"planner.speed", value}}};
+  const std::vector<RosParameter> request{{"planner.speed", value}};
   const Time before = SteadyClock().Now();
   EXPECT_TRUE(services->SetAtomically(request, before).successful);
   EXPECT_EQ(sets, 1);
@@ -56,9 +58,9 @@ TEST(ParameterServicesTest, WhatWasSentBeforeAStopIsNotSetAfterIt) {
   const RosSetResult late = services->SetAtomically(request, before);
   EXPECT_FALSE(late.successful);
   EXPECT_THAT(late.reason, HasSubstr("STOP was pressed or released after this was asked for"));
-  EXPECT_THAT(services->Set(request, before).results, testing::ElementsAre(testing::Field(&RosSetResult::successful, false)));
+  EXPECT_THAT(services->Set(request, before), testing::ElementsAre(testing::Field(&RosSetResult::successful, false)));
   EXPECT_EQ(sets, 1);
-  EXPECT_TRUE(services->Set(request, SteadyClock().Now()).results.front().successful);
+  EXPECT_TRUE(services->Set(request, SteadyClock().Now()).front().successful);
   EXPECT_EQ(sets, 2);
 }
 

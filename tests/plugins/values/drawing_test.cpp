@@ -30,7 +30,7 @@ std::string Scene(const Drawing& drawing) {
   EXPECT_THAT(channels, SizeIs(2));
   EXPECT_EQ(channels[1].schema_name, "foxglove.SceneUpdate");
   std::string json;
-  channels[1].Append(&drawing, Time{}, json);
+  channels[1].append(&drawing, Time{}, json);
   return json;
 }
 

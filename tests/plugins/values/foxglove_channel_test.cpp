@@ -63,7 +63,7 @@ std::vector<std::string> Topics() {
 template <typename T>
 std::string MessageOf(const FoxgloveChannel& channel, const T& value) {
   std::string json;
-  channel.Append(&value, kStamp, json);
+  channel.append(&value, kStamp, json);
   return json;
 }
 
@@ -231,7 +231,7 @@ TEST(FoxgloveDrawings, OfAMapLeaveOpenWhatHasHoles) {
 TEST(FoxgloveDrawings, HaveNoTimeBeforeTheBegin) {
   std::string json;
   const Pose2 pose;
-  ChannelsFor(TypeOf<Pose2>(), "/a").at(1).Append(&pose, Time(Duration(-5)), json);
+  ChannelsFor(TypeOf<Pose2>(), "/a").at(1).append(&pose, Time(Duration(-5)), json);
   EXPECT_EQ(Json::parse(json)["timestamp"], (Json{{"sec", 0}, {"nsec", 0}}));
 }
 
