@@ -7,16 +7,11 @@ namespace runnel::arena {
 std::vector<std::size_t> BoundariesMet(const Course& course, const std::vector<Point2>& hits) {
   std::vector<std::size_t> met;
   for (const Point2 hit : hits) {
-    std::size_t nearest = course.boundaries.size();
-    double least = 0.0;
-    for (std::size_t i = 0; i < course.boundaries.size(); ++i) {
-      const double distance = DistanceTo(course.boundaries[i], hit);
-      if (nearest < course.boundaries.size() && distance >= least) continue;
-      nearest = i;
-      least = distance;
-    }
+    const auto away = [hit](const BoundaryLoop& loop) { return DistanceTo(loop, hit); };
+    const auto found = std::ranges::min_element(course.boundaries, {}, away);
+    const auto nearest = static_cast<std::size_t>(found - course.boundaries.begin());
     const bool is_new = std::ranges::find(met, nearest) == met.end();
-    if (nearest < course.boundaries.size() && is_new) met.push_back(nearest);
+    if (found != course.boundaries.end() && is_new) met.push_back(nearest);
   }
   return met;
 }

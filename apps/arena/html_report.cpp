@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "apps/arena/application_text.h"
 #include "core/base/characters.h"
@@ -100,16 +104,14 @@ std::string RunDrawing(const std::string& world_id, const RunRecord& record, con
          "\" width=\"" + Fixed(size.x, 3) + "\" height=\"" + Fixed(size.y, 3) + "\"/>" + svg.Close();
 }
 
-struct Column {
-  const char* title;
-  bool is_number;
-};
-
-std::string Table(const std::vector<Column>& columns, const std::string& rows) {
+// `titles`: of the columns; those with a '#' in front hold numbers.
+std::string Table(const std::vector<std::string_view>& titles, const std::string& rows) {
   std::string text = "<div class=\"scroll\"><table><thead><tr>";
-  for (const Column& column : columns) {
-    text += std::string("<th scope=\"col\"") + (column.is_number ? " class=\"number\"" : "") +
-            "><button type=\"button\">" + column.title + "</button></th>";
+  for (std::string_view title : titles) {
+    const bool is_number = title.front() == '#';
+    if (is_number) title.remove_prefix(1);
+    text += fmt::format("<th scope=\"col\"{}><button type=\"button\">{}</button></th>",
+                        is_number ? " class=\"number\"" : "", title);
   }
   return text + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
 }
@@ -136,13 +138,7 @@ std::string SummaryTable(const std::vector<Row>& rows) {
                 100.0 * static_cast<double>(summary.right) / static_cast<double>(summary.runs), 1) +
             NumberCell(summary.mean_ratio, 3) + NumberCell(summary.path_length, 1) + "</tr>\n";
   }
-  return Table({{"variant", false},
-                {"runs", true},
-                {"right", true},
-                {"success / %", true},
-                {"mean ratio", true},
-                {"all paths / m", true}},
-               text);
+  return Table({"variant", "#runs", "#right", "#success / %", "#mean ratio", "#all paths / m"}, text);
 }
 
 std::string RunTable(const std::vector<Row>& rows) {
@@ -156,18 +152,8 @@ std::string RunTable(const std::vector<Row>& rows) {
             NumberCell(row.bound, 2) + NumberCell(result.simulated_time, 1) +
             NumberCell(std::to_string(result.hits.size())) + Cell(result.remark) + "</tr>\n";
   }
-  return Table({{"world", false},
-                {"variant", false},
-                {"sensor", false},
-                {"direction", false},
-                {"seed", true},
-                {"outcome", false},
-                {"length / m", true},
-                {"ratio", true},
-                {"bound / m", true},
-                {"time / s", true},
-                {"hits", true},
-                {"remark", false}},
+  return Table({"world", "variant", "sensor", "direction", "#seed", "outcome", "#length / m", "#ratio",
+                "#bound / m", "#time / s", "#hits", "remark"},
                text);
 }
 

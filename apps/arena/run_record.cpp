@@ -4,25 +4,18 @@
 
 #include <nlohmann/json.hpp>
 
+namespace runnel {
+
+static void to_json(nlohmann::ordered_json& json, const Point2& point) { json = {point.x, point.y}; }
+static void from_json(const nlohmann::ordered_json& json, Point2& point) { point = {json.at(0), json.at(1)}; }
+
+}  // namespace runnel
+
 namespace runnel::arena {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json ListOf(const std::vector<Point2>& points) {
-  Json list = Json::array();
-  for (const Point2 point : points) list.push_back({point.x, point.y});
-  return list;
-}
-
-std::vector<Point2> PointsOf(const Json& list) {
-  std::vector<Point2> points;
-  for (const Json& point : list) {
-    points.push_back({point.at(0).get<double>(), point.at(1).get<double>()});
-  }
-  return points;
-}
 
 Json ListOf(const std::vector<PathSample>& path) {
   Json list = Json::array();
@@ -61,8 +54,8 @@ RunResult ResultOf(const Json& object) {
           .simulated_time = object.at("sim_time_s").get<double>(),
           .cycles = object.at("cycles").get<std::uint64_t>(),
           .robot_radius = object.at("robot_radius_m").get<double>(),
-          .hits = PointsOf(object.at("hits")),
-          .leaves = PointsOf(object.at("leaves")),
+          .hits = object.at("hits"),
+          .leaves = object.at("leaves"),
           .path = PathOf(object.at("path"), object.at("modes"))};
 }
 
@@ -85,8 +78,8 @@ Json ObjectOf(const RunRecord& record) {
           {"sim_time_s", result.simulated_time},
           {"wall_time_s", record.wall_time},
           {"cycles", result.cycles},
-          {"hits", ListOf(result.hits)},
-          {"leaves", ListOf(result.leaves)},
+          {"hits", result.hits},
+          {"leaves", result.leaves},
           {"path", ListOf(result.path)}};
 }
 

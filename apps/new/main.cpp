@@ -1,10 +1,11 @@
 // The command `runnel new`: writes what a plugin, module, application or test begins with.
 
 #include <algorithm>
-#include <array>
 #include <iostream>
 #include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "apps/new/new_files.h"
 #include "apps/program.h"
@@ -96,90 +97,74 @@ struct Wanted {
   std::string name;
   fs::path folder;
 };
-using Marks = std::map<std::string, std::string>;
 
-Marks MarksOf(const std::string& name, const std::string& plugin) {
-  return {{"name", name}, {"Class", ClassName(name)}, {"plugin", plugin}};
-}
+/// One kind of thing that is made. @name@, @Class@, @plugin@ and @folder@ stand for what is called so.
+struct Kind {
+  std::string_view name;
+  const char* summary;
+  bool is_of_plugin;  ///< goes into the folder of a plugin; else it has a folder of its name
+  std::vector<std::pair<const char*, const char*>> files;  ///< and by which templates
+  const char* said;                                        ///< how to go on
+};
+const std::vector<Kind> kKinds{
+    {"plugin",
+     "a folder with a plugin: one module, its test, an application with it",
+     false,
+     {{"CMakeLists.txt", "plugin_CMakeLists.txt"},
+      {"plugin.cpp", "plugin.cpp"},
+      {"@name@.h", "module.h"},
+      {"@name@_test.cpp", "test.cpp"},
+      {"@name@.xml", "plugin_application.xml"}},
+     "cd @folder@\ncmake -B build && cmake --build build && ctest --test-dir build\n"
+     "RUNNEL_PLUGIN_PATH=build/lib/runnel/plugins runnel run @name@.xml --duration 5\n"},
+    {"module",
+     "one more module of the plugin in this folder, and its test",
+     true,
+     {{"@name@.h", "module.h"}, {"@name@_test.cpp", "test.cpp"}},
+     "plugin.cpp registers it as @plugin@/@name@\n"},
+    {"application",
+     "a folder with a robot in a world, a program that runs it, and a test",
+     false,
+     {{"CMakeLists.txt", "application_CMakeLists.txt"},
+      {"@name@.xml", "application.xml"},
+      {"world.xml", "world.xml"},
+      {"main.cpp", "main.cpp"},
+      {"@name@_test.cpp", "application_test.cpp"}},
+     "runnel run @folder@/@name@.xml --inspect\n"},
+    {"test",
+     "a test for a module of the plugin in this folder",
+     true,
+     {{"@name@_test.cpp", "own_test.cpp"}},
+     "@name@_test.cpp tests modules of the type @plugin@/@name@\n"}};
 
-NewFile Filled(const fs::path& path, const std::string& name, const Marks& marks) {
-  return {path, FilledTemplate(name, marks)};
-}
-
-// What each prints says how to go on.
-Result<std::string> NewPlugin(const Wanted& wanted) {
-  const std::vector<std::string> known = PluginManager().Available();
-  if (std::ranges::find(known, wanted.name) != known.end()) {
+// What is to be printed.
+Result<std::string> MakeFiles(const Kind& kind, const Wanted& wanted) {
+  if (auto good = CheckName(wanted.name); !good) return good.error();
+  auto plugin = kind.is_of_plugin ? OwnPlugin::Find(wanted.folder) : OwnPlugin();
+  if (!plugin) return plugin.error();
+  if (kind.name == "plugin" && std::ranges::count(PluginManager().Available(), wanted.name) > 0) {
     return Error{.message = "there is a plugin '" + wanted.name +
                             "' already, and of two of one name only one is found",
                  .hint = "take another name"};
   }
-  const fs::path folder = wanted.folder / wanted.name;
-  const Marks marks = MarksOf(wanted.name, wanted.name);
-  auto written =
-      WriteAll({Filled(folder / "CMakeLists.txt", "plugin_CMakeLists.txt", marks),
-                Filled(folder / "plugin.cpp", "plugin.cpp", marks),
-                Filled(folder / (wanted.name + ".h"), "module.h", marks),
-                Filled(folder / (wanted.name + "_test.cpp"), "test.cpp", marks),
-                Filled(folder / (wanted.name + ".xml"), "plugin_application.xml", marks)});
-  if (!written) return written.error();
-  return "cd " + folder.string() +
-         "\ncmake -B build && cmake --build build && ctest --test-dir build\n"
-         "RUNNEL_PLUGIN_PATH=build/lib/runnel/plugins runnel run " +
-         wanted.name + ".xml --duration 5\n";
+  const fs::path folder = kind.is_of_plugin ? wanted.folder : wanted.folder / wanted.name;
+  const Marks marks{{"name", wanted.name},
+                    {"Class", ClassName(wanted.name)},
+                    {"plugin", kind.is_of_plugin ? plugin->name() : wanted.name},
+                    {"folder", folder.string()}};
+  std::vector<NewFile> files;
+  for (const auto& [file, text] : kind.files) {
+    files.push_back({folder / Filled(file, marks), Filled(Templates().at(text), marks)});
+  }
+  auto made = WriteAll(files);
+  if (made && kind.name == "module") {
+    made = plugin->Register(wanted.name + ".h", marks.at("Class"), plugin->name() + "/" + wanted.name);
+  }
+  return made ? Filled(kind.said, marks) : Result<std::string>(made.error());
 }
-
-Result<std::string> NewModule(const Wanted& wanted) {
-  auto plugin = OwnPlugin::Find(wanted.folder);
-  if (!plugin) return plugin.error();
-  const Marks marks = MarksOf(wanted.name, plugin->name());
-  const std::string header = wanted.name + ".h";
-  auto written = WriteAll({Filled(wanted.folder / header, "module.h", marks),
-                           Filled(wanted.folder / (wanted.name + "_test.cpp"), "test.cpp", marks)});
-  if (!written) return written.error();
-  auto added = plugin->Register(header, marks.at("Class"), plugin->name() + "/" + wanted.name);
-  if (!added) return added.error();
-  return "plugin.cpp registers it as " + plugin->name() + "/" + wanted.name + "\n";
-}
-
-Result<std::string> NewTest(const Wanted& wanted) {
-  const auto plugin = OwnPlugin::Find(wanted.folder);
-  if (!plugin) return plugin.error();
-  const Marks marks = MarksOf(wanted.name, plugin->name());
-  const std::string file = wanted.name + "_test.cpp";
-  auto written = WriteAll({Filled(wanted.folder / file, "own_test.cpp", marks)});
-  if (!written) return written.error();
-  return file + " tests modules of the type " + plugin->name() + "/" + wanted.name + "\n";
-}
-
-Result<std::string> NewApplication(const Wanted& wanted) {
-  const fs::path folder = wanted.folder / wanted.name;
-  const Marks marks = MarksOf(wanted.name, "");
-  auto written =
-      WriteAll({Filled(folder / "CMakeLists.txt", "application_CMakeLists.txt", marks),
-                Filled(folder / (wanted.name + ".xml"), "application.xml", marks),
-                Filled(folder / "world.xml", "world.xml", marks),
-                Filled(folder / "main.cpp", "main.cpp", marks),
-                Filled(folder / (wanted.name + "_test.cpp"), "application_test.cpp", marks)});
-  if (!written) return written.error();
-  return "runnel run " + (folder / (wanted.name + ".xml")).string() + " --inspect\n";
-}
-
-struct Kind {
-  const char* name;
-  const char* summary;
-  Result<std::string> (*make)(const Wanted& wanted);
-};
-constexpr std::array<Kind, 4> kKinds{
-    {{"plugin", "a folder with a plugin: one module, its test, an application with it", NewPlugin},
-     {"module", "one more module of the plugin in this folder, and its test", NewModule},
-     {"application", "a folder with a robot in a world, a program that runs it, and a test",
-      NewApplication},
-     {"test", "a test for a module of the plugin in this folder", NewTest}}};
 
 int Make(const Kind& kind, const Wanted& wanted) {
-  if (const auto good = CheckName(wanted.name); !good) return Fail(good.error());
-  const auto made = kind.make(wanted);
+  const auto made = MakeFiles(kind, wanted);
   if (!made) return Fail(made.error());
   std::cout << *made << std::flush;
   return std::cout ? exit_code::kDone : exit_code::kRunFailed;
@@ -192,7 +177,7 @@ int Main(int count, char** words) {
   program.require_subcommand(1);
   std::vector<std::string> names;
   for (const Kind& kind : kKinds) {
-    CLI::App& command = *program.add_subcommand(kind.name, kind.summary);
+    CLI::App& command = *program.add_subcommand(std::string(kind.name), kind.summary);
     command.add_option("name", wanted.name, "lower-case letters, digits and '_'")
         ->required()
         ->type_name("NAME");
@@ -209,7 +194,7 @@ int Main(int count, char** words) {
     return exit_code::kBadInput;
   }
   return RunProgram(program, count, words, [&] {
-    const auto is_chosen = [&](const Kind& kind) { return program.got_subcommand(kind.name); };
+    const auto is_chosen = [&](const Kind& kind) { return program.got_subcommand(std::string(kind.name)); };
     return Make(*std::ranges::find_if(kKinds, is_chosen), wanted);
   });
 }

@@ -59,9 +59,7 @@ std::size_t BehindTheIncludes(const std::string& text) {
 
 }  // namespace
 
-std::string FilledTemplate(const std::string& name,
-                           const std::map<std::string, std::string>& marks) {
-  std::string text = Templates().at(name);
+std::string Filled(std::string text, const Marks& marks) {
   for (const auto& [mark, meaning] : marks) {
     const std::string written = "@" + mark + "@";
     for (std::size_t at = 0; (at = text.find(written, at)) != std::string::npos;) {

@@ -15,9 +15,9 @@ struct NewFile {
   std::string text;
 };
 
+using Marks = std::map<std::string, std::string>;
 /// A template with what its marks (@name@) stand for.
-[[nodiscard]] std::string FilledTemplate(const std::string& name,
-                                         const std::map<std::string, std::string>& marks);
+[[nodiscard]] std::string Filled(std::string text, const Marks& marks);
 
 /// Writes all of the files, or none; folders are made. Errors: one is there already, or cannot be written.
 Result<void> WriteAll(const std::vector<NewFile>& files);

@@ -70,10 +70,11 @@ std::vector<Element> Elements(ControlClient& client) {
   return elements;
 }
 
-const Element* FindElement(const std::vector<Element>& elements, const std::string& path) {
+std::optional<Element> FindElement(ControlClient& client, const std::string& path) {
+  const std::vector<Element> elements = Elements(client);
   const auto is_it = [&](const Element& each) { return each.path == path || each.short_path == path; };
   const auto found = std::ranges::find_if(elements, is_it);
-  return found != elements.end() ? &*found : nullptr;
+  return found != elements.end() ? std::optional(*found) : std::nullopt;
 }
 
 Candidates Paths(ControlClient& client, const std::function<bool(const Element&)>& fits) {
@@ -124,36 +125,32 @@ bool Receives(const Element& each) { return each.kind == "input" || each.is_inte
 
 // The inputs that take what the output gives: those of its type, if there are any.
 Candidates Takers(ControlClient& client, const std::string& from) {
-  const std::vector<Element> elements = Elements(client);
-  const Element* const output = FindElement(elements, from);
-  Candidates same = output == nullptr ? Candidates{} : Paths(client, [&](const Element& each) {
-    return Receives(each) && each.type == output->type && each.path != output->path;
+  const auto output = FindElement(client, from);
+  const Candidates same = Paths(client, [&](const Element& each) {
+    return output && Receives(each) && each.type == output->type && each.path != output->path;
   });
   return same.empty() ? Paths(client, Receives) : same;
 }
 
 Candidates ValuesOf(ControlClient& client, const std::string& path) {
-  const std::vector<Element> elements = Elements(client);
-  const Element* const found = FindElement(elements, path);
-  std::istringstream words(found != nullptr ? found->choices : "");
+  const auto found = FindElement(client, path);
+  std::istringstream words(found ? found->choices : "");
   return {std::istream_iterator<std::string>(words), {}};
 }
 
 // What the service takes, to be filled in: '{name: ""}'.
 Candidates ArgumentsOf(ControlClient& client, const std::string& path) {
-  const std::vector<Element> elements = Elements(client);
-  const Element* const found = FindElement(elements, path);
-  const bool has_any = found != nullptr && IsService(*found) && !found->choices.empty();
+  const auto found = FindElement(client, path);
+  const bool has_any = found && IsService(*found) && !found->choices.empty();
   return has_any ? Candidates{"'" + found->choices + "'"} : Candidates{};
 }
 
 // "step=" for each parameter of the module.
 Candidates SettingsOf(ControlClient& client, const std::string& path) {
-  const std::vector<Element> elements = Elements(client);
-  const Element* const module = FindElement(elements, path);
+  const auto module = FindElement(client, path);
   Candidates names;
-  for (const Element& each : elements) {
-    if (module == nullptr || each.kind != "parameter" || !each.path.starts_with(module->path + "/")) continue;
+  for (const Element& each : Elements(client)) {
+    if (!module || each.kind != "parameter" || !each.path.starts_with(module->path + "/")) continue;
     names.push_back(each.path.substr(each.path.rfind('/') + 1) + "=");
   }
   return names;

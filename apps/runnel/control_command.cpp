@@ -3,7 +3,6 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <thread>
@@ -14,6 +13,7 @@
 #include "apps/runnel/commands.h"
 #include "apps/runnel/meant_application.h"
 #include "apps/runnel/output.h"
+#include "core/xml/xml_document.h"
 #include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
 #include "plugins/control/protocol.h"
@@ -74,12 +74,7 @@ std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
 
 Result<std::string> ReadChanges(const std::string& file) {
   if (file == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (!stream.is_open() || stream.bad()) {
-    return Error{.message = "cannot be read", .position = {file}};
-  }
-  return text;
+  return XmlDocument::ReadText(file);
 }
 
 // Most often a variable of a shell that is not set: it must not become "all of them". Values may be empty texts; so may

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
-#include <unistd.h>
 
 #include "apps/runnel/commands.h"
 #include "apps/runnel/output.h"
 #include "core/base/program_output.h"
 #include "core/base/replace_file.h"
+#include "core/base/temporary_folder.h"
 #include "plugins/application/application_description.h"
 #include "plugins/application/dot_text.h"
 
@@ -20,32 +19,13 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kKinds{"dot", "pdf", "png", "svg"};
 
-// What is written beside the picture until it is whole.
-class TextBeside {
- public:
-  TextBeside(const fs::path& picture, const std::string& text)
-      : path_(picture.string() + "." + std::to_string(getpid()) + ".dot") {
-    std::ofstream(path_) << text;
-  }
-  ~TextBeside() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  TextBeside(const TextBeside&) = delete;
-  TextBeside& operator=(const TextBeside&) = delete;
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 Result<void> Draw(const std::string& text, const std::string& output, const std::string& kind) {
   if (kind == "dot") return ReplaceFile(output, text);
-  const TextBeside beside(output, text);
-  if (!fs::exists(beside.path())) {
-    return Error{.message = "cannot be written", .position = {output}};
-  }
-  const auto ran = OutputOf({.words = {"dot", "-T" + kind, "-o", output, beside.path()}, .keeps_complaints = true});
+  const auto folder = TemporaryFolder::Make("graph");
+  if (!folder) return folder.error();
+  const std::string source = folder->path() / "graph.dot";
+  if (auto written = ReplaceFile(source, text); !written) return written;
+  const auto ran = OutputOf({.words = {"dot", "-T" + kind, "-o", output, source}, .keeps_complaints = true});
   if (!ran) {
     return Error{.message = "the program 'dot' that lays out the picture is not here",
                  .hint = "install the package graphviz, or write the text for it with -o " +

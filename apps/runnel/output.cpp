@@ -92,18 +92,17 @@ bool FinishOutput() {
 
 std::string StatisticsTable(FrameworkElement& root) {
   const std::lock_guard lock(root.runtime().structure_mutex());
-  std::string lines;
+  std::vector<const ThreadContainer*> threads;
   int width = 0;
-  const auto for_each = [&](auto&& use) {
-    root.Visit([&](FrameworkElement& element) {
-      if (const auto* thread = dynamic_cast<const ThreadContainer*>(&element)) use(*thread);
-    });
-  };
-  for_each([&](const ThreadContainer& thread) {
-    width = std::max(width, static_cast<int>(thread.path().size()));
+  root.Visit([&](FrameworkElement& element) {
+    const auto* const thread = dynamic_cast<const ThreadContainer*>(&element);
+    if (thread == nullptr) return;
+    threads.push_back(thread);
+    width = std::max(width, static_cast<int>(thread->path().size()));
   });
-  for_each([&](const ThreadContainer& thread) { lines += Line(thread, width); });
-  return Heading(width) + lines;
+  std::string text = Heading(width);
+  for (const ThreadContainer* each : threads) text += Line(*each, width);
+  return text;
 }
 
 }  // namespace runnel::program

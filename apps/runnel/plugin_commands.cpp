@@ -99,20 +99,6 @@ std::vector<ModuleDescription> DescribeModules(const std::vector<std::string>& c
   return modules;
 }
 
-// Loads the plugins, or all that can be found if none is named. False after saying which could not
-// be loaded, and why; the others have been.
-bool LoadChosenPlugins(const std::vector<std::string>& chosen,
-                       ApplicationDescription& surroundings) {
-  bool all_are_there = true;
-  for (const std::string& plugin : chosen.empty() ? surroundings.plugins().Available() : chosen) {
-    const auto loaded = surroundings.plugins().Load(plugin);
-    if (loaded) continue;
-    PrintError(loaded.error());
-    all_are_there = false;
-  }
-  return all_are_there;
-}
-
 }  // namespace
 
 ExitCode ListModules(const ModulesArguments& arguments) {
@@ -135,10 +121,13 @@ ExitCode ListModules(const ModulesArguments& arguments) {
 
 ExitCode WriteSchema(const SchemaArguments& arguments) {
   ApplicationDescription surroundings;
-  if (!LoadChosenPlugins(arguments.plugins, surroundings)) return ExitCode::kBadInput;
+  PluginManager& plugins = surroundings.plugins();
   Diagnostics diagnostics;
+  for (const std::string& plugin : arguments.plugins.empty() ? plugins.Available() : arguments.plugins) {
+    if (auto loaded = plugins.Load(plugin); !loaded) diagnostics.Add(loaded.error());
+  }
   const std::string text =
-      SchemaText(surroundings.tags(), surroundings.plugins().modules(), diagnostics);
+      SchemaText(surroundings.tags(), plugins.modules(), diagnostics);
   std::cerr << diagnostics.ToString();
   if (!diagnostics.ok()) return ExitCode::kBadInput;
   if (arguments.output.empty()) {

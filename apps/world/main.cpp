@@ -1,9 +1,9 @@
 // The command `runnel world`: makes a world from a seed.
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,27 +16,18 @@ namespace runnel {
 
 namespace {
 
-struct NamedKind {
-  std::string_view name;
-  WorldKind kind;
-};
-constexpr std::array<NamedKind, 4> kKinds{{{"scatter", WorldKind::kScatter},
-                                           {"maze", WorldKind::kMaze},
-                                           {"spiral", WorldKind::kSpiral},
-                                           {"comb", WorldKind::kComb}}};
-
 Result<WorldKind> KindCalled(const std::string& name) {
-  const auto found = std::ranges::find(kKinds, name, &NamedKind::name);
-  if (found != kKinds.end()) return found->kind;
+  const auto found = std::ranges::find(kWorldKindNames, name);
+  if (found != kWorldKindNames.end()) return static_cast<WorldKind>(found - kWorldKindNames.begin());
   return Error{.message = "there is no kind of world called '" + name + "'",
-               .hint = NearestNameHint(name, NamesOf(kKinds, &NamedKind::name))};
+               .hint = NearestNameHint(name, std::vector<std::string>(kWorldKindNames.begin(), kWorldKindNames.end()))};
 }
 
 /// Only what differs from the defaults.
 std::string CommandOf(const GeneratorOptions& options) {
   const GeneratorOptions defaults;
   std::string command = "runnel world --kind ";
-  command += std::ranges::find(kKinds, options.kind, &NamedKind::kind)->name;
+  command += kWorldKindNames[static_cast<std::size_t>(options.kind)];
   command += " --seed " + std::to_string(options.seed);
   const auto add = [&](const char* name, double value, double usual) {
     if (value != usual) command += fmt::format(" {} {}", name, value);

@@ -123,22 +123,16 @@ XmlTag ClockTag() {
   return {.name = "clock",
           .summary = "which time the application lives in; without it, real time",
           .parents = {"application"},
-          .attributes = {{.name = "type",
-                          .kind = AttributeKind::kChoice,
-                          .required = true,
-                          .summary = "outside: simulated time that another simulator's or ROS's clock says",
-                          .choices = {"real", "simulated", "outside"}},
+          .attributes = {WordRule("type", {"real", "simulated", "outside"},
+                                  "outside: simulated time that another simulator's or ROS's clock says", true),
                          PathRule("port", false, "of a clock from outside: the output that says it, in seconds "
                                      "(double) or nanoseconds (int64); without, the program does"),
                          {.name = "speed",
                           .kind = AttributeKind::kNumber,
                           .summary = "of simulated time, at most; 1 (which it is by default) is "
                                      "real time, 0 as fast as it can"},
-                         {.name = "paused",
-                          .kind = AttributeKind::kChoice,
-                          .summary = "whether simulated time stands still until somebody lets it "
-                                     "go on; false by default",
-                          .choices = {"false", "true"}}},
+                         YesNoRule("paused", "whether simulated time stands still until somebody lets it go on; "
+                                             "false by default")},
           .handle = ChooseClock,
           .saved = SavedClock};
 }

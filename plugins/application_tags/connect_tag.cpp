@@ -44,8 +44,7 @@ ConnectOptions ReadOptions(const TagUse& use) {
   options.when_present = use.Find("when") != nullptr;
   const XmlAttribute* const on_full = use.Find("on_full");
   if (on_full == nullptr) return options;
-  const auto name = std::ranges::find(OnFullNames(), on_full->value);
-  options.on_full = static_cast<OnFull>(name - OnFullNames().begin());
+  options.on_full = internal::Chosen<OnFull>(use, "on_full", OnFullNames());
   if (options.queue == 0) {
     use.Report({.message = "on_full has no meaning without a queue",
                 .hint = "add queue=\"…\" with a count above 0, or leave out on_full"},
@@ -156,29 +155,18 @@ XmlTag ConnectTag() {
                      {.name = "queue",
                       .kind = AttributeKind::kCount,
                       .summary = "how many values may wait at the input; 0: the latest counts"},
-                     {.name = "on_full",
-                      .kind = AttributeKind::kChoice,
-                      .summary = "what a full queue does with one more value",
-                      .choices = OnFullNames()},
-                     {.name = "pull",
-                      .kind = AttributeKind::kChoice,
-                      .summary = "whether reading the input first has its sources make a value; "
-                                 "false by default, and not with a queue",
-                      .choices = {"false", "true"}},
+                     WordRule("on_full", OnFullNames(), "what a full queue does with one more value"),
+                     YesNoRule("pull", "whether reading the input first has its sources make a value; "
+                                       "false by default, and not with a queue"),
                      {.name = "convert",
                       .summary = "by which conversion values become those of the input: round, "
                                  "truncate, parse, or what a plugin has registered; needed only "
                                  "where something is lost, or several lead there"},
-                     {.name = "when",
-                      .kind = AttributeKind::kChoice,
-                      .summary = "present: made as soon as both ends are there, and again after "
-                                 "one went; without, they must be there from the start",
-                      .choices = {"present"}},
-                     {.name = "late",
-                      .kind = AttributeKind::kChoice,
-                      .summary = "true: in a loop of modules, the connection by which values come "
-                                 "one cycle late",
-                      .choices = {"false", "true"}}},
+                     WordRule("when", {"present"},
+                              "present: made as soon as both ends are there, and again after "
+                              "one went; without, they must be there from the start"),
+                     YesNoRule("late", "true: in a loop of modules, the connection by which values come "
+                                       "one cycle late")},
       .is_structure = true,
       .handle = internal::ReadAt<BuildStage::kConnections, ConnectAll>,
       .update = internal::UpdateConnect,

@@ -48,10 +48,7 @@ void SetInputLimits(const TagUse& use) {
     limits.default_value = internal::ReadValue(use, *default_value, *input);
     if (!limits.default_value) return;
   }
-  if (const XmlAttribute* const out = use.Find("out_of_bounds")) {
-    const auto name = std::ranges::find(OutOfBoundsNames(), out->value);
-    limits.out_of_bounds = static_cast<OutOfBounds>(name - OutOfBoundsNames().begin());
-  }
+  limits.out_of_bounds = internal::Chosen<OutOfBounds>(use, "out_of_bounds", OutOfBoundsNames());
   if (!limits.has_some()) {
     use.Report({.message = "<input> says nothing of its values",
                 .hint = "add default=\"…\", minimum=\"…\" or maximum=\"…\""},
@@ -99,11 +96,9 @@ XmlTag InputTag() {
                           .summary = "read while nothing is connected, or nothing has come"},
                          {.name = "minimum", .kind = AttributeKind::kNumber},
                          {.name = "maximum", .kind = AttributeKind::kNumber},
-                         {.name = "out_of_bounds",
-                          .kind = AttributeKind::kChoice,
-                          .summary = "what becomes of a value that is not between them: discard "
-                                     "(by default), clamp, or default",
-                          .choices = OutOfBoundsNames()}},
+                         WordRule("out_of_bounds", OutOfBoundsNames(),
+                                  "what becomes of a value that is not between them: discard "
+                                  "(by default), clamp, or default")},
           .handle = internal::ReadAt<BuildStage::kParameters, SetInputLimits>,
           .saved = SavedLimits,
           .place = 1};

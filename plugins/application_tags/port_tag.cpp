@@ -105,11 +105,7 @@ XmlTag PortTag() {
           .summary = "a port in the interface of its group; costs nothing at run time",
           .parents = {"group"},
           .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
-                         {.name = "direction",
-                          .kind = AttributeKind::kChoice,
-                          .required = true,
-                          .summary = "as seen from outside of the group",
-                          .choices = {"input", "output"}},
+                         WordRule("direction", {"input", "output"}, "as seen from outside of the group", true),
                          {.name = "type",
                           .kind = AttributeKind::kPortType,
                           .summary = "of its values; if left out, that of what it is first "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,14 @@ namespace runnel {
 [[nodiscard]] inline AttributeRule PathRule(const char* name, bool required, const char* summary = "") {
   return {.name = name, .kind = AttributeKind::kPath, .required = required, .summary = summary, .names_element = true};
 }
+/// One that has one of some words.
+[[nodiscard]] inline AttributeRule WordRule(const char* name, std::vector<std::string> words, const char* summary = "",
+                                            bool required = false) {
+  return {name, AttributeKind::kChoice, required, summary, std::move(words)};
+}
+[[nodiscard]] inline AttributeRule YesNoRule(const char* name, const char* summary) {
+  return WordRule(name, {"false", "true"}, summary);
+}
 
 namespace internal {
 
@@ -59,6 +68,12 @@ template <BuildStage kStage, void (*kRead)(const TagUse& use)>
 FrameworkElement* ReadAt(const TagUse& use) {
   use.context.Defer(kStage, [use] { kRead(use); });
   return &use.parent;
+}
+
+/// Which of the words the attribute says; the first if it is not there.
+template <typename Kind>
+Kind Chosen(const TagUse& use, const char* attribute, const std::vector<std::string>& words) {
+  return static_cast<Kind>(std::ranges::find(words, use.xml.TextOr(attribute, words.front())) - words.begin());
 }
 
 /// A value of the port's type; nothing after reporting that the text is none.

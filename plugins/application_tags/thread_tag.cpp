@@ -23,14 +23,6 @@ constexpr std::size_t kHighestPriority = 99;
 
 using Activation = ThreadOptions::Activation;
 
-// Which of the words the tag says; the first if none.
-template <typename Kind>
-Kind Chosen(const TagUse& use, const char* name, const std::vector<std::string>& words) {
-  const XmlAttribute* const said = use.Find(name);
-  return static_cast<Kind>(said != nullptr ? std::ranges::find(words, said->value) - words.begin()
-                                           : 0);
-}
-
 void ReadPeriod(const TagUse& use, ThreadOptions& options) {
   const XmlAttribute* const period = use.Find("period");
   if (period != nullptr) options.period = ParseDuration(period->value).value();
@@ -71,10 +63,10 @@ FrameworkElement* MakeThread(const TagUse& use) {
   const TagUse inside{use.xml, *threads, use.context};
   if (!inside.HasFreeName(*threads)) return nullptr;
   ThreadOptions options;
-  options.activation = Chosen<Activation>(use, "activation", ActivationNames());
+  options.activation = internal::Chosen<Activation>(use, "activation", ActivationNames());
   ReadPeriod(inside, options);
   ReadPriority(inside, options);
-  options.on_overrun = Chosen<ThreadOptions::OnOverrun>(use, "on_overrun", OverrunNames());
+  options.on_overrun = internal::Chosen<ThreadOptions::OnOverrun>(use, "on_overrun", OverrunNames());
   return &runtime.Create<ThreadContainer>(*threads, inside.Get("name").value, options);
 }
 
@@ -163,19 +155,13 @@ XmlTag ThreadTag() {
                 .kind = AttributeKind::kDuration,
                 .summary = "from cycle to cycle; of a free-running thread, what a cycle takes in "
                            "simulated time"},
-               {.name = "activation",
-                .kind = AttributeKind::kChoice,
-                .summary = "when a cycle begins: every period, at the end of the last one, or when "
-                           "data comes",
-                .choices = ActivationNames()},
+               WordRule("activation", ActivationNames(),
+                        "when a cycle begins: every period, at the end of the last one, or when data comes"),
                {.name = "priority",
                 .kind = AttributeKind::kCount,
                 .summary = "0: ordinary; 1 .. 99: real-time, SCHED_FIFO"},
-               {.name = "on_overrun",
-                .kind = AttributeKind::kChoice,
-                .summary = "what happens to cycles that were missed: left out (by default), or run "
-                           "at once",
-                .choices = OverrunNames()}},
+               WordRule("on_overrun", OverrunNames(),
+                        "what happens to cycles that were missed: left out (by default), or run at once")},
           .is_structure = true,
           .handle = MakeThread,
           .saved = SavedThreads};

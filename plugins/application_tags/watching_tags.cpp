@@ -153,7 +153,7 @@ XmlTag OnFaultTag() {
           .summary = "what happens when a module has thrown, and so has failed",
           .parents = {"application", "group"},
           .attributes = {PathRule("of", true, "a module, or a group of which any module may fail"),
-                         {.name = "action", .kind = AttributeKind::kChoice, .choices = {"quit"}},
+                         WordRule("action", {"quit"}),
                          PathRule("set", false, "a parameter that may be set at run time"),
                          {.name = "value", .summary = "what it is set to"}},
           .handle = HandleOnFault};
@@ -204,10 +204,8 @@ XmlTag StopButtonTag() {
           .summary = "a port by which somebody presses the STOP of the robot: true, or a number that is not 0",
           .parents = {"application", "group"},
           .attributes = {PathRule("port", true, "what publishes the state of the button"),
-                         {.name = "releases",
-                          .kind = AttributeKind::kChoice,
-                          .summary = "whether letting go of the button releases the STOP; else somebody has to do so",
-                          .choices = {"false", "true"}}},
+                         YesNoRule("releases", "whether letting go of the button releases the STOP; "
+                                               "else somebody has to do so")},
           .handle = InTheEnd<AddStopButton>};
 }
 XmlTag OperatorsTag() {

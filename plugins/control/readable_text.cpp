@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -12,27 +13,17 @@ namespace {
 
 constexpr std::size_t kDigits = 6;
 
-bool IsDigit(char character) { return character >= '0' && character <= '9'; }
 bool BelongsToWord(char character) {
   return std::isalnum(static_cast<unsigned char>(character)) != 0 || character == '_' || character == '.';
 }
 
 // The length of the number that the text begins with; 0 if it begins with none, or with a whole one.
 std::size_t FractionLength(std::string_view text) {
-  std::size_t at = text.starts_with('-') ? 1 : 0;
-  if (at == text.size() || !IsDigit(text[at])) return 0;
-  bool is_fraction = false;
-  while (at < text.size() && (IsDigit(text[at]) || text[at] == '.')) is_fraction |= text[at++] == '.';
-  if (at < text.size() && text[at] == 'e') {
-    std::size_t exponent = at + 1;
-    if (exponent < text.size() && (text[exponent] == '-' || text[exponent] == '+')) ++exponent;
-    if (exponent < text.size() && IsDigit(text[exponent])) {
-      is_fraction = true;
-      at = exponent;
-      while (at < text.size() && IsDigit(text[at])) ++at;
-    }
-  }
-  return is_fraction ? at : 0;
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string_view read(text.data(), static_cast<std::size_t>(end - text.data()));
+  const bool is_fraction = error == std::errc() && read.find_first_of(".e") != read.npos;
+  return is_fraction && read.front() != '.' ? read.size() : 0;
 }
 
 }  // namespace

@@ -15,10 +15,6 @@ namespace runnel::internal {
 
 namespace {
 
-Result<void> Refused(const Result<void>& refusal, const FrameworkElement& parameter) {
-  return refusal.error().WithPath(parameter.path());
-}
-
 // The element below `after` that is called as `port` is below `before`.
 Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {
   const auto found = after.Find(port.path().substr(before.path().size() + 1));
@@ -55,7 +51,7 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting, bool ma
   }
   if (!is_its_turn(*parameter.element)) return {};
   const auto set = parameter.configurable->SetFromText(setting.value);
-  return set ? set : Refused(set, *parameter.element);
+  return set ? set : set.error().WithPath(parameter.element->path());
 }
 
 Result<void> CopySettings(const std::vector<Setting>& inherited, FrameworkElement& after,
@@ -64,7 +60,7 @@ Result<void> CopySettings(const std::vector<Setting>& inherited, FrameworkElemen
     if (!is_its_turn(*element)) continue;
     const auto source = std::ranges::find(inherited, element->name(), &Setting::parameter);
     if (source == inherited.end()) continue;
-    if (const auto set = target->SetFromText(source->value); !set) return Refused(set, *element);
+    if (const auto set = target->SetFromText(source->value); !set) return set.error().WithPath(element->path());
   }
   return {};
 }
@@ -119,7 +115,7 @@ Result<void> CopyLateSettings(const FrameworkElement& before, const Values& valu
     const ConfigurableElement target = FindConfigurable(after, name);
     if (!target || target.configurable->info().is_static) continue;
     const auto set = target.configurable->SetFromText(value);
-    if (!set) return Refused(set, *target.element);
+    if (!set) return set.error().WithPath(target.element->path());
   }
   return {};
 }

@@ -100,19 +100,6 @@ inline void AddBoundaryPoint(Surroundings& surroundings, BoundaryPoint point) {
   return nearest;
 }
 
-/// How wide the view is that "in front", "on the left" and "on the right" mean.
-inline constexpr double kSideHalfWidth = DegreesToRadians(30.0);
-
-[[nodiscard]] inline double FrontDistance(const Surroundings& surroundings) {
-  return NearestBoundary(surroundings, 0.0, kSideHalfWidth).distance;
-}
-[[nodiscard]] inline double LeftDistance(const Surroundings& surroundings) {
-  return NearestBoundary(surroundings, kPi / 2, kSideHalfWidth).distance;
-}
-[[nodiscard]] inline double RightDistance(const Surroundings& surroundings) {
-  return NearestBoundary(surroundings, -kPi / 2, kSideHalfWidth).distance;
-}
-
 /// What a disc meets on a straight way.
 struct WayAhead {
   double free_range = std::numeric_limits<double>::infinity();  ///< m the centre can go

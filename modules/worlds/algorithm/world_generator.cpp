@@ -15,7 +15,6 @@ constexpr double kEnclosureThickness = 0.1;  // m
 // By kind.
 constexpr std::array kMakers{internal::MakeScatter, internal::MakeMaze, internal::MakeSpiral,
                              internal::MakeComb};
-constexpr std::array kNames{"scatter", "maze", "spiral", "comb"};
 
 struct Range {
   const char* what;
@@ -50,7 +49,7 @@ World GenerateWorld(const GeneratorOptions& options) {
   Random random(options.seed);
   const auto kind = static_cast<std::size_t>(options.kind);
   World world = kMakers[kind](options, random);
-  world.name = fmt::format("{}_{}", kNames[kind], options.seed);
+  world.name = fmt::format("{}_{}", kWorldKindNames[kind], options.seed);
   // A maze has walls enough: there, the goal's cell has no door.
   const bool needs_wall = options.is_enclosed && options.kind != WorldKind::kMaze;
   if (needs_wall) world.walls.push_back(Enclosure(world.goal, options.gap));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -13,6 +14,7 @@ enum class WorldKind {
   kSpiral,   ///< the goal in the middle of a square spiral
   kComb,     ///< a comb whose teeth stand across the straight line
 };
+inline constexpr std::array kWorldKindNames{"scatter", "maze", "spiral", "comb"};
 
 struct GeneratorOptions {
   WorldKind kind = WorldKind::kScatter;

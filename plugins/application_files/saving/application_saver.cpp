@@ -138,10 +138,6 @@ Result<internal::SavedText> internal::TextOfApplication(FrameworkElement& applic
   return internal::SavedText{std::move(*text), std::move(saving.values), std::move(saving.lost)};
 }
 
-Result<std::string> SaveApplication(FrameworkElement& application, const SaveTools& tools, const fs::path& to) {
-  return SaveApplication(application.runtime(), application, tools, to);
-}
-
 Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& application, const SaveTools& tools, const fs::path& to) {
   constexpr int kAttempts = 20;
   std::optional<internal::SavedText> checked;

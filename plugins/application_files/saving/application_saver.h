@@ -31,10 +31,8 @@ struct SaveTools {
 ///         loaded: somebody has changed it meanwhile.
 ///
 /// What the file has lost, for people: tags that name something that is gone; "": nothing.
-[[nodiscard]] Result<std::string> SaveApplication(FrameworkElement& application, const SaveTools& tools,
-                                                  const std::filesystem::path& file = {});
-/// Of one that others may delete meanwhile.
+/// `runtime`: of the application, which others may delete meanwhile.
 [[nodiscard]] Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& application, const SaveTools& tools,
-                                                  const std::filesystem::path& file);
+                                                  const std::filesystem::path& file = {});
 
 }  // namespace runnel

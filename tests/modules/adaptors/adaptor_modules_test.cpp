@@ -5,6 +5,7 @@
 
 #include "modules/adaptors/sensors_to_surroundings.h"
 #include "plugins/testing/module_rig.h"
+#include "tests/modules/distances.h"
 
 namespace runnel {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "gmock/gmock.h"
 #include "modules/adaptors/algorithm/adaptors.h"
+#include "tests/modules/distances.h"
 
 namespace runnel {
 namespace {

@@ -9,6 +9,7 @@
 #include "modules/planning/algorithm/m_line.h"
 #include "modules/planning/algorithm/wall_follower.h"
 #include "modules/types/algorithm/surroundings.h"
+#include "tests/modules/distances.h"
 
 namespace runnel {
 namespace {

@@ -123,7 +123,7 @@ TEST_F(ConfigurationSaver, WritesBackWhatHasChangedAndNothingElse) {
 </configuration>
 )");
   EXPECT_EQ(Save(application).value(), "no value has changed");
-  ASSERT_TRUE(SaveApplication(application, shop.tools()));
+  ASSERT_TRUE(SaveApplication(application.runtime(), application, shop.tools()));
   EXPECT_EQ(ReadAll(file), kCar) << "the values are the configuration's";
 }
 
@@ -158,12 +158,12 @@ TEST_F(ConfigurationSaver, AnotherNameIsNoOtherValue) {
   EXPECT_EQ(Save(application).value(), "saved 1 value to " + entries.string());
   EXPECT_THAT(ReadAll(entries), HasSubstr("<section name=\"motor\"> <value name=\"gain\">4</value> <!-- tried out -->"));
   EXPECT_EQ(GainAfterRestart("/demo/left/motor"), 4) << "the file still has the old name";
-  ASSERT_TRUE(SaveApplication(application, shop.tools()));
+  ASSERT_TRUE(SaveApplication(application.runtime(), application, shop.tools()));
   EXPECT_EQ(GainAfterRestart("/demo/left/drive"), 4);
   EXPECT_EQ(GainAfterRestart("/demo/motor"), 2);
   const std::string saved = ReadAll(file);
   EXPECT_THAT(saved, HasSubstr(R"(<parameter name="gain" config="/car/left/motor/gain"/>)"));
-  ASSERT_TRUE(SaveApplication(application, shop.tools()));
+  ASSERT_TRUE(SaveApplication(application.runtime(), application, shop.tools()));
   EXPECT_EQ(ReadAll(file), saved);
 }
 
@@ -171,7 +171,7 @@ TEST_F(ConfigurationSaver, WhatHasNoEntryYetHasItUnderTheNameOfNow) {
   FrameworkElement& application = Load(kCar, kConfiguration);
   Rename("/demo/left/lamp", "light");
   Rename("/demo/left", "right");
-  ASSERT_TRUE(SaveApplication(application, shop.tools()));
+  ASSERT_TRUE(SaveApplication(application.runtime(), application, shop.tools()));
   EXPECT_THAT(ReadAll(file), ::testing::Not(HasSubstr("<parameter name=\"gain\" config=\"/car")));
   Set("/demo/right/light/gain", "6");
   ASSERT_TRUE(Save(application));
@@ -179,7 +179,7 @@ TEST_F(ConfigurationSaver, WhatHasNoEntryYetHasItUnderTheNameOfNow) {
   Rename("/demo/right/motor", "drive");
   Set("/demo/right/drive/count", "9");
   ASSERT_TRUE(Save(application));
-  ASSERT_TRUE(SaveApplication(application, shop.tools()));
+  ASSERT_TRUE(SaveApplication(application.runtime(), application, shop.tools()));
   EXPECT_EQ(GainAfterRestart("/demo/right/drive"), 3);
   EXPECT_THAT(ReadAll(entries), HasSubstr("<section name=\"drive\">"));
 }
@@ -243,7 +243,7 @@ TEST_F(ConfigurationSaver, GroupsOfAFileHaveItsParameters) {
   Set("/demo/left/inner/power", "4");
   EXPECT_EQ(Gain("/demo/left/inner/motor"), 4);
   EXPECT_EQ(Gain("/demo/left/own"), 0.3);
-  ASSERT_TRUE(SaveApplication(application, shop.tools()));
+  ASSERT_TRUE(SaveApplication(application.runtime(), application, shop.tools()));
   SavingWorkshop again;
   ASSERT_TRUE(again.Load(file));
   EXPECT_EQ(again.Get<Source>("/demo/left/inner/motor").gain.Get(), 4);

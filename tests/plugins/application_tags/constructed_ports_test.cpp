@@ -155,7 +155,7 @@ TEST_F(ConstructedPorts, ParametersThatModulesMakeWithThemAreSaved) {
   StructureEditor editor(workshop_.runtime, workshop_.plugins.modules(), nullptr);
   ASSERT_TRUE(editor.Apply({SetParameter{"/demo/group/adder/weight3", "7"}, SetParameter{"/demo/adder/count", "2"},
                             SetParameter{"/demo/adder/weight2", "8"}}));
-  const auto saved = SaveApplication(*application, workshop_.tools());
+  const auto saved = SaveApplication(application->runtime(), *application, workshop_.tools());
   ASSERT_TRUE(saved) << saved.error().ToString();
   SavingWorkshop again;
   again.Add<Adder>("test/adder");

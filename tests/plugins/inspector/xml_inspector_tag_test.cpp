@@ -68,7 +68,7 @@ TEST_F(InspectorTag, IsSavedAsItWas) {
 TEST_F(InspectorTag, IsWrittenIntoANewFile) {
   FrameworkElement* const application = Load(R"(<inspector port="9000" read_only="true"/>)");
   ASSERT_NE(application, nullptr);
-  const auto saved = SaveApplication(*application, shop.tools(), folder / "other.xml");
+  const auto saved = SaveApplication(application->runtime(), *application, shop.tools(), folder / "other.xml");
   ASSERT_TRUE(saved) << saved.error().ToString();
   EXPECT_THAT(ReadAll(folder / "other.xml"),
               ::testing::HasSubstr(R"(<inspector port="9000" read_only="true"/>)"));

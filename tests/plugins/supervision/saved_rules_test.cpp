@@ -129,7 +129,7 @@ class SavedRules : public RulesInForce {
 
 TEST_F(SavedRules, HaveWhatPeopleHaveMade) {
   EXPECT_EQ(Text(), kFile);
-  ASSERT_TRUE(SaveApplication(*application, shop.tools(), folder / "saved.xml"));
+  ASSERT_TRUE(SaveApplication(application->runtime(), *application, shop.tools(), folder / "saved.xml"));
   EXPECT_EQ(ReadAll(folder / "saved.xml"), kFile);
   const auto saved = SaveConfiguration(*application, folder / "saved_values.xml");
   ASSERT_TRUE(saved) << saved.error().ToString();

@@ -257,13 +257,13 @@ TEST_F(ApplicationSaver, WritesNamesOfFilesSeenFromTheFolderOfTheText) {
 TEST_F(ApplicationSaver, SavesToTheFileItCameFromAgainAndAgain) {
   Load();
   ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools()));
   EXPECT_EQ(ReadAll(file_), With("'2.50'", "'3.5'"));
   Delete("/demo/inner");
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools()));
   EXPECT_THAT(ReadAll(file_), AllOf(HasSubstr("'3.5'"), Not(HasSubstr("inner"))));
   ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(2.5));
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools()));
   EXPECT_THAT(ReadAll(file_), HasSubstr("'2.5'"));
 }
 
@@ -289,7 +289,7 @@ TEST_F(ApplicationSaver, BuildsWithoutTheStructureLock) {
   Load();
   Create("test/prober", "/demo", "prober");
   Prober::other = &shop_.runtime;
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools()));
   Prober::other = nullptr;
   EXPECT_EQ(Prober::looks, 1);
   EXPECT_EQ(Prober::free, 1);
@@ -299,22 +299,22 @@ TEST_F(ApplicationSaver, DoesNotOverwriteWhatSomebodyElseHasChanged) {
   Load();
   WriteAll(file_, With("demo", "mine"));
   ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
-  const auto saved = SaveApplication(*application_, shop_.tools());
+  const auto saved = SaveApplication(application_->runtime(), *application_, shop_.tools());
   ASSERT_FALSE(saved);
   EXPECT_THAT(saved.error().message, HasSubstr("has been changed"));
   EXPECT_EQ(ReadAll(file_), With("demo", "mine"));
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools(), folder_ / "copy.xml"));
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools(), folder_ / "copy.xml"));
   EXPECT_EQ(ReadAll(folder_ / "copy.xml"), With("'2.50'", "'3.5'"));
 }
 
 TEST_F(ApplicationSaver, FirstFileOfWhatCodeHasBuiltIsItsFile) {
   application_ = &shop_.runtime.Create<Group>(shop_.runtime.root(), "made");
-  const auto without = SaveApplication(*application_, shop_.tools());
+  const auto without = SaveApplication(application_->runtime(), *application_, shop_.tools());
   ASSERT_FALSE(without);
   EXPECT_EQ(without.error().path, "/made");
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools(), file_));
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools(), file_));
   Create("test/sink", "/made", "sink");
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools()));
   EXPECT_EQ(ReadAll(file_),
             "<application name=\"made\">\n  <module name=\"sink\" type=\"test/sink\"/>\n"
             "</application>\n");

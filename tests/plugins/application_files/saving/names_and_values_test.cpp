@@ -71,7 +71,7 @@ class SavedText : public ::testing::Test {
   }
   /// Why it cannot be saved; the file is as it was.
   std::string Refusal(FrameworkElement& application) {
-    const auto saved = SaveApplication(application, shop.tools());
+    const auto saved = SaveApplication(application.runtime(), application, shop.tools());
     EXPECT_FALSE(saved);
     EXPECT_EQ(ReadAll(file), kNamed);
     return saved ? "" : saved.error().ToString();
@@ -104,7 +104,7 @@ TEST(NamesAndValues, AreRefusedAtOnceOrComeBackFromTheFile) {
         ASSERT_EQ(StructureText(*application), before);
       }
     }
-    const auto saved = SaveApplication(*application, shop.tools());
+    const auto saved = SaveApplication(application->runtime(), *application, shop.tools());
     ASSERT_TRUE(saved) << saved.error().ToString();
     ExpectSame(*application, file, seed);
     if (::testing::Test::HasFatalFailure()) return;

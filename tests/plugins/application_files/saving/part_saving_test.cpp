@@ -68,7 +68,7 @@ TEST_F(PartSaving, WritesAValueWithinAGroupForThatGroup) {
   EXPECT_THAT(text, HasSubstr("<parameter of=\"source\" name=\"count\" value=\"6\"/>"));
   EXPECT_THAT(text, HasSubstr("<parameter of=\"inner/source\" name=\"gain\" value=\"7\"/>"));
 
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools()));
   SavingWorkshop second;
   FrameworkElement* const again = second.Load(folder_ / "app.xml");
   ASSERT_NE(again, nullptr);

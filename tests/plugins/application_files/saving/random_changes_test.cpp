@@ -178,7 +178,7 @@ TEST(RandomChanges, AreTheSameAfterSavingAndLoading) {
     for (int save = 0; save < 4; ++save) {
       const int changes = 1 + static_cast<int>(seed % 12);
       for (int i = 0; i < changes; ++i) changer.ChangeSomething();
-      const auto saved = SaveApplication(*application, shop.tools());
+      const auto saved = SaveApplication(application->runtime(), *application, shop.tools());
       ASSERT_TRUE(saved) << saved.error().ToString();
       ExpectSame(*application, file, seed);
       if (::testing::Test::HasFatalFailure()) return;
@@ -200,7 +200,7 @@ TEST(RandomChanges, AreTheSameAfterWritingAWholeFile) {
     for (int i = 0; i < 40; ++i) changer.ChangeSomething();
     const std::filesystem::path file = folder / "new.xml";
     std::filesystem::remove(file);
-    const auto saved = SaveApplication(application, shop.tools(), file);
+    const auto saved = SaveApplication(application.runtime(), application, shop.tools(), file);
     ASSERT_TRUE(saved) << saved.error().ToString();
     ExpectSame(application, file, seed);
     if (::testing::Test::HasFatalFailure()) return;

@@ -19,11 +19,12 @@ TEST_F(RenamedFile, KeepsWhatItsOwnFileWas) {
   Load();
   std::filesystem::permissions(file_, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools(), file_)) << "its own, however it is named";
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools(), file_))
+      << "its own, however it is named";
   const std::filesystem::path backup = file_.string() + "~";
   EXPECT_EQ(ReadAll(backup), kFile);
   EXPECT_EQ(std::filesystem::status(backup).permissions(), std::filesystem::status(file_).permissions());
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools()));
   EXPECT_EQ(ReadAll(backup), kFile) << "nothing was to be written";
 }
 
@@ -31,7 +32,7 @@ TEST_F(RenamedFile, WithoutABackupNothingIsReplaced) {
   Load();
   std::filesystem::create_directories(folder_ / "app.xml~" / "full");
   ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
-  const auto saved = SaveApplication(*application_, shop_.tools());
+  const auto saved = SaveApplication(application_->runtime(), *application_, shop_.tools());
   ASSERT_FALSE(saved);
   EXPECT_THAT(saved.error().message, HasSubstr("cannot be kept as app.xml~"));
   EXPECT_EQ(ReadAll(file_), kFile);
@@ -55,7 +56,7 @@ TEST_F(RenamedFile, WhatIsRenamedIsRenamedInPlaceWithAllThatNamesIt) {
   wanted = With("from=\"source/value\" to=\"inner/in\"", "from=\"origin/value\" to=\"core/in\"", wanted);
   wanted = With("of=\"inner/filter\"", "of=\"core/low_pass\"", wanted);
   EXPECT_EQ(Text(), wanted);
-  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  ASSERT_TRUE(SaveApplication(application_->runtime(), *application_, shop_.tools()));
   EXPECT_EQ(ReadAll(file_), wanted);
   rename("/demo/origin", "source");
   EXPECT_EQ(Text(), With("from=\"origin/", "from=\"source/", With("name=\"origin\"", "name=\"source\"", wanted)));

@@ -40,7 +40,7 @@ void Endure(bool has_file) {
     bool is_saved = false;
     test::FaultInjection injection(test::InjectedFault::kAllocation, nth);
     try {
-      is_saved = SaveApplication(*application, shop.tools(), file).has_value();
+      is_saved = SaveApplication(application->runtime(), *application, shop.tools(), file).has_value();
     } catch (const std::bad_alloc&) {
     }
     injection.End();
@@ -51,7 +51,7 @@ void Endure(bool has_file) {
     ASSERT_EQ(CountOfFiles(folder.path()), is_saved || has_file ? 1u : 0u);
     // It knows what is in the file, and takes it for nobody else's.
     ASSERT_TRUE(shop.Get<Source>("/demo/source").count.SetFromText("8"));
-    const auto saved = SaveApplication(*application, shop.tools(), file);
+    const auto saved = SaveApplication(application->runtime(), *application, shop.tools(), file);
     ASSERT_TRUE(saved) << saved.error().ToString();
     ASSERT_TRUE(application->FindAnnotation<ApplicationSource>());
   }
