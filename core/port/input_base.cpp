@@ -9,6 +9,7 @@
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/given_limits.h"
+#include "core/port/port_stop.h"
 
 namespace runnel {
 
@@ -52,8 +53,8 @@ void InputBase::SetWaker(Waker* waker) {
 
 void InputBase::DeclareDriving() {
   const InputOptions& declared = options_;
-  const auto safe =
-      FindSafeValue(declared.safe_value ? declared.safe_value : declared.limits.default_value);
+  const bool has_own = declared.safe_value || IsVelocity(type(), unit());  // whose default may well move
+  const auto safe = FindSafeValue(has_own ? declared.safe_value : declared.limits.default_value);
   if (!safe) throw ElementError(safe.error());
   if (auto set = SetStop(*safe, declared.brake, runtime().robot_stop().signal()); !set) {
     throw ElementError(set.error());

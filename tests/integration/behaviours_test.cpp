@@ -1,5 +1,6 @@
 // A network of behaviours drives the robot, and takes turns with planners.
 
+#include <cmath>
 #include <cstring>
 #include <optional>
 
@@ -59,6 +60,30 @@ TEST(BehaviourDemoTest, TheNetworkThatIsOneModuleDrivesAsTheOneInTheFile) {
   EXPECT_EQ(one_module.outcome->verdict, "reached");
   ASSERT_FALSE(in_file.truth.empty());
   EXPECT_TRUE(AreSame(in_file.truth, one_module.truth));
+}
+
+// Who rests where driving is content is not stuck, and is not driven away from there.
+TEST(BehaviourDemoTest, StaysWhereItHasArrivedAlsoWithALargerTolerance) {
+  ApplicationChoice choice = Demo("one_obstacle");
+  choice.replace = {{"<parameter name=\"goal_tolerance\" to=", "<parameter name=\"goal_tolerance\" value=\"0.3\" to="},
+                    {"<module name=\"referee\"", "<!-- <module name=\"referee\""},
+                    {"<parameter name=\"time_limit\" command_line=\"time_limit\"/>\n  </module>", "-->"},
+                    {"laser/scene referee/scene", "laser/scene"},
+                    {"localisation/truth referee/pose", "localisation/truth"},
+                    {"bumper/truth referee/contact", "bumper/truth"},
+                    {"network/goal referee/goal", "network/goal"},
+                    {"<connect from=\"network/status\" to=\"referee/status\"/>", ""}};
+  choice.arguments.pop_back();  // the referee's picture
+  choice.limit = 120s;
+  const ApplicationRun run = RunApplication(choice);
+  EXPECT_THAT(run.faults, IsEmpty());
+  const auto from_goal = [&](Duration at) {
+    const Pose2& pose = run.truth.at(static_cast<std::size_t>(at / 50ms));
+    return std::hypot(pose.x - 6, pose.y);
+  };
+  EXPECT_GT(from_goal(10s), 1.0);
+  EXPECT_LT(from_goal(70s), 0.3);
+  EXPECT_DOUBLE_EQ(from_goal(119s), from_goal(70s));
 }
 
 TEST(BehaviourDemoTest, AllocatesNothingAfterStartUp) {

@@ -32,7 +32,7 @@ inline const std::vector<Row>& Rows() {
 /// The manual's table: the cells of each row, by its name. That of the head is "value".
 inline std::map<std::string, std::vector<std::string>> Printed() {
   std::map<std::string, std::vector<std::string>> rows;
-  std::ifstream manual(RUNNEL_XML "/../modules/motion/LOSSES.md");
+  std::ifstream manual(RUNNEL_XML "/../apps/documentation/pages/concepts/losses.md");
   for (std::string line; std::getline(manual, line);) {
     std::vector<std::string> cells;
     for (std::size_t at = 2, end = 0; line.starts_with("| ") && (end = line.find(" |", at)) != std::string::npos; at = end + 3)

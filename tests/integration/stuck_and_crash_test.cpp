@@ -111,6 +111,26 @@ TEST_F(StuckAndCrash, AStuckModuleIsNamedThoughNoRuleIsAboutIt) {
   EXPECT_THAT(ended.text, HasSubstr("/demo/worker: has still not returned; the program ends"));
 }
 
+TEST_F(StuckAndCrash, TheFileSaysAfterWhichTimeAModuleIsStuck) {
+  Write(kHangs, "");
+  std::string text = TextOf(application_);
+  const auto add = [&](const std::string& to, const std::string& attribute) {
+    text.insert(text.find(to) + to.size(), " stuck_after=\"" + attribute + "\"");
+  };
+  add("name=\"demo\"", "90min");
+  add("name=\"other\"", "100ms");
+  std::ofstream(application_) << text;
+  setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+  Program program("run " + application_);
+  EXPECT_TRUE(program.WaitFor(kTold)) << "that of the thread counts for its modules";
+  EXPECT_THAT(Runnel("deadline --app demo").text,
+              AllOf(HasSubstr("all others: at most 5400s in a cycle\n"), HasSubstr("/other: at most 100ms in a cycle\n"),
+                    HasSubstr("/demo/worker has not returned for ")));
+  program.Send(SIGTERM);
+  EXPECT_EQ(program.Wait().code, kRunFailed);
+  unsetenv("XDG_RUNTIME_DIR");
+}
+
 TEST_F(StuckAndCrash, OnASimulatedClockASecondSignalEndsWhatIsStuckInOrder) {
   Write(kHangs, kSimulated);
   Program program(Run() + " --record " + Path("run.mcap") + " --log " + Path("log"));

@@ -48,7 +48,7 @@ VALUES = (("/laser/scan", "/follower/scan", "simulation/laser"),
 
 
 def printed():
-    return (pathlib.Path(os.environ["RUNNEL_XML"]).parent / "modules/motion/LOSSES.md").read_text()
+    return (pathlib.Path(os.environ["RUNNEL_XML"]).parent / "apps/documentation/pages/concepts/losses.md").read_text()
 
 
 def composed(clock):

@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { OpenPage } from '../support/browser.mjs';
+import { OpenMock } from '../support/open_mock.mjs';
 import { DemoFile, Replaced, RunApplication } from '../support/runnel.mjs';
 
 const kSlow = (text) => Replaced(text, 'speed="10"', 'speed="1"');
@@ -112,4 +113,38 @@ test('who drives may pause and set values by hand, and change nothing else', asy
   }
   await page.locator('#pause').click();
   await page.locator('#pause[aria-pressed="true"]').waitFor();
+});
+
+test('of a request whose answer is lost with the connection it is said that it may have been carried out', async (t) => {
+  const { application, inspector, page } = await OpenMock(t, { lost: true });
+  const shows = (value) => inspector.until(value, (wanted) => [...document.querySelectorAll('#details .parameter input')].some((input) => input.value === wanted), value);
+  await inspector.select('/mock/robot/planner');
+  await inspector.parameter('speed').fill('2');
+  await inspector.parameter('speed').press('Enter');
+  await page.locator('#undo:not([disabled])').waitFor();
+  application.answers.undo = (reply, message, socket) => {
+    application.travel(application.past, application.future);
+    socket.terminate();
+  };
+  await page.locator('#undo').click();
+  await page.locator('.toast.error', { hasText: 'the connection was lost before the answer came: it may have been carried out' }).waitFor();
+  await page.locator('#connection-state', { hasText: /^connected/ }).waitFor();
+  await shows('0.4');
+});
+
+test('on a real clock Pause and Go on work again and again', async (t) => {
+  const { file } = await DemoFile(t, (text) => Replaced(text, '<clock type="simulated" speed="10"/>', ''));
+  const application = await RunApplication(t, file);
+  const { page } = await OpenPage(t, application.url, { width: 390, height: 844 });
+  for (const then of ['Go on', 'Pause', 'Go on', 'Pause']) {
+    await page.locator('#pause-all').click();
+    await page.locator('#pause-all', { hasText: then }).waitFor();
+  }
+});
+
+test('overruns of a thread are counted, and stand out', async (t) => {
+  const { page } = await OpenMock(t, { prepare: (mock) => { mock.overruns['/mock/threads/control'] = 3; } });
+  await page.locator('#tab-threads').click();
+  await page.locator('[data-thread="control"] td.bad', { hasText: /^3$/ }).waitFor();
+  assert.equal(await page.locator('td.bad').count(), 1);
 });

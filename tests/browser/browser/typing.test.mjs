@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { OpenMock } from '../support/open_mock.mjs';
+import { OpenMock, OpenMockPanel } from '../support/open_mock.mjs';
 import { OpenPage } from '../support/browser.mjs';
 import { DemoFile, RunApplication } from '../support/runnel.mjs';
 
@@ -111,4 +111,60 @@ test('a value that its row shows cut is edited whole, or not at all', async (t) 
   const text = await line.locator('input').inputValue();
   const ranges = text.match(/ranges: \[([^\]]*)\]/)[1].split(',').length;
   assert.ok(ranges > 100, `${ranges} ranges in ${text.slice(0, 200)}`);
+});
+
+test('a value that stays cut, and one with a number that browsers round, cannot be edited, and the table says why', async (t) => {
+  const kCut = '/mock/laser/scan';
+  const kRounded = '/mock/robot/planner/twist';
+  const { application, page } = await OpenMock(t, { prepare: (mock) => {
+    mock.cut.add(kCut);
+    mock.elements.set(kRounded, { ...mock.elements.get(kRounded), data_type: 'uint64' });
+    mock.values[kRounded] = () => 2 ** 60;
+  } });
+  await page.locator('#tab-ports').click();
+  const edit = async (path) => {
+    await page.locator('#port-filter').fill(path.split('/').filter(Boolean).join(' '));
+    const line = page.locator(`[data-port-line="${path}"]`);
+    await line.locator('.value', { hasText: /\d/ }).waitFor();
+    await line.hover();
+    await line.locator('.edit').click();
+    return line;
+  };
+  const refuses = async (path, why) => {
+    await page.locator('.problem', { hasText: `${path} cannot be edited here: ${why}` }).waitFor();
+    await page.locator('[data-port-line] input').waitFor({ state: 'detached' });
+  };
+  const line = await edit(kCut);
+  await line.locator('input[readonly]').press('Enter');
+  await refuses(kCut, 'its value is too long');
+  await edit(kRounded);
+  await refuses(kRounded, 'it has a whole number that a browser rounds');
+  assert.equal(application.asked.filter(({ op }) => op === 'publish').length, 0);
+});
+
+test('a drag of a slider that the browser cancels changes nothing', async (t) => {
+  const { application, page, panel } = await OpenMockPanel(t, { touch: true, shows: '[data-widget="slider"]', widgets: [
+    { id: 'slider', kind: 'slider', x: 0, y: 0, w: 4, h: 4, target: '/mock/robot/planner/speed', minimum: 0, maximum: 1 }] });
+  const debug = await page.context().newCDPSession(page);
+  await panel.drawn();
+  const { x, y, width, height } = await page.getByRole('slider').boundingBox();
+  const touch = (type, ...parts) => debug.send('Input.dispatchTouchEvent', { type, touchPoints: parts.map((part) => ({ x: x + width * part, y: y + height / 2 })) });
+  const changes = () => application.asked.filter(({ op }) => op === 'change').map(({ changes: [{ value }] }) => Number(value));
+  const shows = (text) => page.locator('[data-widget="slider"] output', { hasText: text }).waitFor();
+  await shows('0.4');
+  await touch('touchStart', 0.4);
+  await touch('touchMove', 0.6);
+  await touch('touchMove', 0.8);
+  await shows(/0\.[78]/);
+  await touch('touchCancel');
+  await shows('0.4');
+  // What is let go of is set: had the other been, too, it would have come before.
+  await touch('touchStart', 0.4);
+  await touch('touchMove', 0.3);
+  await touch('touchMove', 0.2);
+  await touch('touchEnd');
+  await shows(/0\.[12]/);
+  for (let tries = 0; changes().length === 0 && tries < 200; ++tries) await page.waitForTimeout(50);
+  assert.equal(changes().length, 1);
+  assert.ok(changes()[0] < 0.35, changes()[0]);
 });

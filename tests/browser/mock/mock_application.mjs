@@ -15,6 +15,8 @@ export class MockApplication {
     this.isFrozen = false; // says nothing any more, and what is asked waits
     this.saidAt = null; // it is frozen, and a slow network still brings what it said then (s of the machine's time); null: it is not
     this.asked = [];  // all requests
+    this.cut = new Set();  // ports of which no page gets a whole value
+    this.overruns = {};    // thread path -> how many there have been
     this.stop = { in_force: false, by: '', since: 0 };
     this.drivesBeside = []; // names of what leaves over a network and drives
     this.unreached = [];    // {path, why}: driving ports that no STOP reaches; null: the structure is being changed, nobody can tell

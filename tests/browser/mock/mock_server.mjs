@@ -200,7 +200,7 @@ class Client {
       if (this.#told.get(path) === told) continue;
       this.#told.set(path, told);
       this.#watched.set(path, count + 1);
-      items.push({ path, stamp: application.time, count: count + 1, value });
+      items.push({ path, stamp: application.time, count: count + 1, value, cut: application.cut.has(path) });
     }
     if (items.length > 0) this.send({ op: 'values', time: application.time, items });
     if (this.rates && ++this.#rated % 10 === 1) this.#sendRates();
@@ -212,7 +212,8 @@ class Client {
     for (const { path, kind, direction } of this.application.elements.values()) {
       if (kind === 'port' && direction === 'output') ports[path] = this.application.silent?.has(path) ? 0 : 20 + (this.#rated % 3) * 0.1;
       if (kind === 'thread') {
-        threads[path] = { cycles: this.#rated, period_ms: 50, duration_ms: { mean: 0.18, max: 1.2 }, jitter_ms: 0.01, overruns: 0 };
+        threads[path] = { cycles: this.#rated, period_ms: 50, duration_ms: { mean: 0.18, max: 1.2 }, jitter_ms: 0.01,
+          overruns: this.application.overruns[path] ?? 0 };
       }
     }
     this.send({ op: 'rates', time: this.application.time, ports, threads });

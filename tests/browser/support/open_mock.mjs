@@ -23,8 +23,9 @@ export async function OpenMockPanel(t, { widgets, prepare, readOnly = false, ...
   return { application, server, panel, page: panel.page };
 }
 
-export async function OpenMock(t, options = {}) {
+export async function OpenMock(t, { prepare, ...options } = {}) {
   const application = Robot();
+  prepare?.(application);
   const server = await ServeMock(application, { page: process.env.RUNNEL_PAGE });
   Cleanup(t, () => server.close());
   const inspector = await OpenPage(t, server.url, options);

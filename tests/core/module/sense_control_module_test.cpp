@@ -49,6 +49,47 @@ TEST(SenseControlModuleTest, HasTwoTasksOfWhichSensingComesFirst) {
   EXPECT_EQ(base.calls, "sense control ");
 }
 
+// What it has sensed may stand in a member, which bears no time.
+TEST(SenseControlModuleTest, WhatControlPublishesIsAsOldAsWhatSenseHasRead) {
+  class Follower final : public SenseControlModule {
+   public:
+    using SenseControlModule::SenseControlModule;
+    Input<double> raw{sensor_inputs(), "raw", {.ageing = Ageing::kTimesOut}};
+    Output<double> wheels{controller_outputs(), "wheels"};
+
+   private:
+    void Sense() override { distance_ = raw.Get(); }
+    void Control() override { wheels.Publish(distance_); }
+    double distance_ = 0;
+  };
+  class Other final : public Module {
+   public:
+    using Module::Module;
+    Output<double> out{this, "out"};
+    Input<double> in{this, "in"};
+
+   private:
+    void Update() override {}
+  };
+  Runtime runtime;
+  auto& other = runtime.Create<Other>(runtime.root(), "other");
+  auto& follower = runtime.Create<Follower>(runtime.root(), "follower");
+  ASSERT_TRUE(Port::Connect(other.out, follower.raw));
+  ASSERT_TRUE(Port::Connect(follower.wheels, other.in));
+  ASSERT_TRUE(runtime.MakeReady(runtime.root()));
+  const auto tasks = TasksOf(follower);
+  ASSERT_EQ(tasks.size(), 2u);
+  const Time measured{std::chrono::seconds(5)};
+  const Time now{std::chrono::seconds(20)};
+  other.out.Publish(1.5, measured);
+  const CycleScope cycle({.now = now});
+  tasks[0].run();
+  internal::BeginModule();  // others have their turn in between
+  tasks[1].run();
+  EXPECT_EQ(*other.in.Read(), 1.5);
+  EXPECT_EQ(other.in.Read().timestamp(), measured);
+}
+
 TEST(SenseControlModuleTest, RefusesPortsThatDoNotSayOnWhichSideTheyAre) {
   class Sideless final : public SenseControlModule {
    public:

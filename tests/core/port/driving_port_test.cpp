@@ -154,6 +154,19 @@ TEST_F(StopTest, APortWithoutASafeValueDoesNotDrive) {
           .in.is_driving());
 }
 
+TEST_F(StopTest, TheSafeValueOfAVelocityIsZeroWhateverIsReadWhileNothingComes) {
+  auto& speed = MakeReceiver<double>("speed", {.unit = "m/s", .limits = {.default_value = 0.2}, .drives = true});
+  auto& slow = MakeReceiver<double>("slow", {.unit = "m/s", .limits = {.default_value = 0.2}, .drives = true, .safe_value = 0.1});
+  auto& marked = MakeReceiver<double>("marked", {.unit = "m/s", .limits = {.default_value = 0.2}});
+  ASSERT_TRUE(runtime.MakeReady(runtime.root()));
+  ASSERT_TRUE(marked.in.SetDriving(true));
+  EXPECT_EQ(speed.in.Get(), 0.2);
+  Press();
+  EXPECT_EQ(speed.in.Get(), 0.0);
+  EXPECT_EQ(slow.in.Get(), 0.1) << "its module says so";
+  EXPECT_EQ(marked.in.Get(), 0.0);
+}
+
 TEST_F(StopTest, TheSafeValueIsTheOneOfTheModuleThatIsThereNow) {
   auto& sender = MakeSender<double>();
   auto& before =

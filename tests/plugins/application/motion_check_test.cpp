@@ -45,6 +45,14 @@ TEST(MotionCheck, NamesAModuleThatDrivesAndSharesItsThread) {
                                ::testing::HasSubstr("give it a thread of its own: <thread name=\"drive\"")));
 }
 
+TEST(MotionCheck, NamesModulesThatDriveAndShareTheirThreadWithEachOther) {
+  EXPECT_THAT(Checked("<thread name='control' period='10ms'/>\n"
+                      "<module name='m' type='states/filter'/><driving port='m/queued'/>\n"
+                      "<module name='n' type='states/filter'/><driving port='n/queued'/>"),
+              ::testing::AllOf(::testing::HasSubstr("/app/m: something moves by it, and the thread 'control' runs 1 other module:"),
+                               ::testing::HasSubstr("/app/n: something moves by it, and the thread 'control' runs 1 other module:")));
+}
+
 TEST(MotionCheck, WarnsOfAMarkBeforeWhatMoves) {
   const std::string moves = "<module name='s' type='states/source'/><module name='m' type='states/filter'/><connect from='s/out' to='m/in'/>";
   EXPECT_THAT(Checked("<clock type='simulated'/>" + moves + "<driving port='s/out'/>"),

@@ -186,6 +186,35 @@ TEST_F(Supervised, ARuleThatTakesItsValueBackLeavesWhatAPersonHasSet) {
   EXPECT_EQ(robot.seen, 1);
 }
 
+TEST_F(Driven, ARuleThatTakesItsValueBackEndsNeitherABlockNorAStop) {
+  Port& port = robot.reader.in;
+  SupervisionRule rule = robot.SwitchingRule();
+  rule.reaction = {.published = {{port.path(), "5"}}};
+  rule.otherwise = {};
+  rule.otherwise.TakeBack(rule.reaction);
+  MustSucceed(robot.supervisor.Add(rule));
+  RobotStop& stop = robot.runtime.robot_stop();
+  const auto block = [&] { MustSucceed(port.Block()); };
+  const auto press = [&] { EXPECT_TRUE(stop.Press("a person")); };
+  for (const std::function<void()>& hold : {std::function<void()>(block), std::function<void()>(press)}) {
+    robot.laser_works = false;
+    RunOn();
+    ASSERT_EQ(robot.seen, 5);
+    hold();
+    RunOn();
+    EXPECT_EQ(robot.seen, -7);
+    robot.laser_works = true;
+    RunOn();
+    EXPECT_FALSE(port.is_set_by_hand(Port::Setter::kRule)) << "it is fresh again";
+    EXPECT_EQ(robot.seen, -7);
+    EXPECT_EQ(port.is_blocked(), !stop.in_force());
+    if (port.is_blocked()) EXPECT_TRUE(port.Unblock());
+    if (stop.in_force()) EXPECT_TRUE(stop.Release("a person"));
+    RunOn();
+    EXPECT_EQ(robot.seen, 1);
+  }
+}
+
 TEST_F(Supervised, ARuleThatCannotTakeItsValueBackSaysSo) {
   SupervisionRule rule = robot.SwitchingRule();
   rule.reaction = {.published = {{robot.reader.in.path(), "5"}}};

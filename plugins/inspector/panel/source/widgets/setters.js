@@ -45,7 +45,7 @@ export function Slider({ widget }) {
   };
   const come = ({ repeat, button }) => { hasCome.current = !repeat && !button; };
   const holding = drives ? { onPointerDown: come, onKeyDown: come, onPointerUp: letGo, onPointerCancel: letGo, onLostPointerCapture: letGo,
-    onKeyUp: letGo, onBlur: letGo } : { onChange: (event) => send(event.target.valueAsNumber) };
+    onKeyUp: letGo, onBlur: letGo } : { onChange: (event) => send(event.target.valueAsNumber), onPointerCancel: () => setDraft(null) };
   return html`
     <div class="slider">
       <output>${typeof value === 'number' || draft !== null ? FormatNumber(shown) : '–'} <small>${element?.unit ?? ''}</small></output>
