@@ -29,7 +29,7 @@ std::string_view WithoutComment(std::string_view line) {
 
 // Above 0.
 std::optional<std::size_t> NumberOf(std::string_view text) {
-  const auto number = NumberIn<std::size_t>(text);
+  const auto number = runnel::NumberIn<std::size_t>(text);
   return number && *number > 0 ? number : std::nullopt;
 }
 
