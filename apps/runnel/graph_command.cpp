@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <iostream>
 
-
 #include "apps/runnel/commands.h"
 #include "apps/runnel/output.h"
 #include "core/base/program_output.h"

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <poll.h>

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/port/port.h"
@@ -19,9 +20,8 @@ class Runtime;
 void VisitSiblings(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit);
 
 namespace internal {
-/// At which number begins what moves the robot by the port, or by what a module behind it passes on: as
-/// Port::motion_begins_at(); nothing: none does.
-[[nodiscard]] std::optional<double> FindBeginning(const Port& port);
+/// By which velocities the robot moves that are made of what the port passes on.
+[[nodiscard]] std::vector<Port*> FindVelocities(const Port& port);
 }  // namespace internal
 
 /// What the STOP of the robot holds, as paths with ", " between them; "": it holds nothing. Nothing while somebody else has

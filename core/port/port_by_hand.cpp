@@ -1,6 +1,5 @@
 // Values that are set by hand (Port::PublishByHand()).
 
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -8,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/conversion/number_conversion.h"
 #include "core/element/runtime.h"
 #include "core/port/driving_ports.h"
 #include "core/port/port.h"
@@ -30,16 +28,6 @@ bool HasPublishedSince(const Port& port, const Port& held) {
     source->VisitLatest([&](const void*, ValueTimes times) { has_published = has_published || (set && times.publication_time > *set); });
   }
   return has_published;
-}
-
-// Velocities begin from a standstill, whatever was in force. Another number, as a position is, does where it has its safe value.
-bool StandsWhereMotionBegins(const Port& port, const Port& held) {
-  const auto begins_at = internal::FindBeginning(port);
-  if (!begins_at || std::isnan(*begins_at)) return begins_at.has_value();
-  bool stands = false;
-  const auto look = [&](const void* value, ValueTimes) { stands = internal::NumberIn(port.type(), value) == *begins_at; };
-  if (internal::IsNumber(port.type())) held.VisitLatest(look);
-  return stands;
 }
 }  // namespace
 
@@ -134,17 +122,18 @@ bool Port::Release(Setter setter) {
   if (!is_set_by_hand(setter)) return false;
   const Port& held = *extras_->by_hand[SlotOf(setter)];
   // What is ramped before it has not driven. Nor does what a ramp, or anybody before what a person has set, has made
-  // meanwhile. Else, who releases for a rule has seen that what comes is new.
-  const bool stands = StandsWhereMotionBegins(*this, held);
-  const bool is_ramped = stands && BeginMotionAnew() && (setter == Setter::kPerson || HasPublishedSince(*this, held));
+  // meanwhile. Else, who releases for a rule has seen that what comes is new. A position goes on at once to what is wished:
+  // its safe value would be a motion, too.
+  const std::vector<Port*> velocities = internal::FindVelocities(*this);
+  const bool is_ramped = BeginMotionAnew() && (setter == Setter::kPerson || HasPublishedSince(*this, held));
   const Setter other = setter == Setter::kPerson ? Setter::kRule : Setter::kPerson;
   const bool is_alone = !is_set_by_hand(other) && life_cycle() != LifeCycle::kDeleted;
-  const bool is_barred = is_alone && stands && (is_ramped || setter == Setter::kPerson);
   // What is published at this very moment counts, as also where the clock stands; a ramp may not have begun anew by then.
   const auto now = [&] { return runtime().clock().Now() - Duration(is_ramped ? 0 : 1); };
-  for (Port* each : is_ramped ? Sinks() : std::vector<Port*>{this}) {
-    const bool is_free = each == this || (!each->is_set_by_hand(Setter::kPerson) && !each->is_set_by_hand(Setter::kRule));
-    if (is_barred && is_free && each->is_driving()) each->extras_->stop->block()->Bar(now);
+  for (Port* each : velocities) {
+    const bool is_free = !each->is_set_by_hand(Setter::kPerson) && !each->is_set_by_hand(Setter::kRule);
+    const bool is_barred = is_alone && (each == this ? is_ramped || setter == Setter::kPerson : is_ramped && is_free);
+    if (is_barred) each->extras_->stop->block()->Bar(now);
   }
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;

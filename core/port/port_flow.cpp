@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <unordered_set>
 #include <utility>
 
+#include "core/base/unit.h"
 #include "core/conversion/number_conversion.h"
 #include "core/port/converted_flow.h"
 #include "core/port/driving_ports.h"
@@ -45,19 +47,39 @@ bool IsZero(const AnyValue& value) {
   return zero != nullptr && value.type().is_transparent() && ToText(value.type(), value.get()) == ToText(value.type(), zero.get());
 }
 
-std::optional<double> FindBeginningAt(const Port& input) {
+// What is at zero has not come to rest there, but has gone there.
+bool IsPosition(const TypeInfo& type, const std::string& unit) {
+  const auto parsed = ParseUnit(unit);
+  const bool is_length_or_angle = parsed && (parsed->dimensions == Dimensions{1} || parsed->dimensions == Dimensions{0, 0, 0, 0, 0, 1});
+  return is_length_or_angle || std::ranges::any_of(type.fields(), [](const FieldInfo& field) { return IsPosition(*field.type, field.unit); });
+}
+
+bool IsStandstill(const Port& input, const AnyValue& safe_value) {
+  return IsVelocity(input.type(), input.unit()) || (IsZero(safe_value) && !IsPosition(input.type(), input.unit()));
+}
+
+bool IsNotedVelocity(const Port& output) { return output.motion_beginnings() != 0 && std::isnan(output.motion_begins_at()); }
+
+// It moves the robot, and comes to a standstill, or its module passes it on to what does.
+bool IsMadeVelocity(const Port& input) {
+  const auto stands = [&](const internal::PassedStop& each) { return each.stop->robot() != nullptr && IsStandstill(input, each.safe_value); };
+  if (std::ranges::any_of(internal::PassedStops(input), stands)) return true;
+  bool is_made = false;
+  VisitSiblings(input, Port::Direction::kOutput, [&](const Port& output) {
+    is_made = is_made || (&output.type() == &input.type() && IsNotedVelocity(output));
+  });
+  return is_made;
+}
+
+// The safe value of another number by which the robot moves, as a position, for who is directly connected.
+std::optional<double> FindSafeNumber(const Port& source, const Port& input) {
+  const Connection* const edge = source.ConnectionTo(input);
+  if (edge == nullptr || edge->converted || !internal::IsNumber(input.type())) return {};
   for (const internal::PassedStop& each : internal::PassedStops(input)) {
-    if (each.stop->robot() == nullptr) continue;
-    const bool is_number = internal::IsNumber(input.type());
-    if (IsVelocity(input.type(), input.unit()) || (IsZero(each.safe_value) && (!is_number || input.unit().empty()))) return NAN;
-    const double safe = is_number ? internal::NumberIn(input.type(), each.safe_value.get()) : NAN;
+    const double safe = each.stop->robot() != nullptr ? internal::NumberIn(input.type(), each.safe_value.get()) : NAN;
     if (std::isfinite(safe)) return safe;
   }
-  std::optional<double> begins_at;
-  VisitSiblings(input, Port::Direction::kOutput, [&](const Port& output) {
-    if (&output.type() == &input.type() && output.motion_beginnings() != 0) begins_at = output.motion_begins_at();
-  });
-  return begins_at;
+  return {};
 }
 
 // Of two stretches of one way, or two ways from one source, the one that asks for a queue decides;
@@ -121,39 +143,54 @@ std::vector<Port::Source> Port::BoundSources(Links links) const {
 void Port::RebindSinks() {
   for (Port* sink : Sinks()) {
     sink->Rebind(sink->BoundSources(Links::kMake));
-    const auto begins_at = FindBeginningAt(*sink);
-    if (!begins_at) continue;
-    for (Port* source : sink->Sources()) source->NoteMotion(kFirstBeginning, *begins_at);
+    const bool is_velocity = IsMadeVelocity(*sink);
+    for (Port* source : sink->Sources()) {
+      const auto begins_at = is_velocity ? std::optional<double>(NAN) : FindSafeNumber(*source, *sink);
+      if (begins_at) (void)source->NoteMotion(kFirstBeginning, *begins_at);
+    }
   }
 }
 
-std::optional<double> internal::FindBeginning(const Port& port) {
-  std::optional<double> begins_at;
-  for (const Port* sink : port.Sinks()) {
-    if (!begins_at) begins_at = FindBeginningAt(*sink);
-  }
-  return begins_at;
+std::vector<Port*> internal::FindVelocities(const Port& port) {
+  std::vector<Port*> found;
+  std::unordered_set<const Port*> seen;
+  const std::function<void(const Port&)> look = [&](const Port& from) {
+    for (Port* sink : from.Sinks()) {
+      if (!seen.insert(sink).second || !IsMadeVelocity(*sink)) continue;
+      if (sink->is_driving()) found.push_back(sink);
+      VisitSiblings(*sink, Port::Direction::kOutput, [&](const Port& output) {
+        if (&output.type() == &sink->type() && IsNotedVelocity(output)) look(output);
+      });
+    }
+  };
+  look(port);
+  return found;
 }
 
 bool Port::BeginMotionAnew() {
   static std::atomic<std::uint32_t> last{kFirstBeginning};
-  const auto begins_at = internal::FindBeginning(*this);
-  if (!begins_at) return false;
+  if (std::ranges::none_of(Sinks(), [](const Port* sink) { return IsMadeVelocity(*sink); })) return false;
   const std::uint32_t beginning = ++last;
   bool is_followed = false;
-  for (Port* source : Sources()) is_followed = source->NoteMotion(beginning, *begins_at) || is_followed;
+  for (Port* source : Sources()) is_followed = source->NoteMotion(beginning, NAN) || is_followed;
   return is_followed;
 }
 
+// A module that passes values on may scale them: only a standstill is the same before it.
 bool Port::NoteMotion(std::uint32_t beginning, double begins_at) {
   const std::uint32_t known = motion_beginnings();
-  const bool is_known = known == beginning || (known != 0 && beginning == kFirstBeginning);
-  const double known_at = motion_begins_at();
-  if (is_known && (known_at == begins_at || (std::isnan(known_at) && std::isnan(begins_at)))) return false;
-  motion_begins_at_.store(begins_at, std::memory_order_relaxed);
+  const bool is_velocity = std::isnan(begins_at);
+  if (!is_velocity) {
+    if (IsNotedVelocity(*this)) return false;
+    motion_begins_at_.store(begins_at, std::memory_order_relaxed);
+  } else if (IsNotedVelocity(*this) && (known == beginning || beginning == kFirstBeginning)) {
+    return false;
+  }
+  if (is_velocity) motion_begins_at_.store(NAN, std::memory_order_relaxed);
   // release: pairs with the acquire in motion_beginnings(): who sees that it begins anew sees where.
-  if (!is_known) motion_beginnings_.store(beginning, std::memory_order_release);
+  if (known != beginning && (known == 0 || beginning != kFirstBeginning)) motion_beginnings_.store(beginning, std::memory_order_release);
   bool is_followed = follows_motion_.load(std::memory_order_relaxed);
+  if (!is_velocity) return is_followed;
   VisitSiblings(*this, Direction::kInput, [&](const Port& input) {
     if (&input.type() != &type()) return;
     for (Port* source : input.Sources()) is_followed = source->NoteMotion(beginning, begins_at) || is_followed;

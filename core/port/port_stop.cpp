@@ -7,6 +7,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/unit.h"
 #include "core/element/runtime.h"
 #include "core/port/converted_flow.h"
 #include "core/port/driving_ports.h"
@@ -22,7 +23,9 @@ constexpr Duration kLongestBrake = std::chrono::seconds(10);
 }  // namespace
 
 bool IsVelocity(const TypeInfo& type, const std::string& unit) {
-  if (type.semantic_tag() == "twist" || unit == "m/s" || unit == "rad/s") return true;
+  const auto parsed = ParseUnit(unit);
+  const bool is_per_second = parsed && (parsed->dimensions == Dimensions{1, 0, -1} || parsed->dimensions == Dimensions{0, 0, -1, 0, 0, 1});
+  if (type.semantic_tag() == "twist" || is_per_second) return true;
   return !type.fields().empty() && std::ranges::all_of(type.fields(), [](const FieldInfo& field) {
     return IsVelocity(*field.type, field.unit);
   });

@@ -87,7 +87,6 @@ void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noex
   extras_.swap(from.extras_);
   motion_begins_at_ = from.motion_begins_at_.exchange(motion_begins_at_);
   motion_beginnings_ = from.motion_beginnings_.exchange(motion_beginnings_);
-  follows_motion_ = from.follows_motion_.exchange(follows_motion_);
   for (const Port* port : {static_cast<const Port*>(this), static_cast<const Port*>(&from)}) {
     if (port->extras_) port->extras_->StandFor(*port);
   }

@@ -64,7 +64,8 @@ class Filter : public Module {
       BeginAt(moves_by_velocity() ? 0 : out.motion_begins_at());
       course_.last = std::max(Time(Duration(course_.bar)), now() - period());
     }
-    const double seconds = course_.last && time > *course_.last ? ToSeconds(time - *course_.last) : 0;
+    double seconds = course_.last && time > *course_.last ? ToSeconds(time - *course_.last) : 0;
+    if (course_.beginning != 0) seconds = std::min(seconds, ToSeconds(longest()));  // a silence is no way that was gone
     course_.last = time;
     out.Publish(Next(*value, seconds), time);
   }
@@ -76,15 +77,16 @@ class Filter : public Module {
     course_.bar = bar;
     course_.beginning = out.FollowMotionBeginnings();
     if (course_.beginning == 0) return false;
-    const bool is_new = course_.beginning != before.beginning;
-    // What is no velocity rests where it is while nothing comes, and begins at the first value.
+    // A position waits where it is while nothing comes, and begins at the first value; only a STOP has brought it elsewhere.
     if (!moves_by_velocity() && !before.last) return bar == StopSignal::kInForce || before.bar == StopSignal::kInForce;
     if (bar == StopSignal::kInForce || bar != before.bar) return true;
-    if (!moves_by_velocity()) return is_new && before.beginning != 0;
-    return is_new || !has_begun() || (before.last && time - *before.last > std::max(kTimedOut, 2 * period()));
+    if (!moves_by_velocity()) return false;
+    return course_.beginning != before.beginning || !has_begun() || (before.last && time - *before.last > longest());
   }
 
   [[nodiscard]] bool moves_by_velocity() const noexcept { return std::isnan(out.motion_begins_at()); }
+
+  [[nodiscard]] Duration longest() const noexcept { return std::max(kTimedOut, 2 * period()); }
 
   static constexpr Duration kTimedOut = std::chrono::milliseconds(500);
   struct Course {

@@ -23,7 +23,8 @@ std::size_t FractionLength(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const std::string_view read(text.data(), static_cast<std::size_t>(end - text.data()));
   const bool is_fraction = error == std::errc() && read.find_first_of(".e") != read.npos;
-  return is_fraction && read.front() != '.' ? read.size() : 0;
+  const bool is_word = text.substr(read.size()).starts_with('.');  // as an address is
+  return is_fraction && !is_word && read.find_first_not_of("-") == read.find_first_of("0123456789") ? read.size() : 0;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "plugins/supervision/stop_button.h"
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -29,7 +30,9 @@ constexpr Duration kStuckAfter = std::chrono::seconds(1);
 /// Why nobody can press by a port, one sentence for each place on the way to it.
 class WayToButton {
  public:
-  WayToButton(const Scheduler& scheduler, const Port& port) : scheduler_(scheduler) { Look(port); }
+  /// `fed`: how many connections the ports on the way have had at most. Which port it was need not be known: who renames or
+  /// replaces it finds the connections, or does not.
+  WayToButton(const Scheduler& scheduler, std::map<std::string, std::size_t>& fed, const Port& port) : scheduler_(scheduler), fed_(fed) { Look(port); }
   std::set<std::string> lacks;
   bool is_covered = false;  // by a value by hand
 
@@ -42,7 +45,13 @@ class WayToButton {
     }
     const bool is_output = port.direction() == Port::Direction::kOutput && !port.is_proxy();
     if (is_output) return LookAtModule(port);
-    if (port.incoming().empty()) lacks.insert("nothing is connected to " + port.path());
+    std::size_t& most = fed_[port.path()];
+    most = std::max(most, port.incoming().size());
+    if (port.incoming().empty()) {
+      lacks.insert("nothing is connected to " + port.path());
+    } else if (port.incoming().size() < most) {
+      lacks.insert("a connection to " + port.path() + " is gone");
+    }
     for (const Port* each : port.incoming()) Look(*each);
   }
   void LookAtModule(const Port& output) {
@@ -56,14 +65,17 @@ class WayToButton {
                              (input->ageing() == Ageing::kPassedOn || input->ageing() == Ageing::kTimesOut);
       if (!is_passed) return;
       passed.push_back(&each);
-      is_fed = is_fed || !each.incoming().empty() || each.is_set_by_hand();
+      is_fed = is_fed || WasFed(each);
     });
     for (const Port* each : passed) {
-      if (!is_fed || !each->incoming().empty() || each->is_set_by_hand()) Look(*each);  // not all of a choice need be fed
+      if (!is_fed || WasFed(*each)) Look(*each);  // not all of a choice need be fed
     }
   }
 
+  [[nodiscard]] bool WasFed(const Port& input) const { return !input.incoming().empty() || input.is_set_by_hand() || fed_.contains(input.path()); }
+
   const Scheduler& scheduler_;
+  std::map<std::string, std::size_t>& fed_;
   std::set<const Port*> seen_;
 };
 }  // namespace
@@ -134,12 +146,12 @@ bool StopButton::LookForPort() {
   if (!sources.empty()) {
     rule_.port = sources.front()->path();
     is_gone_ = false;
-    WayToButton way(scheduler_, *sources.front());
+    WayToButton way(scheduler_, fed_, *sources.front());
     // Of many values at once the queue may have had no room for the one that counts, and others may have released.
     bool is_down = false;
     const auto look = [&](const void* value, ValueTimes) { is_down = NumberIn(element_->probe.type(), value) != 0; };
     is_covered_ = way.is_covered;
-    if (!is_covered_ && sources.front()->VisitLatest(look) && is_down) {
+    if (!sources.front()->is_set_by_hand() && sources.front()->VisitLatest(look) && is_down) {
       const bool is_new = !std::exchange(is_down_, true);
       if (is_new || !runtime_.robot_stop().in_force()) Press(rule_.port);
     }

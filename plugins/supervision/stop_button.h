@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -56,6 +57,7 @@ class StopButton {
   bool is_covered_ = false;  // by a value by hand
   bool is_gone_ = false;
   std::set<std::string> lacks_;  // why nobody could press, as of the last look
+  std::map<std::string, std::size_t> fed_;  // how many connections there have been, by ports on the way
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

@@ -56,6 +56,14 @@ class LogEntry(NamedTuple):
     text: str
 
 
+KINDS = ("group", "module", "input", "output", "service", "parameter")  # of paths
+
+
+def check_kind(kind, kinds=KINDS):
+    if kind is not None and kind not in kinds:
+        raise ValueError(f"there is no kind '{kind}'; there is {', '.join(kinds)}")
+
+
 def text_of(value, inside=False):
     """The text format of a value.
 
@@ -362,6 +370,7 @@ class Application(_extension.Application):
 
     def paths(self, kind=None):
         """(path, kind, type) of all groups, modules, inputs, outputs, services and parameters, or of those of one kind."""
+        check_kind(kind)
         return [each for each in self._paths() if kind is None or each[1] == kind]
 
     # Running it.

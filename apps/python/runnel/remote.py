@@ -10,7 +10,7 @@ import threading
 import time
 
 from runnel import _extension
-from runnel.application import _STOP, _port, text_of
+from runnel.application import _STOP, KINDS, _port, check_kind, text_of
 
 
 def _folder():
@@ -199,14 +199,16 @@ class Remote:
 
     def paths(self, kind=None):
         """(path, kind, type) of all elements, or of those of one kind."""
+        check_kind(kind, (*KINDS, "thread", "ports", "element"))
         rows = [line.split("\t") for line in self.ask("paths").splitlines()]
         found = []
         for row in rows:
             type = row[3] if len(row) > 3 else ""
             if row[0] in ("input", "output", "parameter"):
                 self._types[row[1]] = type
-            if kind is None or row[0] == kind:
-                found.append((row[1], row[0], type))
+            its_kind = "service" if row[0] == "output" and type.startswith("service ") else row[0]
+            if kind is None or its_kind == kind:
+                found.append((row[1], its_kind, type))
         return found
 
     def _type_of(self, path):

@@ -21,7 +21,15 @@ const kFollower = `<application name="follower">
 `;
 
 async function Drag(page, from, to) {
-  const [start, end] = [await from.boundingBox(), await to.boundingBox()];
+  // What is drawn anew meanwhile has no box for a moment.
+  const boxOf = async (place) => {
+    for (;;) {
+      await place.waitFor();
+      const box = await place.boundingBox();
+      if (box !== null) return box;
+    }
+  };
+  const [start, end] = [await boxOf(from), await boxOf(to)];
   await page.mouse.move(start.x + start.width / 2, start.y + start.height / 2);
   await page.mouse.down();
   await page.mouse.move((start.x + end.x) / 2, (start.y + end.y) / 2, { steps: 5 });

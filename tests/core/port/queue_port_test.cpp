@@ -263,6 +263,8 @@ TEST_F(QueuePortTest, ConnectingUnderLoadNeitherLosesNorRepeats) {
   auto& receiver = MakeReceiver<Block>();
   std::atomic<bool> done{false};
   std::atomic<std::uint64_t> taken{0};
+  // More than is published while the reader waits for a processor: a connection forgets at its end what its queue dropped.
+  const ConnectOptions long_queue{.queue = 1 << 15, .on_full = OnFull::kDropNewest};
   std::uint64_t disorder = 0, missed = 0;
   RunTogether(3, [&](unsigned index) {
     if (index == 0) {
@@ -274,12 +276,12 @@ TEST_F(QueuePortTest, ConnectingUnderLoadNeitherLosesNorRepeats) {
       }
     } else if (index == 1) {
       for (int round = 0; round < 200; ++round) {
-        Connect(sender.out, receiver.in, {.queue = 4096, .on_full = OnFull::kDropNewest});
+        Connect(sender.out, receiver.in, long_queue);
         std::this_thread::yield();
         ASSERT_TRUE(Port::Disconnect(sender.out, receiver.in));
       }
       // The last connection stays until the reader has had its turn.
-      Connect(sender.out, receiver.in, {.queue = 4096, .on_full = OnFull::kDropNewest});
+      Connect(sender.out, receiver.in, long_queue);
       WaitUntil("a value has been taken", [&] { return taken > 0; });
       done = true;
     } else {

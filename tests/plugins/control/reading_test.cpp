@@ -22,6 +22,7 @@ TEST(ReadableNumbersTest, HaveSixDigitsOutsideOfQuotationMarks) {
   EXPECT_EQ(ReadableNumbers("left_0.12345678 v1.23456789"), "left_0.12345678 v1.23456789");
   EXPECT_EQ(ReadableNumbers("1.23456789s"), "1.23457s");
   EXPECT_EQ(ReadableNumbers("192.168.100.10"), "192.168.100.10") << "an address is no number";
+  EXPECT_EQ(ReadableNumbers("2.20240101.5 -.123456789"), "2.20240101.5 -.123456789");
   EXPECT_EQ(ReadableNumbers(""), "");
   EXPECT_EQ(ReadableNumbers("\""), "\"");
 }

@@ -100,6 +100,46 @@ TEST_F(WayToStopButton, ItPressesWhenWhatComesBeforeItIsSetByHand) {
   WaitForStop("/app/debouncing/input/in is set by hand");
 }
 
+struct Choice final : Module {
+  using Module::Module;
+  Input<double> front{this, "front", {.ageing = Ageing::kPassedOn}};
+  Input<double> rear{this, "rear", {.ageing = Ageing::kPassedOn}};
+  Input<double> none{this, "none", {.ageing = Ageing::kPassedOn}};
+  Output<double> out{this, "out"};
+  void Update() override {}
+};
+
+// The third input was never connected, and so is no button.
+TEST_F(WayToStopButton, ItPressesWhenOneOfTwoButtonsIsLost) {
+  auto& choice = runtime.Create<Choice>(app, "choice");
+  auto& rear = runtime.Create<Doing>(app, "rear");
+  MustSucceed(Port::Connect(panel.out, choice.front));
+  MustSucceed(Port::Connect(rear.out, choice.rear));
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  Add(choice.out);
+  MustSucceed(Port::Disconnect(rear.out, choice.rear));
+  WaitForStop("nothing is connected to /app/choice/input/rear");
+  MustSucceed(Port::Connect(rear.out, choice.front));
+  ASSERT_TRUE(runtime.robot_stop().Release("the test"));
+  std::this_thread::sleep_for(200ms);  // nobody is told that it has been found
+  MustSucceed(Port::Disconnect(rear.out, choice.front));
+  WaitForStop("a connection to /app/choice/input/front is gone");
+}
+
+TEST_F(WayToStopButton, WhileItIsDownItPressesAgainAlsoWhenAnotherOneIsSetByHand) {
+  auto& choice = runtime.Create<Choice>(app, "choice");
+  MustSucceed(Port::Connect(panel.out, choice.front));
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  Add(choice.out);
+  SetByHand(choice.front);
+  WaitForStop("/app/choice/input/front is set by hand");
+  choice.out.Publish(1);
+  WaitForStop("the button /app/choice/output/out, as");
+  ASSERT_TRUE(runtime.robot_stop().Release("the test"));
+  const auto pressed = runtime.robot_stop().state().changes;
+  WaitUntil("it is pressed again", [&] { return runtime.robot_stop().state().changes > pressed; });
+}
+
 TEST_F(WayToStopButton, ItPressesWhenItIsSetByHand) {
   Add(panel.out);
   SetByHand(panel.out);
