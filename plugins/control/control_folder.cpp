@@ -149,10 +149,10 @@ Result<std::vector<fs::path>> FindControlSockets(const fs::path& folder) {
     const fs::path path = folder / name;
     if (path.extension() == kStartingEnding && !IsAlive(OrderOf(path).first)) unlink(path.c_str());
     if (path.extension() != kEnding || !fs::is_socket(path, none)) continue;
-    if (IsStale(path)) {
-      unlink(path.c_str());
-    } else {
+    if (!IsStale(path)) {
       sockets.push_back(path);
+    } else if (!IsAlive(OrderOf(path).first)) {  // who lives may listen there anew by now
+      unlink(path.c_str());
     }
   }
   std::ranges::sort(sockets, {}, OrderOf);

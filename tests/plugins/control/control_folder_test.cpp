@@ -82,11 +82,13 @@ TEST(ControlFolder, LosesTheSocketsOfTheDead) {
   const auto listening = ListenInFolder(folder.path());
   ASSERT_TRUE(listening);
   LeaveStaleSocket(folder.path() / "1.sock");
+  LeaveStaleSocket(folder.path() / "999999999.sock");
   std::ofstream(folder.path() / "2.sock") << "no socket";
   const auto found = FindControlSockets(folder.path());
   ASSERT_TRUE(found);
   EXPECT_THAT(*found, ::testing::ElementsAre(listening->path));
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "1.sock"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "1.sock")) << "who has that number lives, and may begin to listen";
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "999999999.sock"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "2.sock"));
   close(listening->descriptor);
 }
