@@ -20,8 +20,8 @@ class Runtime;
 void VisitSiblings(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit);
 
 namespace internal {
-/// By which velocities the robot moves that are made of what the port passes on.
-[[nodiscard]] std::vector<Port*> FindVelocities(const Port& port);
+/// What stops the velocities by which the robot moves that are made of what the port passes on.
+[[nodiscard]] std::vector<std::shared_ptr<const PortStop>> FindStopsOfVelocities(const Port& port);
 }  // namespace internal
 
 /// What the STOP of the robot holds, as paths with ", " between them; "": it holds nothing. Nothing while somebody else has

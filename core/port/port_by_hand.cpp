@@ -1,5 +1,6 @@
 // Values that are set by hand (Port::PublishByHand()).
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -124,16 +125,16 @@ bool Port::Release(Setter setter) {
   // What is ramped before it has not driven. Nor does what a ramp, or anybody before what a person has set, has made
   // meanwhile. Else, who releases for a rule has seen that what comes is new. A position goes on at once to what is wished:
   // its safe value would be a motion, too.
-  const std::vector<Port*> velocities = internal::FindVelocities(*this);
+  const auto velocities = internal::FindStopsOfVelocities(*this);
   const bool is_ramped = BeginMotionAnew() && (setter == Setter::kPerson || HasPublishedSince(*this, held));
   const Setter other = setter == Setter::kPerson ? Setter::kRule : Setter::kPerson;
   const bool is_alone = !is_set_by_hand(other) && life_cycle() != LifeCycle::kDeleted;
   // What is published at this very moment counts, as also where the clock stands; a ramp may not have begun anew by then.
   const auto now = [&] { return runtime().clock().Now() - Duration(is_ramped ? 0 : 1); };
-  for (Port* each : velocities) {
-    const bool is_free = !each->is_set_by_hand(Setter::kPerson) && !each->is_set_by_hand(Setter::kRule);
-    const bool is_barred = is_alone && (each == this ? is_ramped || setter == Setter::kPerson : is_ramped && is_free);
-    if (is_barred) each->extras_->stop->block()->Bar(now);
+  const std::vector<internal::PassedStop> held_here = internal::PassedStops(*this);
+  for (const auto& each : velocities) {
+    const bool is_here = std::ranges::find(held_here, each, &internal::PassedStop::stop) != held_here.end();
+    if (is_alone && (is_ramped || (is_here && setter == Setter::kPerson))) each->block()->Bar(now);
   }
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;

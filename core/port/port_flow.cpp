@@ -12,6 +12,7 @@
 #include "core/conversion/number_conversion.h"
 #include "core/port/converted_flow.h"
 #include "core/port/driving_ports.h"
+#include "core/port/input_base.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/port/proxy_port.h"
@@ -54,8 +55,27 @@ bool IsPosition(const TypeInfo& type, const std::string& unit) {
   return is_length_or_angle || std::ranges::any_of(type.fields(), [](const FieldInfo& field) { return IsPosition(*field.type, field.unit); });
 }
 
+// A speed beside an angle of steering is one, too.
 bool IsStandstill(const Port& input, const AnyValue& safe_value) {
-  return IsVelocity(input.type(), input.unit()) || (IsZero(safe_value) && !IsPosition(input.type(), input.unit()));
+  const auto is_velocity = [](const FieldInfo& field) { return IsVelocity(*field.type, field.unit); };
+  return IsVelocity(input.type(), input.unit()) ||
+         (IsZero(safe_value) && (!IsPosition(input.type(), input.unit()) || std::ranges::any_of(input.type().fields(), is_velocity)));
+}
+
+// Whether what the input reads goes on at `output` as far as it is told: nobody says that of what is measured.
+bool IsPassedOn(const Port& from, const Port& output) {
+  const auto* const input = dynamic_cast<const InputBase*>(&from);
+  const Ageing ageing = input != nullptr ? input->ageing() : Ageing::kUnspecified;
+  return &from.type() == &output.type() && (ageing == Ageing::kPassedOn || ageing == Ageing::kUnspecified) &&
+         !IsPosition(from.type(), from.unit());
+}
+
+// Whether values come from `source` as they are.
+bool IsUnchanged(const Port& source, const Port& to) {
+  return std::ranges::any_of(to.incoming(), [&](const Port* from) {
+    const Connection* const edge = from->ConnectionTo(to);
+    return edge != nullptr && !edge->converted && (from == &source || (from->is_proxy() && IsUnchanged(source, *from)));
+  });
 }
 
 bool IsNotedVelocity(const Port& output) { return output.motion_beginnings() != 0 && std::isnan(output.motion_begins_at()); }
@@ -66,15 +86,14 @@ bool IsMadeVelocity(const Port& input) {
   if (std::ranges::any_of(internal::PassedStops(input), stands)) return true;
   bool is_made = false;
   VisitSiblings(input, Port::Direction::kOutput, [&](const Port& output) {
-    is_made = is_made || (&output.type() == &input.type() && IsNotedVelocity(output));
+    is_made = is_made || (IsPassedOn(input, output) && IsNotedVelocity(output));
   });
   return is_made;
 }
 
-// The safe value of another number by which the robot moves, as a position, for who is directly connected.
+// The safe value of another number by which the robot moves, as a position, for who is connected with no module between.
 std::optional<double> FindSafeNumber(const Port& source, const Port& input) {
-  const Connection* const edge = source.ConnectionTo(input);
-  if (edge == nullptr || edge->converted || !internal::IsNumber(input.type())) return {};
+  if (!internal::IsNumber(input.type()) || !IsUnchanged(source, input)) return {};
   for (const internal::PassedStop& each : internal::PassedStops(input)) {
     const double safe = each.stop->robot() != nullptr ? internal::NumberIn(input.type(), each.safe_value.get()) : NAN;
     if (std::isfinite(safe)) return safe;
@@ -151,15 +170,18 @@ void Port::RebindSinks() {
   }
 }
 
-std::vector<Port*> internal::FindVelocities(const Port& port) {
-  std::vector<Port*> found;
+std::vector<std::shared_ptr<const PortStop>> internal::FindStopsOfVelocities(const Port& port) {
+  std::vector<std::shared_ptr<const PortStop>> found;
   std::unordered_set<const Port*> seen;
   const std::function<void(const Port&)> look = [&](const Port& from) {
-    for (Port* sink : from.Sinks()) {
-      if (!seen.insert(sink).second || !IsMadeVelocity(*sink)) continue;
-      if (sink->is_driving()) found.push_back(sink);
+    for (const Port* sink : from.Sinks()) {
+      const bool is_held = sink != &port && (sink->is_set_by_hand(Port::Setter::kPerson) || sink->is_set_by_hand(Port::Setter::kRule));
+      if (!seen.insert(sink).second || is_held || !IsMadeVelocity(*sink)) continue;
+      for (PassedStop& each : PassedStops(*sink)) {
+        if (each.stop->robot() != nullptr && std::ranges::find(found, each.stop) == found.end()) found.push_back(each.stop);
+      }
       VisitSiblings(*sink, Port::Direction::kOutput, [&](const Port& output) {
-        if (&output.type() == &sink->type() && IsNotedVelocity(output)) look(output);
+        if (IsPassedOn(*sink, output) && IsNotedVelocity(output)) look(output);
       });
     }
   };
@@ -192,7 +214,7 @@ bool Port::NoteMotion(std::uint32_t beginning, double begins_at) {
   bool is_followed = follows_motion_.load(std::memory_order_relaxed);
   if (!is_velocity) return is_followed;
   VisitSiblings(*this, Direction::kInput, [&](const Port& input) {
-    if (&input.type() != &type()) return;
+    if (!IsPassedOn(input, *this)) return;
     for (Port* source : input.Sources()) is_followed = source->NoteMotion(beginning, begins_at) || is_followed;
   });
   return is_followed;

@@ -60,13 +60,14 @@ class Filter : public Module {
   }
   void Pass(const Lease<double>& value) {
     const Time time = value.timestamp();
-    if (BeginsAnew(time)) {
+    const bool begins = BeginsAnew(time);
+    if (begins) {
       BeginAt(moves_by_velocity() ? 0 : out.motion_begins_at());
       course_.last = std::max(Time(Duration(course_.bar)), now() - period());
     }
     double seconds = course_.last && time > *course_.last ? ToSeconds(time - *course_.last) : 0;
     if (course_.beginning != 0) seconds = std::min(seconds, ToSeconds(longest()));  // a silence is no way that was gone
-    course_.last = time;
+    course_.last = begins ? std::max(time, *course_.last) : time;  // from before a release there was no time to go
     out.Publish(Next(*value, seconds), time);
   }
   // With what moves by it. Asked once a value is there: one that came after a release finds that it was released.

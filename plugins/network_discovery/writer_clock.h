@@ -31,7 +31,7 @@ class WriterClock {
     constexpr int kDrift = 1000;  // of two clocks, one of which may be slewed; one part in so many
     const Duration gap = now - came_;
     const bool is_set = usual_ && delay - last_ > kMostOfNetworks && gap < (delay - last_) / 2;
-    const bool is_new = is_set || !usual_ || gap > kForgotten;
+    const bool is_new = is_set || !usual_;
     // Of a burst of what was held up, each took less time than the one before, but for pauses in it: only what comes later
     // tells what is usual.
     const bool is_burst = least_since_ - delay > kFall || delay - last_ > std::max<Duration>(gap / 2, kRise);
@@ -62,8 +62,6 @@ class WriterClock {
   /// More is the difference of two clocks.
   static constexpr Duration kLongestDelay = std::chrono::minutes(1);
 
-  /// After so long without a value nothing is known any more: clocks that are not synchronised drift.
-  static constexpr Duration kForgotten = std::chrono::minutes(5);
   /// After so long without a sign of a burst it is known what is usual.
   static constexpr Duration kToKnow = std::chrono::seconds(1);
 

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/conversion/number_conversion.h"
 #include "core/paths/path_search.h"
 #include "core/port/driving_ports.h"
@@ -34,15 +36,11 @@ class WayToButton {
   /// replaces it finds the connections, or does not.
   WayToButton(const Scheduler& scheduler, std::map<std::string, std::size_t>& fed, const Port& port) : scheduler_(scheduler), fed_(fed) { Look(port); }
   std::set<std::string> lacks;
-  bool is_covered = false;  // by a value by hand
 
  private:
   void Look(const Port& port) {
     if (!seen_.insert(&port).second) return;
-    if (port.is_set_by_hand()) {
-      is_covered = true;
-      lacks.insert(port.path() + " is set by hand");
-    }
+    if (port.is_set_by_hand()) lacks.insert(port.path() + " is set by hand");
     const bool is_output = port.direction() == Port::Direction::kOutput && !port.is_proxy();
     if (is_output) return LookAtModule(port);
     std::size_t& most = fed_[port.path()];
@@ -50,7 +48,7 @@ class WayToButton {
     if (port.incoming().empty()) {
       lacks.insert("nothing is connected to " + port.path());
     } else if (port.incoming().size() < most) {
-      lacks.insert("a connection to " + port.path() + " is gone");
+      lacks.insert(fmt::format("{} of {} connections to {} are gone", most - port.incoming().size(), most, port.path()));
     }
     for (const Port* each : port.incoming()) Look(*each);
   }
@@ -112,7 +110,7 @@ void StopButton::Work() {
     TakeValues();
     if (!LookForPort()) continue;
     const auto let_go = std::exchange(let_go_, {});
-    if (!let_go || !rule_.releases || is_covered_) continue;
+    if (!let_go || !rule_.releases || !lacks_.empty()) continue;  // by whatever else it may have become 0
     // A STOP that somebody has pressed since it was let go stays.
     if (!runtime_.robot_stop().Release(rule_.port, *let_go)) continue;
     tell_({rule_.port, "the STOP is released by its button", runtime_.clock().Now(), false, true});
@@ -150,7 +148,6 @@ bool StopButton::LookForPort() {
     // Of many values at once the queue may have had no room for the one that counts, and others may have released.
     bool is_down = false;
     const auto look = [&](const void* value, ValueTimes) { is_down = NumberIn(element_->probe.type(), value) != 0; };
-    is_covered_ = way.is_covered;
     if (!sources.front()->is_set_by_hand() && sources.front()->VisitLatest(look) && is_down) {
       const bool is_new = !std::exchange(is_down_, true);
       if (is_new || !runtime_.robot_stop().in_force()) Press(rule_.port);

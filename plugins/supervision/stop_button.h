@@ -54,7 +54,6 @@ class StopButton {
   bool is_down_ = false;
   std::uint64_t pressed_ = 0;  // RobotStop::State::requests after its own press, if nobody else has pressed meanwhile
   std::optional<RobotStop::AsOf> let_go_;  // nobody could look yet whether that was by the button itself
-  bool is_covered_ = false;  // by a value by hand
   bool is_gone_ = false;
   std::set<std::string> lacks_;  // why nobody could press, as of the last look
   std::map<std::string, std::size_t> fed_;  // how many connections there have been, by ports on the way

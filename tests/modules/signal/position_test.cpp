@@ -1,5 +1,6 @@
 // Ramps before what moves the robot: an arm that waits where it is, and motors.
 
+#include "core/port/proxy_port.h"
 #include "modules/signal/filters.h"
 #include "modules/types/pose.h"
 #include "tests/plugins/supervision/supervised_robot.h"
@@ -87,6 +88,18 @@ TEST_F(Arm, GoesFromWhereItWasHeld) {
   ASSERT_EQ(robot.seen, 2.9);
   robot.reader.in.Release();
   EXPECT_GE(Least(300ms), 2.9);
+}
+
+TEST_F(Arm, GoesFromItsSafePlaceAlsoOverAnInterfacePort) {
+  auto& border = robot.runtime.Create<ProxyPort>(robot.runtime.root(), "border", Port::Direction::kInput, TypeOf<double>());
+  Apply({DisconnectPorts{"/ramp/out", robot.reader.in.path()}, ConnectPorts{"/ramp/out", border.path()},
+         ConnectPorts{border.path(), robot.reader.in.path()}});
+  Run(10s);
+  robot.runtime.robot_stop().Press("a test");
+  Run(1s);
+  ASSERT_TRUE(robot.runtime.robot_stop().Release("a test"));
+  Run(500ms);
+  EXPECT_THAT(robot.seen.load(), DoubleNear(1, 0.05));
 }
 
 // What passes values on may scale them: its safe number is none of the ramp's.

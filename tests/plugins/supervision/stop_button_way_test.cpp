@@ -100,6 +100,21 @@ TEST_F(WayToStopButton, ItPressesWhenWhatComesBeforeItIsSetByHand) {
   WaitForStop("/app/debouncing/input/in is set by hand");
 }
 
+// Who looks how old it is says 0 then.
+TEST_F(WayToStopButton, WhatIsLostIsNotLetGo) {
+  auto& debouncing = runtime.Create<Debouncing<Ageing::kTimesOut>>(app, "debouncing");
+  MustSucceed(Port::Connect(panel.out, debouncing.in));
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  MustSucceed(supervisor.Add(StopButtonRule{debouncing.out.path(), true}));
+  debouncing.out.Publish(1);
+  WaitForStop("the button /app/debouncing/output/out");
+  MustSucceed(supervisor.SetPaused("/app/panel", true));
+  WaitUntil("it is pressed once more", [&] { return runtime.robot_stop().state().requests > 1; });
+  debouncing.out.Publish(0);
+  std::this_thread::sleep_for(200ms);  // it is not told that it does nothing
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+}
+
 struct Choice final : Module {
   using Module::Module;
   Input<double> front{this, "front", {.ageing = Ageing::kPassedOn}};
@@ -123,7 +138,7 @@ TEST_F(WayToStopButton, ItPressesWhenOneOfTwoButtonsIsLost) {
   ASSERT_TRUE(runtime.robot_stop().Release("the test"));
   std::this_thread::sleep_for(200ms);  // nobody is told that it has been found
   MustSucceed(Port::Disconnect(rear.out, choice.front));
-  WaitForStop("a connection to /app/choice/input/front is gone");
+  WaitForStop("1 of 2 connections to /app/choice/input/front are gone");
 }
 
 TEST_F(WayToStopButton, WhileItIsDownItPressesAgainAlsoWhenAnotherOneIsSetByHand) {
