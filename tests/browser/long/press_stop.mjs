@@ -52,17 +52,18 @@ if (saturated) {
     socket.onmessage = ({ data }) => JSON.parse(data);
   });
 }
+const UntilShown = (state) => page.evaluate((wanted) => new Promise((done) => {
+  const timer = setInterval(() => {
+    if (document.querySelector('#stop-button').dataset.stop !== wanted) return;
+    clearInterval(timer);
+    done();
+  }, 1);
+}), state);
 console.log('ready');
 await page.mouse.move(x + width / 2, y + height / 2);
 let presses = 0;
 for await (const _ of createInterface({ input: process.stdin })) {
-  await page.evaluate(() => new Promise((done) => {
-    const timer = setInterval(() => {
-      if (document.querySelector('#stop-button').dataset.stop !== 'free') return;
-      clearInterval(timer);
-      done();
-    }, 1);
-  }));
+  await UntilShown('free');
   if (++presses % 2 === 1) {
     await page.mouse.down();
     page.mouse.up();
@@ -70,6 +71,8 @@ for await (const _ of createInterface({ input: process.stdin })) {
     await page.keyboard.down('Pause');
     page.keyboard.up('Pause');
   }
+  // What the page has not heard of after a second it asks for once more, and that may come after the release.
+  await UntilShown('in_force');
   console.log(await page.evaluate(() => window.pressed_at));
 }
 for (const end of ends) await end().catch(() => {});
