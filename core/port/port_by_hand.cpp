@@ -1,6 +1,5 @@
 // Values that are set by hand (Port::PublishByHand()).
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -131,10 +130,8 @@ bool Port::Release(Setter setter) {
   const bool is_alone = !is_set_by_hand(other) && life_cycle() != LifeCycle::kDeleted;
   // What is published at this very moment counts, as also where the clock stands; a ramp may not have begun anew by then.
   const auto now = [&] { return runtime().clock().Now() - Duration(is_ramped ? 0 : 1); };
-  const std::vector<internal::PassedStop> held_here = internal::PassedStops(*this);
   for (const auto& each : velocities) {
-    const bool is_here = std::ranges::find(held_here, each, &internal::PassedStop::stop) != held_here.end();
-    if (is_alone && (is_ramped || (is_here && setter == Setter::kPerson))) each->block()->Bar(now);
+    if (is_alone && (is_ramped || setter == Setter::kPerson)) each->block()->Bar(now);
   }
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;

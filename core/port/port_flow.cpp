@@ -55,19 +55,33 @@ bool IsPosition(const TypeInfo& type, const std::string& unit) {
   return is_length_or_angle || std::ranges::any_of(type.fields(), [](const FieldInfo& field) { return IsPosition(*field.type, field.unit); });
 }
 
-// A speed beside an angle of steering is one, too.
-bool IsStandstill(const Port& input, const AnyValue& safe_value) {
+// Of a car: a speed beside an angle of steering. A joint has the speed of its own angle beside that, and is a position.
+bool IsCar(const TypeInfo& type) {
+  const auto dimensions_of = [](const FieldInfo& field) {
+    const auto parsed = ParseUnit(field.unit);
+    return parsed ? parsed->dimensions : Dimensions{};
+  };
   const auto is_velocity = [](const FieldInfo& field) { return IsVelocity(*field.type, field.unit); };
-  return IsVelocity(input.type(), input.unit()) ||
-         (IsZero(safe_value) && (!IsPosition(input.type(), input.unit()) || std::ranges::any_of(input.type().fields(), is_velocity)));
+  const auto has_its_speed = [&](const FieldInfo& field) {
+    Dimensions speed = dimensions_of(field);
+    --speed[2];
+    return IsPosition(*field.type, field.unit) && std::ranges::find(type.fields(), speed, dimensions_of) != type.fields().end();
+  };
+  return std::ranges::any_of(type.fields(), is_velocity) && std::ranges::none_of(type.fields(), has_its_speed);
 }
 
-// Whether what the input reads goes on at `output` as far as it is told: nobody says that of what is measured.
+bool IsPlace(const Port& port) { return IsPosition(port.type(), port.unit()) && !IsCar(port.type()); }
+
+bool IsStandstill(const Port& input, const AnyValue& safe_value) {
+  return IsVelocity(input.type(), input.unit()) || (IsZero(safe_value) && !IsPlace(input));
+}
+
+// Whether what the input reads goes on at `output` as far as it is told: a goal does not, nor what is measured in another unit.
 bool IsPassedOn(const Port& from, const Port& output) {
   const auto* const input = dynamic_cast<const InputBase*>(&from);
   const Ageing ageing = input != nullptr ? input->ageing() : Ageing::kUnspecified;
-  return &from.type() == &output.type() && (ageing == Ageing::kPassedOn || ageing == Ageing::kUnspecified) &&
-         !IsPosition(from.type(), from.unit());
+  const bool is_of_one_unit = from.unit() == output.unit() || from.unit().empty() || output.unit().empty();
+  return &from.type() == &output.type() && is_of_one_unit && ageing != Ageing::kSetOnce && ageing != Ageing::kWhileSourceRuns && !IsPlace(from);
 }
 
 // Whether values come from `source` as they are.

@@ -110,7 +110,11 @@ void StopButton::Work() {
     TakeValues();
     if (!LookForPort()) continue;
     const auto let_go = std::exchange(let_go_, {});
-    if (!let_go || !rule_.releases || !lacks_.empty()) continue;  // by whatever else it may have become 0
+    if (!let_go || !rule_.releases) continue;
+    if (!lacks_.empty()) {  // by whatever else it may have become 0
+      tell_({rule_.port, "does not release the STOP, as " + *lacks_.begin(), runtime_.clock().Now()});
+      continue;
+    }
     // A STOP that somebody has pressed since it was let go stays.
     if (!runtime_.robot_stop().Release(rule_.port, *let_go)) continue;
     tell_({rule_.port, "the STOP is released by its button", runtime_.clock().Now(), false, true});
@@ -119,19 +123,24 @@ void StopButton::Work() {
 
 void StopButton::TakeValues() {
   bool is_down = false;
-  Time measured;
+  ValueTimes measured;
   const auto look = [&](const void* value, ValueTimes times) {
     is_down = NumberIn(element_->probe.type(), value) != 0;
-    measured = times.timestamp;
+    measured = times;
   };
   while (element_->probe.Take(look)) {
     if (is_down) Press(rule_.port);
     // Letting go releases, not being up: others may have pressed.
-    if (is_down) let_go_.reset();
-    if (std::exchange(is_down_, is_down) && !is_down) {
+    if (is_down) {
+      let_go_.reset();
+      down_ = measured;
+    }
+    // Who only says that nothing has come any more, as by a time-out, bears the stamp of what came last. A clock may stand.
+    const bool is_news = measured.timestamp > down_.timestamp || measured.publication_time == down_.publication_time;
+    if (std::exchange(is_down_, is_down) && !is_down && is_news) {
       let_go_ = runtime_.robot_stop().AsOfNow();
       // What was held up on its way is older than what others have pressed since.
-      if (let_go_->requests != pressed_) let_go_->asked = SteadyClock().Now() - (runtime_.clock().Now() - measured);
+      if (let_go_->requests != pressed_) let_go_->asked = SteadyClock().Now() - (runtime_.clock().Now() - measured.timestamp);
     }
   }
 }

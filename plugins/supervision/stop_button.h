@@ -52,6 +52,7 @@ class StopButton {
   const Tell tell_;
   std::unique_ptr<ButtonElement> element_;
   bool is_down_ = false;
+  ValueTimes down_;  // of the newest value that was not 0
   std::uint64_t pressed_ = 0;  // RobotStop::State::requests after its own press, if nobody else has pressed meanwhile
   std::optional<RobotStop::AsOf> let_go_;  // nobody could look yet whether that was by the button itself
   bool is_gone_ = false;

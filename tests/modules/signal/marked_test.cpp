@@ -72,15 +72,18 @@ TEST_F(MarkedWheels, WhatWasSaidBeforeAPersonHeldWhatIsMarkedMovesNothing) {
   Output<double> planner(others, "planner");
   ASSERT_TRUE(Port::Connect(planner, border));
   ASSERT_TRUE(Port::Connect(border, wheels));
-  for (Port* const marked : {static_cast<Port*>(&planner), static_cast<Port*>(&border), static_cast<Port*>(&wheels)}) {
+  Port* const ports[] = {&planner, &border, &wheels};
+  for (Port* const marked : ports) {
     ASSERT_TRUE(marked->SetDriving(true, AnyValue(0.0)));
-    planner.Publish(1);
-    ASSERT_EQ(wheels.Get(), 1);
-    ASSERT_TRUE(marked->PublishByHand(kZero));
-    rig.Wait(10s);
-    ASSERT_TRUE(marked->Release());
-    EXPECT_EQ(wheels.Get(), 0) << marked->path();
-    rig.Wait(1ms);
+    for (Port* const held : ports) {
+      rig.Wait(1ms);
+      planner.Publish(1);
+      ASSERT_EQ(wheels.Get(), 1);
+      ASSERT_TRUE(held->PublishByHand(kZero));
+      rig.Wait(10s);
+      ASSERT_TRUE(held->Release());
+      EXPECT_EQ(wheels.Get(), 0) << "marked " << marked->path() << ", held " << held->path();
+    }
     ASSERT_TRUE(marked->SetDriving(false, AnyValue(0.0)));
   }
   planner.DisconnectAll();
@@ -100,6 +103,50 @@ TEST(MarkedCar, IsAVelocityAlsoWithAnAngleBesideIt) {
   ASSERT_TRUE(car.Release());
   EXPECT_EQ(car.Get().speed, 0);
   car.DisconnectAll();
+}
+
+struct Joint {
+  double angle = 0;
+  double speed = 0;
+};
+void Describe(TypeBuilder<Joint>& type) {
+  type.Name("Joint").Field("angle", &Joint::angle, {.unit = "rad"}).Field("speed", &Joint::speed, {.unit = "rad/s"});
+}
+
+TEST(MarkedJoint, IsAPositionAlsoWithItsSpeedBesideIt) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Output<Joint> planner(others, "planner");
+  Input<Joint> joint(others, "joint");
+  ASSERT_TRUE(joint.SetDriving(true, AnyValue(TypeOf<Joint>(), std::make_shared<const Joint>())));
+  ASSERT_TRUE(Port::Connect(planner, joint));
+  planner.Publish({1.2, 0});
+  ASSERT_TRUE(joint.PublishByHand([](void* value) -> Result<void> { return *static_cast<Joint*>(value) = {1.2, 0}, Result<void>(); }));
+  rig.Wait(1s);
+  ASSERT_TRUE(joint.Release());
+  EXPECT_EQ(joint.Get().angle, 1.2);
+  joint.DisconnectAll();
+}
+
+// As in a fusion, or in a gate of one's own.
+TEST(RampBeforeWhatLooksHowOldItIs, BeginsFromAStandstill) {
+  struct Guard final : Module {
+    using Module::Module;
+    Input<double> in{this, "in", {.unit = "m/s", .ageing = Ageing::kTimesOut}};
+    Output<double> out{this, "out", {.unit = "m/s"}};
+    void Update() override {}
+  };
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& guard = rig.runtime.Create<Guard>(rig.runtime.root(), "guard");
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
+  ASSERT_TRUE(Port::Connect(guard.out, wheels));
+  ASSERT_TRUE(Port::Connect(rig.module.out, guard.in));
+  EXPECT_NE(rig.module.out.motion_beginnings(), 0);
+  wheels.DisconnectAll();
+  guard.in.DisconnectAll();
 }
 
 // It is smoothed, and moves nothing by itself.

@@ -115,6 +115,21 @@ TEST_F(WayToStopButton, WhatIsLostIsNotLetGo) {
   EXPECT_TRUE(runtime.robot_stop().in_force());
 }
 
+// As by a cable that is pulled: its module runs, and says nothing.
+TEST_F(WayToStopButton, WhatComesOfATimeOutIsNotLetGo) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path(), true}));
+  const Time pressed = runtime.clock().Now();
+  panel.out.Publish(1, pressed);
+  WaitForStop("the button /app/panel/output/out");
+  (void)scheduler.RunUntil(pressed + 1s);
+  panel.out.Publish(0, pressed);
+  std::this_thread::sleep_for(200ms);  // it is not told that it does nothing
+  ASSERT_TRUE(runtime.robot_stop().in_force());
+  panel.out.Publish(1);
+  panel.out.Publish(0);
+  WaitUntil("it is released", [&] { return !runtime.robot_stop().in_force(); });
+}
+
 struct Choice final : Module {
   using Module::Module;
   Input<double> front{this, "front", {.ageing = Ageing::kPassedOn}};
