@@ -124,14 +124,13 @@ bool Port::Release(Setter setter) {
   // What is ramped before it has not driven. Nor does what a ramp, or anybody before what a person has set, has made
   // meanwhile. Else, who releases for a rule has seen that what comes is new. A position goes on at once to what is wished:
   // its safe value would be a motion, too.
-  const auto velocities = internal::FindStopsOfVelocities(*this);
   const bool is_ramped = BeginMotionAnew() && (setter == Setter::kPerson || HasPublishedSince(*this, held));
   const Setter other = setter == Setter::kPerson ? Setter::kRule : Setter::kPerson;
   const bool is_alone = !is_set_by_hand(other) && life_cycle() != LifeCycle::kDeleted;
   // What is published at this very moment counts, as also where the clock stands; a ramp may not have begun anew by then.
   const auto now = [&] { return runtime().clock().Now() - Duration(is_ramped ? 0 : 1); };
-  for (const auto& each : velocities) {
-    if (is_alone && (is_ramped || setter == Setter::kPerson)) each->block()->Bar(now);
+  if (is_alone && (is_ramped || setter == Setter::kPerson)) {
+    for (const auto& each : internal::FindStopsOfVelocities(*this)) each->block()->Bar(now);
   }
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;

@@ -129,9 +129,9 @@ void StopButton::TakeValues() {
     measured = times;
   };
   while (element_->probe.Take(look)) {
-    if (is_down) Press(rule_.port);
     // Letting go releases, not being up: others may have pressed.
     if (is_down) {
+      Press(rule_.port);
       let_go_.reset();
       down_ = measured;
     }
