@@ -37,9 +37,9 @@ class Panel {
     return this.page.mouse.up();
   }
 
-  /** Waits until it is said of the joystick: mine, free, set, lost, stopped, driven. */
-  drives(who) {
-    return this.widget('joystick').locator(`[data-driving="${who}"]`).waitFor();
+  /** Waits until one of these is said of the joystick: mine, free, set, lost, stopped, driven. */
+  drives(...who) {
+    return this.widget('joystick').locator(who.map((one) => `[data-driving="${one}"]`).join()).waitFor();
   }
 
   /** Waits until a gauge shows a number between two. */
