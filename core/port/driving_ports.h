@@ -20,8 +20,9 @@ class Runtime;
 void VisitSiblings(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit);
 
 namespace internal {
-/// What stops the velocities by which the robot moves that are made of what the port passes on.
-[[nodiscard]] std::vector<std::shared_ptr<const PortStop>> FindStopsOfVelocities(const Port& port);
+/// What stops the velocities by which the robot moves that are made of what the port passes on. `held`: the ports where that
+/// ends, as another value is set by hand there.
+[[nodiscard]] std::vector<std::shared_ptr<const PortStop>> FindStopsOfVelocities(const Port& port, std::vector<const Port*>& held);
 }  // namespace internal
 
 /// What the STOP of the robot holds, as paths with ", " between them; "": it holds nothing. Nothing while somebody else has

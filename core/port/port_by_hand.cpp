@@ -129,8 +129,16 @@ bool Port::Release(Setter setter) {
   const bool is_alone = !is_set_by_hand(other) && life_cycle() != LifeCycle::kDeleted;
   // What is published at this very moment counts, as also where the clock stands; a ramp may not have begun anew by then.
   const auto now = [&] { return runtime().clock().Now() - Duration(is_ramped ? 0 : 1); };
-  if (is_alone && (is_ramped || setter == Setter::kPerson)) {
-    for (const auto& each : internal::FindStopsOfVelocities(*this)) each->block()->Bar(now);
+  std::vector<const Port*> held_on;
+  const auto stops = internal::FindStopsOfVelocities(*this, held_on);
+  if (is_set_by_hand(other)) held_on.push_back(this);
+  const bool bars = is_ramped || setter == Setter::kPerson;
+  for (const Port* each : held_on) {
+    if (bars) each->extras_->passed_over = now();
+  }
+  if (is_alone && (bars || extras_->passed_over)) {
+    for (const auto& each : stops) each->block()->Bar([&] { return bars ? now() : *extras_->passed_over; });
+    extras_->passed_over.reset();
   }
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "core/port/converted_flow.h"
 #include "core/port/hand_slot.h"
@@ -29,6 +30,7 @@ struct PortExtras {
   // What readers find instead of what is published: by Port::Setter, of which the first that is there counts.
   std::array<std::unique_ptr<StandIn>, 2> by_hand;
   std::shared_ptr<HandSlot> hand_slot;  // of the first of them, once somebody has needed it
+  std::optional<Time> passed_over;  // what came before that does not count once nothing is set by hand here any more
   std::shared_ptr<const PortStop> stop;
   Time blocked_since{};  // by the machine's clock
   bool is_marked = false;  // by Port::SetDriving(): what an application says counts before what a module declares

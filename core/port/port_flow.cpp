@@ -48,40 +48,47 @@ bool IsZero(const AnyValue& value) {
   return zero != nullptr && value.type().is_transparent() && ToText(value.type(), value.get()) == ToText(value.type(), zero.get());
 }
 
-// What is at zero has not come to rest there, but has gone there.
-bool IsPosition(const TypeInfo& type, const std::string& unit) {
-  const auto parsed = ParseUnit(unit);
-  const bool is_length_or_angle = parsed && (parsed->dimensions == Dimensions{1} || parsed->dimensions == Dimensions{0, 0, 0, 0, 0, 1});
-  return is_length_or_angle || std::ranges::any_of(type.fields(), [](const FieldInfo& field) { return IsPosition(*field.type, field.unit); });
+// Of all that it is made of, in base units. `seen`: a type may contain itself.
+void CollectDimensions(const TypeInfo& type, const std::string& unit, std::unordered_set<const TypeInfo*>& seen, std::vector<Dimensions>& found) {
+  if (const auto parsed = ParseUnit(unit)) found.push_back(parsed->dimensions);
+  if (!seen.insert(&type).second) return;
+  for (const FieldInfo& each : type.fields()) CollectDimensions(*each.type, each.unit, seen, found);
+  if (type.kind() == TypeKind::kSequence || type.kind() == TypeKind::kMatrix) CollectDimensions(*type.elements().type, {}, seen, found);
 }
 
-// Of a car: a speed beside an angle of steering. A joint has the speed of its own angle beside that, and is a position.
-bool IsCar(const TypeInfo& type) {
-  const auto dimensions_of = [](const FieldInfo& field) {
-    const auto parsed = ParseUnit(field.unit);
-    return parsed ? parsed->dimensions : Dimensions{};
+// What is at zero has not come to rest there, but has gone there. A car has a speed that no place beside it has.
+bool IsPlace(const Port& port) {
+  std::vector<Dimensions> all;
+  std::unordered_set<const TypeInfo*> seen;
+  CollectDimensions(port.type(), port.unit(), seen, all);
+  const auto has = [&](const Dimensions& each) { return std::ranges::find(all, each) != all.end(); };
+  const Dimensions length{1};
+  const Dimensions angle{0, 0, 0, 0, 0, 1};
+  const auto is_without_place = [&](Dimensions speed) {
+    ++speed[2];
+    return (speed == length || speed == angle) && !has(speed);
   };
-  const auto is_velocity = [](const FieldInfo& field) { return IsVelocity(*field.type, field.unit); };
-  const auto has_its_speed = [&](const FieldInfo& field) {
-    Dimensions speed = dimensions_of(field);
-    --speed[2];
-    return IsPosition(*field.type, field.unit) && std::ranges::find(type.fields(), speed, dimensions_of) != type.fields().end();
-  };
-  return std::ranges::any_of(type.fields(), is_velocity) && std::ranges::none_of(type.fields(), has_its_speed);
+  return (has(length) || has(angle)) && std::ranges::none_of(all, is_without_place);
 }
 
-bool IsPlace(const Port& port) { return IsPosition(port.type(), port.unit()) && !IsCar(port.type()); }
-
+// Who only looks on, as a recorder does, says no unit: whoever else reads the same knows.
 bool IsStandstill(const Port& input, const AnyValue& safe_value) {
-  return IsVelocity(input.type(), input.unit()) || (IsZero(safe_value) && !IsPlace(input));
+  if (IsVelocity(input.type(), input.unit())) return true;
+  const auto is_place = [&](const Port* each) { return &each->type() == &input.type() && IsPlace(*each); };
+  return IsZero(safe_value) && !IsPlace(input) && std::ranges::none_of(input.Sources(), [&](const Port* source) {
+    return is_place(source) || std::ranges::any_of(source->Sinks(), is_place);
+  });
 }
 
-// Whether what the input reads goes on at `output` as far as it is told: a goal does not, nor what is measured in another unit.
+// Whether what the input reads goes on at `output` as far as it is told: as the module says, or as both are velocities. What is
+// measured does not: whoever smooths it would begin at a zero that nobody has measured.
 bool IsPassedOn(const Port& from, const Port& output) {
   const auto* const input = dynamic_cast<const InputBase*>(&from);
   const Ageing ageing = input != nullptr ? input->ageing() : Ageing::kUnspecified;
-  const bool is_of_one_unit = from.unit() == output.unit() || from.unit().empty() || output.unit().empty();
-  return &from.type() == &output.type() && is_of_one_unit && ageing != Ageing::kSetOnce && ageing != Ageing::kWhileSourceRuns && !IsPlace(from);
+  if (&from.type() != &output.type() || IsPlace(from)) return false;
+  const bool is_held = ageing == Ageing::kSetOnce || ageing == Ageing::kWhileSourceRuns;
+  const auto is_velocity = [](const Port& port) { return IsVelocity(port.type(), port.unit()); };
+  return ageing == Ageing::kPassedOn || (!is_held && is_velocity(from) && is_velocity(output));
 }
 
 // Whether values come from `source` as they are.
@@ -184,20 +191,21 @@ void Port::RebindSinks() {
   }
 }
 
-std::vector<std::shared_ptr<const PortStop>> internal::FindStopsOfVelocities(const Port& port) {
+std::vector<std::shared_ptr<const PortStop>> internal::FindStopsOfVelocities(const Port& port, std::vector<const Port*>& held) {
   std::vector<std::shared_ptr<const PortStop>> found;
   std::unordered_set<const Port*> seen;
-  const std::function<void(const Port&)> look = [&](const Port& from) {
-    for (const Port* sink : from.Sinks()) {
-      const bool is_held = sink != &port && (sink->is_set_by_hand(Port::Setter::kPerson) || sink->is_set_by_hand(Port::Setter::kRule));
-      if (!seen.insert(sink).second || is_held || !IsMadeVelocity(*sink)) continue;
-      for (PassedStop& each : PassedStops(*sink)) {
-        if (each.stop->robot() != nullptr && std::ranges::find(found, each.stop) == found.end()) found.push_back(each.stop);
-      }
-      VisitSiblings(*sink, Port::Direction::kOutput, [&](const Port& output) {
-        if (IsPassedOn(*sink, output) && IsNotedVelocity(output)) look(output);
-      });
+  const std::function<void(const Port&)> look = [&](const Port& at) {
+    if (!seen.insert(&at).second) return;
+    const bool is_held = at.is_set_by_hand(Port::Setter::kPerson) || at.is_set_by_hand(Port::Setter::kRule);
+    if (&at != &port && is_held) return held.push_back(&at);
+    for (const Connection& each : at.outgoing()) look(*each.to);
+    if (at.is_proxy() || at.direction() == Port::Direction::kOutput || !IsMadeVelocity(at)) return;
+    for (PassedStop& each : PassedStops(at)) {
+      if (each.stop->robot() != nullptr && std::ranges::find(found, each.stop) == found.end()) found.push_back(each.stop);
     }
+    VisitSiblings(at, Port::Direction::kOutput, [&](const Port& output) {
+      if (IsPassedOn(at, output) && IsNotedVelocity(output)) look(output);
+    });
   };
   look(port);
   return found;

@@ -80,7 +80,8 @@ class Filter : public Module {
     if (course_.beginning == 0) return false;
     // A position waits where it is while nothing comes, and begins at the first value; only a STOP has brought it elsewhere.
     if (!moves_by_velocity() && !before.last) return bar == StopSignal::kInForce || before.bar == StopSignal::kInForce;
-    if (bar == StopSignal::kInForce || bar != before.bar) return true;
+    // In force it goes on: what it has made by the release counts nowhere.
+    if (bar != StopSignal::kInForce && bar != before.bar) return true;
     if (!moves_by_velocity()) return false;
     return course_.beginning != before.beginning || !has_begun() || (before.last && time - *before.last > longest());
   }

@@ -36,6 +36,7 @@ class WayToButton {
   /// replaces it finds the connections, or does not.
   WayToButton(const Scheduler& scheduler, std::map<std::string, std::size_t>& fed, const Port& port) : scheduler_(scheduler), fed_(fed) { Look(port); }
   std::set<std::string> lacks;
+  std::set<std::string> still_down;
 
  private:
   void Look(const Port& port) {
@@ -55,6 +56,10 @@ class WayToButton {
   void LookAtModule(const Port& output) {
     const std::string why = scheduler_.WhyAtRest(output, kStuckAfter);
     if (!why.empty()) lacks.insert(why);
+    const bool is_number = IsNumber(output.type());
+    output.VisitLatest([&](const void* value, ValueTimes) {
+      if (is_number && NumberIn(output.type(), value) != 0) still_down.insert(output.path() + " is not let go");
+    });
     std::vector<const Port*> passed;
     bool is_fed = false;
     VisitSiblings(output, Port::Direction::kInput, [&](const Port& each) {
@@ -111,8 +116,8 @@ void StopButton::Work() {
     if (!LookForPort()) continue;
     const auto let_go = std::exchange(let_go_, {});
     if (!let_go || !rule_.releases) continue;
-    if (!lacks_.empty()) {  // by whatever else it may have become 0
-      tell_({rule_.port, "does not release the STOP, as " + *lacks_.begin(), runtime_.clock().Now()});
+    if (const auto& why = lacks_.empty() ? still_down_ : lacks_; !why.empty()) {  // by whatever else it may have become 0
+      TellOfHeldStop(*why.begin());
       continue;
     }
     // A STOP that somebody has pressed since it was let go stays.
@@ -137,10 +142,13 @@ void StopButton::TakeValues() {
     }
     // Who only says that nothing has come any more, as by a time-out, bears the stamp of what came last. A clock may stand.
     const bool is_news = measured.timestamp > down_.timestamp || measured.publication_time == down_.publication_time;
-    if (std::exchange(is_down_, is_down) && !is_down && is_news) {
+    if (!std::exchange(is_down_, is_down) || is_down) continue;
+    if (is_news) {
       let_go_ = runtime_.robot_stop().AsOfNow();
       // What was held up on its way is older than what others have pressed since.
       if (let_go_->requests != pressed_) let_go_->asked = SteadyClock().Now() - (runtime_.clock().Now() - measured.timestamp);
+    } else if (rule_.releases) {
+      TellOfHeldStop("its 0 bears the time of what was pressed");
     }
   }
 }
@@ -156,8 +164,13 @@ bool StopButton::LookForPort() {
     WayToButton way(scheduler_, fed_, *sources.front());
     // Of many values at once the queue may have had no room for the one that counts, and others may have released.
     bool is_down = false;
-    const auto look = [&](const void* value, ValueTimes) { is_down = NumberIn(element_->probe.type(), value) != 0; };
-    if (!sources.front()->is_set_by_hand() && sources.front()->VisitLatest(look) && is_down) {
+    const auto look = [&](const void* value, ValueTimes times) {
+      if (NumberIn(element_->probe.type(), value) == 0) return;
+      is_down = true;
+      down_ = times;
+    };
+    for (const Port* each : sources.front()->ShownPorts()) each->VisitLatest(look);
+    if (!sources.front()->is_set_by_hand() && is_down) {
       const bool is_new = !std::exchange(is_down_, true);
       if (is_new || !runtime_.robot_stop().in_force()) Press(rule_.port);
     }
@@ -165,6 +178,7 @@ bool StopButton::LookForPort() {
       if (!lacks_.contains(each)) Press(rule_.port + ", as " + each);
     }
     lacks_ = std::move(way.lacks);
+    still_down_ = std::move(way.still_down);
     return true;
   }
   if (!is_gone_) Press(rule_.port + ", which is gone");
@@ -180,6 +194,10 @@ void StopButton::Press(const std::string& by) {
   pressed_ = runtime_.robot_stop().requests() + 1;
   if (!runtime_.robot_stop().Press("the button " + by)) return;
   tell_({rule_.port, "STOP, by the button " + by, runtime_.clock().Now()});
+}
+
+void StopButton::TellOfHeldStop(const std::string& why) {
+  tell_({rule_.port, "does not release the STOP, as " + why, runtime_.clock().Now()});
 }
 
 }  // namespace internal

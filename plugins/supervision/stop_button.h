@@ -45,6 +45,7 @@ class StopButton {
   /// False: somebody has the structure lock, so that nothing is known.
   bool LookForPort();
   void Press(const std::string& by);
+  void TellOfHeldStop(const std::string& why);
 
   Runtime& runtime_;
   const Scheduler& scheduler_;
@@ -56,7 +57,8 @@ class StopButton {
   std::uint64_t pressed_ = 0;  // RobotStop::State::requests after its own press, if nobody else has pressed meanwhile
   std::optional<RobotStop::AsOf> let_go_;  // nobody could look yet whether that was by the button itself
   bool is_gone_ = false;
-  std::set<std::string> lacks_;  // why nobody could press, as of the last look
+  std::set<std::string> lacks_;       // why nobody could press, as of the last look
+  std::set<std::string> still_down_;  // where on the way it is not let go, as of then
   std::map<std::string, std::size_t> fed_;  // how many connections there have been, by ports on the way
   std::atomic<bool> ends_{false};
   std::thread thread_;

@@ -1,6 +1,10 @@
 // What a stop button does when nobody can press by it any more.
 
+#include <algorithm>
+#include <utility>
+
 #include "core/port/proxy_port.h"
+#include "plugins/parameters/input_timeout.h"
 #include "plugins/structure/value_by_hand.h"
 #include "tests/plugins/supervision/stop_button_fixture.h"
 
@@ -127,6 +131,92 @@ TEST_F(WayToStopButton, WhatComesOfATimeOutIsNotLetGo) {
   ASSERT_TRUE(runtime.robot_stop().in_force());
   panel.out.Publish(1);
   panel.out.Publish(0);
+  WaitUntil("it is released", [&] { return !runtime.robot_stop().in_force(); });
+}
+
+/// Whether of what has been told since it was asked last something has these words in it.
+bool IsTold(Supervisor& supervisor, std::string_view words) {
+  return std::ranges::any_of(supervisor.TakeNotices(), [&](const Notice& each) { return each.message.find(words) != std::string::npos; });
+}
+
+// A driver whose stamps are coarse, or whose module has read something slow as well.
+TEST_F(WayToStopButton, WhatBearsTheTimeOfThePressReleasesNothingAndIsTold) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path(), true}));
+  const Time pressed = runtime.clock().Now();
+  panel.out.Publish(1, pressed);
+  WaitForStop("the button /app/panel/output/out");
+  (void)scheduler.RunUntil(pressed + 1s);
+  panel.out.Publish(0, pressed);
+  WaitUntil("it is told", [&] { return IsTold(supervisor, "does not release the STOP"); });
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+}
+
+TEST_F(WayToStopButton, NorIsWhatComesOfATimeOutAfterABurst) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path(), true}));
+  const Time pressed = runtime.clock().Now();
+  for (int i = 0; i < 3000; ++i) panel.out.Publish(0);  // the queue has no room for what counts
+  panel.out.Publish(1, pressed);
+  WaitForStop("the button");
+  (void)scheduler.RunUntil(pressed + 1s);
+  panel.out.Publish(0, pressed);
+  WaitUntil("it is told", [&] { return IsTold(supervisor, "does not release the STOP"); });
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+}
+
+/// Says what has changed, and 0 when nothing comes any more.
+struct OnChange final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.ageing = Ageing::kTimesOut}};
+  Output<double> out{this, "out"};
+  InputTimeout in_timeout{this, in, {}};
+  bool last = false;
+  void Update() override {
+    const auto read = in_timeout.Read(in, now());
+    const bool is_down = read && *read != 0;
+    if (std::exchange(last, is_down) != is_down) out.Publish(is_down ? 1 : 0);
+  }
+};
+
+// It is held down, and says so again and again, until its cable is pulled.
+TEST_F(WayToStopButton, WhatIsStillDownFartherUpIsNotLetGo) {
+  auto& debouncing = runtime.Create<OnChange>(app, "debouncing");
+  MustSucceed(Port::Connect(panel.out, debouncing.in));
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  MustSucceed(supervisor.Add(StopButtonRule{debouncing.out.path(), true}));
+  panel.action = [](Doing&) {};
+  Time at = runtime.clock().Now();
+  for (int i = 0; i < 10; ++i) {
+    panel.out.Publish(1);
+    (void)scheduler.RunUntil(at += 100ms);
+  }
+  WaitForStop("the button");
+  (void)scheduler.RunUntil(at += 2s);
+  WaitUntil("it is told", [&] { return IsTold(supervisor, "/app/panel/output/out is not let go"); });
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+  panel.out.Publish(1);
+  (void)scheduler.RunUntil(at += 100ms);
+  panel.out.Publish(0);
+  (void)scheduler.RunUntil(at += 100ms);
+  WaitUntil("it is released", [&] { return !runtime.robot_stop().in_force(); });
+}
+
+TEST_F(WayToStopButton, OfTwoAtAnInterfacePortBothAreLetGo) {
+  auto& rear = runtime.Create<Doing>(app, "rear");
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  auto& port = runtime.Create<ProxyPort>(app, "stop", Port::Direction::kOutput, TypeOf<double>());
+  MustSucceed(Port::Connect(panel.out, port));
+  MustSucceed(Port::Connect(rear.out, port));
+  MustSucceed(supervisor.Add(StopButtonRule{port.path(), true}));
+  panel.out.Publish(0);
+  rear.out.Publish(1);
+  WaitForStop("the button");
+  const Time at = runtime.clock().Now();
+  (void)scheduler.RunUntil(at + 1s);
+  panel.out.Publish(0);  // as one that is up says again and again
+  WaitUntil("it is told", [&] { return IsTold(supervisor, "/app/rear/output/out is not let go"); });
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+  (void)scheduler.RunUntil(at + 2s);
+  rear.out.Publish(0);
   WaitUntil("it is released", [&] { return !runtime.robot_stop().in_force(); });
 }
 

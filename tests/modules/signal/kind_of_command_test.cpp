@@ -1,0 +1,279 @@
+// What counts as a velocity, a place or a measurement when STOP, or a value by hand, ends.
+
+#include <array>
+
+#include <gmock/gmock.h>
+
+#include "core/module/group.h"
+#include "core/port/probe_port.h"
+#include "core/port/proxy_port.h"
+#include "core/types/type_of.h"
+#include "modules/signal/filters.h"
+#include "plugins/testing/module_rig.h"
+
+namespace runnel::signal {
+namespace {
+
+using test::ModuleRig;
+using ::testing::DoubleNear;
+using namespace std::chrono_literals;
+
+struct Ackermann {
+  double steering_angle = 0, steering_angle_velocity = 0, speed = 0;
+};
+void Describe(TypeBuilder<Ackermann>& type) {
+  type.Name("Ackermann")
+      .Field("steering_angle", &Ackermann::steering_angle, {.unit = "rad"})
+      .Field("steering_angle_velocity", &Ackermann::steering_angle_velocity, {.unit = "rad/s"})
+      .Field("speed", &Ackermann::speed, {.unit = "m/s"});
+}
+struct Place {
+  double x = 0;
+};
+void Describe(TypeBuilder<Place>& type) { type.Name("Place").Field("x", &Place::x, {.unit = "m"}); }
+struct Speed {
+  double x = 0;
+};
+void Describe(TypeBuilder<Speed>& type) { type.Name("Speed").Field("x", &Speed::x, {.unit = "m/s"}); }
+struct Drone {
+  Place position;
+  Speed velocity;
+};
+void Describe(TypeBuilder<Drone>& type) {
+  type.Name("Drone").Field("position", &Drone::position).Field("velocity", &Drone::velocity);
+}
+struct Arm {
+  std::array<Place, 2> joints{};
+};
+void Describe(TypeBuilder<Arm>& type) { type.Name("Arm").Field("joints", &Arm::joints); }
+
+template <typename T>
+Port::Fill As(const T& wanted) {
+  return [wanted](void* value) -> Result<void> { return *static_cast<T*>(value) = wanted, Result<void>(); };
+}
+
+class Commands : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(rig.Prepare()); }
+  template <typename Made>
+  Made& Create(const std::string& name) {
+    return rig.runtime.Create<Made>(rig.runtime.root(), name);
+  }
+
+  ModuleRig<RateLimiterFilter> rig{100ms};
+  Group& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+};
+
+/// What is read of what was wished before a person held another value, once the person has let go.
+template <typename T>
+T HeldMeanwhile(const T& wish, const T& held) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  EXPECT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Output<T> planner(others, "planner");
+  Input<T> driven(others, "driven");
+  EXPECT_TRUE(driven.SetDriving(true, AnyValue(TypeOf<T>(), std::make_shared<const T>())));
+  EXPECT_TRUE(Port::Connect(planner, driven));
+  planner.Publish(wish);
+  EXPECT_TRUE(driven.PublishByHand(As(held)));
+  rig.Wait(1s);
+  EXPECT_TRUE(driven.Release());
+  const T read = driven.Get();
+  driven.DisconnectAll();
+  return read;
+}
+
+TEST(KindOfCommand, ACarWithASpeedOfItsSteeringDoesNotGoOn) { EXPECT_EQ(HeldMeanwhile<Ackermann>({0.1, 0, 1}, {}).speed, 0); }
+
+TEST(KindOfCommand, APlaceBesideItsVelocityStaysAlsoWhereBothAreTypes) {
+  EXPECT_EQ(HeldMeanwhile<Drone>({{7}, {}}, {{7}, {}}).position.x, 7);
+}
+
+TEST(KindOfCommand, PlacesOfAnArrayStay) { EXPECT_EQ(HeldMeanwhile<Arm>({{{{7}, {3}}}}, {{{{7}, {3}}}}).joints[1].x, 3); }
+
+template <Ageing kAgeing>
+struct Gear final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.unit = "m/s", .ageing = kAgeing}};
+  Output<double> out{this, "out", {.unit = "rad/s"}};
+  void Update() override { Turn(); }
+  void Turn() {
+    if (const auto read = in.Read()) out.Publish(*read / 0.1, read.timestamp());
+  }
+};
+
+class Gears : public Commands {
+ protected:
+  template <Ageing kAgeing>
+  void TurnFromStandstill() {
+    auto& gear = Create<Gear<kAgeing>>("gear");
+    Input<double> motor(others, "motor", {.unit = "rad/s", .drives = true});
+    ASSERT_TRUE(Port::Connect(gear.out, motor));
+    ASSERT_TRUE(Port::Connect(rig.module.out, gear.in));
+    const auto wish = [&](int times) {
+      for (int i = 0; i < times; ++i) {
+        rig.Feed(rig.module.in, 1.0);
+        rig.RunCycle();
+        gear.Turn();
+      }
+    };
+    wish(1);
+    rig.runtime.robot_stop().Press("a test");
+    wish(30);
+    EXPECT_EQ(motor.Get(), 0);
+    ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+    wish(2);
+    EXPECT_LE(motor.Get(), 3) << "a ramp of 1 m/s^2 is at 0.2 m/s after 0.2 s";
+    wish(30);
+    EXPECT_EQ(motor.Get(), 10);
+    ASSERT_TRUE(gear.in.PublishByHand(As(0.0)));
+    wish(3);
+    ASSERT_TRUE(gear.in.Release());
+    gear.Turn();
+    EXPECT_EQ(motor.Get(), 0) << "the ramp has made it before the person has let go";
+    motor.DisconnectAll();
+    gear.in.DisconnectAll();
+  }
+};
+TEST_F(Gears, TurnFromStandstillWhereTheyPassOn) { TurnFromStandstill<Ageing::kPassedOn>(); }
+TEST_F(Gears, TurnFromStandstillWhereTheySayNothing) { TurnFromStandstill<Ageing::kUnspecified>(); }
+TEST_F(Gears, TurnFromStandstillWhereTheyLookHowOldItIs) { TurnFromStandstill<Ageing::kTimesOut>(); }
+
+// As a module of Python has it, or one in C++ that says nothing.
+template <Ageing kAgeing>
+struct KeepDistance final : Module {
+  using Module::Module;
+  Input<double> distance{this, "distance", {.ageing = kAgeing}};
+  Output<double> speed{this, "speed", {.unit = "m/s"}};
+  void Update() override {}
+};
+template <Ageing kAgeing>
+void SmoothedDistanceIsNoVelocity() {
+  ModuleRig<LowPassFilter> rig(10ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& keep = rig.runtime.Create<KeepDistance<kAgeing>>(rig.runtime.root(), "keep");
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
+  ASSERT_TRUE(Port::Connect(keep.speed, wheels));
+  ASSERT_TRUE(Port::Connect(rig.module.out, keep.distance));
+  const auto measure = [&] {
+    rig.Feed(rig.module.in, 2.0);
+    rig.RunCycle();
+    return rig.Last(rig.module.out);
+  };
+  EXPECT_EQ(measure(), 2);
+  rig.runtime.robot_stop().Press("a test");
+  EXPECT_EQ(measure(), 2);
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  EXPECT_EQ(measure(), 2);
+  ASSERT_TRUE(wheels.PublishByHand(As(0.0)));
+  EXPECT_EQ(measure(), 2);
+  ASSERT_TRUE(wheels.Release());
+  EXPECT_EQ(measure(), 2);
+  wheels.DisconnectAll();
+  keep.distance.DisconnectAll();
+}
+TEST(SmoothedMeasurement, OfADistanceIsNoVelocityWhereItTimesOut) { SmoothedDistanceIsNoVelocity<Ageing::kTimesOut>(); }
+TEST(SmoothedMeasurement, OfADistanceIsNoVelocityWhereNothingIsSaid) { SmoothedDistanceIsNoVelocity<Ageing::kUnspecified>(); }
+
+struct KeepSpeed final : Module {
+  using Module::Module;
+  Input<double> measured{this, "measured", {.unit = "m/s", .ageing = Ageing::kTimesOut}};
+  Output<double> speed{this, "speed", {.unit = "m/s"}};
+  void Update() override {}
+};
+TEST(SmoothedMeasurement, OfASpeedIsShownWhileStopIsInForce) {
+  ModuleRig<LowPassFilter> rig(10ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& keep = rig.runtime.Create<KeepSpeed>(rig.runtime.root(), "keep");
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
+  ASSERT_TRUE(Port::Connect(keep.speed, wheels));
+  ASSERT_TRUE(Port::Connect(rig.module.out, keep.measured));
+  rig.runtime.robot_stop().Press("a test");
+  for (int i = 0; i < 100; ++i) {
+    rig.Feed(rig.module.in, 2.0);
+    rig.RunCycle();
+  }
+  EXPECT_THAT(rig.Last(rig.module.out), DoubleNear(2, 0.1)) << "it rolls on at 2 m/s";
+  wheels.DisconnectAll();
+  keep.measured.DisconnectAll();
+}
+
+TEST_F(Commands, WhatAPersonHasLetGoWhileARuleHeldDoesNotDriveWhenTheRuleEnds) {
+  Output<double> planner(others, "planner");
+  Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
+  ASSERT_TRUE(Port::Connect(planner, wheels));
+  Port* const ports[] = {&planner, &wheels};
+  for (Port* const held : ports) {
+    planner.Publish(1);
+    rig.Wait(1s);
+    ASSERT_TRUE(held->PublishByHand(As(0.0)));
+    ASSERT_TRUE(wheels.PublishByHand(As(0.1), Port::Setter::kRule));
+    rig.Wait(1s);
+    ASSERT_TRUE(held->Release());
+    EXPECT_EQ(wheels.Get(), 0.1) << held->path();
+    rig.Wait(1s);
+    ASSERT_TRUE(wheels.Release(Port::Setter::kRule));
+    EXPECT_EQ(wheels.Get(), 0) << held->path();
+    rig.Wait(1s);
+    planner.Publish(1);
+    EXPECT_EQ(wheels.Get(), 1) << held->path();
+  }
+  wheels.DisconnectAll();
+}
+
+// Whoever lets go farther up takes nothing away from another person.
+TEST_F(Commands, WhatIsHeldBehindGoesOn) {
+  auto& gear = Create<Gear<Ageing::kPassedOn>>("gear");
+  Output<double> planner(others, "planner");
+  Input<double> motor(others, "motor", {.unit = "rad/s", .drives = true});
+  auto& border = rig.runtime.Create<ProxyPort>(others, "border", Port::Direction::kInput, TypeOf<double>());
+  ASSERT_TRUE(Port::Connect(gear.out, border));
+  ASSERT_TRUE(Port::Connect(border, motor));
+  ASSERT_TRUE(Port::Connect(planner, gear.in));
+  Port* const ports[] = {&gear.out, &border};
+  for (Port* const held : ports) {
+    ASSERT_TRUE(held->PublishByHand(As(0.3)));
+    rig.Wait(1s);
+    ASSERT_TRUE(planner.PublishByHand(As(0.0)));
+    rig.Wait(1s);
+    ASSERT_TRUE(planner.Release());
+    EXPECT_EQ(motor.Get(), 0.3) << held->path();
+    ASSERT_TRUE(held->Release());
+  }
+  motor.DisconnectAll();
+  border.DisconnectAll();
+  gear.in.DisconnectAll();
+}
+
+// A recorder says no unit.
+TEST_F(Commands, APlaceStaysOneWhoeverLooksOn) {
+  Input<double> joint(others, "joint", {.unit = "rad"});
+  ProbePort recorder(others, "recorder", TypeOf<double>());
+  Input<double> reader(others, "reader");
+  Port& ramp = rig.module.out;
+  ASSERT_TRUE(ramp.SetDriving(true, AnyValue(0.0)));
+  Port* const readers[] = {&joint, &recorder, &reader};
+  for (Port* const each : readers) ASSERT_TRUE(Port::Connect(ramp, *each));
+  const auto wish = [&] {
+    rig.Feed(rig.module.in, 1.2);
+    rig.RunCycle();
+  };
+  for (int i = 0; i < 30; ++i) wish();
+  EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9));
+  rig.Wait(1s);
+  wish();
+  EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9)) << "after a gap";
+  Port* const ports[] = {&joint, &ramp};
+  for (Port* const held : ports) {
+    ASSERT_TRUE(held->PublishByHand(As(1.2)));
+    rig.Wait(1s);
+    ASSERT_TRUE(held->Release());
+    EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9)) << held->path();
+  }
+  ramp.DisconnectAll();
+}
+
+}  // namespace
+}  // namespace runnel::signal
