@@ -26,6 +26,12 @@ class GenomDemo : public testing::Test {
     for (int tries = 0; tries < 600 && asked.code != kDone; ++tries) asked = Runnel("call /guide/get_trip");
     return asked.text;
   }
+  /// The parameter follows the attribute in one of the next cycles.
+  static std::string Limits(const std::string& awaited) {
+    std::string text;
+    for (int tries = 0; tries < 600 && text.find(awaited) == std::string::npos; ++tries) text = Runnel("get /guide/parameter/set_limits").text;
+    return text;
+  }
 
   TemporaryFolder folder_;
   const std::string demo_ = std::string(RUNNEL_XML) + "/apps/genom_demo.xml";
@@ -40,9 +46,9 @@ TEST_F(GenomDemo, IsSentInterruptedResumedAndSwapped) {
   EXPECT_THAT(refused.text, HasSubstr("guide::too_far {limit: 1}"));
   EXPECT_EQ(Runnel("set /guide/set_limits '{speed: 0.3, turn_rate: 1.2}'").code, kDone);
   EXPECT_EQ(Runnel("call /guide/set_limits '{limits: {speed: 0.35, turn_rate: 1.2}}'").code, kDone);
-  EXPECT_THAT(Runnel("get /guide/parameter/set_limits").text, HasSubstr("{speed: 0.35, turn_rate: 1.2}"));
+  EXPECT_THAT(Limits("{speed: 0.35, turn_rate: 1.2}"), HasSubstr("{speed: 0.35, turn_rate: 1.2}"));
   EXPECT_EQ(Runnel("call /guide/set_limits").code, kDone) << "all arguments have defaults";
-  EXPECT_THAT(Runnel("get /guide/parameter/set_limits").text, HasSubstr("{speed: 0.4, turn_rate: 1.2}"));
+  EXPECT_THAT(Limits("{speed: 0.4, turn_rate: 1.2}"), HasSubstr("{speed: 0.4, turn_rate: 1.2}"));
   EXPECT_THAT(Runnel("call /guide/resume").text, HasSubstr("guide::no_pose"));
   EXPECT_THAT(Runnel("call /guide/go_to '{to: {x: 500, y: 0}}'").text, HasSubstr("guide::too_far {limit: 100}"));
 
