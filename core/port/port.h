@@ -77,7 +77,7 @@ class Port : public FrameworkElement {
   }
   /// Outputs: whether a value was published with a time of measurement that was more than 100 ms to come. Any thread.
   [[nodiscard]] bool stamps_ahead() const noexcept { return stamps_ahead_.load(std::memory_order_relaxed); }
-  /// Outputs: 0, unless something that moves the robot is made of it, also by modules that pass values of its type on. Then what
+  /// Outputs: 0, unless something that moves the robot is made of it, also by modules that pass it on as a velocity. Then what
   /// is ramped has to begin anew after a STOP, and whenever this number is another one: a block or a value by hand has ended.
   /// Stays so when that port goes. Any thread; wait-free.
   [[nodiscard]] std::uint32_t motion_beginnings() const noexcept { return motion_beginnings_.load(std::memory_order_acquire); }

@@ -1,5 +1,6 @@
 // Values that are set by hand (Port::PublishByHand()).
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -133,11 +134,10 @@ bool Port::Release(Setter setter) {
   const auto stops = internal::FindStopsOfVelocities(*this, held_on);
   if (is_set_by_hand(other)) held_on.push_back(this);
   const bool bars = is_ramped || setter == Setter::kPerson;
-  for (const Port* each : held_on) {
-    if (bars) each->extras_->passed_over = now();
-  }
-  if (is_alone && (bars || extras_->passed_over)) {
-    for (const auto& each : stops) each->block()->Bar([&] { return bars ? now() : *extras_->passed_over; });
+  const std::optional<Time> passed_over = bars ? now() : extras_->passed_over;
+  for (const Port* each : held_on) each->extras_->passed_over = std::max(each->extras_->passed_over, passed_over);
+  if (is_alone && passed_over) {
+    for (const auto& each : stops) each->block()->Bar([&] { return bars ? now() : *passed_over; });
     extras_->passed_over.reset();
   }
   auto released = std::move(extras_->by_hand[SlotOf(setter)]);

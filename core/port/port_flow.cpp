@@ -62,8 +62,7 @@ bool IsPlace(const Port& port) {
   std::unordered_set<const TypeInfo*> seen;
   CollectDimensions(port.type(), port.unit(), seen, all);
   const auto has = [&](const Dimensions& each) { return std::ranges::find(all, each) != all.end(); };
-  const Dimensions length{1};
-  const Dimensions angle{0, 0, 0, 0, 0, 1};
+  const Dimensions length{1}, angle{0, 0, 0, 0, 0, 1};
   const auto is_without_place = [&](Dimensions speed) {
     ++speed[2];
     return (speed == length || speed == angle) && !has(speed);
@@ -85,10 +84,9 @@ bool IsStandstill(const Port& input, const AnyValue& safe_value) {
 bool IsPassedOn(const Port& from, const Port& output) {
   const auto* const input = dynamic_cast<const InputBase*>(&from);
   const Ageing ageing = input != nullptr ? input->ageing() : Ageing::kUnspecified;
-  if (&from.type() != &output.type() || IsPlace(from)) return false;
-  const bool is_held = ageing == Ageing::kSetOnce || ageing == Ageing::kWhileSourceRuns;
   const auto is_velocity = [](const Port& port) { return IsVelocity(port.type(), port.unit()); };
-  return ageing == Ageing::kPassedOn || (!is_held && is_velocity(from) && is_velocity(output));
+  if (ageing != Ageing::kSetOnce && ageing != Ageing::kWhileSourceRuns && is_velocity(from) && is_velocity(output)) return true;
+  return ageing == Ageing::kPassedOn && &from.type() == &output.type() && !IsPlace(from);
 }
 
 // Whether values come from `source` as they are.
@@ -186,6 +184,8 @@ void Port::RebindSinks() {
     const bool is_velocity = IsMadeVelocity(*sink);
     for (Port* source : sink->Sources()) {
       const auto begins_at = is_velocity ? std::optional<double>(NAN) : FindSafeNumber(*source, *sink);
+      // It was taken for a velocity as long as nobody but a recorder, which says no unit, has read it.
+      if (begins_at && IsPlace(*sink)) source->motion_begins_at_.store(*begins_at, std::memory_order_relaxed);
       if (begins_at) (void)source->NoteMotion(kFirstBeginning, *begins_at);
     }
   }

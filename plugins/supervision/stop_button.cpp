@@ -41,6 +41,9 @@ class WayToButton {
  private:
   void Look(const Port& port) {
     if (!seen_.insert(&port).second) return;
+    port.VisitLatest([&](const void* value, ValueTimes) {
+      if (IsNumber(port.type()) && NumberIn(port.type(), value) != 0) still_down.insert(port.path() + " is not let go");
+    });
     if (port.is_set_by_hand()) lacks.insert(port.path() + " is set by hand");
     const bool is_output = port.direction() == Port::Direction::kOutput && !port.is_proxy();
     if (is_output) return LookAtModule(port);
@@ -56,10 +59,6 @@ class WayToButton {
   void LookAtModule(const Port& output) {
     const std::string why = scheduler_.WhyAtRest(output, kStuckAfter);
     if (!why.empty()) lacks.insert(why);
-    const bool is_number = IsNumber(output.type());
-    output.VisitLatest([&](const void* value, ValueTimes) {
-      if (is_number && NumberIn(output.type(), value) != 0) still_down.insert(output.path() + " is not let go");
-    });
     std::vector<const Port*> passed;
     bool is_fed = false;
     VisitSiblings(output, Port::Direction::kInput, [&](const Port& each) {
@@ -138,6 +137,7 @@ void StopButton::TakeValues() {
     if (is_down) {
       Press(rule_.port);
       let_go_.reset();
+      told_.clear();
       down_ = measured;
     }
     // Who only says that nothing has come any more, as by a time-out, bears the stamp of what came last. A clock may stand.
@@ -171,8 +171,8 @@ bool StopButton::LookForPort() {
     };
     for (const Port* each : sources.front()->ShownPorts()) each->VisitLatest(look);
     if (!sources.front()->is_set_by_hand() && is_down) {
-      const bool is_new = !std::exchange(is_down_, true);
-      if (is_new || !runtime_.robot_stop().in_force()) Press(rule_.port);
+      is_down_ = true;
+      if (!runtime_.robot_stop().in_force()) Press(rule_.port);
     }
     for (const std::string& each : way.lacks) {
       if (!lacks_.contains(each)) Press(rule_.port + ", as " + each);
@@ -197,7 +197,7 @@ void StopButton::Press(const std::string& by) {
 }
 
 void StopButton::TellOfHeldStop(const std::string& why) {
-  tell_({rule_.port, "does not release the STOP, as " + why, runtime_.clock().Now()});
+  if (why != std::exchange(told_, why)) tell_({rule_.port, "does not release the STOP, as " + why, runtime_.clock().Now()});
 }
 
 }  // namespace internal

@@ -59,6 +59,7 @@ class StopButton {
   bool is_gone_ = false;
   std::set<std::string> lacks_;       // why nobody could press, as of the last look
   std::set<std::string> still_down_;  // where on the way it is not let go, as of then
+  std::string told_;                  // why it releases nothing, since it was pressed last
   std::map<std::string, std::size_t> fed_;  // how many connections there have been, by ports on the way
   std::atomic<bool> ends_{false};
   std::thread thread_;

@@ -9,6 +9,7 @@
 #include "core/port/proxy_port.h"
 #include "core/types/type_of.h"
 #include "modules/signal/filters.h"
+#include "modules/types/pose.h"
 #include "plugins/testing/module_rig.h"
 
 namespace runnel::signal {
@@ -139,6 +140,49 @@ TEST_F(Gears, TurnFromStandstillWhereTheyPassOn) { TurnFromStandstill<Ageing::kP
 TEST_F(Gears, TurnFromStandstillWhereTheySayNothing) { TurnFromStandstill<Ageing::kUnspecified>(); }
 TEST_F(Gears, TurnFromStandstillWhereTheyLookHowOldItIs) { TurnFromStandstill<Ageing::kTimesOut>(); }
 
+template <Ageing kAgeing>
+struct Compose final : Module {
+  using Module::Module;
+  Input<double> forward{this, "forward", {.unit = "m/s", .ageing = kAgeing}};
+  Output<Twist2> twist{this, "twist"};
+  void Update() override { Turn(); }
+  void Turn() {
+    if (const auto read = forward.Read()) twist.Publish(Twist2{*read, 0}, read.timestamp());
+  }
+};
+template <Ageing kAgeing>
+void ComposedFromStandstill() {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  ASSERT_TRUE(rig.Prepare());
+  auto& composing = rig.runtime.Create<Compose<kAgeing>>(rig.runtime.root(), "composing");
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<Twist2> base(others, "base", {.drives = true});
+  ASSERT_TRUE(Port::Connect(composing.twist, base));
+  ASSERT_TRUE(Port::Connect(rig.module.out, composing.forward));
+  const auto wish = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      rig.Feed(rig.module.in, 1.0);
+      rig.RunCycle();
+      composing.Turn();
+    }
+  };
+  rig.runtime.robot_stop().Press("a test");
+  wish(30);
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  wish(2);
+  EXPECT_LE(base.Get().forward, 0.3) << "a ramp of 1 m/s^2 is at 0.2 m/s after 0.2 s";
+  wish(30);
+  ASSERT_TRUE(composing.forward.PublishByHand(As(0.0)));
+  wish(3);
+  ASSERT_TRUE(composing.forward.Release());
+  composing.Turn();
+  EXPECT_EQ(base.Get().forward, 0) << "made before the person has let go";
+  base.DisconnectAll();
+  composing.forward.DisconnectAll();
+}
+TEST(ATwistOfRampedNumbers, BeginsFromStandstillWhereTheyTimeOut) { ComposedFromStandstill<Ageing::kTimesOut>(); }
+TEST(ATwistOfRampedNumbers, BeginsFromStandstillWhereNothingIsSaid) { ComposedFromStandstill<Ageing::kUnspecified>(); }
+
 // As a module of Python has it, or one in C++ that says nothing.
 template <Ageing kAgeing>
 struct KeepDistance final : Module {
@@ -223,6 +267,30 @@ TEST_F(Commands, WhatAPersonHasLetGoWhileARuleHeldDoesNotDriveWhenTheRuleEnds) {
   wheels.DisconnectAll();
 }
 
+TEST_F(Commands, NorDoesItWhenTwoRulesEndOneAfterTheOther) {
+  Output<double> planner(others, "planner");
+  auto& gate = rig.runtime.Create<ProxyPort>(others, "gate", Port::Direction::kInput, TypeOf<double>());
+  Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
+  ASSERT_TRUE(Port::Connect(planner, gate));
+  ASSERT_TRUE(Port::Connect(gate, wheels));
+  for (const auto& [first, second] : {std::pair<Port*, Port*>{&gate, &wheels}, {&wheels, &gate}}) {
+    planner.Publish(1);
+    rig.Wait(1s);
+    ASSERT_TRUE(planner.PublishByHand(As(0.0)));
+    ASSERT_TRUE(gate.PublishByHand(As(0.1), Port::Setter::kRule));
+    ASSERT_TRUE(wheels.PublishByHand(As(0.2), Port::Setter::kRule));
+    rig.Wait(1s);
+    ASSERT_TRUE(planner.Release());
+    ASSERT_TRUE(first->Release(Port::Setter::kRule));
+    rig.Wait(1s);
+    ASSERT_TRUE(second->Release(Port::Setter::kRule));
+    EXPECT_EQ(wheels.Get(), 0) << first->path();
+    rig.Wait(1s);
+  }
+  wheels.DisconnectAll();
+  gate.DisconnectAll();
+}
+
 // Whoever lets go farther up takes nothing away from another person.
 TEST_F(Commands, WhatIsHeldBehindGoesOn) {
   auto& gear = Create<Gear<Ageing::kPassedOn>>("gear");
@@ -254,7 +322,7 @@ TEST_F(Commands, APlaceStaysOneWhoeverLooksOn) {
   Input<double> reader(others, "reader");
   Port& ramp = rig.module.out;
   ASSERT_TRUE(ramp.SetDriving(true, AnyValue(0.0)));
-  Port* const readers[] = {&joint, &recorder, &reader};
+  Port* const readers[] = {&recorder, &joint, &reader};  // as a driver that comes later than a recorder
   for (Port* const each : readers) ASSERT_TRUE(Port::Connect(ramp, *each));
   const auto wish = [&] {
     rig.Feed(rig.module.in, 1.2);

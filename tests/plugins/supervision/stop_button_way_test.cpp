@@ -191,13 +191,43 @@ TEST_F(WayToStopButton, WhatIsStillDownFartherUpIsNotLetGo) {
   }
   WaitForStop("the button");
   (void)scheduler.RunUntil(at += 2s);
-  WaitUntil("it is told", [&] { return IsTold(supervisor, "/app/panel/output/out is not let go"); });
+  WaitUntil("it is told", [&] { return IsTold(supervisor, "/app/debouncing/input/in is not let go"); });
   EXPECT_TRUE(runtime.robot_stop().in_force());
   panel.out.Publish(1);
   (void)scheduler.RunUntil(at += 100ms);
   panel.out.Publish(0);
   (void)scheduler.RunUntil(at += 100ms);
   WaitUntil("it is released", [&] { return !runtime.robot_stop().in_force(); });
+}
+
+struct Gamepad {
+  double stick = 0;
+  double button = 0;
+};
+void Describe(TypeBuilder<Gamepad>& type) {
+  type.Name("Gamepad").Field("stick", &Gamepad::stick).Field("button", &Gamepad::button);
+}
+struct GamepadDriver final : Module {
+  using Module::Module;
+  Output<Gamepad> out{this, "out"};
+  void Update() override {}
+};
+
+TEST_F(WayToStopButton, NorIsWhatIsStillDownAsAPartOfAMessage) {
+  auto& gamepad = runtime.Create<GamepadDriver>(app, "gamepad");
+  auto& debouncing = runtime.Create<OnChange>(app, "debouncing");
+  MustSucceed(Port::Connect(gamepad.out, debouncing.in, {.part = "button"}));
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  MustSucceed(supervisor.Add(StopButtonRule{debouncing.out.path(), true}));
+  Time at = runtime.clock().Now();
+  for (int i = 0; i < 10; ++i) {
+    gamepad.out.Publish({0, 1});
+    (void)scheduler.RunUntil(at += 100ms);
+  }
+  WaitForStop("the button");
+  (void)scheduler.RunUntil(at += 2s);
+  WaitUntil("it is told", [&] { return IsTold(supervisor, "is not let go"); });
+  EXPECT_TRUE(runtime.robot_stop().in_force());
 }
 
 TEST_F(WayToStopButton, OfTwoAtAnInterfacePortBothAreLetGo) {
@@ -214,6 +244,13 @@ TEST_F(WayToStopButton, OfTwoAtAnInterfacePortBothAreLetGo) {
   (void)scheduler.RunUntil(at + 1s);
   panel.out.Publish(0);  // as one that is up says again and again
   WaitUntil("it is told", [&] { return IsTold(supervisor, "/app/rear/output/out is not let go"); });
+  const auto requests = runtime.robot_stop().requests();
+  for (int i = 0; i < 10; ++i) {
+    panel.out.Publish(0);
+    std::this_thread::sleep_for(10ms);
+  }
+  EXPECT_FALSE(IsTold(supervisor, "is not let go")) << "told once is enough";
+  EXPECT_EQ(runtime.robot_stop().requests(), requests);
   EXPECT_TRUE(runtime.robot_stop().in_force());
   (void)scheduler.RunUntil(at + 2s);
   rear.out.Publish(0);
