@@ -56,8 +56,10 @@ void CollectDimensions(const TypeInfo& type, const std::string& unit, std::unord
   if (type.kind() == TypeKind::kSequence || type.kind() == TypeKind::kMatrix) CollectDimensions(*type.elements().type, {}, seen, found);
 }
 
-// What is at zero has not come to rest there, but has gone there. A car has a speed that no place beside it has.
-bool IsPlace(const Port& port) {
+enum class Kind { kOther, kPlace, kVelocity };
+
+// A place at zero has not come to rest there, but has gone there. A car has a speed that no place beside it has: a velocity.
+Kind KindOf(const Port& port) {
   std::vector<Dimensions> all;
   std::unordered_set<const TypeInfo*> seen;
   CollectDimensions(port.type(), port.unit(), seen, all);
@@ -67,14 +69,15 @@ bool IsPlace(const Port& port) {
     ++speed[2];
     return (speed == length || speed == angle) && !has(speed);
   };
-  return (has(length) || has(angle)) && std::ranges::none_of(all, is_without_place);
+  if (IsVelocity(port.type(), port.unit()) || std::ranges::any_of(all, is_without_place)) return Kind::kVelocity;
+  return has(length) || has(angle) ? Kind::kPlace : Kind::kOther;
 }
 
 // Who only looks on, as a recorder does, says no unit: whoever else reads the same knows.
 bool IsStandstill(const Port& input, const AnyValue& safe_value) {
   if (IsVelocity(input.type(), input.unit())) return true;
-  const auto is_place = [&](const Port* each) { return &each->type() == &input.type() && IsPlace(*each); };
-  return IsZero(safe_value) && !IsPlace(input) && std::ranges::none_of(input.Sources(), [&](const Port* source) {
+  const auto is_place = [&](const Port* each) { return &each->type() == &input.type() && KindOf(*each) == Kind::kPlace; };
+  return IsZero(safe_value) && !is_place(&input) && std::ranges::none_of(input.Sources(), [&](const Port* source) {
     return is_place(source) || std::ranges::any_of(source->Sinks(), is_place);
   });
 }
@@ -84,9 +87,10 @@ bool IsStandstill(const Port& input, const AnyValue& safe_value) {
 bool IsPassedOn(const Port& from, const Port& output) {
   const auto* const input = dynamic_cast<const InputBase*>(&from);
   const Ageing ageing = input != nullptr ? input->ageing() : Ageing::kUnspecified;
-  const auto is_velocity = [](const Port& port) { return IsVelocity(port.type(), port.unit()); };
-  if (ageing != Ageing::kSetOnce && ageing != Ageing::kWhileSourceRuns && is_velocity(from) && is_velocity(output)) return true;
-  return ageing == Ageing::kPassedOn && &from.type() == &output.type() && !IsPlace(from);
+  if (ageing == Ageing::kSetOnce || ageing == Ageing::kWhileSourceRuns) return false;
+  const Kind from_kind = KindOf(from), output_kind = KindOf(output);
+  if (from_kind == Kind::kVelocity && output_kind == Kind::kVelocity) return true;
+  return ageing == Ageing::kPassedOn && from_kind != Kind::kPlace && output_kind != Kind::kPlace;
 }
 
 // Whether values come from `source` as they are.
@@ -185,7 +189,7 @@ void Port::RebindSinks() {
     for (Port* source : sink->Sources()) {
       const auto begins_at = is_velocity ? std::optional<double>(NAN) : FindSafeNumber(*source, *sink);
       // It was taken for a velocity as long as nobody but a recorder, which says no unit, has read it.
-      if (begins_at && IsPlace(*sink)) source->motion_begins_at_.store(*begins_at, std::memory_order_relaxed);
+      if (begins_at && KindOf(*sink) == Kind::kPlace) (void)source->NoteMotion(0, NAN);
       if (begins_at) (void)source->NoteMotion(kFirstBeginning, *begins_at);
     }
   }
@@ -220,17 +224,13 @@ bool Port::BeginMotionAnew() {
   return is_followed;
 }
 
-// A module that passes values on may scale them: only a standstill is the same before it.
+// A module that passes values on may scale them: only a standstill is the same before it. `beginning` 0: it is no velocity any more.
 bool Port::NoteMotion(std::uint32_t beginning, double begins_at) {
   const std::uint32_t known = motion_beginnings();
   const bool is_velocity = std::isnan(begins_at);
-  if (!is_velocity) {
-    if (IsNotedVelocity(*this)) return false;
-    motion_begins_at_.store(begins_at, std::memory_order_relaxed);
-  } else if (IsNotedVelocity(*this) && (known == beginning || beginning == kFirstBeginning)) {
-    return false;
-  }
-  if (is_velocity) motion_begins_at_.store(NAN, std::memory_order_relaxed);
+  if (IsNotedVelocity(*this) ? !is_velocity || known == beginning || beginning == kFirstBeginning : beginning == 0) return false;
+  if (beginning == 0 && std::ranges::any_of(Sinks(), [](const Port* sink) { return IsMadeVelocity(*sink); })) return false;
+  motion_begins_at_.store(begins_at, std::memory_order_relaxed);
   // release: pairs with the acquire in motion_beginnings(): who sees that it begins anew sees where.
   if (known != beginning && (known == 0 || beginning != kFirstBeginning)) motion_beginnings_.store(beginning, std::memory_order_release);
   bool is_followed = follows_motion_.load(std::memory_order_relaxed);

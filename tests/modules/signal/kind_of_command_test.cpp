@@ -140,24 +140,43 @@ TEST_F(Gears, TurnFromStandstillWhereTheyPassOn) { TurnFromStandstill<Ageing::kP
 TEST_F(Gears, TurnFromStandstillWhereTheySayNothing) { TurnFromStandstill<Ageing::kUnspecified>(); }
 TEST_F(Gears, TurnFromStandstillWhereTheyLookHowOldItIs) { TurnFromStandstill<Ageing::kTimesOut>(); }
 
-template <Ageing kAgeing>
+struct Steered {
+  double steering = 0, speed = 0;
+};
+void Describe(TypeBuilder<Steered>& type) {
+  type.Name("Steered").Field("steering", &Steered::steering, {.unit = "rad"}).Field("speed", &Steered::speed, {.unit = "m/s"});
+}
+struct Stamped {
+  double stamp = 0;
+  Twist2 twist;
+};
+void Describe(TypeBuilder<Stamped>& type) { type.Name("Stamped").Field("stamp", &Stamped::stamp, {.unit = "s"}).Field("twist", &Stamped::twist); }
+
+Twist2 Made(double speed, Twist2 /*kind*/) { return {speed, 0}; }
+Steered Made(double speed, Steered /*kind*/) { return {0.1, speed}; }
+Stamped Made(double speed, const Stamped& /*kind*/) { return {0, {speed, 0}}; }
+double SpeedOf(const Twist2& command) { return command.forward; }
+double SpeedOf(const Steered& command) { return command.speed; }
+double SpeedOf(const Stamped& command) { return command.twist.forward; }
+
+template <typename T, Ageing kAgeing>
 struct Compose final : Module {
   using Module::Module;
   Input<double> forward{this, "forward", {.unit = "m/s", .ageing = kAgeing}};
-  Output<Twist2> twist{this, "twist"};
+  Output<T> command{this, "command"};
   void Update() override { Turn(); }
   void Turn() {
-    if (const auto read = forward.Read()) twist.Publish(Twist2{*read, 0}, read.timestamp());
+    if (const auto read = forward.Read()) command.Publish(Made(*read, T{}), read.timestamp());
   }
 };
-template <Ageing kAgeing>
+template <typename T, Ageing kAgeing>
 void ComposedFromStandstill() {
   ModuleRig<RateLimiterFilter> rig(100ms);
   ASSERT_TRUE(rig.Prepare());
-  auto& composing = rig.runtime.Create<Compose<kAgeing>>(rig.runtime.root(), "composing");
+  auto& composing = rig.runtime.Create<Compose<T, kAgeing>>(rig.runtime.root(), "composing");
   auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
-  Input<Twist2> base(others, "base", {.drives = true});
-  ASSERT_TRUE(Port::Connect(composing.twist, base));
+  Input<T> base(others, "base", {.drives = true, .safe_value = AnyValue(TypeOf<T>(), std::make_shared<const T>())});
+  ASSERT_TRUE(Port::Connect(composing.command, base));
   ASSERT_TRUE(Port::Connect(rig.module.out, composing.forward));
   const auto wish = [&](int times) {
     for (int i = 0; i < times; ++i) {
@@ -170,18 +189,23 @@ void ComposedFromStandstill() {
   wish(30);
   ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
   wish(2);
-  EXPECT_LE(base.Get().forward, 0.3) << "a ramp of 1 m/s^2 is at 0.2 m/s after 0.2 s";
+  EXPECT_LE(SpeedOf(base.Get()), 0.3) << "a ramp of 1 m/s^2 is at 0.2 m/s after 0.2 s";
   wish(30);
   ASSERT_TRUE(composing.forward.PublishByHand(As(0.0)));
   wish(3);
   ASSERT_TRUE(composing.forward.Release());
   composing.Turn();
-  EXPECT_EQ(base.Get().forward, 0) << "made before the person has let go";
+  EXPECT_EQ(SpeedOf(base.Get()), 0) << "made before the person has let go";
   base.DisconnectAll();
   composing.forward.DisconnectAll();
 }
-TEST(ATwistOfRampedNumbers, BeginsFromStandstillWhereTheyTimeOut) { ComposedFromStandstill<Ageing::kTimesOut>(); }
-TEST(ATwistOfRampedNumbers, BeginsFromStandstillWhereNothingIsSaid) { ComposedFromStandstill<Ageing::kUnspecified>(); }
+template <typename T>
+class Composed : public ::testing::Test {};
+using Composites = ::testing::Types<Twist2, Steered, Stamped>;
+TYPED_TEST_SUITE(Composed, Composites);
+TYPED_TEST(Composed, BeginsFromStandstillWhereNumbersTimeOut) { ComposedFromStandstill<TypeParam, Ageing::kTimesOut>(); }
+TYPED_TEST(Composed, BeginsFromStandstillWhereNothingIsSaid) { ComposedFromStandstill<TypeParam, Ageing::kUnspecified>(); }
+TYPED_TEST(Composed, BeginsFromStandstillWhereNumbersArePassedOn) { ComposedFromStandstill<TypeParam, Ageing::kPassedOn>(); }
 
 // As a module of Python has it, or one in C++ that says nothing.
 template <Ageing kAgeing>
@@ -315,32 +339,51 @@ TEST_F(Commands, WhatIsHeldBehindGoesOn) {
   gear.in.DisconnectAll();
 }
 
-// A recorder says no unit.
-TEST_F(Commands, APlaceStaysOneWhoeverLooksOn) {
-  Input<double> joint(others, "joint", {.unit = "rad"});
-  ProbePort recorder(others, "recorder", TypeOf<double>());
-  Input<double> reader(others, "reader");
-  Port& ramp = rig.module.out;
-  ASSERT_TRUE(ramp.SetDriving(true, AnyValue(0.0)));
-  Port* const readers[] = {&recorder, &joint, &reader};  // as a driver that comes later than a recorder
-  for (Port* const each : readers) ASSERT_TRUE(Port::Connect(ramp, *each));
-  const auto wish = [&] {
-    rig.Feed(rig.module.in, 1.2);
-    rig.RunCycle();
-  };
-  for (int i = 0; i < 30; ++i) wish();
-  EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9));
-  rig.Wait(1s);
-  wish();
-  EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9)) << "after a gap";
-  Port* const ports[] = {&joint, &ramp};
-  for (Port* const held : ports) {
-    ASSERT_TRUE(held->PublishByHand(As(1.2)));
-    rig.Wait(1s);
-    ASSERT_TRUE(held->Release());
-    EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9)) << held->path();
+// As signal/linear, whose ports have no unit.
+struct Scale final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.ageing = Ageing::kPassedOn}};
+  Output<double> out{this, "out"};
+  void Update() override {
+    if (const auto read = in.Read()) out.Publish(*read, read.timestamp());
   }
-  ramp.DisconnectAll();
+};
+// A recorder says no unit, and may be there before the driver is.
+class Places : public Commands {
+ protected:
+  void StayWhoeverLooksOn(Port& marked) {
+    Input<double> joint(others, "joint", {.unit = "rad"});
+    ProbePort recorder(others, "recorder", TypeOf<double>());
+    Input<double> reader(others, "reader");
+    ASSERT_TRUE(marked.SetDriving(true, AnyValue(0.0)));
+    Port* const readers[] = {&recorder, &joint, &reader};
+    for (Port* const each : readers) ASSERT_TRUE(Port::Connect(marked, *each));
+    const auto wish = [&] {
+      rig.Feed(rig.module.in, 1.2);
+      rig.RunCycle();
+      scale.Update();
+    };
+    for (int i = 0; i < 30; ++i) wish();
+    EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9));
+    rig.Wait(1s);
+    wish();
+    EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9)) << "after a gap";
+    Port* const ports[] = {&joint, &marked};
+    for (Port* const held : ports) {
+      ASSERT_TRUE(held->PublishByHand(As(1.2)));
+      rig.Wait(1s);
+      ASSERT_TRUE(held->Release());
+      EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9)) << held->path();
+    }
+    marked.DisconnectAll();
+  }
+  Scale& scale = Create<Scale>("scale");
+};
+TEST_F(Places, StayWhoeverLooksOn) { StayWhoeverLooksOn(rig.module.out); }
+TEST_F(Places, StayWhoeverLooksOnAlsoFartherUp) {
+  ASSERT_TRUE(Port::Connect(rig.module.out, scale.in));
+  StayWhoeverLooksOn(scale.out);
+  scale.in.DisconnectAll();
 }
 
 }  // namespace
