@@ -56,30 +56,32 @@ void CollectDimensions(const TypeInfo& type, const std::string& unit, std::unord
   if (type.kind() == TypeKind::kSequence || type.kind() == TypeKind::kMatrix) CollectDimensions(*type.elements().type, {}, seen, found);
 }
 
-enum class Kind { kOther, kPlace, kVelocity };
+enum class Kind { kUnknown, kPlace, kVelocity, kOther };
 
-// A place at zero has not come to rest there, but has gone there. A car has a speed that no place beside it has: a velocity.
-Kind KindOf(const Port& port) {
+// By its units. A place at zero has not come to rest there, but has gone there. A car has a speed that no place beside it has: a velocity.
+Kind KindOf(const TypeInfo& type, const std::string& unit) {
   std::vector<Dimensions> all;
   std::unordered_set<const TypeInfo*> seen;
-  CollectDimensions(port.type(), port.unit(), seen, all);
+  CollectDimensions(type, unit, seen, all);
   const auto has = [&](const Dimensions& each) { return std::ranges::find(all, each) != all.end(); };
   const Dimensions length{1}, angle{0, 0, 0, 0, 0, 1};
   const auto is_without_place = [&](Dimensions speed) {
     ++speed[2];
     return (speed == length || speed == angle) && !has(speed);
   };
-  if (IsVelocity(port.type(), port.unit()) || std::ranges::any_of(all, is_without_place)) return Kind::kVelocity;
-  return has(length) || has(angle) ? Kind::kPlace : Kind::kOther;
+  if (IsVelocity(type, unit) || std::ranges::any_of(all, is_without_place)) return Kind::kVelocity;
+  if (has(length) || has(angle)) return Kind::kPlace;
+  return all.empty() ? Kind::kUnknown : Kind::kOther;
 }
 
-// Who only looks on, as a recorder does, says no unit: whoever else reads the same knows.
-bool IsStandstill(const Port& input, const AnyValue& safe_value) {
+// Who says no unit knows nothing of what somebody else has marked: a recorder, or who reads a part of it.
+bool IsStandstill(const Port& input, const internal::PassedStop& stop) {
+  const TypeInfo& stopped = stop.stop->safe_value().type();
+  if (KindOf(stopped, {}) == Kind::kPlace) return false;
   if (IsVelocity(input.type(), input.unit())) return true;
-  const auto is_place = [&](const Port* each) { return &each->type() == &input.type() && KindOf(*each) == Kind::kPlace; };
-  return IsZero(safe_value) && !is_place(&input) && std::ranges::none_of(input.Sources(), [&](const Port* source) {
-    return is_place(source) || std::ranges::any_of(source->Sinks(), is_place);
-  });
+  const Kind kind = KindOf(input.type(), input.unit());
+  const bool is_known = kind == Kind::kVelocity || kind == Kind::kOther || (kind == Kind::kUnknown && stop.stop == input.stop());
+  return is_known && &stopped == &input.type() && IsZero(stop.safe_value);
 }
 
 // Whether what the input reads goes on at `output` as far as it is told: as the module says, or as both are velocities. What is
@@ -88,7 +90,7 @@ bool IsPassedOn(const Port& from, const Port& output) {
   const auto* const input = dynamic_cast<const InputBase*>(&from);
   const Ageing ageing = input != nullptr ? input->ageing() : Ageing::kUnspecified;
   if (ageing == Ageing::kSetOnce || ageing == Ageing::kWhileSourceRuns) return false;
-  const Kind from_kind = KindOf(from), output_kind = KindOf(output);
+  const Kind from_kind = KindOf(from.type(), from.unit()), output_kind = KindOf(output.type(), output.unit());
   if (from_kind == Kind::kVelocity && output_kind == Kind::kVelocity) return true;
   return ageing == Ageing::kPassedOn && from_kind != Kind::kPlace && output_kind != Kind::kPlace;
 }
@@ -105,7 +107,7 @@ bool IsNotedVelocity(const Port& output) { return output.motion_beginnings() != 
 
 // It moves the robot, and comes to a standstill, or its module passes it on to what does.
 bool IsMadeVelocity(const Port& input) {
-  const auto stands = [&](const internal::PassedStop& each) { return each.stop->robot() != nullptr && IsStandstill(input, each.safe_value); };
+  const auto stands = [&](const internal::PassedStop& each) { return each.stop->robot() != nullptr && IsStandstill(input, each); };
   if (std::ranges::any_of(internal::PassedStops(input), stands)) return true;
   bool is_made = false;
   VisitSiblings(input, Port::Direction::kOutput, [&](const Port& output) {
@@ -188,8 +190,6 @@ void Port::RebindSinks() {
     const bool is_velocity = IsMadeVelocity(*sink);
     for (Port* source : sink->Sources()) {
       const auto begins_at = is_velocity ? std::optional<double>(NAN) : FindSafeNumber(*source, *sink);
-      // It was taken for a velocity as long as nobody but a recorder, which says no unit, has read it.
-      if (begins_at && KindOf(*sink) == Kind::kPlace) (void)source->NoteMotion(0, NAN);
       if (begins_at) (void)source->NoteMotion(kFirstBeginning, *begins_at);
     }
   }
@@ -224,12 +224,11 @@ bool Port::BeginMotionAnew() {
   return is_followed;
 }
 
-// A module that passes values on may scale them: only a standstill is the same before it. `beginning` 0: it is no velocity any more.
+// A module that passes values on may scale them: only a standstill is the same before it.
 bool Port::NoteMotion(std::uint32_t beginning, double begins_at) {
   const std::uint32_t known = motion_beginnings();
   const bool is_velocity = std::isnan(begins_at);
-  if (IsNotedVelocity(*this) ? !is_velocity || known == beginning || beginning == kFirstBeginning : beginning == 0) return false;
-  if (beginning == 0 && std::ranges::any_of(Sinks(), [](const Port* sink) { return IsMadeVelocity(*sink); })) return false;
+  if (IsNotedVelocity(*this) && (!is_velocity || known == beginning || beginning == kFirstBeginning)) return false;
   motion_begins_at_.store(begins_at, std::memory_order_relaxed);
   // release: pairs with the acquire in motion_beginnings(): who sees that it begins anew sees where.
   if (known != beginning && (known == 0 || beginning != kFirstBeginning)) motion_beginnings_.store(beginning, std::memory_order_release);

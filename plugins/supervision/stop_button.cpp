@@ -44,6 +44,7 @@ class WayToButton {
     port.VisitLatest([&](const void* value, ValueTimes) {
       if (IsNumber(port.type()) && NumberIn(port.type(), value) != 0) still_down.insert(port.path() + " is not let go");
     });
+    if (port.incoming().size() > 1) still_down.insert("several buttons press by " + port.path());
     if (port.is_set_by_hand()) lacks.insert(port.path() + " is set by hand");
     const bool is_output = port.direction() == Port::Direction::kOutput && !port.is_proxy();
     if (is_output) return LookAtModule(port);
@@ -69,9 +70,9 @@ class WayToButton {
       passed.push_back(&each);
       is_fed = is_fed || WasFed(each);
     });
-    for (const Port* each : passed) {
-      if (!is_fed || WasFed(*each)) Look(*each);  // not all of a choice need be fed
-    }
+    if (is_fed) std::erase_if(passed, [&](const Port* each) { return !WasFed(*each); });  // not all of a choice need be fed
+    if (passed.size() > 1) still_down.insert("several buttons press by " + output.path());
+    for (const Port* each : passed) Look(*each);
   }
 
   [[nodiscard]] bool WasFed(const Port& input) const { return !input.incoming().empty() || input.is_set_by_hand() || fed_.contains(input.path()); }
@@ -137,7 +138,6 @@ void StopButton::TakeValues() {
     if (is_down) {
       Press(rule_.port);
       let_go_.reset();
-      told_.clear();
       down_ = measured;
     }
     // Who only says that nothing has come any more, as by a time-out, bears the stamp of what came last. A clock may stand.
@@ -193,6 +193,7 @@ bool StopButton::LookForPort() {
 void StopButton::Press(const std::string& by) {
   pressed_ = runtime_.robot_stop().requests() + 1;
   if (!runtime_.robot_stop().Press("the button " + by)) return;
+  told_.clear();
   tell_({rule_.port, "STOP, by the button " + by, runtime_.clock().Now()});
 }
 

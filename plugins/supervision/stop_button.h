@@ -58,8 +58,8 @@ class StopButton {
   std::optional<RobotStop::AsOf> let_go_;  // nobody could look yet whether that was by the button itself
   bool is_gone_ = false;
   std::set<std::string> lacks_;       // why nobody could press, as of the last look
-  std::set<std::string> still_down_;  // where on the way it is not let go, as of then
-  std::string told_;                  // why it releases nothing, since it was pressed last
+  std::set<std::string> still_down_;  // where on the way it may be down, as of then
+  std::string told_;                  // why it releases nothing, of the STOP that is in force
   std::map<std::string, std::size_t> fed_;  // how many connections there have been, by ports on the way
   std::atomic<bool> ends_{false};
   std::thread thread_;

@@ -7,6 +7,7 @@
 #include "core/module/group.h"
 #include "core/port/probe_port.h"
 #include "core/port/proxy_port.h"
+#include "core/types/signal.h"
 #include "core/types/type_of.h"
 #include "modules/signal/filters.h"
 #include "modules/types/pose.h"
@@ -355,8 +356,9 @@ class Places : public Commands {
     Input<double> joint(others, "joint", {.unit = "rad"});
     ProbePort recorder(others, "recorder", TypeOf<double>());
     Input<double> reader(others, "reader");
+    Input<Signal> display(others, "display");
     ASSERT_TRUE(marked.SetDriving(true, AnyValue(0.0)));
-    Port* const readers[] = {&recorder, &joint, &reader};
+    Port* const readers[] = {&recorder, &display, &joint, &reader};
     for (Port* const each : readers) ASSERT_TRUE(Port::Connect(marked, *each));
     const auto wish = [&] {
       rig.Feed(rig.module.in, 1.2);
