@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -15,17 +16,18 @@ inline constexpr std::string_view kHeaderMessage = "std_msgs/msg/Header";
 inline constexpr std::string_view kTimeMessage = "builtin_interfaces/msg/Time";
 inline constexpr std::string_view kDurationMessage = "builtin_interfaces/msg/Duration";
 
+/// kInt8 to kUint64 are in the order of their sizes, each signed one before its unsigned one.
+inline MessageType IntegerType(std::size_t size, bool is_signed) {
+  const int place = 2 * std::countr_zero(size) + (is_signed ? 0 : 1);
+  return static_cast<MessageType>(static_cast<int>(MessageType::kInt8) + place);
+}
+
 /// What a leaf or an enumeration is in a message; kNested with the message's name for durations, times and signals.
 inline MessageField FieldOfLeaf(const TypeInfo& type) {
   if (type.kind() == TypeKind::kEnumeration) {
     bool is_signed = false;
     for (const EnumeratorInfo& each : type.enumerators()) is_signed |= each.value < 0;
-    const MessageType types[] = {MessageType::kUint8, MessageType::kUint16, MessageType::kUint32,
-                                 MessageType::kUint64};
-    const MessageType signed_types[] = {MessageType::kInt8, MessageType::kInt16, MessageType::kInt32,
-                                        MessageType::kInt64};
-    const int size = type.size() == 1 ? 0 : type.size() == 2 ? 1 : type.size() == 4 ? 2 : 3;
-    return {.name = {}, .type = is_signed ? signed_types[size] : types[size]};
+    return {.name = {}, .type = IntegerType(type.size(), is_signed)};
   }
   if (&type == &TypeOf<Signal>()) {
     return {.name = {}, .type = MessageType::kNested, .nested = "std_msgs/msg/Empty"};
@@ -40,14 +42,7 @@ inline MessageField FieldOfLeaf(const TypeInfo& type) {
     if constexpr (std::is_same_v<T, bool>) return number(MessageType::kBool);
     if constexpr (std::is_same_v<T, float>) return number(MessageType::kFloat32);
     if constexpr (std::is_same_v<T, double>) return number(MessageType::kFloat64);
-    if constexpr (std::is_same_v<T, std::int8_t>) return number(MessageType::kInt8);
-    if constexpr (std::is_same_v<T, std::uint8_t>) return number(MessageType::kUint8);
-    if constexpr (std::is_same_v<T, std::int16_t>) return number(MessageType::kInt16);
-    if constexpr (std::is_same_v<T, std::uint16_t>) return number(MessageType::kUint16);
-    if constexpr (std::is_same_v<T, std::int32_t>) return number(MessageType::kInt32);
-    if constexpr (std::is_same_v<T, std::uint32_t>) return number(MessageType::kUint32);
-    if constexpr (std::is_same_v<T, std::int64_t>) return number(MessageType::kInt64);
-    if constexpr (std::is_same_v<T, std::uint64_t>) return number(MessageType::kUint64);
+    if constexpr (std::is_integral_v<T>) return number(IntegerType(sizeof(T), std::is_signed_v<T>));
     return number(MessageType::kString);
   });
 }
