@@ -76,12 +76,14 @@ Kind KindOf(const TypeInfo& type, const std::string& unit) {
 
 // Who says no unit knows nothing of what somebody else has marked: a recorder, or who reads a part of it.
 bool IsStandstill(const Port& input, const internal::PassedStop& stop) {
-  const TypeInfo& stopped = stop.stop->safe_value().type();
-  if (KindOf(stopped, {}) == Kind::kPlace) return false;
+  if (KindOf(stop.stop->safe_value().type(), {}) == Kind::kPlace) return false;
   if (IsVelocity(input.type(), input.unit())) return true;
-  const Kind kind = KindOf(input.type(), input.unit());
+  Kind kind = KindOf(input.type(), input.unit());
+  for (const Port* each : input.Sources()) {
+    if (kind == Kind::kUnknown && &each->type() == &input.type()) kind = KindOf(each->type(), each->unit());
+  }
   const bool is_known = kind == Kind::kVelocity || kind == Kind::kOther || (kind == Kind::kUnknown && stop.stop == input.stop());
-  return is_known && &stopped == &input.type() && IsZero(stop.safe_value);
+  return is_known && IsZero(stop.safe_value);
 }
 
 // Whether what the input reads goes on at `output` as far as it is told: as the module says, or as both are velocities. What is
@@ -205,7 +207,7 @@ std::vector<std::shared_ptr<const PortStop>> internal::FindStopsOfVelocities(con
     for (const Connection& each : at.outgoing()) look(*each.to);
     if (at.is_proxy() || at.direction() == Port::Direction::kOutput || !IsMadeVelocity(at)) return;
     for (PassedStop& each : PassedStops(at)) {
-      if (each.stop->robot() != nullptr && std::ranges::find(found, each.stop) == found.end()) found.push_back(each.stop);
+      if (each.stop->robot() != nullptr && IsStandstill(at, each) && std::ranges::find(found, each.stop) == found.end()) found.push_back(each.stop);
     }
     VisitSiblings(at, Port::Direction::kOutput, [&](const Port& output) {
       if (IsPassedOn(at, output) && IsNotedVelocity(output)) look(output);

@@ -37,10 +37,11 @@ class WayToButton {
   WayToButton(const Scheduler& scheduler, std::map<std::string, std::size_t>& fed, const Port& port) : scheduler_(scheduler), fed_(fed) { Look(port); }
   std::set<std::string> lacks;
   std::set<std::string> still_down;
+  std::set<const Port*> seen;
 
  private:
   void Look(const Port& port) {
-    if (!seen_.insert(&port).second) return;
+    if (!seen.insert(&port).second) return;
     port.VisitLatest([&](const void* value, ValueTimes) {
       if (IsNumber(port.type()) && NumberIn(port.type(), value) != 0) still_down.insert(port.path() + " is not let go");
     });
@@ -79,7 +80,6 @@ class WayToButton {
 
   const Scheduler& scheduler_;
   std::map<std::string, std::size_t>& fed_;
-  std::set<const Port*> seen_;
 };
 }  // namespace
 
@@ -177,6 +177,9 @@ bool StopButton::LookForPort() {
     for (const std::string& each : way.lacks) {
       if (!lacks_.contains(each)) Press(rule_.port + ", as " + each);
     }
+    const auto before = std::exchange(way_, way.seen);
+    is_other_way_ = runtime_.robot_stop().in_force() && (is_other_way_ || (!before.empty() && before != way_));
+    if (is_other_way_) way.still_down.insert("what is connected on its way has changed since it was pressed");
     lacks_ = std::move(way.lacks);
     still_down_ = std::move(way.still_down);
     return true;

@@ -257,6 +257,31 @@ TEST_F(WayToStopButton, OfSeveralThatComeTogetherNoneReleases) {
   EXPECT_TRUE(runtime.robot_stop().in_force());
 }
 
+// As a rule does that switches to the rear one when the front one's cable is pulled.
+TEST_F(WayToStopButton, WhatIsConnectedAnewReleasesNothing) {
+  auto& rear = runtime.Create<Doing>(app, "rear");
+  auto& debouncing = runtime.Create<OnChange>(app, "debouncing");
+  rear.action = [](Doing&) {};
+  panel.action = rear.action;
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  MustSucceed(Port::Connect(panel.out, debouncing.in));
+  MustSucceed(supervisor.Add(StopButtonRule{debouncing.out.path(), true}));
+  Time at = runtime.clock().Now();
+  panel.out.Publish(1);
+  (void)scheduler.RunUntil(at += 100ms);
+  WaitForStop("the button");
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    MustSucceed(Port::Disconnect(panel.out, debouncing.in));
+    MustSucceed(Port::Connect(rear.out, debouncing.in));
+  }
+  (void)scheduler.RunUntil(at += 100ms);
+  rear.out.Publish(0);
+  (void)scheduler.RunUntil(at += 100ms);
+  WaitUntil("it is told", [&] { return IsTold(supervisor, "does not release the STOP, as what is connected on its way has changed"); });
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+}
+
 struct Choice final : Module {
   using Module::Module;
   Input<double> front{this, "front", {.ageing = Ageing::kPassedOn}};
