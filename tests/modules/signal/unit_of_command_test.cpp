@@ -31,11 +31,11 @@ void Describe(TypeBuilder<Mixed>& type) {
 }
 
 template <typename T>
-Port::Fill As(const T& wanted) {
+Port::Fill Filled(const T& wanted) {
   return [wanted](void* value) -> Result<void> { return *static_cast<T*>(value) = wanted, Result<void>(); };
 }
 
-struct Gear final : Module {
+struct Transmission final : Module {
   using Module::Module;
   Input<double> in{this, "in", {.unit = "m/s", .ageing = Ageing::kPassedOn}};
   Output<double> out{this, "out", {.unit = "rad/s"}};
@@ -48,7 +48,7 @@ class UnitOfCommand : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(rig.Prepare()); }
   void Hold(Port& port, double value) {
-    ASSERT_TRUE(port.PublishByHand(As(value)));
+    ASSERT_TRUE(port.PublishByHand(Filled(value)));
     rig.Wait(1s);
     ASSERT_TRUE(port.Release());
   }
@@ -81,7 +81,7 @@ class UnitOfCommand : public ::testing::Test {
 };
 
 TEST_F(UnitOfCommand, IsTheSourcesForADriverThatSaysNone) {
-  auto& gear = rig.runtime.Create<Gear>(rig.runtime.root(), "gear");
+  auto& gear = rig.runtime.Create<Transmission>(rig.runtime.root(), "gear");
   Input<double> motor(others, "motor");
   auto& border = rig.runtime.Create<ProxyPort>(others, "border", Port::Direction::kInput, TypeOf<double>());
   ASSERT_TRUE(Port::Connect(gear.out, border));
@@ -132,7 +132,7 @@ TEST_F(UnitOfCommand, OfAPartCounts) {
   ASSERT_TRUE(planner.SetDriving(true, AnyValue(TypeOf<Volts>(), std::make_shared<const Volts>())));
   ASSERT_TRUE(Port::Connect(planner, left, {.part = "left"}));
   planner.Publish({1, 1});
-  ASSERT_TRUE(planner.PublishByHand(As(Volts{})));
+  ASSERT_TRUE(planner.PublishByHand(Filled(Volts{})));
   rig.Wait(1s);
   ASSERT_TRUE(planner.Release());
   EXPECT_EQ(left.Get(), 0);
