@@ -83,7 +83,7 @@ bool IsStandstill(const Port& input, const internal::PassedStop& stop) {
     if (kind == Kind::kUnknown && &each->type() == &input.type()) kind = KindOf(each->type(), each->unit());
   }
   const bool is_known = kind == Kind::kVelocity || kind == Kind::kOther || (kind == Kind::kUnknown && stop.stop == input.stop());
-  return is_known && IsZero(stop.safe_value);
+  return is_known && IsZero(stop.safe_value) && IsZero(stop.stop->safe_value());
 }
 
 // Whether what the input reads goes on at `output` as far as it is told: as the module says, or as both are velocities. What is

@@ -37,16 +37,16 @@ class WayToButton {
   WayToButton(const Scheduler& scheduler, std::map<std::string, std::size_t>& fed, const Port& port) : scheduler_(scheduler), fed_(fed) { Look(port); }
   std::set<std::string> lacks;
   std::set<std::string> still_down;
-  std::set<const Port*> seen;
+  std::set<std::pair<const Port*, std::string>> seen;  // and which part of it
 
  private:
-  void Look(const Port& port) {
-    if (!seen.insert(&port).second) return;
+  void Look(const Port& port, const std::string& part = {}) {
+    if (!seen.emplace(&port, part).second) return;
     port.VisitLatest([&](const void* value, ValueTimes) {
       if (IsNumber(port.type()) && NumberIn(port.type(), value) != 0) still_down.insert(port.path() + " is not let go");
     });
     if (port.incoming().size() > 1) still_down.insert("several buttons press by " + port.path());
-    if (port.is_set_by_hand()) lacks.insert(port.path() + " is set by hand");
+    if (port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule)) lacks.insert(port.path() + " is set by hand, or by a rule");
     const bool is_output = port.direction() == Port::Direction::kOutput && !port.is_proxy();
     if (is_output) return LookAtModule(port);
     std::size_t& most = fed_[port.path()];
@@ -56,7 +56,7 @@ class WayToButton {
     } else if (port.incoming().size() < most) {
       lacks.insert(fmt::format("{} of {} connections to {} are gone", most - port.incoming().size(), most, port.path()));
     }
-    for (const Port* each : port.incoming()) Look(*each);
+    for (const Port* each : port.incoming()) Look(*each, each->OptionsTo(port).part);
   }
   void LookAtModule(const Port& output) {
     const std::string why = scheduler_.WhyAtRest(output, kStuckAfter);
@@ -76,7 +76,7 @@ class WayToButton {
     for (const Port* each : passed) Look(*each);
   }
 
-  [[nodiscard]] bool WasFed(const Port& input) const { return !input.incoming().empty() || input.is_set_by_hand() || fed_.contains(input.path()); }
+  [[nodiscard]] bool WasFed(const Port& input) const { return !input.incoming().empty() || input.is_set_by_hand() || input.is_set_by_hand(Port::Setter::kRule) || fed_.contains(input.path()); }
 
   const Scheduler& scheduler_;
   std::map<std::string, std::size_t>& fed_;

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "core/element/runtime.h"
 #include "core/port/port.h"
@@ -61,7 +62,7 @@ class StopButton {
   std::set<std::string> still_down_;  // where on the way it may be down, as of then
   std::string told_;                  // why it releases nothing, of the STOP that is in force
   std::map<std::string, std::size_t> fed_;  // how many connections there have been, by ports on the way
-  std::set<const Port*> way_;  // as of the last look
+  std::set<std::pair<const Port*, std::string>> way_;  // as of the last look
   bool is_other_way_ = false;  // than when the STOP that is in force was pressed
   std::atomic<bool> ends_{false};
   std::thread thread_;

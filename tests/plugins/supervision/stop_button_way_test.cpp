@@ -282,6 +282,12 @@ TEST_F(WayToStopButton, WhatIsConnectedAnewReleasesNothing) {
   EXPECT_TRUE(runtime.robot_stop().in_force());
 }
 
+TEST_F(WayToStopButton, ItPressesWhenARuleSetsIt) {
+  Add(panel.out);
+  MustSucceed(panel.out.PublishByHand([](void* value) -> Result<void> { return *static_cast<double*>(value) = 0, Result<void>(); }, Port::Setter::kRule));
+  WaitForStop("/app/panel/output/out is set by hand, or by a rule");
+}
+
 struct Choice final : Module {
   using Module::Module;
   Input<double> front{this, "front", {.ageing = Ageing::kPassedOn}};
