@@ -133,7 +133,7 @@ bool Port::Release(Setter setter) {
   std::vector<const Port*> held_on;
   const auto stops = internal::FindStopsOfVelocities(*this, held_on);
   if (is_set_by_hand(other)) held_on.push_back(this);
-  const bool bars = is_ramped || setter == Setter::kPerson;
+  const bool bars = life_cycle() != LifeCycle::kDeleted && (is_ramped || setter == Setter::kPerson);  // its clock may be gone
   const std::optional<Time> passed_over = bars ? now() : extras_->passed_over;
   for (const Port* each : held_on) each->extras_->passed_over = std::max(each->extras_->passed_over, passed_over);
   if (is_alone && passed_over) {

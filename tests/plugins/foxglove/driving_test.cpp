@@ -57,6 +57,7 @@ TEST_F(FoxgloveDriving, IsByHandAndEndsWithTheChannel) {
   Advertise(1, "/base/wheels");
   Publish(1, "0.3");
   EXPECT_TRUE(Reads(base.wheels, 0.3));
+  EXPECT_TRUE(Wait([&] { return !Hands().empty(); }));  // it is told just after
   EXPECT_THAT(Hands(), ElementsAre(Pair(kWheels, HandState::kDriven)));
   Publish(1, R"({"value": 0.25})");
   EXPECT_TRUE(Reads(base.wheels, 0.25));
