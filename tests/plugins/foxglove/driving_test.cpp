@@ -33,6 +33,10 @@ class FoxgloveDriving : public FoxgloveTest {
     return Wait([&] { return input.Get() == wanted; });
   }
   auto Hands() { return service.hand_settings().All(); }
+  bool IsLost() {
+    const auto hands = Hands();
+    return !hands.empty() && hands.begin()->second == HandState::kLost;
+  }
   /// The worker has something else to do as long as this lives.
   struct Busy {
     explicit Busy(CommandService& service) : tasks(service.worker()) {
@@ -65,6 +69,7 @@ TEST_F(FoxgloveDriving, IsByHandAndEndsWithTheChannel) {
   EXPECT_THAT(Complaint(), HasSubstr(kWheels));
   Say({{"op", "unadvertise"}, {"channelIds", {1}}});
   EXPECT_TRUE(Reads(base.wheels, 0));
+  EXPECT_TRUE(Wait([&] { return IsLost(); }));
   EXPECT_THAT(Hands(), ElementsAre(Pair(kWheels, HandState::kLost)));
   EXPECT_THAT(log.ReadEntries(0, 99).entries.back().text, HasSubstr("who drove it has left; it is at rest until it is released"));
   EXPECT_EQ(Complaint(), "");
@@ -91,6 +96,7 @@ TEST_F(FoxgloveDriving, WhoIsSilentDrivesNoLongerUntilHeSaysSomethingAnew) {
   Publish(1, "0.3");
   ASSERT_TRUE(Wait([&] { return !Hands().empty(); })) << Complaint();
   EXPECT_TRUE(Reads(base.wheels, 0));
+  EXPECT_TRUE(Wait([&] { return IsLost(); }));
   EXPECT_THAT(Hands(), ElementsAre(Pair(kWheels, HandState::kLost)));
   Publish(1, "0.2");
   EXPECT_TRUE(Wait([&] {
@@ -185,7 +191,7 @@ TEST_F(FoxgloveDriving, AChannelIsClosedWhenItsInputBeginsToDrive) {
   Advertise(1, "/robot/limit");
   Publish(1, "0.4");
   EXPECT_TRUE(Reads(robot.limit, 0.4));
-  EXPECT_EQ(Hands().size(), 1u);
+  EXPECT_TRUE(Wait([&] { return Hands().size() == 1; }));
 }
 
 }  // namespace
