@@ -113,7 +113,7 @@ bool IsMadeVelocity(const Port& input) {
   if (std::ranges::any_of(internal::PassedStops(input), stands)) return true;
   bool is_made = false;
   VisitSiblings(input, Port::Direction::kOutput, [&](const Port& output) {
-    is_made = is_made || (IsPassedOn(input, output) && IsNotedVelocity(output));
+    is_made = is_made || (IsNotedVelocity(output) && IsPassedOn(input, output));
   });
   return is_made;
 }
@@ -210,7 +210,7 @@ std::vector<std::shared_ptr<const PortStop>> internal::FindStopsOfVelocities(con
       if (each.stop->robot() != nullptr && IsStandstill(at, each) && std::ranges::find(found, each.stop) == found.end()) found.push_back(each.stop);
     }
     VisitSiblings(at, Port::Direction::kOutput, [&](const Port& output) {
-      if (IsPassedOn(at, output) && IsNotedVelocity(output)) look(output);
+      if (IsNotedVelocity(output) && IsPassedOn(at, output)) look(output);
     });
   };
   look(port);

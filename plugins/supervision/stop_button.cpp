@@ -46,7 +46,7 @@ class WayToButton {
       if (IsNumber(port.type()) && NumberIn(port.type(), value) != 0) still_down.insert(port.path() + " is not let go");
     });
     if (port.incoming().size() > 1) still_down.insert("several buttons press by " + port.path());
-    if (port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule)) lacks.insert(port.path() + " is set by hand, or by a rule");
+    if (IsSet(port)) lacks.insert(port.path() + " is set by hand, or by a rule");
     const bool is_output = port.direction() == Port::Direction::kOutput && !port.is_proxy();
     if (is_output) return LookAtModule(port);
     std::size_t& most = fed_[port.path()];
@@ -76,7 +76,8 @@ class WayToButton {
     for (const Port* each : passed) Look(*each);
   }
 
-  [[nodiscard]] bool WasFed(const Port& input) const { return !input.incoming().empty() || input.is_set_by_hand() || input.is_set_by_hand(Port::Setter::kRule) || fed_.contains(input.path()); }
+  static bool IsSet(const Port& port) { return port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule); }
+  [[nodiscard]] bool WasFed(const Port& input) const { return !input.incoming().empty() || IsSet(input) || fed_.contains(input.path()); }
 
   const Scheduler& scheduler_;
   std::map<std::string, std::size_t>& fed_;

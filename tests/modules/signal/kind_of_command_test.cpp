@@ -12,6 +12,7 @@
 #include "modules/signal/filters.h"
 #include "modules/types/pose.h"
 #include "plugins/testing/module_rig.h"
+#include "tests/modules/signal/filled.h"
 
 namespace runnel::signal {
 namespace {
@@ -49,11 +50,6 @@ struct Arm {
 };
 void Describe(TypeBuilder<Arm>& type) { type.Name("Arm").Field("joints", &Arm::joints); }
 
-template <typename T>
-Port::Fill As(const T& wanted) {
-  return [wanted](void* value) -> Result<void> { return *static_cast<T*>(value) = wanted, Result<void>(); };
-}
-
 class Commands : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(rig.Prepare()); }
@@ -77,7 +73,7 @@ T HeldMeanwhile(const T& wish, const T& held) {
   EXPECT_TRUE(driven.SetDriving(true, AnyValue(TypeOf<T>(), std::make_shared<const T>())));
   EXPECT_TRUE(Port::Connect(planner, driven));
   planner.Publish(wish);
-  EXPECT_TRUE(driven.PublishByHand(As(held)));
+  EXPECT_TRUE(driven.PublishByHand(Filled(held)));
   rig.Wait(1s);
   EXPECT_TRUE(driven.Release());
   const T read = driven.Get();
@@ -128,7 +124,7 @@ class Gears : public Commands {
     EXPECT_LE(motor.Get(), 3) << "a ramp of 1 m/s^2 is at 0.2 m/s after 0.2 s";
     wish(30);
     EXPECT_EQ(motor.Get(), 10);
-    ASSERT_TRUE(gear.in.PublishByHand(As(0.0)));
+    ASSERT_TRUE(gear.in.PublishByHand(Filled(0.0)));
     wish(3);
     ASSERT_TRUE(gear.in.Release());
     gear.Turn();
@@ -192,7 +188,7 @@ void ComposedFromStandstill() {
   wish(2);
   EXPECT_LE(SpeedOf(base.Get()), 0.3) << "a ramp of 1 m/s^2 is at 0.2 m/s after 0.2 s";
   wish(30);
-  ASSERT_TRUE(composing.forward.PublishByHand(As(0.0)));
+  ASSERT_TRUE(composing.forward.PublishByHand(Filled(0.0)));
   wish(3);
   ASSERT_TRUE(composing.forward.Release());
   composing.Turn();
@@ -216,8 +212,8 @@ TEST_F(Commands, WhatAPersonHasLetGoWhileARuleHeldDoesNotDriveWhenTheRuleEnds) {
   for (Port* const held : ports) {
     planner.Publish(1);
     rig.Wait(1s);
-    ASSERT_TRUE(held->PublishByHand(As(0.0)));
-    ASSERT_TRUE(wheels.PublishByHand(As(0.1), Port::Setter::kRule));
+    ASSERT_TRUE(held->PublishByHand(Filled(0.0)));
+    ASSERT_TRUE(wheels.PublishByHand(Filled(0.1), Port::Setter::kRule));
     rig.Wait(1s);
     ASSERT_TRUE(held->Release());
     EXPECT_EQ(wheels.Get(), 0.1) << held->path();
@@ -240,9 +236,9 @@ TEST_F(Commands, NorDoesItWhenTwoRulesEndOneAfterTheOther) {
   for (const auto& [first, second] : {std::pair<Port*, Port*>{&gate, &wheels}, {&wheels, &gate}}) {
     planner.Publish(1);
     rig.Wait(1s);
-    ASSERT_TRUE(planner.PublishByHand(As(0.0)));
-    ASSERT_TRUE(gate.PublishByHand(As(0.1), Port::Setter::kRule));
-    ASSERT_TRUE(wheels.PublishByHand(As(0.2), Port::Setter::kRule));
+    ASSERT_TRUE(planner.PublishByHand(Filled(0.0)));
+    ASSERT_TRUE(gate.PublishByHand(Filled(0.1), Port::Setter::kRule));
+    ASSERT_TRUE(wheels.PublishByHand(Filled(0.2), Port::Setter::kRule));
     rig.Wait(1s);
     ASSERT_TRUE(planner.Release());
     ASSERT_TRUE(first->Release(Port::Setter::kRule));
@@ -266,9 +262,9 @@ TEST_F(Commands, WhatIsHeldBehindGoesOn) {
   ASSERT_TRUE(Port::Connect(planner, gear.in));
   Port* const ports[] = {&gear.out, &border};
   for (Port* const held : ports) {
-    ASSERT_TRUE(held->PublishByHand(As(0.3)));
+    ASSERT_TRUE(held->PublishByHand(Filled(0.3)));
     rig.Wait(1s);
-    ASSERT_TRUE(planner.PublishByHand(As(0.0)));
+    ASSERT_TRUE(planner.PublishByHand(Filled(0.0)));
     rig.Wait(1s);
     ASSERT_TRUE(planner.Release());
     EXPECT_EQ(motor.Get(), 0.3) << held->path();
@@ -311,7 +307,7 @@ class Places : public Commands {
     EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9)) << "after a gap";
     Port* const ports[] = {&joint, &marked};
     for (Port* const held : ports) {
-      ASSERT_TRUE(held->PublishByHand(As(1.2)));
+      ASSERT_TRUE(held->PublishByHand(Filled(1.2)));
       rig.Wait(1s);
       ASSERT_TRUE(held->Release());
       EXPECT_THAT(joint.Get(), DoubleNear(1.2, 1e-9)) << held->path();

@@ -7,6 +7,7 @@
 #include "core/types/type_of.h"
 #include "modules/signal/filters.h"
 #include "plugins/testing/module_rig.h"
+#include "tests/modules/signal/filled.h"
 
 namespace runnel::signal {
 namespace {
@@ -22,8 +23,6 @@ struct Car {
 void Describe(TypeBuilder<Car>& type) {
   type.Name("Car").Field("speed", &Car::speed, {.unit = "m/s"}).Field("steering", &Car::steering, {.unit = "rad"});
 }
-
-const Port::Fill kZero = [](void* value) -> Result<void> { return *static_cast<double*>(value) = 0, Result<void>(); };
 
 /// A ramp, an interface port, and wheels: one of them is marked.
 class MarkedWheels : public ::testing::Test {
@@ -54,7 +53,7 @@ TEST_F(MarkedWheels, WhatARampHasMadeMeanwhileMovesNothingWhereverItIsHeld) {
     ASSERT_TRUE(marked->SetDriving(true, AnyValue(0.0)));
     for (Port* const held : ports) {
       for (const auto setter : {Port::Setter::kPerson, Port::Setter::kRule}) {
-        ASSERT_TRUE(held->PublishByHand(kZero, setter));
+        ASSERT_TRUE(held->PublishByHand(Filled(0.0), setter));
         for (int i = 0; i < 20; ++i) Wish(1);
         ASSERT_TRUE(held->Release(setter));
         EXPECT_EQ(wheels.Get(), 0) << "marked " << marked->path() << ", held " << held->path();
@@ -79,7 +78,7 @@ TEST_F(MarkedWheels, WhatWasSaidBeforeAPersonHeldWhatIsMarkedMovesNothing) {
       rig.Wait(1ms);
       planner.Publish(1);
       ASSERT_EQ(wheels.Get(), 1);
-      ASSERT_TRUE(held->PublishByHand(kZero));
+      ASSERT_TRUE(held->PublishByHand(Filled(0.0)));
       rig.Wait(10s);
       ASSERT_TRUE(held->Release());
       EXPECT_EQ(wheels.Get(), 0) << "marked " << marked->path() << ", held " << held->path();

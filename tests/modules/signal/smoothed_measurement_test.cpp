@@ -5,6 +5,7 @@
 #include "core/module/group.h"
 #include "modules/signal/filters.h"
 #include "plugins/testing/module_rig.h"
+#include "tests/modules/signal/filled.h"
 
 namespace runnel::signal {
 namespace {
@@ -30,7 +31,6 @@ void SmoothedDistanceIsNoVelocity() {
   Input<double> wheels(others, "wheels", {.unit = "m/s", .drives = true});
   ASSERT_TRUE(Port::Connect(keep.speed, wheels));
   ASSERT_TRUE(Port::Connect(rig.module.out, keep.distance));
-  const Port::Fill stand = [](void* value) -> Result<void> { return *static_cast<double*>(value) = 0, Result<void>(); };
   const auto measure = [&] {
     rig.Feed(rig.module.in, 2.0);
     rig.RunCycle();
@@ -41,7 +41,7 @@ void SmoothedDistanceIsNoVelocity() {
   EXPECT_EQ(measure(), 2);
   ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
   EXPECT_EQ(measure(), 2);
-  ASSERT_TRUE(wheels.PublishByHand(stand));
+  ASSERT_TRUE(wheels.PublishByHand(Filled(0.0)));
   EXPECT_EQ(measure(), 2);
   ASSERT_TRUE(wheels.Release());
   EXPECT_EQ(measure(), 2);

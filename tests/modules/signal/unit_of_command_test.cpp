@@ -10,6 +10,7 @@
 #include "core/types/type_of.h"
 #include "modules/signal/filters.h"
 #include "plugins/testing/module_rig.h"
+#include "tests/modules/signal/filled.h"
 
 namespace runnel::signal {
 namespace {
@@ -28,11 +29,6 @@ struct Mixed {
 };
 void Describe(TypeBuilder<Mixed>& type) {
   type.Name("Mixed").Field("place", &Mixed::place, {.unit = "m"}).Field("speed", &Mixed::speed, {.unit = "m/s"});
-}
-
-template <typename T>
-Port::Fill Filled(const T& wanted) {
-  return [wanted](void* value) -> Result<void> { return *static_cast<T*>(value) = wanted, Result<void>(); };
 }
 
 struct Transmission final : Module {
