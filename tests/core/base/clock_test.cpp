@@ -30,10 +30,13 @@ TEST(SteadyClockTest, DoesNotGoBackwards) {
 
 TEST(SteadyClockTest, CoarseTimeIsNoLaterButNotBeforeWhatHasJustHappened) {
   const SteadyClock clock;
-  EXPECT_LE(clock.CoarseNow(Time{}), clock.Now());
+  // One after the other: the arguments of one call are evaluated in no stated order.
+  const Time tick = clock.CoarseNow(Time{});
+  EXPECT_LE(tick, clock.Now());
   const Time event = clock.Now();
-  EXPECT_GE(clock.CoarseNow(event), event);
-  EXPECT_LE(clock.CoarseNow(event), clock.Now());
+  const Time coarse = clock.CoarseNow(event);
+  EXPECT_GE(coarse, event);
+  EXPECT_LE(coarse, clock.Now());
   const Time future = clock.Now() + std::chrono::hours(1);
   EXPECT_LT(clock.CoarseNow(future), future);
 }
