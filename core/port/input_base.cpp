@@ -54,9 +54,11 @@ void InputBase::SetWaker(Waker* waker) {
 void InputBase::DeclareDriving() {
   const InputOptions& declared = options_;
   const bool has_own = declared.safe_value || IsVelocity(type(), unit());  // whose default may well move
-  const auto safe = FindSafeValue(has_own ? declared.safe_value : declared.limits.default_value);
+  const auto safe = FindSafeValue(has_own ? declared.safe_value : declared.limits.default_value, declared.command);
   if (!safe) throw ElementError(safe.error());
-  if (auto set = SetStop(*safe, declared.brake, runtime().robot_stop().signal()); !set) {
+  const auto command = FindDrivingKind(declared.command, *safe);
+  if (!command) throw ElementError(command.error());
+  if (auto set = SetStop(*safe, declared.brake, *command, runtime().robot_stop().signal()); !set) {
     throw ElementError(set.error());
   }
   declared_stop_ = stop();

@@ -155,11 +155,12 @@ class Port : public FrameworkElement {
   /// Inputs: this one; outputs and interface ports: all that reads from them. A module may say so of its inputs
   /// (InputOptions::drives). Stopping takes no lock (RobotStop). It goes over to a port that takes the place of this one.
   /// `safe_value`: of the port's type; without one, the default value of its limits, or zero of a velocity.
-  /// Threads: locks, allocates. Errors: there is no safe value; the module says that something moves by it; it is to
-  /// brake, and is not made of numbers alone.
+  /// Threads: locks, allocates. Errors: there is no safe value; nothing says what kind of command it is; the module says that
+  /// something moves by it; it is to brake, and is not made of numbers alone.
   /// `brake`: how long the way from the value read last to the safe one takes (PortStop::brake()); nothing: as its
-  /// module declares, or no time.
-  Result<void> SetDriving(bool drives, AnyValue safe_value = {}, std::optional<Duration> brake = {});
+  /// module declares, or no time. `command`: unspecified: as its module declares, or its units say.
+  Result<void> SetDriving(bool drives, AnyValue safe_value = {}, std::optional<Duration> brake = {},
+                          DrivingKind command = DrivingKind::kUnspecified);
   /// Stops this port alone, as the robot's STOP would; of ports that do not drive, too.
   /// Errors: there is no safe value. Locks.
   Result<void> Block();
@@ -248,9 +249,10 @@ class Port : public FrameworkElement {
   /// What the module of this port declares; nullptr: not that something moves by it.
   [[nodiscard]] virtual const PortStop* declared_stop() const noexcept { return nullptr; }
   /// Of this port; `declared`: none, or what somebody has declared.
-  [[nodiscard]] Result<AnyValue> FindSafeValue(const AnyValue& declared) const;
+  [[nodiscard]] Result<AnyValue> FindSafeValue(const AnyValue& declared, DrivingKind command) const;
+  [[nodiscard]] Result<DrivingKind> FindDrivingKind(DrivingKind declared, const AnyValue& safe_value) const;
   /// Binds the readers behind it anew. `robot`: nullptr for a port that does not drive.
-  Result<void> SetStop(AnyValue safe_value, Duration brake, std::shared_ptr<StopSignal> robot);
+  Result<void> SetStop(AnyValue safe_value, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot);
   internal::PortExtras& Extras();
 
   /// The times that a value published now by the calling thread bears: in a cycle, it is as old as the oldest

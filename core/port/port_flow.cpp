@@ -8,15 +8,14 @@
 #include <unordered_set>
 #include <utility>
 
-#include "core/base/unit.h"
 #include "core/conversion/number_conversion.h"
 #include "core/port/converted_flow.h"
+#include "core/port/driving_kind.h"
 #include "core/port/driving_ports.h"
 #include "core/port/input_base.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/port/proxy_port.h"
-#include "core/types/text_format.h"
 #include "core/types/type_info.h"
 
 namespace runnel {
@@ -43,47 +42,13 @@ void DropRepetitions(const std::vector<Connection>& ways, std::vector<Port*>& po
 // Of what has just been connected: nothing of it has begun anew yet.
 constexpr std::uint32_t kFirstBeginning = 1;
 
-bool IsZero(const AnyValue& value) {
-  const std::shared_ptr<const void> zero = value.type().Make();
-  return zero != nullptr && value.type().is_transparent() && ToText(value.type(), value.get()) == ToText(value.type(), zero.get());
-}
-
-// Of all that it is made of, in base units. `seen`: a type may contain itself.
-void CollectDimensions(const TypeInfo& type, const std::string& unit, std::unordered_set<const TypeInfo*>& seen, std::vector<Dimensions>& found) {
-  if (const auto parsed = ParseUnit(unit)) found.push_back(parsed->dimensions);
-  if (!seen.insert(&type).second) return;
-  for (const FieldInfo& each : type.fields()) CollectDimensions(*each.type, each.unit, seen, found);
-  if (type.kind() == TypeKind::kSequence || type.kind() == TypeKind::kMatrix) CollectDimensions(*type.elements().type, {}, seen, found);
-}
-
-enum class Kind { kUnknown, kPlace, kVelocity, kOther };
-
-// By its units. A place at zero has not come to rest there, but has gone there. A car has a speed that no place beside it has: a velocity.
-Kind KindOf(const TypeInfo& type, const std::string& unit) {
-  std::vector<Dimensions> all;
-  std::unordered_set<const TypeInfo*> seen;
-  CollectDimensions(type, unit, seen, all);
-  const auto has = [&](const Dimensions& each) { return std::ranges::find(all, each) != all.end(); };
-  const Dimensions length{1}, angle{0, 0, 0, 0, 0, 1};
-  const auto is_without_place = [&](Dimensions speed) {
-    ++speed[2];
-    return (speed == length || speed == angle) && !has(speed);
-  };
-  if (IsVelocity(type, unit) || std::ranges::any_of(all, is_without_place)) return Kind::kVelocity;
-  if (has(length) || has(angle)) return Kind::kPlace;
-  return all.empty() ? Kind::kUnknown : Kind::kOther;
-}
-
-// Who says no unit knows nothing of what somebody else has marked: a recorder, or who reads a part of it.
-bool IsStandstill(const Port& input, const internal::PassedStop& stop) {
-  if (KindOf(stop.stop->safe_value().type(), {}) == Kind::kPlace) return false;
-  if (IsVelocity(input.type(), input.unit())) return true;
-  Kind kind = KindOf(input.type(), input.unit());
-  for (const Port* each : input.Sources()) {
-    if (kind == Kind::kUnknown && &each->type() == &input.type()) kind = KindOf(each->type(), each->unit());
-  }
-  const bool is_known = kind == Kind::kVelocity || kind == Kind::kOther || (kind == Kind::kUnknown && stop.stop == input.stop());
-  return is_known && IsZero(stop.safe_value) && IsZero(stop.stop->safe_value());
+bool IsStandstill(const Port& input, const internal::PassedStop& passed) {
+  const PortStop& stop = *passed.stop;
+  if (stop.command() == DrivingKind::kPosition) return false;
+  // A part of what is marked farther up may be a place beside its velocity: the steering angle of a car.
+  const bool is_own = passed.stop == input.stop();
+  if (!is_own && DrivingKindByUnits(input.type(), input.unit()) == DrivingKind::kPosition) return false;
+  return stop.command() == DrivingKind::kVelocity || (IsZero(passed.safe_value) && IsZero(stop.safe_value()));
 }
 
 // Whether what the input reads goes on at `output` as far as it is told: as the module says, or as both are velocities. What is
@@ -92,9 +57,9 @@ bool IsPassedOn(const Port& from, const Port& output) {
   const auto* const input = dynamic_cast<const InputBase*>(&from);
   const Ageing ageing = input != nullptr ? input->ageing() : Ageing::kUnspecified;
   if (ageing == Ageing::kSetOnce || ageing == Ageing::kWhileSourceRuns) return false;
-  const Kind from_kind = KindOf(from.type(), from.unit()), output_kind = KindOf(output.type(), output.unit());
-  if (from_kind == Kind::kVelocity && output_kind == Kind::kVelocity) return true;
-  return ageing == Ageing::kPassedOn && from_kind != Kind::kPlace && output_kind != Kind::kPlace;
+  const DrivingKind read = DrivingKindByUnits(from.type(), from.unit()), made = DrivingKindByUnits(output.type(), output.unit());
+  if (read == DrivingKind::kVelocity && made == DrivingKind::kVelocity) return true;
+  return ageing == Ageing::kPassedOn && read != DrivingKind::kPosition && made != DrivingKind::kPosition;
 }
 
 // Whether values come from `source` as they are.

@@ -8,6 +8,7 @@
 #include "core/base/clock.h"
 #include "core/channel/channel_options.h"
 #include "core/lockfree/buffer_pool.h"
+#include "core/port/driving_kind.h"
 #include "core/types/any_value.h"
 
 namespace runnel {
@@ -74,6 +75,8 @@ struct InputOptions {
   InputLimits limits = {};
   /// Something moves by what is read here: readers find the safe value while the robot is stopped (RobotStop).
   bool drives = false;
+  /// What it says. Unspecified: as its units say; of numbers without units it has to be said.
+  DrivingKind command = DrivingKind::kUnspecified;
   /// Of the input's type; without one, zero of a velocity, or the default value of the limits.
   AnyValue safe_value = {};
   /// How long it takes from the value read last to the safe one when the robot is stopped; 0: the safe one at once. Of

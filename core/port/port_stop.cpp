@@ -7,7 +7,6 @@
 #include <mutex>
 #include <utility>
 
-#include "core/base/unit.h"
 #include "core/element/runtime.h"
 #include "core/port/converted_flow.h"
 #include "core/port/driving_ports.h"
@@ -22,21 +21,12 @@ namespace {
 constexpr Duration kLongestBrake = std::chrono::seconds(10);
 }  // namespace
 
-bool IsVelocity(const TypeInfo& type, const std::string& unit) {
-  const auto parsed = ParseUnit(unit);
-  const bool is_per_second = parsed && (parsed->dimensions == Dimensions{1, 0, -1} || parsed->dimensions == Dimensions{0, 0, -1, 0, 0, 1});
-  if (type.semantic_tag() == "twist" || is_per_second) return true;
-  return !type.fields().empty() && std::ranges::all_of(type.fields(), [](const FieldInfo& field) {
-    return IsVelocity(*field.type, field.unit);
-  });
-}
-
-Result<AnyValue> Port::FindSafeValue(const AnyValue& declared) const {
+Result<AnyValue> Port::FindSafeValue(const AnyValue& declared, DrivingKind command) const {
   const auto refuse = [&](std::string message) {
     return Error{.message = std::move(message), .path = path()};
   };
   // What a velocity is read as while nothing comes may well move.
-  const bool is_velocity = IsVelocity(type_, unit());
+  const bool is_velocity = command == DrivingKind::kVelocity || IsVelocity(type_, unit());
   const AnyValue given = declared || is_velocity ? declared : limits().default_value;
   if (given && &given.type() != &type_) {
     return refuse("its safe value is a " + given.type().name() + " and not a " + type_.name());
@@ -45,7 +35,7 @@ Result<AnyValue> Port::FindSafeValue(const AnyValue& declared) const {
   if (given) return given;
   if (!is_velocity) {
     Error error = refuse("something moves by it, and it has no safe value");
-    error.hint = "declare which " + type_.name() + " is a standstill";
+    error.hint = "add safe=\"…\": the " + type_.name() + " at which it stands still";
     return error;
   }
   const std::shared_ptr<const void> zero = type_.Make();
@@ -53,7 +43,17 @@ Result<AnyValue> Port::FindSafeValue(const AnyValue& declared) const {
   return AnyValue(type_, zero);
 }
 
-Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Duration> brake) {
+Result<DrivingKind> Port::FindDrivingKind(DrivingKind declared, const AnyValue& safe_value) const {
+  if (declared != DrivingKind::kUnspecified) return declared;
+  const DrivingKind known = DrivingKindByUnits(type_, unit());
+  if (known != DrivingKind::kUnspecified) return known;
+  if (!HasNumbers(type_)) return IsZero(safe_value) ? DrivingKind::kEffort : DrivingKind::kPosition;
+  return Error{.message = "something moves by it, and neither a unit nor its module says whether it is a position, a velocity or an effort",
+               .path = path(),
+               .hint = "add command=\"velocity\", say; or its module declares its unit"};
+}
+
+Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Duration> brake, DrivingKind command) {
   const std::lock_guard lock(runtime().structure_mutex());
   const PortStop* const declared = declared_stop();
   if (!drives && declared != nullptr) {
@@ -61,10 +61,13 @@ Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Du
   }
   if (!drives && !is_driving()) return {};
   if (!safe_value && declared != nullptr) safe_value = declared->safe_value();
-  auto safe = FindSafeValue(safe_value);
+  if (command == DrivingKind::kUnspecified && declared != nullptr) command = declared->command();
+  auto safe = FindSafeValue(safe_value, command);
   if (!safe) return safe.error();
+  auto kind = drives ? FindDrivingKind(command, *safe) : command;
+  if (!kind) return kind.error();
   if (!brake) brake = declared != nullptr ? declared->brake() : Duration{};
-  auto set = SetStop(std::move(*safe), *brake, drives ? runtime().robot_stop().signal() : nullptr);
+  auto set = SetStop(std::move(*safe), *brake, *kind, drives ? runtime().robot_stop().signal() : nullptr);
   if (set) extras_->is_marked = drives;
   return set;
 }
@@ -72,9 +75,9 @@ Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Du
 Result<void> Port::Block() {
   const std::lock_guard lock(runtime().structure_mutex());
   if (!extras_ || !extras_->stop) {
-    auto safe = FindSafeValue({});
+    auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
     if (!safe) return safe.error();
-    if (auto set = SetStop(std::move(*safe), Duration{}, nullptr); !set) return set;
+    if (auto set = SetStop(std::move(*safe), Duration{}, DrivingKind::kUnspecified, nullptr); !set) return set;
   }
   extras_->blocked_since = SteadyClock().Now();
   if (extras_->stop->block()->Press()) TellOfChange();
@@ -101,7 +104,7 @@ std::shared_ptr<const PortStop> Port::stop() const noexcept {
   return extras_ ? extras_->stop : nullptr;
 }
 
-Result<void> Port::SetStop(AnyValue safe_value, Duration brake, std::shared_ptr<StopSignal> robot) {
+Result<void> Port::SetStop(AnyValue safe_value, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot) {
   // Readers must be able to hold a value of the type.
   const auto channel = internal::MakeChannelFor(type_);
   if (!channel) return CannotPublish("only a module can make values of its type");
@@ -113,7 +116,7 @@ Result<void> Port::SetStop(AnyValue safe_value, Duration brake, std::shared_ptr<
                  .path = path(),
                  .hint = "leave out how long it brakes; its safe value is in force at once then"};
   }
-  auto stop = std::make_shared<PortStop>(std::move(safe_value), brake, std::move(robot), this->stop().get());
+  auto stop = std::make_shared<PortStop>(std::move(safe_value), brake, command, std::move(robot), this->stop().get());
   auto before = std::exchange(Extras().stop, std::move(stop));
   try {
     RebindSinks();

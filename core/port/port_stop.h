@@ -10,6 +10,7 @@
 #include "core/base/clock.h"
 #include "core/channel/value_times.h"
 #include "core/element/stop_signal.h"
+#include "core/port/driving_kind.h"
 #include "core/types/any_value.h"
 
 namespace runnel {
@@ -23,15 +24,18 @@ class Port;
 class PortStop {
  public:
   /// `robot`: nullptr for a port that does not drive. `before`: whose block it keeps; nullptr: it has a new one.
-  PortStop(AnyValue safe_value, Duration brake, std::shared_ptr<StopSignal> robot, const PortStop* before = nullptr)
+  PortStop(AnyValue safe_value, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot, const PortStop* before = nullptr)
       : safe_value_(std::move(safe_value)),
         brake_(brake),
+        command_(command),
         robot_(std::move(robot)),
         block_(before != nullptr ? before->block_ : std::make_shared<StopSignal>()) {}
 
   [[nodiscard]] const AnyValue& safe_value() const noexcept { return safe_value_; }
   /// How long readers find values between the one that they have read last and the safe one; 0: the safe one at once.
   [[nodiscard]] Duration brake() const noexcept { return brake_; }
+  /// Unspecified only of a port that does not drive.
+  [[nodiscard]] DrivingKind command() const noexcept { return command_; }
   [[nodiscard]] const std::shared_ptr<StopSignal>& robot() const noexcept { return robot_; }
   [[nodiscard]] const std::shared_ptr<StopSignal>& block() const noexcept { return block_; }
 
@@ -51,12 +55,10 @@ class PortStop {
  private:
   const AnyValue safe_value_;
   const Duration brake_;
+  const DrivingKind command_;
   const std::shared_ptr<StopSignal> robot_;
   const std::shared_ptr<StopSignal> block_;
 };
-
-/// Whether zero of the type is a standstill: a twist, or all that is inside is in m/s or rad/s. `unit`: of the port.
-[[nodiscard]] bool IsVelocity(const TypeInfo& type, const std::string& unit = {});
 
 namespace internal {
 

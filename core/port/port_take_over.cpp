@@ -106,7 +106,7 @@ std::shared_ptr<const PortStop> Port::StopInPlaceOf(const Port& from) const {
   const PortStop* const declared = declared_stop();
   if (declared == nullptr) return before;
   if (before && before->robot() && (from.declared_stop() == nullptr || from.extras_->is_marked)) return before;
-  return std::make_shared<PortStop>(declared->safe_value(), declared->brake(), declared->robot(), before.get());
+  return std::make_shared<PortStop>(declared->safe_value(), declared->brake(), declared->command(), declared->robot(), before.get());
 }
 
 }  // namespace runnel

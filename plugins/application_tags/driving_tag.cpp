@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/port/driving_kind.h"
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
 #include "core/types/text_format.h"
@@ -25,12 +26,13 @@ using internal::Saving;
 
 /// Kept with the port, for files.
 struct DrivingMark final : Annotation {
-  DrivingMark(AnyValue safe_value, std::string time) : safe(std::move(safe_value)), brake(std::move(time)) {}
+  DrivingMark(AnyValue safe_value, std::string time, std::string kind)
+      : safe(std::move(safe_value)), brake(std::move(time)), command(std::move(kind)) {}
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
-    return std::make_unique<DrivingMark>(safe, brake);
+    return std::make_unique<DrivingMark>(safe, brake, command);
   }
-  AnyValue safe;      // none: the port has one by itself
-  std::string brake;  // as the file says it; "": so
+  AnyValue safe;  // none: the port has one by itself
+  std::string brake, command;  // as the file says them; "": so
 };
 
 /// The ports that one saving has found marked in the file.
@@ -56,13 +58,10 @@ void MarkDriving(const TagUse& use) {
   }
   const XmlAttribute* const brake = use.Find("brake");
   const auto time = brake != nullptr ? std::optional(ParseDuration(brake->value).value()) : std::nullopt;
-  if (auto set = port->SetDriving(true, safe, time); !set) {
-    Error error = set.error();
-    const bool lacks_safe_value = !time && !error.hint.empty();
-    if (lacks_safe_value) error.hint = "add safe=\"…\": the " + port->type().name() + " at which it stands still";
-    return use.Report(std::move(error), use.xml.position());
-  }
-  port->Annotate(std::make_unique<DrivingMark>(std::move(safe), brake != nullptr ? brake->value : ""));
+  const std::string kind = use.xml.TextOr("command", "");
+  const auto command = kind.empty() ? DrivingKind::kUnspecified : *DrivingKindCalled(kind);
+  if (auto set = port->SetDriving(true, safe, time, command); !set) return use.Report(set.error(), use.xml.position());
+  port->Annotate(std::make_unique<DrivingMark>(std::move(safe), brake != nullptr ? brake->value : "", kind));
 }
 
 void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update) {
@@ -87,6 +86,7 @@ std::vector<NewElement> MissingMarks(FrameworkElement& home, Saving& saving) {
         NewElement{.name = "driving", .attributes = {{"port", port->path().substr(home.path().size() + 1)}}});
     if (mark->safe) made.attributes.emplace_back("safe", ToText(port->type(), mark->safe.get()));
     if (!mark->brake.empty()) made.attributes.emplace_back("brake", mark->brake);
+    if (!mark->command.empty()) made.attributes.emplace_back("command", mark->command);
   });
   return elements;
 }
@@ -102,7 +102,10 @@ XmlTag DrivingTag() {
                           .summary = "the value at which it stands still; if left out, zero of a velocity, or the input's default"},
                          {.name = "brake",
                           .kind = AttributeKind::kDuration,
-                          .summary = "how long the way there takes from the value read last, 10 s at most; if left out, no time"}},
+                          .summary = "how long the way there takes from the value read last, 10 s at most; if left out, no time"},
+                         WordRule("command", DrivingKindNames(),
+                                  "what the value says; if left out, what its module or its unit says: m, rad a position; m/s, rad/s a "
+                                  "velocity, which begins from 0 when a STOP or a value by hand ends; other units an effort")},
           .handle = internal::ReadAt<BuildStage::kChecks, MarkDriving>,
           .update = UpdateDriving,
           .missing = [](const XmlElement*, FrameworkElement& home, Saving& saving,

@@ -108,8 +108,9 @@ void AddLatency(const TagUse& use) {
 void AddStopButton(const TagUse& use) {
   const Port* const port = SearchPort(PathIn(use.Get("port"), use.parent), PathKind::kOutput, use.context);
   if (port == nullptr) return;
-  if (auto good = CheckStopButton(*port); !good) return use.Report(good.error(), use.Get("port").value_position);
-  internal::RunRulesAround(use.parent).stop_buttons.push_back({port->path(), use.xml.TextOr("releases") == "true"});
+  const StopButtonRule rule{port->path(), use.xml.TextOr("releases") == "true"};
+  if (auto good = CheckStopButton(*port, rule.releases); !good) return use.Report(good.error(), use.Get("port").value_position);
+  internal::RunRulesAround(use.parent).stop_buttons.push_back(rule);
 }
 
 // Nobody changes it while the application runs, so the file keeps it.
@@ -204,8 +205,8 @@ XmlTag StopButtonTag() {
           .summary = "a port by which somebody presses the STOP of the robot: true, or a number that is not 0",
           .parents = {"application", "group"},
           .attributes = {PathRule("port", true, "what publishes the state of the button"),
-                         YesNoRule("releases", "whether letting go of the button releases the STOP; "
-                                               "else somebody has to do so")},
+                         YesNoRule("releases", "whether letting go of the button releases the STOP, if the port is the output of "
+                                               "its own driver; else somebody has to do so")},
           .handle = InTheEnd<AddStopButton>};
 }
 XmlTag OperatorsTag() {

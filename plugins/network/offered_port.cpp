@@ -118,7 +118,7 @@ Result<void> OfferedPort::Begin(WireParticipant& participant) {
   // A command of motion stops whoever moves by it elsewhere, whether or not anybody has marked it here.
   if (options_.is_measured || !IsVelocity(type(), options_.unit)) return {};
   const std::shared_ptr<const void> zero = type().Make();
-  if (auto set = reader_->SetDriving(true, zero ? AnyValue(type(), zero) : AnyValue()); !set) return set;
+  if (auto set = reader_->SetDriving(true, zero ? AnyValue(type(), zero) : AnyValue(), {}, DrivingKind::kVelocity); !set) return set;
   AddWhatDrives(reader_->runtime(), topic_ + " (in the network)", reader_->stop());
   return {};
 }

@@ -46,9 +46,9 @@ Result<void> GiveTo(Port& port, const PortState& state) {
   // What its module declares is its module's business: one in its place may declare another safe value.
   const auto own = port.stop();
   const auto text_of = [](const PortStop& stop) { return ToText(stop.safe_value().type(), stop.safe_value().get()); };
-  const bool is_declared = state.stop && own && own->robot() && own->brake() == state.stop->brake() && text_of(*own) == text_of(*state.stop);
+  const bool is_declared = state.stop && own && own->robot() && own->brake() == state.stop->brake() && own->command() == state.stop->command() && text_of(*own) == text_of(*state.stop);
   if (state.stop && state.stop->robot() && !is_declared) {
-    if (auto set = port.SetDriving(true, state.stop->safe_value(), state.stop->brake()); !set) return set;
+    if (auto set = port.SetDriving(true, state.stop->safe_value(), state.stop->brake(), state.stop->command()); !set) return set;
   }
   // What was published before a block was released counts no more afterwards either.
   if (state.stop && state.stop->block()->bar() != StopSignal::kNever) {

@@ -16,11 +16,43 @@
 
 namespace runnel {
 
-Result<void> CheckStopButton(const Port& port) {
-  if (internal::IsNumber(port.type())) return {};
-  return Error{.message = "cannot be a stop button, as it sends a " + port.type().name(),
-               .path = port.path(),
-               .hint = "a button sends bool, true while it is pressed, or a number"};
+namespace {
+
+bool IsSet(const Port& port) { return port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule); }
+
+// The output of the driver whose button alone is heard by the port, as it is; nullptr: nothing is connected.
+Result<const Port*> FindButton(const Port& port) {
+  const auto refuse = [](const Port& at, std::string message) {
+    return Error{.message = std::move(message), .path = at.path(), .hint = "name the output of the button's own driver"};
+  };
+  const Port* at = &port;
+  while (at->is_proxy() || at->direction() == Port::Direction::kInput) {
+    if (at->incoming().empty()) return nullptr;
+    if (at->incoming().size() > 1) return refuse(*at, "cannot release the STOP, as several buttons press by it");
+    const Port* const from = at->incoming().front();
+    if (from->ConnectionTo(*at)->converted) return refuse(*at, "cannot release the STOP, as what comes to it is converted");
+    at = from;
+  }
+  const Port* read = nullptr;
+  VisitSiblings(*at, Port::Direction::kInput, [&](const Port& each) {
+    const auto* const input = dynamic_cast<const InputBase*>(&each);
+    const Ageing ageing = input != nullptr ? input->ageing() : Ageing::kUnspecified;
+    if (ageing != Ageing::kSetOnce && (!each.incoming().empty() || IsSet(each))) read = &each;
+  });
+  if (read != nullptr) return refuse(*at, "cannot release the STOP, as its module makes it of " + read->path());
+  return at;
+}
+
+}  // namespace
+
+Result<void> CheckStopButton(const Port& port, bool releases) {
+  if (!internal::IsNumber(port.type())) {
+    return Error{.message = "cannot be a stop button, as it sends a " + port.type().name(),
+                 .path = port.path(),
+                 .hint = "a button sends bool, true while it is pressed, or a number"};
+  }
+  const auto button = FindButton(port);
+  return releases && !button ? Result<void>(button.error()) : Result<void>();
 }
 
 namespace internal {
@@ -36,16 +68,10 @@ class WayToButton {
   /// replaces it finds the connections, or does not.
   WayToButton(const Scheduler& scheduler, std::map<std::string, std::size_t>& fed, const Port& port) : scheduler_(scheduler), fed_(fed) { Look(port); }
   std::set<std::string> lacks;
-  std::set<std::string> still_down;
-  std::set<std::pair<const Port*, std::string>> seen;  // and which part of it
 
  private:
-  void Look(const Port& port, const std::string& part = {}) {
-    if (!seen.emplace(&port, part).second) return;
-    port.VisitLatest([&](const void* value, ValueTimes) {
-      if (IsNumber(port.type()) && NumberIn(port.type(), value) != 0) still_down.insert(port.path() + " is not let go");
-    });
-    if (port.incoming().size() > 1) still_down.insert("several buttons press by " + port.path());
+  void Look(const Port& port) {
+    if (!seen_.insert(&port).second) return;
     if (IsSet(port)) lacks.insert(port.path() + " is set by hand, or by a rule");
     const bool is_output = port.direction() == Port::Direction::kOutput && !port.is_proxy();
     if (is_output) return LookAtModule(port);
@@ -56,7 +82,7 @@ class WayToButton {
     } else if (port.incoming().size() < most) {
       lacks.insert(fmt::format("{} of {} connections to {} are gone", most - port.incoming().size(), most, port.path()));
     }
-    for (const Port* each : port.incoming()) Look(*each, each->OptionsTo(port).part);
+    for (const Port* each : port.incoming()) Look(*each);
   }
   void LookAtModule(const Port& output) {
     const std::string why = scheduler_.WhyAtRest(output, kStuckAfter);
@@ -71,16 +97,15 @@ class WayToButton {
       passed.push_back(&each);
       is_fed = is_fed || WasFed(each);
     });
-    if (is_fed) std::erase_if(passed, [&](const Port* each) { return !WasFed(*each); });  // not all of a choice need be fed
-    if (passed.size() > 1) still_down.insert("several buttons press by " + output.path());
-    for (const Port* each : passed) Look(*each);
+    for (const Port* each : passed) {
+      if (!is_fed || WasFed(*each)) Look(*each);  // not all of a choice need be fed
+    }
   }
-
-  static bool IsSet(const Port& port) { return port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule); }
   [[nodiscard]] bool WasFed(const Port& input) const { return !input.incoming().empty() || IsSet(input) || fed_.contains(input.path()); }
 
   const Scheduler& scheduler_;
   std::map<std::string, std::size_t>& fed_;
+  std::set<const Port*> seen_;
 };
 }  // namespace
 
@@ -101,6 +126,7 @@ StopButton::StopButton(Runtime& runtime, const Scheduler& scheduler, StopButtonR
     // The first time it makes what it sleeps on, which takes the lock: not in the thread, which waits for no lock.
     (void)element_->probe.Wait(Duration(1));
     (void)Port::Connect(port, element_->probe);
+    button_ = FindButton(port).value_or(nullptr);
   }
   thread_ = std::thread([this] { Work(); });
 }
@@ -117,8 +143,9 @@ void StopButton::Work() {
     if (!LookForPort()) continue;
     const auto let_go = std::exchange(let_go_, {});
     if (!let_go || !rule_.releases) continue;
-    if (const auto& why = lacks_.empty() ? still_down_ : lacks_; !why.empty()) {  // by whatever else it may have become 0
-      TellOfHeldStop(*why.begin());
+    const std::string why = lacks_.empty() ? why_not_ : *lacks_.begin();
+    if (!why.empty()) {  // by whatever else it may have become 0
+      TellOfHeldStop(why);
       continue;
     }
     // A STOP that somebody has pressed since it was let go stays.
@@ -178,11 +205,14 @@ bool StopButton::LookForPort() {
     for (const std::string& each : way.lacks) {
       if (!lacks_.contains(each)) Press(rule_.port + ", as " + each);
     }
-    const auto before = std::exchange(way_, way.seen);
-    is_other_way_ = runtime_.robot_stop().in_force() && (is_other_way_ || (!before.empty() && before != way_));
-    if (is_other_way_) way.still_down.insert("what is connected on its way has changed since it was pressed");
     lacks_ = std::move(way.lacks);
-    still_down_ = std::move(way.still_down);
+    const auto found = FindButton(*sources.front());
+    why_not_ = found ? "" : found.error().path + " " + found.error().message;
+    // Letting go counts after a press of the same one.
+    const Port* const button = found ? *found : nullptr;
+    if (button != button_) is_down_ = is_down;
+    if (button != button_ && let_go_) why_not_ = "another button is connected now";
+    button_ = button;
     return true;
   }
   if (!is_gone_) Press(rule_.port + ", which is gone");

@@ -9,7 +9,6 @@
 #include <set>
 #include <string>
 #include <thread>
-#include <utility>
 
 #include "core/element/runtime.h"
 #include "core/port/port.h"
@@ -18,8 +17,9 @@
 
 namespace runnel {
 
-/// Errors: its type is neither a number nor bool.
-[[nodiscard]] Result<void> CheckStopButton(const Port& port);
+/// Errors: its type is neither a number nor bool; it is to release, and is not the output of the button's own driver, or of interface
+/// ports to which that alone is connected. Nothing may be connected yet.
+[[nodiscard]] Result<void> CheckStopButton(const Port& port, bool releases);
 
 namespace internal {
 
@@ -28,7 +28,8 @@ class ButtonElement;
 /// Presses the STOP of the robot for each value that is not 0 at a port, and again if somebody else releases it while that is
 /// the newest; follows the port through renames and swaps. When the port is gone, or somewhere on the way to it a value is set by
 /// hand, a module does not run or nothing is connected any more, nobody can press: each of these presses, too. The way goes
-/// through modules that pass on values of the button's type, as an input says that has an age or passes it on (Ageing).
+/// through modules that pass on values of the button's type, as an input says that has an age or passes it on (Ageing). It releases only
+/// at the output of the button's own driver: what is made of something else may be 0 as that was lost.
 ///
 /// Threads: has one of its own, which waits for values, and for no lock. Construct and destroy outside of cycles.
 class StopButton {
@@ -59,11 +60,10 @@ class StopButton {
   std::optional<RobotStop::AsOf> let_go_;  // nobody could look yet whether that was by the button itself
   bool is_gone_ = false;
   std::set<std::string> lacks_;       // why nobody could press, as of the last look
-  std::set<std::string> still_down_;  // where on the way it may be down, as of then
+  std::string why_not_;               // let it not release, as of then; "": nothing
   std::string told_;                  // why it releases nothing, of the STOP that is in force
   std::map<std::string, std::size_t> fed_;  // how many connections there have been, by ports on the way
-  std::set<std::pair<const Port*, std::string>> way_;  // as of the last look
-  bool is_other_way_ = false;  // than when the STOP that is in force was pressed
+  const Port* button_ = nullptr;  // as of the last look, to be compared only
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

@@ -186,7 +186,7 @@ Result<void> Supervisor::Add(StopButtonRule rule) {
   const std::lock_guard lock(shared_->runtime.structure_mutex());
   const auto port = PathSearch(shared_->runtime).FindPort(rule.port, PathKind::kOutput);
   if (!port) return port.error();
-  if (auto good = CheckStopButton(**port); !good) return good;
+  if (auto good = CheckStopButton(**port, rule.releases); !good) return good;
   buttons_.push_back(std::make_unique<internal::StopButton>(
       shared_->runtime, scheduler_, std::move(rule), [shared = shared_](Notice notice) { shared->Note(std::move(notice)); }));
   return {};

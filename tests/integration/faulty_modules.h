@@ -172,7 +172,7 @@ class Motor final : public Module {
  public:
   using Module::Module;
 
-  Input<double> speed{this, "speed", {.drives = true, .safe_value = AnyValue(0.0)}};
+  Input<double> speed{this, "speed", {.drives = true, .command = DrivingKind::kVelocity}};
 
  private:
   void Update() override {

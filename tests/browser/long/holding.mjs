@@ -31,7 +31,7 @@ const kText = `<application name="holding" thread="control">
   <module name="arm" type="signal/low_pass"/>
   <module name="wish" type="signal/low_pass"/>
   <driving port="drive/twist"/>
-  <driving port="arm/in" safe="0"/>
+  <driving port="arm/in" safe="0" command="velocity"/>
   <connect from="world/twist" to="drive/twist"/>
   <connect from="wish/out" to="arm/in"/>
   <connect from="arm/out" to="wish/in"/>

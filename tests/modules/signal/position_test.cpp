@@ -18,7 +18,7 @@ class Arm : public ::testing::Test {
   Arm() {
     AddType<RateLimiterFilter>("signal/rate_limiter");
     AddType<LowPassFilter>("signal/low_pass");
-    MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0.5)}));
+    MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0.5)}, {}, DrivingKind::kEffort));
     MustSucceed(Port::Disconnect(robot.laser.out, robot.reader.in));
     robot.laser.action = [this](Doing& module) {
       if (cycle_++ % every == 0) module.out.Publish(wish);
@@ -124,7 +124,7 @@ TEST_F(Arm, GoesNoFurtherThanWishedWhenARampIsBeforeAGain) {
 TEST_F(Arm, StaysWhereItIsWhenAnotherOneBehindItsRampIsFree) {
   Doing& other = robot.runtime.Create<Doing>(robot.runtime.root(), "other");
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
-  MustSucceed(other.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0.5)}));
+  MustSucceed(other.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0.5)}, {}, DrivingKind::kEffort));
   Apply({ConnectPorts{"/ramp/out", "/other/in"}});
   Run(10s);
   MustSucceed(other.in.Block());
@@ -194,8 +194,8 @@ TEST(PoseThatIsHeld, GoesOnFromThereWhenThatEnds) {
 }
 
 struct Motor final : Module {
-  Motor(const Placement& placement, std::string unit)
-      : Module(placement), command(this, "command", {.unit = std::move(unit), .drives = true, .safe_value = AnyValue(0.0)}) {}
+  Motor(const Placement& placement, const std::string& unit)
+      : Module(placement), command(this, "command", {.unit = unit, .drives = true, .command = unit.empty() ? DrivingKind::kVelocity : DrivingKind::kUnspecified, .safe_value = AnyValue(0.0)}) {}
   Input<double> command;
   double seen = 0;
   void Update() override { seen = command.Get(); }

@@ -126,7 +126,7 @@ TEST(RateLimiterTest, BeginsFromAStandstillAlsoBeforeANumberWithoutAUnit) {
   ASSERT_TRUE(rig.Prepare());
   auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
   Input<double> valve(others, "valve");
-  ASSERT_TRUE(valve.SetDriving(true, AnyValue(TypeOf<double>(), std::make_shared<const double>(0))));
+  ASSERT_TRUE(valve.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kEffort));
   ASSERT_TRUE(Port::Connect(rig.module.out, valve));
   rig.runtime.robot_stop().Press("a test");
   for (int i = 0; i < 20; ++i) (void)After(rig, 1);
@@ -210,7 +210,7 @@ TEST(RateLimiterTest, BeginsFromAStandstillWhenAValueByHandEnds) {
 TEST(RateLimiterTest, PassesTheSafeValueOfItsInputAtOnce) {
   ModuleRig<RateLimiterFilter> rig(100ms);
   ASSERT_TRUE(rig.Prepare());
-  ASSERT_TRUE(rig.module.in.SetDriving(true, AnyValue(TypeOf<double>(), std::make_shared<const double>(0.25))));
+  ASSERT_TRUE(rig.module.in.SetDriving(true, AnyValue(0.25), {}, DrivingKind::kPosition));
   (void)After(rig, 1);
   rig.runtime.robot_stop().Press("a test");
   EXPECT_EQ(After(rig, 1), 0.25);

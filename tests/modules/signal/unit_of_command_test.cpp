@@ -9,6 +9,7 @@
 #include "core/port/proxy_port.h"
 #include "core/types/type_of.h"
 #include "modules/signal/filters.h"
+#include "modules/types/pose.h"
 #include "plugins/testing/module_rig.h"
 #include "tests/modules/signal/filled.h"
 
@@ -16,6 +17,7 @@ namespace runnel::signal {
 namespace {
 
 using test::ModuleRig;
+using ::testing::HasSubstr;
 using namespace std::chrono_literals;
 
 struct Volts {
@@ -58,7 +60,7 @@ class UnitOfCommand : public ::testing::Test {
   void BeginsFromStandstill(const std::string& unit, const ConnectOptions& options) {
     Input<T> driver(others, "driver", {.unit = unit});
     Port& ramp = rig.module.out;
-    ASSERT_TRUE(ramp.SetDriving(true, AnyValue(0.0)));
+    ASSERT_TRUE(ramp.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kEffort));
     ASSERT_TRUE(Port::Connect(ramp, driver, options));
     Wish(12, 150);
     rig.runtime.robot_stop().Press("a test");
@@ -76,14 +78,14 @@ class UnitOfCommand : public ::testing::Test {
   Group& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
 };
 
-TEST_F(UnitOfCommand, IsTheSourcesForADriverThatSaysNone) {
+TEST_F(UnitOfCommand, IsNotNeededWhereItIsSaidToBeAVelocity) {
   auto& gear = rig.runtime.Create<Transmission>(rig.runtime.root(), "gear");
   Input<double> motor(others, "motor");
   auto& border = rig.runtime.Create<ProxyPort>(others, "border", Port::Direction::kInput, TypeOf<double>());
   ASSERT_TRUE(Port::Connect(gear.out, border));
   ASSERT_TRUE(Port::Connect(border, motor));
   ASSERT_TRUE(Port::Connect(rig.module.out, gear.in));
-  ASSERT_TRUE(border.SetDriving(true, AnyValue(0.0)));
+  ASSERT_TRUE(border.SetDriving(true, {}, {}, DrivingKind::kVelocity));
   const auto wish = [&](int times) {
     for (int i = 0; i < times; ++i) {
       Wish(1, 1);
@@ -107,16 +109,44 @@ TEST_F(UnitOfCommand, IsTheSourcesForADriverThatSaysNone) {
   gear.in.DisconnectAll();
 }
 
-TEST_F(UnitOfCommand, OfAPlaceIsTheSourcesToo) {
-  Output<double> planner(others, "planner", {.unit = "rad"});
+TEST_F(UnitOfCommand, HasToBeSaidOrElseWhatItIs) {
+  Input<double> motor(others, "motor");
+  const auto refused = motor.SetDriving(true, AnyValue(0.0));
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().ToString(), HasSubstr("says whether it is a position, a velocity or an effort"));
+  EXPECT_FALSE(motor.is_driving());
+  EXPECT_THROW(Input<double>(others, "other", {.drives = true, .safe_value = AnyValue(0.0)}), ElementError);
+  EXPECT_EQ(others.Find("motor").has_value(), true);
+  Input<double> drive(others, "drive", {.drives = true, .command = DrivingKind::kVelocity});
+  EXPECT_EQ(drive.stop()->command(), DrivingKind::kVelocity);
+  Input<bool> lamp(others, "lamp", {.drives = true, .safe_value = AnyValue(false)});  // there is nothing between its values
+  EXPECT_EQ(lamp.stop()->command(), DrivingKind::kEffort);
+}
+
+TEST_F(UnitOfCommand, OfAPartOfAPlaceIsNotKnownButSaid) {
+  Output<Pose2> planner(others, "planner");
   Input<double> servo(others, "servo");
-  ASSERT_TRUE(Port::Connect(planner, servo));
-  ASSERT_TRUE(servo.SetDriving(true, AnyValue(0.0)));
-  planner.Publish(1.2);
+  ASSERT_TRUE(Port::Connect(planner, servo, {.part = "heading"}));
+  ASSERT_TRUE(servo.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kPosition));
+  planner.Publish({0, 0, 1.2});
   rig.Wait(1s);
   Hold(servo, 1.2);
-  EXPECT_EQ(servo.Get(), 1.2);
+  EXPECT_EQ(servo.Get(), 1.2) << "its safe value would be a motion";
   servo.DisconnectAll();
+}
+
+// A motor that says nothing reads a part of what is marked.
+TEST_F(UnitOfCommand, OfWhatIsMarkedIsThatOfItsParts) {
+  Output<Twist2> planner(others, "planner");
+  Input<double> motor(others, "motor");
+  ASSERT_TRUE(planner.SetDriving(true));
+  ASSERT_TRUE(Port::Connect(planner, motor, {.part = "forward"}));
+  planner.Publish({1, 0});
+  ASSERT_TRUE(planner.PublishByHand(Filled(Twist2{})));
+  rig.Wait(1s);
+  ASSERT_TRUE(planner.Release());
+  EXPECT_EQ(motor.Get(), 0) << "it was said before the person had let go";
+  planner.DisconnectAll();
 }
 
 TEST_F(UnitOfCommand, CountsAsItIs) { BeginsFromStandstill<double>("V", {}); }

@@ -137,8 +137,8 @@ TEST_F(Composite, IsMadeAnewByItsStaticParameterWithItsConnections) {
 
 TEST_F(Composite, WhatIsSetAtItsPortsGoesAlongAndWhatHasNoPlaceThereIsTold) {
   const auto port = [&](const char* path) { return application_->Find<Port>(path).value(); };
-  ASSERT_TRUE(port("/stairs/in")->SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}));
-  ASSERT_TRUE(port("/stairs/out")->SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}));
+  ASSERT_TRUE(port("/stairs/in")->SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}, {}, DrivingKind::kEffort));
+  ASSERT_TRUE(port("/stairs/out")->SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}, {}, DrivingKind::kEffort));
   ASSERT_TRUE(port("/stairs/out")->Block());
   ASSERT_TRUE(application_->PublishByHand("/stairs/stair3/in", "7"));
   const auto is_kept = [&] {

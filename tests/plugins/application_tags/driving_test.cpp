@@ -48,10 +48,10 @@ const char* const kDrivingText = R"(<application name="demo">
   <group name="g">
     <module name="motor" type="test/motor"/>
     <driving port="motor/speed"/>
-    <driving  port="motor/angle" safe="0.5" brake="0.3 s"/> <!-- folded -->
+    <driving  port="motor/angle" safe="0.5" brake="0.3 s" command="position"/> <!-- folded -->
   </group>
   <module name="source" type="test/source"/>
-  <driving port="source/value" safe="1"/>
+  <driving port="source/value" safe="1" command="effort"/>
 </application>
 )";
 
@@ -65,6 +65,9 @@ TEST_F(Driving, MarksInputsAndOutputs) {
   EXPECT_EQ(At("/demo/g/motor/input/angle").stop()->brake(), std::chrono::milliseconds(300));
   EXPECT_EQ(At("/demo/g/motor/input/speed").stop()->brake(), Duration{});
   EXPECT_EQ(SafeOf(At("/demo/source/output/value")), 1.0);
+  EXPECT_EQ(At("/demo/source/output/value").stop()->command(), DrivingKind::kEffort);
+  EXPECT_EQ(At("/demo/g/motor/input/speed").stop()->command(), DrivingKind::kVelocity);
+  EXPECT_EQ(At("/demo/g/motor/input/angle").stop()->command(), DrivingKind::kPosition);
   EXPECT_FALSE(At("/demo/source/output/label").is_driving());
   EXPECT_EQ(Text(), kDrivingText);
 }
@@ -77,10 +80,20 @@ TEST_F(Driving, NeedsASafeValueThatIsOne) {
                                HasSubstr("add safe=\"…\""), HasSubstr("app.xml:4:"), HasSubstr("did you mean 'speed'?")));
 }
 
+TEST_F(Driving, SaysOfANumberWithoutAUnitWhatItIs) {
+  EXPECT_THAT(shop_.Errors("<application name='a'>\n<module name='s' type='test/source'/>\n"
+                           "<driving port='s/value' safe='0'/>\n</application>"),
+              ::testing::AllOf(HasSubstr("app.xml:3:1: error: /a/s/output/value: something moves by it, and neither a unit"),
+                               HasSubstr("add command=\"velocity\"")));
+  EXPECT_THAT(shop_.Errors("<application name='a'>\n<module name='s' type='test/source'/>\n"
+                           "<driving port='s/value' safe='0' command='speed'/>\n</application>"),
+              ::testing::AllOf(HasSubstr("app.xml:3:"), HasSubstr("velocity")));
+}
+
 TEST_F(Driving, BrakesOnlyWhereThereAreValuesOnTheWay) {
   EXPECT_THAT(shop_.Errors("<application name='a'>\n<module name='s' type='test/source'/>\n"
                            "<driving port='s/label' safe='stand' brake='1 s'/>\n"
-                           "<driving port='s/value' safe='0' brake='soon'/>\n"
+                           "<driving port='s/value' safe='0' brake='soon' command='effort'/>\n"
                            "</application>"),
               ::testing::AllOf(HasSubstr("app.xml:3:1: error: /a/s/output/label: cannot brake"),
                                HasSubstr("leave out how long it brakes"), HasSubstr("app.xml:4:")));
@@ -91,7 +104,7 @@ TEST_F(Driving, GoesWithAnotherName) {
   Must({RenameElement{"/demo/g/motor", "wheel"}});
   EXPECT_TRUE(At("/demo/g/wheel/input/angle").is_driving());
   const std::string text = Text();
-  EXPECT_THAT(text, HasSubstr("<driving  port=\"wheel/angle\" safe=\"0.5\" brake=\"0.3 s\"/> <!-- folded -->"));
+  EXPECT_THAT(text, HasSubstr("<driving  port=\"wheel/angle\" safe=\"0.5\" brake=\"0.3 s\" command=\"position\"/> <!-- folded -->"));
   EXPECT_THAT(text, HasSubstr("<driving port=\"wheel/speed\"/>"));
 }
 
@@ -100,7 +113,7 @@ TEST_F(Driving, GoesWithItsModuleAndIsSavedOfACopy) {
   Must({CopyElement{"/demo/g/motor", "second"}, DeleteElement{"/demo/g/motor"}});
   const std::string text = Text();
   EXPECT_THAT(text, ::testing::Not(HasSubstr("port=\"motor")));
-  EXPECT_THAT(text, HasSubstr("<driving port=\"g/second/input/angle\" safe=\"0.5\" brake=\"0.3 s\"/>"));
+  EXPECT_THAT(text, HasSubstr("<driving port=\"g/second/input/angle\" safe=\"0.5\" brake=\"0.3 s\" command=\"position\"/>"));
   SavingWorkshop other;
   other.Add<Motor>("test/motor");
   WriteAll(folder_ / "again.xml", text);

@@ -44,7 +44,7 @@ TEST_F(StatesTest, NothingButRunningIsSaidOfOneThatRuns) { EXPECT_EQ(State(), "r
 TEST_F(StatesTest, TheStopOfTheRobotIsToldWithWhoPressedIt) {
   {
     const std::lock_guard lock(runtime.structure_mutex());
-    EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+    EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), {}, DrivingKind::kEffort));
   }
   EXPECT_THAT(Ask("ls /b").output, AllOf(HasSubstr(", driving"), Not(HasSubstr("STOP"))));
   runtime.robot_stop().Press("a terminal");
@@ -78,7 +78,7 @@ TEST_F(StatesTest, WhatIsPausedByHandOrBlockedIsCounted) {
   EXPECT_EQ(State(), "running, 1 port set by hand");
   {
     const std::lock_guard lock(runtime.structure_mutex());
-    ASSERT_TRUE(PortAt("/app/a/output/out").SetDriving(true, AnyValue(0)));
+    ASSERT_TRUE(PortAt("/app/a/output/out").SetDriving(true, AnyValue(0), {}, DrivingKind::kEffort));
     ASSERT_TRUE(PortAt("/app/a/output/out").Block());
   }
   EXPECT_EQ(State(), "running, 1 port BLOCKED, 1 port set by hand");
@@ -106,7 +106,7 @@ TEST_F(StatesTest, StopIsPressedWhoeverHasTheStructureAndTheWorker) {
 TEST_F(StatesTest, WhatDrivesIsNamed) {
   {
     const std::lock_guard lock(runtime.structure_mutex());
-    EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+    EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), {}, DrivingKind::kEffort));
   }
   EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force; 'runnel release' ends it; what drives: /app/b/input/in\n"));
   EXPECT_THAT(Ask("release").output, HasSubstr("released the STOP that a terminal had pressed; what drives: /app/b/input/in\n"));
@@ -201,7 +201,7 @@ TEST_F(StatesTest, AModuleThatDoesNotReturnIsTold) {
 TEST_F(StatesTest, ADrivingPortThatNoStopReachesIsTold) {
   {
     const std::lock_guard lock(runtime.structure_mutex());
-    EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+    EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), {}, DrivingKind::kEffort));
   }
   ASSERT_TRUE(scheduler.SetPaused("/app/b", true));
   EXPECT_EQ(State(), "running, 1 driving port CANNOT BE REACHED, 1 module PAUSED");

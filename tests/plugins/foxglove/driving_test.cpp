@@ -15,7 +15,7 @@ class Base final : public Module {
  public:
   using Module::Module;
   Input<double> wheels{this, "wheels", {.unit = "m/s", .drives = true}};
-  Input<double> lift{this, "lift", {.limits = {.default_value = 0.2}, .drives = true}};
+  Input<double> lift{this, "lift", {.limits = {.default_value = 0.2}, .drives = true, .command = DrivingKind::kPosition}};
 
  private:
   void Update() override {}
@@ -183,7 +183,7 @@ TEST_F(FoxgloveDriving, AChannelIsClosedWhenItsInputBeginsToDrive) {
   ASSERT_TRUE(Wait([&] { return robot.limit.Read() && *robot.limit.Read() == 0.5; }));
   {
     const std::lock_guard lock(runtime.structure_mutex());
-    ASSERT_TRUE(robot.limit.SetDriving(true, AnyValue(0.0)));
+    ASSERT_TRUE(robot.limit.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kEffort));
   }
   std::string complaint;
   EXPECT_TRUE(Wait([&] { return !(complaint = Complaint()).empty(); }));

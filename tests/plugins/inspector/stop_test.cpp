@@ -87,7 +87,7 @@ TEST_F(ViewersStop, ItsSignsOfLifeSayWhatItHoldsWhileItIsInForce) {
   viewer.Next(holds("/cmd_vel (in the network)"), "what leaves over the network");
   {
     const std::lock_guard lock(runtime.structure_mutex());
-    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), {}, DrivingKind::kEffort));
   }
   viewer.Next(holds("/app/b/input/in, /cmd_vel (in the network)"), "both");
   const std::lock_guard lock(runtime.structure_mutex());
@@ -99,7 +99,7 @@ TEST_F(ViewersStop, ItsSignsOfLifeAndItsAnswerSayWhatItDoesNotReach) {
   Start();
   {
     const std::lock_guard lock(runtime.structure_mutex());
-    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), {}, DrivingKind::kEffort));
   }
   Viewer viewer = View();
   Viewer stop(server->port(), "", "runnel.stop.v1");
@@ -136,7 +136,7 @@ TEST_F(ViewersStop, ItsSignsOfLifeSayWhetherTheRobotMayStillBrake) {
   };
   const auto set_brake = [&](Duration brake) {
     const std::lock_guard lock(runtime.structure_mutex());
-    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), brake));
+    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), brake, DrivingKind::kEffort));
   };
   set_brake(std::chrono::seconds(9));
   EXPECT_FALSE(viewer.Next(InForce(false), "no STOP")["stop"].contains("braking"));
@@ -155,7 +155,7 @@ TEST_F(ViewersStop, AnswersWhereItStopsNothing) {
   EXPECT_THAT(nothing["text"], HasSubstr("STOP stops nothing"));
   {
     const std::lock_guard lock(runtime.structure_mutex());
-    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+    ASSERT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), {}, DrivingKind::kEffort));
   }
   EXPECT_FALSE(viewer.Ask({{"op", "stop"}}).contains("stops_nothing"));
 }

@@ -128,7 +128,7 @@ TEST_F(StructureMirrorTest, TellsThatSomethingMovesByAnOutputOnceWhatItFeedsDriv
   EXPECT_FALSE(told());
   {
     const std::lock_guard lock(runtime.structure_mutex());
-    ASSERT_TRUE(PortAt("/app/drive/motor/input/in").SetDriving(true, AnyValue(0)));
+    ASSERT_TRUE(PortAt("/app/drive/motor/input/in").SetDriving(true, AnyValue(0), {}, DrivingKind::kEffort));
   }
   EXPECT_TRUE(told());
 }

@@ -90,7 +90,7 @@ TEST_F(KeptStateTest, IsThatOfACopyToo) {
 
 TEST_F(KeptStateTest, IsAStopThatIsBackWhenADeletionIsUndone) {
   Port& side = At<Port>("/app/sink/input/side");
-  ASSERT_TRUE(side.SetDriving(true, AnyValue(1), std::chrono::milliseconds(300)));
+  ASSERT_TRUE(side.SetDriving(true, AnyValue(1), std::chrono::milliseconds(300), DrivingKind::kEffort));
   ASSERT_TRUE(side.Block());
   MustDo({DeleteElement{"/app/sink"}});
   MustBe(history.Undo());
@@ -129,7 +129,7 @@ TEST_F(KeptStateTest, IsNoCommandFromAfterAReleaseThatItCameBefore) {
   };
   for (const bool is_deleted_in_between : {true, false}) {
     const int five = 5;
-    ASSERT_TRUE(At<Port>(kExtra).SetDriving(true, 0));
+    ASSERT_TRUE(At<Port>(kExtra).SetDriving(true, 0, {}, DrivingKind::kEffort));
     ASSERT_TRUE(PublishByHand(At<Port>(kExtra), &five));
     EXPECT_EQ(seen(), 5);
     ASSERT_TRUE(runtime.robot_stop().Press("a test"));

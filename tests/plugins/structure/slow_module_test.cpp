@@ -134,7 +134,7 @@ TEST_P(SlowModuleTest, IsGivenWhatHasBeenSetMeanwhile) {
   WaitUntil("the module is being made", [] { return Slow::waiting > 0; });
   const int five = 5;
   EXPECT_TRUE(PublishByHand(At<Port>("/app/one/input/in"), &five));
-  EXPECT_TRUE(At<Port>("/app/one/input/in").SetDriving(true, AnyValue(0)));
+  EXPECT_TRUE(At<Port>("/app/one/input/in").SetDriving(true, AnyValue(0), {}, DrivingKind::kEffort));
   EXPECT_TRUE(At<Port>("/app/one/input/in").Block());
   Slow::waits_at = Slow::At::kNowhere;
   EXPECT_TRUE(applied.get());

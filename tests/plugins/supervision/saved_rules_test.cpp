@@ -196,7 +196,7 @@ TEST_F(RulesInForce, LeaveWhatAGroupSaysOfAParameterThatTheReplacementLacks) {
 
 TEST_F(RulesInForce, LeaveWhatIsSaidOfPortsThatTheReplacementLacks) {
   const std::string file = FileWith(R"(  <module name="b" type="test/sink"/>
-  <driving port="b/second" safe="0"/>
+  <driving port="b/second" safe="0" command="effort"/>
 )", R"(<replace module="b" by="test/spare"/>)");
   Run(file);
   (void)shop.Get<Spare>("/demo/b");
@@ -205,7 +205,7 @@ TEST_F(RulesInForce, LeaveWhatIsSaidOfPortsThatTheReplacementLacks) {
 
 TEST_F(RulesInForce, AModuleThatComesBackHasTheMarksThatTheReplacementLacks) {
   Run(FileWith(R"(  <module name="b" type="test/sink"/>
-  <driving port="b/second" safe="3"/>
+  <driving port="b/second" safe="3" command="effort"/>
 )", R"(<replace module="b" by="test/spare"/>)", R"(<replace module="b" by="test/sink"/>)"));
   (void)shop.Get<Spare>("/demo/b");
   RunOn();

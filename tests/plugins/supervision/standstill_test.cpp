@@ -113,7 +113,7 @@ TEST(StandstillInRealTime, APortHasItsSafeValueWhileTheThreadOfWhatFeedsItIsStuc
   AssignThread(other, apart);
   AssignThread(robot.laser, apart);
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
-  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
   MustSucceed(robot.scheduler.SetStuckLimit("", 50ms));
   MustSucceed(robot.scheduler.Start());
   WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
@@ -162,7 +162,7 @@ TEST(StandstillInRealTime, APauseWaitsForNoOtherOne) {
   };
   AssignThread(other, CreateThread(robot.runtime, "apart", {.period = 10ms}));
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
-  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
   MustSucceed(robot.scheduler.Start());
   WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
   hangs = true;
@@ -212,7 +212,7 @@ TEST(StandstillInRealTime, ThatNoStopReachesAPortIsToldWhileItsThreadIsStuck) {
   AssignThread(other, apart);
   AssignThread(robot.reader, apart);
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
-  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
   MustSucceed(robot.scheduler.SetStuckLimit("", 1h));
   MustSucceed(robot.scheduler.Start());
   WaitUntil("the laser is seen", [&] { return robot.seen == 1; });

@@ -32,7 +32,7 @@ TEST_F(DrivenOver, SoHasWhatDrivesInAnotherApplication) {
     explicit Beside(FrameworkElement& root) : FrameworkElement(Placement{root, "network", false}) {}
   } beside(robot.runtime.root());
   Input<double> sent(beside, "sent");
-  MustSucceed(sent.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+  MustSucceed(sent.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
   MustSucceed(Port::Connect(passing.out, sent));
   RunOn();
   EXPECT_EQ(sent.Get(), 1);
@@ -53,7 +53,7 @@ TEST_F(DrivenOver, SoHasWhatDrivesElsewhereBesideWhatDrivesHereByAnotherSafeValu
     explicit Beside(FrameworkElement& root) : FrameworkElement(Placement{root, "network", false}) {}
   } beside(robot.runtime.root());
   Input<double> sent(beside, "sent");
-  MustSucceed(sent.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}));
+  MustSucceed(sent.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}, {}, DrivingKind::kEffort));
   MustSucceed(Port::Connect(passing.out, sent));
   RunOn();
   EXPECT_EQ(sent.Get(), 1);
@@ -93,6 +93,7 @@ struct BaseOver {
     Input<double> in{this,
                      "in",
                      {.drives = true,
+                      .command = DrivingKind::kEffort,
                       .safe_value = {TypeOf<double>(), std::make_shared<double>(-7)},
                       .ageing = Ageing::kTimesOut}};
     double seen = 0;
@@ -275,7 +276,7 @@ TEST_F(DrivenOver, WhatSetsAParameterOverAnotherModuleCountsToo) {
 TEST_F(DrivenOver, SoDoesWhatSetsAParameterOfWhatDrivesItself) {
   auto& gate = robot.runtime.Create<Passing>(robot.runtime.root(), "gate");
   MustSucceed(Port::Connect(robot.laser.out, gate.in));
-  MustSucceed(gate.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+  MustSucceed(gate.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
   HeldOpen(*gate.open.Feed());
   MustSucceed(robot.supervisor.SetPaused("/dead_man", true));
   RunOn();

@@ -150,6 +150,12 @@ TEST(StopButtonTag, IsReadWithItsPortAndRefusesWhatIsNoNumber) {
   };
   EXPECT_THAT(errors("<stop_button port=\"a/label\"/>"),
               HasSubstr("/demo/a/output/label: cannot be a stop button, as it sends a string"));
+  Workshop several;
+  EXPECT_THAT(several.Errors("<application name=\"demo\"><module name=\"a\" type=\"test/source\"/><module name=\"b\" type=\"test/source\"/>"
+                             "<group name=\"g\"><port name=\"p\" type=\"double\" direction=\"input\"/></group>"
+                             "<connect from=\"a/value\" to=\"g/p\"/><connect from=\"b/value\" to=\"g/p\"/>"
+                             "<stop_button port=\"g/p\" releases=\"true\"/></application>"),
+              HasSubstr("/demo/g/p: cannot release the STOP, as several buttons press by it"));
   Workshop other;
   EXPECT_THAT(other.Errors("<application name=\"demo\"><module name=\"a\" type=\"test/source\"/>"
                            "<stop_button port=\"a/value\" releases=\"true\"/></application>"),

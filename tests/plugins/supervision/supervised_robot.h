@@ -80,7 +80,7 @@ class Supervised : public ::testing::Test {
 class Driven : public Supervised {
  protected:
   Driven() {
-    MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}));
+    MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
     robot.scheduler.RunUntil(At(100));
     EXPECT_EQ(robot.seen, 1);
   }

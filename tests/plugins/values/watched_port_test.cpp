@@ -105,7 +105,7 @@ TEST_F(WatchedPortTest, ShowsWhatIsSetByHandAndWhatIsReadAfterIt) {
 }
 
 TEST_F(WatchedPortTest, ShowsTheSafeValueOfAnInputThatIsStopped) {
-  Input<int> in(app, "in", {.drives = true, .safe_value = AnyValue(-1)});
+  Input<int> in(app, "in", {.drives = true, .command = DrivingKind::kPosition, .safe_value = AnyValue(-1)});
   ASSERT_TRUE(Port::Connect(source.out, in));
   WatchedPort input("/app/in");
   source.out.Publish(1);
@@ -123,7 +123,7 @@ TEST_F(WatchedPortTest, ShowsTheSafeValueOfAnInputThatIsStopped) {
 TEST_F(WatchedPortTest, ShowsTheSafeValueOfAnOutputThatIsStopped) {
   auto& border = runtime.Create<ProxyPort>(app, "border", Port::Direction::kOutput, TypeOf<int>());
   ASSERT_TRUE(Port::Connect(source.out, border));
-  ASSERT_TRUE(source.out.SetDriving(true, AnyValue(-1)));
+  ASSERT_TRUE(source.out.SetDriving(true, AnyValue(-1), {}, DrivingKind::kEffort));
   WatchedPort output("/app/source/output/out");
   WatchedPort behind("/app/border");
   const auto look = [&] { return std::array{Look(output), Look(behind)}; };

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types/any_value.h"
+
+namespace runnel {
+
+/// What a value by which something moves says, as the command interfaces of ros2_control. A velocity comes to rest: when a STOP
+/// or a value by hand ends, it begins from zero. A position is gone to at once, as its safe value would be a motion, too. An
+/// effort (force, torque, current, power) begins from its safe value where that is zero.
+enum class DrivingKind { kUnspecified, kPosition, kVelocity, kEffort };
+
+/// How files write it: position, velocity, effort. In its order, from the first that is specified.
+[[nodiscard]] const std::vector<std::string>& DrivingKindNames();
+[[nodiscard]] std::optional<DrivingKind> DrivingKindCalled(std::string_view name);
+
+/// Whether zero of the type is a standstill: a twist, or all that is inside is in m/s or rad/s. `unit`: of the port.
+[[nodiscard]] bool IsVelocity(const TypeInfo& type, const std::string& unit = {});
+
+/// Of the units of all that is inside; of none: unspecified. A type that has a length or an angle is a position, unless it also has
+/// a speed of which it lacks the place, as the {steering angle, speed} of a car. Other units: an effort.
+[[nodiscard]] DrivingKind DrivingKindByUnits(const TypeInfo& type, const std::string& unit);
+
+/// Whether there are values between others of the type: numbers, inside of it too, and not just states.
+[[nodiscard]] bool HasNumbers(const TypeInfo& type);
+
+/// Whether it is what its type begins with.
+[[nodiscard]] bool IsZero(const AnyValue& value);
+
+}  // namespace runnel
