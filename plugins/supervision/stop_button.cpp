@@ -126,7 +126,7 @@ StopButton::StopButton(Runtime& runtime, const Scheduler& scheduler, StopButtonR
     // The first time it makes what it sleeps on, which takes the lock: not in the thread, which waits for no lock.
     (void)element_->probe.Wait(Duration(1));
     (void)Port::Connect(port, element_->probe);
-    button_ = FindButton(port).value_or(nullptr);
+    if (const auto button = FindButton(port)) button_ = *button;
   }
   thread_ = std::thread([this] { Work(); });
 }
