@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/element/annotation.h"
 #include "core/port/port.h"
 #include "core/port/port_stop.h"
 
@@ -20,6 +21,16 @@ class Runtime;
 void VisitSiblings(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit);
 
 namespace internal {
+/// Kept with a port of which Port::SetDriving() has said whether it drives: that counts before what its module declares.
+struct MarkedAsDriving final : Annotation {
+  explicit MarkedAsDriving(bool drives) : is_marked(drives) {}
+  static bool Is(const Port& port) {
+    const auto* const mark = port.FindAnnotation<MarkedAsDriving>();
+    return mark != nullptr && mark->is_marked;
+  }
+  bool is_marked;
+};
+
 /// What stops the velocities by which the robot moves that are made of what the port passes on. `held`: the ports where that
 /// ends, as another value is set by hand there.
 [[nodiscard]] std::vector<std::shared_ptr<const PortStop>> FindStopsOfVelocities(const Port& port, std::vector<const Port*>& held);

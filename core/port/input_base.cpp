@@ -53,7 +53,8 @@ void InputBase::SetWaker(Waker* waker) {
 
 void InputBase::DeclareDriving() {
   const InputOptions& declared = options_;
-  const bool has_own = declared.safe_value || IsVelocity(type(), unit());  // whose default may well move
+  const bool is_velocity = declared.command == DrivingKind::kVelocity || IsVelocity(type(), unit());
+  const bool has_own = declared.safe_value || is_velocity;  // whose default may well move
   const auto safe = FindSafeValue(has_own ? declared.safe_value : declared.limits.default_value, declared.command);
   if (!safe) throw ElementError(safe.error());
   const auto command = FindDrivingKind(declared.command, *safe);

@@ -33,7 +33,6 @@ struct PortExtras {
   std::optional<Time> passed_over;  // what came before that does not count once nothing is set by hand here any more
   std::shared_ptr<const PortStop> stop;
   Time blocked_since{};  // by the machine's clock
-  bool is_marked = false;  // by Port::SetDriving(): what an application says counts before what a module declares
 
   PortExtras() = default;
   PortExtras(const PortExtras&) = delete;

@@ -42,9 +42,10 @@ void DropRepetitions(const std::vector<Connection>& ways, std::vector<Port*>& po
 // Of what has just been connected: nothing of it has begun anew yet.
 constexpr std::uint32_t kFirstBeginning = 1;
 
-bool IsStandstill(const Port& input, const internal::PassedStop& passed) {
+// Whether the robot comes to rest by it: when something ends that has held it, it begins from its safe value.
+bool ComesToRest(const Port& input, const internal::PassedStop& passed) {
   const PortStop& stop = *passed.stop;
-  if (stop.command() == DrivingKind::kPosition) return false;
+  if (stop.robot() == nullptr || stop.command() == DrivingKind::kPosition) return false;
   // A part of what is marked farther up may be a place beside its velocity: the steering angle of a car.
   const bool is_own = passed.stop == input.stop();
   if (!is_own && DrivingKindByUnits(input.type(), input.unit()) == DrivingKind::kPosition) return false;
@@ -72,9 +73,11 @@ bool IsUnchanged(const Port& source, const Port& to) {
 
 bool IsNotedVelocity(const Port& output) { return output.motion_beginnings() != 0 && std::isnan(output.motion_begins_at()); }
 
-// It moves the robot, and comes to a standstill, or its module passes it on to what does.
+// It moves the robot, and comes to a standstill, which is zero, or its module passes it on to what does.
 bool IsMadeVelocity(const Port& input) {
-  const auto stands = [&](const internal::PassedStop& each) { return each.stop->robot() != nullptr && IsStandstill(input, each); };
+  const auto stands = [&](const internal::PassedStop& each) {
+    return ComesToRest(input, each) && IsZero(each.safe_value) && IsZero(each.stop->safe_value());
+  };
   if (std::ranges::any_of(internal::PassedStops(input), stands)) return true;
   bool is_made = false;
   VisitSiblings(input, Port::Direction::kOutput, [&](const Port& output) {
@@ -83,7 +86,7 @@ bool IsMadeVelocity(const Port& input) {
   return is_made;
 }
 
-// The safe value of another number by which the robot moves, as a position, for who is connected with no module between.
+// The safe value of another number by which the robot moves, such as a position, for who is connected with no module between.
 std::optional<double> FindSafeNumber(const Port& source, const Port& input) {
   if (!internal::IsNumber(input.type()) || !IsUnchanged(source, input)) return {};
   for (const internal::PassedStop& each : internal::PassedStops(input)) {
@@ -152,10 +155,20 @@ std::vector<Port::Source> Port::BoundSources(Links links) const {
 }
 
 void Port::RebindSinks() {
+  // Of what has moved by it before, and does not any more.
+  const std::function<void(Port&)> forget = [&](Port& source) {
+    if (!IsNotedVelocity(source) || std::ranges::any_of(source.Sinks(), [](const Port* each) { return IsMadeVelocity(*each); })) return;
+    source.motion_beginnings_.store(0, std::memory_order_release);
+    VisitSiblings(source, Direction::kInput, [&](const Port& input) {
+      if (!IsPassedOn(input, source)) return;
+      for (Port* each : input.Sources()) forget(*each);
+    });
+  };
   for (Port* sink : Sinks()) {
     sink->Rebind(sink->BoundSources(Links::kMake));
     const bool is_velocity = IsMadeVelocity(*sink);
     for (Port* source : sink->Sources()) {
+      if (!is_velocity) forget(*source);
       const auto begins_at = is_velocity ? std::optional<double>(NAN) : FindSafeNumber(*source, *sink);
       if (begins_at) (void)source->NoteMotion(kFirstBeginning, *begins_at);
     }
@@ -170,10 +183,11 @@ std::vector<std::shared_ptr<const PortStop>> internal::FindStopsOfVelocities(con
     const bool is_held = at.is_set_by_hand(Port::Setter::kPerson) || at.is_set_by_hand(Port::Setter::kRule);
     if (&at != &port && is_held) return held.push_back(&at);
     for (const Connection& each : at.outgoing()) look(*each.to);
-    if (at.is_proxy() || at.direction() == Port::Direction::kOutput || !IsMadeVelocity(at)) return;
+    if (at.is_proxy() || at.direction() == Port::Direction::kOutput) return;
     for (PassedStop& each : PassedStops(at)) {
-      if (each.stop->robot() != nullptr && IsStandstill(at, each) && std::ranges::find(found, each.stop) == found.end()) found.push_back(each.stop);
+      if (ComesToRest(at, each) && std::ranges::find(found, each.stop) == found.end()) found.push_back(each.stop);
     }
+    if (!IsMadeVelocity(at)) return;
     VisitSiblings(at, Port::Direction::kOutput, [&](const Port& output) {
       if (IsNotedVelocity(output) && IsPassedOn(at, output)) look(output);
     });
@@ -184,10 +198,17 @@ std::vector<std::shared_ptr<const PortStop>> internal::FindStopsOfVelocities(con
 
 bool Port::BeginMotionAnew() {
   static std::atomic<std::uint32_t> last{kFirstBeginning};
-  if (std::ranges::none_of(Sinks(), [](const Port* sink) { return IsMadeVelocity(*sink); })) return false;
   const std::uint32_t beginning = ++last;
   bool is_followed = false;
-  for (Port* source : Sources()) is_followed = source->NoteMotion(beginning, NAN) || is_followed;
+  for (const Port* sink : Sinks()) {
+    const bool is_velocity = IsMadeVelocity(*sink);
+    const std::vector<internal::PassedStop> stops = internal::PassedStops(*sink);
+    const bool rests = is_velocity || std::ranges::any_of(stops, [&](const auto& each) { return ComesToRest(*sink, each); });
+    for (Port* source : rests ? Sources() : std::vector<Port*>()) {
+      const auto begins_at = is_velocity ? std::optional<double>(NAN) : FindSafeNumber(*source, *sink);
+      if (begins_at) is_followed = source->NoteMotion(beginning, *begins_at) || is_followed;
+    }
+  }
   return is_followed;
 }
 

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/conversion/number_conversion.h"
 #include "core/element/runtime.h"
 #include "core/port/converted_flow.h"
 #include "core/port/driving_ports.h"
@@ -44,8 +45,13 @@ Result<AnyValue> Port::FindSafeValue(const AnyValue& declared, DrivingKind comma
 }
 
 Result<DrivingKind> Port::FindDrivingKind(DrivingKind declared, const AnyValue& safe_value) const {
-  if (declared != DrivingKind::kUnspecified) return declared;
   const DrivingKind known = DrivingKindByUnits(type_, unit());
+  const auto name = [](DrivingKind kind) { return DrivingKindNames()[static_cast<std::size_t>(kind) - 1]; };
+  if (declared != DrivingKind::kUnspecified && known != DrivingKind::kUnspecified && declared != known && internal::IsNumber(type_)) {
+    return Error{.message = "is in " + unit() + ", which is that of a " + name(known) + ", and is said to be a " + name(declared), .path = path(),
+                 .hint = "leave out what it is said to be"};
+  }
+  if (declared != DrivingKind::kUnspecified) return declared;
   if (known != DrivingKind::kUnspecified) return known;
   if (!HasNumbers(type_)) return IsZero(safe_value) ? DrivingKind::kEffort : DrivingKind::kPosition;
   return Error{.message = "something moves by it, and neither a unit nor its module says whether it is a position, a velocity or an effort",
@@ -68,7 +74,7 @@ Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Du
   if (!kind) return kind.error();
   if (!brake) brake = declared != nullptr ? declared->brake() : Duration{};
   auto set = SetStop(std::move(*safe), *brake, *kind, drives ? runtime().robot_stop().signal() : nullptr);
-  if (set) extras_->is_marked = drives;
+  if (set) Annotate(std::make_unique<internal::MarkedAsDriving>(drives));
   return set;
 }
 

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/conversion/number_conversion.h"
 #include "core/element/runtime.h"
 #include "core/port/converted_flow.h"
+#include "core/port/driving_ports.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/types/type_info.h"
@@ -56,6 +58,11 @@ void Port::TakeOver(Port& from) {
   const std::shared_ptr<const PortStop> before = from.stop();
   std::shared_ptr<const PortStop> after = StopInPlaceOf(from);
   if (after) from.Extras();  // which this port has then
+  const bool is_marked = internal::MarkedAsDriving::Is(*this), was_marked = internal::MarkedAsDriving::Is(from);
+  if (is_marked || was_marked) {
+    Annotate(std::make_unique<internal::MarkedAsDriving>(is_marked));
+    from.Annotate(std::make_unique<internal::MarkedAsDriving>(was_marked));
+  }
   ExchangeConnections(from, sinks);
   try {
     TakeOverFlow(from);
@@ -70,6 +77,9 @@ void Port::TakeOver(Port& from) {
     from.TakeOverFlow(*this);
     throw;
   }
+  if (is_marked == was_marked) return;
+  FindAnnotation<internal::MarkedAsDriving>()->is_marked = was_marked;
+  from.FindAnnotation<internal::MarkedAsDriving>()->is_marked = is_marked;
 }
 
 void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept {
@@ -104,8 +114,14 @@ void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noex
 std::shared_ptr<const PortStop> Port::StopInPlaceOf(const Port& from) const {
   const std::shared_ptr<const PortStop> before = from.stop();
   const PortStop* const declared = declared_stop();
-  if (declared == nullptr) return before;
-  if (before && before->robot() && (from.declared_stop() == nullptr || from.extras_->is_marked)) return before;
+  const bool is_kept = declared == nullptr || (before && before->robot() && internal::MarkedAsDriving::Is(from));
+  if (is_kept && before && before->robot() && internal::IsNumber(type_)) {
+    // The module in between may not have known its unit.
+    const DrivingKind known = DrivingKindByUnits(type_, unit());
+    if (known != DrivingKind::kUnspecified && known != before->command())
+      return std::make_shared<PortStop>(before->safe_value(), before->brake(), known, before->robot(), before.get());
+  }
+  if (is_kept) return before;
   return std::make_shared<PortStop>(declared->safe_value(), declared->brake(), declared->command(), declared->robot(), before.get());
 }
 

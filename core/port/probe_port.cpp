@@ -29,6 +29,7 @@ bool ProbePort::Take(const Visitor& visit) {
           if (publication.sequence <= last) return;
           last = publication.sequence;
           is_taken = true;
+          last_source_ = source;
           visit(value, ValueTimes::Of(publication));
         });
     if (!found) return false;

@@ -33,6 +33,11 @@ class ProbePort final : public InputBase {
   /// Shows the oldest value that waits to `visit`, and lets it go; false if none does. What `visit` is
   /// shown is gone when it returns. `visit` must not throw.
   bool Take(const Visitor& visit);
+  /// The number of the channel from which the value came that was taken last: what is set by hand has another one than the
+  /// output, and one that takes an output's place has the same. For the same thread.
+  [[nodiscard]] std::uint64_t last_source() const noexcept { return last_source_; }
+  /// Whether values come from that channel alone now. Under the structure lock.
+  [[nodiscard]] bool IsFedBy(std::uint64_t source) const noexcept { return bound_.size() == 1 && bound_.front() == source; }
   /// How many values wait, about.
   [[nodiscard]] std::size_t waiting() const noexcept;
   [[nodiscard]] std::size_t capacity() const noexcept;
@@ -52,6 +57,7 @@ class ProbePort final : public InputBase {
   // The reader's own: the number of the last value taken from each channel. A value may lie in the
   // queue twice just after connecting.
   std::map<std::uint64_t, std::uint64_t> taken_;
+  std::uint64_t last_source_ = 0;
 };
 
 }  // namespace runnel

@@ -82,7 +82,7 @@ class Filter : public Module {
     if (!moves_by_velocity() && !before.last) return bar == StopSignal::kInForce || before.bar == StopSignal::kInForce;
     // In force it goes on: what it has made by the release counts nowhere.
     if (bar != StopSignal::kInForce && bar != before.bar) return true;
-    if (!moves_by_velocity()) return false;
+    if (!moves_by_velocity()) return before.beginning != 0 && course_.beginning != before.beginning;
     return course_.beginning != before.beginning || !has_begun() || (before.last && time - *before.last > longest());
   }
 

@@ -9,6 +9,7 @@
 
 #include "core/port/driving_kind.h"
 #include "core/port/port.h"
+#include "core/port/port_stop.h"
 #include "core/types/duration_text.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
@@ -64,12 +65,21 @@ void MarkDriving(const TagUse& use) {
   port->Annotate(std::make_unique<DrivingMark>(std::move(safe), brake != nullptr ? brake->value : "", kind));
 }
 
+// What a file has to say: the module in whose place another one is may have known its unit.
+std::string CommandOf(const Port& port, const DrivingMark& mark) {
+  const bool is_known = DrivingKindByUnits(port.type(), port.unit()) != DrivingKind::kUnspecified || !HasNumbers(port.type());
+  if (!mark.command.empty() || is_known || !port.is_driving()) return mark.command;
+  return DrivingKindNames()[static_cast<std::size_t>(port.stop()->command()) - 1];
+}
+
 void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update) {
   const PathUse use = PathIn(*tag.Attribute("port"), parent);
   const Port* const port = FindMarked(use);
   const auto* const mark = port != nullptr ? port->FindAnnotation<DrivingMark>() : nullptr;
   const bool is_passing = internal::IsByRule(*PathSearch(use.base).Follow(use.path, PathKind::kInput).at);
   if (mark == nullptr) return is_passing ? void() : update.editor().Remove(tag);
+  const std::string command = CommandOf(*port, *mark);
+  if (!command.empty() && tag.TextOr("command") != command) update.editor().SetAttribute(tag, "command", command);
   update.saving().Note<SaidMarks>().ports.insert(port);
 }
 
@@ -86,7 +96,7 @@ std::vector<NewElement> MissingMarks(FrameworkElement& home, Saving& saving) {
         NewElement{.name = "driving", .attributes = {{"port", port->path().substr(home.path().size() + 1)}}});
     if (mark->safe) made.attributes.emplace_back("safe", ToText(port->type(), mark->safe.get()));
     if (!mark->brake.empty()) made.attributes.emplace_back("brake", mark->brake);
-    if (!mark->command.empty()) made.attributes.emplace_back("command", mark->command);
+    if (const std::string command = CommandOf(*port, *mark); !command.empty()) made.attributes.emplace_back("command", command);
   });
   return elements;
 }

@@ -9,10 +9,10 @@
 #include "core/element/runtime.h"
 #include "core/element/tags.h"
 #include "core/port/given_limits.h"
+#include "core/port/driving_ports.h"
 #include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
 #include "core/port/stand_in.h"
-#include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/structure/extension_changes.h"
 
@@ -35,7 +35,7 @@ struct PortState final : Annotation {
   // Not of what is copied: no rule knows the copy. Rules act when something changes, and would not set it again.
   std::optional<Port::HandValue> by_rule;
   std::shared_ptr<const PortStop> stop;
-  bool is_blocked = false;
+  bool is_marked = false, is_blocked = false;
 };
 
 Result<void> GiveTo(Port& port, const PortState& state) {
@@ -44,10 +44,7 @@ Result<void> GiveTo(Port& port, const PortState& state) {
     if (auto set = port.SetLimits(state.limits); !set) return set;
   }
   // What its module declares is its module's business: one in its place may declare another safe value.
-  const auto own = port.stop();
-  const auto text_of = [](const PortStop& stop) { return ToText(stop.safe_value().type(), stop.safe_value().get()); };
-  const bool is_declared = state.stop && own && own->robot() && own->brake() == state.stop->brake() && own->command() == state.stop->command() && text_of(*own) == text_of(*state.stop);
-  if (state.stop && state.stop->robot() && !is_declared) {
+  if (state.stop && state.stop->robot() && (state.is_marked || !port.is_driving())) {
     if (auto set = port.SetDriving(true, state.stop->safe_value(), state.stop->brake(), state.stop->command()); !set) return set;
   }
   // What was published before a block was released counts no more afterwards either.
@@ -70,6 +67,7 @@ void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkEle
     state->by_hand = port->ValueByHand();
     if (how == FrameworkElement::Inherit::kAsReplacement) state->by_rule = port->ValueByHand(Port::Setter::kRule);
     state->stop = port->stop();
+    state->is_marked = MarkedAsDriving::Is(*port);
     state->is_blocked = port->is_blocked();
     noted.Annotate(std::move(state));
   }

@@ -155,30 +155,31 @@ void StopButton::Work() {
 }
 
 void StopButton::TakeValues() {
-  bool is_down = false;
-  ValueTimes measured;
   const auto look = [&](const void* value, ValueTimes times) {
-    is_down = NumberIn(element_->probe.type(), value) != 0;
-    measured = times;
-  };
-  while (element_->probe.Take(look)) {
-    // Letting go releases, not being up: others may have pressed.
-    if (is_down) {
+    const std::uint64_t source = element_->probe.last_source();
+    if (NumberIn(element_->probe.type(), value) != 0) {
       Press(rule_.port);
       let_go_.reset();
-      down_ = measured;
+      down_ = Down{source, times};
+      return;
     }
+    // Letting go releases, not being up: others may have pressed. Nor does the end of a value by hand: that is another source.
+    if (!down_ || down_->source != source) return;
     // Who only says that nothing has come any more, as by a time-out, bears the stamp of what came last. A clock may stand.
-    const bool is_news = measured.timestamp > down_.timestamp || measured.publication_time == down_.publication_time;
-    if (!std::exchange(is_down_, is_down) || is_down) continue;
-    if (is_news) {
+    const ValueTimes pressed = std::exchange(down_, {})->times;
+    let_go_by_ = source;
+    if (times.timestamp > pressed.timestamp || times.publication_time == pressed.publication_time) {
       let_go_ = runtime_.robot_stop().AsOfNow();
       // What was held up on its way is older than what others have pressed since.
-      if (let_go_->requests != pressed_) let_go_->asked = SteadyClock().Now() - (runtime_.clock().Now() - measured.timestamp);
+      if (let_go_->requests != pressed_) let_go_->asked = SteadyClock().Now() - (runtime_.clock().Now() - times.timestamp);
     } else if (rule_.releases) {
       TellOfHeldStop("its 0 bears the time of what was pressed");
     }
+  };
+  while (element_->probe.Take(look)) {
   }
+  const std::uint64_t dropped = element_->probe.dropped();
+  if (dropped != std::exchange(dropped_, dropped)) Press(rule_.port + ", of which values were lost");
 }
 
 // Whoever has the structure lock is not waited for.
@@ -190,35 +191,29 @@ bool StopButton::LookForPort() {
     rule_.port = sources.front()->path();
     is_gone_ = false;
     WayToButton way(scheduler_, fed_, *sources.front());
-    // Of many values at once the queue may have had no room for the one that counts, and others may have released.
     bool is_down = false;
-    const auto look = [&](const void* value, ValueTimes times) {
-      if (NumberIn(element_->probe.type(), value) == 0) return;
-      is_down = true;
-      down_ = times;
-    };
+    const auto look = [&](const void* value, ValueTimes) { is_down = is_down || NumberIn(element_->probe.type(), value) != 0; };
     for (const Port* each : sources.front()->ShownPorts()) each->VisitLatest(look);
-    if (!sources.front()->is_set_by_hand() && is_down) {
-      is_down_ = true;
-      if (!runtime_.robot_stop().in_force()) Press(rule_.port);
-    }
+    if (is_down && !sources.front()->is_set_by_hand() && !runtime_.robot_stop().in_force()) Press(rule_.port);
     for (const std::string& each : way.lacks) {
       if (!lacks_.contains(each)) Press(rule_.port + ", as " + each);
     }
+    if (!way.lacks.empty()) down_.reset();
     lacks_ = std::move(way.lacks);
     const auto found = FindButton(*sources.front());
     why_not_ = found ? "" : found.error().path + " " + found.error().message;
     // Letting go counts after a press of the same one.
     const Port* const button = found ? *found : nullptr;
-    if (button != button_) is_down_ = is_down;
+    if (button != button_) down_.reset();
     if (button != button_ && let_go_) why_not_ = "another button is connected now";
     button_ = button;
+    if (lacks_.empty() && !element_->probe.IsFedBy(let_go_by_)) let_go_.reset();  // a value by hand was let go
     return true;
   }
   if (!is_gone_) Press(rule_.port + ", which is gone");
   is_gone_ = true;
   lacks_.clear();
-  is_down_ = false;  // letting go counts after a press that has come by the next connection
+  down_.reset();  // letting go counts after a press that has come by the next connection
   const auto found = PathSearch(runtime_).FindPort(rule_.port, PathKind::kOutput);
   if (found && &(*found)->type() == &element_->probe.type()) (void)Port::Connect(**found, element_->probe);
   return true;

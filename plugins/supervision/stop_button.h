@@ -54,9 +54,14 @@ class StopButton {
   StopButtonRule rule_;  // with the path where the port is now
   const Tell tell_;
   std::unique_ptr<ButtonElement> element_;
-  bool is_down_ = false;
-  ValueTimes down_;  // of the newest value that was not 0
+  struct Down {
+    std::uint64_t source;  // ProbePort::last_source()
+    ValueTimes times;
+  };
+  std::optional<Down> down_;  // the newest value, if it was not 0
+  std::uint64_t dropped_ = 0;
   std::uint64_t pressed_ = 0;  // RobotStop::State::requests after its own press, if nobody else has pressed meanwhile
+  std::uint64_t let_go_by_ = 0;  // ProbePort::last_source()
   std::optional<RobotStop::AsOf> let_go_;  // nobody could look yet whether that was by the button itself
   bool is_gone_ = false;
   std::set<std::string> lacks_;       // why nobody could press, as of the last look

@@ -50,7 +50,7 @@ class MarkedWheels : public ::testing::Test {
 TEST_F(MarkedWheels, WhatARampHasMadeMeanwhileMovesNothingWhereverItIsHeld) {
   Port* const ports[] = {&rig.module.out, &border, &wheels};
   for (Port* const marked : ports) {
-    ASSERT_TRUE(marked->SetDriving(true, AnyValue(0.0), {}, DrivingKind::kEffort));
+    ASSERT_TRUE(marked->SetDriving(true, AnyValue(0.0), {}, DrivingKind::kVelocity));
     for (Port* const held : ports) {
       for (const auto setter : {Port::Setter::kPerson, Port::Setter::kRule}) {
         ASSERT_TRUE(held->PublishByHand(Filled(0.0), setter));
@@ -73,7 +73,7 @@ TEST_F(MarkedWheels, WhatWasSaidBeforeAPersonHeldWhatIsMarkedMovesNothing) {
   ASSERT_TRUE(Port::Connect(border, wheels));
   Port* const ports[] = {&planner, &border, &wheels};
   for (Port* const marked : ports) {
-    ASSERT_TRUE(marked->SetDriving(true, AnyValue(0.0), {}, DrivingKind::kEffort));
+    ASSERT_TRUE(marked->SetDriving(true, AnyValue(0.0), {}, DrivingKind::kVelocity));
     for (Port* const held : ports) {
       rig.Wait(1ms);
       planner.Publish(1);

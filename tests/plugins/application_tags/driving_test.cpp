@@ -22,6 +22,16 @@ class Motor final : public Module {
   void Update() override {}
 };
 
+/// Says no unit.
+class Wheel final : public Module {
+ public:
+  using Module::Module;
+  Input<double> angle{this, "angle"};
+
+ private:
+  void Update() override {}
+};
+
 class Driving : public ::testing::Test {
  protected:
   Driving() { shop_.Add<Motor>("test/motor"); }
@@ -88,6 +98,20 @@ TEST_F(Driving, SaysOfANumberWithoutAUnitWhatItIs) {
   EXPECT_THAT(shop_.Errors("<application name='a'>\n<module name='s' type='test/source'/>\n"
                            "<driving port='s/value' safe='0' command='speed'/>\n</application>"),
               ::testing::AllOf(HasSubstr("app.xml:3:"), HasSubstr("velocity")));
+}
+
+// As far as the module that is there now does not say it.
+TEST_F(Driving, IsSavedWithWhatItIsWhenAnotherModuleKnowsNoUnit) {
+  shop_.Add<Wheel>("test/wheel");
+  Load("<application name=\"demo\">\n  <module name=\"m\" type=\"test/motor\"/>\n"
+       "  <driving port=\"m/angle\" safe=\"0.5\"/>\n</application>\n");
+  Must({ReplaceModule{"/demo/m", "test/wheel"}});
+  const std::string text = Text();
+  EXPECT_THAT(text, HasSubstr("<driving port=\"m/angle\" safe=\"0.5\" command=\"position\"/>"));
+  SavingWorkshop other;
+  other.Add<Wheel>("test/wheel");
+  WriteAll(folder_ / "again.xml", text);
+  ASSERT_NE(other.Load(folder_ / "again.xml"), nullptr);
 }
 
 TEST_F(Driving, BrakesOnlyWhereThereAreValuesOnTheWay) {
