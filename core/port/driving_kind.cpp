@@ -76,6 +76,15 @@ bool HasNumbers(const TypeInfo& type) {
   return has_numbers;
 }
 
+bool HasLists(const TypeInfo& type) {
+  bool has_lists = false;
+  VisitInside(type, {}, [&](const TypeInfo& each, const std::string&) {
+    const bool is_list = each.kind() == TypeKind::kSequence || each.kind() == TypeKind::kMatrix;
+    has_lists = has_lists || (is_list && !each.elements().is_fixed);
+  });
+  return has_lists;
+}
+
 bool IsZero(const AnyValue& value) {
   const std::shared_ptr<const void> zero = value.type().Make();
   return zero != nullptr && value.type().is_transparent() && ToText(value.type(), value.get()) == ToText(value.type(), zero.get());

@@ -28,6 +28,9 @@ enum class DrivingKind { kUnspecified, kPosition, kVelocity, kEffort };
 /// Whether there are values between others of the type: numbers, inside of it too, and not just states.
 [[nodiscard]] bool HasNumbers(const TypeInfo& type);
 
+/// Whether a part of it is a list of any length, so that the value that its type begins with says nothing of what it holds.
+[[nodiscard]] bool HasLists(const TypeInfo& type);
+
 /// Whether it is what its type begins with.
 [[nodiscard]] bool IsZero(const AnyValue& value);
 

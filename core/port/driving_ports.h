@@ -1,9 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -35,6 +37,12 @@ struct MarkedAsDriving final : Annotation {
 /// ends, as another value is set by hand there.
 [[nodiscard]] std::vector<std::shared_ptr<const PortStop>> FindStopsOfVelocities(const Port& port, std::vector<const Port*>& held);
 }  // namespace internal
+
+/// Kept with an output whose values come from elsewhere: how many write there now. Any thread.
+struct WritersElsewhere final : Annotation {
+  explicit WritersElsewhere(std::shared_ptr<const std::atomic<std::size_t>> of) : count(std::move(of)) {}
+  const std::shared_ptr<const std::atomic<std::size_t>> count;
+};
 
 /// What the STOP of the robot holds, as paths with ", " between them; "": it holds nothing. Nothing while somebody else has
 /// the structure lock, which is waited for some ms at most.

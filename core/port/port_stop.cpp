@@ -34,7 +34,7 @@ Result<AnyValue> Port::FindSafeValue(const AnyValue& declared, DrivingKind comma
   }
   if (given && !type_.is_transparent()) return refuse("a " + type_.name() + " cannot be copied");
   if (given) return given;
-  if (!is_velocity) {
+  if (!is_velocity || HasLists(type_)) {
     Error error = refuse("something moves by it, and it has no safe value");
     error.hint = "add safe=\"…\": the " + type_.name() + " at which it stands still";
     return error;

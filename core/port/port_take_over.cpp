@@ -70,6 +70,13 @@ void Port::TakeOver(Port& from) {
       extras_->stop = std::move(after);
       RebindSinks();
     }
+    // What moves by what its module passes on may be something else now.
+    const auto has_moved = [](const Port* each) { return each->motion_beginnings() != 0; };
+    const bool is_output = !is_proxy() && direction_ == Direction::kOutput, is_input = !is_proxy() && direction_ == Direction::kInput;
+    if (is_output && has_moved(this)) VisitSiblings(*this, Direction::kInput, [](Port& each) { each.RebindSinks(); });
+    bool moves = is_input && std::ranges::any_of(Sources(), has_moved);
+    if (is_input) VisitSiblings(*this, Direction::kOutput, [&](const Port& each) { moves = moves || has_moved(&each); });
+    if (moves) RebindSinks();
   } catch (...) {
     // Each as it was, and what has been exchanged by then is exchanged again.
     if (extras_) extras_->stop = before;

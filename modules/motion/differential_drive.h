@@ -62,7 +62,8 @@ class DifferentialDriveModule final : public Module {
     last_ = now();
     // Stopped, here or behind it, or paused for so long that the wheels have come to rest: from a standstill.
     const std::uint32_t beginning = wheels.FollowMotionBeginnings();
-    const bool is_released = std::exchange(beginning_, beginning) != beginning;
+    const std::int64_t bar = runtime().robot_stop().signal()->bar();  // also of a STOP that was released before this cycle
+    const bool is_released = std::exchange(beginning_, beginning) != beginning || std::exchange(bar_, bar) != bar;
     const bool begins = is_released || twist.is_stopped() || time_step > twist_timeout.limit.Get();
     current_ = begins ? Twist2{} : Approach(limit, current_, wanted, time_step);
     wheels.Publish(WheelSpeedsFor(drive, current_));
@@ -71,6 +72,7 @@ class DifferentialDriveModule final : public Module {
   Twist2 current_;
   std::optional<Time> last_;
   std::uint32_t beginning_ = 0;
+  std::int64_t bar_ = StopSignal::kNever;
 };
 
 }  // namespace runnel

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <string_view>
 #include <utility>
 
 #include "core/element/runtime.h"
+#include "core/port/driving_ports.h"
 #include "core/port/own_cycle.h"
 #include "plugins/network_discovery/discovery_table.h"
 #include "plugins/ros_messages/names.h"
@@ -25,7 +27,9 @@ TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const Va
       form_(std::move(form)),
       clock_(clock),
       table_(table),
-      endpoint_{.topic = DdsTopic(options_.topic), .type = form_->codec->dds_type(), .user_data = form_->user_data} {}
+      endpoint_{.topic = DdsTopic(options_.topic), .type = form_->codec->dds_type(), .user_data = form_->user_data} {
+  output_.Annotate(std::make_unique<WritersElsewhere>(matched_));
+}
 
 // As much as all of them offer, so that none is left out and nothing that they keep is missed.
 WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
@@ -55,7 +59,7 @@ WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
 Result<void> TakenPort::Follow(WireParticipant& participant) {
   if (!is_connected_) {
     reader_.reset();
-    matched_ = 0;
+    *matched_ = 0;
     return {};
   }
   const auto writers = table_.Partners(endpoint_.topic, true);
@@ -75,7 +79,7 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
   auto reader = participant.MakeReader(
       endpoint_, [this](const WireSample& sample) { Take(sample); },
       [this](std::size_t count) {
-        if (count >= matched_.exchange(count, std::memory_order_relaxed)) return;
+        if (count >= matched_->exchange(count, std::memory_order_relaxed)) return;
         const std::lock_guard lock(mutex_);
         MarkAsDelivered();
       });

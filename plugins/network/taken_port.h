@@ -51,7 +51,7 @@ class TakenPort {
   /// Nothing comes any more.
   void End() noexcept { reader_.reset(); }
 
-  [[nodiscard]] std::size_t matched() const noexcept { return matched_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::size_t matched() const noexcept { return matched_->load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(std::memory_order_relaxed); }
   /// Values that could not be read.
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
@@ -114,7 +114,7 @@ class TakenPort {
   const DiscoveryTable& table_;
   WireEndpointOptions endpoint_;  // changed by the network's thread, under mutex_
   bool is_connected_ = false;
-  std::atomic<std::size_t> matched_{0};
+  const std::shared_ptr<std::atomic<std::size_t>> matched_ = std::make_shared<std::atomic<std::size_t>>(0);
   std::atomic<std::uint64_t> taken_{0};
   std::atomic<std::uint64_t> refused_{0};
   mutable std::mutex mutex_;

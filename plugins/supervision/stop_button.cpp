@@ -33,6 +33,8 @@ Result<const Port*> FindButton(const Port& port) {
     if (from->ConnectionTo(*at)->converted) return refuse(*at, "cannot release the STOP, as what comes to it is converted");
     at = from;
   }
+  const auto* const elsewhere = at->FindAnnotation<WritersElsewhere>();
+  if (elsewhere != nullptr && *elsewhere->count > 1) return refuse(*at, "cannot release the STOP, as several write to it");
   const Port* read = nullptr;
   VisitSiblings(*at, Port::Direction::kInput, [&](const Port& each) {
     const auto* const input = dynamic_cast<const InputBase*>(&each);
@@ -75,16 +77,20 @@ class WayToButton {
     if (IsSet(port)) lacks.insert(port.path() + " is set by hand, or by a rule");
     const bool is_output = port.direction() == Port::Direction::kOutput && !port.is_proxy();
     if (is_output) return LookAtModule(port);
-    std::size_t& most = fed_[port.path()];
-    most = std::max(most, port.incoming().size());
     if (port.incoming().empty()) {
       lacks.insert("nothing is connected to " + port.path());
-    } else if (port.incoming().size() < most) {
-      lacks.insert(fmt::format("{} of {} connections to {} are gone", most - port.incoming().size(), most, port.path()));
+    } else {
+      Count(port, port.incoming().size(), "connections");
     }
     for (const Port* each : port.incoming()) Look(*each);
   }
+  void Count(const Port& port, std::size_t now, const char* what) {
+    std::size_t& most = fed_[port.path()];
+    most = std::max(most, now);
+    if (now < most) lacks.insert(fmt::format("{} of {} {} to {} are gone", most - now, most, what, port.path()));
+  }
   void LookAtModule(const Port& output) {
+    if (const auto* const elsewhere = output.FindAnnotation<WritersElsewhere>()) Count(output, *elsewhere->count, "writers");
     const std::string why = scheduler_.WhyAtRest(output, kStuckAfter);
     if (!why.empty()) lacks.insert(why);
     std::vector<const Port*> passed;

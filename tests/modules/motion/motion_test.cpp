@@ -252,6 +252,28 @@ TEST(DifferentialDriveModule, BeginsFromAStandstillAfterOnlyItsWheelsWereHeld) {
   base.DisconnectAll();
 }
 
+TEST(DifferentialDriveModule, BeginsFromAStandstillAfterAStopBetweenTwoCycles) {
+  test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
+  ASSERT_TRUE(rig.Prepare());
+  auto& others = rig.runtime.Create<Group>(rig.runtime.root(), "others");
+  Input<WheelSpeeds> base(others, "base", {.drives = true});
+  ASSERT_TRUE(Port::Connect(rig.module.wheels, base));
+  const auto drive = [&](int cycles) {
+    for (; cycles > 0; --cycles) {
+      rig.Feed(rig.module.twist, {0.5, 0});
+      rig.RunCycle();
+    }
+    return base.Get().left;
+  };
+  EXPECT_NEAR(drive(10), 10.0, 1e-9);
+  rig.runtime.robot_stop().Press("a test");
+  rig.Wait(milliseconds(20));
+  ASSERT_TRUE(rig.runtime.robot_stop().Release("a test"));
+  rig.Wait(milliseconds(20));
+  EXPECT_EQ(drive(1), 0.0);
+  base.DisconnectAll();
+}
+
 TEST(DifferentialDriveModule, ComesToAStopWhenNobodyCommands) {
   test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
   ASSERT_TRUE(rig.Prepare());

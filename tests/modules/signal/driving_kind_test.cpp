@@ -1,8 +1,11 @@
 // What a ramp begins with where what moves by it is exchanged, or stands still at another value than zero.
 
+#include <vector>
+
 #include <gmock/gmock.h>
 
 #include "core/module/group.h"
+#include "core/types/type_of.h"
 #include "modules/signal/filters.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/testing/module_rig.h"
@@ -85,6 +88,37 @@ TEST_F(KindOfDriving, IsThatOfTheModuleThatIsThereNow) {
   const auto& servo = dynamic_cast<Reaching&>(**rig.runtime.root().Find("/motor"));
   EXPECT_EQ(servo.in.stop()->command(), DrivingKind::kPosition);
   ExpectToGoOnFrom(2, servo.in);
+}
+
+struct OfItsOwn final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.ageing = Ageing::kTimesOut}};
+  Output<double> out{this, "out"};
+  void Update() override {}
+};
+
+TEST_F(KindOfDriving, IsKnownFartherUpOnceAModuleIsThereThatPassesOn) {
+  ModuleRegistry modules;
+  ASSERT_TRUE(modules.Add({"test/own", "", "test", [](const Placement& at) { return std::make_unique<OfItsOwn>(at); }}));
+  ASSERT_TRUE(modules.Add({"test/linear", "", "test", [](const Placement& at) { return std::make_unique<LinearFilter>(at); }}));
+  StructureEditor editor{rig.runtime, modules, nullptr};
+  Input<double> motor(others, "motor", {.unit = "rad/s", .drives = true});
+  ASSERT_TRUE(editor.Apply({CreateModule{"/between", "test/own"}, ConnectPorts{rig.module.out.path(), "/between/in"},
+                            ConnectPorts{"/between/out", "/others/motor"}}));
+  EXPECT_EQ(rig.module.out.motion_beginnings(), 0u);
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(editor.Apply({ReplaceModule{"/between", "test/linear"}}));
+    EXPECT_NE(rig.module.out.motion_beginnings(), 0u);
+    ASSERT_TRUE(editor.Apply({ReplaceModule{"/between", "test/own"}}));
+    EXPECT_EQ(rig.module.out.motion_beginnings(), 0u);
+  }
+  motor.DisconnectAll();
+}
+
+TEST_F(KindOfDriving, OfAListNeedsASafeValue) {
+  Input<std::vector<double>> joints(others, "joints", {.unit = "rad/s"});
+  EXPECT_FALSE(joints.SetDriving(true)) << "a list of nothing stops no joint";
+  EXPECT_TRUE(joints.SetDriving(true, {TypeOf<std::vector<double>>(), std::make_shared<std::vector<double>>(2, 0.0)}));
 }
 
 // As of a motor controller that stands still at pulses of 1500 us.

@@ -179,7 +179,7 @@ TEST_F(CommandServiceTest, SaysWhatStopHoldsOrThatItStopsNothing) {
   EXPECT_THAT(nothing.diagnostics.ToString(), HasSubstr("STOP stops nothing, and the robot may move"));
   EXPECT_TRUE(runtime.robot_stop().in_force()) << "for ports that come later";
   EXPECT_FALSE(Ask(service, RobotStopRequest{false, "a test"}).stops_nothing);
-  auto elsewhere = std::make_shared<PortStop>(AnyValue(), Duration{}, runtime.robot_stop().signal());
+  auto elsewhere = std::make_shared<PortStop>(AnyValue(), Duration{}, DrivingKind::kVelocity, runtime.robot_stop().signal());
   AddWhatDrives(runtime, "/cmd_vel (in the network)", elsewhere);
   const CommandAnswer answer = Ask(service, RobotStopRequest{true, "a test"});
   EXPECT_FALSE(answer.stops_nothing);

@@ -82,7 +82,7 @@ TEST_F(ViewersStop, ItsSignsOfLifeSayWhatItHoldsWhileItIsInForce) {
     return [what](const Json& each) { return each["op"] == "alive" && each["stop"].value("drives", "not told") == what; };
   };
   viewer.Next(holds(""), "that it holds nothing");
-  const auto elsewhere = std::make_shared<PortStop>(AnyValue(), Duration{}, runtime.robot_stop().signal());
+  const auto elsewhere = std::make_shared<PortStop>(AnyValue(), Duration{}, DrivingKind::kVelocity, runtime.robot_stop().signal());
   AddWhatDrives(runtime, "/cmd_vel (in the network)", elsewhere);
   viewer.Next(holds("/cmd_vel (in the network)"), "what leaves over the network");
   {
