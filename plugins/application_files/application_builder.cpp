@@ -48,12 +48,6 @@ FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& 
   return application;
 }
 
-void KeepConfiguration(FrameworkElement& application, const Configuration& configuration) {
-  auto source = std::make_unique<ConfigurationSource>();
-  for (const auto& [file, text] : configuration.files()) source->files.push_back({file, text});
-  application.Annotate(std::move(source));
-}
-
 void KeepSource(FrameworkElement& application, const ApplicationFile& file, BuildContext& context) {
   auto source = std::make_unique<ApplicationSource>();
   source->file = file.file;
@@ -71,7 +65,9 @@ BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path&
     outcome.application = Build(document.root(), tools, context, outcome.diagnostics);
     if (outcome.application != nullptr && file != nullptr) {
       KeepSource(*outcome.application, *file, context);
-      KeepConfiguration(*outcome.application, tools.configuration);
+      auto source = std::make_unique<ConfigurationSource>();
+      for (const auto& [name, text] : tools.configuration.files()) source->files.push_back({name, text});
+      outcome.application->Annotate(std::move(source));
     }
   }
   FinishBuild(outcome, mode);

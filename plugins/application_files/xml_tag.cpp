@@ -34,28 +34,11 @@ Result<void> CheckSinglePath(std::string_view value) {
   return {};
 }
 
-Result<void> CheckPathList(std::string_view value) {
-  if (auto filled = CheckNotEmpty(value); !filled) return filled;
-  if (value.find(',') == std::string_view::npos) return {};
-  return Error{.message = "a comma between paths", .hint = "paths are separated by blanks"};
-}
-
-Result<void> CheckNumber(std::string_view value) {
-  if (ParseNumber(value)) return {};
-  return Error{.message = InApostrophes(value) + " is not a number"};
-}
-
 Result<void> CheckDuration(std::string_view value) {
   const auto duration = ParseDuration(value);
   if (!duration) return duration.error();
   if (*duration > Duration::zero()) return {};
   return Error{.message = InApostrophes(value) + " is not longer than nothing"};
-}
-
-Result<void> CheckChoice(const AttributeRule& rule, std::string_view value) {
-  if (std::ranges::find(rule.choices, value) != rule.choices.end()) return {};
-  return Error{.message = InApostrophes(value) + " is not possible for " + rule.name,
-               .hint = NearestNameHint(value, rule.choices)};
 }
 
 }  // namespace
@@ -72,16 +55,21 @@ Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view val
     case AttributeKind::kPath:
       return CheckSinglePath(value);
     case AttributeKind::kPathList:
-      return CheckPathList(value);
+      if (auto filled = CheckNotEmpty(value); !filled) return filled;
+      if (value.find(',') == std::string_view::npos) return {};
+      return Error{.message = "a comma between paths", .hint = "paths are separated by blanks"};
     case AttributeKind::kCount:
       if (auto count = ParseCount(value); !count) return count.error();
       return {};
     case AttributeKind::kNumber:
-      return CheckNumber(value);
+      if (ParseNumber(value)) return {};
+      return Error{.message = InApostrophes(value) + " is not a number"};
     case AttributeKind::kDuration:
       return CheckDuration(value);
     case AttributeKind::kChoice:
-      return CheckChoice(rule, value);
+      if (std::ranges::find(rule.choices, value) != rule.choices.end()) return {};
+      return Error{.message = InApostrophes(value) + " is not possible for " + rule.name,
+                   .hint = NearestNameHint(value, rule.choices)};
   }
   return {};
 }

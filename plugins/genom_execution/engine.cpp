@@ -4,17 +4,11 @@
 
 namespace runnel::genom_execution {
 
-namespace {
-bool HasAsyncCodels(const ComponentTable& component) {
-  return std::ranges::any_of(component.codels, &CodelTable::is_async);
-}
-}  // namespace
-
 Engine::Engine(const ComponentTable& component, const EngineOptions& options)
     : component_(component),
       options_(options),
       conflicts_(component),
-      is_excluding_(!options.is_single_threaded || HasAsyncCodels(component)),
+      is_excluding_(!options.is_single_threaded || std::ranges::any_of(component.codels, &CodelTable::is_async)),
       exclusion_(conflicts_, component.tasks.size() + 1, options.patience > Duration::zero()),
       control_(*this) {
   for (std::size_t i = 0; i < component.tasks.size(); ++i) tasks_.emplace_back(*this, i);

@@ -31,12 +31,6 @@ struct Entry {
   bool has_changed = false;
 };
 
-Error NoEntries(const FrameworkElement& application) {
-  return {.message = "no parameter of the application names an entry of a configuration",
-          .path = application.path(),
-          .hint = "add config=\"/…\" to parameters, modules or groups"};
-}
-
 // In the order of the tree; an entry for several parameters is that of the first that has changed.
 Result<std::vector<Entry>> EntriesOf(FrameworkElement& application) {
   std::vector<Entry> entries;
@@ -64,8 +58,10 @@ Result<std::vector<Entry>> EntriesOf(FrameworkElement& application) {
     }
   });
   if (error) return *error;
-  if (entries.empty()) return NoEntries(application);
-  return entries;
+  if (!entries.empty()) return entries;
+  return Error{.message = "no parameter of the application names an entry of a configuration",
+               .path = application.path(),
+               .hint = "add config=\"/…\" to parameters, modules or groups"};
 }
 
 // Relative names of files start in the folder of the configuration.
@@ -77,13 +73,10 @@ std::string TextIn(const fs::path& folder, const Entry& entry) {
   return moved.empty() ? entry.text : moved.string();
 }
 
-bool IsSection(XmlElement element) {
-  return element.name() == "section" || element.name() == "node";
-}
-
 std::optional<XmlElement> Child(XmlElement parent, std::string_view name, bool is_section) {
   for (const XmlElement child : parent.children()) {
-    const bool is_kind = is_section ? IsSection(child) : child.name() == "value";
+    const std::string_view kind = child.name();
+    const bool is_kind = is_section ? kind == "section" || kind == "node" : kind == "value";
     if (is_kind && child.TextOr("name") == name) return child;
   }
   return {};

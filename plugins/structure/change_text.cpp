@@ -22,10 +22,6 @@ constexpr std::uint64_t kLongestProbation = 1'000'000'000;
 const std::vector<std::string> kNoOrYes{"false", "true"};
 const std::vector<std::string> kDirections{"input", "output"};
 
-Error At(const SourcePosition& position, std::string message, std::string hint) {
-  return {.message = std::move(message), .position = position, .hint = std::move(hint)};
-}
-
 // period=20ms priority=10 on_overrun=skip activation=trigger
 template <typename Thread>
 void ReadThreadOptions(Arguments& arguments, Thread& thread) {
@@ -92,8 +88,6 @@ Change ReadCreate(Arguments& arguments) {
   return change;
 }
 
-Change ReadDelete(Arguments& arguments) { return DeleteElement{arguments.Take("a path")}; }
-
 Change ReadConnect(Arguments& arguments) {
   ConnectPorts change{arguments.Take("the output"), arguments.Take("the input")};
   const ChangeArgument* on_full = nullptr;
@@ -131,14 +125,6 @@ Change ReadConnect(Arguments& arguments) {
   return change;
 }
 
-Change ReadDisconnect(Arguments& arguments) {
-  return DisconnectPorts{arguments.Take("the output"), arguments.Take("the input")};
-}
-
-Change ReadSet(Arguments& arguments) {
-  return SetParameter{arguments.Take("the path of a parameter"), arguments.Take("a value")};
-}
-
 Change ReadReplace(Arguments& arguments) {
   ReplaceModule change{arguments.Take("the path of a module"), {}};
   arguments.Expect("with");
@@ -152,10 +138,6 @@ Change ReadReplace(Arguments& arguments) {
     return true;
   });
   return change;
-}
-
-Change ReadRename(Arguments& arguments) {
-  return RenameElement{arguments.Take("a path"), arguments.Take("the new name")};
 }
 
 Change ReadCopy(Arguments& arguments) {
@@ -217,15 +199,18 @@ constexpr std::array<Verb, 14> kVerbs{{
      "[description=TEXT], or create parameter PATH PARAMETER ... [description=TEXT], or create thread NAME "
      "[period=TIME] [activation=period|free_running|trigger] [priority=N]",
      ReadCreate},
-    {"delete", "delete PATH", ReadDelete},
+    {"delete", "delete PATH", [](Arguments& a) -> Change { return DeleteElement{a.Take("a path")}; }},
     {"connect",
      "connect FROM[.PART] TO [queue=N] [on_full=drop_oldest|drop_newest|refuse] [pull=true] "
      "[convert=NAME] [when=present] [late=true]",
      ReadConnect},
-    {"disconnect", "disconnect FROM TO", ReadDisconnect},
-    {"set", "set PATH VALUE, with a VALUE that has blanks in quotation marks", ReadSet},
+    {"disconnect", "disconnect FROM TO",
+     [](Arguments& a) -> Change { return DisconnectPorts{a.Take("the output"), a.Take("the input")}; }},
+    {"set", "set PATH VALUE, with a VALUE that has blanks in quotation marks",
+     [](Arguments& a) -> Change { return SetParameter{a.Take("the path of a parameter"), a.Take("a value")}; }},
     {"replace", "replace PATH with TYPE [NAME=VALUE ...] [probation=CYCLES]", ReadReplace},
-    {"rename", "rename PATH NAME", ReadRename},
+    {"rename", "rename PATH NAME",
+     [](Arguments& a) -> Change { return RenameElement{a.Take("a path"), a.Take("the new name")}; }},
     {"copy", "copy PATH [NAME]", ReadCopy},
     {"move", "move PATH to THREAD", ReadMove},
     {"tag", "tag PATH [WORD ...]", ReadTag},
@@ -240,8 +225,9 @@ Result<Change> ReadChange(const ChangeLine& line) {
   const ChangeArgument& first = line.front();
   const auto verb = std::ranges::find(kVerbs, first.text, &Verb::name);
   if (verb == kVerbs.end()) {
-    return At(first.position, "there is no change '" + first.text + "'",
-              NearestNameHint(first.text, NamesOf(kVerbs, &Verb::name)));
+    return Error{.message = "there is no change '" + first.text + "'",
+                 .position = first.position,
+                 .hint = NearestNameHint(first.text, NamesOf(kVerbs, &Verb::name))};
   }
   Arguments arguments(line, verb->usage);
   Change change = verb->read(arguments);

@@ -16,10 +16,6 @@ bool IsFeedback(const OrderedTask& from, const OrderedTask& to) {
   return from.phase == Phase::kControl && to.phase == Phase::kSense;
 }
 
-bool IsEarlier(const Dependency* a, const Dependency* b) {
-  return std::pair(a->to->key(), a->from->key()) < std::pair(b->to->key(), b->from->key());
-}
-
 }  // namespace
 
 void RunningOrder::Add(OrderedTask& task) {
@@ -187,7 +183,7 @@ std::vector<const Dependency*> RunningOrder::Cuts() const {
       if (!each->is_followed) cuts.push_back(each.get());
     }
   }
-  std::ranges::sort(cuts, IsEarlier);
+  std::ranges::sort(cuts, {}, [](const Dependency* each) { return std::pair(each->to->key(), each->from->key()); });
   return cuts;
 }
 

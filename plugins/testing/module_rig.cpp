@@ -72,12 +72,8 @@ void ModuleRigBase::UseQueue(Port& input, std::size_t capacity, OnFull on_full) 
   queues_[&input] = {.queue = capacity, .on_full = on_full};
 }
 
-void ModuleRigBase::ConnectFeeder(Port& feeder, Port& input) {
-  Need(Port::Connect(feeder, input, queues_[&input]));
-}
-
-void ModuleRigBase::ConnectFollower(Port& output, Port& follower, std::size_t capacity) {
-  Need(Port::Connect(output, follower, {.queue = capacity}));
+void ModuleRigBase::Connect(Port& from, Port& to, const ConnectOptions& options) {
+  Need(Port::Connect(from, to, options));
 }
 
 void ModuleRigBase::SetWatch(TaskWatch* watch) {

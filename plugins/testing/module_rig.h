@@ -63,7 +63,7 @@ class ModuleRigBase {
     std::unique_ptr<Port>& feeder = feeders_[&input];
     if (!feeder) {
       feeder = std::make_unique<Output<T>>(surroundings_, FreeNameFor(input));
-      ConnectFeeder(*feeder, input);
+      Connect(*feeder, input, queues_[&input]);
     }
     const CycleScope cycle({now(), period_});
     static_cast<Output<T>&>(*feeder).Publish(std::move(value));
@@ -91,7 +91,7 @@ class ModuleRigBase {
     auto follower = std::make_unique<Input<T>>(surroundings_, FreeNameFor(output));
     Input<T>& made = *follower;
     followers_.push_back(std::move(follower));
-    ConnectFollower(output, made, capacity);
+    Connect(output, made, {.queue = capacity});
     return made;
   }
 
@@ -126,8 +126,7 @@ class ModuleRigBase {
  private:
   [[nodiscard]] Port& FindPort(std::string_view name, Port::Direction direction);
   [[nodiscard]] std::string FreeNameFor(const Port& port) const;
-  void ConnectFeeder(Port& feeder, Port& input);
-  void ConnectFollower(Port& output, Port& follower, std::size_t capacity);
+  static void Connect(Port& from, Port& to, const ConnectOptions& options);
   [[noreturn]] static void RefuseType(const Port& port, const TypeInfo& wanted);
   template <typename Wanted>
   static Wanted& As(Port& port, const TypeInfo& type) {

@@ -87,6 +87,16 @@ std::optional<std::vector<JsonPart>> JsonMembers::List(const std::string& name) 
   });
 }
 
+std::vector<std::string> JsonMembers::NeedTexts(const std::string& name) {
+  std::vector<std::string> texts;
+  for (const JsonPart& each : NeedList(name)) {
+    auto text = each.text();
+    if (!text) Complain("\"" + name + "\" must be a list of texts");
+    texts.push_back(std::move(text).value_or(""));
+  }
+  return texts;
+}
+
 void JsonMembers::RefuseOthers() {
   const std::vector<std::string> known = known_;
   for (const auto& [name, value] : members_) {

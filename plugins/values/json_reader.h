@@ -74,6 +74,7 @@ class JsonMembers {
     return Needed(name, Count(name, most));
   }
   std::vector<JsonPart> NeedList(const std::string& name) { return Needed(name, List(name)); }
+  std::vector<std::string> NeedTexts(const std::string& name);
 
   void Complain(std::string message, std::string hint = {}) {
     if (!error_) error_ = Error{.message = std::move(message), .hint = std::move(hint)};

@@ -57,11 +57,6 @@ std::vector<std::uint32_t> OwnUsers() {
   return users;
 }
 
-bool IsReachedFromElsewhere(const std::string& address) {
-  const auto is_loopback = IsLoopback(address);
-  return !is_loopback || !*is_loopback;
-}
-
 }  // namespace
 
 std::string_view PathOf(std::string_view target) { return target.substr(0, target.find('?')); }
@@ -107,7 +102,7 @@ Result<bool> IsLoopback(const std::string& address) {
 AccessRules::AccessRules(const WebServerOptions& options)
     : tokens_(options.tokens), origins_(options.origins) {
   names_.emplace_back("localhost");
-  if (IsReachedFromElsewhere(options.address)) {
+  if (const auto is_loopback = IsLoopback(options.address); !is_loopback || !*is_loopback) {
     // Not on a loopback address, where nobody needs them: who is asked for them on a network can let them lead
     // here.
     boost::system::error_code ignored;

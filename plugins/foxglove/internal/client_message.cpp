@@ -28,15 +28,7 @@ std::vector<std::uint32_t> IdsIn(JsonMembers& members, const std::string& name) 
   return ids;
 }
 
-std::vector<std::string> NamesIn(JsonMembers& members) {
-  std::vector<std::string> names;
-  for (const JsonPart& each : members.NeedList("parameterNames")) {
-    auto name = each.text();
-    if (!name) members.Complain("\"parameterNames\" must be a list of texts");
-    names.push_back(std::move(name).value_or(""));
-  }
-  return names;
-}
+std::vector<std::string> NamesIn(JsonMembers& members) { return members.NeedTexts("parameterNames"); }
 
 // What `read` makes of each object of a list.
 template <typename Read>
@@ -55,20 +47,11 @@ ClientMessage ReadSubscribe(JsonMembers& members) {
     return SubscribeMessage::Item{IdIn(item, "id"), IdIn(item, "channelId")};
   })};
 }
-ClientMessage ReadUnsubscribe(JsonMembers& members) {
-  return UnsubscribeMessage{IdsIn(members, "subscriptionIds")};
-}
 ClientMessage ReadAdvertise(JsonMembers& members) {
   return AdvertiseMessage{ItemsIn(members, "channels", [](JsonMembers& item) {
     return AdvertiseMessage::Channel{IdIn(item, "id"), item.NeedText("topic"),
                                      item.NeedText("encoding")};
   })};
-}
-ClientMessage ReadUnadvertise(JsonMembers& members) {
-  return UnadvertiseMessage{IdsIn(members, "channelIds")};
-}
-ClientMessage ReadGetParameters(JsonMembers& members) {
-  return GetParametersMessage{NamesIn(members), members.Text("id")};
 }
 ClientMessage ReadSetParameters(JsonMembers& members) {
   auto items = ItemsIn(members, "parameters", [](JsonMembers& item) {
@@ -79,14 +62,6 @@ ClientMessage ReadSetParameters(JsonMembers& members) {
   });
   return SetParametersMessage{std::move(items), members.Text("id")};
 }
-ClientMessage ReadSubscribeParameters(JsonMembers& members) {
-  return SubscribeParametersMessage{NamesIn(members), true};
-}
-ClientMessage ReadUnsubscribeParameters(JsonMembers& members) {
-  return SubscribeParametersMessage{NamesIn(members), false};
-}
-ClientMessage ReadSubscribeGraph(JsonMembers&) { return SubscribeGraphMessage{true}; }
-ClientMessage ReadUnsubscribeGraph(JsonMembers&) { return SubscribeGraphMessage{false}; }
 
 struct Operation {
   std::string_view name;
@@ -94,15 +69,15 @@ struct Operation {
 };
 constexpr std::array<Operation, 10> kOperations{{
     {"subscribe", ReadSubscribe},
-    {"unsubscribe", ReadUnsubscribe},
+    {"unsubscribe", [](JsonMembers& m) -> ClientMessage { return UnsubscribeMessage{IdsIn(m, "subscriptionIds")}; }},
     {"advertise", ReadAdvertise},
-    {"unadvertise", ReadUnadvertise},
-    {"getParameters", ReadGetParameters},
+    {"unadvertise", [](JsonMembers& m) -> ClientMessage { return UnadvertiseMessage{IdsIn(m, "channelIds")}; }},
+    {"getParameters", [](JsonMembers& m) -> ClientMessage { return GetParametersMessage{NamesIn(m), m.Text("id")}; }},
     {"setParameters", ReadSetParameters},
-    {"subscribeParameterUpdates", ReadSubscribeParameters},
-    {"unsubscribeParameterUpdates", ReadUnsubscribeParameters},
-    {"subscribeConnectionGraph", ReadSubscribeGraph},
-    {"unsubscribeConnectionGraph", ReadUnsubscribeGraph},
+    {"subscribeParameterUpdates", [](JsonMembers& m) -> ClientMessage { return SubscribeParametersMessage{NamesIn(m), true}; }},
+    {"unsubscribeParameterUpdates", [](JsonMembers& m) -> ClientMessage { return SubscribeParametersMessage{NamesIn(m), false}; }},
+    {"subscribeConnectionGraph", [](JsonMembers&) -> ClientMessage { return SubscribeGraphMessage{true}; }},
+    {"unsubscribeConnectionGraph", [](JsonMembers&) -> ClientMessage { return SubscribeGraphMessage{false}; }},
 }};
 
 }  // namespace

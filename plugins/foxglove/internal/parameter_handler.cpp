@@ -108,10 +108,7 @@ std::optional<ParameterHandler::Values> ParameterHandler::Read(
 void ParameterHandler::SendValues(const Values& values, const std::optional<std::string>& id) {
   send_queue_.Send(JsonObjectText([&](JsonObject& message) {
     message.Add("op", "parameterValues");
-    {
-      JsonArray list(message.Key("parameters"));
-      for (const auto& [name, value] : values) list.Next() += value;
-    }
+    AppendList(values, message.Key("parameters"), [](const auto& each, std::string& json) { json += each.second; });
     if (id) message.Add("id", *id);
   }));
 }

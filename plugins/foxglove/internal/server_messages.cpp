@@ -23,9 +23,7 @@ void AddTopics(JsonObject& message, const char* field, const char* ids,
   JsonArray list(message.Key(field));
   for (const auto& [name, paths] : topics) {
     JsonObject topic(list.Next());
-    topic.Add("name", name);
-    JsonArray path_list(topic.Key(ids));
-    for (const std::string& path : *paths) path_list.Add(path);
+    AppendList(*paths, topic.Add("name", name).Key(ids), AppendJsonString);
   }
 }
 
@@ -34,13 +32,8 @@ void AddTopics(JsonObject& message, const char* field, const char* ids,
 std::string ServerInfoMessage(const FoxgloveShared& shared) {
   return JsonObjectText([&](JsonObject& message) {
     message.Add("op", "serverInfo").Add("name", shared.application.name);
-    {
-      JsonArray capabilities(message.Key("capabilities"));
-      // The last two for all, since whoever may look may press STOP.
-      for (const char* each : {"time", "parameters", "parametersSubscribe", "connectionGraph", "clientPublish", "services"}) {
-        capabilities.Add(each);
-      }
-    }
+    // The last two for all, since whoever may look may press STOP.
+    message.AddJson("capabilities", R"(["time","parameters","parametersSubscribe","connectionGraph","clientPublish","services"])");
     message.AddJson("supportedEncodings", R"(["json"])");
     JsonObject(message.Key("metadata")).Add("runnel", shared.application.version);
     message.Add("sessionId", shared.session);
@@ -67,8 +60,7 @@ std::string AdvertiseMessageFor(std::span<const DirectoryChannel* const> channel
 
 std::string UnadvertiseMessageFor(std::string_view op, std::string_view key, std::span<const std::uint32_t> ids) {
   return JsonObjectText([&](JsonObject& message) {
-    JsonArray list(message.Add("op", op).Key(key));
-    for (const std::uint32_t id : ids) AppendJsonNumber(id, list.Next());
+    AppendList(ids, message.Add("op", op).Key(key), AppendJsonNumber<std::uint32_t>);
   });
 }
 

@@ -44,17 +44,6 @@ std::vector<Setting> SettingsIn(JsonMembers& members) {
   return settings;
 }
 
-// Texts, of which there must be some.
-std::vector<std::string> NeedTexts(JsonMembers& m, const std::string& name) {
-  std::vector<std::string> texts;
-  for (const JsonPart& each : m.NeedList(name)) {
-    auto text = each.text();
-    if (!text) m.Complain("\"" + name + "\" must be a list of texts");
-    texts.push_back(std::move(text).value_or(""));
-  }
-  return texts;
-}
-
 Change ReadConnect(JsonMembers& m) {
   return ConnectPorts{m.NeedText("from"),
                       m.NeedText("to"),
@@ -119,7 +108,7 @@ constexpr Kind kKinds[] = {
      }},
     {"create_parameter",
      [](JsonMembers& m) -> Change {
-       return CreateParameter{m.NeedText("path"), NeedTexts(m, "targets"), m.Text("description").value_or("")};
+       return CreateParameter{m.NeedText("path"), m.NeedTexts("targets"), m.Text("description").value_or("")};
      }},
     {"delete", [](JsonMembers& m) -> Change { return DeleteElement{m.NeedText("path")}; }},
     {"connect", ReadConnect},
@@ -131,8 +120,8 @@ constexpr Kind kKinds[] = {
     {"tag", [](JsonMembers& m) -> Change { return TagElement{m.NeedText("path"), TagsInText(m.NeedText("tags"))}; }},
     {"log", ReadLog},
     {"copy", [](JsonMembers& m) -> Change { return CopyElement{m.NeedText("path"), m.Text("name").value_or("")}; }},
-    {"offer", [](JsonMembers& m) -> Change { return ExtensionChange{"offer", NeedTexts(m, "words"), SettingsIn(m)}; }},
-    {"take", [](JsonMembers& m) -> Change { return ExtensionChange{"take", NeedTexts(m, "words"), SettingsIn(m)}; }},
+    {"offer", [](JsonMembers& m) -> Change { return ExtensionChange{"offer", m.NeedTexts("words"), SettingsIn(m)}; }},
+    {"take", [](JsonMembers& m) -> Change { return ExtensionChange{"take", m.NeedTexts("words"), SettingsIn(m)}; }},
     {"create_thread", ReadCreateThread},
     {"schedule", ReadSchedule}};
 

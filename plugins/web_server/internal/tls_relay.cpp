@@ -192,12 +192,6 @@ constexpr const char* kHowToMake =
     "openssl req -x509 -newkey rsa:2048 -nodes -days 365 -subj /CN=robot -keyout key.pem -out certificate.pem "
     "makes one";
 
-Result<void> CheckReadable(const std::filesystem::path& file) {
-  if (access(file.c_str(), R_OK) == 0) return {};
-  return ErrorOf(std::string("the certificate cannot be read: ") + std::strerror(errno), file,
-                 kHowToMake);
-}
-
 }  // namespace
 
 Result<std::shared_ptr<TlsIdentity>> LoadTlsIdentity(const std::filesystem::path& certificate_file,
@@ -206,7 +200,9 @@ Result<std::shared_ptr<TlsIdentity>> LoadTlsIdentity(const std::filesystem::path
   if (certificate_file.empty()) {
     return ErrorOf("this key has no certificate", key, "give its certificate, too");
   }
-  if (auto readable = CheckReadable(certificate_file); !readable) return readable.error();
+  if (access(certificate_file.c_str(), R_OK) != 0) {
+    return ErrorOf(std::string("the certificate cannot be read: ") + std::strerror(errno), certificate_file, kHowToMake);
+  }
   if (auto secret = CheckSecretFile(key); !secret) return secret.error();
   auto identity = std::make_shared<TlsIdentity>();
   error_code error;
