@@ -1,7 +1,10 @@
 // What letting go of a stop button is, and what only looks like it.
 
+#include <atomic>
 #include <limits>
+#include <memory>
 
+#include "core/port/driving_ports.h"
 #include "plugins/structure/structure_editor.h"
 #include "tests/plugins/supervision/stop_button_fixture.h"
 
@@ -81,6 +84,47 @@ TEST_F(LettingGo, APressIsNotLostInABurst) {
     for (int i = 0; i < 5; ++i) Press(0);
   }
   WaitForStop("the button");
+}
+
+/// Its values come from elsewhere, as those of a topic in a network do.
+class ElsewherePressed : public StopButtonTest {
+ protected:
+  ElsewherePressed() {
+    panel.out.Annotate(std::make_unique<WritersElsewhere>(writers));
+    MustSucceed(supervisor.Add(StopButtonRule{panel.out.path(), true}));
+    std::this_thread::sleep_for(200ms);
+    EXPECT_FALSE(runtime.robot_stop().in_force()) << "nobody has been there yet";
+    *writers = 1;
+    std::this_thread::sleep_for(200ms);  // until it is known
+  }
+  const std::shared_ptr<std::atomic<std::size_t>> writers = std::make_shared<std::atomic<std::size_t>>(0);
+};
+
+TEST_F(ElsewherePressed, PressesWhenItsWriterGoesAndIsNotLetGoByTheNextOne) {
+  Press(1);
+  WaitForStop("the button /app/panel/output/out");
+  *writers = 0;
+  WaitUntil("it is pressed once more", [&] { return runtime.robot_stop().requests() > 1; });
+  *writers = 1;
+  std::this_thread::sleep_for(200ms);
+  (void)scheduler.RunUntil(runtime.clock().Now() + 1s);
+  Press(0);  // as what has been started again begins with
+  std::this_thread::sleep_for(200ms);
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+  ASSERT_TRUE(runtime.robot_stop().Release("the test"));
+  *writers = 0;
+  WaitForStop("1 of 1 writers to /app/panel/output/out are gone");
+}
+
+TEST_F(ElsewherePressed, ReleasesNothingWhileSeveralWrite) {
+  *writers = 2;
+  std::this_thread::sleep_for(200ms);
+  Press(1);
+  WaitForStop("the button /app/panel/output/out");
+  (void)scheduler.RunUntil(runtime.clock().Now() + 1s);
+  Press(0);
+  std::this_thread::sleep_for(200ms);
+  EXPECT_TRUE(runtime.robot_stop().in_force());
 }
 
 TEST(SwappedButton, ReleasesNothingByWhatItBeginsWith) {
