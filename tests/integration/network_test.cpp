@@ -69,6 +69,8 @@ TEST_F(TwoRobots, AStopOfOneStopsTheOtherWhereTheFilesSaySo) {
   ASSERT_EQ(Runnel("release --app planner").code, kDone);
   const Ended released = Runnel("release --app base");  // somebody there releases it
   EXPECT_EQ(released.code, kDone) << released.text;
+  planner.Send(SIGINT);  // nobody can press by it any more
+  EXPECT_TRUE(base.WaitFor("1 of 1 writers to"));
 }
 
 TEST_F(TwoRobots, ARobotThatIsKilledAndStartedAgainFindsItsPlannerAndTheLatchedGoal) {
