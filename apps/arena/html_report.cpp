@@ -73,12 +73,6 @@ void DrawPath(const std::vector<PathSample>& path, SvgWriter& svg) {
   }
 }
 
-// What is shown of a world, with some air round it.
-Extent ViewOf(const Course& course) {
-  const Extent extent = ExtentOf(course.world);
-  return {extent.low - Point2{kAir, kAir}, extent.high + Point2{kAir, kAir}};
-}
-
 // The world's obstacles, start, goal and shortest path, as a <symbol> of this id. Drawn in m, y up; colours come from the
 // classes of the page.
 std::string WorldSymbol(const std::string& id, const Course& course, const Extent& view) {
@@ -171,7 +165,8 @@ std::string Figure(const Row& row, const std::string& world_id, const Extent& vi
 
 std::string WorldSection(const Course& course, std::size_t number, const std::vector<Row>& rows) {
   const std::string id = "w" + std::to_string(number);
-  Extent view = ViewOf(course);
+  const Extent extent = ExtentOf(course.world);
+  Extent view{extent.low - Point2{kAir, kAir}, extent.high + Point2{kAir, kAir}};
   for (const Row& row : rows) {
     if (row.course != &course) continue;
     for (const PathSample& sample : row.record->result.path) view.Include(sample.position, 0.3);

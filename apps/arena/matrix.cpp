@@ -119,12 +119,6 @@ void AddRuns(const ArenaArguments& arguments, const Applications& applications, 
   }
 }
 
-// Each N-th, so that worlds and variants that take long are dealt out evenly.
-void KeepShard(const ArenaArguments& arguments, Matrix& matrix) {
-  std::size_t number = 0;
-  std::erase_if(matrix.runs, [&](const PlannedRun&) { return number++ % arguments.shards != arguments.shard - 1; });
-}
-
 }  // namespace
 
 std::optional<Matrix> MakeMatrix(const ArenaArguments& arguments, const Product& product,
@@ -137,7 +131,9 @@ std::optional<Matrix> MakeMatrix(const ArenaArguments& arguments, const Product&
   const Applications applications = ReadApplications(arguments, product, matrix, diagnostics);
   if (!diagnostics.ok()) return std::nullopt;
   AddRuns(arguments, applications, matrix);
-  KeepShard(arguments, matrix);
+  // Each N-th, so that worlds and variants that take long are dealt out evenly.
+  std::size_t number = 0;
+  std::erase_if(matrix.runs, [&](const PlannedRun&) { return number++ % arguments.shards != arguments.shard - 1; });
   return matrix;
 }
 

@@ -25,12 +25,6 @@ Json ListOf(const std::vector<PathSample>& path) {
   return list;
 }
 
-Json ModesOf(const std::vector<PathSample>& path) {
-  Json list = Json::array();
-  for (const PathSample& sample : path) list.push_back(static_cast<int>(sample.mode));
-  return list;
-}
-
 std::vector<PathSample> PathOf(const Json& list, const Json& modes) {
   std::vector<PathSample> path;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -41,10 +35,6 @@ std::vector<PathSample> PathOf(const Json& list, const Json& modes) {
                     .time = sample.at(0).get<double>()});
   }
   return path;
-}
-
-std::optional<double> OptionalOf(const Json& number) {
-  return number.is_null() ? std::nullopt : std::optional(number.get<double>());
 }
 
 RunResult ResultOf(const Json& object) {
@@ -127,7 +117,8 @@ std::string JournalLineOf(const RunRecord& record, std::string_view made_of) {
   Json object = ObjectOf(record);
   object["robot_radius_m"] = record.result.robot_radius;
   object["processor_time_s"] = record.processor_time;
-  object["modes"] = ModesOf(record.result.path);
+  Json& modes = object["modes"] = Json::array();
+  for (const PathSample& sample : record.result.path) modes.push_back(static_cast<int>(sample.mode));
   object["has_ended_by_itself"] = record.has_ended_by_itself;
   object["made_of"] = made_of;
   return TextOf(object);
@@ -135,6 +126,7 @@ std::string JournalLineOf(const RunRecord& record, std::string_view made_of) {
 
 Result<JournalEntry> ParseJournalLine(std::string_view line) {
   return Attempt(line, [](const Json& object) {
+    const Json& shortest = object.at("shortest_path_m");
     return JournalEntry{
         .record = {.key = {.world = object.at("world").get<std::string>(),
                            .variant = object.at("variant").get<std::string>(),
@@ -146,7 +138,7 @@ Result<JournalEntry> ParseJournalLine(std::string_view line) {
                    .processor_time = object.at("processor_time_s").get<double>(),
                    .has_ended_by_itself = object.at("has_ended_by_itself").get<bool>(),
                    .noise = object.at("noise_m").get<double>(),
-                   .shortest_path = OptionalOf(object.at("shortest_path_m"))},
+                   .shortest_path = shortest.is_null() ? std::nullopt : std::optional(shortest.get<double>())},
         .made_of = object.at("made_of").get<std::string>()};
   });
 }

@@ -66,11 +66,6 @@ const CLI::App* FindCommand(const CLI::App& program, const std::string& name) {
 }
 
 // For the completion of shells that have no rules of their own.
-std::vector<std::string> OptionsFor(const CLI::App& program, const std::string& command) {
-  const CLI::App* const known = FindCommand(program, command);
-  return known != nullptr ? OptionNames(*known) : std::vector<std::string>();
-}
-
 ExitCode CompleteAll(const std::vector<std::string>& typed, const std::vector<std::string>& commands,
                      const std::vector<std::string>& options) {
   const std::string& last = typed.back();
@@ -284,7 +279,8 @@ Command ParseCommandLine(int count, const char* const* words) {
   const std::string command = count > 1 ? words[1] : "";
   const std::vector<std::string> all_commands = AllCommands(program);
   if (command == "complete" && count > 3 && std::string_view(words[2]) == "--all") {
-    return [=, names = all_commands, options = OptionsFor(program, words[3]),
+    const CLI::App* const known = FindCommand(program, words[3]);
+    return [=, names = all_commands, options = known != nullptr ? OptionNames(*known) : std::vector<std::string>(),
             typed = std::vector<std::string>(words + 3, words + count)] {
       return CompleteAll(typed, names, options);
     };

@@ -19,12 +19,6 @@ std::string ApplicationInPaths(const std::vector<RunningApplication>& running, c
   return {};
 }
 
-// Of "//robot/laser": "robot".
-std::string NameInNetwork(std::string_view path) {
-  path.remove_prefix(2);
-  return std::string(path.substr(0, path.find('/')));
-}
-
 // What `runnel network` says there; "" if it has none.
 std::string NetworkTextOf(const RunningApplication& application) {
   auto client = ControlClient::Connect(application.socket);
@@ -42,7 +36,7 @@ std::string ApplicationByWords(const std::vector<RunningApplication>& running, C
   if (const std::string named = ApplicationInPaths(running, arguments.words); !named.empty()) return named;
   const auto far = std::ranges::find_if(arguments.words, [](const std::string& word) { return word.starts_with("//"); });
   if (far == arguments.words.end()) return {};
-  const std::string name = NameInNetwork(*far);
+  const std::string name = far->substr(2, far->find('/', 2) - 2);  // of "//robot/laser": "robot"
   const auto is_called = [&](const RunningApplication& each) { return each.hello.application == name; };
   if (arguments.command == "connect" || arguments.command == "disconnect") {
     if (running.size() > 2 || std::ranges::count_if(running, is_called) != 1) return {};

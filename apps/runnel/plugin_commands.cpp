@@ -99,6 +99,20 @@ std::vector<ModuleDescription> DescribeModules(const std::vector<std::string>& c
   return modules;
 }
 
+// How many errors it has.
+std::size_t CheckOne(const std::string& file, const ApplicationArguments& arguments, const std::string& model_file) {
+  ApplicationDescription description(arguments.Options());
+  (void)description.Read(file);
+  description.RunChecks(model_file);
+  std::cerr << Coloured(description.diagnostics().ToString(), STDERR_FILENO);
+  const std::size_t errors = description.diagnostics().errors().size();
+  if (errors == 0) std::cout << file << ": no errors\n" << std::flush;
+  return errors;
+}
+
+// "a.xml b.xml goal_x=4": further files stand among the settings.
+bool IsFile(const std::string& word) { return word.find('=') == std::string::npos; }
+
 }  // namespace
 
 ExitCode ListModules(const ModulesArguments& arguments) {
@@ -137,24 +151,6 @@ ExitCode WriteSchema(const SchemaArguments& arguments) {
   const auto written = ReplaceFile(arguments.output, text);
   return written ? ExitCode::kDone : Fail(written.error());
 }
-
-namespace {
-
-// How many errors it has.
-std::size_t CheckOne(const std::string& file, const ApplicationArguments& arguments, const std::string& model_file) {
-  ApplicationDescription description(arguments.Options());
-  (void)description.Read(file);
-  description.RunChecks(model_file);
-  std::cerr << Coloured(description.diagnostics().ToString(), STDERR_FILENO);
-  const std::size_t errors = description.diagnostics().errors().size();
-  if (errors == 0) std::cout << file << ": no errors\n" << std::flush;
-  return errors;
-}
-
-// "a.xml b.xml goal_x=4": further files stand among the settings.
-bool IsFile(const std::string& word) { return word.find('=') == std::string::npos; }
-
-}  // namespace
 
 ExitCode Check(const CheckArguments& check) {
   const ApplicationArguments& arguments = check.application;

@@ -15,8 +15,6 @@ namespace {
 constexpr auto kOnTerminal = std::chrono::milliseconds(200);
 constexpr auto kElsewhere = std::chrono::seconds(1);
 
-std::string SecondsText(double seconds) { return fmt::format("{:8.2f} s", seconds); }
-
 // Of stdout. A line that is as long would wrap on some.
 std::size_t TerminalWidth() {
   winsize size{};
@@ -32,11 +30,6 @@ std::string CutTo(const std::string& line, std::size_t width) {
     if (begins && ++characters > width) return line.substr(0, at);
   }
   return line;
-}
-
-std::string Padded(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
 }
 
 }  // namespace
@@ -63,7 +56,7 @@ void ProgressDisplay::Show(Duration time, bool is_paused, const std::string& tex
   if (std::exchange(has_shown_pause_, is_paused) && stands_still && !is_terminal_) return;
   if (is_terminal_) std::cout << "\r\x1b[K";
   const std::string pace = is_paused ? "paused" : "x" + NumberText(factor);
-  const std::string line = SecondsText(ToSeconds(time)) + "  " + Padded(pace, 7) + text;
+  const std::string line = fmt::format("{:8.2f} s  {:7}{}", ToSeconds(time), pace, text);
   std::cout << (is_terminal_ ? CutTo(line, TerminalWidth()) : line);
   if (!is_terminal_) std::cout << '\n';
   std::cout << std::flush;

@@ -55,6 +55,17 @@ bool IsOver(Runtime& runtime, const LateConnection& late) {
   return late.is_of_its_input() && !PathSearch(runtime).FindPort(late.to, PathKind::kInput);
 }
 
+template <typename IsMeant>
+std::vector<const LateConnection*> Waiting(Runtime& runtime, const IsMeant& is_meant) {
+  std::vector<const LateConnection*> waiting;
+  const LateConnections* const late = LateConnections::FindIn(runtime);
+  if (late == nullptr) return waiting;
+  for (const LateConnection& each : late->all()) {
+    if (each.waits_for && (is_meant(each.from) || is_meant(each.to))) waiting.push_back(&each);
+  }
+  return waiting;
+}
+
 }  // namespace
 
 bool LateConnection::is_of_its_input() const noexcept { return IsDistantPath(from) && !options.when_present; }
@@ -231,21 +242,6 @@ void LateConnections::Try(const std::string& from, const std::string& to) {
     if (LateConnection* const tried = FindOwn(from, to)) tried->waits_for = DescribeException();
   }
 }
-
-namespace {
-
-template <typename IsMeant>
-std::vector<const LateConnection*> Waiting(Runtime& runtime, const IsMeant& is_meant) {
-  std::vector<const LateConnection*> waiting;
-  const LateConnections* const late = LateConnections::FindIn(runtime);
-  if (late == nullptr) return waiting;
-  for (const LateConnection& each : late->all()) {
-    if (each.waits_for && (is_meant(each.from) || is_meant(each.to))) waiting.push_back(&each);
-  }
-  return waiting;
-}
-
-}  // namespace
 
 std::vector<const LateConnection*> AwaitedBy(const Port& port) {
   const std::string path = ShortPath(PathOfSource(port));

@@ -14,10 +14,8 @@ namespace {
 
 std::string EnumerationText(const TypeInfo& type, const void* value) {
   const std::int64_t number = type.enumeration().get(value);
-  for (const EnumeratorInfo& each : type.enumerators()) {
-    if (each.value == number) return each.name;
-  }
-  return std::to_string(number);  // a value that nobody named
+  const auto named = std::ranges::find(type.enumerators(), number, &EnumeratorInfo::value);
+  return named != type.enumerators().end() ? named->name : std::to_string(number);  // a value that nobody named
 }
 
 class TextWriter {

@@ -80,10 +80,6 @@ void AppendSample(const PathSample& sample, std::string& json) {
   }
 }
 
-void AppendMode(const PathSample& sample, std::string& json) {
-  AppendJsonNumber(static_cast<std::int64_t>(sample.mode), json);
-}
-
 }  // namespace
 
 /// What the program that runs the application is told.
@@ -274,7 +270,9 @@ std::string JsonOf(const RunResult& result) {
            AppendList(result.hits, object.Key("hits"), AppendPlace);
            AppendList(result.leaves, object.Key("leaves"), AppendPlace);
            AppendList(result.path, object.Key("path"), AppendSample);
-           AppendList(result.path, object.Key("modes"), AppendMode);
+           AppendList(result.path, object.Key("modes"), [](const PathSample& sample, std::string& json) {
+             AppendJsonNumber(static_cast<std::int64_t>(sample.mode), json);
+           });
          }) +
          "\n";
 }

@@ -17,11 +17,6 @@ BuildOutcome Failed(Error error) {
   return outcome;
 }
 
-Error UnknownExtension(const std::string& name, const ExtensionCatalogue& catalogue) {
-  return {.message = "there is no extension '" + name + "'",
-          .hint = NearestNameHint(name, NamesOf(catalogue.all(), &ExtensionDescription::name))};
-}
-
 Result<void> CheckOptions(const ExtensionDescription& extension,
                           const ExtensionArguments& arguments) {
   const std::vector<std::string> known = NamesOf(extension.options, &ExtensionOption::name);
@@ -78,7 +73,10 @@ Result<void> ApplicationDescription::AttachByName(const ExtensionByName& extensi
   const auto catalogue = Catalogue();
   if (!catalogue) return catalogue.error();
   const ExtensionDescription* const known = (*catalogue)->Find(extension.name);
-  if (known == nullptr) return UnknownExtension(extension.name, **catalogue);
+  if (known == nullptr) {
+    return Error{.message = "there is no extension '" + extension.name + "'",
+                 .hint = NearestNameHint(extension.name, NamesOf((*catalogue)->all(), &ExtensionDescription::name))};
+  }
   const auto& values = extension.arguments.values;
   return Attach(*known, values.empty() ? "this" : "--" + values.front().first, extension.arguments);
 }

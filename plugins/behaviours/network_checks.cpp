@@ -77,55 +77,6 @@ std::string WhyNotStimulated(const BehaviourNetwork& network, const NetworkNode&
   return "those whose activity it needs can never be active";
 }
 
-}  // namespace
-
-std::vector<NetworkFlaw> FindUnreachable(const BehaviourNetwork& network) {
-  std::vector<NetworkFlaw> flaws;
-  const std::vector<bool> can_be = CanBeStimulated(network);
-  for (std::size_t i = 0; i < network.nodes.size(); ++i) {
-    const NetworkNode& node = network.nodes[i];
-    if (node.mode == StimulationMode::kDisabled) continue;  // as somebody wants it
-    if (!can_be[i]) {
-      flaws.push_back({node.behaviour->path(), "can never be active: " + WhyNotStimulated(network, node),
-                       "connect its stimulation, or set stimulation_mode to enabled"});
-      continue;
-    }
-    const Set with = ActiveWith(network, i);
-    const auto inhibition = FindInhibition(network, with, with);
-    if (!inhibition) continue;
-    const auto& [by, who] = *inhibition;
-    flaws.push_back({node.behaviour->path(),
-                     "can never be fully active: " + network.nodes[by].name + ", without which it is not active, inhibits " +
-                         (who == i ? "it" : network.nodes[who].name + ", without which it is not, either"),
-                     "take one of the two connections away"});
-  }
-  return flaws;
-}
-
-std::vector<NetworkFlaw> FindConflicts(const BehaviourNetwork& network) {
-  std::vector<NetworkFlaw> flaws;
-  const std::vector<bool> can_be = CanBeStimulated(network);
-  for (const SharedActuator& actuator : network.shared) {
-    for (std::size_t i = 0; i < actuator.behaviours.size(); ++i) {
-      for (std::size_t k = i + 1; k < actuator.behaviours.size(); ++k) {
-        const std::size_t one = actuator.behaviours[i], other = actuator.behaviours[k];
-        if (!can_be[one] || !can_be[other]) continue;
-        const Set with_one = ActiveWith(network, one), with_other = ActiveWith(network, other);
-        if (FindInhibition(network, with_one, with_other) || FindInhibition(network, with_other, with_one)) continue;
-        flaws.push_back({actuator.path,
-                         network.nodes[one].name + " and " + network.nodes[other].name +
-                             " command it, and can be active at once without a fusion",
-                         "connect both with a behaviours/fusion, and that with it"});
-      }
-    }
-  }
-  return flaws;
-}
-
-// Loops of a network in which activities come and go without end.
-
-namespace {
-
 // Large networks may have more loops than anybody can wait for.
 constexpr int kMostSteps = 200'000;
 
@@ -222,6 +173,51 @@ class LoopSearch {
 };
 
 }  // namespace
+
+std::vector<NetworkFlaw> FindUnreachable(const BehaviourNetwork& network) {
+  std::vector<NetworkFlaw> flaws;
+  const std::vector<bool> can_be = CanBeStimulated(network);
+  for (std::size_t i = 0; i < network.nodes.size(); ++i) {
+    const NetworkNode& node = network.nodes[i];
+    if (node.mode == StimulationMode::kDisabled) continue;  // as somebody wants it
+    if (!can_be[i]) {
+      flaws.push_back({node.behaviour->path(), "can never be active: " + WhyNotStimulated(network, node),
+                       "connect its stimulation, or set stimulation_mode to enabled"});
+      continue;
+    }
+    const Set with = ActiveWith(network, i);
+    const auto inhibition = FindInhibition(network, with, with);
+    if (!inhibition) continue;
+    const auto& [by, who] = *inhibition;
+    flaws.push_back({node.behaviour->path(),
+                     "can never be fully active: " + network.nodes[by].name + ", without which it is not active, inhibits " +
+                         (who == i ? "it" : network.nodes[who].name + ", without which it is not, either"),
+                     "take one of the two connections away"});
+  }
+  return flaws;
+}
+
+std::vector<NetworkFlaw> FindConflicts(const BehaviourNetwork& network) {
+  std::vector<NetworkFlaw> flaws;
+  const std::vector<bool> can_be = CanBeStimulated(network);
+  for (const SharedActuator& actuator : network.shared) {
+    for (std::size_t i = 0; i < actuator.behaviours.size(); ++i) {
+      for (std::size_t k = i + 1; k < actuator.behaviours.size(); ++k) {
+        const std::size_t one = actuator.behaviours[i], other = actuator.behaviours[k];
+        if (!can_be[one] || !can_be[other]) continue;
+        const Set with_one = ActiveWith(network, one), with_other = ActiveWith(network, other);
+        if (FindInhibition(network, with_one, with_other) || FindInhibition(network, with_other, with_one)) continue;
+        flaws.push_back({actuator.path,
+                         network.nodes[one].name + " and " + network.nodes[other].name +
+                             " command it, and can be active at once without a fusion",
+                         "connect both with a behaviours/fusion, and that with it"});
+      }
+    }
+  }
+  return flaws;
+}
+
+// Loops of a network in which activities come and go without end.
 
 std::vector<NetworkFlaw> FindOscillations(const BehaviourNetwork& network) { return LoopSearch(network).Find(); }
 

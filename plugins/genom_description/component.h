@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -170,10 +171,8 @@ struct Component {
 /// The thing of that name, nullptr if there is none.
 template <typename Thing>
 [[nodiscard]] Thing* FindByName(const std::vector<Thing*>& things, std::string_view name) {
-  for (Thing* each : things) {
-    if (each->name == name) return each;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(things, name, &Thing::name);
+  return found == things.end() ? nullptr : *found;
 }
 
 /// Sixteen hexadecimal digits that change when what others see of the component changes: ports with their types,

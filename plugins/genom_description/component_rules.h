@@ -55,7 +55,6 @@ class ComponentRules {
   void Merge(Component& interface, PropertyKind how);
   void MergeIds(const Component& interface);
   void MergePorts(const Component& interface, bool is_turned);
-  void MergeTasks(const Component& interface);
   void MergeServices(const Component& interface, bool as_remotes);
   void AddRemote(const Service& service);
   [[nodiscard]] Properties CopiedProperties(const Properties& properties, const std::vector<Parameter>& locals);

@@ -13,10 +13,6 @@ __extension__ using WideInteger = __int128;  // holds what any two whole numbers
 
 std::int64_t Signed(const Constant& value) { return static_cast<std::int64_t>(value.whole); }
 
-Constant OfWide(WideInteger value) {
-  return {.kind = value < 0 ? Kind::kSigned : Kind::kUnsigned, .whole = static_cast<std::uint64_t>(value)};
-}
-
 WideInteger Wide(const Constant& value) {
   return value.kind == Kind::kUnsigned ? static_cast<WideInteger>(value.whole) : static_cast<WideInteger>(Signed(value));
 }
@@ -53,7 +49,7 @@ Computed ComputeWholes(const Constant& a, char operation, const Constant& b) {
   if (result >= static_cast<WideInteger>(kTwoToThe64) || result < -static_cast<WideInteger>(kTwoToThe64 / 2)) {
     return {.error = "the result has more than 64 bits"};
   }
-  return {OfWide(result)};
+  return {{.kind = result < 0 ? Kind::kSigned : Kind::kUnsigned, .whole = static_cast<std::uint64_t>(result)}};
 }
 
 Computed Shifted(const Constant& a, char operation, const Constant& b) {

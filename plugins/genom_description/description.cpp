@@ -34,10 +34,8 @@ std::unique_ptr<Description> ReadBy(const PreprocessorOptions& options, Diagnost
 }  // namespace
 
 Component* Description::FindComponent(std::string_view name) {
-  for (Component& each : components) {
-    if (each.name == name) return &each;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(components, name, &Component::name);
+  return found == components.end() ? nullptr : &*found;
 }
 
 std::unique_ptr<Description> ReadDescription(const std::vector<std::string>& files, const PreprocessorOptions& options,

@@ -4,14 +4,6 @@
 
 namespace runnel::genom {
 
-namespace {
-
-bool IsMerging(PropertyKind kind) {
-  return kind == PropertyKind::kProvides || kind == PropertyKind::kUses || kind == PropertyKind::kExtends;
-}
-
-}  // namespace
-
 void ComponentRules::Merge(Component& interface, PropertyKind how) {
   if (interface.is_open) {
     problems_.Add(current_->place, "interface '" + interface.name + "' cannot extend itself");
@@ -19,7 +11,9 @@ void ComponentRules::Merge(Component& interface, PropertyKind how) {
   }
   const PropertyOwner owner = current_->is_interface ? PropertyOwner::kInterface : PropertyOwner::kComponent;
   for (const Property& each : interface.properties) {
-    if (!IsMerging(each.kind)) AddProperty(current_->properties, each, owner, problems_);
+    const bool is_merging = each.kind == PropertyKind::kProvides || each.kind == PropertyKind::kUses ||
+                            each.kind == PropertyKind::kExtends;
+    if (!is_merging) AddProperty(current_->properties, each, owner, problems_);
   }
   const bool is_used = how == PropertyKind::kUses;
   MergeIds(interface);
@@ -27,7 +21,9 @@ void ComponentRules::Merge(Component& interface, PropertyKind how) {
   for (const Remote* each : interface.remotes) {
     AddRemote({.place = each->place, .name = each->name, .kind = each->kind, .parameters = each->parameters});
   }
-  MergeTasks(interface);
+  for (const Task* each : interface.tasks) {
+    AddTask({.place = each->place, .name = each->name, .properties = CopiedProperties(each->properties, {})});
+  }
   MergeServices(interface, is_used);
 }
 
@@ -81,12 +77,6 @@ Properties ComponentRules::CopiedProperties(const Properties& properties, const 
     copies.push_back(std::move(copy));
   }
   return copies;
-}
-
-void ComponentRules::MergeTasks(const Component& interface) {
-  for (const Task* each : interface.tasks) {
-    AddTask({.place = each->place, .name = each->name, .properties = CopiedProperties(each->properties, {})});
-  }
 }
 
 void ComponentRules::MergeServices(const Component& interface, bool as_remotes) {

@@ -227,14 +227,16 @@ std::vector<PathStep> Parser::ReadPath() {
   }
 }
 
-void Parser::AddLocal(Service& draft, Parameter parameter) {
+bool Parser::AddLocal(Service& draft, Parameter parameter) {
+  const bool is_right = !parameter.initial || CheckInitializer(*parameter.initial, parameter.type, problems_);
   const auto before = std::ranges::find(draft.parameters, parameter.name, &Parameter::name);
   if (before != draft.parameters.end()) {
     problems_.Add(parameter.place, "there is a parameter '" + parameter.name + "' already",
                   problems_.DeclaredAt(before->place));
-    return;
+    return is_right;
   }
   draft.parameters.push_back(std::move(parameter));
+  return is_right;
 }
 
 bool Parser::AttributeParameter(Service& draft) {
@@ -248,9 +250,7 @@ bool Parser::AttributeParameter(Service& draft) {
   if (reader_.AcceptMark("::")) parameter.name = reader_.Identifier("a parameter").text;
   if (reader_.AcceptMark("=")) parameter.initial = ReadInitializer();
   if (!rules_.Resolve(parameter, {})) return false;
-  const bool is_right = !parameter.initial || CheckInitializer(*parameter.initial, parameter.type, problems_);
-  AddLocal(draft, std::move(parameter));
-  return is_right;
+  return AddLocal(draft, std::move(parameter));
 }
 
 bool Parser::ServiceParameter(Service& draft) {
@@ -261,9 +261,7 @@ bool Parser::ServiceParameter(Service& draft) {
   parameter.name = declarator.name.text;
   if (reader_.AcceptMark("=")) parameter.initial = ReadInitializer();
   parameter.type = WithSizes(type != nullptr ? type : scopes_.Make(TypeKind::kInvalid, parameter.place), declarator);
-  const bool is_right = !parameter.initial || CheckInitializer(*parameter.initial, parameter.type, problems_);
-  AddLocal(draft, std::move(parameter));
-  return is_right && type != nullptr;
+  return AddLocal(draft, std::move(parameter)) && type != nullptr;
 }
 
 void Parser::LocalVariables(Service& draft) {
@@ -275,7 +273,7 @@ void Parser::LocalVariables(Service& draft) {
                        .is_variable = true,
                        .name = declarator.name.text};
     variable.type = WithSizes(type != nullptr ? type : scopes_.Make(TypeKind::kInvalid, variable.place), declarator);
-    AddLocal(draft, std::move(variable));
+    (void)AddLocal(draft, std::move(variable));
   } while (reader_.AcceptMark(","));
   reader_.Semicolon();
 }

@@ -133,7 +133,7 @@ class Parser {
   void ServiceDeclaration(ServiceKind kind);
   bool AttributeParameter(Service& draft);
   bool ServiceParameter(Service& draft);
-  void AddLocal(Service& draft, Parameter parameter);
+  bool AddLocal(Service& draft, Parameter parameter);
   void LocalVariables(Service& draft);
   Direction ReadDirection();
   std::vector<PathStep> ReadPath();

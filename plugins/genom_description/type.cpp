@@ -42,17 +42,13 @@ bool AnyWithin(const Type* type, bool through_pointers, std::set<const Type*>& s
   return false;
 }
 
-std::string LengthText(const Type& type) {
-  return type.length == Type::kUnbounded ? "" : std::to_string(type.length);
-}
-
 }  // namespace
 
 std::string_view NameOf(TypeKind kind) { return kNames.at(static_cast<std::size_t>(kind)); }
 
 std::string Type::ShownName() const {
   if (!full_name.empty()) return full_name.substr(2);
-  const std::string length_text = LengthText(*this);
+  const std::string length_text = length == kUnbounded ? "" : std::to_string(length);
   switch (kind) {
     case TypeKind::kString: return length_text.empty() ? "string" : "string<" + length_text + ">";
     case TypeKind::kSequence:

@@ -101,7 +101,9 @@ genom_execution::EngineOptions ComponentModule::Options() {
 Result<void> ComponentModule::Prepare() {
   is_simulated_ = dynamic_cast<const SteadyClock*>(&runtime().clock()) == nullptr;
   MakeTasks();
-  MakeWorkers();
+  const bool has_async = std::ranges::any_of(component_.codels, &genom_execution::CodelTable::is_async);
+  workers_.resize(has_async ? component_.tasks.size() + 1 : 0);
+  for (auto& worker : workers_) worker = std::make_unique<AsyncWorker>();
   engine_.emplace(component_, Options());
   for (ModulePart* part : parts_) part->Prepare(*engine_);
   return {};
@@ -117,12 +119,6 @@ void ComponentModule::MakeTasks() {
     runtime().Adopt(std::make_unique<TaskModule>(Placement{*this, std::string("task_") + component_.tasks[i].name}, *this,
                                                  i, thread, *own_tasks_[i]));
   }
-}
-
-void ComponentModule::MakeWorkers() {
-  const bool has_async = std::ranges::any_of(component_.codels, &genom_execution::CodelTable::is_async);
-  workers_.resize(has_async ? component_.tasks.size() + 1 : 0);
-  for (auto& worker : workers_) worker = std::make_unique<AsyncWorker>();
 }
 
 void ComponentModule::CheckPeriods() const {

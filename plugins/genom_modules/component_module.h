@@ -180,7 +180,6 @@ class ComponentModule : public Module {
   };
   [[nodiscard]] genom_execution::EngineOptions Options();
   void MakeTasks();
-  void MakeWorkers();
   void CheckPeriods() const;
   void RunPasses(Time time, bool is_forced);
   void PublishState();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -104,10 +105,8 @@ class MultiplePort {
   }
   /// nullptr: there is none of that name.
   [[nodiscard]] Port* Find(std::string_view name) const {
-    for (const auto& each : ports_) {
-      if (each.name == name) return each.port.get();
-    }
-    return nullptr;
+    const auto found = std::ranges::find(ports_, name, &Named::name);
+    return found == ports_.end() ? nullptr : found->port.get();
   }
 
  private:

@@ -173,12 +173,7 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
     if (take_ != nullptr) take_(request, static_cast<Call<Signature>&>(call).reply);
   }
   void Record(CallBase& base, CallStatus status) override {
-    if (!records_.is_watched()) return;
-    auto loan = records_.Loan();
-    if (!loan) return;
-    const auto& call = static_cast<Call<Signature>&>(base);
-    runnel::internal::FillRecord(*loan, call, status);
-    records_.Publish(std::move(loan), call.called_at);
+    runnel::internal::PublishRecord(records_, static_cast<const Call<Signature>&>(base), status);
   }
 
   void (*const fill_)(genom_execution::Request& request, Pack& arguments);

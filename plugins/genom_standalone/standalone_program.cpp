@@ -30,11 +30,6 @@ constexpr int kMostRounds = 1000;  // of a component that never pauses, before t
 LineServer* g_server = nullptr;  // for signal handlers
 volatile std::sig_atomic_t g_is_told_to_end = 0;
 
-void EndBySignal(int) {
-  g_is_told_to_end = 1;
-  if (g_server != nullptr) g_server->Wake();
-}
-
 struct Arguments {
   std::string socket;
   bool is_stepped = false;
@@ -199,7 +194,10 @@ int RunThreads(const StandaloneComponent& component, LineServer& lines) {
 
 void HandleSignals() {
   struct sigaction action {};
-  action.sa_handler = EndBySignal;
+  action.sa_handler = [](int) {
+    g_is_told_to_end = 1;
+    if (g_server != nullptr) g_server->Wake();
+  };
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
 }

@@ -17,11 +17,6 @@ using What = WrittenFile::What;
 
 constexpr const char* kKeptFolder = ".generated";
 
-bool LeadsOut(const fs::path& path) {
-  const fs::path normal = path.lexically_normal();
-  return normal.empty() || normal.is_absolute() || *normal.begin() == ".." || *normal.begin() == kKeptFolder;
-}
-
 struct Plan {
   WrittenFile written;
   std::string text;
@@ -30,7 +25,8 @@ struct Plan {
 // What becomes of the file, without writing it.
 Plan PlanFor(const fs::path& folder, const GeneratedFile& file, bool overwrites, Diagnostics& diagnostics) {
   Plan plan{{.path = file.path}, file.text};
-  if (LeadsOut(file.path)) {
+  const fs::path path = fs::path(file.path).lexically_normal();
+  if (path.empty() || path.is_absolute() || *path.begin() == ".." || *path.begin() == kKeptFolder) {
     diagnostics.Add({.message = "a template cannot make '" + file.path + "'", .hint = "its files are within one folder"});
     return plan;
   }

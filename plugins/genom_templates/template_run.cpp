@@ -245,12 +245,8 @@ class Run {
     const char* path = luaL_checkstring(lua, 1);
     std::size_t length = 0;
     const char* text = luaL_checklstring(lua, 2, &length);
-    self.AddFile(path, {text, length}, lua_toboolean(lua, 3) != 0);
+    self.output_.files.push_back({path, {text, length}, lua_toboolean(lua, 3) != 0});
     return 0;
-  }
-
-  void AddFile(const char* path, std::string_view text, bool is_kept) {
-    output_.files.push_back({path, std::string(text), is_kept});
   }
 
   // Leaves the program and its name, or the message, behind.

@@ -104,25 +104,6 @@ void AppendText(std::string& program, const std::string& text) {
   }
 }
 
-}  // namespace
-
-Result<std::string> ProgramOf(const std::string& text) {
-  auto pieces = Cut(text);
-  if (!pieces) return pieces.error();
-  JoinLonelyScripts(*pieces);
-  std::string program;
-  for (const Piece& each : *pieces) {
-    switch (each.kind) {
-      case Piece::Kind::kText: AppendText(program, each.text); break;
-      case Piece::Kind::kScript: program += " " + each.text + " "; break;
-      case Piece::Kind::kValue: program += " write_value(" + each.text + ")"; break;
-    }
-  }
-  return program;
-}
-
-namespace {
-
 namespace fs = std::filesystem;
 
 std::vector<fs::path> Folders() {
@@ -143,6 +124,21 @@ bool IsTemplate(const fs::path& folder) {
 }
 
 }  // namespace
+
+Result<std::string> ProgramOf(const std::string& text) {
+  auto pieces = Cut(text);
+  if (!pieces) return pieces.error();
+  JoinLonelyScripts(*pieces);
+  std::string program;
+  for (const Piece& each : *pieces) {
+    switch (each.kind) {
+      case Piece::Kind::kText: AppendText(program, each.text); break;
+      case Piece::Kind::kScript: program += " " + each.text + " "; break;
+      case Piece::Kind::kValue: program += " write_value(" + each.text + ")"; break;
+    }
+  }
+  return program;
+}
 
 fs::path TemplatesOfRunnel() {
   std::error_code error;

@@ -221,22 +221,13 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
   return hash;
 }
 
-namespace {
-
-std::string ConversionName(const ConvertedFlow& flow) {
-  const std::string& text = flow.conversion().text();
-  return text.empty() ? "converted" : text;
-}
-
-}  // namespace
-
 std::string ConnectionJson(const Connection& connection) {
   return JsonObjectText([&](JsonObject& json) {
     const ConnectOptions& options = connection.options;
     json.Add("from", connection.from->path()).Add("to", connection.to->path());
     json.Add("part", options.part).Add("convert", options.convert);
-    json.AddTextOrNull("conversion",
-                       connection.converted ? ConversionName(*connection.converted) : "");
+    const std::string conversion = connection.converted ? connection.converted->conversion().text() : "";
+    json.AddTextOrNull("conversion", connection.converted && conversion.empty() ? "converted" : conversion);
     json.Add("when_present", options.when_present).Add("late", options.late);
     json.Add("queue", connection.options.queue);
     json.Add("on_full", OnFullNames()[static_cast<std::size_t>(connection.options.on_full)]);

@@ -30,24 +30,6 @@ void AppendParameter(const ModuleDescription::Parameter& each, std::string& json
   object.Add("static", each.is_static).Add("description", each.description);
 }
 
-}  // namespace
-
-void AppendJson(const ModuleDescription& module, std::string& json) {
-  JsonObject object(json);
-  object.Add("type", module.type).Add("summary", module.summary).Add("plugin", module.plugin);
-  AppendList(module.ports, object.Key("ports"), AppendPort);
-  AppendList(module.parameters, object.Key("parameters"), AppendParameter);
-  object.AddTextOrNull("problem", module.problem);
-}
-
-std::string JsonText(const std::vector<ModuleDescription>& modules) {
-  std::string json;
-  AppendList(modules, json, AppendJson);
-  return json;
-}
-
-namespace {
-
 ModuleDescription::Port Describe(const Port& port) {
   return {.name = port.name(),
           .group = port.parent()->name(),
@@ -73,6 +55,20 @@ ModuleDescription::Parameter Describe(const ConfigurableElement& each) {
 }
 
 }  // namespace
+
+void AppendJson(const ModuleDescription& module, std::string& json) {
+  JsonObject object(json);
+  object.Add("type", module.type).Add("summary", module.summary).Add("plugin", module.plugin);
+  AppendList(module.ports, object.Key("ports"), AppendPort);
+  AppendList(module.parameters, object.Key("parameters"), AppendParameter);
+  object.AddTextOrNull("problem", module.problem);
+}
+
+std::string JsonText(const std::vector<ModuleDescription>& modules) {
+  std::string json;
+  AppendList(modules, json, AppendJson);
+  return json;
+}
 
 std::string ModuleDescription::Port::PathInModule() const {
   return group == "input" || group == "output" ? name : group + "/" + name;

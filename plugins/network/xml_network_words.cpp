@@ -33,10 +33,6 @@ std::optional<ValueQuality> QualityIn(const std::string& text) {
   return static_cast<ValueQuality>(std::ranges::find(kQualities, text) - kQualities.begin());
 }
 
-ValueSending SendingIn(const std::string& text) {
-  return text == kSendings[1] ? ValueSending::kAfterCycle : ValueSending::kNetwork;
-}
-
 const std::string& NameOf(ValueQuality quality) { return kQualities[static_cast<std::size_t>(quality)]; }
 
 // Those that are usual are left out.
@@ -99,7 +95,7 @@ OfferOptions OfferSaid(const SaidOf& said) {
                      .frame = said("frame"),
                      .child_frame = said("child_frame"),
                      .quality = QualityIn(said("qos")).value_or(ValueQuality::kNewest),
-                     .sending = SendingIn(said("sending")),
+                     .sending = said("sending") == kSendings[1] ? ValueSending::kAfterCycle : ValueSending::kNetwork,
                      .rate = NumberIn(said("rate")).value_or(0),
                      .is_measured = said("measured") == "true"};
   if (const auto strength = NumberIn(said("strength"))) offer.strength = static_cast<std::int32_t>(*strength);

@@ -26,6 +26,22 @@ std::string NumberText(double number) {
   return {digits.data(), end.ptr};
 }
 
+constexpr const char* kGroupName = "parameter";
+
+// Owned by the module like any element made at run time; the parameters in it belong to the
+// module's C++ object and are gone before the module deletes what it owns.
+FrameworkElement& ParameterGroup(FrameworkElement& module) {
+  if (FrameworkElement* group = module.FindChild(kGroupName)) return *group;
+  return module.runtime().Create<PortGroup>(module, kGroupName);
+}
+
+// What no file can carry could not be saved.
+Result<void> CheckCharacters(std::string_view text) {
+  const std::string fault = UnwritableCharacter(text);
+  if (fault.empty()) return {};
+  return Error{.message = "the value contains " + fault};
+}
+
 }  // namespace
 
 Result<std::string> NumberInUnit(std::string_view text, std::string_view unit) {
@@ -53,26 +69,6 @@ Result<std::string> NumberInUnit(std::string_view text, std::string_view unit) {
   }
   return NumberText(number * ratio->numerator / ratio->denominator);
 }
-
-namespace {
-
-constexpr const char* kGroupName = "parameter";
-
-// Owned by the module like any element made at run time; the parameters in it belong to the
-// module's C++ object and are gone before the module deletes what it owns.
-FrameworkElement& ParameterGroup(FrameworkElement& module) {
-  if (FrameworkElement* group = module.FindChild(kGroupName)) return *group;
-  return module.runtime().Create<PortGroup>(module, kGroupName);
-}
-
-// What no file can carry could not be saved.
-Result<void> CheckCharacters(std::string_view text) {
-  const std::string fault = UnwritableCharacter(text);
-  if (fault.empty()) return {};
-  return Error{.message = "the value contains " + fault};
-}
-
-}  // namespace
 
 ParameterBase::ParameterBase(FrameworkElement* module, std::string name,
                              internal::ParameterDescription description, const void* default_value)

@@ -23,6 +23,9 @@ std::int64_t Signed(std::uint64_t time) {
   return static_cast<std::int64_t>(std::min(time, kMost));
 }
 
+constexpr std::string_view kSuffix = "_calls";
+constexpr Duration kNoTimeout = std::chrono::hours(24 * 365);
+
 }  // namespace
 
 PlayedValues::PlayedValues(std::unique_ptr<McapReader> reader, std::optional<Duration> from,
@@ -133,13 +136,6 @@ std::optional<Error> PlayedValues::failure() const {
   const std::lock_guard lock(mutex_);
   return failure_;
 }
-
-namespace {
-
-constexpr std::string_view kSuffix = "_calls";
-constexpr Duration kNoTimeout = std::chrono::hours(24 * 365);
-
-}  // namespace
 
 struct PlayedCalls::Service {
   Port* records;

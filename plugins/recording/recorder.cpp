@@ -46,10 +46,6 @@ std::vector<Port*> PortsWithin(FrameworkElement& element) {
   return ports;
 }
 
-std::string NowText() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-}
-
 Result<std::string> ChooseCompression(const std::string& request) {
   if (request.empty()) return Compressions().front();
   const std::string chosen = request == "none" ? "" : request;
@@ -173,7 +169,7 @@ Result<void> Recorder::WriteAbout() {
                                {"clock", is_simulated ? "simulated" : "real"},
                                {"version", about.version},
                                {"ports", ports},
-                               {"started", NowText()}}};
+                               {"started", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}}};
   if (auto written = writer_->AddMetadata(metadata); !written) return written;
   if (about.text.empty()) return {};
   return writer_->AddAttachment({0, 0, kApplicationAttachment, "application/xml", about.text});

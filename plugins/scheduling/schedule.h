@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -126,12 +127,7 @@ struct Schedule {
 
     /// Whether no other thread can be running the element any more; once true it remains so, as
     /// long as a cycle is in a schedule with this entry.
-    [[nodiscard]] bool HasArrived() const noexcept {
-      for (const Before& each : before) {
-        if (!each.HasLeft()) return false;
-      }
-      return true;
-    }
+    [[nodiscard]] bool HasArrived() const noexcept { return std::ranges::all_of(before, &Before::HasLeft); }
   };
 
   std::uint64_t number = 0;     ///< later ones of the same runner have higher numbers

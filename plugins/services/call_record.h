@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
+#include "core/port/output.h"
 #include "plugins/services/service_endpoint.h"
 
 namespace runnel {
@@ -35,14 +37,19 @@ void Describe(TypeBuilder<IndexedArguments<std::index_sequence<index...>, T...>>
 }
 
 template <typename Reply, typename... Arguments>
-void FillRecord(CallRecord<Reply(Arguments...)>& record, const Call<Reply(Arguments...)>& call, CallStatus status) {
-  record.number = call.number;
-  record.status = status;
-  record.begun = call.begun_at;
-  record.asked_to_end = call.asked_to_end_at;
-  record.arguments = call.arguments;
-  if constexpr (!std::is_void_v<Reply>) record.reply = call.reply;
-  record.error = call.error;
+void PublishRecord(Output<CallRecord<Reply(Arguments...)>>& records, const Call<Reply(Arguments...)>& call,
+                   CallStatus status) {
+  if (!records.is_watched()) return;
+  auto record = records.Loan();
+  if (!record) return;
+  record->number = call.number;
+  record->status = status;
+  record->begun = call.begun_at;
+  record->asked_to_end = call.asked_to_end_at;
+  record->arguments = call.arguments;
+  if constexpr (!std::is_void_v<Reply>) record->reply = call.reply;
+  record->error = call.error;
+  records.Publish(std::move(record), call.called_at);
 }
 }  // namespace internal
 

@@ -114,14 +114,8 @@ class Service<Reply(Arguments...)> final : public ServiceBase {
   CallStatus Invoke(CallBase& base, Activity* activity) override {
     auto& call = static_cast<Call<Signature>&>(base);
     const CallStatus status = handler_(call, activity);
-    if (records_.is_watched()) Record(call, status);
+    internal::PublishRecord(records_, call, status);
     return status;
-  }
-  void Record(const Call<Signature>& call, CallStatus status) {
-    auto loan = records_.Loan();
-    if (!loan) return;
-    internal::FillRecord(*loan, call, status);
-    records_.Publish(std::move(loan), call.called_at);
   }
 
   const std::function<CallStatus(Call<Signature>&, Activity*)> handler_;

@@ -142,11 +142,7 @@ class CallRecorderOf final : public CallRecorder {
   CallRecorderOf(FrameworkElement& group, const std::string& service)
       : records_(group, service + "_calls", {.description = "what has come of each call of " + service, .pool = {}}) {}
   void Record(const CallBase& call, CallStatus status) override {
-    if (!records_.is_watched()) return;
-    auto loan = records_.Loan();
-    if (!loan) return;
-    FillRecord(*loan, static_cast<const Call<Signature>&>(call), status);
-    records_.Publish(std::move(loan), call.called_at);
+    PublishRecord(records_, static_cast<const Call<Signature>&>(call), status);
   }
 
  private:

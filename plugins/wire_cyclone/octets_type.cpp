@@ -28,13 +28,6 @@ ddsi_serdata* Make(const ddsi_sertype* type, ddsi_serdata_kind kind, std::shared
   return value;
 }
 
-// Values without keys are all of one instance.
-bool AreOfOneInstance(const ddsi_serdata*, const ddsi_serdata*) { return true; }
-
-std::uint32_t SizeOf(const ddsi_serdata* value) {
-  return static_cast<std::uint32_t>(Of(value).octets->size());
-}
-
 // What has come: pieces that may overlap, of which those before have been taken.
 ddsi_serdata* FromPieces(const ddsi_sertype* type, ddsi_serdata_kind kind, const nn_rdata* piece, std::size_t size) {
   auto octets = std::make_shared<Octets>();
@@ -61,13 +54,6 @@ ddsi_serdata* FromVector(const ddsi_sertype* type, ddsi_serdata_kind kind, ddsrt
   return octets->size() == size ? Make(type, kind, std::move(octets)) : nullptr;
 }
 
-ddsi_serdata* FromKeyHash(const ddsi_sertype* type, const ddsi_keyhash*) {
-  return Make(type, SDK_KEY, std::make_shared<Octets>());
-}
-
-// Nobody writes other values than octets.
-ddsi_serdata* FromSample(const ddsi_sertype*, ddsi_serdata_kind, const void*) { return nullptr; }
-
 void ToOctets(const ddsi_serdata* value, std::size_t begin, std::size_t size, void* to) {
   const Octets& octets = *Of(value).octets;
   const std::size_t there = begin < octets.size() ? std::min(size, octets.size() - begin) : 0;
@@ -81,43 +67,35 @@ ddsi_serdata* LendOctets(const ddsi_serdata* value, std::size_t begin, std::size
   return ddsi_serdata_ref(value);
 }
 
-void TakeBackOctets(ddsi_serdata* value, const ddsrt_iovec_t*) { ddsi_serdata_unref(value); }
-
-bool ToSample(const ddsi_serdata*, void*, void**, void*) { return false; }
-
 ddsi_serdata* WithoutType(const ddsi_serdata* value) {
   ddsi_serdata* const key = Make(value->type, SDK_KEY, std::make_shared<Octets>());
   key->type = nullptr;
   return key;
 }
 
-bool KeyToSample(const ddsi_sertype*, const ddsi_serdata*, void*, void**, void*) { return true; }
-
-void Free(ddsi_serdata* value) { delete static_cast<OctetsValue*>(value); }
-
 std::size_t Print(const ddsi_sertype*, const ddsi_serdata*, char* text, std::size_t) {
   *text = '\0';
   return 0;
 }
 
-void KeyHashOf(const ddsi_serdata*, ddsi_keyhash* hash, bool) { std::memset(hash, 0, sizeof *hash); }
-
 const ddsi_serdata_ops kValueOperations = {
-    .eqkey = AreOfOneInstance,
-    .get_size = SizeOf,
+    // Values without keys are all of one instance.
+    .eqkey = [](const ddsi_serdata*, const ddsi_serdata*) { return true; },
+    .get_size = [](const ddsi_serdata* value) { return static_cast<std::uint32_t>(Of(value).octets->size()); },
     .from_ser = FromPieces,
     .from_ser_iov = FromVector,
-    .from_keyhash = FromKeyHash,
-    .from_sample = FromSample,
+    .from_keyhash = [](const ddsi_sertype* type, const ddsi_keyhash*) { return Make(type, SDK_KEY, std::make_shared<Octets>()); },
+    // Nobody writes other values than octets.
+    .from_sample = [](const ddsi_sertype*, ddsi_serdata_kind, const void*) -> ddsi_serdata* { return nullptr; },
     .to_ser = ToOctets,
     .to_ser_ref = LendOctets,
-    .to_ser_unref = TakeBackOctets,
-    .to_sample = ToSample,
+    .to_ser_unref = [](ddsi_serdata* value, const ddsrt_iovec_t*) { ddsi_serdata_unref(value); },
+    .to_sample = [](const ddsi_serdata*, void*, void**, void*) { return false; },
     .to_untyped = WithoutType,
-    .untyped_to_sample = KeyToSample,
-    .free = Free,
+    .untyped_to_sample = [](const ddsi_sertype*, const ddsi_serdata*, void*, void**, void*) { return true; },
+    .free = [](ddsi_serdata* value) { delete static_cast<OctetsValue*>(value); },
     .print = Print,
-    .get_keyhash = KeyHashOf,
+    .get_keyhash = [](const ddsi_serdata*, ddsi_keyhash* hash, bool) { std::memset(hash, 0, sizeof *hash); },
     .get_sample_size = nullptr,
     .from_iox_buffer = nullptr,
 };

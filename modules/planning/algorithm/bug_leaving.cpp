@@ -27,8 +27,21 @@ bool IsNearAlongTheBoundary(const BugState& state) {
   return std::abs(WayGone(state) - way) < ToleranceOf(way);
 }
 
-bool HasMissedIt(const BugState& state) {
-  return WayGone(state) > 2.0 * (state.way_to_leave_point + kWayTolerance);
+constexpr double kProgress = 0.10;       // m that count as having got on
+constexpr double kMoving = 0.005;        // m or rad in a step, commanded
+constexpr double kStill = 0.0005;        // m or rad in a step
+constexpr double kCrossingReach = 0.15;  // m past a crossing within which it may still leave there
+constexpr double kLineTolerance = 0.08;  // m; a robot that comes so near to the line is on it
+constexpr double kParallel =
+    0.001;  // m in a step by which it comes nearer at least, else it passes
+
+// Commanded to move, and not moving at all. With noise in its poses this cannot be seen.
+bool IsHeld(const BugState& state, const BugInput& input) {
+  const double moved = Distance(Position(state.last_pose), Position(input.pose));
+  const double turned = std::abs(WrapAngle(input.pose.heading - state.last_pose.heading));
+  const double forward = state.last_twist.forward * input.time_step;
+  const double turn = std::abs(state.last_twist.turn) * input.time_step;
+  return forward + turn > kMoving && moved < kStill && turned < kStill;
 }
 
 }  // namespace
@@ -98,7 +111,8 @@ std::optional<Twist2> BugAlgorithm::GoAlongBoundary(BugState& state, const BugIn
     state.is_on_last_stretch = true;
   }
   if (state.is_on_last_stretch) return DriveToPoint(input, *state.leave_point);
-  if (HasMissedIt(state)) {
+  const bool has_missed_it = WayGone(state) > 2.0 * (state.way_to_leave_point + kWayTolerance);
+  if (has_missed_it) {
     state.status.mode = PlannerMode::kFollowingBoundary;
     RestartLap(state, input);
   }
@@ -156,27 +170,6 @@ void BugAlgorithm::RefuseLeavePoint(BugState& state, const BugInput& input) cons
 }
 
 // What the generic algorithm keeps account of, whatever variant it is.
-
-namespace {
-
-constexpr double kProgress = 0.10;       // m that count as having got on
-constexpr double kMoving = 0.005;        // m or rad in a step, commanded
-constexpr double kStill = 0.0005;        // m or rad in a step
-constexpr double kCrossingReach = 0.15;  // m past a crossing within which it may still leave there
-constexpr double kLineTolerance = 0.08;  // m; a robot that comes so near to the line is on it
-constexpr double kParallel =
-    0.001;  // m in a step by which it comes nearer at least, else it passes
-
-// Commanded to move, and not moving at all. With noise in its poses this cannot be seen.
-bool IsHeld(const BugState& state, const BugInput& input) {
-  const double moved = Distance(Position(state.last_pose), Position(input.pose));
-  const double turned = std::abs(WrapAngle(input.pose.heading - state.last_pose.heading));
-  const double forward = state.last_twist.forward * input.time_step;
-  const double turn = std::abs(state.last_twist.turn) * input.time_step;
-  return forward + turn > kMoving && moved < kStill && turned < kStill;
-}
-
-}  // namespace
 
 void BugAlgorithm::Begin(BugState& state, const BugInput& input) const {
   state = BugState{};

@@ -23,6 +23,44 @@ void AddWall(const WallObstacle& wall, Outline& outline) {
   }
 }
 
+constexpr double kArcStep = kPi / 12;
+
+// From one direction counter-clockwise by `turn` to another, both ends included.
+void AddArc(Point2 centre, double radius, double from, double turn, Ring& ring) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(turn / kArcStep)));
+  for (int i = 0; i <= steps; ++i) {
+    ring.push_back(centre + radius * UnitVector(from + turn * i / steps));
+  }
+}
+
+Ring CircleOf(const CylinderObstacle& cylinder) {
+  Ring ring;
+  AddArc(cylinder.centre, cylinder.radius, 0.0, 2 * kPi, ring);
+  ring.pop_back();  // the first again
+  return ring;
+}
+
+// The right-hand side of the way from `before` by `corner` to `after`, where it turns.
+void AddCorner(Point2 before, Point2 corner, Point2 after, double radius, Ring& ring) {
+  const double in = Direction(corner - before), out = Direction(after - corner);
+  const double turn = WrapAngle(out - in);
+  if (turn >= 0) return AddArc(corner, radius, in - kPi / 2, turn, ring);
+  // The inner side of the bend: where the two sides meet, if they are long enough to.
+  const double shortened = radius * std::tan(-turn / 2);
+  if (shortened < std::min(Distance(before, corner), Distance(corner, after))) {
+    const Point2 side = corner + radius * UnitVector(in - kPi / 2);
+    ring.push_back(side - shortened * UnitVector(in));
+    return;
+  }
+  ring.push_back(corner + radius * UnitVector(in - kPi / 2));
+  ring.push_back(corner);
+  ring.push_back(corner + radius * UnitVector(out - kPi / 2));
+}
+
+void AddOutline(Ring points, double height, WorldMap& map, bool is_hole = false) {
+  if (points.size() >= 3) map.outlines.push_back({std::move(points), height, is_hole});
+}
+
 }  // namespace
 
 Outline OutlineOf(const World& world, double bounds_height) {
@@ -64,55 +102,9 @@ BoxObstacle StraightPart(const Segment2& piece, double thickness, double height)
           .height = height};
 }
 
-namespace {
-
-constexpr double kArcStep = kPi / 12;
-
-// From one direction counter-clockwise by `turn` to another, both ends included.
-void AddArc(Point2 centre, double radius, double from, double turn, Ring& ring) {
-  const int steps = std::max(1, static_cast<int>(std::ceil(turn / kArcStep)));
-  for (int i = 0; i <= steps; ++i) {
-    ring.push_back(centre + radius * UnitVector(from + turn * i / steps));
-  }
-}
-
-Ring CircleOf(const CylinderObstacle& cylinder) {
-  Ring ring;
-  AddArc(cylinder.centre, cylinder.radius, 0.0, 2 * kPi, ring);
-  ring.pop_back();  // the first again
-  return ring;
-}
-
-std::vector<Point2> WithoutRepetitions(std::vector<Point2> points) {
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
-
-// The right-hand side of the way from `before` by `corner` to `after`, where it turns.
-void AddCorner(Point2 before, Point2 corner, Point2 after, double radius, Ring& ring) {
-  const double in = Direction(corner - before), out = Direction(after - corner);
-  const double turn = WrapAngle(out - in);
-  if (turn >= 0) return AddArc(corner, radius, in - kPi / 2, turn, ring);
-  // The inner side of the bend: where the two sides meet, if they are long enough to.
-  const double shortened = radius * std::tan(-turn / 2);
-  if (shortened < std::min(Distance(before, corner), Distance(corner, after))) {
-    const Point2 side = corner + radius * UnitVector(in - kPi / 2);
-    ring.push_back(side - shortened * UnitVector(in));
-    return;
-  }
-  ring.push_back(corner + radius * UnitVector(in - kPi / 2));
-  ring.push_back(corner);
-  ring.push_back(corner + radius * UnitVector(out - kPi / 2));
-}
-
-void AddOutline(Ring points, double height, WorldMap& map, bool is_hole = false) {
-  if (points.size() >= 3) map.outlines.push_back({std::move(points), height, is_hole});
-}
-
-}  // namespace
-
 Ring LineRound(const WallObstacle& wall) {
-  const std::vector<Point2> points = WithoutRepetitions(wall.points);
+  std::vector<Point2> points = wall.points;
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   const double radius = wall.thickness / 2;
   if (wall.points.size() < 2) return {};
   if (points.size() == 1) return CircleOf({.centre = points[0], .radius = radius});

@@ -32,6 +32,36 @@ Segment2 MovedRight(const Segment2& segment, double by) {
   return {segment.from + by * right, segment.to + by * right};
 }
 
+/// Ends of pieces that follow each other are as near as that, after the rounding of intersections
+/// at flat angles.
+constexpr double kJoint = 1e-4;  // m
+
+bool AreSame(const BoundaryPiece& a, const BoundaryPiece& b) {
+  return Distance(a.from, b.from) < kJoint && Distance(a.to, b.to) < kJoint &&
+         std::abs(a.length() - b.length()) < kJoint;
+}
+
+/// Where two obstacles share a surface, it has been found twice.
+std::vector<BoundaryPiece> WithoutDoubles(const std::vector<BoundaryPiece>& pieces) {
+  std::vector<BoundaryPiece> single;
+  for (const BoundaryPiece& piece : pieces) {
+    const auto same = [&](const BoundaryPiece& other) { return AreSame(piece, other); };
+    if (std::ranges::none_of(single, same)) single.push_back(piece);
+  }
+  return single;
+}
+
+int RoundCrossings(const BoundaryPiece& piece, const Segment2& segment) {
+  int count = 0;
+  const double radius = Distance(*piece.centre, piece.from);
+  const double first = Direction(piece.from - *piece.centre);
+  const double sweep = internal::Sweep(first, Direction(piece.to - *piece.centre));
+  for (const Point2 point : internal::Meeting(*piece.centre, radius, segment, 0.0)) {
+    if (internal::Sweep(first, Direction(point - *piece.centre)) < sweep) ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 double BoundaryPiece::length() const {
@@ -194,40 +224,6 @@ void ConfigurationSpace::AddPiecesOf(const Circle& circle,
     pieces.push_back({On(circle, middle), On(circle, to), circle.centre});
   }
 }
-
-namespace {
-
-/// Ends of pieces that follow each other are as near as that, after the rounding of intersections
-/// at flat angles.
-constexpr double kJoint = 1e-4;  // m
-
-bool AreSame(const BoundaryPiece& a, const BoundaryPiece& b) {
-  return Distance(a.from, b.from) < kJoint && Distance(a.to, b.to) < kJoint &&
-         std::abs(a.length() - b.length()) < kJoint;
-}
-
-/// Where two obstacles share a surface, it has been found twice.
-std::vector<BoundaryPiece> WithoutDoubles(const std::vector<BoundaryPiece>& pieces) {
-  std::vector<BoundaryPiece> single;
-  for (const BoundaryPiece& piece : pieces) {
-    const auto same = [&](const BoundaryPiece& other) { return AreSame(piece, other); };
-    if (std::ranges::none_of(single, same)) single.push_back(piece);
-  }
-  return single;
-}
-
-int RoundCrossings(const BoundaryPiece& piece, const Segment2& segment) {
-  int count = 0;
-  const double radius = Distance(*piece.centre, piece.from);
-  const double first = Direction(piece.from - *piece.centre);
-  const double sweep = internal::Sweep(first, Direction(piece.to - *piece.centre));
-  for (const Point2 point : internal::Meeting(*piece.centre, radius, segment, 0.0)) {
-    if (internal::Sweep(first, Direction(point - *piece.centre)) < sweep) ++count;
-  }
-  return count;
-}
-
-}  // namespace
 
 std::vector<BoundaryLoop> ConfigurationSpace::Boundaries() const {
   std::vector<BoundaryPiece> all;

@@ -50,7 +50,10 @@ void FileUpdate::Run(XmlElement root) {
   for (const SavedEdge& edge : saving_.edges) {
     if (!edge.is_saved) touched_.insert({edge.from, edge.to});
   }
-  GiveTypes();
+  // A port without a type takes it from its connections: with others it might take another, or none.
+  for (const auto& [tag, port] : untyped_) {
+    if (touched_.contains(port)) editor_.SetAttribute(tag, "type", port->type().name());
+  }
   for (Inside& each : insides_) AppendMissing(each);
   FinishParts();
   AppendLoads(root);
@@ -149,13 +152,6 @@ void FileUpdate::AppendMissing(Inside& inside) {
     for (NewElement& each : known->missing(&inside.tag, inside.element, saving_, this)) {
       editor_.Append(inside.tag, std::move(each));
     }
-  }
-}
-
-// A port without a type takes it from its connections: with others it might take another, or none.
-void FileUpdate::GiveTypes() {
-  for (const auto& [tag, port] : untyped_) {
-    if (touched_.contains(port)) editor_.SetAttribute(tag, "type", port->type().name());
   }
 }
 

@@ -65,7 +65,6 @@ class FileUpdate {
   [[nodiscard]] bool NamesWhatIsGone(XmlElement tag, FrameworkElement& parent) const;
   // … then what has none.
   void AppendMissing(Inside& inside);
-  void GiveTypes();
   void AppendLoads(XmlElement root);
 
   // Groups that other files describe: nothing may be changed there but values of parameters.

@@ -33,6 +33,12 @@ std::string OwnerPath(const FrameworkElement& element) {
   return owner != nullptr ? owner->path() : "/";
 }
 
+// What several have in common names none of them; those are called by their paths.
+const std::string& NameIn(const std::unordered_map<std::string, int>& counts,
+                          const std::string& topic, const std::string& path) {
+  return counts.at(topic) == 1 ? topic : path;
+}
+
 }  // namespace
 
 // What of a structure can be shown, in the order of the tree. Made under the structure lock.
@@ -101,16 +107,6 @@ struct Directory::Search {
   std::vector<std::pair<std::string, DirectoryParameter>> parameters;  // with their topics
   Counts target_topics, shown_topics, parameter_topics;
 };
-
-namespace {
-
-// What several have in common names none of them; those are called by their paths.
-const std::string& NameIn(const std::unordered_map<std::string, int>& counts,
-                          const std::string& topic, const std::string& path) {
-  return counts.at(topic) == 1 ? topic : path;
-}
-
-}  // namespace
 
 Directory::Directory(Runtime& runtime)
     : runtime_(runtime), walk_(runtime), stop_(std::make_shared<const FoxgloveChannel>(StopChannel())) {}

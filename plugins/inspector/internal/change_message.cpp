@@ -13,11 +13,7 @@ namespace runnel::internal {
 namespace {
 
 // Of a Port::Direction, in their order.
-const std::vector<std::string>& DirectionNames() {
-  static const std::vector<std::string> names{"input", "output"};
-  return names;
-}
-
+const std::vector<std::string> kDirectionNames{"input", "output"};
 constexpr std::uint64_t kLargestCount = 1'000'000'000;
 
 // `names`: of the values of T, in their order; the first one is meant where nothing is said.
@@ -103,7 +99,7 @@ constexpr Kind kKinds[] = {
     {"create_group", [](JsonMembers& m) -> Change { return CreateGroup{m.NeedText("path")}; }},
     {"create_port",
      [](JsonMembers& m) -> Change {
-       return CreatePort{m.NeedText("path"), OneOf<Port::Direction>(m, "direction", DirectionNames()),
+       return CreatePort{m.NeedText("path"), OneOf<Port::Direction>(m, "direction", kDirectionNames),
                          m.NeedText("type"), m.Text("description").value_or("")};
      }},
     {"create_parameter",

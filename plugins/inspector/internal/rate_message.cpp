@@ -49,19 +49,6 @@ void AppendThreads(const CountSample& before, const CountSample& now, std::strin
   }
 }
 
-}  // namespace
-
-std::string RateMessage(const CountSample& before, const CountSample& now, double time,
-                        std::vector<ToldRate>& told) {
-  return JsonObjectText([&](JsonObject& json) {
-    json.Add("op", "rates").Add("time", time);
-    AppendPorts(before, now, told, json.Key("ports"));
-    AppendThreads(before, now, json.Key("threads"));
-  });
-}
-
-namespace {
-
 double Microseconds(Duration duration) { return ToSeconds(duration) * 1e6; }
 
 void AddTimes(const TaskTimes& times, JsonObject& json) {
@@ -85,6 +72,15 @@ void AppendLatency(const Latency& latency, std::string& text) {
 }
 
 }  // namespace
+
+std::string RateMessage(const CountSample& before, const CountSample& now, double time,
+                        std::vector<ToldRate>& told) {
+  return JsonObjectText([&](JsonObject& json) {
+    json.Add("op", "rates").Add("time", time);
+    AppendPorts(before, now, told, json.Key("ports"));
+    AppendThreads(before, now, json.Key("threads"));
+  });
+}
 
 std::string ProfileMessage(const Profile& profile, std::optional<Duration> measured) {
   return JsonObjectText([&](JsonObject& json) {

@@ -1,5 +1,6 @@
 #include "plugins/tracing/internal/trace_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <utility>
@@ -64,16 +65,14 @@ void TraceWriter::WriteEvents(KnownThread& known) {
   auto& events = known.thread->track.events();
   for (std::size_t left = events.read_available(); left > 0; --left) {
     const TraceEvent& event = events.front();
-    if (HasName(event) && event.number >= names_.size()) break;
+    using Kind = TraceEvent::Kind;
+    constexpr std::array kNamed{Kind::kUpdate, Kind::kPublication, Kind::kFault, Kind::kArrow};
+    const bool has_name = std::ranges::find(kNamed, event.kind) != kNamed.end();
+    if (has_name && event.number >= names_.size()) break;
     WriteEvent(known, event);
     events.pop();
   }
   TellOfLost(known.track, known.thread->track.TakeLost());
-}
-
-bool TraceWriter::HasName(const TraceEvent& event) {
-  return event.kind == TraceEvent::Kind::kUpdate || event.kind == TraceEvent::Kind::kPublication ||
-         event.kind == TraceEvent::Kind::kFault || event.kind == TraceEvent::Kind::kArrow;
 }
 
 void TraceWriter::WriteEvent(KnownThread& known, const TraceEvent& event) {

@@ -71,7 +71,6 @@ class TraceWriter {
   void CloseFault(KnownThread& known);
   void TellOfLost(int track, std::uint64_t lost);
   // Whether its number is that of a name.
-  [[nodiscard]] static bool HasName(const TraceEvent& event);
 
   TraceFile file_;
   const bool is_simulated_;

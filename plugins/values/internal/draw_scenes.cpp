@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -188,10 +189,6 @@ void AddNumbered(Scene& scene, const ValueView& places, const std::string& name,
   });
 }
 
-bool HasHitsAndLeaves(const TypeInfo& type) {
-  return HasPlaces(type, "hits") && HasPlaces(type, "leaves");
-}
-
 // What a drawing says of one of its items.
 struct Item {
   std::string_view kind;
@@ -209,11 +206,9 @@ Item ItemOf(const ValueView& value) {
   const ValueView kind = value.Field("kind");
   const ValueView colour = value.Field("colour");
   const std::int64_t number = kind.type().enumeration().get(kind.value());
-  std::string_view name;
-  for (const EnumeratorInfo& each : kind.type().enumerators()) {
-    if (each.value == number) name = each.name;
-  }
-  return {name,
+  const auto& names = kind.type().enumerators();
+  const auto named = std::ranges::find(names, number, &EnumeratorInfo::value);
+  return {named == names.end() ? std::string_view() : named->name,
           value.Field("points"),
           {colour.Field("red").number(), colour.Field("green").number(),
            colour.Field("blue").number(), colour.Field("alpha").number()},
@@ -234,14 +229,6 @@ bool HasItems(const TypeInfo& type) {
   return kind != nullptr && kind->type->kind() == TypeKind::kEnumeration && colour != nullptr &&
          HasNumbers(*colour->type, {"red", "green", "blue", "alpha"}) &&
          HasNumbers(*item, {"size"}) && IsText(*item, "text");
-}
-
-void AppendItemLine(const Item& item, std::string& json) {
-  AppendLine(item.points, 0.0, item.colour, json, item.kind == "closed_line", item.size);
-}
-
-void AppendItemText(const Item& item, std::string& json) {
-  AppendLabel(PlaceOf(item.points[0]), item.text, item.size, item.colour, json);
 }
 
 void AppendDrawing(const ValueView& drawing, const DrawnAt& at, std::string& json) {
@@ -272,8 +259,12 @@ void AppendDrawing(const ValueView& drawing, const DrawnAt& at, std::string& jso
                   }
                 }
               }
-              add(entity.Key("lines"), "line", "closed_line", AppendItemLine);
-              add(entity.Key("texts"), "text", "text", AppendItemText);
+              add(entity.Key("lines"), "line", "closed_line", [](const Item& item, std::string& to) {
+                AppendLine(item.points, 0.0, item.colour, to, item.kind == "closed_line", item.size);
+              });
+              add(entity.Key("texts"), "text", "text", [](const Item& item, std::string& to) {
+                AppendLabel(PlaceOf(item.points[0]), item.text, item.size, item.colour, to);
+              });
             });
 }
 
@@ -315,8 +306,9 @@ void AppendWorldMap(const ValueView& map, const DrawnAt& at, std::string& json) 
 }  // namespace
 
 const Drawing kPointDrawing{"point", "SceneUpdate", IsPlace, AppendPoint};
-const Drawing kHitAndLeavePointsDrawing{"hit_and_leave_points", "SceneUpdate", HasHitsAndLeaves,
-                                        AppendHitAndLeavePoints};
+const Drawing kHitAndLeavePointsDrawing{
+    "hit_and_leave_points", "SceneUpdate",
+    [](const TypeInfo& type) { return HasPlaces(type, "hits") && HasPlaces(type, "leaves"); }, AppendHitAndLeavePoints};
 const Drawing kDrawingDrawing{"drawing", "SceneUpdate", HasItems, AppendDrawing};
 const Drawing kWorldMapDrawing{"world_map", "SceneUpdate", HasOutlines, AppendWorldMap};
 

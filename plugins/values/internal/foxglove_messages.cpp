@@ -122,16 +122,6 @@ void AppendSchema(std::string_view type, std::string& json) {
   }
 }
 
-}  // namespace
-
-std::string FoxgloveSchema(std::string_view name) {
-  std::string json;
-  AppendSchema(name, json);
-  return json;
-}
-
-namespace {
-
 void AddHead(JsonObject& message, const DrawnAt& at, std::string_view frame) {
   AppendTime(at.timestamp, message.Key("timestamp"));
   message.Add("frame_id", frame);
@@ -211,6 +201,12 @@ void AppendImage(const ValueView& image, const DrawnAt& at, std::string& json) {
 }
 
 }  // namespace
+
+std::string FoxgloveSchema(std::string_view name) {
+  std::string json;
+  AppendSchema(name, json);
+  return json;
+}
 
 const Drawing kPoseDrawing{"pose", "PoseInFrame", IsPose, AppendPoseInFrame};
 const Drawing kTransformDrawing{"pose", "FrameTransform", IsPose, AppendTransform};

@@ -11,41 +11,6 @@ constexpr double kGreatestPlotHeight = 760.0;  // pixels
 constexpr double kAir = 0.7;                   // m, round all that is shown
 constexpr double kMostGridLines = 60.0;
 
-}  // namespace
-
-std::string Style(std::initializer_list<std::string_view> names_and_values) {
-  std::string style;
-  for (auto at = names_and_values.begin(); at != names_and_values.end(); at += 2) {
-    if (!style.empty()) style += ' ';
-    style += std::string(at[0]) + "=\"" + std::string(at[1]) + "\"";
-  }
-  return style;
-}
-
-Canvas::Canvas(const Extent& extent) : extent_(extent) {
-  extent_.low = extent_.low - Point2{kAir, kAir};
-  extent_.high = extent_.high + Point2{kAir, kAir};
-  const Point2 size = extent_.high - extent_.low;
-  scale_ = std::min(kPlotWidth / size.x, kGreatestPlotHeight / size.y);
-  while (std::max(size.x, size.y) / grid_ > kMostGridLines) grid_ *= 10.0;
-  const double spare = kPlotWidth / scale_ - size.x;  // tall worlds stand in the middle
-  extent_.low.x -= spare / 2;
-  extent_.high.x += spare / 2;
-}
-
-Point2 Canvas::Pixel(Point2 place) const {
-  return {kMargin + scale_ * (place.x - extent_.low.x),
-          kHeader + scale_ * (extent_.high.y - place.y)};
-}
-
-std::vector<Point2> Canvas::Pixels(const std::vector<Point2>& places) const {
-  std::vector<Point2> pixels;
-  for (const Point2 place : places) pixels.push_back(Pixel(place));
-  return pixels;
-}
-
-namespace {
-
 constexpr std::string_view kFloor = "#f6f7f9";
 constexpr std::string_view kObstacle = "#cdd4de";
 constexpr std::string_view kObstacleEdge = "#8d99aa";
@@ -76,52 +41,6 @@ void DrawShapes(const World& world, Canvas& canvas, std::string_view wall_colour
                                  "stroke-width", Decimal(canvas.scale() * wall.thickness + edge)}));
   }
 }
-
-}  // namespace
-
-void DrawFloor(Canvas& canvas) {
-  canvas.svg().Rectangle({kMargin, kHeader}, kPlotWidth, canvas.plot_height(),
-                         Style({"class", "floor", "fill", kFloor}));
-  canvas.svg().OpenGroup(Style({"class", "grid", "stroke", "#e3e7ec", "stroke-width", "1"}));
-  for (double x = canvas.grid() * std::ceil(canvas.extent().low.x / canvas.grid());
-       x <= canvas.extent().high.x; x += canvas.grid()) {
-    canvas.svg().Line(canvas.Pixel({x, canvas.extent().low.y}),
-                      canvas.Pixel({x, canvas.extent().high.y}), "");
-  }
-  for (double y = canvas.grid() * std::ceil(canvas.extent().low.y / canvas.grid());
-       y <= canvas.extent().high.y; y += canvas.grid()) {
-    canvas.svg().Line(canvas.Pixel({canvas.extent().low.x, y}),
-                      canvas.Pixel({canvas.extent().high.x, y}), "");
-  }
-  canvas.svg().CloseGroup();
-}
-
-void DrawObstacles(const World& world, Canvas& canvas) {
-  canvas.svg().OpenGroup(Style({"class", "obstacle-edges", "fill", "none", "stroke", kObstacleEdge,
-                                "stroke-linejoin", "round", "stroke-linecap", "round"}));
-  DrawShapes(world, canvas, kObstacleEdge, 2.4);
-  canvas.svg().CloseGroup();
-  canvas.svg().OpenGroup(Style({"class", "obstacles", "fill", kObstacle, "stroke-linejoin", "round",
-                                "stroke-linecap", "round"}));
-  DrawShapes(world, canvas, kObstacle, 0.0);
-  canvas.svg().CloseGroup();
-  canvas.svg().Rectangle({kMargin, kHeader}, kPlotWidth, canvas.plot_height(),
-                         Style({"fill", "none", "stroke", "#c3cad4", "stroke-width", "1"}));
-}
-
-void DrawScaleBar(Canvas& canvas) {
-  const double y = kHeader + canvas.plot_height() + 24, right = kMargin + kPlotWidth;
-  const double left = right - canvas.scale() * canvas.grid();
-  const std::string style = Style({"stroke", kFaintInk, "stroke-width", "1.5"});
-  canvas.svg().Line({left, y}, {right, y}, style);
-  canvas.svg().Line({left, y - 4}, {left, y + 4}, style);
-  canvas.svg().Line({right, y - 4}, {right, y + 4}, style);
-  canvas.svg().Text(
-      {left - 8, y + 4}, Decimal(canvas.grid(), 0) + " m",
-      Style({"class", "scale", "font-size", "13", "fill", kFaintInk, "text-anchor", "end"}));
-}
-
-namespace {
 
 constexpr double kArrowEvery = 1.6;  // m, where the grid is 1 m
 
@@ -185,6 +104,79 @@ void DrawArrows(const std::vector<PathSample>& path, Canvas& canvas) {
 }
 
 }  // namespace
+
+std::string Style(std::initializer_list<std::string_view> names_and_values) {
+  std::string style;
+  for (auto at = names_and_values.begin(); at != names_and_values.end(); at += 2) {
+    if (!style.empty()) style += ' ';
+    style += std::string(at[0]) + "=\"" + std::string(at[1]) + "\"";
+  }
+  return style;
+}
+
+Canvas::Canvas(const Extent& extent) : extent_(extent) {
+  extent_.low = extent_.low - Point2{kAir, kAir};
+  extent_.high = extent_.high + Point2{kAir, kAir};
+  const Point2 size = extent_.high - extent_.low;
+  scale_ = std::min(kPlotWidth / size.x, kGreatestPlotHeight / size.y);
+  while (std::max(size.x, size.y) / grid_ > kMostGridLines) grid_ *= 10.0;
+  const double spare = kPlotWidth / scale_ - size.x;  // tall worlds stand in the middle
+  extent_.low.x -= spare / 2;
+  extent_.high.x += spare / 2;
+}
+
+Point2 Canvas::Pixel(Point2 place) const {
+  return {kMargin + scale_ * (place.x - extent_.low.x),
+          kHeader + scale_ * (extent_.high.y - place.y)};
+}
+
+std::vector<Point2> Canvas::Pixels(const std::vector<Point2>& places) const {
+  std::vector<Point2> pixels;
+  for (const Point2 place : places) pixels.push_back(Pixel(place));
+  return pixels;
+}
+
+void DrawFloor(Canvas& canvas) {
+  canvas.svg().Rectangle({kMargin, kHeader}, kPlotWidth, canvas.plot_height(),
+                         Style({"class", "floor", "fill", kFloor}));
+  canvas.svg().OpenGroup(Style({"class", "grid", "stroke", "#e3e7ec", "stroke-width", "1"}));
+  for (double x = canvas.grid() * std::ceil(canvas.extent().low.x / canvas.grid());
+       x <= canvas.extent().high.x; x += canvas.grid()) {
+    canvas.svg().Line(canvas.Pixel({x, canvas.extent().low.y}),
+                      canvas.Pixel({x, canvas.extent().high.y}), "");
+  }
+  for (double y = canvas.grid() * std::ceil(canvas.extent().low.y / canvas.grid());
+       y <= canvas.extent().high.y; y += canvas.grid()) {
+    canvas.svg().Line(canvas.Pixel({canvas.extent().low.x, y}),
+                      canvas.Pixel({canvas.extent().high.x, y}), "");
+  }
+  canvas.svg().CloseGroup();
+}
+
+void DrawObstacles(const World& world, Canvas& canvas) {
+  canvas.svg().OpenGroup(Style({"class", "obstacle-edges", "fill", "none", "stroke", kObstacleEdge,
+                                "stroke-linejoin", "round", "stroke-linecap", "round"}));
+  DrawShapes(world, canvas, kObstacleEdge, 2.4);
+  canvas.svg().CloseGroup();
+  canvas.svg().OpenGroup(Style({"class", "obstacles", "fill", kObstacle, "stroke-linejoin", "round",
+                                "stroke-linecap", "round"}));
+  DrawShapes(world, canvas, kObstacle, 0.0);
+  canvas.svg().CloseGroup();
+  canvas.svg().Rectangle({kMargin, kHeader}, kPlotWidth, canvas.plot_height(),
+                         Style({"fill", "none", "stroke", "#c3cad4", "stroke-width", "1"}));
+}
+
+void DrawScaleBar(Canvas& canvas) {
+  const double y = kHeader + canvas.plot_height() + 24, right = kMargin + kPlotWidth;
+  const double left = right - canvas.scale() * canvas.grid();
+  const std::string style = Style({"stroke", kFaintInk, "stroke-width", "1.5"});
+  canvas.svg().Line({left, y}, {right, y}, style);
+  canvas.svg().Line({left, y - 4}, {left, y + 4}, style);
+  canvas.svg().Line({right, y - 4}, {right, y + 4}, style);
+  canvas.svg().Text(
+      {left - 8, y + 4}, Decimal(canvas.grid(), 0) + " m",
+      Style({"class", "scale", "font-size", "13", "fill", kFaintInk, "text-anchor", "end"}));
+}
 
 void DrawPath(const std::vector<PathSample>& path, Canvas& canvas) {
   const std::vector<PathSample> thinned = Thinned(path, canvas.scale());
