@@ -197,11 +197,33 @@ bool CanOverlap(const Codel& codel, const Codel& other) {
 
 }  // namespace
 
-bool Interrupts(const Service& service, const Service& other) {
-  const Property* interrupts = Find(service.properties, PropertyKind::kInterrupts);
-  return interrupts != nullptr && std::ranges::any_of(interrupts->texts, [&](const std::string& name) {
-           return name == "all" || name == other.name;
+bool Names(PropertyKind relation, const Service& service, const Service& other) {
+  const Property* named = Find(service.properties, relation);
+  const bool is_all = relation == PropertyKind::kInterrupts || &service != &other;
+  return named != nullptr && std::ranges::any_of(named->texts, [&](const std::string& name) {
+           return name == other.name || (name == "all" && is_all);
          });
+}
+
+void WarnOfServicesThatNeverStart(const Component& component, Problems& problems) {
+  std::set<const Service*> starting;
+  const auto may_start = [&](const Service* service) {
+    return std::ranges::all_of(component.services, [&](const Service* other) {
+      return !Names(PropertyKind::kAfter, *service, *other) ||
+             (starting.contains(other) && !Names(PropertyKind::kBefore, *service, *other));
+    });
+  };
+  for (std::size_t before = 1; before != starting.size();) {
+    before = starting.size();
+    for (const Service* each : component.services) {
+      if (may_start(each)) starting.insert(each);
+    }
+  }
+  for (const Service* each : component.services) {
+    if (starting.contains(each)) continue;
+    problems.Warn(each->place, std::string(NameOf(each->kind)) + " '" + each->name + "' can never start: it is after what cannot come before it",
+                  "look at its 'after', and at that of the services there");
+  }
 }
 
 std::vector<const Codel*> ConflictingCodels(const Codel& codel) {
