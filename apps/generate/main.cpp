@@ -19,6 +19,7 @@ struct Arguments {
   std::vector<std::string> files = {};
   std::string output = {};
   bool overwrites = false;
+  bool adopts = false;
   std::vector<std::string> settings = {};  // NAME=VALUE, for the template
   std::string dependencies = {};
   bool has_spin_check = false;
@@ -82,10 +83,18 @@ int RunTemplate(const Arguments& arguments, const genom::Description& descriptio
   if (!folder) return Fail(folder.error());
   const auto made = genom::RunTemplate(*folder, genom::DescriptionJson(description), Settings(arguments));
   if (!made) return Fail(made.error());
+  if (made->files.empty()) {
+    return Fail({.message = "template '" + arguments.what + "' makes nothing of this",
+                 .position = {arguments.files.front()},
+                 .hint = "does it describe a component?"});
+  }
   Diagnostics diagnostics;
   const std::string output = arguments.output.empty() ? "." : arguments.output;
   int conflicts = 0;
-  for (const auto& file : genom::WriteFiles(output, made->files, arguments.overwrites, diagnostics)) {
+  const auto what_is_there = arguments.overwrites ? genom::WhatIsThere::kIsOverwritten
+                             : arguments.adopts   ? genom::WhatIsThere::kIsAdopted
+                                                  : genom::WhatIsThere::kIsMerged;
+  for (const auto& file : genom::WriteFiles(output, made->files, what_is_there, diagnostics)) {
     std::cout << file.path << ": " << kWhats[static_cast<std::size_t>(file.what)] << "\n";
     conflicts += file.conflicts;
   }
@@ -96,7 +105,7 @@ int RunTemplate(const Arguments& arguments, const genom::Description& descriptio
     std::vector<std::string> files = description.problems.files();
     files.insert(files.end(), made->sources.begin(), made->sources.end());
     std::string target = output;
-    if (!made->files.empty()) target += "/" + made->files.front().path;
+    target += "/" + made->files.front().path;
     const int failed = WriteText(DependenciesText(target, files), arguments.dependencies);
     if (failed != exit_code::kDone) return failed;
   }
@@ -137,7 +146,10 @@ int main(int count, char** words) {
   program.add_option("-D", arguments.options.definitions, "define a macro")->type_name("NAME[=VALUE]")->allow_extra_args(false);
   program.add_option("-o,--output", arguments.output, "the file, of json; the folder, of others (otherwise this one)")
       ->type_name("PATH");
-  program.add_flag("--overwrite", arguments.overwrites, "also what you have changed");
+  auto* const overwrites = program.add_flag("--overwrite", arguments.overwrites, "also what you have changed");
+  program.add_flag("--adopt", arguments.adopts,
+                   "a component that was not made here: its files stay, later changes of the description are merged into them")
+      ->excludes(overwrites);
   program.add_option("-s,--set", arguments.settings, "for the template")->type_name("NAME=VALUE")->allow_extra_args(false);
   program.add_flag("--spin", arguments.has_spin_check,
                    "of check: have the model checker Spin look for what threads and interruptions can come to");

@@ -201,11 +201,13 @@ std::string ToText(const TypeInfo& type, const void* value, const TextLimits& li
   return writer.Take();
 }
 
+Result<ValueTokens> TokensOf(std::string_view text) { return TextParser(text).ParseAll(); }
+
 Result<void> SetFromText(const TypeInfo& type, std::string_view text, void* value) {
   if (type.kind() == TypeKind::kLeaf) {
     return type.leaf().from_text(type.leaf().needs_quotes ? text : Trimmed(text), value);
   }
-  const auto tokens = TextParser(text).ParseAll();
+  const auto tokens = TokensOf(text);
   if (!tokens) return tokens.error();
   return SetFromTokens(type, tokens->root(), SetLeafFromText, value);
 }

@@ -54,6 +54,9 @@ class ValueTokens {
   std::vector<std::size_t> open_;
 };
 
+/// The tokens of a text in the format of text_format.h. Errors: what is wrong with its form.
+[[nodiscard]] Result<ValueTokens> TokensOf(std::string_view text);
+
 /// Sets a leaf, of which each format has its own idea.
 using LeafReader = Result<void> (*)(const TypeInfo& type, const ValueToken& token, void* value);
 

@@ -78,7 +78,7 @@ class CallCommand {
                      .path = path_,
                      .hint = "of the shape " + (shape.empty() ? "'some words'" : "'" + shape + "'")};
       }
-      const auto set = arguments_ ? SetFromText(*type, *arguments_, call->arguments()) : Result<void>();
+      const auto set = arguments_ ? SetArguments(**callable, *arguments_, *call) : Result<void>();
       if (!set) {
         Error error = set.error();
         error.path = path_;

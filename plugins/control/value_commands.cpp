@@ -1,3 +1,4 @@
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,20 +24,23 @@ Result<void> CheckIsReadable(const Port& port) {
   return Error{.message = "values of type " + port.type().name() + " have no text format", .path = port.path()};
 }
 
-// Of a parameter, as `set` takes it.
-Result<std::string> ValueOf(Runtime& runtime, const std::string& path) {
+// Of a parameter, as `set` takes it. Nothing: the port has had no value yet.
+Result<std::optional<std::string>> ValueOf(Runtime& runtime, const std::string& path) {
   const auto parameter = PathSearch(runtime).Find(path, PathKind::kParameter);
   if (parameter) {
-    if (const auto* const found = dynamic_cast<const Configurable*>(*parameter)) return found->ToText();
+    if (const auto* const found = dynamic_cast<const Configurable*>(*parameter)) return std::optional(found->ToText());
   }
   const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
   if (!found) return parameter ? found.error() : parameter.error();
   const Port& port = **found;
   if (auto readable = CheckIsReadable(port); !readable) return readable.error();
   std::optional<std::string> text;
-  if (VisitShown(port, [&](const void* value, ValueTimes) { text = ToText(port.type(), value); })) return *text;
-  return Error{.message = "nothing has been published there yet", .path = port.path()};
+  (void)VisitShown(port, [&](const void* value, ValueTimes) { text = ToText(port.type(), value); });
+  return text;
 }
+
+// By the machine's clock, for what is published only if somebody looks.
+constexpr std::chrono::milliseconds kWaitsForValue(500);
 
 constexpr TextLimits kUsual{.elements = 12, .text = 120, .all = 16'000};
 constexpr TextLimits kFull{.text = 4'000'000, .all = 4'000'000};
@@ -120,11 +124,13 @@ class Echo {
 
 CommandResult MakeGetCommand(const Request& request, const CommandContext& context) {
   Runtime& runtime = context.application.runtime;
-  return Command(UnderLock(runtime, [&runtime, path = request.arguments[0],
-                                     is_full = request.Has("full")](Answer& answer) -> CommandStep {
+  return Command(UnderLock(runtime, [&runtime, path = request.arguments[0], is_full = request.Has("full"),
+                                     until = std::chrono::steady_clock::now() + kWaitsForValue](Answer& answer) -> CommandStep {
     const auto value = ValueOf(runtime, path);
     if (!value) return Refuse(answer, value.error());
-    answer.Write((is_full ? *value : ReadableNumbers(*value)) + "\n");
+    if (!*value && std::chrono::steady_clock::now() < until) return kLookAgain;
+    if (!*value) return Refuse(answer, {.message = "nothing has been published there yet", .path = path});
+    answer.Write((is_full ? **value : ReadableNumbers(**value)) + "\n");
     return ControlCode::kDone;
   }));
 }

@@ -33,83 +33,6 @@ bool Reach(const States& states, Codel* from, bool Codel::*mark) {
   return has_end;
 }
 
-constexpr double kLongest = 1e9;  // s
-
-// In microseconds, as the clock counts.
-std::int64_t Microseconds(double seconds) {
-  return static_cast<std::int64_t>(std::llround(std::fmin(seconds, kLongest) * 1e6));
-}
-
-void CheckDelay(const Task& task, Problems& problems) {
-  const Property* delay = Find(task.properties, PropertyKind::kDelay);
-  if (delay == nullptr) return;
-  const Property* period = Find(task.properties, PropertyKind::kPeriod);
-  if (period == nullptr) {
-    problems.Add(delay->place, "task '" + task.name + "' has a delay and no period", "say its period, or leave the delay out");
-  } else if (delay->number >= period->number) {
-    problems.Add(delay->place, "the delay of task '" + task.name + "' is not less than its period",
-                 problems.DeclaredAt(period->place));
-  }
-}
-
-// Those that stand in the headers: what codels run in, or yield.
-bool IsUsed(const Component& component, const Type& event) {
-  if (event.name == "ether" && event.Is(TypeKind::kEvent)) return true;
-  return std::ranges::any_of(component.codels(), [&](const Codel* codel) {
-    return std::ranges::find(codel->triggers, &event) != codel->triggers.end() ||
-           std::ranges::find(codel->yields, &event) != codel->yields.end();
-  });
-}
-
-// What the headers in C call like that, nullptr if nothing.
-const Type* FindInHeaders(const Component& component, std::string_view name) {
-  const auto find = [&](const Scope* scope, std::string_view own) -> const Type* {
-    if (scope == nullptr) return nullptr;
-    const auto found = scope->types.find(own);
-    if (found == scope->types.end()) return nullptr;
-    const bool is_event = found->second->Is(TypeKind::kEvent) || found->second->Is(TypeKind::kPauseEvent);
-    return !is_event || IsUsed(component, *found->second) ? found->second : nullptr;
-  };
-  if (!name.starts_with(component.name + "_")) return nullptr;
-  name.remove_prefix(component.name.size() + 1);
-  if (const Type* found = find(component.scope, name)) return found;
-  return name.starts_with("pause_") ? find(component.pause_scope, name.substr(6)) : nullptr;
-}
-
-using Source = ParameterSource;
-
-bool IsPrefix(const std::vector<PathStep>& a, const std::vector<PathStep>& b) {
-  const std::size_t shared = std::min(a.size(), b.size());
-  return std::equal(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(shared), b.begin());
-}
-
-bool Reads(const Parameter& parameter, bool is_of_service) {
-  // What goes into a service is written into the ids.
-  return parameter.direction == (is_of_service ? Direction::kOut : Direction::kIn);
-}
-
-bool Conflict(const Parameter& a, const Parameter& b, bool b_is_of_service = false) {
-  if (a.source != b.source) return false;
-  if (a.source == Source::kPort) return a.port == b.port;
-  if (a.source != Source::kIds || !IsPrefix(a.path, b.path)) return false;
-  return !Reads(a, false) || !Reads(b, b_is_of_service);
-}
-
-bool Conflict(const std::vector<Parameter>& a, const std::vector<Parameter>& b, bool b_is_of_service = false) {
-  return std::ranges::any_of(a, [&](const Parameter& one) {
-    return std::ranges::any_of(b, [&](const Parameter& other) { return Conflict(one, other, b_is_of_service); });
-  });
-}
-
-// Codels of one task never overlap; nor do those of the control task, which have none.
-bool CanOverlap(const Codel& codel, const Codel& other) {
-  if (codel.task == other.task) return false;
-  const bool are_activities = codel.task != nullptr && codel.service != nullptr && other.task != nullptr &&
-                              other.service != nullptr;
-  // A service starts when what it interrupts has ended.
-  return !are_activities || !Interrupts(*other.service, *codel.service);
-}
-
 }  // namespace
 
 void BuildStateMachine(const std::vector<Codel*>& codels, States& states, Problems& problems) {
@@ -152,6 +75,29 @@ void CheckStateMachine(const States& states, bool needs_start, Place place, Prob
   }
 }
 
+namespace {
+
+constexpr double kLongest = 1e9;  // s
+
+// In microseconds, as the clock counts.
+std::int64_t Microseconds(double seconds) {
+  return static_cast<std::int64_t>(std::llround(std::fmin(seconds, kLongest) * 1e6));
+}
+
+void CheckDelay(const Task& task, Problems& problems) {
+  const Property* delay = Find(task.properties, PropertyKind::kDelay);
+  if (delay == nullptr) return;
+  const Property* period = Find(task.properties, PropertyKind::kPeriod);
+  if (period == nullptr) {
+    problems.Add(delay->place, "task '" + task.name + "' has a delay and no period", "say its period, or leave the delay out");
+  } else if (delay->number >= period->number) {
+    problems.Add(delay->place, "the delay of task '" + task.name + "' is not less than its period",
+                 problems.DeclaredAt(period->place));
+  }
+}
+
+}  // namespace
+
 void CheckTimes(Component& component, Problems& problems) {
   std::int64_t divisor = 1'000'000;
   const Property* rate = Find(component.properties, PropertyKind::kClockRate);
@@ -172,6 +118,34 @@ void CheckTimes(Component& component, Problems& problems) {
   component.clock_rate = rate != nullptr && rate->number > 0 ? rate->number : static_cast<double>(divisor) * 1e-6;
 }
 
+namespace {
+
+// Those that stand in the headers: what codels run in, or yield.
+bool IsUsed(const Component& component, const Type& event) {
+  if (event.name == "ether" && event.Is(TypeKind::kEvent)) return true;
+  return std::ranges::any_of(component.codels(), [&](const Codel* codel) {
+    return std::ranges::find(codel->triggers, &event) != codel->triggers.end() ||
+           std::ranges::find(codel->yields, &event) != codel->yields.end();
+  });
+}
+
+// What the headers in C call like that, nullptr if nothing.
+const Type* FindInHeaders(const Component& component, std::string_view name) {
+  const auto find = [&](const Scope* scope, std::string_view own) -> const Type* {
+    if (scope == nullptr) return nullptr;
+    const auto found = scope->types.find(own);
+    if (found == scope->types.end()) return nullptr;
+    const bool is_event = found->second->Is(TypeKind::kEvent) || found->second->Is(TypeKind::kPauseEvent);
+    return !is_event || IsUsed(component, *found->second) ? found->second : nullptr;
+  };
+  if (!name.starts_with(component.name + "_")) return nullptr;
+  name.remove_prefix(component.name.size() + 1);
+  if (const Type* found = find(component.scope, name)) return found;
+  return name.starts_with("pause_") ? find(component.pause_scope, name.substr(6)) : nullptr;
+}
+
+}  // namespace
+
 void WarnOfCodelNames(const Component& component, Problems& problems) {
   if (TextOf(component.properties, PropertyKind::kLanguage, "c") != "c") return;
   std::vector<std::string_view> told;
@@ -185,11 +159,71 @@ void WarnOfCodelNames(const Component& component, Problems& problems) {
   }
 }
 
-bool Interrupts(const Service& service, const Service& other) {
-  const Property* interrupts = Find(service.properties, PropertyKind::kInterrupts);
-  return interrupts != nullptr && std::ranges::any_of(interrupts->texts, [&](const std::string& name) {
-           return name == "all" || name == other.name;
+namespace {
+
+using Source = ParameterSource;
+
+bool IsPrefix(const std::vector<PathStep>& a, const std::vector<PathStep>& b) {
+  const std::size_t shared = std::min(a.size(), b.size());
+  return std::equal(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(shared), b.begin());
+}
+
+bool Reads(const Parameter& parameter, bool is_of_service) {
+  // What goes into a service is written into the ids.
+  return parameter.direction == (is_of_service ? Direction::kOut : Direction::kIn);
+}
+
+bool Conflict(const Parameter& a, const Parameter& b, bool b_is_of_service = false) {
+  if (a.source != b.source) return false;
+  if (a.source == Source::kPort) return a.port == b.port;
+  if (a.source != Source::kIds || !IsPrefix(a.path, b.path)) return false;
+  return !Reads(a, false) || !Reads(b, b_is_of_service);
+}
+
+bool Conflict(const std::vector<Parameter>& a, const std::vector<Parameter>& b, bool b_is_of_service = false) {
+  return std::ranges::any_of(a, [&](const Parameter& one) {
+    return std::ranges::any_of(b, [&](const Parameter& other) { return Conflict(one, other, b_is_of_service); });
+  });
+}
+
+// Codels of one task never overlap; nor do those of the control task, which have none.
+bool CanOverlap(const Codel& codel, const Codel& other) {
+  if (codel.task == other.task) return false;
+  const bool are_activities = codel.task != nullptr && codel.service != nullptr && other.task != nullptr &&
+                              other.service != nullptr;
+  // A service starts when what it interrupts has ended.
+  return !are_activities || !Interrupts(*other.service, *codel.service);
+}
+
+}  // namespace
+
+bool Names(PropertyKind relation, const Service& service, const Service& other) {
+  const Property* named = Find(service.properties, relation);
+  const bool is_all = relation == PropertyKind::kInterrupts || &service != &other;
+  return named != nullptr && std::ranges::any_of(named->texts, [&](const std::string& name) {
+           return name == other.name || (name == "all" && is_all);
          });
+}
+
+void WarnOfServicesThatNeverStart(const Component& component, Problems& problems) {
+  std::set<const Service*> starting;
+  const auto may_start = [&](const Service* service) {
+    return std::ranges::all_of(component.services, [&](const Service* other) {
+      return !Names(PropertyKind::kAfter, *service, *other) ||
+             (starting.contains(other) && !Names(PropertyKind::kBefore, *service, *other));
+    });
+  };
+  for (std::size_t before = 1; before != starting.size();) {
+    before = starting.size();
+    for (const Service* each : component.services) {
+      if (may_start(each)) starting.insert(each);
+    }
+  }
+  for (const Service* each : component.services) {
+    if (starting.contains(each)) continue;
+    problems.Warn(each->place, std::string(NameOf(each->kind)) + " '" + each->name + "' can never start: it is after what cannot come before it",
+                  "look at its 'after', and at that of the services there");
+  }
 }
 
 std::vector<const Codel*> ConflictingCodels(const Codel& codel) {

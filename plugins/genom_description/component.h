@@ -47,6 +47,7 @@ struct Port {
   Type* type = nullptr;
   Type* entry = nullptr;  ///< its name in the scope of the component
   std::string doc = {};
+  std::string interface = {};  ///< that it is of; "": the component's own
 };
 
 /// A service of others that the component calls.

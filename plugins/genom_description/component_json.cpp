@@ -117,6 +117,15 @@ Json Texts(const Properties& properties, PropertyKind kind) {
   return found == nullptr ? Json::array() : Json(found->texts);
 }
 
+// The services that one interrupts, or is before or after.
+Json Named(PropertyKind relation, const Service& service) {
+  Json names = Json::array();
+  for (const Service* each : service.component->services) {
+    if (Names(relation, service, *each)) names.push_back(each->name);
+  }
+  return names;
+}
+
 Json Interfaces(const Properties& properties, PropertyKind kind) {
   Json names = Json::array();
   if (const Property* found = Find(properties, kind)) {
@@ -195,7 +204,7 @@ Json JsonWriter::TaskJson(const Task& task) const {
 
 Json JsonWriter::PortJson(const Port& port) const {
   return {{"name", port.name}, {"place", PlaceJson(port.place)}, {"doc", port.doc},
-          {"direction", port.is_input ? "in" : "out"}, {"is_multiple", port.is_multiple}, {"type", Reference(port.type)}};
+          {"interface", port.interface}, {"direction", port.is_input ? "in" : "out"}, {"is_multiple", port.is_multiple}, {"type", Reference(port.type)}};
 }
 
 Json JsonWriter::ServiceJson(const Service& service) const {
@@ -207,12 +216,9 @@ Json JsonWriter::ServiceJson(const Service& service) const {
   json["variables"] = Parameters(service.parameters, true);
   json["throws"] = task == nullptr ? Exceptions({&service.properties, &service.component->properties})
                                    : Exceptions({&service.properties, &task->properties, &service.component->properties});
-  json["interrupts"] = Json::array();
-  for (const Service* each : service.component->services) {
-    if (Interrupts(service, *each)) json["interrupts"].push_back(each->name);
-  }
-  json["before"] = Texts(service.properties, PropertyKind::kBefore);
-  json["after"] = Texts(service.properties, PropertyKind::kAfter);
+  json["interrupts"] = Named(PropertyKind::kInterrupts, service);
+  json["before"] = Named(PropertyKind::kBefore, service);
+  json["after"] = Named(PropertyKind::kAfter, service);
   json["states"] = Json::object();
   for (const auto& [state, codel] : service.states) json["states"][state] = codel->name;
   json["codels"] = Json::array();

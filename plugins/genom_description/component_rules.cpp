@@ -24,6 +24,7 @@ Component* ComponentRules::Open(const Token& name, bool is_interface) {
     DeclareStandardEvents(component);
   }
   current_->is_open = true;
+  is_codel_left_out_ = false;
   const PropertyOwner owner = is_interface ? PropertyOwner::kInterface : PropertyOwner::kComponent;
   for (const Property& each : for_all_) AddProperty(current_->properties, each, owner, problems_);
   if (!is_interface) {
@@ -248,9 +249,10 @@ void ComponentRules::CheckNames(const Service& service) {
 void ComponentRules::Close() {
   Component& component = *current_;
   const bool is_complete = !component.is_interface;
+  const bool has_machines = is_complete && !is_codel_left_out_;
   for (Task* each : component.tasks) {
     BuildStateMachine(CodelsOf(each->properties), each->states, problems_);
-    if (is_complete) CheckStateMachine(each->states, false, each->place, problems_);
+    if (has_machines) CheckStateMachine(each->states, false, each->place, problems_);
   }
   for (Service* each : component.services) {
     CheckNames(*each);
@@ -259,11 +261,14 @@ void ComponentRules::Close() {
     if (each->task() == nullptr) {
       problems_.Add(each->place, "activity '" + each->name + "' runs in no task", "say in which: task NAME;");
     }
-    CheckStateMachine(each->states, true, each->place, problems_);
+    if (has_machines) CheckStateMachine(each->states, true, each->place, problems_);
   }
   CheckTimes(component, problems_);
-  if (is_complete) CheckAsyncCodels(component, problems_);
-  if (is_complete) WarnOfCodelNames(component, problems_);
+  if (is_complete) {
+    CheckAsyncCodels(component, problems_);
+    WarnOfCodelNames(component, problems_);
+    WarnOfServicesThatNeverStart(component, problems_);
+  }
   component.is_open = false;
   current_ = nullptr;
   description_.scopes.Leave();

@@ -47,6 +47,8 @@ class ComponentRules {
   Type* Event(const Token& name, bool is_pause);
   /// A codel with parameters in the given locals; nullptr if it contradicts one of the same name.
   Codel* MakeCodel(Codel codel);
+  /// A codel has been left out, so that nobody knows how state machines were meant.
+  void LeaveCodelOut() { is_codel_left_out_ = true; }
   /// Finds what a parameter of a codel stands for. `has_source_name`: its path begins with a name in the source.
   [[nodiscard]] bool Resolve(Parameter& parameter, const std::vector<Parameter>& locals);
 
@@ -69,6 +71,7 @@ class ComponentRules {
   Description& description_;
   Problems& problems_;
   Component* current_ = nullptr;
+  bool is_codel_left_out_ = false;  // of the current one
   Properties for_all_ = {};
   std::vector<Component*> provided_by_all_ = {};
   std::map<std::string, Codel*, std::less<>> codels_ = {};  // the first of each name
@@ -83,6 +86,8 @@ void CheckStateMachine(const std::map<std::string, Codel*, std::less<>>& states,
 void CheckTimes(Component& component, Problems& problems);
 /// Of codels whose names the headers in C have for something else.
 void WarnOfCodelNames(const Component& component, Problems& problems);
+/// Of services that must come after others which cannot come before.
+void WarnOfServicesThatNeverStart(const Component& component, Problems& problems);
 /// Asynchronous codels exclude nothing.
 void CheckAsyncCodels(const Component& component, Problems& problems);
 
@@ -94,7 +99,11 @@ void CheckAsyncCodels(const Component& component, Problems& problems);
 /// The codels that must not run while a service's parameters are set or read.
 [[nodiscard]] std::vector<const Codel*> ConflictingCodels(const Service& service);
 
-/// Whether a service interrupts another of its component.
-[[nodiscard]] bool Interrupts(const Service& service, const Service& other);
+/// Whether a service names another of its component among what it interrupts, is before or is after: "all" are all, but it is
+/// not before or after itself by that.
+[[nodiscard]] bool Names(PropertyKind relation, const Service& service, const Service& other);
+[[nodiscard]] inline bool Interrupts(const Service& service, const Service& other) {
+  return Names(PropertyKind::kInterrupts, service, other);
+}
 
 }  // namespace runnel::genom

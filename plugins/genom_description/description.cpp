@@ -26,6 +26,7 @@ std::unique_ptr<Description> ReadBy(const PreprocessorOptions& options, Diagnost
   Preprocessor preprocessor(options, description->problems);
   read(preprocessor);
   description->notice = preprocessor.notice();
+  if (preprocessor.is_given_up()) return description;  // what is missing would only lead to mistakes that are none
   Parser(TokensOf(preprocessor.TakeTokens(), description->problems), *description).Parse();
   CheckTypes(*description);
   return description;

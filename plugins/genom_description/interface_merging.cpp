@@ -40,6 +40,7 @@ void ComponentRules::MergeIds(const Component& interface) {
 void ComponentRules::MergePorts(const Component& interface, bool is_turned) {
   for (const Port* each : interface.ports) {
     Port port = *each;
+    port.interface = interface.name;
     if (is_turned) port.is_input = !port.is_input;
     Properties properties;
     if (!each->doc.empty()) properties.push_back({.kind = PropertyKind::kDoc, .text = each->doc});

@@ -183,6 +183,7 @@ bool Parser::CodelProperty(Property& property, bool is_async, bool is_validate, 
   const bool is_right = ReadCodel(codel, draft);
   reader_.Semicolon();
   property.codel = is_right ? rules_.MakeCodel(std::move(codel)) : nullptr;
+  if (property.codel == nullptr) rules_.LeaveCodelOut();
   return property.codel != nullptr;
 }
 

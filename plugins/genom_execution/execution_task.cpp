@@ -29,7 +29,8 @@ bool ExecutionTask::IsTick(Time now, bool is_forced) noexcept {
     return has_happened;
   }
   if (is_forced) return true;
-  if (!has_begun_) {
+  // No tick lies farther ahead, unless the clock has been set back.
+  if (!has_begun_ || next_tick_ - now > table_.period) {
     has_begun_ = true;
     next_tick_ = now + table_.delay;
   }

@@ -21,6 +21,10 @@ void Outcome::Fail(Event exception, const void* detail, std::size_t size) noexce
   if (detail_size_ > 0) std::memcpy(detail_.data(), detail, detail_size_);
 }
 
+std::array<const char*, 2> Outcome::word_names() const noexcept {
+  return {exception_ == kBadTransition ? "from" : exception_ == kInterrupted ? "by" : "what", "to"};
+}
+
 std::string Outcome::Text(const ComponentTable& component) const {
   if (is_success()) return "";
   for (const ExceptionTable& each : component.exceptions) {
@@ -31,10 +35,9 @@ std::string Outcome::Text(const ComponentTable& component) const {
   std::string_view name = exception_;
   if (name.starts_with("::genom::")) name.remove_prefix(9);
   std::string text(name);
-  const bool is_transition = exception_ == kBadTransition;
-  const char* const first_name = is_transition ? "from" : exception_ == kInterrupted ? "by" : "what";
-  if (words_[0] != nullptr) text += std::string(" {") + first_name + ": " + words_[0];
-  if (words_[1] != nullptr) text += std::string(", to: ") + words_[1];
+  const auto names = word_names();
+  if (words_[0] != nullptr) text += std::string(" {") + names[0] + ": " + words_[0];
+  if (words_[1] != nullptr) text += std::string(", ") + names[1] + ": " + words_[1];
   if (words_[0] != nullptr) text += "}";
   return text;
 }

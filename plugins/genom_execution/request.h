@@ -30,7 +30,9 @@ class Outcome {
   [[nodiscard]] bool is_success() const noexcept { return exception_ == nullptr; }
   [[nodiscard]] Event exception() const noexcept { return exception_; }
   [[nodiscard]] const void* detail() const noexcept { return detail_size_ > 0 ? detail_.data() : nullptr; }
+  /// Of one of the engine: what it has with it, nullptr for nothing, and what that is called.
   [[nodiscard]] const std::array<const char*, 2>& words() const noexcept { return words_; }
+  [[nodiscard]] std::array<const char*, 2> word_names() const noexcept;
   /// "bad_transition {from: go, to: ::courier::halt}". Allocates.
   [[nodiscard]] std::string Text(const ComponentTable& component) const;
 

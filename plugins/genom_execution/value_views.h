@@ -76,7 +76,8 @@ struct BoundedList {
   }
 };
 
-/// `sequence<E>`: owned. Elements beyond the length keep what they own.
+/// `sequence<E>`: owned. Elements beyond the length own nothing, whatever their bytes are: codels in C move elements by
+/// their bytes, and lower the length.
 template <typename E>
 struct OwnedList {
   std::uint32_t maximum = 0;
@@ -92,7 +93,7 @@ struct OwnedList {
   }
   ~OwnedList() {
     if (release == nullptr) return;  // somebody else's
-    std::destroy_n(buffer, maximum);
+    std::destroy_n(buffer, length);
     release(buffer);
   }
   /// False: there is no memory. New elements are empty.
@@ -100,14 +101,14 @@ struct OwnedList {
     if (count > maximum) {
       auto* const grown = static_cast<E*>(std::calloc(count, sizeof(E)));
       if (grown == nullptr) return false;
-      if (maximum > 0) std::memcpy(static_cast<void*>(grown), buffer, maximum * sizeof(E));
-      std::uninitialized_value_construct_n(grown + maximum, count - maximum);
+      if (length > 0) std::memcpy(static_cast<void*>(grown), buffer, length * sizeof(E));
       if (release != nullptr) release(buffer);
       buffer = grown;
       maximum = static_cast<std::uint32_t>(count);
       release = std::free;
     }
-    for (std::size_t i = length; i < count; ++i) Clear(buffer[i]);
+    if (count > length) std::uninitialized_value_construct_n(buffer + length, count - length);
+    if (count < length && release != nullptr) std::destroy_n(buffer + count, length - count);
     length = static_cast<std::uint32_t>(count);
     return true;
   }

@@ -60,6 +60,7 @@ ComponentModule::ComponentModule(const Placement& placement, const genom_executi
            {.service = {.description = "ends all activities, then the component"}}),
       abort_activity(*this, "abort_activity", Engine::AbortService(),
                      {.service = {.description = "interrupts one activity", .arguments = {"id"}},
+                      .required = {"id"},
                       .fill = [](genom_execution::Request& request, auto& arguments) {
                         WithArguments<std::uint32_t>(arguments, [&](std::uint32_t id) { request.abort_id = id; });
                       }}) {
@@ -133,7 +134,7 @@ void ComponentModule::CheckPeriods() const {
 
 void ComponentModule::Update() {
   if (is_broken_.load(std::memory_order_acquire)) {
-    if (has_fault_.load(std::memory_order_relaxed)) throw std::runtime_error(fault_);
+    if (has_fault_.load(std::memory_order_acquire)) throw std::runtime_error(fault_);
     return;
   }
   if (is_settled_) BeginAfresh();
@@ -191,10 +192,11 @@ void ComponentModule::RunOwnTask(std::size_t task, Time time) noexcept {
       if (pass == Pass::kWaiting || (pass == Pass::kIdle && engine_->changes() == changes)) return;
     }
   } catch (...) {
-    if (!has_fault_.exchange(true, std::memory_order_relaxed)) {
+    if (!is_fault_taken_.test_and_set(std::memory_order_relaxed)) {
       fault_ = std::string("task '") + component_.tasks[task].name + "': " + DescribeException();
-      is_broken_.store(true, std::memory_order_release);
+      has_fault_.store(true, std::memory_order_release);
     }
+    is_broken_.store(true, std::memory_order_release);
     own_part_.target.Wake();
   }
 }
@@ -228,7 +230,7 @@ void ComponentModule::EndActivities(Time deadline) {
 
 void ComponentModule::Settle() {
   if (!engine_ || !has_run_ || is_broken_) return;
-  is_settled_ = true;
+  is_settled_ |= !engine_->is_stopping();  // one that was killed stays so
   EndActivities(SteadyClock().Now() + kToSettle);
 }
 

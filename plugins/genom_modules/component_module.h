@@ -202,9 +202,10 @@ class ComponentModule : public Module {
   bool is_settled_ = false;  // it begins afresh if it is run again
   // Codels have run. relaxed: looked at when nothing runs any more.
   std::atomic<bool> has_run_{false};
-  // A codel has thrown, and no other may run. release, acquire: the fault of another thread is there.
+  // A codel has thrown, and no other may run.
   std::atomic<bool> is_broken_{false};
-  std::atomic<bool> has_fault_{false};  // the first one writes it
+  std::atomic_flag is_fault_taken_ = ATOMIC_FLAG_INIT;  // by the first of other threads, which writes it
+  std::atomic<bool> has_fault_{false};  // release, acquire: it is written
   std::string fault_;
 
  public:

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/clock.h"
 #include "core/port/output.h"
@@ -92,17 +93,18 @@ class ComponentServiceBase : public ServiceBase, public ModulePart {
   std::size_t count_ = 0;  // of those under way
 };
 
-/// A service to those who do not know its types: what a call leaves out is as the description says.
+/// A service to those who do not know its types: what a call leaves out is as the description says, or required.
 template <typename Inner>
 class CallableWithDefaults final : public Callable {
  public:
-  /// `defaults`: text of the arguments, "" for none. `are_all_there`: each argument has one.
-  CallableWithDefaults(std::unique_ptr<Inner> inner, std::string defaults, bool are_all_there)
-      : inner_(std::move(inner)), defaults_(std::move(defaults)), are_all_there_(are_all_there) {}
+  /// `defaults`: text of the arguments, "" for none. `required`: those that have none.
+  CallableWithDefaults(std::unique_ptr<Inner> inner, std::string defaults, std::vector<std::string> required)
+      : inner_(std::move(inner)), defaults_(std::move(defaults)), required_(std::move(required)) {}
 
   [[nodiscard]] const TypeInfo* arguments() const override { return inner_->arguments(); }
   [[nodiscard]] const TypeInfo* reply() const override { return inner_->reply(); }
-  [[nodiscard]] bool are_arguments_optional() const override { return are_all_there_; }
+  [[nodiscard]] bool are_arguments_optional() const override { return required_.empty(); }
+  [[nodiscard]] std::vector<std::string> required() const override { return required_; }
   [[nodiscard]] const std::string& description() const override { return inner_->description(); }
   [[nodiscard]] bool is_activity() const override { return inner_->is_activity(); }
   [[nodiscard]] std::unique_ptr<AnyCall> NewCall() override {
@@ -117,7 +119,7 @@ class CallableWithDefaults final : public Callable {
  private:
   const std::unique_ptr<Inner> inner_;
   const std::string defaults_;
-  const bool are_all_there_;
+  const std::vector<std::string> required_;
 };
 
 template <typename Signature>
@@ -137,7 +139,7 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
   struct Options {
     ServiceOptions service = {};
     const char* defaults = "";  ///< of its arguments, in the text format
-    bool has_all_defaults = false;
+    std::vector<std::string> required = {};  ///< names of those that have none
     void (*fill)(genom_execution::Request& request, Pack& arguments) = nullptr;
     void (*take)(genom_execution::Request& request, Answered& reply) = nullptr;
   };
@@ -153,7 +155,7 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
                  {.description = "what has come of each call of " + name, .pool = {}}) {
     auto callable = std::make_unique<CallableWithDefaults<CallableOf<Signature>>>(
         std::make_unique<CallableOf<Signature>>(*this, options.service, is_activity()), options.defaults,
-        options.has_all_defaults);
+        options.required);
     port_.Publish(ServiceLink<Signature>{endpoint_.get()});
     (void)endpoint_.release();  // the channel's from here on
     Open(port_, false);

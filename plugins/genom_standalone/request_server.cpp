@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/nearest_name.h"
 
@@ -14,12 +15,14 @@ using genom_execution::ServiceTable;
 namespace {
 
 constexpr LineServer::Client kNobody = -1;
+constexpr int kDeepest = 100;  // lists and objects inside of one another, which are walked through by recursion
 
 // What the engine's own exceptions have with them.
 Json Words(const genom_execution::Outcome& outcome) {
-  Json words = Json::array();
-  for (const char* each : outcome.words()) {
-    if (each != nullptr) words.push_back(each);
+  Json words = Json::object();
+  const auto names = outcome.word_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (outcome.words()[i] != nullptr) words[names[i]] = outcome.words()[i];
   }
   return words;
 }
@@ -49,11 +52,13 @@ RequestServer::RequestServer(const StandaloneComponent& component, Engine& engin
 
 void RequestServer::Take(LineServer::Client client, const std::string& line) {
   if (line.find_first_not_of(" \t\r") == std::string::npos) return;
-  const Json json = Json::parse(line, nullptr, false);
+  bool is_too_deep = false;
+  const auto keeps = [&](int depth, Json::parse_event_t, Json&) { return !(is_too_deep |= depth > kDeepest); };
+  const Json json = Json::parse(line, keeps, false);
   Json answer = Json::object();
   if (json.is_object() && json.contains("as")) answer["as"] = json["as"];
-  if (!json.is_object()) {
-    answer["error"] = "is no object in JSON";
+  if (!json.is_object() || is_too_deep) {
+    answer["error"] = is_too_deep ? "is nested deeper than " + std::to_string(kDeepest) + " levels" : "is no object in JSON";
     return lines_.Send(client, answer.dump());
   }
   const auto done = Do(client, json);
@@ -103,7 +108,9 @@ Result<std::size_t> RequestServer::FindService(const std::string& name) const {
 Result<Json> RequestServer::Begin(LineServer::Client client, const Json& line) {
   Call call{.client = client, .as = line.contains("as") ? line["as"] : Json(), .service = component_.table.services.size(), .request = nullptr};
   if (line.contains("abort")) {
-    if (!line["abort"].is_number_unsigned()) return Error{.message = "'abort' is the id of an activity"};
+    if (!line["abort"].is_number_unsigned() || line["abort"].get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
+      return Error{.message = "'abort' is the id of an activity"};
+    }
     call.request = std::make_unique<Request>(component_.table, Engine::AbortService());
     call.request->abort_id = line["abort"].get<std::uint32_t>();
   } else {
@@ -147,21 +154,21 @@ Result<void> RequestServer::Fill(const StandaloneService& service, void* data, c
   return {};
 }
 
-Result<StandalonePort*> RequestServer::FindPort(const std::string& name, bool is_to_be_made) {
+Result<std::shared_ptr<StandalonePort>> RequestServer::FindPort(const std::string& name, bool is_to_be_made) {
   const std::string first = name.substr(0, name.find('/'));
   const auto found = std::ranges::find_if(component_.ports, [&](const auto& each) { return each.name == first; });
   if (found == component_.ports.end()) {
     return Error{.message = "there is no port '" + first + "'",
                  .hint = NearestNameHint(first, NamesOf(component_.ports, &StandalonePortEntry::name))};
   }
-  if (found->port != nullptr && first == name) return found->port;
+  if (found->port != nullptr && first == name) return std::shared_ptr<StandalonePort>(std::shared_ptr<void>(), found->port);
   if (found->port != nullptr || first == name) {
     return Error{.message = found->port != nullptr ? "is no multiple port" : "is a multiple port", .path = first,
                  .hint = found->port != nullptr ? "leave out what is behind the /" : "say which: " + first + "/NAME"};
   }
   const std::string element = name.substr(first.size() + 1);
-  if (is_to_be_made && found->ports->is_input()) return &found->ports->Open(element);
-  if (StandalonePort* const port = found->ports->Find(element)) return port;
+  if (is_to_be_made && found->ports->is_input()) return found->ports->Open(element);
+  if (auto port = found->ports->Find(element)) return port;
   return Error{.message = "is not open", .path = name};
 }
 

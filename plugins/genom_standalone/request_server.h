@@ -93,7 +93,8 @@ class RequestServer {
   Result<void> Fill(const StandaloneService& service, void* data, const Json& with);
   Result<Json> Put(const Json& values);
   Result<Json> Get(const Json& name);
-  [[nodiscard]] Result<StandalonePort*> FindPort(const std::string& name, bool is_to_be_made);
+  /// Stays while it is used, though a codel closes it.
+  [[nodiscard]] Result<std::shared_ptr<StandalonePort>> FindPort(const std::string& name, bool is_to_be_made);
   [[nodiscard]] Json State();
   [[nodiscard]] Json Description() const;
   [[nodiscard]] Json Ending(const Call& call) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
@@ -70,21 +71,23 @@ class StandalonePort {
   bool has_newest_ = false;
 };
 
-/// `port multiple`: ports by names, made when they are opened or put to.
+/// `port multiple`: ports by names, made when they are opened or put to; who has one keeps it when it is closed.
 ///
 /// Threads: any.
 class StandaloneMultiplePort {
  public:
   StandaloneMultiplePort(const ValueType& type, bool is_input) : type_(type), is_input_(is_input) {}
 
-  [[nodiscard]] StandalonePort* Find(const std::string& name) {
+  [[nodiscard]] std::shared_ptr<StandalonePort> Find(const std::string& name) {
     const std::lock_guard lock(mutex_);
     const auto found = ports_.find(name);
-    return found != ports_.end() ? &found->second : nullptr;
+    return found != ports_.end() ? found->second : nullptr;
   }
-  [[nodiscard]] StandalonePort& Open(const std::string& name) {
+  std::shared_ptr<StandalonePort> Open(const std::string& name) {
     const std::lock_guard lock(mutex_);
-    return ports_.try_emplace(name, type_, is_input_).first->second;
+    auto& port = ports_[name];
+    if (port == nullptr) port = std::make_shared<StandalonePort>(type_, is_input_);
+    return port;
   }
   bool Close(const std::string& name) {
     const std::lock_guard lock(mutex_);
@@ -96,7 +99,7 @@ class StandaloneMultiplePort {
   const ValueType& type_;
   const bool is_input_;
   std::mutex mutex_;
-  std::map<std::string, StandalonePort> ports_;
+  std::map<std::string, std::shared_ptr<StandalonePort>> ports_;
 };
 
 struct StandaloneParameter {

@@ -23,7 +23,7 @@ struct Plan {
 };
 
 // What becomes of the file, without writing it.
-Plan PlanFor(const fs::path& folder, const GeneratedFile& file, bool overwrites, Diagnostics& diagnostics) {
+Plan PlanFor(const fs::path& folder, const GeneratedFile& file, WhatIsThere what_is_there, Diagnostics& diagnostics) {
   Plan plan{{.path = file.path}, file.text};
   const fs::path path = fs::path(file.path).lexically_normal();
   if (path.empty() || path.is_absolute() || *path.begin() == ".." || *path.begin() == kKeptFolder) {
@@ -37,12 +37,16 @@ Plan PlanFor(const fs::path& folder, const GeneratedFile& file, bool overwrites,
     return plan;
   }
   plan.written.what = What::kReplaced;
-  if (!file.is_kept || overwrites) return plan;
+  if (!file.is_kept || what_is_there == WhatIsThere::kIsOverwritten) return plan;
   const auto base = TextOf(folder / kKeptFolder / file.path);
+  if (!base && what_is_there == WhatIsThere::kIsAdopted) {
+    plan.written.what = What::kSame;
+    return plan;
+  }
   if (!base) {
     diagnostics.Add({.message = "this file is there already, and was made by nothing that is known here",
                      .position = {(folder / file.path).string()},
-                     .hint = "move it away, or have it overwritten"});
+                     .hint = "move it away, or have it adopted or overwritten"});
     return plan;
   }
   if (*base == *before) return plan;  // its user has changed nothing
@@ -122,10 +126,10 @@ void AppendConflict(Merged& merged, const Lines& mine, const Lines& made) {
 
 }  // namespace
 
-std::vector<WrittenFile> WriteFiles(const fs::path& folder, const std::vector<GeneratedFile>& files, bool overwrites,
-                                    Diagnostics& diagnostics) {
+std::vector<WrittenFile> WriteFiles(const fs::path& folder, const std::vector<GeneratedFile>& files,
+                                    WhatIsThere what_is_there, Diagnostics& diagnostics) {
   std::vector<Plan> plans;
-  for (const GeneratedFile& each : files) plans.push_back(PlanFor(folder, each, overwrites, diagnostics));
+  for (const GeneratedFile& each : files) plans.push_back(PlanFor(folder, each, what_is_there, diagnostics));
   std::vector<WrittenFile> written;
   if (!diagnostics.ok()) return written;
   for (std::size_t i = 0; i < files.size(); ++i) {

@@ -22,13 +22,20 @@ struct WrittenFile {
   int conflicts = 0;
 };
 
+/// What becomes of files that belong to the user.
+enum class WhatIsThere {
+  kIsMerged,       ///< with what the template makes now
+  kIsAdopted,      ///< the same; what was not made here stays as it is, and counts as a change of what the template makes now
+  kIsOverwritten
+};
+
 /// Writes files into a folder. One that is the same is left alone, with its time. Of one that is kept, the text as it was
 /// made lies in the folder `.generated`: what its user has changed since is merged with what the template now makes.
 ///
 /// Errors, with nothing written: a kept file that was there before and of which nobody knows how it was made, unless
-/// `overwrites`; a path that leads out of the folder. Errors while writing: that of the file; those before it are written.
+/// `what_is_there` says what becomes of it; a path that leads out of the folder. Errors while writing: that of the file; those before it are written.
 [[nodiscard]] std::vector<WrittenFile> WriteFiles(const std::filesystem::path& folder,
-                                                  const std::vector<GeneratedFile>& files, bool overwrites,
+                                                  const std::vector<GeneratedFile>& files, WhatIsThere what_is_there,
                                                   Diagnostics& diagnostics);
 
 struct Merged {

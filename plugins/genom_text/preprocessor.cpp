@@ -47,7 +47,7 @@ void Preprocessor::ReadToEnd(std::string folder, const std::string& text, const 
   is_at_line_start_ = true;
   ReadLines();
   for (const Condition& each : files_.back().conditions) {
-    problems_.Add(each.place, "this condition has no end", "close it by #endif");
+    if (!is_given_up_) problems_.Add(each.place, "this condition has no end", "close it by #endif");
   }
   if (notice_.empty()) notice_ = lexer().notice();
   files_.pop_back();

@@ -137,6 +137,8 @@ class Preprocessor {
 
   [[nodiscard]] std::vector<TextToken> TakeTokens() { return std::move(tokens_); }
   [[nodiscard]] const std::string& notice() const { return notice_; }
+  /// What was read is not all: a file is missing, or #error was met, which has been told.
+  [[nodiscard]] bool is_given_up() const noexcept { return is_given_up_; }
 
  private:
   static constexpr std::size_t kDeepestInclude = 100;

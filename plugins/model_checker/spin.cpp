@@ -14,9 +14,13 @@ constexpr const char* kModel = "model.pml";
 constexpr int kTimeUp = 124;  // what `timeout` returns
 constexpr int kNoSuchProgram = 127;
 
-// By `timeout`, of Debian's coreutils, which ends all that Spin has started.
+// `timeout`, of Debian's coreutils, ends all that Spin has started. If this process is ended meanwhile, by Ctrl-C or whatever
+// else, `setpriv`, of util-linux, has the shell told, which ends that and takes the folder away.
+constexpr const char* kWatched =
+    R"(timeout "$@" & trap 'kill $!; wait; rm -rf "$PWD"; exit 1' HUP INT TERM; wait $!)";
+
 ProgramOutput Run(const TemporaryFolder& folder, int limit, const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{"timeout", std::to_string(limit), "spin"};
+  std::vector<std::string> words{"setpriv", "--pdeathsig", "TERM", "sh", "-c", kWatched, "sh", std::to_string(limit), "spin"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   auto output = OutputOf({.words = words, .folder = folder.path(), .keeps_complaints = true});
   return output ? *std::move(output) : ProgramOutput{.exit_code = kNoSuchProgram};

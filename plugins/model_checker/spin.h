@@ -21,7 +21,8 @@ struct SpinAnswer {
   std::size_t repeats_from = 0;       ///< from this line on over and over; run.size(): it ends there
 };
 
-/// Has the model checker search a model, in a folder of its own that goes again. Takes a second or more; any thread.
+/// Has the model checker search a model, in a folder of its own that goes again, also if the process or the thread that asked
+/// for it ends meanwhile. Takes a second or more; any thread.
 /// Errors: spin, or the compiler that it needs, is not here; it has not seen everything in this time or in 2 GB; it says
 /// something else.
 [[nodiscard]] Result<SpinAnswer> RunSpin(const std::string& model, const SpinSearch& search);

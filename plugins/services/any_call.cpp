@@ -1,8 +1,12 @@
 #include "plugins/services/any_call.h"
 
+#include <algorithm>
+
 #include "core/element/runtime.h"
 #include "core/paths/path_search.h"
 #include "core/port/port.h"
+#include "core/types/text_format.h"
+#include "core/types/value_tokens.h"
 
 namespace runnel {
 
@@ -16,6 +20,24 @@ Result<Callable*> FindCallable(Runtime& runtime, const std::string& path) {
     hint += (hint.empty() ? "services are " : ", ") + each.path();
   });
   return Error{.message = "is no service", .path = (*found)->path(), .hint = hint};
+}
+
+Result<void> CheckRequired(const Callable& callable, const ValueToken& said) {
+  std::vector<std::string> given;
+  const bool has_names = said.kind == ValueToken::Kind::kStructure;
+  const ValueToken* name = said.First();
+  for (std::size_t i = 0; has_names && i < said.count; i += 2, name = name->Next()->Next()) given.push_back(name->text);
+  for (const std::string& each : callable.required()) {
+    if (std::ranges::find(given, each) != given.end()) continue;
+    return Error{.message = "argument '" + each + "' is not given", .hint = "it has no default: say it"};
+  }
+  return {};
+}
+
+Result<void> SetArguments(const Callable& callable, std::string_view text, AnyCall& call) {
+  auto set = SetFromText(*callable.arguments(), text, call.arguments());
+  if (!set || callable.required().empty()) return set;
+  return CheckRequired(callable, TokensOf(text)->root());
 }
 
 OwnCall::OwnCall(ServiceBase& service, std::unique_ptr<CallSlots> slots)

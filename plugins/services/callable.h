@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/clock.h"
@@ -15,6 +16,7 @@
 namespace runnel {
 
 struct CallRecordBase;
+struct ValueToken;
 class Runtime;
 
 /// One call of a service whose types the caller knows by their descriptions only. Destroyed while it is under way, it
@@ -69,6 +71,8 @@ class Callable : public Annotation {
   [[nodiscard]] virtual const TypeInfo* reply() const = 0;
   /// Whether a call may say nothing: NewCall() has filled in all of them.
   [[nodiscard]] virtual bool are_arguments_optional() const { return false; }
+  /// Names of arguments that a call has to say, as nothing is right if it does not: see SetArguments().
+  [[nodiscard]] virtual std::vector<std::string> required() const { return {}; }
   [[nodiscard]] virtual const std::string& description() const = 0;
   /// Whether calls take long: they report progress, and can be aborted.
   [[nodiscard]] virtual bool is_activity() const = 0;
@@ -81,5 +85,10 @@ class Callable : public Annotation {
 /// What an output's path calls. Under the structure lock. Errors: no such port, with the nearest; it is no service, with those
 /// that are there.
 [[nodiscard]] Result<Callable*> FindCallable(Runtime& runtime, const std::string& path);
+
+/// Sets what a text says of a call's arguments. Errors: as of SetFromText(); one that is required is not there.
+[[nodiscard]] Result<void> SetArguments(const Callable& callable, std::string_view text, AnyCall& call);
+/// The latter alone, of arguments that have come in another form: the tokens of a structure.
+[[nodiscard]] Result<void> CheckRequired(const Callable& callable, const ValueToken& said);
 
 }  // namespace runnel

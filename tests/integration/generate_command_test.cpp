@@ -67,6 +67,25 @@ TEST_F(GenerateCommand, AMissingPackageIsTold) {
   EXPECT_THAT(ended.text, HasSubstr("c.gen:1:1: error: pkg-config knows no package 'no-such-package-anywhere'"));
 }
 
+TEST_F(GenerateCommand, ADescriptionWithoutAComponentIsTold) {
+  const Ended ended = Runnel("generate mappings -o " + (folder_ / "made").string() + " " + Write("t.gen", "typedef double speed;\n"));
+  EXPECT_EQ(ended.code, kBadInput);
+  EXPECT_THAT(ended.text, HasSubstr("t.gen: error: template 'mappings' makes nothing of this; does it describe a component?"));
+}
+
+TEST_F(GenerateCommand, EntersAComponentThatWasNotMadeHere) {
+  const std::string file = Write("c.gen", "component c { task t { codel<start> k() yield ether; }; };\n");
+  std::filesystem::create_directory(folder_ / "codels");
+  const std::string own = Write("codels/c_t_codels.c", "// somebody's\n");
+  const std::string command = " -o " + folder_.path().string() + " " + file;
+  EXPECT_EQ(Runnel("generate skeleton" + command).code, kBadInput);
+  const Ended adopted = Runnel("generate skeleton --adopt" + command);
+  EXPECT_EQ(adopted.code, kDone) << adopted.text;
+  EXPECT_THAT(adopted.text, AllOf(HasSubstr("codels/c_t_codels.c: as it was"), HasSubstr("README.md: new")));
+  EXPECT_EQ(Runnel("generate skeleton" + command).code, kDone) << "it is known by now";
+  EXPECT_EQ(std::filesystem::file_size(own), 14U);
+}
+
 TEST_F(GenerateCommand, MakesWhatTemplatesSay) {
   const std::string file = Write("c.gen", "component c { task t { codel<start> k() yield ether; }; };\n");
   const std::string into = " -o " + (folder_ / "made").string() + " ";

@@ -107,7 +107,11 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
         } else {
           const bool is_enough = has_some || callable->are_arguments_optional();
           if (!is_enough || positional.size() > 1) throw py::type_error("the service wants " + ToText(*callable->arguments(), call->arguments()));
-          if (has_some) FromPython(*callable->arguments(), positional.empty() ? py::handle(named) : py::handle(positional[0]), call->arguments(), false);
+          const py::object said = positional.empty() ? py::object(named) : py::object(positional[0]);
+          if (has_some) FromPython(*callable->arguments(), said, call->arguments(), false);
+          for (const std::string& each : callable->required()) {
+            if (py::isinstance<py::dict>(said) && !said.contains(each)) throw py::type_error("the service wants '" + each + "', too");
+          }
         }
       } catch (...) {
         thrown = std::current_exception();

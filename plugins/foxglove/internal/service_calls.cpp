@@ -14,6 +14,7 @@
 #include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"
 #include "plugins/values/foxglove_channel.h"
+#include "plugins/values/json_reader.h"
 
 namespace runnel::internal {
 
@@ -105,9 +106,9 @@ bool ServiceCalls::TryBegin(Pending& pending) {
   Callable* const callable = *found;
   auto call = callable->NewCall();
   if (const TypeInfo* const type = callable->arguments()) {
-    if (auto set = SetFromMessage(*type, pending.json, call->arguments()); !set) {
-      throw ElementError(set.error().WithPath(pending.path));
-    }
+    auto set = SetFromMessage(*type, pending.json, call->arguments());
+    if (set) set = CheckRequired(*callable, JsonPart::Parse(pending.json)->token());
+    if (!set) throw ElementError(set.error().WithPath(pending.path));
   }
   pending.reply = callable->reply();
   (void)call->Begin(runtime.clock().Now(), kCallTimeout, pending.as_of);

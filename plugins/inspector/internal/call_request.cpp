@@ -90,8 +90,8 @@ class ViewerCall {
     const auto callable = FindCallable(runtime_, path_);
     if (!callable) return callable.error();
     auto call = (*callable)->NewCall();
-    if (const TypeInfo* const type = (*callable)->arguments()) {
-      if (auto set = SetFromText(*type, arguments_, call->arguments()); !set) return set.error();
+    if ((*callable)->arguments() != nullptr) {
+      if (auto set = SetArguments(**callable, arguments_, *call); !set) return set.error();
     }
     reply_ = (*callable)->reply();
     (void)call->Begin(runtime_.clock().Now(), kTimeout, as_of_);

@@ -2,13 +2,20 @@
 
 #include "apps/generate/component_check.h"
 
+#include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 
 #include "plugins/genom_description/description.h"
 #include "plugins/genom_templates/template_run.h"
 #include "plugins/model_checker/spin.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel {
 namespace {
@@ -85,6 +92,35 @@ TEST_F(ComponentCheckTest, CodelsThatConflictAreKeptApartByExclusion) {
   ASSERT_TRUE(answer) << answer.error().ToString();
   ASSERT_FALSE(answer->holds);
   EXPECT_THAT(answer->run.back(), AllOf(HasSubstr("fault test.gen\t"), HasSubstr(" can run at once, and both use ids.")));
+}
+
+// Whether a process called `pan`, or whatever its name is, works somewhere below the folder.
+bool HasProcess(const std::filesystem::path& folder, const std::string& name) {
+  std::error_code error;
+  for (const auto& process : std::filesystem::directory_iterator("/proc", error)) {
+    const auto works_in = std::filesystem::read_symlink(process.path() / "cwd", error).string();
+    const auto program = std::filesystem::read_symlink(process.path() / "exe", error).string();
+    if (works_in.starts_with(folder.string()) && program.find(name) != std::string::npos) return true;
+  }
+  return false;
+}
+
+// Of a search that would take minutes, by whichever signal its process is ended.
+TEST_F(ComponentCheckTest, NothingOfASearchIsLeftWhenItsProcessIsEnded) {
+  for (const int signal : {SIGTERM, SIGKILL}) {
+    const test::TemporaryFolder folder;
+    const pid_t process = fork();
+    if (process == 0) {
+      setenv("TMPDIR", folder.path().c_str(), 1);
+      (void)RunSpin("active [4] proctype p() { int a, b; do :: a++ :: b++ od }", {.options = {"-m1000000"}});
+      _exit(0);
+    }
+    while (!HasProcess(folder.path(), "/pan")) std::this_thread::yield();
+    kill(process, signal);
+    waitpid(process, nullptr, 0);
+    while (HasProcess(folder.path(), "")) std::this_thread::yield();
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  }
 }
 
 TEST_F(ComponentCheckTest, SaysWhatItCouldNotLookAt) {

@@ -1,5 +1,7 @@
 // What mistakes are told: where, what, and the cure.
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "plugins/genom_description/description.h"
@@ -40,6 +42,37 @@ TEST(GenomDiagnosticsTest, PlacesAreThoseOfTheTextAsWritten) {
   EXPECT_THAT(Wrongs("/* over\nlines */ typedef \\\n  unknown a;\n"), HasSubstr("test.gen:3:3"));
   EXPECT_THAT(Wrongs("#define T unknown\n\ntypedef T a;\n"), HasSubstr("test.gen:3:9"));
   EXPECT_THAT(Wrongs("#line 40 \"other.idl\"\ntypedef unknown a;\n"), HasSubstr("other.idl:40:9"));
+}
+
+// What led to it, or from it, is not wrong.
+TEST(GenomDiagnosticsTest, ACodelThatIsLeftOutIsNotMissedByOthers) {
+  const std::string wrongs =
+      WrongsInComponent("ids { double x; };\ntask t {\n codel<start> a() yield go;\n codel<go> b(in y) yield more;\n"
+                        " codel<more> c() yield ether;\n};\nactivity f() { task t; codel<start> d(in z) yield ether; };");
+  EXPECT_THAT(wrongs, AllOf(HasSubstr("there is no 'y'"), HasSubstr("there is no 'z'")));
+  EXPECT_EQ(std::ranges::count(wrongs, '\n'), 2) << wrongs;
+}
+
+TEST(GenomDiagnosticsTest, AMissingIncludeIsToldAndNothingBehindIt) {
+  const std::string wrongs = Wrongs("#ifndef A\n#define A\ncomponent c {\n#include \"missing.gen\"\n};\n#endif\n");
+  EXPECT_THAT(wrongs, HasSubstr("test.gen:4:1: error: there is no file 'missing.gen' to include"));
+  EXPECT_EQ(std::ranges::count(wrongs, '\n'), 1) << wrongs;
+}
+
+TEST(GenomDiagnosticsTest, ServicesThatCanNeverStartAreWarnedOf) {
+  const auto warnings = [](const std::string& items) {
+    Diagnostics diagnostics;
+    (void)genom::ReadDescriptionText("component c {\n" + items + "\n};", "test.gen", {}, diagnostics);
+    EXPECT_TRUE(diagnostics.ok()) << "it is no error: " << diagnostics.ToString();
+    return diagnostics.ToString();
+  };
+  EXPECT_THAT(warnings("function one() { after two; };\nfunction two() { after one; };\nfunction three();"),
+              AllOf(HasSubstr("test.gen:2:10: warning: function 'one' can never start"),
+                    HasSubstr("test.gen:3:10: warning: function 'two' can never start"), Not(HasSubstr("three"))));
+  EXPECT_THAT(warnings("function g() { after g; };"), HasSubstr("function 'g' can never start"));
+  EXPECT_THAT(warnings("function a();\nfunction b() { after a; before a; };"), HasSubstr("function 'b' can never start"));
+  EXPECT_EQ(warnings("function a();\nfunction b() { after a; before c; };\nfunction c() { after all; };\n"
+                     "function d() { before all; };"), "");
 }
 
 TEST(GenomDiagnosticsTest, CodelsWithNamesOfTheHeadersAreWarnedOf) {

@@ -52,6 +52,21 @@ TEST(Passes, OfAPeriodicTaskPauseUntilItsNextTick) {
   EXPECT_EQ(sketch.Trace(), "loop1 loop2");
 }
 
+TEST(Passes, OfAPeriodicTaskBeginAnewWhenTheClockIsSetBack) {
+  Sketch sketch;
+  sketch.AddTask({.name = "drive", .period = 20ms, .delay = 5ms, .states = {{"start", "init", {"pause::start"}}}});
+  sketch.Start();
+  sketch.RunAt(1000s);
+  sketch.RunAt(1000s + 5ms);
+  EXPECT_EQ(sketch.Trace(), "init");
+  sketch.RunAt(10s);
+  EXPECT_EQ(sketch.Trace(), "") << "the first tick is as late as the delay says";
+  sketch.RunAt(10s + 5ms);
+  EXPECT_EQ(sketch.Trace(), "init");
+  sketch.RunAt(10s + 25ms);
+  EXPECT_EQ(sketch.Trace(), "init");
+}
+
 TEST(Passes, OfAPeriodicTaskSeeStartAndStopOnATickOnly) {
   Sketch sketch;
   sketch.AddTask({.name = "drive", .period = 20ms});

@@ -44,6 +44,16 @@ TEST_F(ComponentLifeTest, EndsActivitiesBeforeAnotherTakesItsPlaceAndBeginsAfres
               testing::Not(testing::AnyOf("pending", HasSubstr("interrupted"))));
 }
 
+// Also if another was to take its place, and has not.
+TEST_F(ComponentLifeTest, StaysKilled) {
+  rig.RunCycles(2);
+  EXPECT_EQ(Call("kill"), "done");
+  rig.RunCycles(4);
+  rig.module.FindAnnotation<BeforeHandOver>()->settle();
+  rig.RunCycles(4);
+  EXPECT_THAT(Call("get"), HasSubstr("interrupted {by: kill}"));
+}
+
 TEST_F(ComponentLifeTest, InterruptsActivitiesThatCannotStopWhenItGoes) {
   rig.RunCycles(2);
   const auto tick = Begin("tick", "{turns: 100}");

@@ -38,6 +38,23 @@ TEST_F(ComponentTest, RunsFunctionsWithTheirParameters) {
   EXPECT_FALSE(SetFromText(*ServiceAt("sum").arguments(), "{values: [1, 2, 3, 4, 5]}", call->arguments()));
 }
 
+// Else it would fly with a mass of 0.
+TEST_F(ComponentTest, WantsAllInputsThatHaveNoDefault) {
+  rig.RunCycles(2);
+  const auto said = [&](const std::string& service, const std::string& text) {
+    const auto call = ServiceAt(service).NewCall();
+    const auto set = SetArguments(ServiceAt(service), text, *call);
+    return set ? "" : set.error().message;
+  };
+  EXPECT_EQ(said("set_gain", "{}"), "") << "it has a default";
+  EXPECT_EQ(said("wait", "{}"), "argument 'turns' is not given");
+  EXPECT_EQ(said("wait", "{turns: 1}"), "");
+  EXPECT_EQ(said("sum", "{name: map, total: 1}"), "argument 'values' is not given");
+  EXPECT_EQ(said("abort_activity", "{}"), "argument 'id' is not given");
+  EXPECT_FALSE(ServiceAt("sum").are_arguments_optional());
+  EXPECT_TRUE(ServiceAt("get").are_arguments_optional());
+}
+
 TEST_F(ComponentTest, ReadsAndWritesItsPortsInItsPasses) {
   Port& seen = PortAt("seen");
   auto source = seen.MakeOutput(rig.runtime.root(), "source", {});

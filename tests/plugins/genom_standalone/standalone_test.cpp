@@ -75,9 +75,21 @@ TEST(StandaloneTest, SaysWhatIsWrong) {
   EXPECT_THAT(error(R"({"call":"sum","with":{"vlaues":[]}})"), HasSubstr("there is no input 'vlaues'; did you mean 'values'?"));
   EXPECT_THAT(error(R"({"call":"mark","with":{"which":"rigth","mark":{"level":1},"best":1}})"), HasSubstr("which: there is no 'rigth'"));
   EXPECT_THAT(error(R"({"call":"mark","with":{"which":"left","mark":{"level":300},"best":1}})"), HasSubstr("mark.level: 300 does not fit"));
+  EXPECT_THAT(error(R"({"abort":4294967297})"), HasSubstr("'abort' is the id of an activity"));
+  const std::size_t deep = 200'000;  // that is also given back to who has said it
+  EXPECT_THAT(error(R"({"describe":true,"as":)" + std::string(deep, '[') + std::string(deep, ']') + "}"),
+              HasSubstr("is nested deeper than 100 levels"));
   EXPECT_THAT(error(R"({"put":{"echo":1}})"), HasSubstr("echo: is an output"));
   EXPECT_THAT(error(R"({"get":"each"})"), HasSubstr("each: is a multiple port; say which: each/NAME"));
   EXPECT_THAT(error(R"({"step":-1})"), HasSubstr("is a number of seconds"));
+}
+
+TEST(StandaloneTest, StandardExceptionsHaveTheirDetailsByName) {
+  StandaloneProcess meter(kMeter, {"--stepped"});
+  meter.Say(R"({"as":1,"call":"count","with":{"turns":2}})");
+  meter.Say(R"({"as":2,"kill":true})");
+  EXPECT_EQ(meter.Hear()["as"], 2);
+  EXPECT_EQ(meter.Hear(), Json::parse(R"({"as":1,"failed":"genom::interrupted","detail":{"by":"kill"}})"));
 }
 
 TEST(StandaloneTest, ActivitiesAreInterruptedAndTheEndIsClean) {

@@ -42,14 +42,20 @@ const std::vector<Mapped> kMapped = {
     {"m::grid", "const int32_t @[2][3]", "int32_t @[2][3]"},
     {"m::route", "const m_route *@", "m_route *@"},
     {"m::maybe", "const m_maybe *@", "m_maybe *@"},
-    {"sequence<long, 4>", "const sequence4_int32_t *@", "sequence4_int32_t *@"},
+    {"sequence<long, 4>", "const sequence4_long *@", "sequence4_long *@"},
     {"sequence<double>", "const sequence_double *@", "sequence_double *@"},
     {"sequence<m::point>", "const sequence_m_point *@", "sequence_m_point *@"},
     {"sequence<string<8>, 2>", "const sequence2_string8 *@", "sequence2_string8 *@"},
     {"sequence<string>", "const sequence_string *@", "sequence_string *@"},
-    {"sequence<sequence<octet, 2>, 3>", "const sequence3_sequence2_uint8_t *@", "sequence3_sequence2_uint8_t *@"},
+    {"sequence<sequence<octet, 2>, 3>", "const sequence3_sequence2_octet *@", "sequence3_sequence2_octet *@"},
     {"optional<double>", "const optional_double *@", "optional_double *@"},
     {"optional<m::point>", "const optional_m_point *@", "optional_m_point *@"},
+    {"sequence<short>", "const sequence_short *@", "sequence_short *@"},
+    {"sequence<octet, 3>", "const sequence3_octet *@", "sequence3_octet *@"},
+    {"sequence<unsigned long>", "const sequence_unsigned_long *@", "sequence_unsigned_long *@"},
+    {"sequence<unsigned long long, 2>", "const sequence2_unsigned_long_long *@", "sequence2_unsigned_long_long *@"},
+    {"sequence<boolean>", "const sequence_boolean *@", "sequence_boolean *@"},
+    {"optional<long>", "const optional_long *@", "optional_long *@"},
 };
 
 std::string Named(std::string text, const std::string& name) { return text.replace(text.find('@'), 1, name); }
@@ -118,7 +124,7 @@ void ExpectCompiles(const std::string& description, const std::string& codels,
   const auto output = RunTemplate(RUNNEL_GENOM_TEMPLATE_FOLDER "/mappings", DescriptionJson(*read), {});
   ASSERT_TRUE(output) << output.error().ToString();
   const test::TemporaryFolder folder;
-  (void)WriteFiles(folder.path(), output->files, false, diagnostics);
+  (void)WriteFiles(folder.path(), output->files, WhatIsThere::kIsMerged, diagnostics);
   std::ofstream(folder.path() / "codels.c") << codels;
   for (const std::string& compiler : compilers) {
     const std::string command =
@@ -160,6 +166,51 @@ TEST(CodelSignaturesTest, OfPortsRemotesAndSequences) {
       "  each->data(\"left\", self)->width = 2;\n  each->write(\"left\", self);\n  each->close(\"left\", self);\n"
       "  range->read(\"one\", self);\n  far = range->data(\"one\", self);\n"
       "  return set->call(far ? *far : 0.5, &was, self) == genom_ok ? c_ether : c_ether;\n}\n");
+}
+
+// The original's headers bring what `errno` is.
+TEST(CodelSignaturesTest, NoHeaderIsNeededForErrorsOfTheSystem) {
+  if (!HasCompilers()) GTEST_SKIP() << "there is no compiler";
+  ExpectCompiles("component c { task t { codel<start> go() yield ether; }; };\n",
+                 "#include \"acc.h\"\n#include \"c_c_types.h\"\n"
+                 "genom_event go(const genom_context self)\n{\n  genom_syserr_detail detail = { errno };\n"
+                 "  return detail.code == EAGAIN ? genom_syserr(&detail, self) : c_ether;\n}\n");
+}
+
+// Those of interfaces have the names of both.
+TEST(CodelSignaturesTest, PortsOfInterfacesHaveTheirNames) {
+  if (!HasCompilers()) GTEST_SKIP() << "there is no compiler";
+  const std::string interface = "typedef double turns; interface rotor { port in turns wish; port out turns speed; };\n";
+  const std::string component = " provides rotor; task t { codel<start> go(in wish, out speed) yield ether; }; };\n";
+  ExpectCompiles(interface + "component c {" + component,
+                 "#include \"acc.h\"\n#include \"c_c_types.h\"\n"
+                 "genom_event go(const rotor_wish *wish, const c_speed *speed, const genom_context self)\n{\n"
+                 "  const rotor_speed *same = speed;\n  if (wish->data(self)) *same->data(self) = *wish->data(self);\n"
+                 "  return c_ether;\n}\n");
+  ExpectCompiles(interface + "component c { lang \"c++\";" + component,
+                 "#include \"acc.h\"\n#include \"c_cxx_types.h\"\n"
+                 "genom::event go(rotor::wish &wish, c::speed &speed)\n{\n  rotor::speed &same = speed;\n"
+                 "  same.data() = wish.data();\n  return c::ether;\n}\n",
+                 {"g++ -std=c++11 -x c++"});
+}
+
+// It stands for its detail.
+TEST(CodelSignaturesTest, AnExceptionWithinAnotherOne) {
+  if (!HasCompilers()) GTEST_SKIP() << "there is no compiler";
+  const std::string description =
+      " exception cause { long code; }; exception failed { cause why; sequence<cause, 2> before; };\n"
+      " struct note { cause last; }; ids { note seen; };\n"
+      " function f() { codel f_do(in seen); throw failed; }; };\n";
+  ExpectCompiles("component c {" + description,
+                 "#include \"acc.h\"\n#include \"c_c_types.h\"\n"
+                 "genom_event f_do(const c_note *seen, const genom_context self)\n{\n  c_failed_detail detail;\n"
+                 "  c_cause_detail cause = { 2 };\n  detail.why = seen->last;\n  detail.before._length = 1;\n"
+                 "  detail.before._buffer[0] = cause;\n  return c_failed(&detail, self);\n}\n");
+  ExpectCompiles("component c { lang \"c++\";" + description,
+                 "#include \"acc.h\"\n#include \"c_cxx_types.h\"\n"
+                 "genom::event f_do(const c::note &seen)\n{\n  c::failed failed;\n  failed.detail.why = seen.last;\n"
+                 "  failed.detail.before.push_back(seen.last);\n  if (seen.last.code) throw failed;\n  return genom::ok;\n}\n",
+                 {"g++ -std=c++11 -x c++", "g++ -std=c++20 -x c++"});
 }
 
 // With lang "c++": namespaces, references, exceptions that are thrown.

@@ -15,9 +15,9 @@ using What = WrittenFile::What;
 
 class GeneratedFilesTest : public testing::Test {
  protected:
-  What Write(const std::string& text, bool is_kept, bool overwrites = false) {
+  What Write(const std::string& text, bool is_kept, WhatIsThere what_is_there = WhatIsThere::kIsMerged) {
     diagnostics_ = {};
-    const auto written = WriteFiles(folder_.path(), {{"sub/file.c", text, is_kept}}, overwrites, diagnostics_);
+    const auto written = WriteFiles(folder_.path(), {{"sub/file.c", text, is_kept}}, what_is_there, diagnostics_);
     return written.empty() ? What::kConflict : written[0].what;
   }
   void Change(const std::string& text) { std::ofstream(folder_.path() / "sub/file.c") << text; }
@@ -55,13 +55,23 @@ TEST_F(GeneratedFilesTest, WhatIsThereAndUnknownIsNotTouched) {
   (void)Write("made\n", true);
   EXPECT_THAT(diagnostics_.ToString(), HasSubstr("sub/file.c: error: this file is there already"));
   EXPECT_EQ(Text(), "somebody's\n");
-  EXPECT_EQ(Write("made\n", true, true), What::kReplaced);
+  EXPECT_EQ(Write("made\n", true, WhatIsThere::kIsOverwritten), What::kReplaced);
+}
+
+TEST_F(GeneratedFilesTest, WhatIsAdoptedStaysAndIsMergedWithLaterChanges) {
+  std::filesystem::create_directory(folder_.path() / "sub");
+  Change("head of somebody\nbody of somebody\n");
+  EXPECT_EQ(Write("head\nbody\n", true, WhatIsThere::kIsAdopted), What::kSame);
+  EXPECT_EQ(Text(), "head of somebody\nbody of somebody\n");
+  EXPECT_EQ(Write("head\nbody\n", true), What::kSame) << diagnostics_.ToString();
+  Change("head\nbody of somebody\nfoot\n");
+  EXPECT_EQ(Write("head\nnew\nbody\nfoot\n", true, WhatIsThere::kIsAdopted), What::kConflict) << "it is known by now";
 }
 
 TEST_F(GeneratedFilesTest, NothingIsWrittenOutsideOfTheFolder) {
   for (const char* path : {"../out", "/tmp/out", ".generated/a", "a/../../out", ""}) {
     Diagnostics diagnostics;
-    EXPECT_TRUE(WriteFiles(folder_.path(), {{"good", "a", false}, {path, "a", false}}, true, diagnostics).empty()) << path;
+    EXPECT_TRUE(WriteFiles(folder_.path(), {{"good", "a", false}, {path, "a", false}}, WhatIsThere::kIsOverwritten, diagnostics).empty()) << path;
     EXPECT_FALSE(diagnostics.ok());
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "good")) << "all or nothing";
   }

@@ -57,7 +57,7 @@ TEST(MappingsTest, CodelsInCAndCppCompileAgainstThem) {
   const auto output = RunTemplate(std::string(RUNNEL_GENOM_TEMPLATE_FOLDER) + "/mappings", model, {});
   ASSERT_TRUE(output) << output.error().ToString();
   const test::TemporaryFolder folder;
-  (void)WriteFiles(folder.path(), output->files, false, diagnostics);
+  (void)WriteFiles(folder.path(), output->files, WhatIsThere::kIsMerged, diagnostics);
 
   std::ofstream(folder.path() / "filled.c") << kFilled;
   EXPECT_TRUE(Compiles(folder.path(), "cc -std=c11", "filled.c"));

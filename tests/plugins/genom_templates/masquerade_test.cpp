@@ -29,7 +29,7 @@ std::string ComplaintsAbout(const std::string& native) {
   const auto output = RunTemplate(RUNNEL_GENOM_TEMPLATE_FOLDER "/runnel", DescriptionJson(*description), {});
   if (!output) return output.error().ToString();
   const test::TemporaryFolder folder;
-  (void)WriteFiles(folder.path(), output->files, false, diagnostics);
+  (void)WriteFiles(folder.path(), output->files, WhatIsThere::kIsMerged, diagnostics);
   std::ofstream(folder.path() / "native.h") << "#pragma once\n#include \"core/types/type_of.h\"\n#include <cstdint>\n" << native
                                             << "\ninline void Describe(runnel::TypeBuilder<Native>& type) { type.Name(\"Native\"); }\n";
   std::ofstream(folder.path() / "main.cpp") << "#include <native.h>\n#include \"c_types.h\"\nint main() {}\n";

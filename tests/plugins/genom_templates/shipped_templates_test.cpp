@@ -68,7 +68,7 @@ TEST(SkeletonTest, SignaturesAreThoseOfTheOriginal) {
 TEST(SkeletonTest, MadeAnewItKeepsWhatWasFilledIn) {
   const test::TemporaryFolder folder;
   Diagnostics diagnostics;
-  (void)WriteFiles(folder.path(), FilesOf("skeleton", Described()), false, diagnostics);
+  (void)WriteFiles(folder.path(), FilesOf("skeleton", Described()), WhatIsThere::kIsMerged, diagnostics);
   const auto file = folder.path() / "codels/nav_drive_codels.c";
   std::string text = TextOf(file).value();
   const std::string untouched = "  return nav_step;\n";
@@ -76,7 +76,7 @@ TEST(SkeletonTest, MadeAnewItKeepsWhatWasFilledIn) {
   std::ofstream(file) << text;
   // A parameter and a state more.
   (void)WriteFiles(folder.path(), FilesOf("skeleton", Described(", in boolean fast", " codel<finish> finish(out goal) yield ether;")),
-                   false, diagnostics);
+                   WhatIsThere::kIsMerged, diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.ToString();
   EXPECT_THAT(TextOf(file).value(),
               AllOf(HasSubstr("begin(const m_s *to, m_s *goal, bool fast, const genom_context self)\n{\n"
@@ -86,7 +86,7 @@ TEST(SkeletonTest, MadeAnewItKeepsWhatWasFilledIn) {
   text = TextOf(file).value();
   text.replace(text.find("bool fast"), 9, "int fast");
   std::ofstream(file) << text;
-  const auto written = WriteFiles(folder.path(), FilesOf("skeleton", Described(", in long fast")), false, diagnostics);
+  const auto written = WriteFiles(folder.path(), FilesOf("skeleton", Described(", in long fast")), WhatIsThere::kIsMerged, diagnostics);
   EXPECT_EQ(std::ranges::count(written, WrittenFile::What::kConflict, &WrittenFile::what), 1);
   EXPECT_THAT(TextOf(file).value(), HasSubstr("<<<<<<< yours\n"));
 }

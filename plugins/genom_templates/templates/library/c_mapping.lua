@@ -24,13 +24,18 @@ local basic = {
   float = "float", double = "double",
 }
 
--- The name of a type; of one without a name, one that is made from what it is made of.
+-- The name of a type, what lies in an exception being its detail; of one without a name, one that is made from what it is
+-- made of, in the words of IDL.
 function mapping.type(type)
-  if has(type, "name") then return mapping.name(type.name) end
+  if has(type, "name") then
+    local declared = types[type.name]
+    return mapping.name(type.name) .. (declared and declared.kind == "exception" and "_detail" or "")
+  end
   if basic[type.kind] then return basic[type.kind] end
   if type.kind == "string" then return has(type, "length") and "char" or "char *" end
   if type.kind == "array" then return mapping.type(type.type) end
   local of = mapping.type(type.type)
+  if not has(type.type, "name") and basic[type.type.kind] then of = type.type.kind:gsub(" ", "_") end
   if not has(type.type, "name") and type.type.kind == "string" then
     of = "string" .. (has(type.type, "length") and tostring(type.type.length) or "")
   end

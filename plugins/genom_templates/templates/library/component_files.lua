@@ -3,6 +3,7 @@
 -- Runnel's own headers are found.
 
 return function(component, prefix, own)
+  library("words_of_cxx")(component)
   local variables = {component = component, prefix = prefix, language = library("languages")(component)}
   for _, each in ipairs(own) do file(each[1], component.name .. each[2], variables) end
   file("views.h.in", component.name .. "_views.h", variables)

@@ -15,6 +15,7 @@ local basic = {
 -- A type and the sizes behind what is declared with it.
 local function parts(type)
   if has(type, "name") then
+    if type.kind == "exception" then return mapping.detail(type.name), "" end
     return "::" .. type.name .. (type.kind == "native type" and " *" or ""), ""
   end
   if basic[type.kind] then return basic[type.kind], "" end

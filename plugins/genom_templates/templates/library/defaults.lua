@@ -9,6 +9,17 @@ local numbers = {
   ["unsigned long long"] = true, float = true, double = true, char = true,
 }
 
+local bits = {octet = 8, char = 8, short = 16, ["unsigned short"] = 16, long = 32, ["unsigned long"] = 32}
+
+-- What is out of range, of which `runnel check` warns, is as C makes it.
+local function fitting(kind, number)
+  if not bits[kind] then return number end
+  local range = 1 << bits[kind]
+  local low = math.tointeger(number) % range
+  local is_signed = kind == "short" or kind == "long" or kind == "char"
+  return is_signed and low >= range // 2 and low - range or low
+end
+
 -- What is as in the beginning.
 local function zero(type, is_json)
   local final = execution.declared(type)
@@ -65,8 +76,10 @@ function value(type, initial, is_json)
   if not has(initial, "value") then return nil end
   local constant = initial.value
   if math.type(constant) == "float" then return string.format("%.17g", constant) end
+  if math.type(constant) then constant = fitting(final.kind, constant) end
   if math.type(constant) or constant == true or constant == false then return tostring(constant) end
   if final.kind == "char" then return tostring(constant:byte() or 0) end
+  if final.kind == "string" and has(final, "length") then constant = constant:sub(1, final.length) end
   if final.kind == "enum" then constant = constant:match("([%w_]+)$") end
   return '"' .. constant:gsub('[\\"]', "\\%0") .. '"'
 end

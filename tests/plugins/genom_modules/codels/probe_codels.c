@@ -46,7 +46,7 @@ genom_event do_rest(probe_store_s **store, const probe_echo *echo, const genom_c
   return probe_ether;
 }
 
-genom_event do_sum(const char *name, const sequence4_int32_t *values, int32_t *total, shape_side *which, char **text,
+genom_event do_sum(const char *name, const sequence4_long *values, int32_t *total, shape_side *which, char **text,
                    const genom_context self) {
   (void)self;
   for (uint32_t i = 0; i < values->_length; ++i) *total += values->_buffer[i];

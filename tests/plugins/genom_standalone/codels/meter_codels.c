@@ -52,7 +52,7 @@ genom_event set_mark(const sign *new_mark, const optional_double *new_best, side
   return genom_ok;
 }
 
-genom_event sum_all(const sequence4_int32_t *values, int32_t *total, const char *name, char **text, reading *found,
+genom_event sum_all(const sequence4_long *values, int32_t *total, const char *name, char **text, reading *found,
                     const genom_context self)
 {
   genom_syserr_detail error = { 22 };

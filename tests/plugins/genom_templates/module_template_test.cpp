@@ -1,0 +1,56 @@
+// What template `runnel` makes of descriptions compiles, or is refused by name.
+
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+
+#include "plugins/genom_description/description.h"
+#include "plugins/genom_templates/template_run.h"
+#include "tests/support/temporary_folder.h"
+
+namespace runnel::genom {
+namespace {
+
+using testing::HasSubstr;
+
+Result<TemplateOutput> ModuleOf(const std::string& text) {
+  Diagnostics diagnostics;
+  const auto description = ReadDescriptionText(text, "c.gen", {}, diagnostics);
+  EXPECT_TRUE(diagnostics.ok()) << diagnostics.ToString();
+  return RunTemplate(RUNNEL_GENOM_TEMPLATE_FOLDER "/runnel", DescriptionJson(*description), {});
+}
+
+std::string Refusal(const std::string& text) {
+  const auto output = ModuleOf(text);
+  return output ? "" : output.error().ToString();
+}
+
+TEST(ModuleTemplateTest, ASequenceOfAUnionThatIsAnnounced) {
+  if (std::system("g++ --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "there is no compiler";
+  const auto output = ModuleOf(
+      "union either; typedef sequence<either> many; struct all { many each; };\n"
+      "union either switch (boolean) { case TRUE: long number; case FALSE: double real; };\n"
+      "component c { port in all seen; ids { all last; }; task t { codel<start> k(in seen, out last) yield ether; }; };\n");
+  ASSERT_TRUE(output) << output.error().ToString();
+  const test::TemporaryFolder folder;
+  Diagnostics diagnostics;
+  (void)WriteFiles(folder.path(), output->files, WhatIsThere::kIsMerged, diagnostics);
+  const std::string command = "cd '" + folder.path().string() +
+                              "' && g++ -std=c++20 -fsyntax-only -Wall -Werror -I. -I" RUNNEL_TEST_ROOT " c_module.cpp 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST(ModuleTemplateTest, WordsOfCxxAreNoNames) {
+  EXPECT_THAT(Refusal("component c {\n  ids { long class; }; };\n"),
+              HasSubstr("a member of 'c::ids' cannot be called 'class', which is a word of C++; give it another name"));
+  EXPECT_THAT(Refusal("component c { function f(in long new) { codel g(in new::other); }; };\n"),
+              HasSubstr("c.gen:1:34: a parameter or variable of 'f' cannot be called 'new'"));
+  EXPECT_THAT(Refusal("component c { ids { long x; }; function f() { codel g(in x::this); }; };\n"),
+              HasSubstr("a parameter of codel 'g' cannot be called 'this'"));
+  EXPECT_THAT(Refusal("struct template { long x; }; component c { port in template p; };\n"),
+              HasSubstr("c.gen:1:8: a struct cannot be called 'template'"));
+  EXPECT_EQ(Refusal("module m { struct template { long x; }; }; component c { port in m::template p; };\n"), "") << "m_template";
+}
+
+}  // namespace
+}  // namespace runnel::genom
