@@ -11,6 +11,7 @@
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
 #include "core/plugin/abi_difference.h"
+#include "core/plugin/library_file.h"
 #include "core/plugin/plugin_entry.h"
 
 namespace runnel {
@@ -43,6 +44,7 @@ Error Refusal(const fs::path& file, std::string why, std::string hint = {}) {
 
 // It is never unmapped: types, vtables and strings of it may live on in objects that nobody can count.
 Result<void*> OpenLibrary(const fs::path& file) {
+  if (const auto whole = CheckIsWhole(file); !whole) return Refusal(file, whole.error().message, whole.error().hint);
   // NOW: a missing symbol is an error here, not a crash later. LOCAL: plugins do not see each other.
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (library != nullptr) return library;

@@ -1,11 +1,14 @@
 #include "plugins/application/application_description.h"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "core/base/nearest_name.h"
 #include "core/module/group.h"
 #include "plugins/application_tags/application_tags.h"
+#include "plugins/application_tags/run_description.h"
+#include "plugins/parameters/prepares_anywhere.h"
 
 namespace runnel {
 
@@ -89,7 +92,13 @@ Result<void> ApplicationDescription::AttachForTag(std::string_view tag) {
   return Attach(*known, "<" + std::string(tag) + ">", {});
 }
 
+void ApplicationDescription::BeginTime(bool is_simulated) {
+  if (options_.clock) is_simulated = *options_.clock == SchedulerOptions::ClockKind::kSimulated;
+  if (is_simulated) runtime_.set_clock(beginning_);
+}
+
 bool ApplicationDescription::ReadFrom(const Describe& describe) {
+  BeginTime(false);
   Diagnostics before;
   for (const std::string& each : options_.configurations) configuration_.Load(each, before);
   for (const ApplicationSetting& setting : options_.settings) {
@@ -135,6 +144,7 @@ bool ApplicationDescription::Read(const std::filesystem::path& file) {
     if (!read) return Failed(read.error());
     file_ = std::filesystem::absolute(file).lexically_normal().string();
     text_ = read->text;
+    BeginTime(LivesInSimulatedTime(read->document.root()));
     return Build(&*read);
   });
 }
@@ -145,12 +155,20 @@ bool ApplicationDescription::ReadText(std::string_view text, const std::filesyst
     const auto document = XmlDocument::Parse(std::string(text), name);
     if (!document) return Failed(document.error());
     text_ = text;
+    BeginTime(LivesInSimulatedTime(document->root()));
     return BuildApplication(*document, folder, tools, BuildMode::kConstruct);
   });
 }
 
 void ApplicationDescription::RunChecks(const std::string& model_file) {
-  if (element_ != nullptr) checks_.Run({*element_, diagnostics_, model_file});
+  if (element_ == nullptr) return;
+  checks_.Run({*element_, diagnostics_, model_file});
+  const std::lock_guard lock(runtime_.structure_mutex());
+  element_->Visit([this](FrameworkElement& each) {
+    const bool is_tried = dynamic_cast<PreparesAnywhere*>(&each) != nullptr;
+    const auto good = is_tried ? MakeReady(*element_, each) : Result<void>();
+    if (!good) diagnostics_.Add(good.error());
+  });
 }
 
 bool ApplicationDescription::MakeEmpty(const std::string& name) {

@@ -106,7 +106,9 @@ void ClientConnection::Begin(CommandService& service, TaskGroup& tasks) {
   may_have_request_ = frame->has_value();
   if (!may_have_request_) return;
   if ((*frame)->kind == "at") {
-    if (const auto at = NumberIn<std::int64_t>((*frame)->payload)) asked_ = Time(Duration(*at));
+    const auto at = NumberIn<std::int64_t>((*frame)->payload);
+    if (!at) return Refuse({.message = "a frame 'at' without a time in nanoseconds"});
+    asked_ = Time(Duration(*at));
     return;
   }
   if ((*frame)->kind != "request") {

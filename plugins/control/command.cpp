@@ -1,6 +1,7 @@
 #include "plugins/control/command.h"
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct CommandKind {
 using Needs = CommandKind::Needs;
 
 constexpr std::size_t kMostPatterns = 1000;
+// Options that are either there, as "yes", or not.
+constexpr std::array kFlags{"long", "full", "follow", "yes", "config", "overwrite", "once", "all", "abort"};
 
 const std::vector<CommandKind>& Kinds() {
   static const std::vector<CommandKind> kinds{
@@ -83,10 +86,14 @@ Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
     if (request.arguments[i].empty()) return Error{.message = "'" + kind.name + "': one of its words is empty"};
   }
   for (const auto& [name, value] : request.options) {
-    if (std::ranges::count(kind.options, name) > 0) continue;
-    return Error{.message = "'" + kind.name + "' has no option '" + name + "'",
-                 .hint = NearestNameHint(name, kind.options)};
+    if (std::ranges::count(kind.options, name) == 0) {
+      return Error{.message = "'" + kind.name + "' has no option '" + name + "'", .hint = NearestNameHint(name, kind.options)};
+    }
+    if (value != "yes" && std::ranges::find(kFlags, name) != kFlags.end()) {
+      return Error{.message = "'" + kind.name + "': " + name + " is 'yes' or left out, not '" + value + "'"};
+    }
   }
+  if (!request.body.empty() && kind.name != "change") return Error{.message = "'" + kind.name + "' is one line only"};
   return {};
 }
 

@@ -196,7 +196,9 @@ void ApplicationCommands::Serve() {
 void ApplicationCommands::Begin(const ServiceMessage& request) {
   std::string who, change, whom;
   auto from = CdrReader::Begin(request.message);
-  if (!from || !from->GetText(who) || !from->GetText(change) || !from->GetText(whom)) return;
+  if (!from || !from->GetText(who) || !from->GetText(change) || !from->GetText(whom)) {
+    return Reply(request.id, CommandAnswer::Refused({.message = "the request cannot be read: nothing has been done"}));
+  }
   const std::string own = TextOf(link_.participant().id());
   if (whom.find(own) == std::string::npos) return;
   const Duration now = SteadyClock().Now().time_since_epoch();

@@ -86,6 +86,7 @@ void PublishByHand(const Open& open, const std::string& path, const py::object& 
 
 py::object Call(const Open& open, const std::string& path, double timeout, const py::args& positional,
                 const py::kwargs& named) {
+  if (!positional.empty() && !named.empty()) throw py::type_error("a call has one argument, or arguments by their names");
   const Use use(*open);
   std::shared_ptr<AnyCall> call;
   const TypeInfo* reply = nullptr;

@@ -92,7 +92,7 @@ void PublishFromPython(Port& output, const py::args& positional, const py::kwarg
   std::exception_ptr thrown;
   const auto fill = [&](void* value) -> Result<void> {
     try {
-      if (positional.size() > 1 || (positional.empty() && named.empty())) {
+      if (positional.size() > 1 || positional.empty() == named.empty()) {
         throw py::type_error("publish() takes one value, or fields by their names");
       }
       FromPython(output.type(), positional.empty() ? py::handle(named) : py::handle(positional[0]), value);

@@ -340,6 +340,8 @@ class Remote:
 
     def call(self, path, argument=None, timeout=30.0, **arguments):
         """Calls a service; its reply in the text format. timeout -- s, on the application's clock."""
+        if arguments and argument is not None:
+            raise TypeError("a call has one argument, or arguments by their names")
         words = [text_of(arguments or argument)] if arguments or argument is not None else []
         return self._ask("call", [path, *words], {"timeout": f"{timeout}s"}, besides=timeout).removesuffix("\n")
 

@@ -37,6 +37,7 @@ auto ItemsIn(JsonMembers& members, const std::string& name, const Read& read) {
   for (const JsonPart& each : members.NeedList(name)) {
     JsonMembers item(each);
     items.push_back(read(item));
+    item.RefuseOthers();
     if (item.error()) members.Complain(item.error()->message);
   }
   return items;
@@ -49,6 +50,7 @@ ClientMessage ReadSubscribe(JsonMembers& members) {
 }
 ClientMessage ReadAdvertise(JsonMembers& members) {
   return AdvertiseMessage{ItemsIn(members, "channels", [](JsonMembers& item) {
+    for (const char* each : {"schemaName", "schemaEncoding", "schema"}) (void)item.Find(each);  // the input knows it
     return AdvertiseMessage::Channel{IdIn(item, "id"), item.NeedText("topic"),
                                      item.NeedText("encoding")};
   })};
@@ -113,6 +115,7 @@ Result<ClientMessage> ParseClientMessage(std::string_view text) {
                  .hint = NearestNameHint(*op, NamesOf(kOperations, &Operation::name))};
   }
   ClientMessage message = operation->read(members);
+  members.RefuseOthers();
   if (!members.error()) return message;
   return members.error()->WithContext(*op);
 }

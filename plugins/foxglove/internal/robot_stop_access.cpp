@@ -1,5 +1,7 @@
 #include "plugins/foxglove/internal/robot_stop_access.h"
 
+#include <limits>
+
 #include "plugins/foxglove/internal/foxglove_shared.h"
 #include "plugins/values/json_reader.h"
 #include "plugins/values/json_writer.h"
@@ -11,25 +13,21 @@ namespace {
 constexpr const char* kReplySchema =
     R"({"type":"object","properties":{"success":{"type":"boolean"},"message":{"type":"string"}}})";
 
-std::optional<JsonPart> Member(std::string_view json, std::string_view wanted) {
-  const auto parsed = JsonPart::Parse(json);
-  if (!parsed) return {};
-  for (const auto& [name, value] : parsed->members()) {
-    if (name == wanted) return value;
-  }
-  return *parsed;
-}
-
 // What cannot be read presses: somebody has asked for a STOP.
 bool SaysFalse(std::string_view json) {
-  const auto said = Member(json, "data");
-  return said && said->boolean() == false;
+  const auto said = JsonPart::Parse(json);
+  return said && (said->boolean() == false || JsonMembers(*said).Flag("data") == false);
 }
 
 // A call may have been under way for seconds, and the protocol does not say when it was sent: so it says which STOP it ends.
 CommandAnswer Release(FoxgloveShared& shared, std::string_view json) {
-  const auto said = Member(json, "number");
-  const auto number = said ? said->count() : std::nullopt;
+  std::optional<std::uint64_t> number;
+  if (const auto said = JsonPart::Parse(json)) {
+    JsonMembers members(*said);
+    number = members.Count("number", std::numeric_limits<std::uint64_t>::max());
+    members.RefuseOthers();
+    if (members.error()) return CommandAnswer::Refused(members.error()->WithContext(std::string(kReleaseName)));
+  }
   if (!number) {
     const auto requests = shared.runtime().robot_stop().requests();
     return CommandAnswer::Refused({.message = "say which STOP is meant: {\"number\": " + std::to_string(requests) + "}"});

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
+#include <sstream>
 #include <utility>
 #include <variant>
 
+#include "core/base/nearest_name.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/command_service/save_place.h"
 #include "plugins/values/json_writer.h"
@@ -211,7 +214,7 @@ ViewerRequest BeginCommand(Inspection& inspection, const ViewerMessage& message,
                            CommandOrErrors command, std::function<void()> on_done) {
   const auto request = message.request;
   if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command)) return Answered(Refusal(request, *errors));
-  const std::string copy = message.op == "save" && message.what.empty() ? message.file : "";
+  const std::string copy = message.op == "save" && !message.saves_configuration ? message.file : "";
   const std::shared_ptr<PendingCommand> pending = inspection.service().Begin(
       std::move(std::get<CommandRequest>(command)), inspection.tasks(), std::move(on_done), message.as_of);
   return {pending->task(), [&inspection, request, pending, copy] {
@@ -255,7 +258,7 @@ ViewerRequest Save(Inspection& inspection, ViewerMessage message, std::function<
       CommandRequest(SaveRequest{.file = message.file,
                                  .is_confined = true,
                                  .application_file = inspection.options().file,
-                                 .is_configuration = message.what == "configuration",
+                                 .is_configuration = message.saves_configuration,
                                  .overwrites = message.overwrites}),
       std::move(on_done));
 }
@@ -286,27 +289,28 @@ std::string Refusal(std::optional<std::uint64_t> request, const std::vector<Requ
 std::span<const Operation> AllOperations() {
   using enum WebRole;
   static const std::array all{
-      Operation("watch", kLook, nullptr), Operation("unwatch", kLook, nullptr),
-      Operation("watch_rates", kLook, nullptr), Operation("alive", kLook, nullptr),
-      Operation("compatible", kLook, ByWorker<FindCompatible>),
-      Operation("conversions", kLook, ByWorker<FindConversions>),
+      Operation("watch", kLook, nullptr, "path rate elements as"), Operation("unwatch", kLook, nullptr, "path"),
+      Operation("watch_rates", kLook, nullptr, "rate"), Operation("alive", kLook, nullptr),
+      Operation("compatible", kLook, ByWorker<FindCompatible>, "path"),
+      Operation("conversions", kLook, ByWorker<FindConversions>, "from to"),
       Operation("panel", kLook, ByWorker<ReadPanel>),
       Operation("stop", ByService<MakeDescribed>), Operation("release", ByService<MakeDescribed>),
       Operation("block", ByService<MakeDescribed>), Operation("publish", ByService<MakeDescribed>),
-      Operation("call", BeginCallRequest), Operation("abort", kDrive, ByWorker<AbortCall>),
+      Operation("call", BeginCallRequest, "path value"), Operation("abort", kDrive, ByWorker<AbortCall>, "path"),
       Operation("pause", PauseOrResume), Operation("resume", PauseOrResume),
-      Operation("change", ByService<ReadChanges>), Operation("undo", ByService<MakeDescribed>),
-      Operation("redo", ByService<MakeDescribed>), Operation("save", Save),
-      Operation("save_panel", kChange, ByWorker<SavePanel>), Operation("arrange", kChange, Arrange),
-      Operation("step", AtOnce<SetPace>), Operation("speed", AtOnce<SetPace>),
+      Operation("change", ByService<ReadChanges>, "label changes yes"), Operation("undo", ByService<MakeDescribed>),
+      Operation("redo", ByService<MakeDescribed>), Operation("save", Save, "file what overwrite"),
+      Operation("save_panel", kChange, ByWorker<SavePanel>, "value"), Operation("arrange", kChange, Arrange, "entries"),
+      Operation("step", AtOnce<SetPace>, "cycles"), Operation("speed", AtOnce<SetPace>, "speed"),
       Operation("reload", ByService<MakeDescribed>), Operation("log", ByService<MakeDescribed>),
-      Operation("profile", kChange, ByWorker<SetProfiled>), Operation("latency", kChange, ByWorker<SetLatency>),
-      Operation("preview", kChange, ByWorker<PreviewSave>), Operation("restart", ByService<MakeDescribed>),
+      Operation("profile", kChange, ByWorker<SetProfiled>, "on"), Operation("latency", kChange, ByWorker<SetLatency>, "from to on"),
+      Operation("preview", kChange, ByWorker<PreviewSave>, "file"), Operation("restart", ByService<MakeDescribed>),
       Operation("quit", ByService<MakeDescribed>)};
   return all;
 }
 
-Operation::Operation(std::string_view its_name, Begin its_begin) : Operation(its_name, WebRole::kChange, its_begin) {
+Operation::Operation(std::string_view its_name, Begin its_begin, std::string_view its_fields)
+    : Operation(its_name, WebRole::kChange, its_begin, its_fields) {
   const DescribedRequest& described = *FindRequest(its_name).value();
   role_of_modules = WebRoleNamed(described.role).value();
   role = described.role_of_whole.empty() ? role_of_modules : WebRoleNamed(described.role_of_whole).value();
@@ -315,6 +319,20 @@ Operation::Operation(std::string_view its_name, Begin its_begin) : Operation(its
 const Operation* FindOperation(std::string_view name) {
   const auto found = std::ranges::find(AllOperations(), name, &Operation::name);
   return found == AllOperations().end() ? nullptr : &*found;
+}
+
+Result<void> CheckFields(const Operation& operation, const ViewerMessage& message) {
+  if (operation.name == "stop") return {};
+  std::istringstream words("op request at " + std::string(operation.fields));
+  std::vector<std::string> known(std::istream_iterator<std::string>(words), {});
+  if (const auto described = FindRequest(operation.name)) {
+    for (const RequestField& field : (*described)->fields) known.emplace_back(field.name);
+  }
+  for (const std::string& name : message.fields) {
+    if (std::ranges::find(known, name) != known.end()) continue;
+    return Error{.message = "'" + message.op + "' has no \"" + name + "\"", .hint = NearestNameHint(name, known)};
+  }
+  return {};
 }
 
 WebRole RoleFor(const Operation& operation, const ViewerMessage& message) {

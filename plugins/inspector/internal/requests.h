@@ -37,19 +37,23 @@ struct Operation {
   using Begin = ViewerRequest (*)(Inspection& inspection, ViewerMessage message,
                                   std::function<void()> on_done);
   // Not an aggregate: what has no role does not compile. Without `its_begin` it is the session's and gets no reply.
-  Operation(std::string_view its_name, WebRole its_role, Begin its_begin)
-      : name(its_name), role(its_role), role_of_modules(its_role), begin(its_begin) {}
+  Operation(std::string_view its_name, WebRole its_role, Begin its_begin, std::string_view its_fields = "")
+      : name(its_name), role(its_role), role_of_modules(its_role), begin(its_begin), fields(its_fields) {}
   /// Of the table of requests, which says the role.
-  Operation(std::string_view its_name, Begin its_begin);
+  Operation(std::string_view its_name, Begin its_begin, std::string_view its_fields = "");
 
   std::string_view name;
   WebRole role;             ///< that is needed for it
   WebRole role_of_modules;  ///< the same, if the message names a path
   Begin begin;              ///< nullptr: is not answered
+  /// What a message of it may say besides "op", "request", "at", and its fields in the table of requests; words.
+  std::string_view fields;
 };
 [[nodiscard]] std::span<const Operation> AllOperations();
 /// nullptr: there is none.
 [[nodiscard]] const Operation* FindOperation(std::string_view name);
+/// Errors: the message says what its operation does not have, with the nearest name. A STOP may say anything besides.
+[[nodiscard]] Result<void> CheckFields(const Operation& operation, const ViewerMessage& message);
 /// That is needed for what `message` asks for.
 [[nodiscard]] WebRole RoleFor(const Operation& operation, const ViewerMessage& message);
 

@@ -13,9 +13,16 @@ constexpr std::uint64_t kLargestWhole = 9007199254740992;
 using Text = std::pair<const char*, std::string ViewerMessage::*>;
 constexpr Text kTexts[] = {
     {"op", &ViewerMessage::op},         {"path", &ViewerMessage::path},   {"label", &ViewerMessage::label},
-    {"file", &ViewerMessage::file},     {"what", &ViewerMessage::what},   {"plugin", &ViewerMessage::plugin},
+    {"file", &ViewerMessage::file},     {"plugin", &ViewerMessage::plugin},
     {"level", &ViewerMessage::level},   {"from", &ViewerMessage::from},   {"to", &ViewerMessage::to},
     {"value", &ViewerMessage::value},   {"lease", &ViewerMessage::lease}};
+
+// A member that has but one word, or is left out.
+bool IsSaid(const std::string& name, const std::string& word, JsonMembers& members) {
+  const auto said = members.Text(name);
+  if (said && *said != word) members.Complain("\"" + name + "\" is '" + word + "' or left out, not '" + *said + "'");
+  return said.has_value();
+}
 
 void ReadChanges(const std::vector<JsonPart>& changes, ViewerMessage& message) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -39,17 +46,21 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text,
   JsonMembers members(*json);
   message.request = members.Count("request", kLargestWhole);
   if (number != nullptr) *number = message.request;
+  for (const auto& [name, value] : json->members()) message.fields.push_back(name);
   for (const auto& [name, member] : kTexts) message.*member = members.Text(name).value_or("");
   if (const auto changes = members.List("changes")) ReadChanges(*changes, message);
   if (const JsonPart* const entries = members.Find("entries")) {
-    for (const auto& [name, value] : entries->members()) message.entries[name] = value.text().value_or("");
+    if (!entries->is_object()) members.Complain("\"entries\" must be an object");
+    for (const auto& [name, value] : entries->members()) {
+      if (!value.text()) members.Complain("the entry '" + name + "' must be a text");
+      message.entries[name] = value.text().value_or("");
+    }
   }
-  message.wants_image = members.Text("as").value_or("") == "image";
+  message.wants_image = IsSaid("as", "image", members);
+  message.saves_configuration = IsSaid("what", "configuration", members);
   message.is_on = members.Flag("on").value_or(message.is_on);
   message.overwrites = members.Flag("overwrite").value_or(message.overwrites);
   message.may_end_application = members.Flag("yes").value_or(message.may_end_application);
-  if (members.Find("stop") != nullptr)
-    members.Complain("\"stop\" is an operation of its own: of one port 'block'");
   message.rate = members.Number("rate");
   message.deadline = members.Number("deadline");
   if (const auto at = members.Number("at")) message.at = Time(FromSeconds(std::clamp(*at, 0.0, 9e9)));

@@ -26,6 +26,7 @@ struct RequestError {
 struct ViewerMessage {
   std::string op;
   std::optional<std::uint64_t> request;
+  std::vector<std::string> fields;  ///< the names of all that it says, whether anybody knows them or not
   std::string path;
   std::string label;
   std::string client;  ///< whose message it is; is never read from it
@@ -35,7 +36,6 @@ struct ViewerMessage {
   std::map<std::string, std::string> entries;  ///< of the arrangement
   std::vector<RequestError> wrong_changes;  ///< of what is no change; then `changes` has not all
   std::string file;
-  std::string what;  ///< is to be saved
   std::string plugin;
   std::string level;
   std::string from;  ///< where a latency begins, and where it ends
@@ -50,6 +50,7 @@ struct ViewerMessage {
   std::size_t elements = 12;
   std::uint64_t cycles = 1;
   bool is_on = true;
+  bool saves_configuration = false;
   bool overwrites = false;           ///< another application's file
   bool may_end_application = false;  ///< by deleting it
 };
@@ -60,7 +61,7 @@ struct ViewerMessage {
 [[nodiscard]] Result<Change> ParseChange(const JsonPart& json);
 
 /// Errors: it is no JSON object, is nested deeper than any message is, or a member is of another kind
-/// than the protocol has it. `number` is the request's, so that what is wrong can be answered with it.
+/// than the protocol has it. Whether its operation has all of its members, CheckFields() says. `number` is the request's, so that what is wrong can be answered with it.
 [[nodiscard]] Result<ViewerMessage> ParseViewerMessage(
     std::string_view text, std::optional<std::uint64_t>* number = nullptr);
 

@@ -271,6 +271,7 @@ void ViewerSession::OnText(std::string_view text) {
   }
   const WebRole needed = RoleFor(*operation, message);
   if (role() < needed) return RefuseRole(message, needed);
+  if (const auto good = CheckFields(*operation, message); !good) return Refuse(message, good.error());
   message.as_of = inspection_.application().runtime.robot_stop().AsOfNow(message.at);
   if (const auto arrival = client_.arrival()) {
     message.received = Time(arrival->at.time_since_epoch());

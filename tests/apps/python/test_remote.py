@@ -51,6 +51,8 @@ def test_changes_and_their_errors(app):
     app.publish("/robot/drive/twist", {"forward": 0.1})
     app.release("/robot/drive/twist")
     app.save("saved.xml")
+    with pytest.raises(runnel.Error, match="config is 'yes' or left out, not 'True'"):
+        app.ask("save", config=True)  # which saved the application
     assert "undo" in " ".join(app.log()) or app.log()
 
 

@@ -98,6 +98,10 @@ def test_who_is_outside_calls_them(app):
     assert ("/house/mapper/output/save", "service", "service Pose2(string, double)") in app.paths("service")
     assert app.call("/mapper/save") == runnel.types.Pose2(x=1, y=1)
     assert app.call("/mapper/save", file="x", scale=4).x == 4
+    with pytest.raises(TypeError, match="or arguments by their names"):
+        app.call("/mapper/save", {"file": "x"}, scale=4)  # of which one was left out without a word
+    with pytest.raises(runnel.Error, match="has no 'scael'"):
+        app.call("/mapper/save", scael=4)
     assert app.call("/mapper/explore", rooms=3, timeout=1e6) == 3
     with pytest.raises(runnel.Error, match="FileNotFoundError"):
         app.call("/mapper/save", file="nowhere")
@@ -173,6 +177,8 @@ def test_the_program_calls_them(empty_folder, program):
         with connected("house") as house:
             assert house.call("/doubler/double") == "42"
             assert house.call("/doubler/double", value=4) == "8"
+            with pytest.raises(TypeError, match="or arguments by their names"):
+                house.call("/doubler/double", {"value": 3}, value=4)
             assert call("/doubler/double").stdout == "42\n"
             assert call("/doubler/double", "{value: 3}").stdout == "6\n"
             failed = call("/doubler/double", "{value: -1}")

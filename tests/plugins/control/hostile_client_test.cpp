@@ -117,6 +117,27 @@ TEST_F(ControlTest, RefusesWhatIsNoFrameAndHangsUp) {
   EXPECT_EQ(Ask("ls").code, 0);
 }
 
+// Each of these was carried out as if the wrong word had not been there.
+TEST_F(ControlTest, CarriesOutNothingOfWhichItKnowsOnlyAPart) {
+  bool has_saved = false;
+  hooks.save = [&](const std::string&) -> Result<std::string> {
+    has_saved = true;
+    return std::string("saved");
+  };
+  EXPECT_THAT(Ask("save config=true").errors, HasSubstr("'save': config is 'yes' or left out, not 'true'"));
+  EXPECT_THAT(Ask("save overwrite=no").errors, HasSubstr("overwrite is 'yes' or left out"));
+  EXPECT_EQ(Ask("save\nother.xml").code, 2);
+  EXPECT_FALSE(has_saved);
+  EXPECT_THAT(Ask("ls long=no").errors, HasSubstr("long is 'yes' or left out, not 'no'"));
+  EXPECT_THAT(Ask("pause\n/a").errors, HasSubstr("'pause' is one line only"));
+  const int confused = RawClient();
+  SendAll(confused, FrameBytes("at", "noon") + FrameBytes("request", "set /a/speed 2"));
+  EXPECT_THAT(ReadAll(confused), HasSubstr("a frame 'at' without a time"));
+  close(confused);
+  EXPECT_EQ(Ask("stop").code, 1) << "nothing is marked as driving";
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+}
+
 TEST_F(ControlTest, TakesOnlySoManyClientsAndSaysSo) {
   StartServer({.application = "app", .folder = folder.path() / "runnel", .most_clients = 4});
   std::vector<ControlClient> clients;

@@ -44,6 +44,8 @@ TEST_F(FoxgloveHostileTest, EveryMistakeIsNamed) {
             "setParameters: \"name\" is missing");
   EXPECT_EQ(complaint_of(R"({"op":"setParameters","parameters":["a"]})"),
             "setParameters: \"name\" is missing");
+  EXPECT_EQ(complaint_of(R"({"op":"setParameters","parameters":[],"Id":"7"})"), "setParameters: has no \"Id\"; did you mean 'id'?");
+  EXPECT_EQ(complaint_of(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":1,"rate":5}]})"), "subscribe: has no \"rate\"");
 }
 
 TEST_F(FoxgloveHostileTest, BinaryGarbageIsRefused) {

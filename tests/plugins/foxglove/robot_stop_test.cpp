@@ -111,6 +111,10 @@ TEST_F(FoxgloveStop, IsReleasedByWhoMayDrive) {
   EXPECT_EQ(late["success"], false);
   EXPECT_THAT(late["message"].get<std::string>(), HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_TRUE(in_force());
+  const Json more = Call("/release", R"({"number": 2, "when": "now"})");
+  EXPECT_EQ(more["success"], false);
+  EXPECT_THAT(more["message"].get<std::string>(), HasSubstr("has no \"when\""));
+  EXPECT_TRUE(in_force());
   EXPECT_EQ(Call("/release", R"({"number": 2})")["success"], true);
   EXPECT_FALSE(in_force());
   runtime.robot_stop().Press("the test");

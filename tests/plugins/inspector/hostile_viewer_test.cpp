@@ -45,6 +45,37 @@ TEST_F(HostileViewer, IsAnsweredWithTheNumberOfItsRequestWhateverIsWrong) {
   EXPECT_FALSE(has_saved);
 }
 
+// Each of these was carried out as if the wrong word had not been there: the file was overwritten, all of it paused.
+TEST_F(HostileViewer, SaysNothingThatItsOperationDoesNotHave) {
+  bool has_saved = false;
+  hooks.save = [&](const std::string&) -> Result<std::string> {
+    has_saved = true;
+    return std::string("saved");
+  };
+  Start();
+  Viewer viewer = View();
+  const auto refused = [&](Json message) {
+    const Json error = viewer.Ask(std::move(message))["errors"][0];
+    return error["message"].get<std::string>() + (error["hint"].is_null() ? "" : "; " + error["hint"].get<std::string>());
+  };
+  EXPECT_EQ(refused({{"op", "save"}, {"fiel", "other.xml"}}), "'save' has no \"fiel\"; did you mean 'file'?");
+  EXPECT_THAT(refused({{"op", "save"}, {"what", "config"}}), HasSubstr("\"what\" is 'configuration' or left out, not 'config'"));
+  EXPECT_THAT(refused({{"op", "save"}, {"path", "/app/a"}}), HasSubstr("'save' has no \"path\""));
+  EXPECT_THAT(refused({{"op", "pause"}, {"Path", "/app/a"}}), HasSubstr("did you mean 'path'?"));
+  EXPECT_THAT(refused({{"op", "publish"}, {"path", "/app/a/out"}, {"value", "7"}, {"dedline", 1}}), HasSubstr("did you mean 'deadline'?"));
+  EXPECT_THAT(refused({{"op", "arrange"}, {"entries", {{"note /app/a", 5}}}}), HasSubstr("'note /app/a' must be a text"));
+  EXPECT_THAT(refused({{"op", "watch"}, {"path", "/app/a/out"}, {"as", "picture"}}), HasSubstr("\"as\" is 'image' or left out"));
+  EXPECT_FALSE(has_saved);
+  ExpectThatAllIsWell();
+}
+
+TEST_F(HostileViewer, PressesStopWhateverElseItSays) {
+  Start();
+  Viewer viewer = View();
+  EXPECT_EQ(viewer.Ask({{"op", "stop"}, {"why", "smoke"}})["ok"], true);
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+}
+
 TEST_F(HostileViewer, OfAnApplicationThatStandsStillASignOfLifeComesAllTheSame) {
   Start();
   Viewer viewer = View();

@@ -74,6 +74,13 @@ class RawAsker {
     for (const std::string& each : {std::string("//planner"), change, whom}) to.PutText(each);
     EXPECT_TRUE(endpoints_->Request(octets));
   }
+  Answer AskHalf(const std::string& change) {
+    Octets octets;
+    CdrWriter to(octets);
+    for (const std::string& each : {std::string("//planner"), change}) to.PutText(each);
+    EXPECT_TRUE(endpoints_->Request(octets));
+    return Receive();
+  }
   Answer Receive() {
     std::optional<ServiceMessage> reply;
     WaitUntil("it answers", [&] { return (reply = endpoints_->Take()).has_value(); });
@@ -128,6 +135,15 @@ TEST_F(ApplicationCommandsTest, NothingIsDoneWithoutATokenThatHasJustBeenGiven) 
   EXPECT_EQ(robot.planner.speed.Get(), 1);
   EXPECT_TRUE(with(at).is_done);
   EXPECT_EQ(robot.planner.speed.Get(), 3);
+}
+
+// Whoever asked waited in vain.
+TEST_F(ApplicationCommandsTest, WhatIsCutShortIsAnsweredAndNotDone) {
+  RawAsker asker(planner, robot);
+  const Answer answer = asker.AskHalf("set /planner/speed 2");
+  EXPECT_FALSE(answer.is_done);
+  EXPECT_THAT(answer.said, HasSubstr("the request cannot be read: nothing has been done"));
+  EXPECT_EQ(robot.planner.speed.Get(), 1);
 }
 
 TEST_F(ApplicationCommandsTest, NothingIsDoneThatWasAskedForBeforeAStopOfTheRobot) {
