@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/printable.h"
 #include "plugins/network_discovery/value_form.h"
 
 namespace runnel {
@@ -16,19 +17,33 @@ void DiscoveryTable::Change(const Do& change) {
 }
 
 void DiscoveryTable::OnMember(const WireMember& member) {
-  Change([&] { members_[member.id] = member; });
+  Change([&] { members_[member.id] = {member.id, Printable(member.name), Printable(member.user_data)}; });
 }
 void DiscoveryTable::OnMemberGone(const WireId& id) {
-  Change([&] { members_.erase(id); });
+  Change([&] {
+    members_.erase(id);
+    nodes_.erase(id);
+  });
+}
+void DiscoveryTable::OnNodes(std::span<const std::byte> octets) {
+  const auto said = ReadNodes(octets);
+  if (!said || said->names.empty()) return;
+  Change([&] {
+    if (members_.contains(said->member)) nodes_[said->member] = said->names;
+  });
 }
 void DiscoveryTable::OnEndpoint(const WireEndpoint& endpoint) {
-  Change([&] { endpoints_[endpoint.id] = endpoint; });
+  Change([&] {
+    WireEndpointOptions& options = (endpoints_[endpoint.id] = endpoint).options;
+    for (std::string* const text : {&options.topic, &options.type, &options.user_data, &options.unmet}) *text = Printable(*text);
+  });
 }
 void DiscoveryTable::OnEndpointGone(const WireId& id) {
   Change([&] { endpoints_.erase(id); });
 }
-void DiscoveryTable::OnRefused(const std::string& why) {
+void DiscoveryTable::OnRefused(const std::string& said) {
   constexpr std::size_t kMost = 16;
+  const std::string why = Printable(said);
   {
     const std::lock_guard lock(mutex_);
     if (refusals_.size() >= kMost || std::ranges::find(refusals_, why) != refusals_.end()) return;
@@ -79,9 +94,13 @@ WireMember DiscoveryTable::FindMember(const WireId& id) const {
   return found != members_.end() ? found->second : WireMember{};
 }
 
+// Applications of Runnel have names of their own.
 std::string DiscoveryTable::NameOf(const WireId& member) const {
-  const WireMember found = FindMember(member);
-  return found.name.empty() ? "somebody" : found.name;
+  const std::string own = FindMember(member).name;
+  const std::lock_guard lock(mutex_);
+  const auto nodes = nodes_.find(member);
+  if (nodes != nodes_.end() && (own.empty() || own == "/")) return nodes->second;
+  return own.empty() ? "somebody" : own;
 }
 
 std::string DiscoveryTable::ApplicationName(const WireId& member) const {
@@ -102,7 +121,9 @@ std::string Misfit(const WireEndpointOptions& writer, const WireEndpointOptions&
     return "the writer sends values of type " + writer.type + ", and the reader takes " + reader.type;
   }
   const std::string types = TypeMisfit(writer.user_data, reader.user_data);
-  return types.empty() ? QosMisfit(writer.qos, reader.qos) : types;
+  if (!types.empty()) return types;
+  if (!writer.unmet.empty()) return "the writer has what is not taken here: " + writer.unmet;
+  return reader.unmet.empty() ? QosMisfit(writer.qos, reader.qos) : "the reader asks for what is not offered here: " + reader.unmet;
 }
 
 }  // namespace runnel
