@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/printable.h"
+#include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/network_discovery/value_form.h"
 
 namespace runnel {
@@ -25,11 +26,28 @@ void DiscoveryTable::OnMemberGone(const WireId& id) {
     nodes_.erase(id);
   });
 }
+// Up to Humble ids are filled up to 24 octets by 0. From Iron on that is where the count of nodes stands, and the size of the
+// first one's name; without nodes there is less.
 void DiscoveryTable::OnNodes(std::span<const std::byte> octets) {
-  const auto said = ReadNodes(octets);
-  if (!said || said->names.empty()) return;
+  constexpr std::size_t kHeader = 4, kFill = 8;
+  WireId member{};
+  std::string all, name_space, name;
+  auto from = CdrReader::Begin(octets);
+  if (!from || !from->GetPlain(member.data(), 1, member.size())) return;
+  const auto behind = octets.subspan(kHeader + member.size());
+  const bool is_filled = behind.size() > kFill && std::ranges::count(behind.first(kFill), std::byte{0}) == kFill;
+  const std::size_t id_size = member.size() + (is_filled ? kFill : 0);
+  if (is_filled && !from->Skip(1, kFill)) return;
+  const auto skip_ids = [&] {
+    const auto count = from->GetCount(id_size);
+    return count && from->Skip(1, *count * id_size);
+  };
+  for (std::size_t left = from->GetCount(1).value_or(0); left > 0; --left) {
+    if (!from->GetText(name_space) || !from->GetText(name) || !skip_ids() || !skip_ids()) return;
+    all += (all.empty() ? "" : ", ") + name_space + (name_space.ends_with('/') ? "" : "/") + name;
+  }
   Change([&] {
-    if (members_.contains(said->member)) nodes_[said->member] = said->names;
+    if (members_.contains(member)) nodes_[member] = Printable(all);
   });
 }
 void DiscoveryTable::OnEndpoint(const WireEndpoint& endpoint) {
@@ -99,7 +117,7 @@ std::string DiscoveryTable::NameOf(const WireId& member) const {
   const std::string own = FindMember(member).name;
   const std::lock_guard lock(mutex_);
   const auto nodes = nodes_.find(member);
-  if (nodes != nodes_.end() && (own.empty() || own == "/")) return nodes->second;
+  if ((own.empty() || own == "/") && nodes != nodes_.end() && !nodes->second.empty()) return nodes->second;
   return own.empty() ? "somebody" : own;
 }
 

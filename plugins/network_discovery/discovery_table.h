@@ -4,13 +4,17 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "plugins/network_discovery/node_names.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {
+
+/// On which each member of ROS 2 tells of its nodes.
+inline constexpr const char* kNodesTopic = "ros_discovery_info";
+inline constexpr const char* kNodesType = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
 
 /// Who is in the network, with all that they write and read. Their texts are kept as Printable().
 ///

@@ -10,7 +10,7 @@
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/cdr_values/cdr_writer.h"
-#include "plugins/network_discovery/node_names.h"
+#include "plugins/network_discovery/discovery_table.h"
 #include "plugins/network_discovery/value_form.h"
 #include "plugins/ros_services/ros_time.h"
 

@@ -1,6 +1,6 @@
 // Nodes of ROS 2 are called by their names, though all their members may have one name or none; and no name of others can do
 // more than be read.
-#include "plugins/network_discovery/node_names.h"
+#include "plugins/network_discovery/discovery_table.h"
 
 #include <gmock/gmock.h>
 
@@ -47,28 +47,30 @@ Octets Said(const WireId& member, const std::vector<NodeSaid>& nodes, bool is_lo
   return octets;
 }
 
+std::string NameBy(std::span<const std::byte> said) {
+  DiscoveryTable table([] {});
+  table.OnMember({Id(9), "/", "enclave=/;"});
+  table.OnNodes(said);
+  return table.NameOf(Id(9));
+}
+
 class NodeNamesTest : public testing::TestWithParam<bool> {};
 
-TEST_P(NodeNamesTest, AreReadOfEachMember) {
-  const auto read = ReadNodes(Said(Id(9), {{"/", "talker", {Id(1)}, {Id(2), Id(3)}}, {"/robots", "base", {}, {Id(4)}}}, GetParam()));
-  ASSERT_TRUE(read);
-  EXPECT_EQ(read->member, Id(9));
-  EXPECT_EQ(read->names, "/talker, /robots/base");
-  const auto none = ReadNodes(Said(Id(9), {}, GetParam()));
-  ASSERT_TRUE(none);
-  EXPECT_EQ(none->names, "");
+TEST_P(NodeNamesTest, AreThoseOfAMember) {
+  const std::vector<NodeSaid> nodes{{"/", "talker", {Id(1)}, {Id(2), Id(3)}}, {"/robots", "base", {}, {Id(4)}}};
+  EXPECT_EQ(NameBy(Said(Id(9), nodes, GetParam())), "/talker, /robots/base");
+  EXPECT_EQ(NameBy(Said(Id(9), {}, GetParam())), "/") << "it has none";
+  EXPECT_EQ(NameBy(Said(Id(8), nodes, GetParam())), "/") << "of another one";
 }
 
 TEST_P(NodeNamesTest, WhatIsCutShortOrNothingOfTheKindIsNone) {
   const Octets whole = Said(Id(9), {{"/", "talker", {Id(1)}, {Id(2)}}}, GetParam());
-  for (std::size_t size = 0; size < whole.size(); ++size) {
-    const auto read = ReadNodes(std::span(whole).first(size));
-    if (read) EXPECT_EQ(read->names, "") << size;
-  }
+  EXPECT_EQ(NameBy(whole), "/talker");
+  for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_EQ(NameBy(std::span(whole).first(size)), "/") << size;
   for (std::size_t i = 4; i < whole.size(); ++i) {
     Octets other = whole;
     other[i] = std::byte{0xff};
-    (void)ReadNodes(other);
+    (void)NameBy(other);
   }
 }
 
