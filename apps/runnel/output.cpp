@@ -13,6 +13,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "core/base/printable.h"
 #include "core/element/runtime.h"
 #include "plugins/control/command.h"
 #include "plugins/scheduling/thread_container.h"
@@ -67,8 +68,8 @@ std::string Coloured(std::string_view text, int descriptor) {
   const char* const kind = std::getenv("TERM");
   const bool is_plain = isatty(descriptor) != 1 || is_set("NO_COLOR") ||
                         (kind != nullptr && std::string_view(kind) == "dumb");
-  if (is_plain) return std::string(text);
-  std::string coloured(text);
+  std::string coloured = Printable(text, "\n\t");
+  if (is_plain) return coloured;
   for (const auto& [word, colour] : kColours) {
     const std::string painted = std::string("\x1b[") + colour + "m" + word + "\x1b[0m";
     for (std::size_t at = coloured.find(word); at != std::string::npos; at = coloured.find(word, at + painted.size()))

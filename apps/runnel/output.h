@@ -13,7 +13,7 @@ void PrintError(const Error& error);
 /// The same, and returns `code`.
 ExitCode Fail(const Error& error, ExitCode code = ExitCode::kRunFailed);
 
-/// The text with what matters in colours ("error:" in red), if a terminal shows it and NO_COLOR is not set.
+/// The text, of which others may have written parts, as Printable(), with what matters in colours ("error:" in red), if a terminal shows it and NO_COLOR is not set.
 [[nodiscard]] std::string Coloured(std::string_view text, int descriptor);
 
 /// Lets what is written to a pipe that nobody reads any more be lost ("| head -1"), rather than end

@@ -7,6 +7,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
+#include "core/base/printable.h"
 #include "core/paths/distant_ports.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
@@ -46,13 +47,16 @@ bool Allows(const std::string& user_data, const std::string& command) {
 
 }  // namespace
 
-Result<std::unique_ptr<ApplicationCommands>> ApplicationCommands::Start(NetworkLink& link, NetworkElement& element,
-                                                                        CommandService& service) {
+std::unique_ptr<ApplicationCommands> ApplicationCommands::Start(NetworkLink& link, NetworkElement& element,
+                                                                CommandService& service) {
   std::unique_ptr<ApplicationCommands> made(new ApplicationCommands(link, element, service));
   const NetworkOptions& options = element.options();
   if (options.commands.empty()) return made;
   auto offered = made->Open(ServiceEndpoints::Side::kServer, options.member.name, [raw = made.get()] { raw->Serve(); });
-  if (!offered) return offered.error();
+  if (!offered) {
+    element.log().Warn("others cannot be let do anything: {}", offered.error().ToString());
+    return made;
+  }
   {
     const std::lock_guard lock(made->mutex_);
     made->offered_ = std::move(*offered);
@@ -199,6 +203,7 @@ void ApplicationCommands::Begin(const ServiceMessage& request) {
   if (!from || !from->GetText(who) || !from->GetText(change) || !from->GetText(whom)) {
     return Reply(request.id, CommandAnswer::Refused({.message = "the request cannot be read: nothing has been done"}));
   }
+  who = Printable(who);
   const std::string own = TextOf(link_.participant().id());
   if (whom.find(own) == std::string::npos) return;
   const Duration now = SteadyClock().Now().time_since_epoch();

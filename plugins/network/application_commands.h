@@ -26,8 +26,8 @@ namespace runnel {
 ///           the service, as those of terminals.
 class ApplicationCommands {
  public:
-  /// `service` and `link` must outlive it. Errors: of the engine.
-  static Result<std::unique_ptr<ApplicationCommands>> Start(NetworkLink& link, NetworkElement& element, CommandService& service);
+  /// `service` and `link` must outlive it. What the engine refuses is told by the log of `element`; nobody is served then.
+  static std::unique_ptr<ApplicationCommands> Start(NetworkLink& link, NetworkElement& element, CommandService& service);
   ~ApplicationCommands();
 
   /// "set //robot/planner/cruise_speed 0.3": has robot set it. Nothing: it has not answered yet, and is to be asked again,

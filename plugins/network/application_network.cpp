@@ -187,9 +187,7 @@ class ApplicationNetwork final : public ApplicationExtension {
                                    std::move(hooks));
     if (!link) return link.error();
     link_ = std::move(*link);
-    auto commands = ApplicationCommands::Start(*link_, *element, application.service());
-    if (!commands) return commands.error();
-    commands_ = std::move(*commands);
+    commands_ = ApplicationCommands::Start(*link_, *element, application.service());
     application_ = &application;
     const std::lock_guard lock(application.runtime().structure_mutex());
     auto texts = std::make_unique<ExtensionTexts>();

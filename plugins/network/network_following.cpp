@@ -52,6 +52,7 @@ void NetworkLink::Follow() {
   FollowDistantPorts();
   FollowTakes();
   services_.Follow(*participant_, [this](const std::string& of, const Error& error) { Trouble(of, error); });
+  FollowNodes();
   TellNode();
   TellStructure();
   TellMembers();
@@ -121,6 +122,7 @@ void NetworkLink::MakeOffer(const Wanted& wanted) {
 
 void NetworkLink::TellStructure() {
   structure_topic_->Follow();
+  if (const auto& why = structure_topic_->refusal()) Trouble("structure", *why);
   if (!structure_) return;
   std::string text;
   {
@@ -128,6 +130,16 @@ void NetworkLink::TellStructure() {
     text = structure_();
   }
   structure_topic_->Tell(text);
+}
+
+// What nodes of ROS 2 say of themselves.
+void NetworkLink::FollowNodes() {
+  if (nodes_ != nullptr || table_.Partners(kNodesTopic, true).empty()) return;
+  auto reader = participant_->MakeReader(
+      {.topic = kNodesTopic, .type = kNodesType, .qos = {.is_latched = true, .depth = 1000}},
+      [this](const WireSample& sample) { table_.OnNodes(sample.octets); }, {});
+  if (!reader) return Trouble("nodes", reader.error());
+  nodes_ = std::move(*reader);
 }
 
 void NetworkLink::TellNode() {
@@ -139,6 +151,7 @@ void NetworkLink::TellNode() {
     if (const auto id = each->id()) readers.push_back(*id);
   }
   services_.AddIds(readers, writers);
+  if (const auto id = structure_topic_->id()) writers.push_back(*id);
   node_->Tell(std::move(readers), std::move(writers));
 }
 

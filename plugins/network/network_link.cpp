@@ -64,7 +64,7 @@ void NetworkServices::AddNew() {
   std::vector<std::unique_ptr<OfferedService>> offered;
   std::vector<std::unique_ptr<TakenService>> taken;
   for (std::size_t i = offered_.size(); i < offers.size(); ++i) {
-    offered.push_back(std::make_unique<OfferedService>(runtime, offers[i], messages, dialect_, ++made_, wake_));
+    offered.push_back(std::make_unique<OfferedService>(runtime, offers[i], messages, dialect_, ++made_, wake_, &table_));
   }
   for (std::size_t i = taken_.size(); i < takes.size(); ++i) {
     const auto& take = takes[i];
@@ -116,17 +116,17 @@ std::string NetworkServices::Text() const {
   return text;
 }
 
-NetworkLink::NetworkLink(FrameworkElement& application, NetworkElement& element, bool is_simulated)
+NetworkLink::NetworkLink(FrameworkElement& application, NetworkElement& element, ClockOffset clock)
     : application_(application),
       runtime_(application.runtime()),
       element_(element),
-      clock_{is_simulated},
+      clock_(std::move(clock)),
       table_([this] { LookAgain(); }) {}
 
 Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& application, NetworkElement& element,
                                                         WireEngine& engine, bool is_simulated,
                                                         std::function<std::string()> structure, RosHooks hooks) {
-  std::unique_ptr<NetworkLink> link(new NetworkLink(application, element, is_simulated));
+  std::unique_ptr<NetworkLink> link(new NetworkLink(application, element, {is_simulated, hooks.clock_lead}));
   WireMemberOptions member = element.options().member;
   member.user_data = "enclave=/;";  // without which nodes of ROS 2 look past it
   member.user_data += kIsApplication;
@@ -143,17 +143,14 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
     element.log().Warn("this machine is in no network, so nobody else is reached, nor when it comes into one later: start the "
                        "application again then");
   }
-  auto topic = StructureTopic::Start(*link->participant_, member.name, [raw = link.get()] { raw->LookAgain(); });
-  if (!topic) return topic.error();
-  link->structure_topic_ = std::move(*topic);
+  link->structure_topic_ = StructureTopic::Start(*link->participant_, member.name, [raw = link.get()] { raw->LookAgain(); });
   link->structure_ = std::move(structure);
   hooks.dialect = engine.has_identities() ? ServiceDialect::kBeside : ServiceDialect::kInFront;
+  hooks.table = &link->table_;
   link->services_.set_dialect(hooks.dialect);
   if (element.options().ros) {
-    auto node = RosNode::Start(*element.options().ros, *link->participant_, application, is_simulated, element.log(),
-                               std::move(hooks), [wake = link->wake_] { wake->Notify(); });
-    if (!node) return node.error();
-    link->node_ = std::move(*node);
+    link->node_ = RosNode::Start(*element.options().ros, *link->participant_, application, is_simulated, element.log(),
+                                 std::move(hooks), [wake = link->wake_] { wake->Notify(); });
   }
   {
     const ChangeScope changes(link->runtime_);
@@ -185,6 +182,7 @@ NetworkLink::~NetworkLink() {
   offered_.clear();
   services_.End();
   node_.reset();
+  nodes_.reset();
   structure_topic_.reset();
   participant_.reset();
 }

@@ -99,7 +99,7 @@ class NetworkLink final : private ElementListener {
   [[nodiscard]] Result<std::optional<std::string>> StructureOf(const std::string& path);
 
  private:
-  NetworkLink(FrameworkElement& application, NetworkElement& element, bool is_simulated);
+  NetworkLink(FrameworkElement& application, NetworkElement& element, ClockOffset clock);
   struct Wanted;
 
   void OnReady(FrameworkElement& element) override;
@@ -120,6 +120,7 @@ class NetworkLink final : private ElementListener {
   void FollowTakes();
   void FollowDistantPorts();
   void TellAwaited(std::string& text) const;
+  void FollowNodes();
   void TellNode();
   void TellStructure();
   void TellTroubles();
@@ -152,6 +153,7 @@ class NetworkLink final : private ElementListener {
   std::function<std::string()> structure_;
   std::unique_ptr<StructureTopic> structure_topic_;
   std::unique_ptr<RosNode> node_;  // nullptr: none is wanted
+  std::unique_ptr<WireReader> nodes_;  // of others, as they say; nullptr until one is there
   NetworkServices services_{element_, table_, wake_};
   // Changed by the thread, under the structure lock.
   std::vector<std::unique_ptr<OfferedPort>> offered_;

@@ -97,7 +97,7 @@ void NetworkLink::TellMembers() {
   std::map<WireId, Time> strangers;
   for (const WireMember& each : table_.members()) {
     if (each.id == participant_->id()) continue;
-    const std::string name = each.name.empty() ? "somebody without a name" : each.name;
+    const std::string name = table_.NameOf(each.id);
     if (!IsStranger(each)) {
       now[each.id] = name;
       continue;
@@ -111,7 +111,8 @@ void NetworkLink::TellMembers() {
   }
   strangers_ = std::move(strangers);
   for (const auto& [id, name] : now) {
-    if (members_.contains(id)) continue;
+    const auto told = members_.find(id);
+    if (told != members_.end() && told->second == name) continue;  // of nodes it is told later how they are called
     element_.log().Info("{} is in the network", name);
     if (name == element_.options().member.name) {
       element_.log().Warn("two are called {} in the network: say <network name=\"…\"> in one of their files", name);
@@ -150,17 +151,19 @@ std::string NetworkLink::Text() const {
   }
   for (const WireMember& each : table_.members()) {
     if (each.id == participant_->id()) continue;
-    text += "member " + (each.name.empty() ? "somebody without a name" : each.name) +
+    text += "member " + table_.NameOf(each.id) +
             (IsStranger(each) ? ": NOT LET IN, as it shows no keys that are trusted here, or does not trust these\n" : "\n");
   }
   for (const std::string& why : table_.refusals()) text += "NOT LET IN " + why + "\n";
   const std::lock_guard lock(runtime_.structure_mutex());
-  const auto add_partners = [&](const WireEndpointOptions& mine, bool is_writer, const TakenPort* taken = nullptr) {
+  const auto add_partners = [&](const WireEndpointOptions& mine, const OfferedPort* offered, const TakenPort* taken) {
+    const bool is_writer = offered != nullptr;
     const std::uint64_t chosen = taken != nullptr ? taken->chosen() : 0;
     for (const WireEndpoint& other : table_.Partners(mine.topic, !is_writer)) {
       const std::string misfit = is_writer ? Misfit(mine, other.options) : Misfit(other.options, mine);
       text += std::string(is_writer ? "    read by " : "    written by ") + table_.NameOf(other.participant) + " (" +
               QosText(other.options.qos) + ")" + (misfit.empty() ? "" : ": NOT MATCHED, " + misfit);
+      if (misfit.empty() && is_writer && !offered->HasReader(other.handle)) text += ": not matched (yet), for a reason that it does not say";
       const std::string doubt = misfit.empty() ? Doubt(mine, other.options, is_writer) : "";
       const auto delay = taken != nullptr ? taken->least_delay(other.handle) : std::nullopt;
       if (delay) text += ", " + DurationText(*delay) + " on its way by both clocks";
@@ -177,7 +180,7 @@ std::string NetworkLink::Text() const {
             (each->sent_after_cycles() > 0 ? " (" + std::to_string(each->sent_after_cycles()) + " after cycles)" : "") +
             (each->dropped() > 0 ? ", " + std::to_string(each->dropped()) + " lost" : "") +
             (each->is_stopped() ? ", STOPPED: its safe value is sent" : ""));
-    add_partners(each->endpoint(), true);
+    add_partners(each->endpoint(), each.get(), nullptr);
   }
   for (const auto& each : taken_) {
     if (!each->is_connected()) continue;
@@ -185,7 +188,7 @@ std::string NetworkLink::Text() const {
     add(each->endpoint(), "takes " + each->options().topic + field + " to " + each->output().path(),
         ", " + std::to_string(each->taken()) + " came" + (each->Owner().name.empty() ? "" : ", " + each->Owner().name + " has it") +
             (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));
-    add_partners(each->endpoint(), false, each.get());
+    add_partners(each->endpoint(), nullptr, each.get());
     if (const std::string masters = Masters(*each); !masters.empty()) text += "    TWO MASTERS: " + masters + "\n";
   }
   TellAwaited(text);

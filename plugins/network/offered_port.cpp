@@ -10,12 +10,6 @@
 
 namespace runnel {
 
-Duration ClockOffset::Now() const {
-  if (is_simulated) return {};
-  const auto since_1970 = std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch());
-  return since_1970 - SteadyClock().Now().time_since_epoch();
-}
-
 namespace {
 
 // Of a value as octets: above, making and sending it takes longer than to wake a thread for it.
@@ -76,7 +70,7 @@ OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, cons
       options_(std::move(options)),
       topic_(options_.topic),
       form_(std::move(form)),
-      clock_(clock),
+      clock_(std::move(clock)),
       bell_(std::make_shared<OfferBell>(std::move(wake), [this](OfferBell::By by) { SendBy(by); })) {
   reader_ = std::make_unique<Reader>(beside, name, type, *this);
   if (options_.quality == ValueQuality::kEach) {

@@ -20,6 +20,7 @@
 #include "plugins/network/sending_turns.h"
 #include "plugins/network/value_forecast.h"
 #include "plugins/network_discovery/value_form.h"
+#include "plugins/ros_services/ros_time.h"
 #include "plugins/wire/octet_pool.h"
 
 namespace runnel {
@@ -80,13 +81,6 @@ class OfferBell final : public Waker, private AfterCycleWork {
   std::atomic<bool> is_sent_after_cycles_{false};
 };
 
-/// From a clock of this application to the time since 1970 and back. Simulated time is kept as it is.
-struct ClockOffset {
-  bool is_simulated = false;
-  /// Now; the two clocks may drift.
-  [[nodiscard]] Duration Now() const;
-};
-
 /// One port whose values go to the network, each as soon as it is published, while somebody there reads it. Until then
 /// nothing of the port knows of it.
 ///
@@ -116,6 +110,8 @@ class OfferedPort {
   [[nodiscard]] WireEndpointOptions endpoint() const;
   /// Once it has begun.
   [[nodiscard]] const WireId& id() const noexcept { return writer_->id(); }
+
+  [[nodiscard]] bool HasReader(std::uint64_t reader) const { return writer_->HasReader(reader); }
 
   /// Told, by threads of the engine, that somebody begins or ceases to read. Before Begin().
   void set_on_matched(std::function<void()> on_matched) { on_matched_ = std::move(on_matched); }

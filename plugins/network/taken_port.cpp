@@ -25,7 +25,7 @@ TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const Va
     : output_(output),
       options_(std::move(options)),
       form_(std::move(form)),
-      clock_(clock),
+      clock_(std::move(clock)),
       table_(table),
       endpoint_{.topic = DdsTopic(options_.topic), .type = form_->codec->dds_type(), .user_data = form_->user_data} {
   output_.Annotate(std::make_unique<WritersElsewhere>(matched_));

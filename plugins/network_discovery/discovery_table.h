@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,11 @@
 
 namespace runnel {
 
-/// Who is in the network, with all that they write and read.
+/// On which each member of ROS 2 tells of its nodes.
+inline constexpr const char* kNodesTopic = "ros_discovery_info";
+inline constexpr const char* kNodesType = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
+
+/// Who is in the network, with all that they write and read. Their texts are kept as Printable().
 ///
 /// Threads: any.
 class DiscoveryTable final : public WireDiscovery {
@@ -24,6 +29,8 @@ class DiscoveryTable final : public WireDiscovery {
   void OnEndpoint(const WireEndpoint& endpoint) override;
   void OnEndpointGone(const WireId& id) override;
   void OnRefused(const std::string& why) override;
+  /// What a member that is there says on kNodesTopic, which may be anything.
+  void OnNodes(std::span<const std::byte> octets);
 
   [[nodiscard]] std::vector<WireMember> members() const;
   /// Why some have not been let in, each reason once, the first few.
@@ -33,6 +40,7 @@ class DiscoveryTable final : public WireDiscovery {
   /// Of others, of the other direction.
   [[nodiscard]] std::vector<WireEndpoint> Partners(const std::string& topic, bool writers) const;
   [[nodiscard]] std::optional<WireEndpoint> FindWriter(std::uint64_t handle) const;
+  /// Its name; of a member of ROS 2, which may all be called "/" or nothing, those of its nodes; "somebody" if it has none.
   [[nodiscard]] std::string NameOf(const WireId& member) const;
   /// Its name, if it says that it is an application of Runnel; else "". All nodes of ROS 2 may have one name.
   [[nodiscard]] std::string ApplicationName(const WireId& member) const;
@@ -48,6 +56,7 @@ class DiscoveryTable final : public WireDiscovery {
   mutable std::mutex mutex_;
   std::map<WireId, WireMember> members_;
   std::map<WireId, WireEndpoint> endpoints_;
+  std::map<WireId, std::string> nodes_;  // their names, by their members
   std::vector<std::string> refusals_;
 };
 

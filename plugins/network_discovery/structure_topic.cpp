@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
+#include "core/base/printable.h"
 #include "core/element/element_path.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
@@ -25,18 +26,18 @@ WireEndpointOptions Endpoint(const std::string& name) {
 
 }  // namespace
 
-Result<std::unique_ptr<StructureTopic>> StructureTopic::Start(WireParticipant& participant, const std::string& name,
-                                                              std::function<void()> on_wanted) {
+std::unique_ptr<StructureTopic> StructureTopic::Start(WireParticipant& participant, const std::string& name,
+                                                      std::function<void()> on_wanted) {
   std::unique_ptr<StructureTopic> topic(new StructureTopic(participant));
   topic->on_wanted_ = std::move(on_wanted);
   auto writer = participant.MakeWriter(Endpoint(name), {});
-  if (!writer) return writer.error();
-  topic->writer_ = std::move(*writer);
+  if (writer) topic->writer_ = std::move(*writer);
+  if (!writer) topic->refusal_ = writer.error();
   return topic;
 }
 
 void StructureTopic::Tell(const std::string& structure) {
-  if (structure == told_) return;
+  if (writer_ == nullptr || structure == told_) return;
   told_ = structure;
   auto octets = std::make_shared<Octets>();
   CdrWriter(*octets).PutText(structure);
@@ -58,9 +59,8 @@ void StructureTopic::Follow() {
           std::string text;
           auto from = CdrReader::Begin(sample.octets);
           if (!from || !from->GetText(text)) return;
-          std::erase_if(text, [](unsigned char letter) { return (letter < 0x20 && letter != '\n') || letter == 0x7f; });
           const std::lock_guard lock(mutex_);
-          texts_[name] = std::move(text);
+          texts_[name] = Printable(text, "\n");
         },
         {});
     if (reader) readers_[name] = std::move(*reader);

@@ -17,9 +17,13 @@ namespace runnel {
 /// Threads: Find() any; the rest, and destroying, by one.
 class StructureTopic {
  public:
-  /// `on_wanted` is called when somebody asks for the first time, by whom. Errors: of the engine.
-  static Result<std::unique_ptr<StructureTopic>> Start(WireParticipant& participant, const std::string& name,
-                                                       std::function<void()> on_wanted);
+  /// `on_wanted` is called when somebody asks for the first time, by whom.
+  static std::unique_ptr<StructureTopic> Start(WireParticipant& participant, const std::string& name,
+                                               std::function<void()> on_wanted);
+  /// Why nobody is told: what the engine says, as when a permission is missing.
+  [[nodiscard]] const std::optional<Error>& refusal() const noexcept { return refusal_; }
+  /// Of what tells; nothing if nobody is told.
+  [[nodiscard]] std::optional<WireId> id() const { return writer_ ? std::optional(writer_->id()) : std::nullopt; }
 
   void Tell(const std::string& structure);
   /// Reads what has been asked for.
@@ -35,6 +39,7 @@ class StructureTopic {
   WireParticipant& participant_;
   std::function<void()> on_wanted_;
   std::string told_;
+  std::optional<Error> refusal_;
   std::unique_ptr<WireWriter> writer_;
   std::mutex mutex_;
   std::map<std::string, std::optional<std::string>> texts_;  // that are wanted, by name; guarded by mutex_

@@ -6,6 +6,7 @@
 
 #include "core/types/type_info.h"
 #include "plugins/ros_messages/message_library.h"
+#include "plugins/ros_messages/names.h"
 
 namespace runnel {
 
@@ -67,6 +68,14 @@ std::string DescriptionText(const TypeInfo& type) {
   std::string text;
   AppendDescription(type, 0, text);
   return text;
+}
+
+WireEndpointOptions RosEndpoint(const std::string& topic, const std::string& message, const WireQos& qos) {
+  const MessageLibrary& library = MessageLibrary::Standard();
+  return {.topic = DdsTopic(topic),
+          .type = DdsType(message),
+          .qos = qos,
+          .user_data = std::string(kHash) + TypeHashOf(*library.Find(message), library) + ";"};
 }
 
 std::string TypeMisfit(const std::string& writers, const std::string& readers) {

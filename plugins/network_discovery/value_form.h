@@ -4,6 +4,7 @@
 #include <string>
 
 #include "plugins/ros_messages/message_codec.h"
+#include "plugins/wire/wire.h"
 
 namespace runnel {
 
@@ -25,6 +26,9 @@ struct ValueForm {
 
 /// What is inside of values, in one line: "{x:double[m],y:double[m]}".
 [[nodiscard]] std::string DescriptionText(const TypeInfo& type);
+
+/// Of the topic "/clock" and the message "rosgraph_msgs/msg/Clock" of ROS 2, with the hash of that.
+[[nodiscard]] WireEndpointOptions RosEndpoint(const std::string& topic, const std::string& message, const WireQos& qos);
 
 /// Why values of a writer cannot be read by a reader although their types have one name, from what both say of them; ""
 /// if they can, as far as is known.

@@ -18,13 +18,14 @@ constexpr Duration kForEver = std::chrono::hours(24 * 365);
 
 OfferedService::OfferedService(Runtime& runtime, ServiceOfferOptions options, const MessageLibrary& library,
                                ServiceDialect dialect, std::uint32_t identity,
-                               std::shared_ptr<WakeEvent> wake)
+                               std::shared_ptr<WakeEvent> wake, const DiscoveryTable* table)
     : runtime_(runtime),
       options_(std::move(options)),
       library_(library),
       dialect_(dialect),
       identity_(identity),
-      wake_(std::move(wake)) {}
+      wake_(std::move(wake)),
+      table_(table) {}
 
 Result<Callable*> OfferedService::Find() {
   if (callable_ != nullptr) return callable_;
@@ -49,8 +50,8 @@ void OfferedService::Forget(const FrameworkElement& element) noexcept {
 }
 
 Result<void> OfferedService::Follow(WireParticipant& participant, const std::function<bool(std::uint64_t)>& is_there) {
-  std::erase_if(pending_, [&](const Pending& each) { return !is_there(each.writer); });
-  ServiceTopics topics{.service = options_.service, .dialect = dialect_};
+  std::erase_if(pending_, [&](const Pending& each) { return !is_there(each.id.writer); });
+  ServiceTopics topics{.service = options_.service, .dialect = dialect_, .table = table_};
   Result<void> found;
   {
     const std::lock_guard lock(runtime_.structure_mutex());
@@ -95,7 +96,7 @@ bool OfferedService::Work() {
       form = form_;
     }
     if (begun) {
-      pending_.push_back({request->id, request->writer, std::move(form), std::move(*begun)});
+      pending_.push_back({request->id, std::move(form), std::move(*begun)});
     } else if (form != nullptr) {
       Answer(request->id, *form, {.success = false, .message = begun.error().ToString()}, nullptr);
     }

@@ -35,9 +35,9 @@ class OfferedService {
  public:
   static constexpr std::size_t kMostCalls = 64;  ///< under way at once
 
-  /// `identity`: as ServiceEndpoints. `wake` wakes the thread that calls Work().
+  /// `identity`: as ServiceEndpoints. `wake` wakes the thread that calls Work(). `table`: ServiceTopics::table.
   OfferedService(Runtime& runtime, ServiceOfferOptions options, const MessageLibrary& library, ServiceDialect dialect,
-                 std::uint32_t identity, std::shared_ptr<WakeEvent> wake);
+                 std::uint32_t identity, std::shared_ptr<WakeEvent> wake, const DiscoveryTable* table = nullptr);
 
   [[nodiscard]] const ServiceOfferOptions& options() const noexcept { return options_; }
   /// The structure has changed, or who is there: offers the service while it is there. Errors: what it cannot be offered as.
@@ -56,7 +56,6 @@ class OfferedService {
  private:
   struct Pending {
     CallId id;
-    std::uint64_t writer;
     std::shared_ptr<const ServiceForm> form;
     std::unique_ptr<AnyCall> call;
   };
@@ -72,6 +71,7 @@ class OfferedService {
   const ServiceDialect dialect_;
   const std::uint32_t identity_;
   const std::shared_ptr<WakeEvent> wake_;
+  const DiscoveryTable* const table_;
   // Of the service as it is now; changed under the structure lock.
   Port* port_ = nullptr;
   Callable* callable_ = nullptr;

@@ -10,10 +10,10 @@
 #include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
 #include "core/element/runtime.h"
-#include "core/lockfree/wake_event.h"
 #include "core/log/logger.h"
 #include "core/types/type_of.h"
 #include "plugins/cdr_values/cdr_values.h"
+#include "plugins/network_discovery/value_form.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/ros_time.h"
 
@@ -56,12 +56,13 @@ struct ParameterServices::Server {
 };
 
 ParameterServices::ParameterServices(FrameworkElement& application, std::string node, ServiceDialect dialect,
-                                     ParameterSetter set, Logger& log)
+                                     ParameterSetter set, Logger& log, const DiscoveryTable* table)
     : application_(application),
       node_(std::move(node)),
       dialect_(dialect),
       set_(std::move(set)),
       log_(log),
+      table_(table),
       wake_(std::make_shared<WakeEvent>()) {}
 
 template <typename Request, typename Answer>
@@ -72,7 +73,8 @@ Result<void> ParameterServices::Add(const char* name, const char* type, WirePart
                                             .request_type = DdsType(of + "_Request"),
                                             .response_type = DdsType(of + "_Response"),
                                             .depth = kDepth,
-                                            .dialect = dialect_},
+                                            .dialect = dialect_,
+                                            .table = table_},
                                            participant, kIdentity + static_cast<std::uint32_t>(servers_.size()),
                                            [wake = wake_] { wake->Notify(); });
   if (!endpoints) return endpoints.error();
@@ -90,8 +92,8 @@ Result<void> ParameterServices::Add(const char* name, const char* type, WirePart
 
 Result<std::unique_ptr<ParameterServices>> ParameterServices::Start(FrameworkElement& application, const std::string& node,
                                                                     WireParticipant& participant, ServiceDialect dialect,
-                                                                    ParameterSetter set, Logger& log) {
-  std::unique_ptr<ParameterServices> made(new ParameterServices(application, node, dialect, std::move(set), log));
+                                                                    ParameterSetter set, Logger& log, const DiscoveryTable* table) {
+  std::unique_ptr<ParameterServices> made(new ParameterServices(application, node, dialect, std::move(set), log, table));
   ParameterServices& self = *made;
   Result<void> done = self.Add<RosListRequest>("list_parameters", "ListParameters", participant,
                                                [&self](const auto& request, Time) { return self.List(request); });
@@ -107,9 +109,7 @@ Result<std::unique_ptr<ParameterServices>> ParameterServices::Start(FrameworkEle
   add(kSet, "set_parameters_atomically", "SetParametersAtomically",
       [&self](const auto& request, Time sent) { return self.SetAtomically(request, sent); });
   if (!done) return done.error();
-  auto events = participant.MakeWriter({.topic = "rt/parameter_events",
-                                        .type = "rcl_interfaces::msg::dds_::ParameterEvent_",
-                                        .qos = {.depth = kDepth}},
+  auto events = participant.MakeWriter(RosEndpoint("/parameter_events", "rcl_interfaces/msg/ParameterEvent", {.depth = kDepth}),
                                        [&self](std::size_t count) {
                                          self.listeners_.store(count, std::memory_order_relaxed);
                                          self.wake_->Notify();
@@ -272,10 +272,16 @@ void ParameterServices::TellChanges() {
   RosParameterEvent event;
   event.stamp = SinceEpoch();
   event.node = node_;
+  // By their octets: what is not a number is the same as before, too.
+  const auto octets_of = [](const RosParameterValue& value) {
+    Octets octets;
+    Write(value, octets);
+    return octets;
+  };
   for (const auto& [name, value] : now) {
     const auto before = told_.find(name);
     if (before == told_.end()) event.new_parameters.push_back({name, value});
-    if (before != told_.end() && !(before->second == value)) event.changed_parameters.push_back({name, value});
+    if (before != told_.end() && octets_of(before->second) != octets_of(value)) event.changed_parameters.push_back({name, value});
   }
   for (const auto& [name, value] : told_) {
     if (!now.contains(name)) event.deleted_parameters.push_back({name, value});

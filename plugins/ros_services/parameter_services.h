@@ -10,6 +10,7 @@
 
 #include "core/base/result.h"
 #include "core/element/framework_element.h"
+#include "core/lockfree/wake_event.h"
 #include "plugins/ros_messages/parameter_messages.h"
 #include "plugins/ros_services/service_endpoints.h"
 
@@ -17,7 +18,6 @@ namespace runnel {
 
 class Configurable;
 class Logger;
-class WakeEvent;
 
 /// A parameter of this application that somebody wants to have another value.
 struct ParameterChange {
@@ -34,12 +34,14 @@ using ParameterSetter = std::function<Result<void>(const std::vector<ParameterCh
 /// Threads:    any.
 class ParameterServices {
  public:
-  /// `set`: nullptr: they may be looked at only. `log`: what goes wrong. Errors: of the engine.
+  /// `set`: nullptr: they may be looked at only. `log`: what goes wrong. `table`: ServiceTopics::table. Errors: of the engine.
   static Result<std::unique_ptr<ParameterServices>> Start(FrameworkElement& application, const std::string& node,
                                                           WireParticipant& participant, ServiceDialect dialect, ParameterSetter set,
-                                                          Logger& log);
+                                                          Logger& log, const DiscoveryTable* table = nullptr);
   ~ParameterServices();
 
+  /// That it is to be looked who is there now.
+  void LookAgain() { wake_->Notify(); }
   void AddIds(std::vector<WireId>& readers, std::vector<WireId>& writers) const;
 
   // What the services say; of threads that do not have the structure lock.
@@ -61,7 +63,8 @@ class ParameterServices {
   };
   using Parameters = std::map<std::string, Found>;
 
-  ParameterServices(FrameworkElement& application, std::string node, ServiceDialect dialect, ParameterSetter set, Logger& log);
+  ParameterServices(FrameworkElement& application, std::string node, ServiceDialect dialect, ParameterSetter set, Logger& log,
+                    const DiscoveryTable* table);
   template <typename Request, typename Answer>
   Result<void> Add(const char* name, const char* type, WireParticipant& participant, const Answer& answer);
   // Under the structure lock.
@@ -78,6 +81,7 @@ class ParameterServices {
   const ServiceDialect dialect_;
   const ParameterSetter set_;
   Logger& log_;
+  const DiscoveryTable* const table_;
   const std::shared_ptr<WakeEvent> wake_;
   std::vector<std::unique_ptr<Server>> servers_;
   std::unique_ptr<WireWriter> events_;

@@ -10,6 +10,8 @@
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/network_discovery/discovery_table.h"
+#include "plugins/network_discovery/value_form.h"
 #include "plugins/ros_services/ros_time.h"
 
 namespace runnel {
@@ -49,60 +51,51 @@ const std::vector<std::string>& RosParameterUses() {
   return names;
 }
 
-Result<std::unique_ptr<RosNode>> RosNode::Start(const RosOptions& options, WireParticipant& participant,
-                                                FrameworkElement& application, bool is_simulated, Logger& log,
-                                                RosHooks hooks, std::function<void()> on_news) {
+std::unique_ptr<RosNode> RosNode::Start(const RosOptions& options, WireParticipant& participant, FrameworkElement& application,
+                                        bool is_simulated, Logger& log, RosHooks hooks, std::function<void()> on_news) {
   Runtime& runtime = application.runtime();
-  std::unique_ptr<RosNode> node(new RosNode(options, participant.id(), runtime.clock()));
-  if (auto done = node->MakeTopics(participant, runtime, is_simulated); !done) return done.error();
+  const ClockOffset offset{is_simulated, hooks.clock_lead};
+  std::unique_ptr<RosNode> node(new RosNode(options, participant.id(), runtime.clock(), offset));
+  const auto tell = [&](const Error& error) { log.Warn("nodes of ROS 2 are told less: {}", error.ToString()); };
+  const auto keep = [&](auto& place, auto made) {
+    if (!made) return tell(made.error());
+    place = std::move(*made);
+  };
+  node->MakeTopics(participant, runtime, tell);
   if (options.follows_clock && hooks.set_time) {
-    if (auto done = node->FollowClock(participant, log, hooks.set_time); !done) return done.error();
+    if (const auto done = node->FollowClock(participant, log, hooks.set_time); !done) tell(done.error());
   }
   if (options.sends_diagnostics && hooks.health) {
-    auto made = DiagnosticsTopic::Start(participant, runtime.clock(), is_simulated, std::move(hooks.health), std::move(on_news));
-    if (!made) return made.error();
-    node->diagnostics_ = std::move(*made);
+    keep(node->diagnostics_,
+         DiagnosticsTopic::Start(participant, runtime.clock(), offset, std::move(hooks.health), std::move(on_news)));
   }
   if (options.parameters != RosParameterUse::kNone) {
     const bool may_set = options.parameters == RosParameterUse::kWrite;
-    auto made = ParameterServices::Start(application, options.node, participant, hooks.dialect,
-                                         may_set ? std::move(hooks.set_parameters) : ParameterSetter(), log);
-    if (!made) return made.error();
-    node->parameters_ = std::move(*made);
+    keep(node->parameters_,
+         ParameterServices::Start(application, options.node, participant, hooks.dialect,
+                                  may_set ? std::move(hooks.set_parameters) : ParameterSetter(), log, hooks.table));
   }
-  auto stop = StopService::Start(runtime, options.stop_releases, options.node, participant, hooks.dialect,
-                                 std::move(hooks.is_stop_kept), std::move(hooks.check_stop));
-  if (!stop) return stop.error();
-  node->stop_ = std::move(*stop);
+  keep(node->stop_, StopService::Start(runtime, options.stop_releases, options.node, participant, hooks.dialect,
+                                       std::move(hooks.is_stop_kept), std::move(hooks.check_stop), hooks.table));
   return node;
 }
 
-Result<void> RosNode::MakeTopics(WireParticipant& participant, Runtime& runtime, bool is_simulated) {
-  const auto make = [&](std::unique_ptr<WireWriter>& writer, const WireEndpointOptions& endpoint) -> Result<void> {
+void RosNode::MakeTopics(WireParticipant& participant, Runtime& runtime, const std::function<void(const Error&)>& tell) {
+  const auto make = [&](bool is_wanted, std::unique_ptr<WireWriter>& writer, const WireEndpointOptions& endpoint) {
+    if (!is_wanted) return;
     auto made = participant.MakeWriter(endpoint, {});
-    if (!made) return made.error();
+    if (!made) return tell(made.error());
     writer = std::move(*made);
-    return {};
   };
-  Result<void> done;
-  if (!options_.distribution.empty()) {
-    done = make(entities_, {.topic = "ros_discovery_info",
-                            .type = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_",
-                            .qos = {.is_latched = true}});
+  make(!options_.distribution.empty(), entities_,
+       {.topic = kNodesTopic, .type = kNodesType, .qos = {.is_latched = true}});
+  make(options_.sends_clock, time_, RosEndpoint("/clock", "rosgraph_msgs/msg/Clock", {.is_reliable = false}));
+  make(options_.sends_log, log_,
+       RosEndpoint("/rosout", "rcl_interfaces/msg/Log", {.is_latched = true, .depth = 1000, .lifespan = std::chrono::seconds(10)}));
+  if (log_ != nullptr) {
+    sink_ = std::make_unique<LogSink>(
+        runtime, [this](const LogMessage& message) { Write(*log_, ToRosLog(message, message.time + offset_.Now())); });
   }
-  if (done && options_.sends_clock) {
-    done = make(time_, {.topic = "rt/clock", .type = "rosgraph_msgs::msg::dds_::Clock_", .qos = {.is_reliable = false}});
-  }
-  if (done && options_.sends_log) {
-    done = make(log_, {.topic = "rt/rosout",
-                       .type = "rcl_interfaces::msg::dds_::Log_",
-                       .qos = {.is_latched = true, .depth = 1000}});
-    if (done) {
-      sink_ = std::make_unique<LogSink>(runtime,
-                                        [this, is_simulated](const LogMessage& message) { Say(message, is_simulated); });
-    }
-  }
-  return done;
 }
 
 Result<void> RosNode::FollowClock(WireParticipant& participant, Logger& log,
@@ -118,8 +111,7 @@ Result<void> RosNode::FollowClock(WireParticipant& participant, Logger& log,
     said = why;
     if (!why.empty()) log.Warn("/clock is not followed: {}", why);
   };
-  auto reader = participant.MakeReader(
-      {.topic = "rt/clock", .type = "rosgraph_msgs::msg::dds_::Clock_", .qos = {.is_reliable = false}}, take, {});
+  auto reader = participant.MakeReader(RosEndpoint("/clock", "rosgraph_msgs/msg/Clock", {.is_reliable = false}), take, {});
   if (!reader) return reader.error();
   followed_ = std::move(*reader);
   return {};
@@ -132,8 +124,12 @@ void RosNode::Tell(std::vector<WireId> readers, std::vector<WireId> writers) {
   if (followed_ != nullptr) readers.push_back(followed_->id());
   if (diagnostics_ != nullptr) writers.push_back(diagnostics_->id());
   if (parameters_ != nullptr) parameters_->AddIds(readers, writers);
-  readers.push_back(stop_->endpoints().reader_id());
-  writers.push_back(stop_->endpoints().writer_id());
+  if (stop_ != nullptr) {
+    readers.push_back(stop_->endpoints().reader_id());
+    writers.push_back(stop_->endpoints().writer_id());
+    stop_->Serve();  // answers may wait for who has come
+  }
+  if (parameters_ != nullptr) parameters_->LookAgain();
   if (entities_ == nullptr || (has_told_ && readers == readers_ && writers == writers_)) return;
   has_told_ = true;
   readers_ = std::move(readers);
@@ -165,23 +161,16 @@ std::optional<Time> RosNode::SendClock(Time now) {
   const Time time = clock_.Now();
   if (time != last_time_) {
     last_time_ = time;
-    Write(*time_, time);
+    Write(*time_, time + offset_.Now());
   }
   return now + kClockPeriod;
 }
 
-void RosNode::Say(const LogMessage& message, bool is_simulated) {
-  const Duration offset = is_simulated ? Duration() : SinceEpoch() - clock_.Now();
-  Write(*log_, ToRosLog(message, message.time + offset));
-}
-
 Result<std::unique_ptr<DiagnosticsTopic>> DiagnosticsTopic::Start(WireParticipant& participant, const Clock& clock,
-                                                                  bool is_simulated, Health health,
+                                                                  ClockOffset offset, Health health,
                                                                   std::function<void()> on_news) {
-  std::unique_ptr<DiagnosticsTopic> topic(new DiagnosticsTopic(clock, is_simulated, std::move(health)));
-  auto writer = participant.MakeWriter({.topic = "rt/diagnostics",
-                                        .type = "diagnostic_msgs::msg::dds_::DiagnosticArray_",
-                                        .qos = {.depth = 10}},
+  std::unique_ptr<DiagnosticsTopic> topic(new DiagnosticsTopic(clock, std::move(offset), std::move(health)));
+  auto writer = participant.MakeWriter(RosEndpoint("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", {.depth = 10}),
                                        [listeners = topic->listeners_, on_news = std::move(on_news)](std::size_t count) {
                                          listeners->store(count, std::memory_order_relaxed);
                                          on_news();
@@ -202,7 +191,7 @@ std::optional<Time> DiagnosticsTopic::Send(Time now) {
   std::vector<RosHealth> health;
   for (const RosDiagnosticStatus& each : diagnostics.status) health.push_back(each.level);
   if (!told_at_ || time - *told_at_ >= kPeriod || health != told_) {
-    diagnostics.header.stamp = is_simulated_ ? time : SinceEpoch();
+    diagnostics.header.stamp = time + offset_.Now();
     Write(*writer_, diagnostics);
     told_at_ = time;
     told_ = std::move(health);

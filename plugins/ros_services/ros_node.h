@@ -12,6 +12,7 @@
 #include "core/log/log_sink.h"
 #include "plugins/ros_messages/node_messages.h"
 #include "plugins/ros_services/parameter_services.h"
+#include "plugins/ros_services/ros_time.h"
 #include "plugins/ros_services/stop_service.h"
 #include "plugins/wire/wire.h"
 
@@ -28,7 +29,7 @@ class DiagnosticsTopic {
   using Health = std::function<std::vector<RosDiagnosticStatus>()>;
 
   /// `clock`: the application's. Errors: of the engine.
-  static Result<std::unique_ptr<DiagnosticsTopic>> Start(WireParticipant& participant, const Clock& clock, bool is_simulated,
+  static Result<std::unique_ptr<DiagnosticsTopic>> Start(WireParticipant& participant, const Clock& clock, ClockOffset offset,
                                                          Health health, std::function<void()> on_news);
 
   /// Tells what is due. When it wants to be called again, by the steady clock; nothing: when there are news.
@@ -36,11 +37,11 @@ class DiagnosticsTopic {
   [[nodiscard]] const WireId& id() const noexcept { return writer_->id(); }
 
  private:
-  DiagnosticsTopic(const Clock& clock, bool is_simulated, Health health)
-      : clock_(clock), is_simulated_(is_simulated), health_(std::move(health)) {}
+  DiagnosticsTopic(const Clock& clock, ClockOffset offset, Health health)
+      : clock_(clock), offset_(std::move(offset)), health_(std::move(health)) {}
 
   const Clock& clock_;
-  const bool is_simulated_;
+  const ClockOffset offset_;
   const Health health_;
   std::shared_ptr<std::atomic<std::size_t>> listeners_ = std::make_shared<std::atomic<std::size_t>>(0);
   std::vector<RosHealth> told_;
@@ -71,10 +72,12 @@ struct RosOptions {
 /// What an application does for nodes of ROS 2. All optional.
 struct RosHooks {
   ServiceDialect dialect = ServiceDialect::kInFront;  ///< of the engine
+  const DiscoveryTable* table = nullptr;              ///< of who is there
   ParameterSetter set_parameters = {};
   DiagnosticsTopic::Health health = {};
   /// What /clock shows. By threads of the engine.
   std::function<Result<void>(Time)> set_time = {};
+  std::function<Duration()> clock_lead = {};  ///< ClockOffset::lead
   /// As ServiceHooks::is_stop_kept.
   std::function<bool()> is_stop_kept = {};
   /// What a STOP that is in force leaves, as an error.
@@ -87,10 +90,11 @@ struct RosHooks {
 /// Threads: Start(), Tell(), Work() and destroying by one; the log and the parameters by threads of their own.
 class RosNode {
  public:
-  /// `on_news` has Work() called. Errors: of the engine.
-  static Result<std::unique_ptr<RosNode>> Start(const RosOptions& options, WireParticipant& participant,
-                                                FrameworkElement& application, bool is_simulated, Logger& log,
-                                                RosHooks hooks, std::function<void()> on_news);
+  /// `on_news` has Work() called. What the engine does not do, for want of a permission for one, is told by the log, and left
+  /// out.
+  static std::unique_ptr<RosNode> Start(const RosOptions& options, WireParticipant& participant,
+                                        FrameworkElement& application, bool is_simulated, Logger& log, RosHooks hooks,
+                                        std::function<void()> on_news);
 
   /// Which topics the node reads and writes, if that has changed.
   void Tell(std::vector<WireId> readers, std::vector<WireId> writers);
@@ -98,16 +102,16 @@ class RosNode {
   std::optional<Time> Work(Time now);
 
  private:
-  RosNode(const RosOptions& options, const WireId& participant, const Clock& clock)
-      : options_(options), participant_(participant), clock_(clock) {}
-  Result<void> MakeTopics(WireParticipant& participant, Runtime& runtime, bool is_simulated);
+  RosNode(const RosOptions& options, const WireId& participant, const Clock& clock, ClockOffset offset)
+      : options_(options), participant_(participant), clock_(clock), offset_(std::move(offset)) {}
+  void MakeTopics(WireParticipant& participant, Runtime& runtime, const std::function<void(const Error&)>& tell);
   Result<void> FollowClock(WireParticipant& participant, Logger& log, const std::function<Result<void>(Time)>& set_time);
   std::optional<Time> SendClock(Time now);
-  void Say(const LogMessage& message, bool is_simulated);
 
   const RosOptions options_;
   const WireId participant_;
   const Clock& clock_;
+  const ClockOffset offset_;
   std::vector<WireId> readers_;
   std::vector<WireId> writers_;
   bool has_told_ = false;

@@ -15,11 +15,13 @@ namespace runnel {
 
 namespace {
 
+constexpr const char* kClientId = "clientid=";
+
 // "clientid=1.f.…;": nodes on Cyclone know by it which reader and which writer are of one client, or one service.
 std::string UserData(ServiceEndpoints::Side side, const WireId& participant, std::uint32_t identity) {
   WireId id = participant;
   std::memcpy(id.data() + id.size() - sizeof identity, &identity, sizeof identity);
-  return fmt::format("{}={:02x};", side == ServiceEndpoints::Side::kServer ? "serviceid" : "clientid", fmt::join(id, "."));
+  return fmt::format("{}{:02x};", side == ServiceEndpoints::Side::kServer ? "serviceid=" : kClientId, fmt::join(id, "."));
 }
 
 // What eight octets can have of sixteen.
@@ -87,7 +89,7 @@ std::optional<ServiceMessage> ServiceEndpoints::Read(const WireSample& sample) {
     if (side_ == Side::kServer && message->id.client == WireId{}) message->id.client = sample.identity.writer;
   }
   if (!message) return message;
-  message->writer = sample.writer;
+  message->id.writer = sample.writer;
   if (clocks_.size() >= kMostClocks && !clocks_.contains(sample.writer)) clocks_.clear();  // each call may be of a new client
   WriterClock& clock = clocks_[sample.writer];
   (void)clock.HeldUp(SinceEpoch().time_since_epoch() - Duration(sample.source_time), SteadyClock().Now());
@@ -102,7 +104,7 @@ bool ServiceEndpoints::IsForThis(const CallId& id) const noexcept {
 
 void ServiceEndpoints::Keep(ServiceMessage message) {
   const std::lock_guard lock(mutex_);
-  if (messages_.size() >= kMostMessages) {
+  if (messages_.size() >= std::max<std::size_t>(kMostMessages, topics_.depth)) {
     lost_.fetch_add(1, std::memory_order_relaxed);
   } else {
     messages_.push_back(std::move(message));
@@ -110,6 +112,7 @@ void ServiceEndpoints::Keep(ServiceMessage message) {
 }
 
 std::optional<ServiceMessage> ServiceEndpoints::Take() {
+  if (!kept_.empty()) SendKept();
   const std::lock_guard lock(mutex_);
   while (!messages_.empty()) {
     ServiceMessage first = std::move(messages_.front());
@@ -134,7 +137,38 @@ Result<std::int64_t> ServiceEndpoints::Request(std::span<const std::byte> messag
   return Send({client_, topics_.dialect == ServiceDialect::kInFront ? ++made_ : 0}, message);
 }
 
+// Whether the reader of the answer is one that is there, or is to come, and is not matched yet: on Fast DDS the one that the
+// request names, on Cyclone the one with the same clientid as who has sent it.
+bool ServiceEndpoints::IsAwaited(const CallId& id) const {
+  constexpr std::uint8_t kIsReader = 4;  // in the last octet of its id; else it names who has sent the request
+  const bool is_beside = topics_.dialect == ServiceDialect::kBeside;
+  const auto client = topics_.table != nullptr ? topics_.table->FindWriter(id.writer) : std::nullopt;
+  if (!client || (is_beside && (id.client.back() & kIsReader) == 0)) return false;
+  const std::string& said = client->options.user_data;
+  const std::size_t begin = said.find(kClientId);
+  if (!is_beside && begin == std::string::npos) return false;
+  const std::string name = is_beside ? "" : said.substr(begin, said.find(';', begin) + 1 - begin);
+  return std::ranges::none_of(topics_.table->Partners(DdsReplyTopic(topics_.service), false), [&](const WireEndpoint& each) {
+    const bool is_it = is_beside ? each.id == id.client : each.options.user_data.find(name) != std::string::npos;
+    return is_it && writer_->HasReader(each.handle);
+  });
+}
+
+void ServiceEndpoints::SendKept() {
+  constexpr auto kLongest = std::chrono::seconds(10);
+  const Time now = SteadyClock().Now();
+  std::erase_if(kept_, [&](const KeptReply& each) {
+    if (IsAwaited(each.id)) return now - each.since > kLongest;
+    (void)Send(each.id, each.message);
+    return true;
+  });
+}
+
 Result<void> ServiceEndpoints::Reply(const CallId& id, std::span<const std::byte> message) {
+  if (kept_.size() < kMostMessages && IsAwaited(id)) {
+    kept_.push_back({id, Octets(message.begin(), message.end()), SteadyClock().Now()});
+    return {};
+  }
   const auto sent = Send(id, message);
   return sent ? Result<void>() : sent.error();
 }

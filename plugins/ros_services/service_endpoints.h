@@ -10,7 +10,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "plugins/network_discovery/discovery_table.h"
 #include "plugins/network_discovery/writer_clock.h"
 #include "plugins/wire/wire.h"
 
@@ -20,15 +22,15 @@ namespace runnel {
 struct CallId {
   WireId client = {};  ///< of rmw_cyclonedds only the first eight octets
   std::int64_t number = 0;
+  std::uint64_t writer = 0;  ///< WireEndpoint::handle of who has sent it, which may be another one when it comes again
 
-  friend bool operator==(const CallId&, const CallId&) = default;
+  friend bool operator==(const CallId& a, const CallId& b) { return a.client == b.client && a.number == b.number; }
 };
 
 /// A request or a reply: which one, and the message as it is without that.
 struct ServiceMessage {
   CallId id;
   Octets message;
-  std::uint64_t writer = 0;  ///< WireEndpoint::handle
   Time sent{};               ///< at the earliest, on this machine's steady clock (WriterClock::sent())
 };
 
@@ -52,6 +54,7 @@ struct ServiceTopics {
   std::uint32_t depth = 10;        ///< newest requests and replies that are kept
   ServiceDialect dialect = ServiceDialect::kInFront;
   bool is_latched = false;  ///< what is said before the other end has come is heard by it, too
+  const DiscoveryTable* table = nullptr;  ///< of who calls; must outlive the ends. nullptr: no server waits for readers
 
   friend bool operator==(const ServiceTopics&, const ServiceTopics&) = default;
 };
@@ -72,7 +75,8 @@ class ServiceEndpoints {
   [[nodiscard]] const ServiceTopics& topics() const noexcept { return topics_; }
   /// Of a client: sends a request; the how manyth of its calls it is.
   Result<std::int64_t> Request(std::span<const std::byte> message);
-  /// Of a server.
+  /// Of a server. An answer whose reader is not matched yet, as of a client that has just come, is kept for it, for 10 s at
+  /// most: Take() sends it.
   Result<void> Reply(const CallId& id, std::span<const std::byte> message);
   /// The next request, or reply to this client.
   [[nodiscard]] std::optional<ServiceMessage> Take();
@@ -82,13 +86,15 @@ class ServiceEndpoints {
   }
   [[nodiscard]] const WireId& reader_id() const noexcept { return reader_->id(); }
   [[nodiscard]] const WireId& writer_id() const noexcept { return writer_->id(); }
-  /// Of more than 128 that wait to be taken the newest are left out and counted.
+  /// Of more than 128, or ServiceTopics::depth, that wait to be taken the newest are left out and counted.
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 
  private:
   ServiceEndpoints(Side side, ServiceTopics topics, std::function<void()> on_news)
       : side_(side), topics_(std::move(topics)), on_news_(std::move(on_news)) {}
   [[nodiscard]] std::optional<ServiceMessage> Read(const WireSample& sample);
+  [[nodiscard]] bool IsAwaited(const CallId& id) const;
+  void SendKept();
   [[nodiscard]] bool IsForThis(const CallId& id) const noexcept;
   void Keep(ServiceMessage message);
   Result<std::int64_t> Send(const CallId& id, std::span<const std::byte> message);
@@ -105,6 +111,12 @@ class ServiceEndpoints {
   std::atomic<std::size_t> writers_{0};
   WireId client_{};  // by which a client finds its replies among those of others
   std::int64_t made_ = 0;
+  struct KeptReply {
+    CallId id;
+    Octets message;
+    Time since;
+  };
+  std::vector<KeptReply> kept_;  // whose readers are not matched yet; the thread's own
   std::unique_ptr<WireWriter> writer_;
   std::unique_ptr<WireReader> reader_;
 };

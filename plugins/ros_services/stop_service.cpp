@@ -14,14 +14,16 @@ constexpr std::uint32_t kStopIdentity = 0x80000100u;  // beyond those of paramet
 
 Result<std::unique_ptr<StopService>> StopService::Start(Runtime& runtime, bool may_release, const std::string& node,
                                                         WireParticipant& participant, ServiceDialect dialect,
-                                                        std::function<bool()> is_kept, std::function<Result<void>()> check) {
+                                                        std::function<bool()> is_kept, std::function<Result<void>()> check,
+                                                        const DiscoveryTable* table) {
   const std::string name = (node == "/" ? "" : node) + "/stop";
   std::unique_ptr<StopService> made(new StopService(runtime, may_release, name, std::move(is_kept), std::move(check)));
   auto endpoints = ServiceEndpoints::Start(ServiceEndpoints::Side::kServer,
                                            {.service = made->name_,
                                             .request_type = DdsType("std_srvs/srv/SetBool_Request"),
                                             .response_type = DdsType("std_srvs/srv/SetBool_Response"),
-                                            .dialect = dialect},
+                                            .dialect = dialect,
+                                            .table = table},
                                            participant, kStopIdentity, [self = made.get()] { self->Serve(); });
   if (!endpoints) return endpoints.error();
   made->endpoints_ = std::move(*endpoints);

@@ -19,19 +19,22 @@ namespace runnel {
 /// Ownership: participant and runtime must outlive it.
 class StopService {
  public:
-  /// Errors: of the engine.
+  /// `table`: ServiceTopics::table. Errors: of the engine.
   static Result<std::unique_ptr<StopService>> Start(Runtime& runtime, bool may_release, const std::string& node,
                                                     WireParticipant& participant, ServiceDialect dialect,
                                                     std::function<bool()> is_kept = {},
-                                                    std::function<Result<void>()> check = {});
+                                                    std::function<Result<void>()> check = {},
+                                                    const DiscoveryTable* table = nullptr);
 
   [[nodiscard]] const ServiceEndpoints& endpoints() const noexcept { return *endpoints_; }
+
+  /// Answers what has come, and whom an answer is kept for. Any thread.
+  void Serve() noexcept;
 
  private:
   StopService(Runtime& runtime, bool may_release, std::string name, std::function<bool()> is_kept,
               std::function<Result<void>()> check)
       : runtime_(runtime), may_release_(may_release), name_(std::move(name)), is_kept_(std::move(is_kept)), check_(std::move(check)) {}
-  void Serve() noexcept;
   struct Answer {
     bool success;
     std::string message;

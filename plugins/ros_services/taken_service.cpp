@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/exception_text.h"
+#include "core/base/printable.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/lockfree/wake_event.h"
 #include "core/port/own_cycle.h"
@@ -127,7 +128,7 @@ void TakenService::TakeReplies() {
     } else if (outcome->success) {
       End(*of, CallStatus::kAnswered, "");
     } else {
-      End(*of, CallStatus::kFailed, outcome->message.empty() ? options_.service + " says no reason" : outcome->message);
+      End(*of, CallStatus::kFailed, outcome->message.empty() ? options_.service + " says no reason" : Printable(outcome->message));
     }
     pending_.erase(of);
   }

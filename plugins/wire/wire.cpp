@@ -1,6 +1,25 @@
 #include "plugins/wire/wire.h"
 
+#include <algorithm>
+
 namespace runnel {
+
+std::string OtherPolicies::Unmet(bool is_writer) const {
+  const auto is_ours = [](const std::string& name) { return name.find_first_not_of('*') == std::string::npos; };
+  std::string text;
+  const auto add = [&](bool is_unmet, const std::string& what) {
+    if (is_unmet) text += (text.empty() ? "" : ", ") + what;
+  };
+  const bool is_elsewhere = !partitions.empty() && std::ranges::none_of(partitions, is_ours);
+  add(is_elsewhere, is_elsewhere ? "the partition '" + partitions.front() + "'" : "");
+  // A writer has the first of those that it says, a reader takes any.
+  const auto end = is_writer && !representations.empty() ? representations.begin() + 1 : representations.end();
+  add(!representations.empty() && std::find(representations.begin(), end, 0) == end, "XCDR2");
+  add(!is_writer && has_deadline, "a deadline");
+  add(!is_writer && (liveliness > 0 || has_lease), "a liveliness");
+  add(!is_writer && durability > 1, "values that outlive their writer (durability)");
+  return text;
+}
 
 std::string QosMisfit(const WireQos& offered, const WireQos& asked) {
   if (asked.is_reliable && !offered.is_reliable) {
@@ -14,6 +33,13 @@ std::string QosMisfit(const WireQos& offered, const WireQos& asked) {
                                 : "the reader takes the strongest only, and the writer says no strength";
   }
   return {};
+}
+
+Error WithPermissionHint(Error error, bool has_keys, const WireEndpointOptions& options, bool is_writer) {
+  const std::string tag = is_writer ? "publish>" : "subscribe>";
+  if (!has_keys || !error.hint.empty()) return error;
+  error.hint = "permissions.xml, signed anew, is to have <" + tag + "<topics><topic>" + options.topic + "</topic></topics></" + tag;
+  return error;
 }
 
 std::string QosText(const WireQos& qos) {

@@ -29,8 +29,21 @@ struct WireQos {
   std::uint32_t depth = 1;  ///< newest values kept, at least 1
   bool is_exclusive = false;   ///< of several writers only the strongest counts (exclusive ownership)
   std::int32_t strength = 0;   ///< of a writer, if exclusive
+  Duration lifespan{};         ///< of a writer's values, which nobody gets that are older; 0: for ever
 
   bool operator==(const WireQos&) const = default;
+};
+
+/// Policies that endpoints here leave as they are, of somebody else's endpoint; numbers as DDS has them.
+struct OtherPolicies {
+  int durability = 0;  ///< 2 and more: values outlive their writer
+  int liveliness = 0;  ///< more than 0: who writes says itself that it is there
+  bool has_deadline = false, has_lease = false;
+  std::vector<std::string> partitions = {};
+  std::vector<int> representations = {};  ///< of octets: 0 is XCDR1, 2 XCDR2
+
+  /// What of it keeps the endpoint from being matched with those here, in words; "" if nothing does.
+  [[nodiscard]] std::string Unmet(bool is_writer) const;
 };
 
 /// Why a reader that asks for `asked` gets nothing of a writer that offers `offered`, in words; "" if it does.
@@ -44,6 +57,7 @@ struct WireEndpointOptions {
   std::string type = {};
   WireQos qos = {};
   std::string user_data = {};  ///< told to all others
+  std::string unmet = {};      ///< of one elsewhere: OtherPolicies::Unmet()
 };
 
 /// One that somebody has, here or elsewhere.
@@ -106,6 +120,8 @@ class WireWriter {
  public:
   virtual ~WireWriter() = default;
   [[nodiscard]] virtual const WireId& id() const noexcept = 0;
+  /// Whether what is written now goes to the reader that has this WireEndpoint::handle. Any thread.
+  [[nodiscard]] virtual bool HasReader(std::uint64_t reader) const = 0;
   /// `octets` stay as they are until nobody but the caller has them any more. Never waits for readers beyond the
   /// engine's bound for reliable ones (milliseconds). One thread at a time. Allocates.
   virtual Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) = 0;
@@ -145,6 +161,9 @@ struct WireSecurity {
   return "the key must be that of the certificate, and that of the authority: look at " + security.certificate + ", " + security.key + ", " +
          security.identity_ca + "; the other two signed by " + security.permissions_ca + ": " + security.governance + ", " + security.permissions;
 }
+
+/// `error` of making an endpoint, with the hint what the member's permissions are to have, if it has keys and `error` has none.
+[[nodiscard]] Error WithPermissionHint(Error error, bool has_keys, const WireEndpointOptions& options, bool is_writer);
 
 struct WireMemberOptions {
   std::uint32_t domain = 0;  ///< up to 232

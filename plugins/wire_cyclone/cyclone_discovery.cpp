@@ -33,6 +33,31 @@ bool IsThere(const dds_sample_info_t& info) {
   return info.valid_data && info.instance_state == DDS_IST_ALIVE;
 }
 
+OtherPolicies OtherPoliciesOf(const dds_qos_t* qos) {
+  OtherPolicies other;
+  dds_durability_kind_t durability;
+  dds_liveliness_kind_t liveliness;
+  dds_duration_t time = DDS_INFINITY;
+  std::uint32_t count = 0;
+  char** partitions = nullptr;
+  dds_data_representation_id_t* representations = nullptr;
+  if (dds_qget_durability(qos, &durability)) other.durability = durability;
+  other.has_deadline = dds_qget_deadline(qos, &time) && time != DDS_INFINITY;
+  if (dds_qget_liveliness(qos, &liveliness, &time)) {
+    other.liveliness = liveliness;
+    other.has_lease = time != DDS_INFINITY;
+  }
+  if (dds_qget_partition(qos, &count, &partitions)) {
+    for (std::uint32_t i = 0; i < count; dds_free(partitions[i++])) other.partitions.emplace_back(partitions[i]);
+    dds_free(partitions);
+  }
+  if (dds_qget_data_representation(qos, &count, &representations)) {
+    other.representations.assign(representations, representations + count);
+    dds_free(representations);
+  }
+  return other;
+}
+
 }  // namespace
 
 WireQos QosOf(const dds_qos_t* qos) {
@@ -68,6 +93,7 @@ dds_qos_t* MakeQos(const WireEndpointOptions& options, bool is_writer) {
     if (is_writer) dds_qset_ownership_strength(qos, wanted.strength);
   }
   dds_qset_ignorelocal(qos, DDS_IGNORELOCAL_PARTICIPANT);
+  if (is_writer && wanted.lifespan > Duration{}) dds_qset_lifespan(qos, wanted.lifespan.count());
   const dds_data_representation_id_t representation = DDS_DATA_REPRESENTATION_XCDR1;
   dds_qset_data_representation(qos, 1, &representation);
   if (!options.user_data.empty()) dds_qset_userdata(qos, options.user_data.data(), options.user_data.size());
@@ -135,6 +161,7 @@ void CycloneDiscovery::TakeEndpoints(dds_entity_t reader, bool is_writer) {
     if (sample.topic_name != nullptr) endpoint.options.topic = sample.topic_name;
     if (sample.type_name != nullptr) endpoint.options.type = sample.type_name;
     endpoint.options.qos = QosOf(sample.qos);
+    endpoint.options.unmet = OtherPoliciesOf(sample.qos).Unmet(is_writer);
     endpoint.options.user_data = UserDataOf(sample.qos);
     listener_.OnEndpoint(endpoint);
   });

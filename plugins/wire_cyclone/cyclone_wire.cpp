@@ -1,8 +1,10 @@
 #include "plugins/wire_cyclone/cyclone_wire.h"
 
+#include <algorithm>
 #include <cstring>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include <dds/dds.h>
 
@@ -48,6 +50,13 @@ class CycloneWriter final : public WireWriter {
   }
 
   [[nodiscard]] const WireId& id() const noexcept override { return id_; }
+
+  [[nodiscard]] bool HasReader(std::uint64_t reader) const override {
+    std::vector<dds_instance_handle_t> readers(dds_get_matched_subscriptions(writer_, nullptr, 0) + 16);
+    const dds_return_t count = dds_get_matched_subscriptions(writer_, readers.data(), readers.size());
+    readers.resize(std::min(readers.size(), static_cast<std::size_t>(std::max(count, 0))));
+    return std::ranges::find(readers, reader) != readers.end();
+  }
 
   Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) override {
     std::shared_ptr<const Octets> whole = octets;
@@ -143,7 +152,7 @@ class CycloneParticipant final : public WireParticipant {
     const auto begun = WithTopic(options, [&](dds_entity_t topic, const ddsi_sertype* type) {
       return writer->Begin(participant_, topic, type, options);
     });
-    if (!begun) return begun.error();
+    if (!begun) return WithPermissionHint(begun.error(), refusals_ != nullptr, options, true);
     return std::unique_ptr<WireWriter>(std::move(writer));
   }
   Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options, OnSample on_sample,
@@ -152,7 +161,7 @@ class CycloneParticipant final : public WireParticipant {
     const auto begun = WithTopic(options, [&](dds_entity_t topic, const ddsi_sertype*) {
       return reader->Begin(participant_, topic, options);
     });
-    if (!begun) return begun.error();
+    if (!begun) return WithPermissionHint(begun.error(), refusals_ != nullptr, options, false);
     return std::unique_ptr<WireReader>(std::move(reader));
   }
 

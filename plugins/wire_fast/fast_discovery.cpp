@@ -60,6 +60,14 @@ WireEndpoint EndpointOf(const Proxy& proxy, bool is_writer) {
   qos.is_reliable = proxy.m_qos.m_reliability.kind == dds::RELIABLE_RELIABILITY_QOS;
   qos.is_latched = proxy.m_qos.m_durability.kind != dds::VOLATILE_DURABILITY_QOS;
   qos.is_exclusive = proxy.m_qos.m_ownership.kind == dds::EXCLUSIVE_OWNERSHIP_QOS;
+  const auto& representations = proxy.m_qos.representation.m_value;
+  endpoint.options.unmet = OtherPolicies{.durability = proxy.m_qos.m_durability.kind,
+                                         .liveliness = proxy.m_qos.m_liveliness.kind,
+                                         .has_deadline = proxy.m_qos.m_deadline.period != eprosima::fastrtps::c_TimeInfinite,
+                                         .has_lease = proxy.m_qos.m_liveliness.lease_duration != eprosima::fastrtps::c_TimeInfinite,
+                                         .partitions = proxy.m_qos.m_partition.names(),
+                                         .representations = {representations.begin(), representations.end()}}
+                               .Unmet(is_writer);
   return endpoint;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 #include <utility>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -106,14 +107,26 @@ class Matches {
   Matches(const WireId& own, OnMatched on_matched) : own_(own), on_matched_(std::move(on_matched)) {}
   void Change(const rtps::InstanceHandle_t& other, std::int32_t change) {
     if (AreOfOneMember(IdOfHandle(other), own_)) return;
-    count_ += change;
-    if (on_matched_) on_matched_(static_cast<std::size_t>(count_));
+    const std::uint64_t handle = HandleOf(IdOfHandle(other));
+    std::size_t count = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      if (change > 0) matched_.insert(handle);
+      if (change < 0) matched_.erase(handle);
+      count = matched_.size();
+    }
+    if (on_matched_) on_matched_(count);
+  }
+  [[nodiscard]] bool Has(std::uint64_t handle) const {
+    const std::lock_guard lock(mutex_);
+    return matched_.contains(handle);
   }
 
  private:
   const WireId own_;
   const OnMatched on_matched_;
-  std::int32_t count_ = 0;
+  mutable std::mutex mutex_;
+  std::set<std::uint64_t> matched_;  // guarded by mutex_
 };
 
 WireEndpoint OwnEndpoint(const WireId& id, const FastMember& member, const WireEndpointOptions& options, bool is_writer) {
@@ -145,6 +158,7 @@ class FastWriter final : public WireWriter, private dds::DataWriterListener {
   }
 
   [[nodiscard]] const WireId& id() const noexcept override { return id_; }
+  [[nodiscard]] bool HasReader(std::uint64_t reader) const override { return matches_.Has(reader); }
 
   Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) override {
     rtps::WriteParams parameters;

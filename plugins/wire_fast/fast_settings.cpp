@@ -182,6 +182,7 @@ dds::DataWriterQos WriterQosOf(const WireEndpointOptions& options) {
   SetKept(qos, options.qos);
   SetUserData(qos.user_data(), options.user_data);
   qos.reliability().max_blocking_time = Duration_t(0, 2 * kMillisecond);
+  if (options.qos.lifespan > Duration{}) qos.lifespan().duration = Duration_t(static_cast<long double>(ToSeconds(options.qos.lifespan)));
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.ownership_strength().value = options.qos.is_exclusive ? static_cast<std::uint32_t>(options.qos.strength) : 0;
   auto& times = qos.reliable_writer_qos().times;

@@ -30,7 +30,8 @@ class FastParticipant final : public WireParticipant {
   }
 
   Result<void> Begin(const WireMemberOptions& options) {
-    if (options.security) HearFastSecurity();
+    has_keys_ = options.security.has_value();
+    if (has_keys_) HearFastSecurity();
     const auto qos = MemberQos(options);
     if (!qos) return qos.error();
     participant_ = factory_->create_participant(options.domain, *qos, &discovery_, dds::StatusMask::none());
@@ -48,11 +49,15 @@ class FastParticipant final : public WireParticipant {
   [[nodiscard]] const WireId& id() const noexcept override { return member_->id(); }
 
   Result<std::unique_ptr<WireWriter>> MakeWriter(const WireEndpointOptions& options, OnMatched on_matched) override {
-    return MakeFastWriter(*member_, options, std::move(on_matched));
+    auto made = MakeFastWriter(*member_, options, std::move(on_matched));
+    if (!made) return WithPermissionHint(made.error(), has_keys_, options, true);
+    return made;
   }
   Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options, OnSample on_sample,
                                                  OnMatched on_matched) override {
-    return MakeFastReader(*member_, options, std::move(on_sample), std::move(on_matched));
+    auto made = MakeFastReader(*member_, options, std::move(on_sample), std::move(on_matched));
+    if (!made) return WithPermissionHint(made.error(), has_keys_, options, false);
+    return made;
   }
 
  private:
@@ -60,6 +65,7 @@ class FastParticipant final : public WireParticipant {
   FastDiscovery discovery_;
   dds::DomainParticipant* participant_ = nullptr;
   std::unique_ptr<FastMember> member_;
+  bool has_keys_ = false;
 };
 
 class FastWire final : public WireEngine {

@@ -141,6 +141,7 @@ class SharingWriter final : public WireWriter {
   }
 
   [[nodiscard]] const WireId& id() const noexcept override { return inner_->id(); }
+  [[nodiscard]] bool HasReader(std::uint64_t reader) const override { return inner_->HasReader(reader); }
   Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) override {
     if (may_share_ && octets->size() >= kLargeValue &&
         common_.neighbours.AllShare(topic_, matched_.load(std::memory_order_relaxed))) {

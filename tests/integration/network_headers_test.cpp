@@ -71,7 +71,7 @@ TEST_P(HeadersByTshark, AreThoseOfRos) {
   if (!tshark.WaitFor("Capture started")) GTEST_SKIP() << "needs the right to capture: " << tshark.Wait().text;
   Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   const Program twist("0 twist", RUNNEL_ROS_NODE);
-  ASSERT_TRUE(robot.WaitFor("somebody without a name is in the network")) << robot.Wait().text;
+  ASSERT_TRUE(robot.WaitFor("somebody is in the network")) << robot.Wait().text;
   ASSERT_TRUE(Program("0 scan", RUNNEL_ROS_NODE).WaitFor("scan frame laser"));
   const std::string vendor = std::string(GetParam()) == "fast" ? "eProsima" : "Cyclone DDS";
 

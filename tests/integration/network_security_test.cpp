@@ -143,6 +143,28 @@ TEST_P(NetworkSecurity, WhoHasKeysOfAnotherAuthorityOrNoneIsNotLetInAndThatIsTol
   WaitUntilItDrives();
 }
 
+// As SROS 2 writes policies: what is not said is denied.
+TEST_P(NetworkSecurity, WithThePermissionsThatItsPortsNeedItRunsAndSaysWhatElseWouldBeTold) {
+  MakeKeys("keys", "robot planner");
+  std::ifstream stream(folder_ / "keys/robot/permissions.xml");
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const auto allow = [&](const std::string& what, const std::string& topics) {
+    const std::string all = "<" + what + "><topics><topic>*</topic></topics></" + what + ">";
+    ASSERT_NE(text.find(all), std::string::npos);
+    text.replace(text.find(all), all.size(), "<" + what + "><topics>" + topics + "</topics></" + what + ">");
+  };
+  allow("publish", "<topic>rt/robot/laser/scan</topic><topic>rt/robot/localisation/pose</topic>");
+  allow("subscribe", "<topic>rt/planner/planner/twist</topic>");
+  std::ofstream(folder_ / "permissions.xml") << text;
+  const std::string sign = "cd " + folder_.path() + " && openssl smime -sign -text -in permissions.xml -out keys/robot/permissions.p7s "
+                           "-signer keys/ca.cert.pem -inkey keys/ca.key.pem 2>/dev/null";
+  ASSERT_EQ(std::system(sign.c_str()), 0);
+  const auto robot = Start("robot", "keys/robot");
+  EXPECT_TRUE(robot->WaitFor("is to have <publish><topics><topic>rt/robot/runnel_structure</topic></topics></publish>"));
+  const auto planner = Start("planner", "keys/planner");
+  WaitUntilItDrives();
+}
+
 TEST_P(NetworkSecurity, FilesThatAreNotThereAreToldWithTheirPlace) {
   const std::string file = (folder_ / "wrong.xml").string();
   const auto check = [&](const std::string& security) {

@@ -43,7 +43,7 @@ TEST_F(AmongRosNodes, TheyReadItsScansItsNodeItsTimeAndItsLog) {
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   EXPECT_TRUE(Node("scan").WaitFor("scan frame laser ranges 181 from -1.571 step 0.01745 most 4.00"));
   EXPECT_TRUE(Node("clock").WaitFor("clock 1."));
-  EXPECT_TRUE(Node("graph").WaitFor("node /robots base readers 2 writers 6"));
+  EXPECT_TRUE(Node("graph").WaitFor("node /robots base readers 2 writers 7"));
   EXPECT_TRUE(Node("log").WaitFor("is in the network"));
 }
 
@@ -59,7 +59,7 @@ TEST_F(AmongRosNodes, ThoseOfHumbleSeeItAsOneOfTheirs) {
   std::ofstream(folder_ / "robot.xml") << humble;
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   Program node = Node("graph_of_humble");
-  EXPECT_TRUE(node.WaitFor("node /robots base readers 2 writers 6"));
+  EXPECT_TRUE(node.WaitFor("node /robots base readers 2 writers 7"));
   node.Send(SIGTERM);
   EXPECT_THAT(node.Wait().text, Not(HasSubstr("another participant")));
 }
@@ -77,6 +77,29 @@ TEST_F(AmongRosNodes, WhoAsksForSomethingElseIsToldOf) {
   wait_until_told("rosgraph_msgs::msg::dds_::Clock_");
 }
 
+// By either engine, with the policy that keeps them apart.
+class StrictReaders : public AmongRosNodes, public testing::WithParamInterface<const char*> {};
+
+TEST_P(StrictReaders, AreToldOfWithWhatTheyAskFor) {
+  std::ofstream(folder_ / "robot.xml") << RosRobot(GetParam());
+  const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
+  const std::pair<const char*, const char*> readers[] = {{"deadline_scan", "a deadline"},
+                                                         {"liveliness_scan", "a liveliness"},
+                                                         {"partition_scan", "the partition 'lab'"},
+                                                         {"xcdr2_scan", "XCDR2"}};
+  for (const auto& [what, asked] : readers) {
+    const Program node = Node(what);
+    const std::string told = std::string("the reader asks for what is not offered here: ") + asked;
+    WaitUntil("the log says it", [&] { return Runnel("log --app robot").text.find("does not fit: " + told) != std::string::npos; });
+    EXPECT_THAT(Runnel("network --app robot").text, HasSubstr("NOT MATCHED, " + told));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cyclone, StrictReaders, testing::Values("cyclone"));
+#if RUNNEL_HAS_FAST
+INSTANTIATE_TEST_SUITE_P(Fast, StrictReaders, testing::Values("fast"));
+#endif
+
 // As ROS 2 has it, its values are taken all the same.
 TEST_F(AmongRosNodes, AnotherMessageOfTheSameNameIsToldOf) {
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
@@ -93,6 +116,7 @@ TEST_F(AmongRosNodes, ItDrivesAsTheyTellIt) {
   WaitUntil("the twist has come", [] {
     return Runnel("get /gate/wanted").text.find("{forward: 0.25, turn: -0.5}") != std::string::npos;
   });
+  EXPECT_THAT(Runnel("network --app robot").text, HasSubstr("written by /pilots/joystick (reliable"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -21,6 +22,8 @@ struct FakeEndpoint {
   OnSample on_sample;
   OnMatched on_matched;
   std::size_t matched = 0;
+  std::mutex mutex;
+  std::set<std::uint64_t> others;  // at the other end, by their handles; guarded by mutex
   struct Value {
     std::shared_ptr<const Octets> octets;
     std::int64_t time;
@@ -111,6 +114,10 @@ class FakeWriter final : public WireWriter {
     network_.Do([&] { network_.RemoveEndpoint(endpoint_); });
   }
   [[nodiscard]] const WireId& id() const noexcept override { return endpoint_->about.id; }
+  [[nodiscard]] bool HasReader(std::uint64_t reader) const override {
+    const std::lock_guard lock(endpoint_->mutex);
+    return endpoint_->others.contains(reader);
+  }
   Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) override {
     (void)WriteRelated(octets, source_time, {});
     return {};
@@ -245,6 +252,12 @@ void FakeNetwork::ForEachOther(const FakeEndpoint& endpoint, const Visit& visit)
   }
 }
 
+void Note(FakeEndpoint& endpoint, const FakeEndpoint& other, bool is_there) {
+  const std::lock_guard lock(endpoint.mutex);
+  if (is_there) endpoint.others.insert(other.about.handle);
+  if (!is_there) endpoint.others.erase(other.about.handle);
+}
+
 void Count(FakeEndpoint& endpoint, std::size_t change) {
   endpoint.matched += change;
   if (endpoint.on_matched) endpoint.on_matched(endpoint.matched);
@@ -256,6 +269,8 @@ void FakeNetwork::AddEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint) {
     if (each->domain() == endpoint->participant->domain()) Tell(*each, endpoint->about);
   }
   ForEachOther(*endpoint, [&](FakeEndpoint& other) {
+    Note(other, *endpoint, true);
+    Note(*endpoint, other, true);
     Count(other, 1);
     Count(*endpoint, 1);
     const FakeEndpoint& writer = endpoint->about.is_writer ? *endpoint : other;
@@ -273,7 +288,11 @@ void FakeNetwork::RemoveEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint) 
       each->discovery().OnEndpointGone(endpoint->about.id);
     }
   }
-  ForEachOther(*endpoint, [](FakeEndpoint& other) { Count(other, static_cast<std::size_t>(-1)); });
+  ForEachOther(*endpoint, [&](FakeEndpoint& other) {
+    Note(other, *endpoint, false);
+    Note(*endpoint, other, false);
+    Count(other, static_cast<std::size_t>(-1));
+  });
 }
 
 void FakeNetwork::Deliver(FakeEndpoint& writer, const FakeEndpoint::Value& value) {

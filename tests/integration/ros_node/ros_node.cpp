@@ -4,8 +4,9 @@
 //     ros_node DOMAIN scan|clock|log|graph|tf|tf_static  prints what comes
 //     ros_node DOMAIN graph_of_humble                    the same as nodes of Humble read it
 //     ros_node DOMAIN reliable_scan|latched_tf|other_scan  asks for more than is offered, or for another type
+//     ros_node DOMAIN deadline_scan|liveliness_scan|partition_scan|xcdr2_scan  asks for what Runnel does not offer
 //     ros_node DOMAIN other_twist                        sends other messages under the name of twists, and says so
-//     ros_node DOMAIN twist                              tells a robot to go, 20 times a second
+//     ros_node DOMAIN twist                              tells a robot to go, 20 times a second, as the node /pilots/joystick
 
 #include <algorithm>
 #include <chrono>
@@ -72,6 +73,41 @@ void Ask(dds_entity_t participant, const dds_topic_descriptor_t& type, const cha
   Read<std::byte>(participant, type, name, qos, [](const std::byte&) { std::printf("a value came\n"); });
 }
 
+// The policies that ROS 2 leaves as they are, but for who sets them.
+dds_qos_t* StrictQos(const std::string& what) {
+  dds_qos_t* const qos = Qos(false, false);
+  const char* const partition = "lab";
+  const dds_data_representation_id_t newer = DDS_DATA_REPRESENTATION_XCDR2;
+  if (what == "deadline_scan") dds_qset_deadline(qos, DDS_MSECS(100));
+  if (what == "liveliness_scan") dds_qset_liveliness(qos, DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_SECS(1));
+  if (what == "partition_scan") dds_qset_partition1(qos, partition);
+  if (what == "xcdr2_scan") dds_qset_data_representation(qos, 1, &newer);
+  return qos;
+}
+
+void PutId(dds_entity_t entity, rmw_dds_common_msg_dds__Gid_& gid) {
+  dds_guid_t id{};
+  (void)dds_get_guid(entity, &id);
+  std::memcpy(gid.data, id.v, sizeof gid.data);
+}
+
+// That the writer is one of the node's.
+void TellNode(dds_entity_t participant, dds_entity_t writer, const char* name_space, const char* name) {
+  const dds_entity_t topic =
+      dds_create_topic(participant, &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, "ros_discovery_info", nullptr, nullptr);
+  const dds_entity_t nodes = dds_create_writer(participant, topic, Qos(true, true), nullptr);
+  rmw_dds_common_msg_dds__Gid_ gid{};
+  PutId(writer, gid);
+  rmw_dds_common_msg_dds__NodeEntitiesInfo_ node{};
+  node.node_namespace = const_cast<char*>(name_space);
+  node.node_name = const_cast<char*>(name);
+  node.writer_gid_seq = {1, 1, &gid, false};
+  rmw_dds_common_msg_dds__ParticipantEntitiesInfo_ info{};
+  PutId(participant, info.gid);
+  info.node_entities_info_seq = {1, 1, &node, false};
+  (void)dds_write(nodes, &info);
+}
+
 void SendOthers(dds_entity_t participant) {
   dds_topic_descriptor_t type = sensor_msgs_msg_dds__LaserScan__desc;
   type.m_typename = geometry_msgs_msg_dds__Twist__desc.m_typename;
@@ -129,6 +165,9 @@ int main(int argc, char** argv) {
                                           [](const auto& info) { ShowNodes(info); });
   }
   if (what == "reliable_scan") Ask(participant, sensor_msgs_msg_dds__LaserScan__desc, "rt/scan", Qos(true, false));
+  for (const char* const each : {"deadline_scan", "liveliness_scan", "partition_scan", "xcdr2_scan"}) {
+    if (what == each) Ask(participant, sensor_msgs_msg_dds__LaserScan__desc, "rt/scan", StrictQos(what));
+  }
   if (what == "latched_tf") Ask(participant, tf2_msgs_msg_dds__TFMessage__desc, "rt/tf", Qos(true, true));
   if (what == "other_twist") SendOthers(participant);
   if (what == "other_scan") Ask(participant, rosgraph_msgs_msg_dds__Clock__desc, "rt/scan", Qos(false, false));
@@ -144,6 +183,7 @@ int main(int argc, char** argv) {
   }
   const dds_entity_t topic = dds_create_topic(participant, &geometry_msgs_msg_dds__Twist__desc, "rt/cmd_vel", nullptr, nullptr);
   const dds_entity_t writer = dds_create_writer(participant, topic, Qos(true, false), nullptr);
+  TellNode(participant, writer, "/pilots", "joystick");
   for (;;) {
     geometry_msgs_msg_dds__Twist_ twist{};
     twist.linear.x = 0.25;

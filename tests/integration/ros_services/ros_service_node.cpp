@@ -2,6 +2,7 @@
 // made: nothing of Runnel is in it. It says on standard output what comes:
 //
 //     ros_service_node DOMAIN call         calls /lamp/switch (SetBool), /lamp/warm (Trigger), /lamp/reset (Empty)
+//     ros_service_node DOMAIN call_early   calls /lamp/switch, and has the reader of the answer only 200 ms later
 //     ros_service_node DOMAIN stop         calls /house/stop (SetBool) with true, then with false
 //     ros_service_node DOMAIN serve        has /house/switch (SetBool), which refuses each second call
 //     ros_service_node DOMAIN parameters   lists, describes, gets and sets parameters of the node /house
@@ -35,6 +36,30 @@ void Call(dds_entity_t participant) {
   });
   const Ends reset = MakeClient(participant, "lamp/reset", std_srvs_srv_dds__Empty_Request__desc, std_srvs_srv_dds__Empty_Response__desc);
   CallOnce<std_srvs_srv_dds__Empty_Response_>(reset, std_srvs_srv_dds__Empty_Request_{}, [](const auto&) { std::printf("reset: done\n"); });
+}
+
+// As clients do that call as soon as they know the service, which may know their readers later.
+void CallEarly(dds_entity_t participant) {
+  const dds_entity_t out = dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Request__desc, "rq/lamp/switchRequest", nullptr, nullptr);
+  const dds_entity_t in = dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Response__desc, "rr/lamp/switchReply", nullptr, nullptr);
+  const dds_entity_t writer = dds_create_writer(participant, out, ServiceQos("clientid=5.6;"), nullptr);
+  dds_publication_matched_status_t readers{};
+  while (readers.current_count == 0) {
+    Pause();
+    (void)dds_get_publication_matched_status(writer, &readers);
+  }
+  std_srvs_srv_dds__SetBool_Request_ request{};
+  request.client = kClient;
+  request.number = 1;
+  request.data = true;
+  (void)dds_write(writer, &request);
+  (void)dds_wait_for_acks(writer, DDS_SECS(10));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const dds_entity_t reader = dds_create_reader(participant, in, ServiceQos("clientid=5.6;"), nullptr);
+  TakeUntil<std_srvs_srv_dds__SetBool_Response_>(reader, [](const auto& response) {
+    std::printf("early: %s '%s'\n", response.success ? "done" : "refused", response.message);
+    return true;
+  });
 }
 
 void Stop(dds_entity_t participant) {
@@ -211,6 +236,7 @@ int main(int argc, char** argv) {
   const dds_entity_t participant = dds_create_participant(domain, nullptr, nullptr);
   if (participant < 0) return 1;
   if (what == "call") Call(participant);
+  if (what == "call_early") CallEarly(participant);
   if (what == "stop") Stop(participant);
   if (what == "serve") Serve(participant);
   if (what == "parameters") Parameters(participant);

@@ -93,6 +93,11 @@ TEST_F(ServicesOfRos, AreOfferedToNodes) {
                     HasSubstr("/house/lamp/set  runnel_msgs::srv::dds_::StringBool_Request_")));
 }
 
+TEST_F(ServicesOfRos, AnswerAlsoWhoseReaderIsNotKnownYet) {
+  const Program house(Arguments("run", "house", kHouse));
+  EXPECT_TRUE(Node("call_early").WaitFor("early: done 'it burns'"));
+}
+
 TEST_F(ServicesOfRos, GoOnWithAModuleThatTakesTheOthersPlace) {
   const Program house(Arguments("run", "house", kHouse));
   EXPECT_THAT(Node("call").Wait().text, HasSubstr("reset: done"));

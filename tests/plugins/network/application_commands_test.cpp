@@ -33,7 +33,7 @@ class Commanded {
   Commanded(WireEngine& engine, const std::string& name, std::vector<std::string> allowed) : member(engine, name) {
     member.Allow(std::move(allowed));
     member.Begin();
-    commands = Must(ApplicationCommands::Start(member.link(), *member.network, service));
+    commands = ApplicationCommands::Start(member.link(), *member.network, service);
   }
 
   Member member;

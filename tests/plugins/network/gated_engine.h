@@ -42,6 +42,7 @@ class GatedEngine final : public WireEngine {
    public:
     GatedWriter(std::unique_ptr<WireWriter> inner, Gate& gate) : inner_(std::move(inner)), gate_(gate) {}
     [[nodiscard]] const WireId& id() const noexcept override { return inner_->id(); }
+    [[nodiscard]] bool HasReader(std::uint64_t reader) const override { return inner_->HasReader(reader); }
     Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) override {
       gate_.Pass();
       return inner_->Write(octets, source_time);

@@ -98,6 +98,41 @@ TEST_F(CarriedCallsTest, ComeBackWithTheReplyOrTheReason) {
   EXPECT_THAT(std::string(outcome.error()), testing::HasSubstr("it is negative"));
 }
 
+// A client may ask as soon as it has met both ends of a service, which may not have met the reader of its answers yet.
+TEST_F(CarriedCallsTest, TheFirstAnswerWaitsForTheReaderOfWhoAsks) {
+  DiscoveryTable table([] {});
+  const auto serving = std::move(*engine_->Join({.name = "serving"}, table));
+  OfferedService offered(runtime_, {.port = "/a/double", .service = "/double"}, MessageLibrary::Standard(), ServiceDialect::kInFront, 2,
+                         wake_, &table);
+  ASSERT_TRUE(offered.Follow(*serving, [](std::uint64_t) { return true; }));
+  const ServiceTopics topics = offered.endpoints()->topics();
+  const auto writer = near_->MakeWriter(
+      {.topic = DdsRequestTopic("/double"), .type = topics.request_type, .qos = {.depth = 10}, .user_data = "clientid=1.2;"}, {});
+  WaitUntilQuiet(*engine_);
+  Octets message;
+  CdrWriter(message).Put(std::int32_t{21});
+  ASSERT_TRUE((*writer)->Write(std::make_shared<const Octets>(WithCallId({(*writer)->id(), 1}, message)), 1));
+  WaitUntil("it has answered", [&] {
+    (void)offered.Work();
+    service_.Serve();
+    return offered.Text().find("1 answered") != std::string::npos;
+  });
+  const auto hear = [&](const std::string& user_data, int& heard) {
+    auto reader = std::move(*near_->MakeReader(
+        {.topic = DdsReplyTopic("/double"), .type = topics.response_type, .qos = {.depth = 10}, .user_data = user_data},
+        [&heard](const WireSample&) { ++heard; }, {}));
+    WaitUntilQuiet(*engine_);
+    (void)offered.Work();
+    WaitUntilQuiet(*engine_);
+    return reader;
+  };
+  int others = 0, own = 0;
+  const auto other = hear("clientid=1.3;", others);
+  EXPECT_EQ(others, 0) << "it is kept for somebody else";
+  const auto reader = hear("clientid=1.2;", own);
+  EXPECT_EQ(own, 1);
+}
+
 TEST_F(CarriedCallsTest, WaitForAServiceThatComesLater) {
   auto call = client_.Begin(4);
   (void)taken_->Work();

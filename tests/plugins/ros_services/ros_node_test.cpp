@@ -1,12 +1,15 @@
 // What nodes of ROS 2 are told of an application.
 #include "plugins/ros_services/ros_node.h"
 
+#include <map>
+
 #include <gmock/gmock.h>
 
 #include "core/log/logger.h"
 #include "core/module/group.h"
 #include "core/types/type_of.h"
 #include "plugins/cdr_values/cdr_values.h"
+#include "plugins/ros_services/ros_time.h"
 #include "tests/support/fake_wire.h"
 #include "tests/support/wait_until.h"
 
@@ -15,19 +18,20 @@ namespace {
 
 class RosNodeTest : public testing::Test {
  protected:
-  std::unique_ptr<WireReader> Hear(const std::string& topic, const std::string& type) {
-    return std::move(*there_->MakeReader({.topic = topic, .type = type, .qos = {.is_latched = true}},
+  std::unique_ptr<WireReader> Hear(const std::string& topic, const std::string& type, const WireQos& qos = {.is_latched = true}) {
+    return std::move(*there_->MakeReader({.topic = topic, .type = type, .qos = qos},
                                          [this](const WireSample& sample) { heard_.assign(sample.octets.begin(), sample.octets.end()); }, {}));
   }
   std::unique_ptr<RosNode> Start(const RosOptions& options) {
-    return std::move(*RosNode::Start(options, *here_, group_, false, log_, {}, [] {}));
+    return RosNode::Start(options, *here_, group_, false, log_, RosHooks{.health = [] { return std::vector<RosDiagnosticStatus>(); }}, [] {});
   }
 
   struct Listener final : WireDiscovery {
     void OnMember(const WireMember&) override {}
     void OnMemberGone(const WireId&) override {}
-    void OnEndpoint(const WireEndpoint&) override {}
+    void OnEndpoint(const WireEndpoint& endpoint) override { said[endpoint.options.topic] = endpoint.options.user_data; }
     void OnEndpointGone(const WireId&) override {}
+    std::map<std::string, std::string> said;  // by topic
   };
   Runtime runtime_;
   Group& group_ = runtime_.Create<Group>(runtime_.root(), "robot");
@@ -65,6 +69,58 @@ TEST_F(RosNodeTest, SaysWhatModulesSayByNamesWithDots) {
   EXPECT_EQ(said.name, "robot.sonar");
   EXPECT_EQ(said.msg, "no echo");
   EXPECT_EQ(said.level, 30);
+}
+
+// Stamps of all that it sends count from 1970; so does the time by which others compare them.
+TEST_F(RosNodeTest, TheTimeIsThatOfItsStamps) {
+  const auto node = Start({.node = "/base", .sends_clock = true});
+  const auto reader = Hear("rt/clock", "rosgraph_msgs::msg::dds_::Clock_", {.is_reliable = false});
+  WaitUntilQuiet(*engine_);
+  (void)node->Work(SteadyClock().Now());
+  WaitUntilQuiet(*engine_);
+  Time told;
+  ASSERT_TRUE(ReadCdr(TypeOf<Time>(), heard_, &told));
+  EXPECT_LT(std::chrono::abs(SinceEpoch() - told), std::chrono::hours(1));
+}
+
+TEST_F(RosNodeTest, ItsTopicsSayTheHashesOfTheirMessages) {
+  const auto node = Start({.node = "/base", .sends_clock = true, .sends_log = true, .sends_diagnostics = true, .parameters = RosParameterUse::kRead});
+  WaitUntilQuiet(*engine_);
+  EXPECT_EQ(listener_.said["rt/clock"].substr(0, 27), "typehash=RIHS01_692f7a66100");
+  for (const char* const topic : {"rt/clock", "rt/rosout", "rt/diagnostics", "rt/parameter_events"}) {
+    EXPECT_THAT(listener_.said[topic], testing::MatchesRegex("typehash=RIHS01_[0-9a-f]*;")) << topic;
+  }
+}
+
+/// An engine that refuses topics, as one with keys does for want of a permission.
+class RefusingParticipant final : public WireParticipant {
+ public:
+  explicit RefusingParticipant(WireParticipant& inner) : inner_(inner) {}
+  [[nodiscard]] const WireId& id() const noexcept override { return inner_.id(); }
+  Result<std::unique_ptr<WireWriter>> MakeWriter(const WireEndpointOptions& options, OnMatched on_matched) override {
+    if (options.topic != "rt/clock") return WithPermissionHint({.message = "it is not allowed"}, true, options, true);
+    return inner_.MakeWriter(options, std::move(on_matched));
+  }
+  Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options, OnSample, OnMatched) override {
+    return WithPermissionHint({.message = "it is not allowed"}, true, options, false);
+  }
+
+ private:
+  WireParticipant& inner_;
+};
+
+TEST_F(RosNodeTest, GoesOnWithoutWhatItsPermissionsRefuse) {
+  std::string said;
+  const LogSink sink(runtime_, [&](const LogMessage& message) { said += message.text + "\n"; });
+  RefusingParticipant refusing(*here_);
+  const auto node = RosNode::Start({.distribution = "jazzy", .node = "/base", .sends_clock = true, .parameters = RosParameterUse::kRead}, refusing,
+                                   group_, false, log_, {}, [] {});
+  node->Tell({}, {});
+  WaitUntilQuiet(*engine_);
+  EXPECT_TRUE(listener_.said.contains("rt/clock"));
+  FlushLog();
+  EXPECT_THAT(said, testing::HasSubstr("is to have <publish><topics><topic>ros_discovery_info</topic></topics></publish>"));
+  EXPECT_THAT(said, testing::HasSubstr("<topic>rr/base/stopReply</topic>"));
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // Cyclone DDS and Fast DDS, each as the other's foreign end.
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <tuple>
 
 #include <gmock/gmock.h>
@@ -128,6 +130,27 @@ TEST_P(BothEnginesTest, OfExclusiveWritersTheStrongestCounts) {
     const std::lock_guard lock(arrived.mutex);
     return arrived.values.back() == 2;
   });
+}
+
+// Whoever comes late gets what is new, and not what is too old.
+TEST_P(BothEnginesTest, WhatIsOlderThanItsLifespanIsNotDelivered) {
+  constexpr auto kLifespan = std::chrono::milliseconds(500);
+  const auto now = [] { return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count(); };
+  WireEndpointOptions topic{.topic = "rt/lasting", .type = "numbers::Four", .qos = {.is_latched = true, .depth = 8}};
+  topic.qos.lifespan = kLifespan;
+  const auto writer = std::move(*writing_->MakeWriter(topic, {}));
+  ASSERT_TRUE(writer->Write(Four(1), now()));
+  std::this_thread::sleep_for(2 * kLifespan);
+  Arrived arrived;
+  topic.qos.lifespan = {};
+  const auto reader = reading_->MakeReader(topic, arrived.Taker(), {});
+  WaitUntil("one has come", [&] {
+    EXPECT_TRUE(writer->Write(Four(2), now()));
+    const std::lock_guard lock(arrived.mutex);
+    return !arrived.values.empty();
+  });
+  const std::lock_guard lock(arrived.mutex);
+  EXPECT_THAT(arrived.values, testing::Each(2));
 }
 
 INSTANTIATE_TEST_SUITE_P(CycloneToFast, BothEnginesTest,

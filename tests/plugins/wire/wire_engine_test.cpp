@@ -126,6 +126,26 @@ TEST_P(WireEngineTest, WhoComesLateGetsWhatIsLatched) {
   EXPECT_THAT(arrived.values, ElementsAre(2));
 }
 
+TEST_P(WireEngineTest, AWriterTellsWhichReadersAreMatched) {
+  const auto writer = a_->MakeWriter(Topic(), {});
+  auto reader = b_->MakeReader(Topic(), [](const WireSample&) {}, {});
+  const auto other = b_->MakeReader(Topic({}, "numbers::Five"), [](const WireSample&) {}, {});
+  ASSERT_TRUE(writer && reader && other);
+  const auto handle_of = [&](const WireId& id) {
+    std::uint64_t handle = 0;
+    WaitUntil("it is known", [&] {
+      for (const WireEndpoint& each : here_.endpoints()) handle = each.id == id ? each.handle : handle;
+      return handle != 0;
+    });
+    return handle;
+  };
+  const std::uint64_t matched = handle_of((*reader)->id());
+  WaitUntil("it is matched", [&] { return (*writer)->HasReader(matched); });
+  EXPECT_FALSE((*writer)->HasReader(handle_of((*other)->id())));
+  reader->reset();
+  WaitUntil("it has gone", [&] { return !(*writer)->HasReader(matched); });
+}
+
 TEST_P(WireEngineTest, OthersOfAnotherTypeOrQosDoNotMatch) {
   Arrived other_type;
   Arrived asks_for_more;
