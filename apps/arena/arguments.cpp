@@ -44,7 +44,7 @@ void AddNumbers(CLI::App& program, ArenaArguments& arguments) {
   add("--noise", settings.noise, "M", "standard deviation of the ranges measured");
   add("--path-step", settings.path_step, "M", "between the points of a path that are kept");
   add("--safe-distance", settings.safe_distance, "M", "of the robot's centre from obstacles");
-  add("--time-limit", settings.time_limit, "S", "of simulated time, for each run");
+  add("--time-limit", settings.time_limit, "S", "of simulated time, for each run; 0: by the length of the walls");
   add("--wall-limit", arguments.wall_limit, "S",
       "of real time, for each run; one that takes longer hangs, and is ended");
   program.add_option("--jobs", arguments.jobs, "runs at the same time")
@@ -92,7 +92,7 @@ std::string FaultOf(const ArenaArguments& arguments) {
         Range{settings.path_step, 0, 1000, "--path-step must be between 0 and 1000 m"},
         // The robot's radius is 0.15 m.
         Range{settings.safe_distance, 0.16, 10, "--safe-distance must be between 0.16 and 10 m"},
-        Range{settings.time_limit, 0.1, 1e6, "--time-limit must be between 0.1 and 1e6 s"},
+        Range{settings.time_limit, 0, 1e6, "--time-limit must be between 0 and 1e6 s"},
         Range{arguments.wall_limit, 0.1, 1e6, "--wall-limit must be between 0.1 and 1e6 s"}}) {
     if (!(value >= low && value <= high)) return fault;  // also what is no number
   }

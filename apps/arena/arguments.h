@@ -13,7 +13,7 @@ namespace runnel::arena {
 struct RunSettings {
   double noise = 0.0;           ///< m, standard deviation of the ranges measured
   double path_step = 0.1;       ///< m, between points of the paths kept
-  double time_limit = 1800.0;   ///< s, simulated
+  double time_limit = 0.0;      ///< s, simulated; 0: TimeLimitOf the course
   double safe_distance = 0.35;  ///< m, of the robot's centre from obstacles
 
   friend bool operator==(const RunSettings&, const RunSettings&) = default;

@@ -39,4 +39,10 @@ std::optional<double> BoundOf(const std::string& variant, const Course& course,
   return std::nullopt;
 }
 
+double TimeLimitOf(const Course& course) {
+  double way = Distance(Position(course.world.start), course.world.goal);
+  for (const BoundaryLoop& loop : course.boundaries) way += LengthOf(loop);
+  return std::max(kLeastTimeLimit, kLapsAllowed * way / kSpeedAlongWalls);
+}
+
 }  // namespace runnel::arena

@@ -25,4 +25,12 @@ namespace runnel::arena {
 [[nodiscard]] std::optional<double> BoundOf(const std::string& variant, const Course& course,
                                             const std::vector<Point2>& hits);
 
+/// s, simulated, after which a run on the course is a timeout: as long as going kLapsAllowed times along every wall there
+/// is, and from start to goal, takes at kSpeedAlongWalls. The slowest run known to be right, of a variant that ends, took
+/// the time of four such laps (infrared, which has to be turned to what it looks at). At least kLeastTimeLimit.
+[[nodiscard]] double TimeLimitOf(const Course& course);
+inline constexpr double kLapsAllowed = 15.0;
+inline constexpr double kSpeedAlongWalls = 0.3;   ///< m/s, that of the planners' default
+inline constexpr double kLeastTimeLimit = 300.0;  ///< s
+
 }  // namespace runnel::arena

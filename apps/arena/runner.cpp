@@ -22,6 +22,7 @@
 #include <unistd.h>
 
 #include "apps/arena/application_text.h"
+#include "apps/arena/bounds.h"
 #include "core/base/temporary_folder.h"
 
 namespace runnel::arena {
@@ -150,7 +151,7 @@ Result<RunRecord> MakeRun(const PlannedRun& run, const std::string& files,
        "world=" + course.file.string(),
        "first_direction=" + run.key.direction, "seed=" + std::to_string(run.key.seed),
        fmt::format("noise={}", settings.noise), fmt::format("path_step={}", settings.path_step),
-       fmt::format("time_limit={}", settings.time_limit),
+       fmt::format("time_limit={}", settings.time_limit > 0.0 ? settings.time_limit : TimeLimitOf(course)),
        fmt::format("safe_distance={}", settings.safe_distance), "result=" + result},
       output, std::chrono::duration<double>(wall_limit), context.is_to_stop);
   if (!ending) return ending.error();

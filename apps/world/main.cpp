@@ -56,17 +56,17 @@ int main(int count, char** words) {
   CLI::App program("Makes a world from a seed: the same options, the same bytes.", "runnel world");
   runnel::GeneratorOptions options;
   std::string kind, file;
-  program.add_option("--kind", kind, "scatter, maze, spiral or comb")->required();
+  program.add_option("--kind", kind, "scatter, maze, spiral, comb or ring")->required();
   program.add_option("--seed", options.seed, "of the random numbers")->capture_default_str();
   program.add_option("--out", file, "the file to write; without, standard output")
       ->type_name("FILE");
-  program.add_option("--width", options.width, "m along x, of a scatter or maze")
+  program.add_option("--width", options.width, "m along x, of a scatter or maze; of rings twice the way to the goal")
       ->capture_default_str();
   program.add_option("--height", options.height, "m along y, of a scatter or maze")
       ->capture_default_str();
   program.add_option("--gap", options.gap, "m, of every passage at least")->capture_default_str();
   program.add_option("--count", options.count,
-                     "shapes of a scatter, teeth of a comb, turns of a spiral; 0: by the seed");
+                     "shapes of a scatter, teeth of a comb, turns of a spiral, rings; 0: by the seed");
   program.add_flag("--enclosed", options.is_enclosed, "walls the goal in: it cannot be reached");
   return runnel::RunProgram(program, count, words, [&] { return runnel::Make(options, kind, file); });
 }

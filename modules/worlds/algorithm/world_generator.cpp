@@ -14,7 +14,7 @@ constexpr double kEnclosureThickness = 0.1;  // m
 
 // By kind.
 constexpr std::array kMakers{internal::MakeScatter, internal::MakeMaze, internal::MakeSpiral,
-                             internal::MakeComb};
+                             internal::MakeComb, internal::MakeRing};
 
 struct Range {
   const char* what;

@@ -13,17 +13,18 @@ enum class WorldKind {
   kMaze,     ///< cells of a grid, joined by one way each, and by a few more
   kSpiral,   ///< the goal in the middle of a square spiral
   kComb,     ///< a comb whose teeth stand across the straight line
+  kRing,     ///< shapes of all kinds in rings round the start and round the goal
 };
-inline constexpr std::array kWorldKindNames{"scatter", "maze", "spiral", "comb"};
+inline constexpr std::array kWorldKindNames{"scatter", "maze", "spiral", "comb", "ring"};
 
 struct GeneratorOptions {
   WorldKind kind = WorldKind::kScatter;
   std::uint64_t seed = 1;
-  double width = 16.0;   ///< m along x, of the ground of a scatter or a maze
+  double width = 16.0;   ///< m along x, of the ground of a scatter or a maze; of rings twice the way to the goal
   double height = 12.0;  ///< m along y
   double gap = 1.0;      ///< m, of every passage at least
-  /// Shapes of a scatter (fewer if there is no room), teeth of a comb, turns of a spiral; 0: the
-  /// seed decides.
+  /// Shapes of a scatter (fewer if there is no room), teeth of a comb, turns of a spiral, rings round the start and
+  /// round the goal; 0: the seed decides.
   int count = 0;
   bool is_enclosed = false;  ///< a wall without a door stands round the goal
 

@@ -46,5 +46,16 @@ TEST(Bounds, OfBug2AllowAWholeLapRoundTheGoal) {
   EXPECT_NEAR(*BoundOf("bug2", course, kHits), 14 + 2 * kPerimeter, 1e-6);
 }
 
+// Bug1 with infrared took 2,028 s to find that the goal in a spiral of 122 m cannot be reached, and was right.
+TEST(TimeLimit, GrowsWithTheWallsThereAre) {
+  Course course = TwoBoxes();
+  EXPECT_NEAR(TimeLimitOf(course), 15 * (20 + 2 * kPerimeter + 4 + 2 * kPi * 0.35) / 0.3, 1e-6);
+  course.world.goal = {-9, 0};
+  course.boundaries.clear();
+  EXPECT_EQ(TimeLimitOf(course), 300.0);
+  course.boundaries = {{BoundaryPiece{.from = {0, 0}, .to = {122, 0}}}};
+  EXPECT_GT(TimeLimitOf(course), 2 * 2028.0);
+}
+
 }  // namespace
 }  // namespace runnel::arena

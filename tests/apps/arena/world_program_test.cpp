@@ -13,7 +13,7 @@ using testing::StartsWith;
 class WorldProgram : public ArenaTest {};
 
 TEST_F(WorldProgram, WritesTheSameBytesForTheSameSeed) {
-  for (const std::string kind : {"scatter", "maze", "spiral", "comb"}) {
+  for (const std::string kind : {"scatter", "maze", "spiral", "comb", "ring"}) {
     const std::string words = "world --kind " + kind + " --seed 12";
     ASSERT_EQ(Runnel(words + " --out " + File("a.xml")).code, 0);
     ASSERT_EQ(Runnel(words + " --out " + File("b.xml")).code, 0);

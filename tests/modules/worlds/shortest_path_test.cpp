@@ -227,7 +227,7 @@ TEST(Boundaries, AreOneInsideAndOneOutsideOfARing) {
 
 TEST(Boundaries, AreClosedInRandomWorlds) {
   for (const WorldKind kind :
-       {WorldKind::kScatter, WorldKind::kMaze, WorldKind::kSpiral, WorldKind::kComb}) {
+       {WorldKind::kScatter, WorldKind::kMaze, WorldKind::kSpiral, WorldKind::kComb, WorldKind::kRing}) {
     for (std::uint64_t seed = 1; seed <= 25; ++seed) {
       const World world = GenerateWorld({.kind = kind, .seed = seed});
       const ConfigurationSpace space(world, kRadius);

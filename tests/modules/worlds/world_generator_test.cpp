@@ -1,6 +1,7 @@
 #include "modules/worlds/algorithm/world_generator.h"
 
 #include <cmath>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -84,7 +85,7 @@ TEST_P(GeneratedWorlds, HaveCoordinatesThatCanBeRead) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, GeneratedWorlds,
                          testing::Values(WorldKind::kScatter, WorldKind::kMaze, WorldKind::kSpiral,
-                                         WorldKind::kComb));
+                                         WorldKind::kComb, WorldKind::kRing));
 
 // Distances between the obstacles of a scatter, by points on one and the distance to the other.
 std::vector<Point2> PointsOn(const Ring& ring) {
@@ -95,9 +96,10 @@ std::vector<Point2> PointsOn(const Ring& ring) {
   return points;
 }
 
-TEST(Scatter, LeavesGapsBetweenAnyTwoObstacles) {
+TEST(ScatterAndRing, LeaveGapsBetweenAnyTwoObstacles) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    const World whole = GenerateWorld({.kind = WorldKind::kScatter, .seed = seed, .gap = 0.8});
+    const WorldKind kind = seed % 2 == 0 ? WorldKind::kScatter : WorldKind::kRing;
+    const World whole = GenerateWorld({.kind = kind, .seed = seed, .gap = 0.8});
     std::size_t obstacles = 0;
     const auto expect_apart = [&](const std::vector<Point2>& points, const World& others) {
       for (const Point2 point : points) EXPECT_GE(ClearanceAt(others, point), 0.8) << seed;
@@ -130,6 +132,27 @@ TEST(Scatter, HasAsManyShapesAsAskedForIfThereIsRoom) {
   EXPECT_EQ(world.polygons.size() + world.boxes.size() + world.cylinders.size(), 9u);
 }
 
+TEST(Ring, HasAsManyRingsRoundStartAndGoalAsAskedFor) {
+  const auto rings_round = [](const World& world, Point2 middle) {
+    std::set<int> rings;
+    for (const CylinderObstacle& cylinder : world.cylinders) {
+      // The first ring's shapes are in the middle of 2.7 m (two gaps and a shape), each further one 2.4 m further out.
+      const double ring = (Distance(cylinder.centre, middle) - 2 * 1.003 - 0.7) / (1.003 + 2 * 0.7);
+      if (std::abs(ring - std::round(ring)) < 0.01) rings.insert(static_cast<int>(std::lround(ring)));
+    }
+    return rings.size();
+  };
+  std::size_t at_start = 0, at_goal = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const World world = GenerateWorld({.kind = WorldKind::kRing, .seed = seed, .width = 60, .count = 2});
+    EXPECT_NEAR(Distance(Position(world.start), world.goal), 30.0, 1e-9);
+    at_start += rings_round(world, Position(world.start));
+    at_goal += rings_round(world, world.goal);
+  }
+  EXPECT_GT(at_start, 30u);
+  EXPECT_GT(at_goal, 30u);
+}
+
 TEST(GeneratorOptions, AreRefusedOutOfTheirRanges) {
   EXPECT_EQ(FaultOf({}), "");
   EXPECT_EQ(FaultOf({.gap = 0.5}), "the gap must be between 0.7 and 5, not 0.5");
@@ -141,7 +164,7 @@ TEST(GeneratorOptions, AreRefusedOutOfTheirRanges) {
 
 TEST(GeneratorOptions, HoldAtTheirEnds) {
   for (const WorldKind kind :
-       {WorldKind::kScatter, WorldKind::kMaze, WorldKind::kSpiral, WorldKind::kComb}) {
+       {WorldKind::kScatter, WorldKind::kMaze, WorldKind::kSpiral, WorldKind::kComb, WorldKind::kRing}) {
     for (const bool is_enclosed : {false, true}) {
       for (const double gap : {kLeastGap, kGreatestGap}) {
         const GeneratorOptions options{.kind = kind,

@@ -12,6 +12,7 @@ namespace runnel::internal {
 [[nodiscard]] World MakeMaze(const GeneratorOptions& options, Random& random);
 [[nodiscard]] World MakeSpiral(const GeneratorOptions& options, Random& random);
 [[nodiscard]] World MakeComb(const GeneratorOptions& options, Random& random);
+[[nodiscard]] World MakeRing(const GeneratorOptions& options, Random& random);
 
 /// To whole millimetres, so that files can be read and no arithmetic shows in them.
 [[nodiscard]] inline double Rounded(double length) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "modules/worlds/algorithm/internal/generated_worlds.h"
@@ -8,7 +9,9 @@ namespace runnel::internal {
 namespace {
 
 constexpr double kShapePerArea = 0.07;  // 1/m²
-constexpr int kTriesPerShape = 60;
+constexpr int kTriesPerShape = 60;    // in a ring, of all shapes together
+constexpr double kLeastRadius = 0.35;  // m
+constexpr double kRingShape = 0.7;     // m, the greatest radius in a ring
 
 struct Disc {
   Point2 centre;
@@ -30,21 +33,40 @@ class Scatter {
     const double goal_inset = 2.0 * options_.gap;
     world_.goal = Rounded({x - goal_inset, random_.Between(-y + goal_inset, y - goal_inset)});
     taken_ = {{start, 0.0}, {world_.goal, options_.is_enclosed ? options_.gap : 0.0}};
+    limits_ = Point2{x, y};
     int left = options_.count > 0
                    ? options_.count
                    : static_cast<int>(kShapePerArea * options_.width * options_.height);
+    const double greatest = std::min({1.6, options_.width / 8, options_.height / 8});
     for (int tries = left * kTriesPerShape; left > 0 && tries > 0; --tries) {
-      if (PlaceOne()) --left;
+      const double along = random_.Between(-0.5, 0.5) * options_.width, up = random_.Between(-0.5, 0.5) * options_.height;
+      if (Place({{along, up}, random_.Between(kLeastRadius, greatest)})) --left;
+    }
+    return world_;
+  }
+
+  /// Each ring has as many shapes as find room; those of one may be in the way of another's.
+  World MakeRings() {
+    const Point2 start = Rounded({-options_.width / 4, 0.0});
+    world_.start = {start.x, start.y, 0.0};
+    world_.goal = {-start.x, 0.0};
+    taken_ = {{start, 0.0}, {world_.goal, options_.is_enclosed ? options_.gap : 0.0}};
+    const int rings = options_.count > 0 ? options_.count : 1 + random_.Below(2);
+    for (int ring = 0; ring < rings; ++ring) {
+      const double radius = 2.0 * gap_ + kRingShape + ring * (gap_ + 2.0 * kRingShape);
+      for (const Point2 middle : {start, world_.goal}) {
+        for (int tries = 0; tries < kTriesPerShape; ++tries) {
+          const Point2 centre = middle + radius * UnitVector(random_.Between(-kPi, kPi));
+          Place({centre, random_.Between(kLeastRadius, kRingShape)});
+        }
+      }
     }
     return world_;
   }
 
  private:
-  bool PlaceOne() {
-    const double greatest = std::min({1.6, options_.width / 8, options_.height / 8});
-    const Disc disc{
-        {random_.Between(-0.5, 0.5) * options_.width, random_.Between(-0.5, 0.5) * options_.height},
-        random_.Between(0.35, greatest)};
+  /// Whether there was room.
+  bool Place(const Disc& disc) {
     const int shape = random_.Below(4);  // drawn in any case, so that tries are alike
     if (!Fits(disc)) return false;
     taken_.push_back(disc);
@@ -54,8 +76,8 @@ class Scatter {
 
   bool Fits(const Disc& disc) const {
     const double room = disc.radius + gap_;
-    if (std::abs(disc.centre.x) + room > options_.width / 2) return false;
-    if (std::abs(disc.centre.y) + room > options_.height / 2) return false;
+    if (limits_ && std::abs(disc.centre.x) + room > limits_->x) return false;
+    if (limits_ && std::abs(disc.centre.y) + room > limits_->y) return false;
     return std::ranges::all_of(taken_, [&](const Disc& other) {
       return Distance(other.centre, disc.centre) >= room + other.radius;
     });
@@ -119,12 +141,17 @@ class Scatter {
   const double gap_;  // m
   World world_;
   std::vector<Disc> taken_;
+  std::optional<Point2> limits_;  // m, of the ground to either side
 };
 
 }  // namespace
 
 World MakeScatter(const GeneratorOptions& options, Random& random) {
   return Scatter(options, random).Make();
+}
+
+World MakeRing(const GeneratorOptions& options, Random& random) {
+  return Scatter(options, random).MakeRings();
 }
 
 }  // namespace runnel::internal
