@@ -38,7 +38,7 @@ TEST_F(StopTest, PortsThatComeLaterAreStopped) {
   EXPECT_EQ(wheels.in.Get(), 0.0);
   auto& marked = MakeReceiver<double>("marked");
   Connect(sender.out, marked.in);
-  ASSERT_TRUE(marked.in.SetDriving(true, 0.25));
+  ASSERT_TRUE(marked.in.SetDriving(true, 0.25, {}, DrivingKind::kVelocity));
   EXPECT_EQ(marked.in.Get(), 0.25);
 }
 
