@@ -6,6 +6,7 @@
 #include "core/base/nearest_name.h"
 #include "core/module/group.h"
 #include "plugins/application_tags/application_tags.h"
+#include "plugins/application_tags/run_description.h"
 
 namespace runnel {
 
@@ -91,7 +92,13 @@ Result<void> ApplicationDescription::AttachForTag(std::string_view tag) {
   return Attach(*known, "<" + std::string(tag) + ">", {});
 }
 
+void ApplicationDescription::BeginTime(bool is_simulated) {
+  if (options_.clock) is_simulated = *options_.clock == SchedulerOptions::ClockKind::kSimulated;
+  if (is_simulated) runtime_.set_clock(beginning_);
+}
+
 bool ApplicationDescription::ReadFrom(const Describe& describe) {
+  BeginTime(false);
   Diagnostics before;
   for (const std::string& each : options_.configurations) configuration_.Load(each, before);
   for (const ApplicationSetting& setting : options_.settings) {
@@ -137,6 +144,7 @@ bool ApplicationDescription::Read(const std::filesystem::path& file) {
     if (!read) return Failed(read.error());
     file_ = std::filesystem::absolute(file).lexically_normal().string();
     text_ = read->text;
+    BeginTime(LivesInSimulatedTime(read->document.root()));
     return Build(&*read);
   });
 }
@@ -147,6 +155,7 @@ bool ApplicationDescription::ReadText(std::string_view text, const std::filesyst
     const auto document = XmlDocument::Parse(std::string(text), name);
     if (!document) return Failed(document.error());
     text_ = text;
+    BeginTime(LivesInSimulatedTime(document->root()));
     return BuildApplication(*document, folder, tools, BuildMode::kConstruct);
   });
 }

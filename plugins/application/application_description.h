@@ -79,6 +79,8 @@ class ApplicationDescription {
 
  private:
   BuildOutcome Build(const ApplicationFile* file);
+  // Before anything is made: what publishes in its constructor does so at the application's time.
+  void BeginTime(bool is_simulated);
   // Reads it when it is first asked for.
   Result<const ExtensionCatalogue*> Catalogue();
   // Loads the plugin of an extension and attaches what it makes of the arguments.
@@ -100,6 +102,7 @@ class ApplicationDescription {
   std::optional<ExtensionCatalogue> catalogue_;
   Configuration configuration_;
   Extensions extensions_;
+  ManualClock beginning_;  // of simulated time, until the scheduler brings its clock
   Runtime runtime_;  // last, for modules may still use what plugins gave them
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include "core/types/type_of.h"
@@ -117,6 +118,13 @@ std::vector<SavedTag> SavedClock(const FrameworkElement& application) {
 SchedulerOptions SchedulerOptionsOf(const FrameworkElement& application) {
   const auto* const choice = application.FindAnnotation<ClockChoice>();
   return choice != nullptr ? choice->options : SchedulerOptions{};
+}
+
+bool LivesInSimulatedTime(XmlElement application) {
+  return std::ranges::any_of(application.children(), [](const XmlElement& each) {
+    const XmlAttribute* const type = each.name() == "clock" ? each.Attribute("type") : nullptr;
+    return type != nullptr && type->value != "real";
+  });
 }
 
 XmlTag ClockTag() {

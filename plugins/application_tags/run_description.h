@@ -7,6 +7,7 @@
 #include "core/base/result.h"
 #include "core/element/annotation.h"
 #include "core/element/framework_element.h"
+#include "core/xml/xml_document.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/supervision/supervisor.h"
 
@@ -29,6 +30,9 @@ struct RunRules final : Annotation {
 
 /// What <clock> says; without it, the defaults of SchedulerOptions.
 [[nodiscard]] SchedulerOptions SchedulerOptionsOf(const FrameworkElement& application);
+
+/// The same of what has only been parsed: whether its <clock> says another time than the machine's.
+[[nodiscard]] bool LivesInSimulatedTime(XmlElement application);
 
 /// Hands over the application's rules. The error, of a rule of silence, has the place.
 Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler,
