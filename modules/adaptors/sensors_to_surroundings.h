@@ -14,6 +14,7 @@
 #include "modules/types/range_scan.h"
 #include "modules/types/surroundings.h"
 #include "plugins/parameters/input_timeout.h"
+#include "plugins/parameters/prepares_anywhere.h"
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
@@ -22,7 +23,7 @@ namespace runnel {
 /// measurement, as soon as the pose is known. Source: the sensing abstractions of the generic Bug
 /// algorithm.
 template <typename Measurement, typename Adaptor, typename Configuration>
-class SensorToSurroundings : public Module {
+class SensorToSurroundings : public Module, public PreparesAnywhere {
  public:
   /// `port`: the name of the input for what is measured.
   SensorToSurroundings(const Placement& placement, std::string port, std::string description)

@@ -15,6 +15,7 @@
 #include "modules/behaviours/algorithm/fusion.h"
 #include "plugins/behaviours/behaviour.h"
 #include "plugins/parameters/input_timeout.h"
+#include "plugins/parameters/prepares_anywhere.h"
 
 namespace runnel {
 
@@ -64,7 +65,7 @@ inline void Describe(TypeBuilder<FusionMethod>& type) {
 ///          Where nobody is active, velocities are a standstill, and values of other types are not published.
 /// Stamps:  the oldest of all activities, and of the values that have part in what is published.
 /// Errors:  a type that no port of a loaded plugin has; a method that cannot weight values of the type.
-class FusionBehaviour final : public Behaviour {
+class FusionBehaviour final : public Behaviour, public PreparesAnywhere {
  public:
   using Behaviour::Behaviour;
   static constexpr std::uint32_t kMostChannels = 1000;

@@ -15,6 +15,7 @@
 #include "modules/types/surroundings.h"
 #include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
+#include "plugins/parameters/prepares_anywhere.h"
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
@@ -32,7 +33,7 @@ namespace runnel {
 ///
 /// Errors: Prepare() refuses components that do not fit together; Update() throws if they cannot do
 /// with what the sensors tell (free_range_step with a bumper), which stops the planner with a fault.
-class BugPlanner : public Module {
+class BugPlanner : public Module, public PreparesAnywhere {
  public:
   explicit BugPlanner(const Placement& placement) : Module(placement) { KeepState(state_); }
 

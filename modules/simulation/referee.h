@@ -19,6 +19,7 @@
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "plugins/parameters/file_path.h"
+#include "plugins/parameters/prepares_anywhere.h"
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
@@ -46,7 +47,7 @@ inline void Describe(TypeBuilder<Expectation>& type) {
 /// Watches the robot as it really moves and the planner as it speaks, and judges: reached,
 /// unreachable, timeout, collision. Measures path and time, and draws the path into a picture of
 /// the world and writes the result into a file when the run is over. Runs in the thread of the world, or it may miss a short touch.
-class Referee final : public Module {
+class Referee final : public Module, public PreparesAnywhere {
  public:
   explicit Referee(const Placement& placement);
 

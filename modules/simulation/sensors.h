@@ -18,6 +18,7 @@
 #include "modules/types/pose.h"
 #include "modules/types/range_scan.h"
 #include "plugins/parameters/parameter.h"
+#include "plugins/parameters/prepares_anywhere.h"
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
@@ -35,7 +36,7 @@ inline ParameterOptions<double> SinceStart(const char* zero) {
 
 /// A simulated laser on the robot's centre, looking ahead: a scan for each new pose. Can be made to
 /// fail, for applications that are to cope with it.
-class Laser final : public Module {
+class Laser final : public Module, public PreparesAnywhere {
  public:
   using Module::Module;
 

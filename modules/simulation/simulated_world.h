@@ -15,6 +15,7 @@
 #include "plugins/parameters/file_path.h"
 #include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
+#include "plugins/parameters/prepares_anywhere.h"
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
@@ -26,7 +27,7 @@ namespace runnel {
 ///
 /// Frames:   all in the world's. Determinism: same file, parameters and cycle times, same bits.
 /// Errors:   Prepare() says all that is wrong with the world file, with lines.
-class SimulatedWorld final : public SenseControlModule {
+class SimulatedWorld final : public SenseControlModule, public PreparesAnywhere {
  public:
   explicit SimulatedWorld(const Placement& placement);
   ~SimulatedWorld() override;

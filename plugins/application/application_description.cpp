@@ -1,12 +1,14 @@
 #include "plugins/application/application_description.h"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "core/base/nearest_name.h"
 #include "core/module/group.h"
 #include "plugins/application_tags/application_tags.h"
 #include "plugins/application_tags/run_description.h"
+#include "plugins/parameters/prepares_anywhere.h"
 
 namespace runnel {
 
@@ -161,7 +163,14 @@ bool ApplicationDescription::ReadText(std::string_view text, const std::filesyst
 }
 
 void ApplicationDescription::RunChecks(const std::string& model_file) {
-  if (element_ != nullptr) checks_.Run({*element_, diagnostics_, model_file});
+  if (element_ == nullptr) return;
+  checks_.Run({*element_, diagnostics_, model_file});
+  const std::lock_guard lock(runtime_.structure_mutex());
+  element_->Visit([this](FrameworkElement& each) {
+    const bool is_tried = dynamic_cast<PreparesAnywhere*>(&each) != nullptr;
+    const auto good = is_tried ? MakeReady(*element_, each) : Result<void>();
+    if (!good) diagnostics_.Add(good.error());
+  });
 }
 
 bool ApplicationDescription::MakeEmpty(const std::string& name) {

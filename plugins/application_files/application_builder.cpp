@@ -93,10 +93,12 @@ std::string Hint(const Port& input, FrameworkElement& application) {
 
 }  // namespace
 
-Result<void> MakeApplicationReady(FrameworkElement& application) {
+Result<void> MakeApplicationReady(FrameworkElement& application) { return MakeReady(application, application); }
+
+Result<void> MakeReady(FrameworkElement& application, FrameworkElement& element) {
   Runtime& runtime = application.runtime();
   const std::lock_guard lock(runtime.structure_mutex());
-  const auto ready = runtime.MakeReady(application);
+  const auto ready = runtime.MakeReady(element);
   if (ready) return {};
   Error error = ready.error();
   const auto culprit = runtime.root().Find(error.path);

@@ -68,6 +68,9 @@ struct ApplicationFile {
 /// place in the file; nothing is ready then.
 [[nodiscard]] Result<void> MakeApplicationReady(FrameworkElement& application);
 
+/// The same of one element of it, and of all below.
+[[nodiscard]] Result<void> MakeReady(FrameworkElement& application, FrameworkElement& element);
+
 /// For builders: what is left to be done in `mode` with an application that has been read. Not under
 /// the structure lock.
 void FinishBuild(BuildOutcome& outcome, BuildMode mode);

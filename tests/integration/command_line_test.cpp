@@ -59,7 +59,7 @@ TEST_F(CommandLine, CheckKnowsConversionsAndNamesWhatWouldFit) {
   const char* const head = R"(<application name="app">
   <load plugin="simulation"/> <load plugin="motion"/>
   <thread name="main" period="10ms"/>
-  <module name="world" type="simulation/world"/>
+  <module name="world" type="simulation/world"> <parameter name="world" value="rooms"/> </module>
   <module name="laser" type="simulation/laser"/>
   <module name="drive" type="motion/differential_drive"/>
   <connect from="world/scene" to="laser/scene"/>
@@ -77,6 +77,29 @@ TEST_F(CommandLine, CheckKnowsConversionsAndNamesWhatWouldFit) {
 </application>)"));
   EXPECT_EQ(wrong.code, kBadInput);
   EXPECT_THAT(wrong.text, HasSubstr("carries Pose2, but /app/drive/input/twist takes Twist2"));
+}
+
+// All that a run would refuse when its modules are made ready, at once, and with the same words.
+TEST_F(CommandLine, CheckTellsOfFilesThatAreNotThereAndOfSettingsThatCannotBeUsed) {
+  const Ended ended = Runnel("check " + Write(R"(<application name="app" thread="main">
+  <load plugin="simulation"/> <load plugin="adaptors"/>
+  <thread name="main" period="10ms"/> <clock type="simulated"/>
+  <module name="world" type="simulation/world"> <parameter name="world" value="romms"/> </module>
+  <module name="laser" type="simulation/laser"> <parameter name="range_minimum" value="9"/> </module>
+  <module name="bumper" type="simulation/bumper"/>
+  <module name="touch" type="adaptors/bumper"> <parameter name="body_radius" value="1"/> </module>
+  <module name="referee" type="simulation/referee"> <parameter name="result" value="no/folder/result.json"/> </module>
+  <connect from="world/scene" to="laser/scene referee/scene"/> <connect from="world/pose" to="laser/pose touch/pose referee/pose"/>
+  <connect from="world/contact" to="bumper/truth referee/contact"/> <connect from="bumper/contact" to="touch/contact"/>
+  <connect from="world/goal" to="referee/goal"/>
+</application>)"));
+  EXPECT_EQ(ended.code, kBadInput);
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/world: "), HasSubstr("there is no world"), HasSubstr("did you mean")));
+  EXPECT_THAT(ended.text, HasSubstr(file_.string() + ":4:3"));
+  EXPECT_THAT(ended.text, HasSubstr("the laser sees nothing"));
+  EXPECT_THAT(ended.text, HasSubstr("is not above the body's radius"));
+  EXPECT_THAT(ended.text, HasSubstr("for the result"));
+  EXPECT_THAT(ended.text, Not(HasSubstr("no errors")));
 }
 
 TEST_F(CommandLine, RunThatFailsEndsWithOne) {
