@@ -135,9 +135,10 @@ class Blackboard final {
     if (!loan) return loan;
     const std::uint64_t now = revision();
     const auto known = std::ranges::find(known_, &*loan, &Known::buffer);
-    const bool is_in_journal = known != known_.end() && known->revision + 1 >= journal_begin_ &&
-                               now - known->revision <= journal_.size();
-    if (!is_in_journal || !Replay(*loan, known->revision + 1, now)) CopyNewest(*loan);
+    const std::uint64_t had = known != known_.end() ? known->revision : 0;
+    if (had > 0) known_.erase(known);  // what throws half-way leaves a buffer of which nothing is known
+    const bool is_in_journal = had > 0 && had + 1 >= journal_begin_ && now - had <= journal_.size();
+    if (!is_in_journal || !Replay(*loan, had + 1, now)) CopyNewest(*loan);
     return loan;
   }
   bool Replay(T& value, std::uint64_t from, std::uint64_t to) {

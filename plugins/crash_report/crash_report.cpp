@@ -163,7 +163,7 @@ class CrashReport::Installed {
     stack_ = CallStack::Take();
     if (const void* const place = PlaceIn(context)) stack_.KeepBetween(place, nullptr);
     if (!options_.file.empty()) {
-      file_ = open(options_.file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+      file_ = open(options_.file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
     }
     CrashText text;
     text << "\ncrash: " << (module_ != nullptr ? module_ : "no module, a thread outside of cycles")

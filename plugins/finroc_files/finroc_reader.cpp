@@ -318,9 +318,11 @@ ConnectOptions FinrocReader::ReadFlags(XmlElement edge, FrameworkElement& group)
     const std::string flags = SnakeCase(each.value);
     const auto has = [&](const char* flag) { return flags.find(flag) != std::string::npos; };
     const bool is_flags = each.name == "flags";
-    options.when_present = is_flags && (has("optional") || has("reconnect"));
-    options.late = is_flags && has("neutral");
-    if (options.when_present || options.late) continue;
+    const bool is_present = is_flags && (has("optional") || has("reconnect"));
+    const bool is_late = is_flags && has("neutral");
+    options.when_present |= is_present;
+    options.late |= is_late;
+    if (is_present || is_late) continue;
     Warn("'" + each.name + "' of an edge has no counterpart: '" + each.value + "' is left out", "",
          each.position, group);
   }

@@ -213,6 +213,7 @@ void NetworkLink::Run() noexcept {
       if (must_look_.exchange(false, std::memory_order_acquire)) Follow();
       SendAll();
     } catch (...) {
+      LookAgain();
       element_.log().Error("the network: {}", DescribeException());
     }
   }

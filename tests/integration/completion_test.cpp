@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 namespace runnel::test {
 namespace {
@@ -49,6 +52,17 @@ TEST(Completion, OfAReplayFirstTheRecordingAndThenTheApplication) {
   EXPECT_THAT(Completed("replay apps/bug_d"), testing::IsEmpty());
   EXPECT_THAT(Completed("replay run.mcap apps/bug_d"), ElementsAre("apps/bug_demo.xml"));
   EXPECT_THAT(Completed("replay run.mcap apps/bug_demo.xml go"), ElementsAre("goal_x=", "goal_y="));
+}
+
+// An application file from somebody else, and the key Tab.
+TEST(Completion, CarriesOutNothingThatStandsInAFile) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / ("completion_test_" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  const std::string file = folder / "app.xml", made = folder / "made";
+  std::ofstream(file) << "<parameter command_line=\"$(touch${IFS}" << made << ")\"/>\n<parameter command_line=\"speed\"/>\n";
+  EXPECT_THAT(Completed("run " + file + " s"), ElementsAre("speed="));
+  EXPECT_FALSE(std::filesystem::exists(made));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Completion, KnowsTheOptionsOfEachCommand) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,31 @@ class Recording : public testing::Test {
  private:
   TemporaryFolder folder_;
 };
+
+// A blackboard publishes in its constructor: the value bore the machine's time, so 5 s were as long as the machine was on.
+TEST_F(Recording, OfOneRunIsThatOfTheNextToTheLastOctet) {
+  std::vector<std::string> runs;
+  for (const char* const name : {"first.mcap", "second.mcap"}) {
+    const Ended ended = Runnel("run --fast --quiet --duration 5 " RUNNEL_XML "/apps/places_demo.xml --record " + Path(name));
+    ASSERT_THAT(ended.text, AllOf(HasSubstr("recorded "), testing::Not(HasSubstr("too fast")))) << ended.code;
+    const auto reader = McapReader::Open(Path(name));
+    ASSERT_TRUE(reader);
+    EXPECT_LE((*reader)->contents().statistics.end, 5'000'000'000u);
+    std::map<std::string, std::string> ports;
+    EXPECT_TRUE((*reader)->ReadMessages([&](const McapMessage& message) -> Result<void> {
+      const McapChannel& channel = (*reader)->contents().channels.at(message.channel);
+      std::string name = channel.topic;
+      for (const auto& [key, value] : channel.metadata) name += " " + value;
+      ports[name] +=
+          std::to_string(message.log_time) + " " + std::to_string(message.publish_time) + " " + std::string(message.data) + "\n";
+      return {};
+    }));
+    EXPECT_THAT(ports, testing::Contains(testing::Key(HasSubstr("/book/output/places"))));
+    std::string& run = runs.emplace_back();
+    for (const auto& [port, values] : ports) run += port + "\n" + values;
+  }
+  EXPECT_EQ(runs[0], runs[1]);
+}
 
 TEST_F(Recording, TheSensorsOfARunGiveTheSameCommandsAlsoInAnotherWorld) {
   RecordTheDemo();

@@ -116,7 +116,8 @@ void SetStructure(const TypeInfo& type, py::handle object, void* at, bool is_who
 
 void Resize(const TypeInfo& type, void* at, std::size_t rows, std::size_t columns) {
   const ElementOperations& elements = type.elements();
-  if (elements.rows(at) == rows && elements.columns(at) == columns) return;
+  // A matrix has rows of its own; other lists may refer to what is not theirs until they are resized.
+  if (type.kind() == TypeKind::kMatrix && elements.rows(at) == rows && elements.columns(at) == columns) return;
   if (!elements.resize(at, rows, columns)) {
     throw py::value_error(type.name() + " cannot have " + std::to_string(rows * columns) + " elements");
   }

@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import socket
+import stat
 import threading
 import time
 
@@ -15,12 +16,25 @@ from runnel.application import _STOP, KINDS, _port, check_kind, text_of
 
 def _folder():
     base = os.environ.get("XDG_RUNTIME_DIR")
-    return pathlib.Path(base) / "runnel" if base else pathlib.Path(f"/tmp/runnel-{os.getuid()}")
+    folder = pathlib.Path(base) / "runnel" if base else pathlib.Path(f"/tmp/runnel-{os.getuid()}")
+    with contextlib.suppress(FileNotFoundError):
+        said = folder.lstat()
+        if not stat.S_ISDIR(said.st_mode) or said.st_uid != os.getuid() or said.st_mode & 0o077:
+            # As `runnel ps`: whoever can make sockets there can pretend to be a robot.
+            raise _extension.Error(f"{folder}: sockets are looked for only in a folder of this user's that others cannot enter (mode 0700)")
+    return folder
 
 
 def _argument(text):
     escaped = str(text).replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "\\t").replace("\r", "\\r")
     return f'"{escaped}"'
+
+
+def _words(text):
+    """The name=value of a line, as the terminal's language has them."""
+    escaped = {"n": "\n", "t": "\t", "r": "\r"}
+    found = re.findall(r'(\w+)=(?:"((?:[^"\\]|\\.)*)"|(\S*))', text)
+    return {name: plain or re.sub(r"\\(.)", lambda each: escaped.get(each[1], each[1]), quoted) for name, quoted, plain in found}
 
 
 def _request(command, arguments, options, body):
@@ -54,7 +68,7 @@ class _Socket:
         except BaseException:
             self.close()
             raise
-        self.hello = dict(re.findall(r'(\w+)="?((?:[^"\s]|(?<=\\)")*)"?', hello.decode()))
+        self.hello = _words(hello.decode())
         if kind != "hello" or self.hello.get("protocol") != "1":
             self.close()
             raise _extension.Error(f"{path} speaks another protocol")
@@ -200,7 +214,7 @@ class Remote:
     def paths(self, kind=None):
         """(path, kind, type) of all elements, or of those of one kind."""
         check_kind(kind, (*KINDS, "thread", "ports", "element"))
-        rows = [line.split("\t") for line in self.ask("paths").splitlines()]
+        rows = [line.split("\t") for line in self.ask("paths").split("\n") if line]
         found = []
         for row in rows:
             type = row[3] if len(row) > 3 else ""
@@ -251,7 +265,7 @@ class Remote:
 
     def log(self):
         """The lines of the log."""
-        return self.ask("log").splitlines()
+        return [line for line in self.ask("log").split("\n") if line]  # texts may have other ends of lines in them
 
     def faults(self):
         """Those of them that are faults."""
@@ -398,8 +412,8 @@ class Remote:
                     if payload.split()[:1] != [b"0"]:
                         raise _error("".join(said))
                     return
-                for line in payload.decode().splitlines() if kind == "out" else ():
-                    found = re.fullmatch(r"(\S+) s  (?:\(measured at \S+ s\)  )?(.*?)(?:  \(\d+ not shown\))?", line)
+                for line in payload.decode().removesuffix("\n").split("\n") if kind == "out" else ():
+                    found = re.fullmatch(r"(\S+) s  (?:\(measured at \S+ s\)  )?(.*?)(?:  \(\d+ not shown\))?", line, re.S)
                     yield float(found[1]), self._value(path, found[2])
         finally:
             writer.close()

@@ -77,7 +77,9 @@ class StepReader : public CdrWalk {
   bool ReadHeading(const Step& step, void* value) {
     double x = 0, y = 0, z = 0, w = 0;
     if (!IsThere(reader_.Get(x) && reader_.Get(y) && reader_.Get(z) && reader_.Get(w))) return false;
-    const double heading = std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+    const double length = x * x + y * y + z * z + w * w;
+    if (!(length > 0 && std::isfinite(length))) return Fail("a quaternion of length 0, or of what are no numbers, has no heading");
+    const double heading = std::atan2(2 * (w * z + x * y), w * w + x * x - y * y - z * z);  // of whatever length it is
     return SetNumber(*step.part, heading, value) || Fail("the heading is no " + step.part->name());
   }
 

@@ -116,6 +116,12 @@ def test_numbers_out_of_range_are_refused():
         runnel.types.Image(width=1.5)
 
 
+def test_elements_that_are_shared_are_not_written():
+    picture = runnel.types.Image(width=2, height=1, encoding="mono8", data=[1, 2])
+    other = runnel.types.Image(picture, data=[3, 4])
+    assert list(picture.data) == [1, 2] and list(other.data) == [3, 4]
+
+
 def test_truth_and_names(app):
     assert app.read("/laser/scan") and runnel.make("Path2", points=[{"x": 1, "y": 2}]).points
     assert not runnel.make("Path2").points

@@ -86,6 +86,37 @@ TEST_F(BlackboardTest, TheOwnerWritesWhatItLikes) {
   EXPECT_EQ(user().Seen(), Cells(3, 9));
 }
 
+// What is appended twice shows.
+struct Appended {
+  int value = 0;
+};
+void Describe(TypeBuilder<Appended>& type) { type.Name("AppendedForTest").Field("value", &Appended::value); }
+int appended_until_throw = -1;
+Result<void> Apply(Cells& cells, const Appended& change) {
+  cells.push_back(change.value);
+  if (--appended_until_throw == 0) throw std::runtime_error("no memory");
+  return {};
+}
+class AppendingOwner final : public Module {
+ public:
+  using Module::Module;
+  Blackboard<Cells, Appended> list{this, "list", Cells(), {.journal = 4}};
+
+ private:
+  void Update() override {}
+};
+
+TEST(BlackboardInReplay, AnExceptionLeavesNoChangeThatIsAppliedTwice) {
+  Runtime runtime;
+  auto& owner = runtime.Create<AppendingOwner>(runtime.root(), "owner");
+  ASSERT_TRUE(runtime.MakeReady(owner));
+  for (const int each : {1, 2}) ASSERT_TRUE(owner.list.CommitChange({each}));
+  appended_until_throw = 1;  // as the buffer is brought up to date
+  EXPECT_THROW((void)owner.list.CommitChange({3}), std::runtime_error);
+  for (const int each : {3, 4}) ASSERT_TRUE(owner.list.CommitChange({each}));
+  owner.list.Look([](const Cells& cells) { EXPECT_EQ(cells, (Cells{1, 2, 3, 4})); });
+}
+
 TEST_F(BlackboardTest, AReaderKeepsWhatItHolds) {
   const auto held = user().map.value().Peek();
   for (int i = 0; i < 50; ++i) {

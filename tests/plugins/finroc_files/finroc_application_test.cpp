@@ -190,7 +190,7 @@ TEST_F(FinrocApplication, TellsOfEdgesToOtherProcessesAndOfFlags) {
   <edge src="tcp:other-host:4444/Robot/X" dest="B/Input/Value"/>
   <edge src="A/Output/Value" dest="tcp:/Robot/Y" flags="Reconnect"/>
   <edge src="A/Output/Value" dest="B/Input/Second" flags="Optional"/>
-  <edge src="C/Output/Value" dest="B/Input/Label" flags="Reconnect"><conversion operation="ToString"/></edge>
+  <edge src="C/Output/Value" dest="B/Input/Label" flags="Reconnect" comment="later"><conversion operation="ToString"/></edge>
   <edge src="A/Output/Value" dest="B/Input/Label" flags="Compressed"><conversion operation="ToString"/></edge>
 </Finstructable>)");
   ASSERT_NE(application, nullptr) << said_;
@@ -204,7 +204,7 @@ TEST_F(FinrocApplication, TellsOfEdgesToOtherProcessesAndOfFlags) {
   EXPECT_EQ(shop_.Get<Port>("/robot/b/input/second").Sources().size(), 1u);
   EXPECT_EQ(shop_.Get<Port>("/robot/b/input/label").Sources().size(), 1u) << "as a text";
   ASSERT_EQ(LateConnections::Of(shop_.runtime).all().size(), 2u);
-  EXPECT_TRUE(LateConnections::Of(shop_.runtime).all()[1].waits_for);
+  EXPECT_TRUE(LateConnections::Of(shop_.runtime).all()[1].waits_for) << "whatever attributes follow its flags";
   EXPECT_TRUE(shop_.Get<Port>("/robot/b/input/value").Sources().empty());
 }
 

@@ -152,6 +152,27 @@ TEST(MessageCodec, TurnsHeadingsIntoQuaternions) {
   }
 }
 
+// As tf2::getYaw has it.
+TEST(MessageCodec, ReadsHeadingsOfQuaternionsOfAnyLengthButZero) {
+  const auto codec = CodecOf<Pose2>({.as = "geometry_msgs/msg/Pose"});
+  const auto with = [](double x, double y, double z, double w) {
+    Octets octets;
+    CdrWriter to(octets);
+    for (const double each : {1.0, -2.0, 0.0, x, y, z, w}) to.Put(each);
+    return octets;
+  };
+  Pose2 pose;
+  for (const double length : {0.5, 1.0, 20.0}) {
+    ASSERT_TRUE(codec->Decode(with(0, 0, length, length), &pose));
+    EXPECT_NEAR(pose.heading, std::numbers::pi / 2, 1e-12) << length;
+  }
+  for (const double each : {0.0, std::nan(""), double{INFINITY}}) {
+    const auto refused = codec->Decode(with(0, 0, each, 0), &pose);
+    ASSERT_FALSE(refused) << each;
+    EXPECT_THAT(refused.error().message, HasSubstr("has no heading"));
+  }
+}
+
 TEST(MessageCodec, PutsStampAndFrameIntoHeaders) {
   const Octets octets = Encoded(Pose2{}, {.frame = "map"});
   auto reader = CdrReader::Begin(octets);
