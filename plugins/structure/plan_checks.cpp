@@ -105,9 +105,10 @@ Result<void> Plan::Check(const CreateParameter& change) {
 
 namespace {
 
-// Whoever has made it, for a tag of the file or for a run, uses it until the run ends: the network, a recording's player.
+// Whoever has made it, for a tag of the file or for a run, uses it until the run ends: the network, a recording's player. Not the
+// group of the threads, which is one as changes make them.
 bool HoldsWhatTagsMake(const FrameworkElement& element) {
-  if (element.FindAnnotation<NotSaved>() != nullptr) return true;
+  if (element.FindAnnotation<NotSaved>() != nullptr && dynamic_cast<const Group*>(&element) == nullptr) return true;
   return element.kind() == ElementKind::kGroup && !IsModule(element) &&
          std::ranges::any_of(element.children(), [](const auto* each) { return HoldsWhatTagsMake(*each); });
 }

@@ -36,6 +36,11 @@ TEST_F(PartsOfTags, AreNotDeletedWithWhatIsAroundThem) {
   EXPECT_THAT(Refusal({DeleteElement{"/app"}}), HasSubstr("what a tag of the file makes"));
 }
 
+TEST_F(PartsOfTags, AreNoThreads) {
+  runtime.Create<Group>(At<Group>("/app"), "threads").Annotate(std::make_unique<NotSaved>());
+  Must({DeleteElement{"/app/threads"}});
+}
+
 TEST_F(PartsOfTags, OfModulesGoWithThese) {
   Must({CreateModule{"/app/module", "test/silent"}});
   runtime.Create<PartOfTag>(At<Silent>("/app/module"), "worker");
