@@ -3,7 +3,6 @@
 #include <atomic>
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "plugins/genom_modules/component_module.h"
@@ -46,27 +45,12 @@ class FollowingParameter final : public ParameterBase {
   }
 
  private:
-  // acquire and release: the value is handed over.
-  class Hold {
-   public:
-    Hold(std::atomic_flag& flag, bool waits) : flag_(flag), has_(!flag.test_and_set(std::memory_order_acquire)) {
-      for (; waits && !has_; has_ = !flag.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
-    }
-    ~Hold() {
-      if (has_) flag_.clear(std::memory_order_release);
-    }
-    Hold(const Hold&) = delete;
-    Hold& operator=(const Hold&) = delete;
-    [[nodiscard]] bool has() const noexcept { return has_; }
-
-   private:
-    std::atomic_flag& flag_;
-    bool has_;
-  };
+  using Hold = runnel::internal::FlagHold;
 
   bool Assign(const void* value) override {
     const Hold hold(is_held_, true);
-    value_ = *static_cast<const T*>(value);
+    T copy = *static_cast<const T*>(value);
+    value_ = std::move(copy);  // whole or not at all, if memory ends
     has_changed_.store(true, std::memory_order_relaxed);
     return true;
   }

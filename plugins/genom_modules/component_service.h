@@ -157,10 +157,10 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
         std::make_unique<CallableOf<Signature>>(*this, options.service, is_activity()), options.defaults,
         options.required);
     port_.Publish(ServiceLink<Signature>{endpoint_.get()});
-    (void)endpoint_.release();  // the channel's from here on
-    Open(port_, false);
     port_.template Annotate<Callable>(std::move(callable));
     owner.AddPart(*this);
+    Open(port_, false);
+    (void)endpoint_.release();  // the channel's from here on
   }
   ~ComponentService() {
     EndCalls(CallStatus::kDisconnected, "the component has gone");

@@ -5,6 +5,7 @@
 
 #include <fmt/ranges.h>
 
+#include "core/base/erase_where.h"
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 #include "core/base/printable.h"
@@ -188,7 +189,7 @@ void ApplicationCommands::Serve() {
     if (known_.size() > kMostErrands) known_.pop_front();
     Begin(*request);
   }
-  std::erase_if(errands_, [&](Errand& each) {
+  EraseWhere(errands_, [&](Errand& each) {
     if (!each.command->is_done()) return false;
     const CommandAnswer answer = each.command->Take();
     if (answer) element_.log().Info("{}", each.text);

@@ -19,7 +19,9 @@ namespace {
 /// A word of a topic that is not the last.
 class TopicGroup final : public FrameworkElement {
  public:
-  explicit TopicGroup(const Placement& placement) : FrameworkElement(placement, ElementKind::kGroup) {}
+  explicit TopicGroup(const Placement& placement) : FrameworkElement(placement, ElementKind::kGroup) {
+    Annotate(std::make_unique<NotSaved>());
+  }
 };
 
 // Of what is said about a topic a second time.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/element/runtime.h"
+#include "core/base/erase_where.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
@@ -36,7 +37,7 @@ void NetworkLink::Follow() {
     const ChangeScope changes(runtime_);
     wanted = FindOffers();  // anew: the lock has been free
     // Those whose ports have gone stay, for these may come back.
-    std::erase_if(offered_, [&](const auto& each) {
+    EraseWhere(offered_, [&](const auto& each) {
       const bool is_wanted = std::ranges::any_of(wanted, [&](const Wanted& one) {
         return one.path == each->path() && one.options.topic == each->options().topic;
       });
@@ -108,7 +109,7 @@ void NetworkLink::MakeOffer(const Wanted& wanted) {
   {
     // One of before, whose port has another type now: first, since an engine may have one type of a topic only.
     const std::lock_guard lock(runtime_.structure_mutex());
-    std::erase_if(offered_, [&](const auto& each) {
+    EraseWhere(offered_, [&](const auto& each) {
       return each->path() == wanted.path && each->options().topic == wanted.options.topic;
     });
   }

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 #include "core/base/characters.h"
@@ -133,11 +132,9 @@ Result<void> ParameterBase::SetFrom(const void* value) {
 
 // A cycle in which an output feeds the parameter may be about to do the same: that tries, and this waits.
 void ParameterBase::TakeOver(const void* value) {
-  // acquire and release: what belongs to the one who assigns is handed over.
-  while (is_assigning_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
+  const internal::FlagHold hold(is_assigning_, true);
   const bool has_changed = Assign(value);
   is_fed_.store(false, std::memory_order_relaxed);
-  is_assigning_.clear(std::memory_order_release);
   if (has_changed && module_ != nullptr) module_->NoteParameterChange();
 }
 
@@ -160,14 +157,14 @@ class ParameterBase::Feeder final : public FrameworkElement {
  private:
   void Take() {
     if (!held_->Read(*input_, 0) && !is_left_) return;
-    is_left_ = parameter_.is_assigning_.test_and_set(std::memory_order_acquire);
+    const internal::FlagHold hold(parameter_.is_assigning_, false);
+    is_left_ = !hold.has();
     if (is_left_) return;  // somebody sets it just now: in the next cycle
     const void* const value = held_->Find(0);
     const auto& is_good = parameter_.description_.is_within_bounds;
     const bool is_taken = value != nullptr && (!is_good || is_good(value));
     const bool has_changed = is_taken && parameter_.Assign(value);
     if (is_taken) parameter_.is_fed_.store(true, std::memory_order_relaxed);
-    parameter_.is_assigning_.clear(std::memory_order_release);
     held_->Drop(0);
     if (has_changed && parameter_.module_ != nullptr) parameter_.module_->NoteParameterChange();
   }

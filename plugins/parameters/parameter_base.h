@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <string_view>
 #include <type_traits>
 
@@ -89,6 +90,25 @@ ParameterDescription DescriptionOf(const ParameterOptions<T>& options, bool is_s
   }
   return description;
 }
+
+/// Holds the flag for as long as it lives, if nobody else does; `waits`: once nobody else does.
+class FlagHold {
+ public:
+  // acquire and release: what belongs to the one who holds it is handed over.
+  FlagHold(std::atomic_flag& flag, bool waits) : flag_(flag), has_(!flag.test_and_set(std::memory_order_acquire)) {
+    for (; waits && !has_; has_ = !flag.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
+  }
+  ~FlagHold() {
+    if (has_) flag_.clear(std::memory_order_release);
+  }
+  FlagHold(const FlagHold&) = delete;
+  FlagHold& operator=(const FlagHold&) = delete;
+  [[nodiscard]] bool has() const noexcept { return has_; }
+
+ private:
+  std::atomic_flag& flag_;
+  bool has_;
+};
 
 }  // namespace internal
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/erase_where.h"
 #include "core/module/executable.h"
 #include "core/port/cycle.h"
 #include "core/types/type_info.h"
@@ -182,7 +183,7 @@ class PlayedCalls::OfModule {
       made.call->TakeArguments(made.base());
       if (made.call->Begin(now, kNoTimeout) == CallStatus::kPending) under_way_.push_back(&made);
     }
-    std::erase_if(under_way_, [&](Made* made) {
+    EraseWhere(under_way_, [&](Made* made) {
       const Time asked = made->base().asked_to_end;
       if (asked != Time() && asked <= then) made->call->Abort();
       if (made->call->Poll(now) == CallStatus::kPending) return false;

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/erase_where.h"
 #include "core/lockfree/wake_event.h"
 #include "core/paths/path_search.h"
 #include "plugins/ros_messages/message_library.h"
@@ -50,7 +51,7 @@ void OfferedService::Forget(const FrameworkElement& element) noexcept {
 }
 
 Result<void> OfferedService::Follow(WireParticipant& participant, const std::function<bool(std::uint64_t)>& is_there) {
-  std::erase_if(pending_, [&](const Pending& each) { return !is_there(each.id.writer); });
+  EraseWhere(pending_, [&](const Pending& each) { return !is_there(each.id.writer); });
   ServiceTopics topics{.service = options_.service, .dialect = dialect_, .table = table_};
   Result<void> found;
   {
@@ -102,7 +103,7 @@ bool OfferedService::Work() {
     }
   }
   const Time now = runtime_.clock().Now();
-  std::erase_if(pending_, [&](Pending& each) {
+  EraseWhere(pending_, [&](Pending& each) {
     const CallStatus status = each.call->Poll(now);
     if (status == CallStatus::kPending) return false;
     const bool is_answered = status == CallStatus::kAnswered;

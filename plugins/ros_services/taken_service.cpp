@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/erase_where.h"
 #include "core/base/exception_text.h"
 #include "core/base/printable.h"
 #include "core/lockfree/thread_epoch.h"
@@ -86,7 +87,7 @@ bool TakenService::Work() {
   TakeReplies();
   const bool is_matched = endpoints_->is_matched();
   const Time now = runtime_.clock().Now();
-  std::erase_if(pending_, [&](Pending& each) {
+  EraseWhere(pending_, [&](Pending& each) {
     if (each.call->is_given_up.load(std::memory_order_relaxed) || now >= each.call->deadline) {
       End(each, CallStatus::kTimedOut, (is_matched ? "no answer from " : "there is no service ") + options_.service + (is_matched ? "" : " in the network"));
       return true;

@@ -132,9 +132,9 @@ class Client<Reply(Arguments...)> final : public ClientBase {
         port_(group, std::move(name),
               {.description = options.description, .required = options.required}) {
     internal::MakeServiceSignatureKnown<Signature, false>();
-    Open(port_);
     port_.template Annotate<ClientForm>(
         std::make_unique<ClientForm>(std::make_shared<CallFormOf<Signature>>(options.arguments)));
+    Open(port_);
   }
   ~Client() { Close(); }
 

@@ -61,10 +61,10 @@ class Service<Reply(Arguments...)> final : public ServiceBase {
     auto callable =
         std::make_unique<CallableOf<Signature>>(*this, options, kIsActivity<Owner, Handler>);
     port_.Publish(ServiceLink<Signature>{endpoint_.get()});
-    (void)endpoint_.release();  // the channel's from here on
     internal::MakeServiceSignatureKnown<Signature, true>();
-    Open(port_, kIsActivity<Owner, Handler>);
     port_.template Annotate<Callable>(std::move(callable));
+    Open(port_, kIsActivity<Owner, Handler>);
+    (void)endpoint_.release();  // the channel's from here on
   }
   ~Service() { Close(); }
 

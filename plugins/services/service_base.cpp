@@ -94,12 +94,15 @@ void ServiceBase::Open(Port& port, bool is_activity) {
   }
 }
 
-void ServiceBase::Close() noexcept {
+void ServiceBase::Leave() noexcept {
   if (work_ != nullptr) work_->Remove(*this);
-  if (worker_ != nullptr) {
-    worker_->Stop();
-    worker_->set_known_by(nullptr);
-  }
+  if (worker_ == nullptr) return;
+  worker_->Stop();
+  worker_->set_known_by(nullptr);
+}
+
+void ServiceBase::Close() noexcept {
+  Leave();
   // Nobody looks at it any more: who has found it before has left its cycle (Runtime::Delete()).
   if (const std::unique_ptr<ServiceEndpoint> own{endpoint()})
     own->EndAll(CallStatus::kDisconnected, "the service has been deleted");

@@ -129,9 +129,10 @@ class ServiceBase : public CyclePart {
 
  protected:
   ServiceBase() = default;
-  ~ServiceBase() = default;
+  /// Also where Open() has thrown: no module calls what is not there.
+  ~ServiceBase() { Leave(); }
 
-  /// The port is there, and has its endpoint.
+  /// The port is there, and has its endpoint. Last in a constructor: what throws leaves nothing behind then.
   void Open(Port& port, bool is_activity);
   /// While the port is still there.
   void Close() noexcept;
@@ -144,6 +145,7 @@ class ServiceBase : public CyclePart {
   void AfterFault(std::string_view what) noexcept override;
 
  private:
+  void Leave() noexcept;
   void Answer(ServiceEndpoint& at, CallBase& call);
   void AnswerByWorker(CallBase& call, Activity& activity) noexcept;
 

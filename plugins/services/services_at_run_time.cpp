@@ -228,10 +228,10 @@ ServiceAtRunTime::ServiceAtRunTime(FrameworkElement& group, const std::string& n
     return {};
   });
   if (!published) throw ElementError(published.error());
-  (void)endpoint.release();  // the channel's from here on
-  Open(*port_, extra.is_activity);
-  port_->Annotate<Callable>(std::make_unique<Offer>(*this, *found.signature, options.description, std::move(extra)));
   records_ = found.signature->MakeRecorder(group, name);
+  port_->Annotate<Callable>(std::make_unique<Offer>(*this, *found.signature, options.description, extra));
+  Open(*port_, extra.is_activity);
+  (void)endpoint.release();  // the channel's from here on
 }
 
 ServiceAtRunTime::~ServiceAtRunTime() { Close(); }
@@ -254,8 +254,8 @@ ClientAtRunTime::ClientAtRunTime(FrameworkElement& group, const std::string& nam
       called_back_(std::move(called_back)),
       form_(found.signature->MakeForm(options.arguments)),
       port_(MakeLinkInput(*found.link, group, name, {.description = options.description, .required = options.required})) {
-  Open(*port_);
   port_->Annotate<ClientForm>(std::make_unique<ClientForm>(form_));
+  Open(*port_);
 }
 
 ClientAtRunTime::~ClientAtRunTime() { Close(); }

@@ -24,6 +24,9 @@ class GroupParameter;
 
 namespace runnel::internal {
 
+/// Errors: who has made the element, or one in it, is no change (NotSaved); it cannot be `what`.
+Result<void> CheckIsNotOfTags(const FrameworkElement& element, const char* what);
+
 /// A module that has made room for another one.
 struct Replaced {
   UnlistedElement before;

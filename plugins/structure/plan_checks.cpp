@@ -7,6 +7,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
 #include "core/element/element_path.h"
+#include "core/element/not_saved.h"
 #include "core/element/tags.h"
 #include "core/module/group.h"
 #include "core/module/group_parameter.h"
@@ -102,6 +103,24 @@ Result<void> Plan::Check(const CreateParameter& change) {
   return AddNew(std::move(made), change.state);
 }
 
+namespace {
+
+// Whoever has made it, for a tag of the file or for a run, uses it until the run ends: the network, a recording's player. Not the
+// group of the threads, which is one as changes make them.
+bool HoldsWhatTagsMake(const FrameworkElement& element) {
+  if (element.FindAnnotation<NotSaved>() != nullptr && dynamic_cast<const Group*>(&element) == nullptr) return true;
+  return element.kind() == ElementKind::kGroup && !IsModule(element) &&
+         std::ranges::any_of(element.children(), [](const auto* each) { return HoldsWhatTagsMake(*each); });
+}
+
+}  // namespace
+
+Result<void> CheckIsNotOfTags(const FrameworkElement& element, const char* what) {
+  if (!HoldsWhatTagsMake(element)) return {};
+  return Error{.message = std::string("is, or holds, what a tag of the file makes, and cannot be ") + what + " while it runs",
+               .path = element.path(), .hint = "change the tag in the file, and run it again"};
+}
+
 Result<void> Plan::Check(const DeleteElement& change) {
   const auto found = overlay_.Find(change.path);
   if (!found) return found.error();
@@ -117,6 +136,7 @@ Result<void> Plan::Check(const DeleteElement& change) {
     return Error{.message = "a part of a module cannot be deleted by itself",
                  .path = element.path()};
   }
+  if (auto good = CheckIsNotOfTags(element, "deleted"); !good) return good;
   Concern(element);
   going_.push_back(element.path());
   for (const Connection& tie : ExternalConnectionsOf(element)) {

@@ -37,7 +37,7 @@ Result<void> CheckWhatItIs(const FrameworkElement& element, const char* what) {
   if (const FrameworkElement* const module = FindModuleAround(*element.parent())) {
     return refusal("is a part of the module " + module->path() + ", and cannot be " + what + " by itself");
   }
-  return {};
+  return CheckIsNotOfTags(element, what);
 }
 
 std::string Sibling(const FrameworkElement& element, const std::string& name) {

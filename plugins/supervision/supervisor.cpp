@@ -5,6 +5,7 @@
 #include <ranges>
 #include <utility>
 
+#include "core/base/erase_where.h"
 #include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
@@ -49,7 +50,7 @@ void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
 void Supervisor::Shared::KeepSafe(Time now) {
   const std::lock_guard lock(runtime.structure_mutex());
   PublishMissed(now);
-  std::erase_if(later, [&](const std::string& each) { return static_cast<bool>(Release(each, now)); });
+  EraseWhere(later, [&](const std::string& each) { return static_cast<bool>(Release(each, now)); });
   standstill.Look(runtime, scheduler, now,
                   [&](const Port& port, std::string what, bool is_recovery) {
                     Note({port.path(), std::move(what), now, false, is_recovery});

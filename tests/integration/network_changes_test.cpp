@@ -76,6 +76,11 @@ TEST_F(NetworkChanges, MistakesAreToldAndNothingIsChanged) {
   const Program lonely("run " + Write("lonely", "  <module name=\"gate\" type=\"motion/command_gate\"/>\n  <connect from=\"gate/allowed\" to=\"gate/wanted\" late=\"true\"/>\n"));
   WaitForText("ps", "lonely");
   EXPECT_THAT(told("offer --app lonely /gate/allowed"), HasSubstr("<network/>"));
+  // It is used until the run ends.
+  for (const char* const command : {"delete --app follower /network", "rename --app follower /network other", "delete --app follower /network/nobody"}) {
+    EXPECT_THAT(told(command), HasSubstr("what a tag of the file makes"));
+  }
+  EXPECT_THAT(Runnel("network --app follower").text, HasSubstr("offers /follower/gate/output/allowed"));
 }
 
 TEST_F(NetworkChanges, TakesComeAndGoAndAreUndoneAndSaved) {

@@ -15,22 +15,24 @@ async function FreePort() {
 }
 
 export class RobotProcess {
-  /** In a folder of its own; nothing runs yet. */
-  static async Begin() {
+  /** In a folder of its own; nothing runs yet. `change` may rewrite the demonstration's text; `options`, `environment`: of its run. */
+  static async Begin({ change = (text) => text, options = [], environment = {} } = {}) {
     const robot = new RobotProcess();
+    robot.options = options;
     robot.folder = await mkdtemp(join(tmpdir(), 'runnel_search_'));
     const text = await readFile(join(process.env.RUNNEL_XML, 'apps/bug_demo.xml'), 'utf8');
     robot.file = join(robot.folder, 'bug_demo.xml');
-    await writeFile(robot.file, text.replaceAll('../worlds/', `${process.env.RUNNEL_XML}/worlds/`).replace('speed="10"', 'speed="1"'));
+    await writeFile(robot.file, change(text.replaceAll('../worlds/', `${process.env.RUNNEL_XML}/worlds/`).replace('speed="10"', 'speed="1"')));
     robot.port = await FreePort();
     robot.url = `http://127.0.0.1:${robot.port}/`;
     robot.environment = { ...process.env, XDG_RUNTIME_DIR: robot.folder };
+    robot.ofRun = environment;
     robot.away = { since: 0, is: true }; // nobody hears of it
     return robot;
   }
 
-  #spawn(...words) {
-    const child = spawn(process.env.RUNNEL_PROGRAM, words, { stdio: ['ignore', 'pipe', 'pipe'], env: this.environment });
+  #spawn(words, environment = {}) {
+    const child = spawn(process.env.RUNNEL_PROGRAM, words, { stdio: ['ignore', 'pipe', 'pipe'], env: { ...this.environment, ...environment } });
     child.text = '';
     for (const stream of [child.stdout, child.stderr]) stream.on('data', (data) => { child.text = (child.text + data).slice(-4000); });
     child.ended = new Promise((done) => { child.on('exit', (code, signal) => done(code ?? signal)); });
@@ -39,7 +41,7 @@ export class RobotProcess {
 
   async start() {
     for (let left = 20; ; --left) {
-      this.process = this.#spawn('run', this.file, `--inspect=${this.port}`, '--quiet');
+      this.process = this.#spawn(['run', this.file, `--inspect=${this.port}`, '--quiet', ...this.options], this.ofRun);
       const isThere = await Promise.race([this.#isServed(), this.process.ended.then(() => false)]);
       if (isThere) break;
       if (left === 0) throw new Error(`the robot does not begin:\n${this.process.text}`);
@@ -77,7 +79,7 @@ export class RobotProcess {
 
   /** A terminal's. */
   async command(...words) {
-    return this.#spawn(...words).ended;
+    return this.#spawn(words).ended;
   }
 
   get hasEnded() {

@@ -1,0 +1,45 @@
+// What a process uses, and whether it grows: memory of its own, file descriptors, threads; how long locks were held in it.
+
+import { readFile, readdir } from 'node:fs/promises';
+
+const kLongestHold = 50; // ms
+// Memory may grow so much from the first third after the warm-up to the last one: an allocator gives back in pieces.
+const kMemory = { share: 0.03, least: 2048 }; // kB
+
+const Middle = (all) => [...all].sort((a, b) => a - b)[Math.floor(all.length / 2)];
+
+/** Of process `id`, now. */
+export async function Use(id) {
+  const status = await readFile(`/proc/${id}/status`, 'utf8');
+  const number = (name) => Number(status.match(new RegExp(`^${name}:\\s+(\\d+)`, 'm'))[1]);
+  const maps = await readFile(`/proc/${id}/maps`, 'utf8');
+  return { memory: number('RssAnon'), descriptors: (await readdir(`/proc/${id}/fd`)).length, threads: number('Threads'), mappings: maps.split('\n').length - 1 };
+}
+
+/** What has grown, in words. Descriptors and threads: more in each of the last third than in any of the first one. */
+export function Growth(all) {
+  const third = Math.floor(all.length / 3);
+  if (third < 3) return [`only ${all.length} samples: nothing can be said of growth; give it more time`];
+  const of = (name, part) => part.map((each) => each[name]);
+  const [first, last] = [all.slice(0, third), all.slice(-third)];
+  const grown = [];
+  for (const name of ['descriptors', 'threads']) {
+    if (Math.min(...of(name, last)) > Math.max(...of(name, first))) grown.push(`${name} grow: ${of(name, all).join(' ')}`);
+  }
+  const [before, after] = [first, last].map((part) => Middle(of('memory', part)));
+  if (after - before > Math.max(kMemory.least, before * kMemory.share)) grown.push(`memory grows from ${before} to ${after} kB`);
+  return grown;
+}
+
+/** Of the file that lock_watch.cpp writes: locks of Runnel. {longest, at, tooLong} */
+export async function Holds(file) {
+  const text = await readFile(file, 'utf8').catch(() => '');
+  const holds = { longest: 0, at: '', tooLong: [] };
+  for (const line of text.split('\n')) {
+    const [, time, at] = line.match(/^([\d.]+) (.*)$/) ?? [];
+    if (at === undefined || !/^(lib)?runnel|^\w+\.so:.*runnel::/.test(at)) continue;
+    if (Number(time) > holds.longest) Object.assign(holds, { longest: Number(time), at });
+    if (Number(time) > kLongestHold) holds.tooLong.push(`a lock was held for ${time} ms: ${at}`);
+  }
+  return holds;
+}
