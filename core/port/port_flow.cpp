@@ -187,9 +187,8 @@ std::vector<std::shared_ptr<const PortStop>> internal::FindStopsOfVelocities(con
     for (PassedStop& each : PassedStops(at)) {
       if (ComesToRest(at, each) && std::ranges::find(found, each.stop) == found.end()) found.push_back(each.stop);
     }
-    if (!IsMadeVelocity(at)) return;
     VisitSiblings(at, Port::Direction::kOutput, [&](const Port& output) {
-      if (IsNotedVelocity(output) && IsPassedOn(at, output)) look(output);
+      if (IsPassedOn(at, output)) look(output);
     });
   };
   look(port);

@@ -28,7 +28,8 @@ Result<AnyValue> Port::FindSafeValue(const AnyValue& declared, DrivingKind comma
   };
   // What a velocity is read as while nothing comes may well move.
   const bool is_velocity = command == DrivingKind::kVelocity || IsVelocity(type_, unit());
-  const AnyValue given = declared || is_velocity ? declared : limits().default_value;
+  const bool may_move = is_velocity || DrivingKindByUnits(type_, unit()) == DrivingKind::kVelocity;
+  const AnyValue given = declared || may_move ? declared : limits().default_value;
   if (given && &given.type() != &type_) {
     return refuse("its safe value is a " + given.type().name() + " and not a " + type_.name());
   }

@@ -74,7 +74,7 @@ void Port::TakeOver(Port& from) {
     const auto has_moved = [](const Port* each) { return each->motion_beginnings() != 0; };
     const bool is_output = !is_proxy() && direction_ == Direction::kOutput, is_input = !is_proxy() && direction_ == Direction::kInput;
     if (is_output && has_moved(this)) VisitSiblings(*this, Direction::kInput, [](Port& each) { each.RebindSinks(); });
-    bool moves = is_input && std::ranges::any_of(Sources(), has_moved);
+    bool moves = false;
     if (is_input) VisitSiblings(*this, Direction::kOutput, [&](const Port& each) { moves = moves || has_moved(&each); });
     if (moves) RebindSinks();
   } catch (...) {

@@ -65,10 +65,11 @@ void MarkDriving(const TagUse& use) {
   port->Annotate(std::make_unique<DrivingMark>(std::move(safe), brake != nullptr ? brake->value : "", kind));
 }
 
-// What a file has to say: the module in whose place another one is may have known its unit.
+// What a file has to say: the module in whose place another one is may have known its unit, or not.
 std::string CommandOf(const Port& port, const DrivingMark& mark) {
-  const bool is_known = DrivingKindByUnits(port.type(), port.unit()) != DrivingKind::kUnspecified || !HasNumbers(port.type());
-  if (!mark.command.empty() || is_known || !port.is_driving()) return mark.command;
+  const bool is_known = DrivingKindByUnits(port.type(), port.unit()) != DrivingKind::kUnspecified;
+  const bool is_needed = is_known ? !mark.command.empty() : HasNumbers(port.type());
+  if (!is_needed || !port.is_driving()) return mark.command;
   return DrivingKindNames()[static_cast<std::size_t>(port.stop()->command()) - 1];
 }
 

@@ -110,7 +110,8 @@ Result<void> OfferedPort::Begin(WireParticipant& participant) {
   if (!writer) return writer.error();
   writer_ = std::move(*writer);
   // A command of motion stops whoever moves by it elsewhere, whether or not anybody has marked it here.
-  if (options_.is_measured || !IsVelocity(type(), options_.unit)) return {};
+  // Of a list nobody knows here how long it has to be: who marks it says so.
+  if (options_.is_measured || !IsVelocity(type(), options_.unit) || HasLists(type())) return {};
   const std::shared_ptr<const void> zero = type().Make();
   if (auto set = reader_->SetDriving(true, zero ? AnyValue(type(), zero) : AnyValue(), {}, DrivingKind::kVelocity); !set) return set;
   AddWhatDrives(reader_->runtime(), topic_ + " (in the network)", reader_->stop());

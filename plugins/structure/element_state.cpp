@@ -46,6 +46,7 @@ Result<void> GiveTo(Port& port, const PortState& state) {
   // What its module declares is its module's business: one in its place may declare another safe value.
   if (state.stop && state.stop->robot() && (state.is_marked || !port.is_driving())) {
     if (auto set = port.SetDriving(true, state.stop->safe_value(), state.stop->brake(), state.stop->command()); !set) return set;
+    if (!state.is_marked) port.Annotate(std::make_unique<MarkedAsDriving>(false));  // as a module has declared it
   }
   // What was published before a block was released counts no more afterwards either.
   if (state.stop && state.stop->block()->bar() != StopSignal::kNever) {

@@ -77,20 +77,21 @@ class WayToButton {
     if (IsSet(port)) lacks.insert(port.path() + " is set by hand, or by a rule");
     const bool is_output = port.direction() == Port::Direction::kOutput && !port.is_proxy();
     if (is_output) return LookAtModule(port);
+    std::size_t& most = fed_[port.path()];
+    most = std::max(most, port.incoming().size());
     if (port.incoming().empty()) {
       lacks.insert("nothing is connected to " + port.path());
-    } else {
-      Count(port, port.incoming().size(), "connections");
+    } else if (port.incoming().size() < most) {
+      lacks.insert(fmt::format("{} of {} connections to {} are gone", most - port.incoming().size(), most, port.path()));
     }
     for (const Port* each : port.incoming()) Look(*each);
   }
-  void Count(const Port& port, std::size_t now, const char* what) {
-    std::size_t& most = fed_[port.path()];
-    most = std::max(most, now);
-    if (now < most) lacks.insert(fmt::format("{} of {} {} to {} are gone", most - now, most, what, port.path()));
-  }
   void LookAtModule(const Port& output) {
-    if (const auto* const elsewhere = output.FindAnnotation<WritersElsewhere>()) Count(output, *elsewhere->count, "writers");
+    if (const auto* const elsewhere = output.FindAnnotation<WritersElsewhere>()) {
+      std::size_t& most = fed_[output.path()];  // until the first one has been found nobody is missed
+      most = std::max<std::size_t>(most, *elsewhere->count);
+      if (most > 0 && *elsewhere->count == 0) lacks.insert("nobody writes to " + output.path() + " any more");
+    }
     const std::string why = scheduler_.WhyAtRest(output, kStuckAfter);
     if (!why.empty()) lacks.insert(why);
     std::vector<const Port*> passed;
