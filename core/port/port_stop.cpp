@@ -27,15 +27,15 @@ Result<AnyValue> Port::FindSafeValue(const AnyValue& declared, DrivingKind comma
     return Error{.message = std::move(message), .path = path()};
   };
   // What a velocity is read as while nothing comes may well move.
-  const bool is_velocity = command == DrivingKind::kVelocity || IsVelocity(type_, unit());
-  const bool may_move = is_velocity || DrivingKindByUnits(type_, unit()) == DrivingKind::kVelocity;
+  const bool may_move = command == DrivingKind::kVelocity || DrivingKindByUnits(type_, unit()) == DrivingKind::kVelocity;
   const AnyValue given = declared || may_move ? declared : limits().default_value;
   if (given && &given.type() != &type_) {
     return refuse("its safe value is a " + given.type().name() + " and not a " + type_.name());
   }
   if (given && !type_.is_transparent()) return refuse("a " + type_.name() + " cannot be copied");
   if (given) return given;
-  if (!is_velocity || HasLists(type_)) {
+  // What is only said to be a velocity may go to a place farther on.
+  if (!IsVelocity(type_, unit()) || HasLists(type_)) {
     Error error = refuse("something moves by it, and it has no safe value");
     error.hint = "add safe=\"…\": the " + type_.name() + " at which it stands still";
     return error;

@@ -41,6 +41,13 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from) {
     return CannotTakeOver(port, "is in " + port.unit() + " and cannot take over from " + from.path() + ", which is in " +
                                     from.unit());
   }
+  // A module in between may not have known its unit.
+  const auto stop = port.StopInPlaceOf(from);
+  const DrivingKind known = DrivingKindByUnits(port.type(), port.unit());
+  if (stop && stop->robot() && internal::IsNumber(port.type()) && known != DrivingKind::kUnspecified && known != stop->command()) {
+    return CannotTakeOver(port, "is in " + port.unit() + " and cannot take over from " + from.path() + ", by which something moves as by a " +
+                                    DrivingKindNames()[static_cast<std::size_t>(stop->command()) - 1]);
+  }
   if (!port.incoming_.empty() || !port.outgoing_.empty()) {
     return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
   }
@@ -122,12 +129,6 @@ std::shared_ptr<const PortStop> Port::StopInPlaceOf(const Port& from) const {
   const std::shared_ptr<const PortStop> before = from.stop();
   const PortStop* const declared = declared_stop();
   const bool is_kept = declared == nullptr || (before && before->robot() && internal::MarkedAsDriving::Is(from));
-  if (is_kept && before && before->robot() && internal::IsNumber(type_)) {
-    // The module in between may not have known its unit.
-    const DrivingKind known = DrivingKindByUnits(type_, unit());
-    if (known != DrivingKind::kUnspecified && known != before->command())
-      return std::make_shared<PortStop>(before->safe_value(), before->brake(), known, before->robot(), before.get());
-  }
   if (is_kept) return before;
   return std::make_shared<PortStop>(declared->safe_value(), declared->brake(), declared->command(), declared->robot(), before.get());
 }

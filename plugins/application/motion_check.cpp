@@ -6,6 +6,8 @@
 #include "core/element/source_place.h"
 #include "core/module/executable.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/driving_ports.h"
+#include "core/port/input_base.h"
 #include "core/port/port.h"
 #include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
@@ -67,6 +69,23 @@ void WarnOfMarksBefore(const Port& marked, const ApplicationCheckUse& use) {
   }
 }
 
+// What a ramp would have to begin with there, nobody knows: what lies between may scale it.
+void WarnOfRampsBefore(const Port& driving, const ApplicationCheckUse& use) {
+  const PortStop& stop = *driving.stop();
+  if (stop.command() != DrivingKind::kVelocity || IsZero(stop.safe_value())) return;
+  for (const Port* source : driving.Sources()) {
+    VisitSiblings(*source, Port::Direction::kInput, [&](const Port& each) {
+      const auto* const input = dynamic_cast<const InputBase*>(&each);
+      if (input == nullptr || input->ageing() != Ageing::kPassedOn || each.incoming().empty() || each.is_driving()) return;
+      use.diagnostics.AddWarning({.message = "is passed on to " + driving.path() + ", whose safe value is not zero: what is ramped before it does not "
+                                             "begin anew after a STOP",
+                                  .path = each.path(),
+                                  .position = FindSourcePlace(driving),
+                                  .hint = "mark it, with the value at which that stands still: <driving port=\"" + each.path() + "\"/>"});
+    });
+  }
+}
+
 }  // namespace
 
 void CheckMotion(const ApplicationCheckUse& use) {
@@ -77,6 +96,7 @@ void CheckMotion(const ApplicationCheckUse& use) {
     if (port == nullptr) return;
     is_marked = is_marked || port->is_driving();
     if (port->is_driving()) WarnOfMarksBefore(*port, use);
+    if (port->is_driving()) WarnOfRampsBefore(*port, use);
     // What others read over the network is held by itself.
     const bool is_read = !port->is_proxy() && port->direction() == Port::Direction::kInput;
     if (moves == nullptr && is_read && IsVelocity(port->type(), port->unit())) moves = port;

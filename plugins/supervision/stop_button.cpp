@@ -87,11 +87,8 @@ class WayToButton {
     for (const Port* each : port.incoming()) Look(*each);
   }
   void LookAtModule(const Port& output) {
-    if (const auto* const elsewhere = output.FindAnnotation<WritersElsewhere>()) {
-      std::size_t& most = fed_[output.path()];  // until the first one has been found nobody is missed
-      most = std::max<std::size_t>(most, *elsewhere->count);
-      if (most > 0 && *elsewhere->count == 0) lacks.insert("nobody writes to " + output.path() + " any more");
-    }
+    const auto* const elsewhere = output.FindAnnotation<WritersElsewhere>();
+    if (elsewhere != nullptr && *elsewhere->count == 0) lacks.insert("nobody writes to " + output.path());
     const std::string why = scheduler_.WhyAtRest(output, kStuckAfter);
     if (!why.empty()) lacks.insert(why);
     std::vector<const Port*> passed;

@@ -172,7 +172,7 @@ class Motor final : public Module {
  public:
   using Module::Module;
 
-  Input<double> speed{this, "speed", {.drives = true, .command = DrivingKind::kVelocity}};
+  Input<double> speed{this, "speed", {.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(0.0)}};
 
  private:
   void Update() override {

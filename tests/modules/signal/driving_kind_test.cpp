@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "core/module/group.h"
+#include "core/port/proxy_port.h"
 #include "core/types/type_of.h"
 #include "modules/signal/filters.h"
 #include "plugins/structure/structure_editor.h"
@@ -148,9 +149,15 @@ TEST_F(KindOfDriving, OfAVelocityMayStandStillAtAnotherNumber) {
   pulse.DisconnectAll();
 }
 
-TEST_F(KindOfDriving, OfAVelocityStandsStillAtZeroWhateverItsDefaultIs) {
-  Input<double> belt(others, "belt", {.limits = {.default_value = AnyValue(0.3)}, .drives = true, .command = DrivingKind::kVelocity});
-  EXPECT_EQ(*static_cast<const double*>(belt.stop()->safe_value().get()), 0);
+// The default may well move; zero of what is only said to be a velocity may be a place farther on.
+TEST_F(KindOfDriving, OfAVelocityWithoutAUnitNeedsASafeValue) {
+  EXPECT_THROW(Input<double>(others, "belt", {.limits = {.default_value = AnyValue(0.3)}, .drives = true, .command = DrivingKind::kVelocity}),
+               ElementError);
+  auto& border = rig.runtime.Create<ProxyPort>(others, "border", Port::Direction::kInput, TypeOf<double>());
+  const auto refused = border.SetDriving(true, {}, {}, DrivingKind::kVelocity);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().ToString(), HasSubstr("no safe value"));
+  EXPECT_TRUE(border.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kVelocity));
 }
 
 TEST_F(KindOfDriving, IsNotAnotherOneThanItsUnitSays) {
@@ -205,9 +212,10 @@ TEST(DrivingKindOfMarks, FollowsTheUnitsOfWhatIsThere) {
   ASSERT_TRUE(metres.in.SetDriving(true, AnyValue(0.5)));
   numbers.in.TakeOver(metres.in);
   EXPECT_EQ(numbers.in.stop()->command(), DrivingKind::kPosition) << "it knows no better";
-  speeds.in.TakeOver(numbers.in);
-  EXPECT_EQ(speeds.in.stop()->command(), DrivingKind::kVelocity);
   EXPECT_FALSE(metres.in.is_driving());
+  const auto refused = Port::CheckTakeOver(speeds.in, numbers.in);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().ToString(), HasSubstr("is in m/s and cannot take over from /numbers/input/in, by which something moves as by a position"));
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST_F(UnitOfCommand, IsNotNeededWhereItIsSaidToBeAVelocity) {
   ASSERT_TRUE(Port::Connect(gear.out, border));
   ASSERT_TRUE(Port::Connect(border, motor));
   ASSERT_TRUE(Port::Connect(rig.module.out, gear.in));
-  ASSERT_TRUE(border.SetDriving(true, {}, {}, DrivingKind::kVelocity));
+  ASSERT_TRUE(border.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kVelocity));
   const auto wish = [&](int times) {
     for (int i = 0; i < times; ++i) {
       Wish(1, 1);
@@ -117,7 +117,7 @@ TEST_F(UnitOfCommand, HasToBeSaidOrElseWhatItIs) {
   EXPECT_FALSE(motor.is_driving());
   EXPECT_THROW(Input<double>(others, "other", {.drives = true, .safe_value = AnyValue(0.0)}), ElementError);
   EXPECT_EQ(others.Find("motor").has_value(), true);
-  Input<double> drive(others, "drive", {.drives = true, .command = DrivingKind::kVelocity});
+  Input<double> drive(others, "drive", {.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(0.0)});
   EXPECT_EQ(drive.stop()->command(), DrivingKind::kVelocity);
   Input<bool> lamp(others, "lamp", {.drives = true, .safe_value = AnyValue(false)});  // there is nothing between its values
   EXPECT_EQ(lamp.stop()->command(), DrivingKind::kEffort);

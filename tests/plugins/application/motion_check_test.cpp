@@ -61,6 +61,17 @@ TEST(MotionCheck, WarnsOfAMarkBeforeWhatMoves) {
   EXPECT_EQ(Checked("<clock type='simulated'/>" + moves + "<driving port='s/out'/><driving port='m/in'/>"), "");
 }
 
+// As the pulse of a motor controller, which stands still at 1500 us.
+TEST(MotionCheck, WarnsOfRampsBeforeAVelocityWhoseSafeValueIsNotZero) {
+  const std::string moves = "<load plugin='signal'/><clock type='simulated'/><module name='s' type='states/source'/>"
+                            "<module name='scale' type='signal/linear'/><module name='motor' type='signal/linear'/>"
+                            "<connect from='s/out' to='scale/in'/><connect from='scale/out' to='motor/in'/>";
+  EXPECT_THAT(Checked(moves + "<driving port='motor/in' safe='1500' command='velocity'/>"),
+              ::testing::HasSubstr("/app/scale/input/in: is passed on to /app/motor/input/in, whose safe value is not zero"));
+  EXPECT_EQ(Checked(moves + "<driving port='motor/in' safe='0' command='velocity'/>"), "");
+  EXPECT_EQ(Checked(moves + "<driving port='motor/in' safe='1500' command='velocity'/><driving port='scale/in' safe='0' command='velocity'/>"), "");
+}
+
 TEST(MotionCheck, IsContentWithAThreadOfItsOwnAndOnASimulatedClock) {
   EXPECT_EQ(Checked("<thread name='control' period='10ms'/><thread name='drive' period='10ms'/>\n"
                     "<module name='s' type='states/source' thread='control'/>\n"

@@ -92,10 +92,10 @@ class ElsewherePressed : public StopButtonTest {
   ElsewherePressed() {
     panel.out.Annotate(std::make_unique<WritersElsewhere>(writers));
     MustSucceed(supervisor.Add(StopButtonRule{panel.out.path(), true}));
-    std::this_thread::sleep_for(200ms);
-    EXPECT_FALSE(runtime.robot_stop().in_force()) << "nobody has been there yet";
+    WaitForStop("nobody writes to /app/panel/output/out");
     *writers = 1;
     std::this_thread::sleep_for(200ms);  // until it is known
+    EXPECT_TRUE(runtime.robot_stop().Release("the test"));
   }
   const std::shared_ptr<std::atomic<std::size_t>> writers = std::make_shared<std::atomic<std::size_t>>(0);
 };
@@ -103,8 +103,9 @@ class ElsewherePressed : public StopButtonTest {
 TEST_F(ElsewherePressed, PressesWhenItsWriterGoesAndIsNotLetGoByTheNextOne) {
   Press(1);
   WaitForStop("the button /app/panel/output/out");
+  const auto requests = runtime.robot_stop().requests();
   *writers = 0;
-  WaitUntil("it is pressed once more", [&] { return runtime.robot_stop().requests() > 1; });
+  WaitUntil("it is pressed once more", [&] { return runtime.robot_stop().requests() > requests; });
   *writers = 1;
   std::this_thread::sleep_for(200ms);
   (void)scheduler.RunUntil(runtime.clock().Now() + 1s);
@@ -113,7 +114,7 @@ TEST_F(ElsewherePressed, PressesWhenItsWriterGoesAndIsNotLetGoByTheNextOne) {
   EXPECT_TRUE(runtime.robot_stop().in_force());
   ASSERT_TRUE(runtime.robot_stop().Release("the test"));
   *writers = 0;
-  WaitForStop("nobody writes to /app/panel/output/out any more");
+  WaitForStop("nobody writes to /app/panel/output/out");
 }
 
 TEST_F(ElsewherePressed, ReleasesNothingWhileSeveralWrite) {
