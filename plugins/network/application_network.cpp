@@ -181,6 +181,7 @@ class ApplicationNetwork final : public ApplicationExtension {
     RosHooks hooks{.set_parameters = [&application](const auto& changes) { return SetParameters(application, changes); },
                    .health = ApplicationHealth(application),
                    .set_time = [&application](Time time) { return application.SetTime(time); },
+                   .clock_lead = [&application] { return application.scheduler().pace().outside_lead(); },
                    .is_stop_kept = application.service().application().hooks.is_stop_kept,
                    .check_stop = [&application] { return CheckThatAllStops(application.runtime(), &application.scheduler()); }};
     auto link = NetworkLink::Start(group, *element, *engine_, is_simulated_, [&group] { return ListElements(group, {}); },

@@ -63,7 +63,7 @@ std::unique_ptr<RosNode> RosNode::Start(const RosOptions& options, WireParticipa
   };
   node->MakeTopics(participant, runtime, tell);
   if (options.follows_clock && hooks.set_time) {
-    if (const auto done = node->FollowClock(participant, log, hooks.set_time); !done) tell(done.error());
+    if (const auto done = node->FollowClock(participant, hooks.set_time); !done) tell(done.error());
   }
   if (options.sends_diagnostics && hooks.health) {
     keep(node->diagnostics_,
@@ -98,18 +98,14 @@ void RosNode::MakeTopics(WireParticipant& participant, Runtime& runtime, const s
   }
 }
 
-Result<void> RosNode::FollowClock(WireParticipant& participant, Logger& log,
-                                  const std::function<Result<void>(Time)>& set_time) {
-  const auto take = [&log, set_time, said = std::string()](const WireSample& sample) mutable {
+Result<void> RosNode::FollowClock(WireParticipant& participant, const std::function<Result<void>(Time)>& set_time) {
+  const auto take = [set_time](const WireSample& sample) {
     auto from = CdrReader::Begin(sample.octets);
     std::int32_t seconds = 0;
     std::uint32_t rest = 0;
     if (!from || !from->Get(seconds) || !from->Get(rest) || rest >= 1'000'000'000) return;
-    const auto set = set_time(Time(std::chrono::seconds(seconds) + std::chrono::nanoseconds(rest)));
-    const std::string why = set ? std::string() : set.error().ToString();
-    if (why == said) return;
-    said = why;
-    if (!why.empty()) log.Warn("/clock is not followed: {}", why);
+    // Whoever follows no clock has not been let start.
+    (void)set_time(Time(std::chrono::seconds(seconds) + std::chrono::nanoseconds(rest)));
   };
   auto reader = participant.MakeReader(RosEndpoint("/clock", "rosgraph_msgs/msg/Clock", {.is_reliable = false}), take, {});
   if (!reader) return reader.error();

@@ -105,7 +105,7 @@ class RosNode {
   RosNode(const RosOptions& options, const WireId& participant, const Clock& clock, ClockOffset offset)
       : options_(options), participant_(participant), clock_(clock), offset_(std::move(offset)) {}
   void MakeTopics(WireParticipant& participant, Runtime& runtime, const std::function<void(const Error&)>& tell);
-  Result<void> FollowClock(WireParticipant& participant, Logger& log, const std::function<Result<void>(Time)>& set_time);
+  Result<void> FollowClock(WireParticipant& participant, const std::function<Result<void>(Time)>& set_time);
   std::optional<Time> SendClock(Time now);
 
   const RosOptions options_;

@@ -26,7 +26,7 @@ std::optional<Time> TimeAt(const Port& port) {
 
 }  // namespace
 
-// By its path, for its module may be replaced. A clock that goes back is told of once, and waited for.
+// By its path, for its module may be replaced.
 void Scheduler::LookAtClockPort() {
   std::optional<Time> time;
   {
@@ -34,23 +34,25 @@ void Scheduler::LookAtClockPort() {
     const auto found = PathSearch(runtime_).FindPort(clock_port_, PathKind::kOutput);
     if (found) time = TimeAt(**found);
   }
-  if (!time || time == pace_.outside_time()) return;
-  const auto set = pace_.SetTime(*time);
-  const bool goes_back = !set;
-  if (goes_back && !outside_clock_went_back_) {
-    faults_.Note({.path = options_.clock_port,
-                  .message = set.error().message + "; nothing runs until it has come there again",
-                  .time = simulation_.clock().Now(),
-                  .is_mended = true,
-                  .kind = Fault::Kind::kNote});
-  }
-  outside_clock_went_back_ = goes_back;
+  if (time) (void)pace_.SetTime(*time);
+}
+
+void Scheduler::TellJump() {
+  const auto jump = pace_.TakeJump();
+  if (!jump) return;
+  faults_.Note({.path = options_.clock_port.empty() ? "/clock" : options_.clock_port,
+                .message = "the clock that is followed jumps from " + std::to_string(ToSeconds(jump->first)) + " s to " +
+                           std::to_string(ToSeconds(jump->second)) + " s; what runs here goes on from there",
+                .time = simulation_.clock().Now(),
+                .is_mended = true,
+                .kind = Fault::Kind::kNote});
 }
 
 // Whether there is a time to go by.
 bool Scheduler::FollowOutsideClock() {
   if (!pace_.follows_outside()) return true;
   if (!options_.clock_port.empty()) LookAtClockPort();
+  TellJump();
   if (outside_clock_has_begun_) return true;
   const auto first = pace_.outside_time();
   if (!first) return false;

@@ -99,15 +99,24 @@ Result<void> Pace::SetTime(Time time) {
     return Error{.message = "this application follows no clock from outside",
                  .hint = "<clock type=\"outside\"/> in the application file has it do so"};
   }
+  time = std::clamp(time, Time(-kFarthest), Time(kFarthest - Duration(1)));
   const std::lock_guard lock(mutex_);
-  if (const auto before = outside_time(); before && time < *before) {
-    return Error{.message = "the clock that is followed goes back, from " +
-                            std::to_string(ToSeconds(before->time_since_epoch())) + " s to " +
-                            std::to_string(ToSeconds(time.time_since_epoch())) + " s"};
-  }
-  outside_time_.store(time.time_since_epoch().count(), std::memory_order_release);
+  const auto before = outside_time();
+  const Duration step = before ? time - shown_ : Duration{};
+  if (before && step == Duration{}) return {};
+  const bool jumps = step < Duration{} || step > kLongestStep;
+  if (!std::exchange(has_jumped_, jumps) && jumps) jump_ = {shown_, time};
+  shown_ = time;
+  const Time here = !before ? time : jumps ? *before : *before + step;
+  outside_lead_.store((here - time).count(), std::memory_order_release);
+  outside_time_.store(here.time_since_epoch().count(), std::memory_order_release);
   event_.Notify();
   return {};
+}
+
+std::optional<std::pair<Time, Time>> Pace::TakeJump() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(jump_, {});
 }
 
 bool Pace::MayGoOnNow(Time due) {

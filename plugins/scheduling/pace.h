@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "core/base/clock.h"
 #include "core/base/ordered_mutex.h"
@@ -25,10 +26,16 @@ class Pace {
        bool follows_outside = false);
 
   /// What the clock shows that this one follows: cycles that are due until then run, one after the other, at their times.
-  /// The first time is where it begins. Errors: it follows none; time goes back.
+  /// The first time is where it begins. Where the clock jumps, back (a simulator begins anew, a recording is played again) or
+  /// ahead by more than kLongestStep, time here goes on from where it is. Errors: it follows none.
   Result<void> SetTime(Time time);
+  static constexpr Duration kLongestStep = std::chrono::seconds(10);
+  /// By how much time here is ahead of what the clock shows, which has jumped.
+  [[nodiscard]] Duration outside_lead() const noexcept { return Duration(outside_lead_.load(std::memory_order_acquire)); }
+  /// From where to where it has jumped since this was last asked; of jumps without a step between the first.
+  [[nodiscard]] std::optional<std::pair<Time, Time>> TakeJump();
   [[nodiscard]] bool follows_outside() const noexcept { return follows_outside_; }
-  /// Nothing before the first.
+  /// By time here. Nothing before the first.
   [[nodiscard]] std::optional<Time> outside_time() const noexcept {
     const auto time = outside_time_.load(std::memory_order_acquire);
     return time == kNoTime ? std::nullopt : std::optional(Time(Duration(time)));
@@ -94,9 +101,13 @@ class Pace {
   const bool is_simulated_;
   const bool follows_outside_;
   std::atomic<Duration::rep> outside_time_{kNoTime};
+  std::atomic<Duration::rep> outside_lead_{0};
   const Clock& machine_;
   OrderedMutex mutex_{LockLevel::kLeaf};
   Pacing pacing_;  // guarded by mutex_
+  Time shown_{};   // by the clock that is followed; likewise
+  bool has_jumped_ = false;                      // the last time; likewise
+  std::optional<std::pair<Time, Time>> jump_;  // likewise
   // Written under mutex_:
   std::atomic<double> speed_;
   std::atomic<bool> is_paused_;

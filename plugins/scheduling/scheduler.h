@@ -264,6 +264,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   // Simulated clock.
   void FollowChanges();
   void LookAtClockPort();
+  void TellJump();
   [[nodiscard]] bool FollowOutsideClock();
   void ShowOutsideTime();
 
@@ -315,7 +316,6 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   // it by the thread that steps, which need not lock where nothing has.
   std::atomic<bool> has_changes_{true};
   bool outside_clock_has_begun_ = false;
-  bool outside_clock_went_back_ = false;
   std::string clock_port_ = options_.clock_port;  // under the structure lock, as it is called now
 
   Watchdog watchdog_;
