@@ -129,7 +129,7 @@ TEST_P(WireEngineTest, WhoComesLateGetsWhatIsLatched) {
 TEST_P(WireEngineTest, AWriterTellsWhichReadersAreMatched) {
   const auto writer = a_->MakeWriter(Topic(), {});
   auto reader = b_->MakeReader(Topic(), [](const WireSample&) {}, {});
-  const auto other = b_->MakeReader(Topic({}, "numbers::Five"), [](const WireSample&) {}, {});
+  const auto other = b_->MakeReader({.topic = "rt/other", .type = "numbers::Four"}, [](const WireSample&) {}, {});
   ASSERT_TRUE(writer && reader && other);
   const auto handle_of = [&](const WireId& id) {
     std::uint64_t handle = 0;
