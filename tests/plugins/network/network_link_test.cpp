@@ -279,7 +279,7 @@ TEST_F(NetworkLinkTest, WhatOneSaysOfItselfMayBeAnything) {
   Result<std::optional<std::string>> sonar = std::optional<std::string>();
   WaitUntil("it is found", [&] { return (sonar = b.StructureOf("//robot/sonar")).has_value() && *sonar; });
   EXPECT_EQ(**sonar, "  sonar  module\n");
-  EXPECT_THAT(**b.StructureOf("//robot"), HasSubstr("  la[31mser  module\n"));
+  EXPECT_THAT(**b.StructureOf("//robot"), HasSubstr("  la\\x1b[31mser  module\\x0d\n"));
 }
 
 TEST_F(NetworkLinkTest, WhatOneIsMadeOfGoesWithItAndComesAnew) {
