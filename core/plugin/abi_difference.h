@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/result.h"
+
 namespace runnel {
 
 /// Why code that was built with one fingerprint (`abi.h`) cannot use classes of another, for people.
@@ -16,6 +18,11 @@ struct AbiDifference {
 /// What differs between the fingerprint of a plugin and that of the core; the compiler, where none of its flags
 /// does. Any thread; allocates.
 [[nodiscard]] AbiDifference FindAbiDifference(std::string_view plugin, std::string_view core);
+
+/// Whether all of a shared library is in the file, by what its own head says of its length. It is read and not mapped: whoever
+/// maps a file that lacks its end is ended by the system (SIGBUS) as soon as it looks there.
+/// Errors: it cannot be read; it is no ELF file; it is cut short, or its end has not been written yet. Any thread.
+[[nodiscard]] Result<void> CheckIsWhole(const std::filesystem::path& file);
 
 /// The first of the libraries that the one in `file` needs, itself or by others, that has been built anew since
 /// it was loaded into this process: what was compiled with the new one would be run with the old one, as a

@@ -11,7 +11,6 @@
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
 #include "core/plugin/abi_difference.h"
-#include "core/plugin/library_file.h"
 #include "core/plugin/plugin_entry.h"
 
 namespace runnel {

@@ -165,9 +165,8 @@ void ApplicationDescription::RunChecks(const std::string& model_file) {
   checks_.Run({*element_, diagnostics_, model_file});
   const std::lock_guard lock(runtime_.structure_mutex());
   element_->Visit([this](FrameworkElement& each) {
-    const bool is_tried = dynamic_cast<PreparesAnywhere*>(&each) != nullptr;
-    const auto good = is_tried ? MakeReady(*element_, each) : Result<void>();
-    if (!good) diagnostics_.Add(good.error());
+    if (dynamic_cast<PreparesAnywhere*>(&each) == nullptr) return;
+    if (const auto good = MakeReady(*element_, each); !good) diagnostics_.Add(good.error());
   });
 }
 

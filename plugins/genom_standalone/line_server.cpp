@@ -4,11 +4,13 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <vector>
 
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -51,7 +53,8 @@ Result<void> LineServer::Listen(const std::string& path) {
   std::memcpy(address.sun_path, path.data(), path.size());
   const int listening = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-    const bool is_left = errno == EADDRINUSE && !SomebodyListens(address);
+    std::error_code ignored;
+    const bool is_left = errno == EADDRINUSE && std::filesystem::is_socket(path, ignored) && !SomebodyListens(address);
     // Of one that was killed.
     if (is_left) unlink(path.c_str());
     if (!is_left || bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
@@ -60,7 +63,7 @@ Result<void> LineServer::Listen(const std::string& path) {
       return Failed(path, "cannot be listened at");
     }
   }
-  if (listen(listening, 16) != 0) {
+  if (chmod(path.c_str(), 0600) != 0 || listen(listening, 16) != 0) {
     close(listening);
     return Failed(path, "cannot be listened at");
   }

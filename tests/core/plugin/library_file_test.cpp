@@ -1,11 +1,10 @@
 // A plugin's file that is being copied, or that a full disk has cut short: looking at what is not there ends the process.
 
-#include "core/plugin/library_file.h"
-
 #include <fstream>
 
 #include <gmock/gmock.h>
 
+#include "core/plugin/abi_difference.h"
 #include "core/plugin/plugin_manager.h"
 #include "tests/support/temporary_folder.h"
 

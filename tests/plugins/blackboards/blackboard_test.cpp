@@ -100,7 +100,7 @@ Result<void> Apply(Cells& cells, const Appended& change) {
 class AppendingOwner final : public Module {
  public:
   using Module::Module;
-  Blackboard<Cells, Appended> list{this, "list", Cells(), {.journal = 4}};
+  Blackboard<Cells, Appended> list{this, "list", Cells()};
 
  private:
   void Update() override {}
@@ -110,11 +110,18 @@ TEST(BlackboardInReplay, AnExceptionLeavesNoChangeThatIsAppliedTwice) {
   Runtime runtime;
   auto& owner = runtime.Create<AppendingOwner>(runtime.root(), "owner");
   ASSERT_TRUE(runtime.MakeReady(owner));
-  for (const int each : {1, 2}) ASSERT_TRUE(owner.list.CommitChange({each}));
-  appended_until_throw = 1;  // as the buffer is brought up to date
-  EXPECT_THROW((void)owner.list.CommitChange({3}), std::runtime_error);
-  for (const int each : {3, 4}) ASSERT_TRUE(owner.list.CommitChange({each}));
-  owner.list.Look([](const Cells& cells) { EXPECT_EQ(cells, (Cells{1, 2, 3, 4})); });
+  Cells expected;
+  const auto commit_some = [&] {
+    for (int i = 0; i < 10; ++i) {
+      expected.push_back(i);
+      EXPECT_TRUE(owner.list.CommitChange({i}));
+    }
+  };
+  commit_some();  // each buffer has been used, and is brought up to date by the journal
+  appended_until_throw = 1;
+  EXPECT_THROW((void)owner.list.CommitChange({99}), std::runtime_error);
+  commit_some();
+  owner.list.Look([&](const Cells& cells) { EXPECT_EQ(cells, expected); });
 }
 
 TEST_F(BlackboardTest, AReaderKeepsWhatItHolds) {
