@@ -107,7 +107,7 @@ class Running {
 
   /// Between cycles: after quit(), close() or what a signal has thrown, which are looked at now and then.
   bool IsOver() {
-    if (open_.is_quit || this_thread_place.interrupt) return true;
+    if (open_.is_quit || open_.is_forked || this_thread_place.interrupt) return true;
     const auto now = std::chrono::steady_clock::now();
     if (now - last_ < std::chrono::milliseconds(100)) return false;
     last_ = now;
@@ -251,8 +251,8 @@ void BindApplication(py::module_& module) {
         Checked(WithoutGil(open, [&](Application& it) { return path ? it.Resume(*path) : it.Resume(); }));
       })
       .def("_set_speed", [](const Open& open, double speed) { Checked(WithoutGil(open, [&](Application& it) { return it.SetSpeed(speed); })); })
-      .def("_close", &OpenApplication::Close)
-      .def("_leave", &OpenApplication::Leave)
+      .def("_close", [](const Open& open) { open->Close(); })
+      .def("_leave", [](const Open& open) { open->Leave(); })
       .def("_paths", Paths)
       .def("_log", Log)
       .def("_events", Events)
@@ -268,7 +268,7 @@ void BindApplication(py::module_& module) {
         return ToSeconds(use->runtime().clock().Now() - use->log().start());
       }, "How long it has been running on its clock (s).");
   module.def("await_all", AwaitAll);
-  module.def("forked", [] { threads_without_gil = 0; });
+  module.def("forked", BeginAsChild);
   module.attr("version") = Application::Version();
 }
 

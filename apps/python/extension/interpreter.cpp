@@ -9,7 +9,7 @@ namespace py = pybind11;
 namespace runnel::python {
 
 void CheckMayWait() {
-  if (this_thread_place.cycles == 0) return;
+  if (this_thread_place.cycles <= 0) return;  // fewer: a forked child has left what it was forked in
   Throw({.message = "an application is not waited for in update(), a service or a callback of a module, or while a value is made for a port",
          .hint = "use the module's own ports, parameters and clients, or another thread"});
 }
@@ -30,6 +30,10 @@ void EndWithoutGil(std::function<void()> end) {
     const ReleasedGil released;
     return end();
   }
+  EndInThread(std::move(end));
+}
+
+void EndInThread(std::function<void()> end) {
   ++threads_without_gil;
   std::thread([end = std::move(end)]() mutable {
     end();
@@ -38,8 +42,30 @@ void EndWithoutGil(std::function<void()> end) {
   }).detach();
 }
 
+ReleasedGil::~ReleasedGil() {
+  const std::thread::id by = ends_in;
+  const bool is_awaited = this_thread_place.cycles > 0;  // by who ends a module
+  if (by == std::thread::id() || by == std::this_thread::get_id() || is_awaited) return;
+  --threads_without_gil;
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+void ThrowSignal() {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 void AwaitAll() {
-  AwaitWithGil([] { return threads_without_gil == 0; });
+  ends_in = std::this_thread::get_id();
+  AwaitWithGil([] {
+    ThrowSignal();
+    return threads_without_gil == 0;
+  });
+}
+
+void BeginAsChild() {
+  ++forks;
+  threads_without_gil = 0;
+  this_thread_place.cycles = this_thread_place.uses = 0;
 }
 
 }  // namespace runnel::python

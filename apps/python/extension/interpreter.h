@@ -50,7 +50,16 @@ void ThrowInterrupt();
 
 /// Of those that will want the GIL again: who wants it when the interpreter has gone is ended in the middle of what it does.
 inline std::atomic<int> threads_without_gil{0};
+/// The thread that ends the interpreter, when others are not to want it any more: they stand still, and the process ends soon.
+inline std::atomic<std::thread::id> ends_in{};
 class ReleasedGil {
+ public:
+  ReleasedGil() = default;
+  ~ReleasedGil();
+  ReleasedGil(const ReleasedGil&) = delete;
+  ReleasedGil& operator=(const ReleasedGil&) = delete;
+
+ private:
   Counted<std::atomic<int>> counted_{threads_without_gil};
   pybind11::gil_scoped_release released_;
 };
@@ -72,6 +81,9 @@ auto WithoutGil(const Work& work) {
   }
 }
 
+/// Throws what the handler of a signal has: Ctrl-C, say. With the GIL.
+void ThrowSignal();
+
 /// Until it is so, with the GIL, which others have meanwhile.
 template <typename Condition>
 void AwaitWithGil(const Condition& is_so) {
@@ -83,7 +95,13 @@ void AwaitWithGil(const Condition& is_so) {
 
 /// Ends something that may wait, without the GIL: at once, or where nothing may be waited for in a thread of its own.
 void EndWithoutGil(std::function<void()> end);
-/// Waits, with the GIL, for all that are without it.
+/// In a thread of its own, which is waited for when the interpreter ends.
+void EndInThread(std::function<void()> end);
+/// Waits, with the GIL, for all that are without it: this thread ends the interpreter. Ctrl-C ends it.
 void AwaitAll();
+/// How often this process and those before it have forked: what was made before another number is another process's.
+inline std::atomic<int> forks{0};
+/// In a forked child, whose only thread this is: it is within nothing of what its parent was in.
+void BeginAsChild();
 
 }  // namespace runnel::python

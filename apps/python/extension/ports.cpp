@@ -18,6 +18,27 @@ namespace runnel::python {
 
 using Left = std::pair<std::shared_ptr<Application>, std::vector<std::shared_ptr<ClientRecording>>>;
 
+struct OpenApplication::End {
+  Left left;
+  Diagnostics problems = {};
+  std::exception_ptr thrown = nullptr;
+  std::atomic<bool> is_done = false;
+
+  void Work() {
+    auto& [application, recordings] = left;
+    try {
+      for (const auto& each : std::exchange(recordings, {})) (void)each->Finish();
+      application->Stop();
+      (void)application->report().Finish(problems);
+      for (const auto& each : application->extensions()) (void)each->Finish(problems);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    application.reset();
+    is_done = true;
+  }
+};
+
 OpenApplication::~OpenApplication() {
   if (!application) return;
   // The end of the function is the last to have them.
@@ -42,22 +63,20 @@ void OpenApplication::Close() {
   }
   is_closed = is_quit = true;
   AwaitWithGil([&] {
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    return !is_closing_ && application.use_count() <= 1;
+    ThrowSignal();
+    return application.use_count() <= 1;
   });
-  if (!application) return;
-  is_closing_ = true;
-  auto closed = std::move(application);
-  Diagnostics problems;
-  WithoutGil([&] {
-    for (const auto& each : std::exchange(recordings, {})) (void)each->Finish();
-    closed->Stop();
-    (void)closed->report().Finish(problems);
-    for (const auto& each : closed->extensions()) (void)each->Finish(problems);
-    closed.reset();
+  if (application) {
+    end_ = std::make_shared<End>(Left{std::move(application), std::move(recordings)});
+    EndInThread([end = end_] { end->Work(); });
+  }
+  AwaitWithGil([&] {
+    ThrowSignal();
+    return !end_ || end_->is_done;
   });
-  is_closing_ = false;
-  Warn(problems.errors());
+  if (!end_) return;
+  if (const auto thrown = std::exchange(end_->thrown, nullptr)) std::rethrow_exception(thrown);
+  Warn(std::exchange(end_->problems, {}).errors());
 }
 
 void OpenApplication::Leave() {
@@ -66,7 +85,7 @@ void OpenApplication::Leave() {
 }
 
 void LookAround(const OpenApplication& open) {
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  ThrowSignal();
   (void)open.Get();
 }
 

@@ -20,14 +20,14 @@ namespace runnel::python {
 
 /// An application, until it is closed: what Python has of it keeps this.
 ///
-/// Threads: with the GIL, but for is_quit.
+/// Threads: with the GIL, but for what is atomic.
 struct OpenApplication {
   std::shared_ptr<Application> application;
   std::vector<std::shared_ptr<ClientRecording>> recordings = {};  ///< that have begun and have not ended
   std::thread::id runs_in = {};                                   ///< whose call runs cycles; one at a time
   std::atomic<bool> is_quit = false;                              ///< that call is to end
-  bool is_closed = false;
-  bool is_forked = false;  ///< the process that has opened it is another one
+  std::atomic<bool> is_closed = false;
+  std::atomic<bool> is_forked = false;  ///< the process that has opened it is another one
 
   OpenApplication() = default;
   OpenApplication(const OpenApplication&) = delete;
@@ -37,13 +37,15 @@ struct OpenApplication {
 
   /// Throws if it is closed.
   [[nodiscard]] const std::shared_ptr<Application>& Get() const;
-  /// Waits for calls under way, which find it closed. Throws within one of them, and within a cycle.
+  /// Waits for calls under way, which find it closed, and until it has ended; a signal ends the wait alone. Throws within one
+  /// of them, and within a cycle.
   void Close();
   /// In a forked child, which has none of the threads: nothing of it ends.
   void Leave();
 
  private:
-  bool is_closing_ = false;
+  struct End;
+  std::shared_ptr<End> end_;
 };
 using Open = std::shared_ptr<OpenApplication>;
 

@@ -59,6 +59,7 @@ std::unique_ptr<FrameworkElement> MakeParameter(Module& module, const std::strin
 }  // namespace
 
 ModuleHost::Use ModuleHost::Get() {
+  if (born != forks) throw py::value_error("the module runs in the process that this one was forked from");
   // A use within another one goes on: while one is left, whoever holds the ports waits. He may wait for this very thread.
   const auto may_begin = [this] { return holds == 0 || module == nullptr || (this_thread_place.uses > 0 && uses > 0); };
   if (!may_begin() && this_thread_place.uses > 0) throw py::value_error("another module is just taking its place");
@@ -267,8 +268,7 @@ void PythonModule::Say(const std::string& level, const std::string& text) {
 }
 
 PythonModule::Attributes& PythonModule::Attributes::operator=(const Attributes& from) {
-  const GilInCycle gil;
-  if (module->object_ && from.module->object_) Helper("take_over")(module->object_, from.module->object_);
+  if (module->object_ && from.module->object_) module->WithPython([&] { Helper("take_over")(module->object_, from.module->object_); });
   return *this;
 }
 

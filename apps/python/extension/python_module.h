@@ -21,6 +21,7 @@ struct ModuleHost : std::enable_shared_from_this<ModuleHost> {
   PythonModule* module = nullptr;
   int uses = 0;
   std::atomic<int> holds = 0;
+  const int born = forks;
   /// A call of its ports or clients, in which Python may do anything but wait for an application: the module stays, and its
   /// ports stay its own, for as long.
   struct Use {
@@ -30,7 +31,7 @@ struct ModuleHost : std::enable_shared_from_this<ModuleHost> {
     Counted<int> no_waiting{this_thread_place.cycles};
     PythonModule* operator->() const { return module; }
   };
-  /// Throws if it is gone. With the GIL.
+  /// Throws if it is gone, or another process's. With the GIL.
   [[nodiscard]] Use Get();
   /// Its ports are about to be exchanged with another module's: when uses under way have ended. Others wait, until what is
   /// returned is let go of. Without the GIL, under the structure lock. Throws if a use does not end.

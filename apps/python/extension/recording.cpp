@@ -25,6 +25,7 @@ struct RecordingFile {
   explicit RecordingFile(const std::string& name)
       : reader(Checked(WithoutGil([&] { return McapReader::Open(name); }))) {}
   std::unique_ptr<McapReader> reader;
+  mutable std::mutex one_reads;  // never waited for with the GIL
 };
 
 // (id, path, type, encoding, values, whether it shows another one's)
@@ -77,6 +78,7 @@ py::tuple Read(const RecordingFile& file, std::uint16_t channel, const std::stri
   std::vector<std::int64_t> published, measured;
   std::vector<std::string> texts;
   Checked(WithoutGil([&] {
+    const std::lock_guard lock(file.one_reads);
     return file.reader->ReadMessages([&](const McapMessage& message) -> Result<void> {
       if (message.channel != channel) return {};
       published.push_back(static_cast<std::int64_t>(message.log_time));

@@ -52,6 +52,7 @@ void SetField(Value& value, const std::string& name, const py::object& to) {
     throw py::buffer_error("an array or an element still looks at this value, whose lists would move: let go of it first, "
                            "or change it in place: value." + name + "[:] = ...");
   }
+  const Counted stays(value.memory->views);  // while Python makes what the elements are
   FromPython(*field.type, to, field.address(value.at));
 }
 

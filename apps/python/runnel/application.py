@@ -4,6 +4,7 @@ import asyncio
 import atexit
 import os
 import pathlib
+import signal
 import traceback
 import weakref
 from typing import NamedTuple
@@ -15,15 +16,31 @@ from runnel import _extension
 _open = weakref.WeakValueDictionary()  # by their ids; valuerefs() may be asked for while others open and close
 
 
+_is_ending = False
+
+
 @atexit.register
-def _close_all():
+def _end():
     # No cycle of a module in Python may run, and no thread may want the interpreter, when it goes.
-    for each in _open.valuerefs():
+    global _is_ending
+    _is_ending = True
+    while True:
         try:
-            if (app := each()) is not None:
+            return _close_all()
+        except BaseException:  # of a signal's handler
+            signal.signal(signal.SIGINT, signal.SIG_DFL)  # the next one ends the process at once, as that of `runnel run`
+
+
+def _close_all():
+    while _open:  # some may just have been loaded
+        for each in _open.valuerefs():
+            if (app := each()) is None:
+                continue
+            try:
                 app.close()
-        except Exception:
-            traceback.print_exc()
+            except Exception:
+                traceback.print_exc()
+            _open.pop(id(app), None)
     _extension.await_all()
 
 
@@ -188,6 +205,8 @@ class Application(_extension.Application):
     """
 
     def __init__(self, *arguments):
+        if _is_ending:
+            raise _extension.Error("the interpreter ends")
         super().__init__(*arguments)
         self._readers = {}
         _open[id(self)] = self
@@ -201,14 +220,14 @@ class Application(_extension.Application):
     def __repr__(self):
         try:
             return f"<runnel.Application {self.name}{', running' if self.is_running else ''}>"
-        except (ValueError, _extension.Error):
+        except (ValueError, RuntimeError, _extension.Error):  # RuntimeError: it has not been loaded
             return "<runnel.Application, closed>"
 
     def close(self):
         """Ends the run, finishes recordings, and lets go of everything. What was read stays valid. Idempotent.
 
-        Waits for calls under way in other threads; those that wait or run cycles end, and raise, as do all later ones. Raises
-        in update() and other parts of a module, and in a signal handler that comes in a call: quit() ends that.
+        Waits for calls under way in other threads; those that wait or run cycles end, and raise, as do all later ones. Ctrl-C
+        ends the wait alone. Raises in update() and other parts of a module, and in a signal handler that comes in a call: quit() ends that.
         """
         self._close()
         self._readers.clear()

@@ -2,12 +2,14 @@
 
 import asyncio
 import contextlib
+import io
 import os
 import pathlib
 import re
 import socket
 import threading
 import time
+import weakref
 
 from runnel import _extension
 from runnel.application import _STOP, KINDS, _port, check_kind, text_of
@@ -41,11 +43,28 @@ def _error(text):
     return error
 
 
+_sockets, _remotes = weakref.WeakSet(), weakref.WeakSet()
+_left = []
+
+
+def _leave_all():
+    # A forked child must not take answers that are its parent's, and has none of the threads that may hold a lock.
+    for each in list(_sockets):
+        each.leave()
+    for each in list(_remotes):
+        each._begin()
+
+
+os.register_at_fork(after_in_child=_leave_all)
+
+
 class _Socket:
     """One connection: requests in turn, of whichever thread."""
 
     def __init__(self, path, timeout):
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        self.stream = None
+        _sockets.add(self)
         self.socket.settimeout(timeout)
         try:
             self.socket.connect(str(path))
@@ -72,9 +91,16 @@ class _Socket:
             raise _extension.Error("the application has gone")
         return head[0], payload[:-1]
 
+    def leave(self):
+        if (file := self.socket.detach()) >= 0:
+            os.close(file)
+        _left.append(self.stream)  # closing it may want a lock
+        self.stream = io.BytesIO()  # as if the application had gone
+
     def close(self):
-        with contextlib.suppress(OSError, AttributeError):
-            self.stream.close()
+        if self.stream is not None:
+            with contextlib.suppress(OSError):
+                self.stream.close()
         self.socket.close()
 
 
@@ -137,14 +163,18 @@ class Remote:
 
     def __init__(self, path, connection, timeout):
         self._path = path
-        self._connection = connection
         self._is_closed = False
         self._timeout = timeout
-        self._lock = threading.Lock()
+        self._begin(connection)
+        _remotes.add(self)
         self._types = {}
         self.name = connection.hello["application"]
         self.process = int(connection.hello["process"])
         self.file = connection.hello.get("file", "")
+
+    def _begin(self, connection=None):
+        self._connection = connection
+        self._lock = threading.Lock()
 
     def __repr__(self):
         return f"<runnel.Remote {self.name}, process {self.process}>"
@@ -442,8 +472,8 @@ class _Recording:
 
     def close(self):
         """Ends it, and waits until the file is whole."""
-        self._connection.socket.shutdown(socket.SHUT_WR)
         with contextlib.suppress(_extension.Error, OSError):
+            self._connection.socket.shutdown(socket.SHUT_WR)
             self.wait()
         self._connection.close()
 

@@ -23,7 +23,7 @@ import weakref
 import runnel
 
 THREADS = 16
-SEEN = (runnel.Error, ValueError, TypeError, BufferError)
+SEEN = (runnel.Error, ValueError, TypeError, BufferError, TimeoutError, KeyError)
 MODULES = collections.deque(maxlen=12)  # those made last, for threads beside their cycles
 
 
@@ -71,6 +71,8 @@ class Counter(runnel.Module):
         for i in range(steps):
             activity.report(i / steps, "counting")
             collect()
+            if activity.is_abort_asked:
+                break
         return 1.0
 
     def update(self):
@@ -82,6 +84,12 @@ class Counter(runnel.Module):
         self.other.send(1.0)
         leave_garbage(self)
         collect()
+
+
+def look_at(call):
+    call.is_done, call.status, call.reply, call.error, call.progress, call.doing
+    call.abort()
+    leave_garbage(call)
 
 
 def leave_garbage(what):
@@ -186,7 +194,9 @@ class Load:
                 lambda: module.wish.read() and module.wish.next(),
                 lambda: module.other.send(Collects()),
                 lambda: module.other.call(lambda call: call.reply, Collects()),
-                lambda: module.other.begin(Collects()).is_done,
+                lambda: look_at(module.other.begin(Collects())),
+                lambda: module.out.publish_measured(0.0, Collects()),
+                lambda: module.other.is_connected,
                 lambda: module.step,
             ))()
 
@@ -203,7 +213,7 @@ class Load:
         reader = app.reader(self.path(("out", "pose")), queue=random.choice((0, 5)))
         reader.wait(random.random() / 20)
         list(reader)
-        reader.read(), reader.timestamp, reader.dropped, reader.type
+        reader.read(), reader.timestamp, reader.publication_time, reader.dropped, reader.type
         leave_garbage(reader)
 
     def do_values(self, app):
@@ -297,8 +307,51 @@ class Load:
     def do_reload(self, app):
         app.reload()
 
+    def do_thread(self, app):
+        app.thread(f"thread{random.randrange(3)}", 0.01)
+
+    def do_group(self, app):
+        app.group("many")
+        app.delete("many")
+
     def do_make(self, app):
         runnel.make("Pose2", x=Collects()).copy().plain()
+
+    def do_read_recording(self, app):
+        """Of one that others read, too."""
+        assert len(self.recording.keys()) == 3
+        series = self.recording[random.choice(("/one/out", "/one/pose"))]
+        assert len(series) == len(series.values) > 0
+        self.recording.about
+
+    def do_remote(self, app):
+        with runnel.connect(app.name, timeout=5.0) as far:
+            far.get("/one/step"), far.read("/one/out"), far.set("/one/step", 2.0), far.ask("paths"), far.paths(), far.log(), far.faults()
+            far.apply("set /one/step 2")
+            random.choice((
+                lambda: far.swap("/gate", "motion/command_gate"),
+                lambda: (far.undo(), far.redo()),
+                lambda: far.publish("/one/wish", {"forward": 1}),
+                lambda: far.release("/one/wish"),
+                lambda: (far.stop(), far.release()),
+                lambda: far.block("/one/wish"),
+                lambda: far.call("/one/reset", to=1.0, timeout=0.05),
+                lambda: far.record(f"far{threading.get_ident()}.mcap").close(),
+                lambda: (far.create("/far", "motion/command_gate"), far.connect("/gate/allowed", "/far/wanted"),
+                         far.disconnect("/gate/allowed", "/far/wanted"), far.delete("/far")),
+                lambda: (far.pause(), far.step(), far.set_speed(0), far.resume()),
+                lambda: far.reload(),
+                lambda: far.save(f"far{threading.get_ident()}.xml", overwrite=True),
+                lambda: far.quit(),
+            ))()
+
+
+def recorded():
+    with runnel.compose("recorded", clock="simulated") as app:
+        app.create("one", Counter)
+        with app.record("recorded.mcap", ["/one/*"]):
+            app.run_for(1)
+    return runnel.read("recorded.mcap")
 
 
 def main(closes=0, seed=None):
@@ -309,6 +362,7 @@ def main(closes=0, seed=None):
     os.chdir(tempfile.mkdtemp())
     sys.setswitchinterval(1e-4)
     load = Load(int(closes), seed)
+    load.recording = recorded()
     threads = [threading.Thread(target=load.work, args=(i,)) for i in range(THREADS)]
     for each in threads:
         each.start()

@@ -112,6 +112,8 @@ def test_recorded_and_replayed_to_the_bit(xml):
     with runnel.replay("run.mcap", file, ports=["/laser/*", "/localisation/*"], speed=0) as again:
         again.run_for(20)
         assert again.read("/robot/planner/twist") == end
+    with runnel.replay("run.mcap", "bug_demo", ports=["/laser/*"], speed=0) as by_name:
+        by_name.step()
 
 
 def test_what_comes_with_runnel_has_a_name_and_is_saved_elsewhere():

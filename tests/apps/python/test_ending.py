@@ -2,56 +2,13 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
-import textwrap
 
 import pytest
-
-BEGIN = '''
-import faulthandler, gc, os, signal, sys, threading, time
 import runnel
-faulthandler.enable()
-
-
-def ticking(make=None, clock="real", start=True):
-    class Tick(runnel.Module):
-        period = 0.002
-        step = runnel.Parameter(1.0)
-        out = runnel.Output("double")
-        wish = runnel.Input("Twist2")
-
-        @runnel.service
-        def reset(self, to: float = 0) -> float:
-            return to
-
-        def update(self):
-            self.out.publish(1.0)
-
-    Tick.__qualname__ = "Tick"
-    globals()["Tick"] = Tick
-    app = runnel.compose("ticking", clock=clock)
-    app.thread("control", 0.005)
-    app.create("gate", "motion/command_gate")
-    app.create("tick", make or Tick)
-    if start:
-        app.start()
-    return app
-
-
-def in_threads(count, work):
-    threads = [threading.Thread(target=work) for _ in range(count)]
-    for each in threads:
-        each.start()
-    return threads
-'''
-
-
-def ends_well(text, *arguments, code=0):
-    done = subprocess.run([sys.executable, "-c", BEGIN + textwrap.dedent(text), *arguments], capture_output=True, text=True, timeout=120)
-    assert (done.returncode, done.stdout) == (code, "done\n"), done.stdout + done.stderr
-    return done.stderr
-
+from own_process import ends_well
 
 CALLS = {
     "wait": 'app.reader("/tick/out").wait(20)',
@@ -345,34 +302,6 @@ def test_a_signal_handler_ends_a_run_by_quit():
     ''')
 
 
-def test_a_forked_child_is_told_and_ends():
-    ends_well('''
-    import multiprocessing, warnings
-
-    def asked(_):
-        try:
-            app.read("/tick/out")
-        except runnel.Error as error:
-            return str(error)
-
-    app = ticking()
-    recording = app.record("run.mcap")
-    with multiprocessing.get_context("fork").Pool(2) as pool:
-        told = pool.map(asked, range(4))
-    assert all("'spawn'" in each for each in told), told
-    child = os.fork()
-    if child == 0:
-        app.close()
-        del recording
-        gc.collect()
-        sys.exit(7)
-    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
-    assert app.reader("/tick/out").wait(20)
-    app.close()
-    print("done")
-    ''')
-
-
 def test_16_threads_close_at_random(tmp_path):
     closes = os.environ.get("RUNNEL_CLOSES", "0")  # a long version: 10000
     done = subprocess.run([sys.executable, str(pathlib.Path(__file__).with_name("close_under_load.py")), closes], capture_output=True,
@@ -569,3 +498,80 @@ def test_the_one_who_records_is_made_once():
         app.close()
     print("done")
     ''')
+
+
+def test_a_caught_exception_keeps_an_application_that_ends_in_update():
+    ends_well('''
+    class Clears(runnel.Module):
+        period = 0.01
+
+        def update(self):
+            kept.clear()
+
+    def fail():
+        old = ticking()
+        old.read("/nothing")
+
+    kept = []
+    try:
+        fail()
+    except runnel.Error as error:
+        kept.append(error)
+    with runnel.compose("new", clock="simulated") as app:
+        app.create("clears", Clears)
+        app.run_for(0.1)
+        assert not kept and not app.faults(), app.faults()
+    print("done")
+    ''')
+
+
+def test_an_interrupt_while_attributes_are_handed_over_is_no_error_of_the_change():
+    ends_well('''
+    class Changed(runnel.Module):
+        def __setattr__(self, name, value):
+            if name == "count":
+                os.kill(os.getpid(), signal.SIGINT)
+                for _ in range(10**9):
+                    pass
+            super().__setattr__(name, value)
+
+        def update(self):
+            pass
+
+    class Counts(runnel.Module):
+        count = 0
+
+        def update(self):
+            self.count += 1
+
+    app = ticking(Counts, clock="simulated", start=False)
+    app.run_for(0.1)
+    try:
+        app.swap("/tick", Changed)
+    except KeyboardInterrupt:
+        app.run_for(0.1)
+        assert not app.faults(), app.faults()
+        app.close()
+        print("done")
+    ''')
+
+
+def test_what_is_not_loaded_can_be_shown_and_closed():
+    ends_well('''
+    app = runnel.Application.__new__(runnel.Application)
+    assert repr(app) == "<runnel.Application, closed>"
+    try:
+        app.close()
+    except RuntimeError:
+        print("done")
+    ''')
+
+
+def test_the_load_calls_all_there_is():
+    """What is new here belongs into close_under_load.py, too."""
+    said = set(re.findall(r"\.(\w+)", pathlib.Path(__file__).with_name("close_under_load.py").read_text()))
+    extension = runnel._extension
+    for kind in (runnel.Application, runnel.Reader, runnel.Writer, runnel.Remote, runnel.Recording, extension.RunningRecording,
+                 extension.ModuleInput, extension.ModuleOutput, extension.ModuleClient, extension.ModuleCall, extension.ModuleActivity):
+        missing = {name for name in dir(kind) if not name.startswith("_")} - said
+        assert not missing, (kind, missing)

@@ -1,3 +1,5 @@
+import threading
+
 import numpy
 import pytest
 
@@ -85,6 +87,51 @@ def test_every_type_of_port():
         else:
             same = series.values[-1] == last[name]
             assert same.all() if isinstance(same, numpy.ndarray) else same, (name, series.values)
+
+
+def test_several_threads_read_one_recording(recorded):
+    recording, (_, scan) = recorded
+    found, wrong = [], []
+
+    def read():
+        try:
+            for _ in range(10):
+                found.append(recording["/laser/scan"].values[-1] == scan)
+        except BaseException as error:
+            wrong.append(error)
+
+    threads = [threading.Thread(target=read) for _ in range(4)]
+    for each in threads:
+        each.start()
+    for each in threads:
+        each.join()
+    assert not wrong and found == [True] * 40, wrong[:1]
+
+
+# Not those that need another end: a robot beside, GenoM3's components.
+SHIPPED = ["behaviour_demo", "bug_bumper", "bug_demo", "bug_failing_laser", "bug_infrared", "places_demo"]
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_whatever_shipped_applications_publish_is_read(name):
+    with runnel.load(name, clock="simulated", speed=0, record="all.mcap") as app:
+        app.run_for(0.5)
+        last = {}
+        for path, kind, _ in app.paths():
+            if kind == "output":
+                try:
+                    last[path] = app.read(path)
+                except runnel.Error as error:
+                    assert "only a module can make" in str(error) or "nobody makes" in str(error), error
+    recording = runnel.read("all.mcap")
+    assert len(recording) > 5
+    for path in recording:
+        series = recording[path]
+        assert len(series) == len(series.values), path
+        if isinstance(last.get(path), (bool, int, float, str, runnel.Value)) and len(series) > 0:
+            value = series.values[-1]
+            same = value == last[path] if not isinstance(value, numpy.void) else value["x"] == last[path]["x"] if "x" in value.dtype.names else True
+            assert same, (path, value, last[path])
 
 
 def test_what_is_no_recording():

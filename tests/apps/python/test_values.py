@@ -97,6 +97,19 @@ def test_an_array_of_a_value_of_ones_own_never_dangles():
     assert scan.ranges[-1] == 999
 
 
+def test_a_list_whose_elements_are_being_made_keeps_its_size():
+    path = runnel.types.Path2()
+
+    class Grows:
+        def __float__(self):
+            with pytest.raises(BufferError):
+                path.points = [{"x": 7, "y": 7}] * 1000
+            return 1.0
+
+    path.points = [{"x": 1, "y": Grows()}, {"x": 2, "y": 2}]
+    assert [each.y for each in path.points] == [1, 2]
+
+
 def test_pictures_are_arrays():
     picture = runnel.types.Image(width=3, height=2, encoding="rgb8", row_stride=10, data=numpy.arange(20, dtype="u1"))
     array = runnel.image(picture)
