@@ -345,22 +345,6 @@ class Load:
                 lambda: far.quit(),
             ))()
 
-    def do_fork(self, app):
-        """Now and then, as it takes long."""
-        if random.random() > 0.05:
-            return
-        child = os.fork()
-        if child == 0:
-            code = 1
-            try:
-                app.read("/one/out")
-            except (runnel.Error, ValueError):
-                code = 0
-            finally:
-                os._exit(code)
-        if os.waitpid(child, 0)[1] != 0:
-            raise AssertionError("a forked child has been told nothing")
-
 
 def recorded():
     with runnel.compose("recorded", clock="simulated") as app:
