@@ -6,6 +6,9 @@ const kLongestHold = 50; // ms
 // Memory may grow so much from the first third after the warm-up to the last one: an allocator gives back in pieces.
 const kMemory = { share: 0.03, least: 2048 }; // kB
 
+// These only have changes come one after the other, and so last as long as one: no cycle, viewer or STOP waits for them.
+const kOrderChanges = /^\S+:runnel::(Application::Reload|StructureEditor::Apply|ChangeHistory::)/;
+
 const Middle = (all) => [...all].sort((a, b) => a - b)[Math.floor(all.length / 2)];
 
 /** Of process `id`, now. */
@@ -37,9 +40,11 @@ export async function Holds(file) {
   const holds = { longest: 0, at: '', tooLong: [] };
   for (const line of text.split('\n')) {
     const [, time, at] = line.match(/^([\d.]+) (.*)$/) ?? [];
-    if (at === undefined || !/^(lib)?runnel|^\w+\.so:.*runnel::/.test(at)) continue;
-    if (Number(time) > holds.longest) Object.assign(holds, { longest: Number(time), at });
-    if (Number(time) > kLongestHold) holds.tooLong.push(`a lock was held for ${time} ms: ${at}`);
+    const isOwn = at !== undefined && (/^(lib)?runnel/.test(at) || /^\w+\.so:.*runnel::/.test(at));
+    if (!isOwn || kOrderChanges.test(at)) continue;
+    const who = at.split(' < ').slice(0, 6).join(' < ');
+    if (Number(time) > holds.longest) Object.assign(holds, { longest: Number(time), at: who });
+    if (Number(time) > kLongestHold) holds.tooLong.push(`a lock was held for ${time} ms: ${who}`);
   }
   return holds;
 }
