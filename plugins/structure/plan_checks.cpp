@@ -105,8 +105,7 @@ Result<void> Plan::Check(const CreateParameter& change) {
 
 namespace {
 
-// Whoever has made it, for a tag of the file or for a run, uses it until the run ends: the network, a recording's player. Not the
-// group of the threads, which is one as changes make them.
+// Whoever has made it uses it until the run ends: the network, a recording's player. Not so a group as changes make them: threads.
 bool HoldsWhatTagsMake(const FrameworkElement& element) {
   if (element.FindAnnotation<NotSaved>() != nullptr && dynamic_cast<const Group*>(&element) == nullptr) return true;
   return element.kind() == ElementKind::kGroup && !IsModule(element) &&

@@ -181,8 +181,8 @@ for (const start = Elapsed(); Elapsed() < Math.max(kSeconds, start + 10) && !rob
   if (others.length > 0) { Found(`all is undone, and it is not as at the start: ${others.join(', ')}`); break; }
   samples.push(await Use(robot.process.pid));
   if (Elapsed() - start < (kSeconds - start) / 4) warm = samples.length;
-  const { memory, descriptors, threads, mappings } = samples.at(-1);
-  console.log(`${Elapsed().toFixed(0).padStart(5)} s  ${memory} kB, ${descriptors} descriptors, ${threads} threads, ${mappings} mappings`);
+  const { memory, libraries, descriptors, threads } = samples.at(-1);
+  console.log(`${Elapsed().toFixed(0).padStart(5)} s  ${memory} kB and ${libraries} kB of libraries, ${descriptors} descriptors, ${threads} threads`);
 }
 if (robot.hasEnded) Found(`the robot has ended (${robot.process.exitCode ?? robot.process.signalCode}):\n${robot.process.text}`);
 for (const what of Growth(samples.slice(warm))) Found(what);

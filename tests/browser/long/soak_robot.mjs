@@ -8,7 +8,7 @@ import { RobotProcess } from './robot_process.mjs';
 
 const kHere = dirname(fileURLToPath(import.meta.url));
 const kChanges = [
-  ['<load plugin="motion"/>', '<load plugin="motion"/>\n  <load plugin="python"/>\n  <load plugin="network"/>'],
+  ['<load plugin="motion"/>', '<load plugin="motion"/>\n  <load plugin="python"/>'],
   ['<module name="world"', '<network reach="machine"><offer ports="world/pose robot/wheels"/></network>\n\n  <module name="world"'],
   [/<module name="referee"[^]*?<\/module>\n/, '<module name="wanderer" type="python/soak_wanderer.Wanderer"/>\n'],
   [/ referee\/(scene|pose|contact|goal)/g, ''],
@@ -45,7 +45,6 @@ export class Reader {
     const file = join(this.robot.folder, 'reader.xml');
     await writeFile(file, `<application name="reader" thread="control">
   <load plugin="simulation"/>
-  <load plugin="network"/>
   <clock type="real"/>
   <thread name="control" period="50ms"/>
   <network reach="machine"/>

@@ -1,6 +1,9 @@
 // Calls that are carried over a network end once, each with its own outcome, wherever memory runs out.
 
 #include <array>
+#include <chrono>
+#include <functional>
+#include <memory>
 #include <new>
 
 #include "core/element/runtime.h"
@@ -57,7 +60,7 @@ struct Ends {
   Group& group = runtime.Create<Group>(runtime.root(), "a");
   Doubler doubler;
   Service<int(int)> service{group, doubler, "double", &Doubler::Double};
-  Client<int(int)> client{group, "client"};
+  Client<int(int)> client{group, "client", {.timeout = std::chrono::milliseconds(200)}};  // what got lost ends soon
   Nobody nobody;
   const std::shared_ptr<WakeEvent> wake = std::make_shared<WakeEvent>();
   const std::shared_ptr<WireEngine> engine = MakeFakeWire();

@@ -38,12 +38,14 @@ TEST_F(PartsOfTags, AreNotDeletedWithWhatIsAroundThem) {
 
 TEST_F(PartsOfTags, AreNoThreads) {
   runtime.Create<Group>(At<Group>("/app"), "threads").Annotate(std::make_unique<NotSaved>());
+  MustReady();
   Must({DeleteElement{"/app/threads"}});
 }
 
 TEST_F(PartsOfTags, OfModulesGoWithThese) {
   Must({CreateModule{"/app/module", "test/silent"}});
   runtime.Create<PartOfTag>(At<Silent>("/app/module"), "worker");
+  MustReady();
   Must({DeleteElement{"/app/module"}});
   EXPECT_FALSE(Exists("/app/module"));
 }
