@@ -391,14 +391,17 @@ class Remote:
 
     def record(self, file, seconds=None, ports=()):
         """Records for so many seconds of the machine's, or until the returned object is closed."""
-        connection = _Socket(self._path, None)
         request = _request("record", list(ports), {"file": os.path.abspath(file), "count": seconds}, "")
-        connection.send(request, time.monotonic_ns())
-        recording = _Recording(connection)
-        if seconds is not None:
-            recording.wait()
-        else:
-            recording.begin()
+        try:
+            connection = _Socket(self._path, None)
+            connection.send(request, time.monotonic_ns())
+            recording = _Recording(connection)
+            if seconds is not None:
+                recording.wait()
+            else:
+                recording.begin()
+        except OSError as why:
+            raise _extension.Error(f"{self.name} does not answer: {why}") from None
         return recording
 
     # Its time.

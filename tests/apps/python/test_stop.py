@@ -145,6 +145,8 @@ def test_a_stop_that_is_not_confirmed_says_so(base, tmp_path):
         far._path = tmp_path / "nobody.sock"
         with pytest.raises(runnel.Error, match="the STOP of base is not confirmed: "):
             far.stop()
+        with pytest.raises(runnel.Error, match="base does not answer: "):
+            far.record("far.mcap")
 
 
 def test_the_same_from_another_process(base):
