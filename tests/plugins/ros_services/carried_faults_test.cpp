@@ -98,7 +98,9 @@ void Endure(const std::function<void(Ends&)>& before, const std::function<void(E
         }
         for (int i = 0; i < 4; ++i) {
           const auto outcome = ends->calls[static_cast<std::size_t>(i)].outcome();
-          if (outcome) ASSERT_EQ(*outcome, 2 * (i + 1));
+          if (outcome) {
+            ASSERT_EQ(*outcome, 2 * (i + 1));
+          }
         }
         ends = std::make_unique<Ends>();
         before(*ends);
