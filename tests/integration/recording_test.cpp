@@ -59,9 +59,9 @@ TEST_F(Recording, OfOneRunIsThatOfTheNextToTheLastOctet) {
     std::map<std::string, std::string> ports;
     EXPECT_TRUE((*reader)->ReadMessages([&](const McapMessage& message) -> Result<void> {
       const McapChannel& channel = (*reader)->contents().channels.at(message.channel);
-      std::string name = channel.topic;
-      for (const auto& [key, value] : channel.metadata) name += " " + value;
-      ports[name] +=
+      std::string port = channel.topic;
+      for (const auto& [key, value] : channel.metadata) port += " " + value;
+      ports[port] +=
           std::to_string(message.log_time) + " " + std::to_string(message.publish_time) + " " + std::string(message.data) + "\n";
       return {};
     }));
