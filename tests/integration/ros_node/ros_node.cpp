@@ -99,8 +99,8 @@ void TellNode(dds_entity_t participant, dds_entity_t writer, const char* name_sp
   rmw_dds_common_msg_dds__Gid_ gid{};
   PutId(writer, gid);
   rmw_dds_common_msg_dds__NodeEntitiesInfo_ node{};
-  node.node_namespace = const_cast<char*>(name_space);
-  node.node_name = const_cast<char*>(name);
+  (void)std::snprintf(node.node_namespace, sizeof node.node_namespace, "%s", name_space);
+  (void)std::snprintf(node.node_name, sizeof node.node_name, "%s", name);
   node.writer_gid_seq = {1, 1, &gid, false};
   rmw_dds_common_msg_dds__ParticipantEntitiesInfo_ info{};
   PutId(participant, info.gid);
