@@ -156,7 +156,7 @@ TEST_P(NetworkSecurity, WithThePermissionsThatItsPortsNeedItRunsAndSaysWhatElseW
   allow("publish", "<topic>rt/robot/laser/scan</topic><topic>rt/robot/localisation/pose</topic>");
   allow("subscribe", "<topic>rt/planner/planner/twist</topic>");
   std::ofstream(folder_ / "permissions.xml") << text;
-  const std::string sign = "cd " + folder_.path() + " && openssl smime -sign -text -in permissions.xml -out keys/robot/permissions.p7s "
+  const std::string sign = "cd " + folder_.path().string() + " && openssl smime -sign -text -in permissions.xml -out keys/robot/permissions.p7s "
                            "-signer keys/ca.cert.pem -inkey keys/ca.key.pem 2>/dev/null";
   ASSERT_EQ(std::system(sign.c_str()), 0);
   const auto robot = Start("robot", "keys/robot");
