@@ -124,7 +124,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/ros_services",
                    "plugins/ros_services",
-                   {"core", "plugins/cdr_values", "plugins/network_discovery/writer_clock.h", "plugins/ros_messages", "plugins/services", "plugins/wire"}});
+                   {"core", "plugins/cdr_values", "plugins/network_discovery", "plugins/ros_messages", "plugins/services", "plugins/wire"}});
   rules.push_back({"plugins/wire_shared_memory", "plugins/wire_shared_memory", {"core", "plugins/wire"}});
   rules.push_back({"plugins/wire_cyclone", "plugins/wire_cyclone", {"core", "plugins/wire"}});
   rules.push_back({"plugins/wire_fast", "plugins/wire_fast", {"core", "plugins/wire"}});

@@ -96,9 +96,9 @@ def test_a_request_says_when_it_was_sent_where_operators_must_be_heard(served):
 
 
 def test_a_file_may_have_blanks_in_its_name(served):
-    served.hello = 'runnel protocol=1 process=1 application="robot" file="/home/a b/\\"c\\".xml" state="STOP, by=x"'
+    served.hello = 'runnel protocol=1 process=1 application="robot" file="/data/a b/\\"c\\".xml" state="STOP, by=x"'
     with runnel.connect("robot") as app:
-        assert app.file == '/home/a b/"c".xml'
+        assert app.file == '/data/a b/"c".xml'
 
 
 def test_a_folder_that_others_can_enter_is_refused(served, tmp_path):

@@ -10,7 +10,7 @@ class FoxgloveStop : public FoxgloveTest {
   FoxgloveStop() { Mark(true); }
   void Mark(bool drives) {
     const std::lock_guard lock(runtime.structure_mutex());
-    EXPECT_TRUE(robot.speed.SetDriving(drives, AnyValue(0.0)));
+    EXPECT_TRUE(robot.speed.SetDriving(drives, AnyValue(0.0), {}, DrivingKind::kVelocity));
   }
   static std::string Word(std::uint32_t number) {
     std::string bytes;
