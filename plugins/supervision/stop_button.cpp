@@ -211,7 +211,7 @@ bool StopButton::LookForPort() {
     if (button != button_) down_.reset();
     if (button != button_ && let_go_) why_not_ = "another button is connected now";
     button_ = button;
-    if (lacks_.empty() && !element_->probe.IsFedBy(let_go_by_)) let_go_.reset();  // a value by hand was let go
+    if (lacks_.empty() && why_not_.empty() && !element_->probe.IsFedBy(let_go_by_)) let_go_.reset();  // a value by hand was let go
     return true;
   }
   if (!is_gone_) Press(rule_.port + ", which is gone");

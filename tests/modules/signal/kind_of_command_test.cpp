@@ -292,7 +292,7 @@ class Places : public Commands {
     ProbePort recorder(others, "recorder", TypeOf<double>());
     Input<double> reader(others, "reader");
     Input<Signal> display(others, "display");
-    ASSERT_TRUE(marked.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kEffort));
+    ASSERT_TRUE(marked.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kPosition));
     Port* const readers[] = {&recorder, &display, &joint, &reader};
     for (Port* const each : readers) ASSERT_TRUE(Port::Connect(marked, *each));
     const auto wish = [&] {
