@@ -10,7 +10,7 @@
 namespace runnel {
 
 /// What a value by which something moves says, as the command interfaces of ros2_control. A velocity comes to rest: when a STOP
-/// or a value by hand ends, it begins from zero. A position is gone to at once, as its safe value would be a motion, too. An
+/// or a value by hand ends, it begins from its safe value. A position is gone to at once, as that would be a motion, too. An
 /// effort (force, torque, current, power) begins from its safe value where that is zero.
 enum class DrivingKind { kUnspecified, kPosition, kVelocity, kEffort };
 
