@@ -153,7 +153,7 @@ TEST_P(NetworkSecurity, WithThePermissionsThatItsPortsNeedItRunsAndSaysWhatElseW
     ASSERT_NE(text.find(all), std::string::npos);
     text.replace(text.find(all), all.size(), "<" + what + "><topics>" + topics + "</topics></" + what + ">");
   };
-  allow("publish", "<topic>rt/robot/laser/scan</topic><topic>rt/robot/localisation/pose</topic>");
+  allow("publish", "<topic>rt/robot/laser/scan</topic><topic>rt/robot/localisation/pose</topic><topic>rt/robot/world/goal</topic>");
   allow("subscribe", "<topic>rt/planner/planner/twist</topic>");
   std::ofstream(folder_ / "permissions.xml") << text;
   const std::string sign = "cd " + folder_.path().string() + " && openssl smime -sign -text -in permissions.xml -out keys/robot/permissions.p7s "
