@@ -33,12 +33,8 @@ test('the graph is seen, a value changes, a parameter is set, the planner is swa
   await t.test('a parameter is set, and one that is out of its bounds is refused at its field', async () => {
     await inspector.click(kPlanner);
     const field = inspector.parameter('cruise_speed');
-    await field.fill('11');
-    await field.press('Enter');
-    await inspector.parameterRow('cruise_speed').locator('.problem', { hasText: '10 m/s' }).waitFor();
-    await field.fill('0.45');
-    await field.press('Enter');
-    await inspector.details.getByLabel('Set cruise_speed back to 0.4').waitFor();
+    await inspector.enter(field, '11', inspector.parameterRow('cruise_speed').locator('.problem', { hasText: '10 m/s' }));
+    await inspector.enter(field, '0.45', inspector.details.getByLabel('Set cruise_speed back to 0.4'));
     assert.equal(await field.inputValue(), '0.45');
     assert.equal(await inspector.parameterRow('cruise_speed').locator('.problem').count(), 0);
     await page.locator('#undo:not([disabled])').waitFor();

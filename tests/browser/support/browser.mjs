@@ -102,6 +102,16 @@ class InspectorPage {
     return this.details.locator('.parameter', { has: this.page.getByLabel(name, { exact: true }) });
   }
 
+  /** Types into a field until `outcome` is seen: on a busy machine the page may have lost the application for a moment,
+   *  and takes nothing then. */
+  async enter(field, text, outcome) {
+    for (let tries = 1; ; ++tries) {
+      await field.fill(text);
+      await field.press('Enter');
+      try { return await outcome.waitFor({ timeout: 10000 }); } catch (error) { if (tries === 6) throw error; }
+    }
+  }
+
   /** Presses the mouse on the name of a box. */
   async click(path) {
     const name = this.node(path).locator('.name');
