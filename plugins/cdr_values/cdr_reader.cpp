@@ -49,10 +49,6 @@ const std::byte* CdrReader::FindKept(std::size_t size, std::size_t count) {
   return is_readable ? Take(size, count) : nullptr;
 }
 
-bool CdrReader::Skip(std::size_t size, std::size_t count) {
-  return count == 0 || Take(size, count) != nullptr;
-}
-
 bool CdrReader::GetText(std::string& text) {
   std::uint32_t length = 0;
   if (!Get(length)) return false;

@@ -47,7 +47,7 @@ class CdrReader {
   [[nodiscard]] const std::byte* FindKept(std::size_t size, std::size_t count);
   [[nodiscard]] const std::shared_ptr<const void>& holder() const noexcept { return holder_; }
   /// Passes over `count` numbers of `size` bytes.
-  [[nodiscard]] bool Skip(std::size_t size, std::size_t count);
+  [[nodiscard]] bool Skip(std::size_t size, std::size_t count) { return count == 0 || Take(size, count) != nullptr; }
 
   [[nodiscard]] std::size_t left() const noexcept { return octets_.size() - place_; }
 

@@ -93,35 +93,6 @@ class ComponentServiceBase : public ServiceBase, public ModulePart {
   std::size_t count_ = 0;  // of those under way
 };
 
-/// A service to those who do not know its types: what a call leaves out is as the description says, or required.
-template <typename Inner>
-class CallableWithDefaults final : public Callable {
- public:
-  /// `defaults`: text of the arguments, "" for none. `required`: those that have none.
-  CallableWithDefaults(std::unique_ptr<Inner> inner, std::string defaults, std::vector<std::string> required)
-      : inner_(std::move(inner)), defaults_(std::move(defaults)), required_(std::move(required)) {}
-
-  [[nodiscard]] const TypeInfo* arguments() const override { return inner_->arguments(); }
-  [[nodiscard]] const TypeInfo* reply() const override { return inner_->reply(); }
-  [[nodiscard]] bool are_arguments_optional() const override { return required_.empty(); }
-  [[nodiscard]] std::vector<std::string> required() const override { return required_; }
-  [[nodiscard]] const std::string& description() const override { return inner_->description(); }
-  [[nodiscard]] bool is_activity() const override { return inner_->is_activity(); }
-  [[nodiscard]] std::unique_ptr<AnyCall> NewCall() override {
-    auto call = inner_->NewCall();
-    // What cannot be said of a type, a union, is not.
-    if (!defaults_.empty()) (void)SetFromText(*inner_->arguments(), defaults_, call->arguments());
-    return call;
-  }
-  [[nodiscard]] ServiceState state() const override { return inner_->state(); }
-  bool Abort() override { return inner_->Abort(); }
-
- private:
-  const std::unique_ptr<Inner> inner_;
-  const std::string defaults_;
-  const std::vector<std::string> required_;
-};
-
 template <typename Signature>
 class ComponentService;
 
@@ -153,9 +124,10 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
         port_(owner.OutputGroup(), name, {.description = options.service.description}),
         records_(owner.OutputGroup(), name + "_calls",
                  {.description = "what has come of each call of " + name, .pool = {}}) {
-    auto callable = std::make_unique<CallableWithDefaults<CallableOf<Signature>>>(
-        std::make_unique<CallableOf<Signature>>(*this, options.service, is_activity()), options.defaults,
-        options.required);
+    const ServiceSignature& signature = runnel::internal::MakeServiceSignatureKnown<Signature, true>();
+    auto callable = std::make_unique<CallableService>(
+        *this, signature, signature.MakeForm(options.service.arguments), options.service.description,
+        CallableOptions{is_activity(), options.defaults, options.required.empty(), options.required});
     port_.Publish(ServiceLink<Signature>{endpoint_.get()});
     port_.template Annotate<Callable>(std::move(callable));
     owner.AddPart(*this);

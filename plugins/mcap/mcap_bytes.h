@@ -113,4 +113,19 @@ class McapBytesReader {
   bool has_failed_ = false;
 };
 
+// The fields of records in their order, for a McapBytesWriter as for a McapBytesReader.
+
+/// Of a message; its data follow.
+template <typename Bytes, typename Message>
+Bytes& MessageHead(Bytes& bytes, Message& message) {
+  return bytes.Number(message.channel).Number(message.sequence).Number(message.log_time).Number(message.publish_time);
+}
+
+/// Of statistics; the counts by channel follow.
+template <typename Bytes, typename Statistics>
+Bytes& StatisticsHead(Bytes& bytes, Statistics& all) {
+  bytes.Number(all.messages).Number(all.schemas).Number(all.channels).Number(all.attachments);
+  return bytes.Number(all.metadata).Number(all.chunks).Number(all.start).Number(all.end);
+}
+
 }  // namespace runnel

@@ -136,10 +136,7 @@ Result<void> McapReader::UseMessage(const McapChunk& chunk, std::string_view con
                                     std::uint64_t at, const Use& use) {
   McapMessage message;
   McapBytesReader bytes(content);
-  bytes.Number(message.channel)
-      .Number(message.sequence)
-      .Number(message.log_time)
-      .Number(message.publish_time);
+  MessageHead(bytes, message);
   if (bytes.has_failed()) {
     return ErrorIn(chunk, at,
                    "expected a message, but this record has only " +

@@ -156,14 +156,7 @@ Result<void> McapReader::TakeSmall(McapOpcode opcode, std::string_view content,
     return {};
   }
   McapStatistics& all = contents_.statistics;
-  bytes.Number(all.messages)
-      .Number(all.schemas)
-      .Number(all.channels)
-      .Number(all.attachments)
-      .Number(all.metadata)
-      .Number(all.chunks)
-      .Number(all.start)
-      .Number(all.end);
+  StatisticsHead(bytes, all);
   McapBytesReader counts(bytes.View());
   while (!counts.rest().empty() && !counts.has_failed()) {
     std::uint16_t channel = 0;

@@ -129,14 +129,9 @@ Result<void> McapWriter::AddMessage(const McapMessage& message) {
   chunk_end_ = chunk_.empty() ? message.log_time : std::max(chunk_end_, message.log_time);
   index_[message.channel].push_back({message.log_time, chunk_.size()});
   constexpr std::uint64_t kHead = 2 + 4 + 8 + 8;
-  McapBytesWriter(chunk_)
-      .Number(static_cast<std::uint8_t>(McapOpcode::kMessage))
-      .Number(kHead + message.data.size())
-      .Number(message.channel)
-      .Number(message.sequence)
-      .Number(message.log_time)
-      .Number(message.publish_time)
-      .Bytes(message.data);
+  McapBytesWriter chunk(chunk_);
+  chunk.Number(static_cast<std::uint8_t>(McapOpcode::kMessage)).Number(kHead + message.data.size());
+  MessageHead(chunk, message).Bytes(message.data);
   McapStatistics& all = statistics_;
   all.start = all.messages == 0 ? message.log_time : std::min(all.start, message.log_time);
   all.end = std::max(all.end, message.log_time);
@@ -182,8 +177,6 @@ Result<void> McapWriter::AddMetadata(const McapMetadata& metadata) {
   ++statistics_.metadata;
   return {};
 }
-
-Result<void> McapWriter::Flush() { return chunk_.empty() ? Result<void>() : WriteChunk(); }
 
 // One index for each channel, behind the chunk that starts at offset_; `offsets` says where they will
 // stand, as the chunk's own index has it.
@@ -244,15 +237,7 @@ std::string McapWriter::StatisticsRecord() const {
   McapBytesWriter counts_writer(counts);
   for (const auto& [id, count] : statistics_.messages_of) counts_writer.Number(id).Number(count);
   AppendMcapRecord(McapOpcode::kStatistics, record, [&](McapBytesWriter& bytes) {
-    bytes.Number(statistics_.messages)
-        .Number(statistics_.schemas)
-        .Number(statistics_.channels)
-        .Number(statistics_.attachments)
-        .Number(statistics_.metadata)
-        .Number(statistics_.chunks)
-        .Number(statistics_.start)
-        .Number(statistics_.end)
-        .Text(counts);
+    StatisticsHead(bytes, statistics_).Text(counts);
   });
   return record;
 }

@@ -47,7 +47,7 @@ class McapWriter {
   Result<void> AddAttachment(const McapAttachment& attachment);
   Result<void> AddMetadata(const McapMetadata& metadata);
   /// Ends the chunk that is being filled and gives it to the system.
-  Result<void> Flush();
+  Result<void> Flush() { return chunk_.empty() ? Result<void>() : WriteChunk(); }
   /// Ends the chunk, writes the summary, and closes the file. Idempotent.
   Result<void> Finish();
 

@@ -35,32 +35,6 @@ namespace runnel {
 
 namespace {
 
-/// How an application is, for /diagnostics: modules that have failed, inputs to which nothing new comes (<on_stale>),
-/// threads whose cycles end too late.
-///
-/// Ownership:  the application must outlive it. Copies begin anew.
-/// Threads:    one at a time; takes the structure lock.
-class ApplicationHealth {
- public:
-  explicit ApplicationHealth(Application& application) : application_(&application) {}
-
-  [[nodiscard]] std::vector<RosDiagnosticStatus> operator()();
-
- private:
-  struct Overruns {
-    std::uint64_t count = 0;
-    Time since{};  // when there was one, on the application's clock
-  };
-  void ReadLog();
-  void AddThreads(std::vector<RosDiagnosticStatus>& all);
-
-  Application* application_;
-  std::uint64_t next_in_log_ = 0;
-  std::map<std::string, std::string> failed_;  // modules, and why
-  std::map<std::string, std::string> silent_;   // inputs, and what was said
-  std::map<std::string, Overruns> overruns_;    // by thread
-};
-
 // So long a thread counts as late.
 constexpr auto kLate = std::chrono::seconds(5);
 
@@ -74,60 +48,82 @@ std::string PathBefore(const std::string& text, std::size_t end) {
   return text.substr(begin, end - begin);
 }
 
-void ApplicationHealth::ReadLog() {
-  const auto news = application_->log().ReadEntries(next_in_log_, ApplicationLog::kMostEntries);
-  next_in_log_ = news.next;
-  for (const ApplicationLog::Entry& entry : news.entries) {
-    if (!entry.module.empty() && entry.cause.empty()) failed_.erase(entry.module);
-    if (!entry.module.empty() && !entry.cause.empty()) failed_[entry.module] = entry.cause;
-    if (const std::size_t place = entry.text.find(kSilent); place != std::string::npos) {
-      silent_[PathBefore(entry.text, place)] = entry.text.substr(place + 2);
-    } else if (const std::size_t end = entry.text.find(kFresh); end != std::string::npos) {
-      silent_.erase(PathBefore(entry.text, end));
+/// How an application is, for /diagnostics: modules that have failed, inputs to which nothing new comes (<on_stale>),
+/// threads whose cycles end too late.
+///
+/// Ownership:  the application must outlive it. Copies begin anew.
+/// Threads:    one at a time; takes the structure lock.
+class ApplicationHealth {
+ public:
+  explicit ApplicationHealth(Application& application) : application_(&application) {}
+
+  [[nodiscard]] std::vector<RosDiagnosticStatus> operator()() {
+    ReadLog();
+    const std::string& name = application_->name();
+    std::vector<RosDiagnosticStatus> all;
+    const auto add = [&](RosHealth level, const std::string& of, const std::string& message) {
+      all.push_back({.level = level, .name = name + ": " + of, .message = message, .hardware_id = name, .values = {}});
+    };
+    if (failed_.empty() && silent_.empty()) {
+      add(RosHealth::kOk, "modules", "no fault");
+    } else {
+      add(failed_.empty() ? RosHealth::kWarning : RosHealth::kError, "modules",
+          std::to_string(failed_.size()) + " failed, " + std::to_string(silent_.size()) + " inputs without news");
+    }
+    for (const auto& [path, why] : failed_) add(RosHealth::kError, path, why);
+    for (const auto& [path, why] : silent_) add(RosHealth::kStale, path, why);
+    AddThreads(all);
+    return all;
+  }
+
+ private:
+  struct Overruns {
+    std::uint64_t count = 0;
+    Time since{};  // when there was one, on the application's clock
+  };
+
+  void ReadLog() {
+    const auto news = application_->log().ReadEntries(next_in_log_, ApplicationLog::kMostEntries);
+    next_in_log_ = news.next;
+    for (const ApplicationLog::Entry& entry : news.entries) {
+      if (!entry.module.empty() && entry.cause.empty()) failed_.erase(entry.module);
+      if (!entry.module.empty() && !entry.cause.empty()) failed_[entry.module] = entry.cause;
+      if (const std::size_t place = entry.text.find(kSilent); place != std::string::npos) {
+        silent_[PathBefore(entry.text, place)] = entry.text.substr(place + 2);
+      } else if (const std::size_t end = entry.text.find(kFresh); end != std::string::npos) {
+        silent_.erase(PathBefore(entry.text, end));
+      }
     }
   }
-}
 
-void ApplicationHealth::AddThreads(std::vector<RosDiagnosticStatus>& all) {
-  Runtime& runtime = application_->runtime();
-  const Time now = runtime.clock().Now();
-  const std::lock_guard lock(runtime.structure_mutex());
-  runtime.root().Visit([&](FrameworkElement& element) {
-    const auto* const thread = dynamic_cast<const ThreadContainer*>(&element);
-    if (thread == nullptr) return;
-    const CycleStatistics cycles = thread->statistics();
-    Overruns& known = overruns_[thread->path()];
-    if (cycles.overruns > known.count) known = {cycles.overruns, now};
-    const bool is_late = known.count > 0 && now - known.since < kLate;
-    all.push_back({.level = is_late ? RosHealth::kWarning : RosHealth::kOk,
-                   .name = application_->name() + ": thread " + thread->name(),
-                   .message = is_late ? "cycles end too late" : "in time",
-                   .hardware_id = application_->name(),
-                   .values = {{"cycles", std::to_string(cycles.cycles)},
-                              {"overruns", std::to_string(cycles.overruns)},
-                              {"period", fmt::format("{:.6f} s", ToSeconds(cycles.period_mean))},
-                              {"longest execution", fmt::format("{:.6f} s", ToSeconds(cycles.execution_max))}}});
-  });
-}
-
-std::vector<RosDiagnosticStatus> ApplicationHealth::operator()() {
-  ReadLog();
-  const std::string& name = application_->name();
-  std::vector<RosDiagnosticStatus> all;
-  const auto add = [&](RosHealth level, const std::string& of, const std::string& message) {
-    all.push_back({.level = level, .name = name + ": " + of, .message = message, .hardware_id = name, .values = {}});
-  };
-  if (failed_.empty() && silent_.empty()) {
-    add(RosHealth::kOk, "modules", "no fault");
-  } else {
-    add(failed_.empty() ? RosHealth::kWarning : RosHealth::kError, "modules",
-        std::to_string(failed_.size()) + " failed, " + std::to_string(silent_.size()) + " inputs without news");
+  void AddThreads(std::vector<RosDiagnosticStatus>& all) {
+    Runtime& runtime = application_->runtime();
+    const Time now = runtime.clock().Now();
+    const std::lock_guard lock(runtime.structure_mutex());
+    runtime.root().Visit([&](FrameworkElement& element) {
+      const auto* const thread = dynamic_cast<const ThreadContainer*>(&element);
+      if (thread == nullptr) return;
+      const CycleStatistics cycles = thread->statistics();
+      Overruns& known = overruns_[thread->path()];
+      if (cycles.overruns > known.count) known = {cycles.overruns, now};
+      const bool is_late = known.count > 0 && now - known.since < kLate;
+      all.push_back({.level = is_late ? RosHealth::kWarning : RosHealth::kOk,
+                     .name = application_->name() + ": thread " + thread->name(),
+                     .message = is_late ? "cycles end too late" : "in time",
+                     .hardware_id = application_->name(),
+                     .values = {{"cycles", std::to_string(cycles.cycles)},
+                                {"overruns", std::to_string(cycles.overruns)},
+                                {"period", fmt::format("{:.6f} s", ToSeconds(cycles.period_mean))},
+                                {"longest execution", fmt::format("{:.6f} s", ToSeconds(cycles.execution_max))}}});
+    });
   }
-  for (const auto& [path, why] : failed_) add(RosHealth::kError, path, why);
-  for (const auto& [path, why] : silent_) add(RosHealth::kStale, path, why);
-  AddThreads(all);
-  return all;
-}
+
+  Application* application_;
+  std::uint64_t next_in_log_ = 0;
+  std::map<std::string, std::string> failed_;  // modules, and why
+  std::map<std::string, std::string> silent_;   // inputs, and what was said
+  std::map<std::string, Overruns> overruns_;    // by thread
+};
 
 class ApplicationNetwork final : public ApplicationExtension {
  public:

@@ -76,8 +76,6 @@ void NetworkServices::AddNew() {
   std::ranges::move(taken, std::back_inserter(taken_));
 }
 
-bool NetworkServices::IsThere(std::uint64_t writer) const { return table_.FindWriter(writer).has_value(); }
-
 void NetworkServices::Forget(const FrameworkElement& element) noexcept {
   for (const auto& each : offered_) each->Forget(element);
 }
@@ -193,7 +191,6 @@ void NetworkLink::LookAgain() noexcept {
   wake_->Notify();
 }
 
-void NetworkLink::OnReady(FrameworkElement&) { LookAgain(); }
 void NetworkLink::OnConnected(FrameworkElement&, FrameworkElement& to) {
   if (!to.IsAtOrBelow(*beside_)) LookAgain();
 }

@@ -39,7 +39,7 @@ class NetworkServices {
   void Follow(WireParticipant& participant, const Trouble& trouble) {
     AddNew();
     for (const auto& each : offered_) {
-      const auto followed = each->Follow(participant, [this](std::uint64_t writer) { return IsThere(writer); });
+      const auto followed = each->Follow(participant, [this](std::uint64_t writer) { return table_.FindWriter(writer).has_value(); });
       if (!followed) trouble(each->options().port, followed.error());
       if (const auto error = each->TakeError()) trouble(each->options().port, *error);
     }
@@ -59,7 +59,6 @@ class NetworkServices {
 
  private:
   void AddNew();
-  [[nodiscard]] bool IsThere(std::uint64_t writer) const;
 
   NetworkElement& element_;
   const DiscoveryTable& table_;
@@ -102,7 +101,7 @@ class NetworkLink final : private ElementListener {
   NetworkLink(FrameworkElement& application, NetworkElement& element, ClockOffset clock);
   struct Wanted;
 
-  void OnReady(FrameworkElement& element) override;
+  void OnReady(FrameworkElement& /*element*/) override { LookAgain(); }
   void OnDeleted(FrameworkElement& element) override;
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;

@@ -158,15 +158,11 @@ void OfferedPort::Forget(const FrameworkElement& element) noexcept {
 
 const TypeInfo& OfferedPort::type() const noexcept { return reader_->type(); }
 
-std::uint64_t OfferedPort::dropped() const noexcept { return each_ ? each_->dropped() : 0; }
-
 bool OfferedPort::is_stopped() const noexcept {
   const EpochGuard guard;
   const Binding* const binding = binding_.load(std::memory_order_acquire);
   return binding != nullptr && std::ranges::any_of(binding->stops, [](const auto& each) { return each.stop->in_force(); });
 }
-
-bool OfferedPort::has_value() const noexcept { return options_.rate <= 0 && bell_->has_rung(); }
 
 std::optional<Time> OfferedPort::Send(Time now) {
   if (is_stopped() && writer_ != nullptr) {

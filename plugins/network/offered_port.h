@@ -101,8 +101,6 @@ class OfferedPort {
               OfferOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock,
               std::shared_ptr<WakeEvent> wake);
   ~OfferedPort();
-  OfferedPort(const OfferedPort&) = delete;
-  OfferedPort& operator=(const OfferedPort&) = delete;
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] const TypeInfo& type() const noexcept;
@@ -125,7 +123,7 @@ class OfferedPort {
   /// Sends what is due. When it wants to be called again though nothing wakes; nothing: not before.
   std::optional<Time> Send(Time now);
   /// Whether Send() has a value to send at once, as far as is known.
-  [[nodiscard]] bool has_value() const noexcept;
+  [[nodiscard]] bool has_value() const noexcept { return options_.rate <= 0 && bell_->has_rung(); }
   /// While a value is likely to come.
   [[nodiscard]] std::optional<ValueForecast::Window> window(Time now) const {
     return options_.rate > 0 ? std::nullopt : forecast_.window(now);
@@ -139,7 +137,7 @@ class OfferedPort {
   [[nodiscard]] bool is_stopped() const noexcept;
   [[nodiscard]] std::size_t matched() const noexcept { return matched_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t sent() const noexcept { return sent_.load(std::memory_order_relaxed); }
-  [[nodiscard]] std::uint64_t dropped() const noexcept;
+  [[nodiscard]] std::uint64_t dropped() const noexcept { return each_ ? each_->dropped() : 0; }
   /// Of those sent: how many by threads of cycles.
   [[nodiscard]] std::uint64_t sent_after_cycles() const noexcept { return sent_after_cycles_.load(std::memory_order_relaxed); }
   [[nodiscard]] bool has_error() const;

@@ -17,8 +17,6 @@
 
 namespace runnel {
 
-class DiscoveryTable;
-
 /// An output of this application that publishes what comes from the network: made with the application, whether
 /// anybody writes there or not, so that it can be connected and watched as any other. Each value is published by the
 /// thread that it comes in by, in a cycle of its own, and stands in the output's buffer at once.

@@ -26,6 +26,15 @@
 
 namespace runnel {
 
+namespace {
+
+std::vector<std::string> Words(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+}  // namespace
+
 /// What a recorder in an application says of itself.
 struct RecorderState {
   std::uint64_t values = 0;
@@ -60,8 +69,36 @@ class RecorderModule final : public Module {
   Output<RecorderState> state{this, "state"};
 
  private:
-  Result<void> Prepare() override;
-  void Update() override;
+  Result<void> Prepare() override {
+    if (file.Get().empty()) {
+      return Error{.message = "needs the file to record to, as parameter 'file'", .path = path()};
+    }
+    is_simulated_ = dynamic_cast<const ManualClock*>(&runtime().clock()) != nullptr;
+    RecordedApplication about{.name = std::string(SplitPath(path()).front())};
+    {
+      const std::lock_guard lock(runtime().structure_mutex());
+      about.file = FindSourcePlace(*this).file;
+    }
+    // A recorder that was made while the application runs stands in no file.
+    if (auto text = XmlDocument::ReadText(about.file)) about.text = std::move(*text);
+    auto started = Recorder::Start(runtime(), nullptr,
+                                   {.file = file.Get().path().string(),
+                                    .ports = Words(ports.Get()),
+                                    .compression = compression.Get(),
+                                    .about = std::move(about)});
+    if (!started) return started.error().WithPath(path());
+    recorder_ = std::move(*started);
+    return {};
+  }
+
+  void Update() override {
+    if (is_simulated_) recorder_->WaitForRoom();
+    if (const auto failure = recorder_->TakeFailure()) {
+      throw std::runtime_error("the recording has ended: " + failure->ToString());
+    }
+    const RecordingStatus status = recorder_->status();
+    state.Publish({status.values, status.dropped, status.bytes});
+  }
 
   std::unique_ptr<Recorder> recorder_;
   bool is_simulated_ = false;
@@ -69,16 +106,12 @@ class RecorderModule final : public Module {
 
 namespace {
 
-std::vector<std::string> Words(const std::string& text) {
-  std::istringstream stream(text);
-  return {std::istream_iterator<std::string>(stream), {}};
-}
-
-// "recorded 1234 values of 5 ports, 1.2 MB, to run.mcap", with what was lost, and an end of line.
-std::string RecordingText(const std::string& file, const RecordingStatus& status) {
+// "recorded 1234 values of 5 ports, 1.2 MB, to run.mcap", with what was lost.
+std::string RecordingText(const Recorder& recorder) {
+  const RecordingStatus status = recorder.status();
   std::string text = "recorded " + std::to_string(status.values) + " values of " +
                      std::to_string(status.ports) + (status.ports == 1 ? " port, " : " ports, ") +
-                     SizeText(status.bytes) + ", to " + file;
+                     SizeText(status.bytes) + ", to " + recorder.file();
   if (status.dropped > 0) {
     text += "; " + std::to_string(status.dropped) + " came too fast and are not in it";
   }
@@ -90,7 +123,7 @@ std::string RecordingText(const std::string& file, const RecordingStatus& status
     text += "; no port has fitted";
     for (const std::string& pattern : status.idle_patterns) text += " '" + pattern + "'";
   }
-  return text + "\n";
+  return text;
 }
 
 // One that a client has begun.
@@ -98,21 +131,14 @@ class RecordingOfClient final : public ClientRecording {
  public:
   explicit RecordingOfClient(std::unique_ptr<Recorder> recorder) : recorder_(std::move(recorder)) {}
 
-  std::string Progress() override { return Line(); }
+  std::string Progress() override { return RecordingText(*recorder_); }
   std::optional<Error> Failure() override { return recorder_->TakeFailure(); }
   Result<std::string> Finish() override {
     if (auto finished = recorder_->Finish(); !finished) return finished.error();
-    return Line();
+    return RecordingText(*recorder_);
   }
 
  private:
-  // Without its end, which the command adds.
-  std::string Line() const {
-    std::string text = RecordingText(recorder_->file(), recorder_->status());
-    text.pop_back();
-    return text;
-  }
-
   const std::unique_ptr<Recorder> recorder_;
 };
 
@@ -142,10 +168,41 @@ class ApplicationRecording final : public ApplicationExtension {
   /// Without a file, for clients only.
   explicit ApplicationRecording(RecorderOptions options = {}) : options_(std::move(options)) {}
 
-  void AddHooks(Application& application, ServiceHooks& hooks) override;
-  Result<void> Begin(Application& application, Diagnostics& diagnostics) override;
-  std::optional<Error> TakeFailure() override;
-  std::string Finish(Diagnostics& problems) override;
+  void AddHooks(Application& application, ServiceHooks& hooks) override {
+    hooks.record = [&runtime = application.runtime(), &scheduler = application.scheduler(),
+                    about = AboutApplication(application)](
+                       const RecordingRequest& request) -> Result<std::unique_ptr<ClientRecording>> {
+      auto recorder = Recorder::Start(runtime, &scheduler,
+                                      {.file = request.file,
+                                       .ports = request.ports,
+                                       .compression = request.compression,
+                                       .about = about});
+      if (!recorder) return recorder.error();
+      return std::unique_ptr<ClientRecording>(
+          std::make_unique<RecordingOfClient>(std::move(*recorder)));
+    };
+  }
+
+  Result<void> Begin(Application& application, Diagnostics& /*diagnostics*/) override {
+    if (options_.file.empty()) return {};
+    options_.about = AboutApplication(application);
+    auto recorder = Recorder::Start(application.runtime(), &application.scheduler(), options_);
+    if (!recorder) return recorder.error();
+    recorder_ = std::move(*recorder);
+    return {};
+  }
+
+  std::optional<Error> TakeFailure() override {
+    return recorder_ != nullptr ? recorder_->TakeFailure() : std::nullopt;
+  }
+
+  std::string Finish(Diagnostics& problems) override {
+    if (recorder_ == nullptr) return {};
+    if (const auto finished = recorder_->Finish(); !finished) problems.Add(finished.error());
+    (void)recorder_->TakeFailure();  // the same
+    return RecordingText(*recorder_) + "\n";
+  }
+
   void OnCrash() override {
     if (recorder_ != nullptr) recorder_->FinishFile();
   }
@@ -155,41 +212,6 @@ class ApplicationRecording final : public ApplicationExtension {
   RecorderOptions options_;
   std::unique_ptr<Recorder> recorder_;
 };
-
-void ApplicationRecording::AddHooks(Application& application, ServiceHooks& hooks) {
-  hooks.record = [&runtime = application.runtime(), &scheduler = application.scheduler(),
-                  about = AboutApplication(application)](
-                     const RecordingRequest& request) -> Result<std::unique_ptr<ClientRecording>> {
-    auto recorder = Recorder::Start(runtime, &scheduler,
-                                    {.file = request.file,
-                                     .ports = request.ports,
-                                     .compression = request.compression,
-                                     .about = about});
-    if (!recorder) return recorder.error();
-    return std::unique_ptr<ClientRecording>(
-        std::make_unique<RecordingOfClient>(std::move(*recorder)));
-  };
-}
-
-Result<void> ApplicationRecording::Begin(Application& application, Diagnostics& /*diagnostics*/) {
-  if (options_.file.empty()) return {};
-  options_.about = AboutApplication(application);
-  auto recorder = Recorder::Start(application.runtime(), &application.scheduler(), options_);
-  if (!recorder) return recorder.error();
-  recorder_ = std::move(*recorder);
-  return {};
-}
-
-std::optional<Error> ApplicationRecording::TakeFailure() {
-  return recorder_ != nullptr ? recorder_->TakeFailure() : std::nullopt;
-}
-
-std::string ApplicationRecording::Finish(Diagnostics& problems) {
-  if (recorder_ == nullptr) return {};
-  if (const auto finished = recorder_->Finish(); !finished) problems.Add(finished.error());
-  (void)recorder_->TakeFailure();  // the same
-  return RecordingText(recorder_->file(), recorder_->status());
-}
 
 // nullopt: not given.
 Result<std::optional<Duration>> ReadSeconds(const ExtensionArguments& arguments,
@@ -203,23 +225,21 @@ Result<std::optional<Duration>> ReadSeconds(const ExtensionArguments& arguments,
                    "--" + option + ": '" + text + "' is not a number of seconds from 0 to 9e9"};
 }
 
-Result<std::shared_ptr<ApplicationReplay>> MakeReplay(const ExtensionArguments& arguments) {
+Result<std::shared_ptr<ApplicationExtension>> ReplayOf(const ExtensionArguments& arguments) {
   const auto from = ReadSeconds(arguments, "from");
   if (!from) return from.error();
   const auto to = ReadSeconds(arguments, "to");
   if (!to) return to.error();
-  return std::make_shared<ApplicationReplay>(arguments.Find("recording"),
-                                             PlayerOptions{.ports = arguments.All("ports"),
-                                                           .from = *from,
-                                                           .to = *to,
-                                                           .loops = arguments.Has("loop")});
+  return MakeReplay(
+      arguments.Find("recording"),
+      {.ports = arguments.All("ports"), .from = *from, .to = *to, .loops = arguments.Has("loop")});
 }
 
 // What is played begins first: its values are recorded.
 Result<Extensions> MakeRecordings(const ExtensionArguments& arguments) {
   Extensions made;
   if (arguments.Has("recording")) {
-    const auto replay = MakeReplay(arguments);
+    const auto replay = ReplayOf(arguments);
     if (!replay) return replay.error();
     made.push_back(*replay);
   }
@@ -238,37 +258,6 @@ Result<Extensions> MakeRecordings(const ExtensionArguments& arguments) {
 }
 
 }  // namespace
-
-Result<void> RecorderModule::Prepare() {
-  if (file.Get().empty()) {
-    return Error{.message = "needs the file to record to, as parameter 'file'", .path = path()};
-  }
-  is_simulated_ = dynamic_cast<const ManualClock*>(&runtime().clock()) != nullptr;
-  RecordedApplication about{.name = std::string(SplitPath(path()).front())};
-  {
-    const std::lock_guard lock(runtime().structure_mutex());
-    about.file = FindSourcePlace(*this).file;
-  }
-  // A recorder that was made while the application runs stands in no file.
-  if (auto text = XmlDocument::ReadText(about.file)) about.text = std::move(*text);
-  auto started = Recorder::Start(runtime(), nullptr,
-                                 {.file = file.Get().path().string(),
-                                  .ports = Words(ports.Get()),
-                                  .compression = compression.Get(),
-                                  .about = std::move(about)});
-  if (!started) return started.error().WithPath(path());
-  recorder_ = std::move(*started);
-  return {};
-}
-
-void RecorderModule::Update() {
-  if (is_simulated_) recorder_->WaitForRoom();
-  if (const auto failure = recorder_->TakeFailure()) {
-    throw std::runtime_error("the recording has ended: " + failure->ToString());
-  }
-  const RecordingStatus status = recorder_->status();
-  state.Publish({status.values, status.dropped, status.bytes});
-}
 
 }  // namespace runnel
 

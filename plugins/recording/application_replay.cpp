@@ -13,6 +13,7 @@
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
 #include "plugins/application/application.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_info.h"
 #include "plugins/recording/recording_names.h"
@@ -105,68 +106,7 @@ class RecordedTree {
   std::set<Parts> modules_;
 };
 
-}  // namespace
-
-std::optional<BuildOutcome> ApplicationReplay::Build(const ApplicationFile* file,
-                                                     const BuildTools& tools) {
-  if (file != nullptr) return std::nullopt;
-  return BuildRecordedPorts(file_, tools);
-}
-
-Result<void> ApplicationReplay::Prepare(FrameworkElement& /*application*/,
-                                        SchedulerOptions& options) {
-  is_simulated_ = options.clock == SchedulerOptions::ClockKind::kSimulated;
-  if (is_simulated_) options.speed = 1;
-  return {};
-}
-
-Result<void> ApplicationReplay::Begin(Application& application, Diagnostics& diagnostics) {
-  const auto warn = [&](std::string message) {
-    diagnostics.AddWarning({.message = std::move(message), .position = {file_}});
-  };
-  runtime_ = &application.runtime();
-  scheduler_ = &application.scheduler();
-  auto reader = McapReader::Open(file_);
-  if (!reader) return reader.error();
-  const auto& contents = (*reader)->contents();
-  if (contents.damage) {
-    warn("played is what comes before its damage: " + contents.damage->message);
-  }
-  was_simulated_ = AboutText(**reader, "clock") == "simulated";
-  auto player = Player::Prepare(*runtime_, std::move(*reader), options_);
-  if (!player) return player.error();
-  player_ = std::move(*player);
-  std::string missing;
-  for (const std::string& path : player_->missing()) missing += " " + path;
-  if (!missing.empty()) warn("not played, for the application does not have:" + missing);
-  return {};
-}
-
-// Simulated time goes on where the recording was, so that values bear the times that they bore.
-void ApplicationReplay::OnStart() {
-  if (is_simulated_ && was_simulated_) scheduler_->simulated_clock().Set(player_->start());
-  player_->Start(runtime_->clock().Now());
-}
-
-std::optional<Duration> ApplicationReplay::limit() const {
-  if (options_.loops) return {};
-  // Simulated cycles that are due at the very end have not run when it is reached.
-  return player_->length() + (is_simulated_ ? Duration(1) : kLastCycle);
-}
-
-std::optional<bool> ApplicationReplay::IsOver() {
-  return player_->failure() || (!is_simulated_ && player_->is_over());
-}
-
-std::string ApplicationReplay::Finish(Diagnostics& problems) {
-  if (const auto failure = player_->failure()) problems.Add(*failure);
-  const std::size_t ports = player_->ports();
-  return "replayed " + DurationText(player_->length()) +
-         (options_.loops ? ", again and again: " : ": ") + std::to_string(player_->published()) +
-         " values at " + std::to_string(ports) + (ports == 1 ? " port" : " ports") +
-         (player_->calls() > 0 ? ", " + std::to_string(player_->calls()) + " calls\n" : "\n");
-}
-
+// As BuildApplication() with kConstruct. Errors: no recording; none of its types is known.
 BuildOutcome BuildRecordedPorts(const std::string& file, const BuildTools& tools) {
   BuildOutcome outcome;
   const auto reader = McapReader::Open(file);
@@ -205,6 +145,87 @@ BuildOutcome BuildRecordedPorts(const std::string& file, const BuildTools& tools
   // As fine as anybody can see.
   CreateThread(runtime, "player", {.period = std::chrono::milliseconds(5)});
   return outcome;
+}
+
+class ApplicationReplay final : public ApplicationExtension {
+ public:
+  ApplicationReplay(std::string file, PlayerOptions options) : file_(std::move(file)), options_(std::move(options)) {}
+
+  std::optional<BuildOutcome> Build(const ApplicationFile* file, const BuildTools& tools) override {
+    if (file != nullptr) return std::nullopt;
+    return BuildRecordedPorts(file_, tools);
+  }
+
+  Result<void> Prepare(FrameworkElement& /*application*/, SchedulerOptions& options) override {
+    is_simulated_ = options.clock == SchedulerOptions::ClockKind::kSimulated;
+    if (is_simulated_) options.speed = 1;
+    return {};
+  }
+
+  Result<void> Begin(Application& application, Diagnostics& diagnostics) override {
+    const auto warn = [&](std::string message) {
+      diagnostics.AddWarning({.message = std::move(message), .position = {file_}});
+    };
+    runtime_ = &application.runtime();
+    scheduler_ = &application.scheduler();
+    auto reader = McapReader::Open(file_);
+    if (!reader) return reader.error();
+    const auto& contents = (*reader)->contents();
+    if (contents.damage) {
+      warn("played is what comes before its damage: " + contents.damage->message);
+    }
+    was_simulated_ = AboutText(**reader, "clock") == "simulated";
+    auto player = Player::Prepare(*runtime_, std::move(*reader), options_);
+    if (!player) return player.error();
+    player_ = std::move(*player);
+    std::string missing;
+    for (const std::string& path : player_->missing()) missing += " " + path;
+    if (!missing.empty()) warn("not played, for the application does not have:" + missing);
+    return {};
+  }
+
+  // Simulated time goes on where the recording was, so that values bear the times that they bore.
+  void OnStart() override {
+    if (is_simulated_ && was_simulated_) scheduler_->simulated_clock().Set(player_->start());
+    player_->Start(runtime_->clock().Now());
+  }
+
+  [[nodiscard]] std::optional<Duration> limit() const override {
+    if (options_.loops) return {};
+    // Simulated cycles that are due at the very end have not run when it is reached.
+    return player_->length() + (is_simulated_ ? Duration(1) : kLastCycle);
+  }
+
+  std::optional<bool> IsOver() override {
+    return player_->failure() || (!is_simulated_ && player_->is_over());
+  }
+
+  std::string Finish(Diagnostics& problems) override {
+    if (const auto failure = player_->failure()) problems.Add(*failure);
+    const std::size_t ports = player_->ports();
+    return "replayed " + DurationText(player_->length()) +
+           (options_.loops ? ", again and again: " : ": ") + std::to_string(player_->published()) +
+           " values at " + std::to_string(ports) + (ports == 1 ? " port" : " ports") +
+           (player_->calls() > 0 ? ", " + std::to_string(player_->calls()) + " calls\n" : "\n");
+  }
+
+  [[nodiscard]] bool Replays() const override { return true; }
+  void End() noexcept override { player_.reset(); }
+
+ private:
+  const std::string file_;
+  const PlayerOptions options_;
+  Runtime* runtime_ = nullptr;
+  Scheduler* scheduler_ = nullptr;
+  std::unique_ptr<Player> player_;
+  bool is_simulated_ = false;
+  bool was_simulated_ = false;  // when it was recorded
+};
+
+}  // namespace
+
+std::shared_ptr<ApplicationExtension> MakeReplay(std::string file, PlayerOptions options) {
+  return std::make_shared<ApplicationReplay>(std::move(file), std::move(options));
 }
 
 }  // namespace runnel

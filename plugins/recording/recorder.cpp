@@ -310,9 +310,6 @@ void Recorder::OnReady(FrameworkElement& element) {
   }
 }
 
-// Whether another module takes over its connections, as one that replaces it does, is seen later.
-void Recorder::OnDeleted(FrameworkElement&) { has_gone_ = true; }
-
 void Recorder::WaitForRoom() noexcept {
   const auto is_behind = [this] {
     const std::lock_guard lock(mutex_);

@@ -91,7 +91,8 @@ class Recorder final : public ElementListener, public BackpressureSource {
   [[nodiscard]] std::optional<Error> TakeFailure();
 
   void OnReady(FrameworkElement& element) override;
-  void OnDeleted(FrameworkElement& element) override;
+  // Whether another module takes over its connections, as one that replaces it does, is seen later.
+  void OnDeleted(FrameworkElement& /*element*/) override { has_gone_ = true; }
   void WaitForRoom() noexcept override;
 
  private:

@@ -12,7 +12,6 @@
 namespace runnel {
 
 class Configurable;
-class TypeInfo;
 
 /// What `ros2 param` speaks: values of parameters as messages of rcl_interfaces, and the six services of a node. Each
 /// structure has the octets of its message (WriteCdr(), ReadCdr()).

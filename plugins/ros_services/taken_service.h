@@ -15,8 +15,6 @@
 
 namespace runnel {
 
-class WakeEvent;
-
 /// A service elsewhere that clients of this application call.
 struct ServiceTakeOptions {
   std::string service = {};           ///< "/save_map"
@@ -30,8 +28,6 @@ struct DistantService {
   DistantService(std::shared_ptr<const CallForm> of_calls, std::shared_ptr<const ServiceForm> of_service)
       : calls(std::move(of_calls)), form(std::move(of_service)) {}
   ~DistantService() { endpoint.EndAll(CallStatus::kDisconnected, "the network has gone"); }
-  DistantService(const DistantService&) = delete;
-  DistantService& operator=(const DistantService&) = delete;
 
   std::shared_ptr<const CallForm> calls;
   std::shared_ptr<const ServiceForm> form;
@@ -51,8 +47,6 @@ class TakenService {
                ServiceDialect dialect, std::uint32_t identity, std::shared_ptr<WakeEvent> wake);
   /// Calls that are under way end disconnected. Not under the structure lock.
   ~TakenService();
-  TakenService(const TakenService&) = delete;
-  TakenService& operator=(const TakenService&) = delete;
 
   /// Begins, if it has not. Errors: of the engine.
   Result<void> Follow(WireParticipant& participant);

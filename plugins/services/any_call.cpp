@@ -40,35 +40,69 @@ Result<void> SetArguments(const Callable& callable, std::string_view text, AnyCa
   return CheckRequired(callable, TokensOf(text)->root());
 }
 
-OwnCall::OwnCall(ServiceBase& service, std::unique_ptr<CallSlots> slots)
-    : service_(service), slots_(std::move(slots)), call_(slots_->Acquire()) {}
+namespace {
 
-OwnCall::~OwnCall() {
-  slots_->GiveUpAll();
-  CallSlots::Release(*call_);
-  RetireCalls(std::move(slots_));
-}
-
-CallStatus OwnCall::Begin(Time now, Duration timeout, const RobotStop::AsOf& as_of) {
-  const RobotStop& stop = service_.port().runtime().robot_stop();
-  call_->NoteStop(stop);  // first: what comes after the comparison is seen when the call is taken out
-  if (!stop.CheckIsKnown(as_of)) {
-    error_ = kCalledBeforeStop;
-    return status_ = CallStatus::kFailed;
+class OwnCall final : public AnyCall {
+ public:
+  OwnCall(ServiceBase& service, const ServiceSignature& signature, std::shared_ptr<const CallForm> form)
+      : service_(service),
+        signature_(signature),
+        form_(std::move(form)),
+        slots_(signature.MakeSlots(1)),
+        call_(slots_->Acquire()) {}
+  ~OwnCall() override {
+    slots_->GiveUpAll();
+    CallSlots::Release(*call_);
+    RetireCalls(std::move(slots_));
   }
-  return status_ = BeginCall(service_.endpoint(), *call_, now, timeout);
-}
 
-CallStatus OwnCall::Poll(Time now) {
-  if (status_ != CallStatus::kPending) return status_;
-  if (call_->is_answered()) {
-    status_ = call_->status;
-    error_ = call_->error;
-  } else if (now >= call_->deadline) {
-    Abort();
-    status_ = CallStatus::kTimedOut;
+  [[nodiscard]] void* arguments() override {
+    return form_->arguments() == nullptr ? nullptr : const_cast<void*>(form_->ArgumentsOf(*call_));
   }
-  return status_;
+  void TakeArguments(const CallRecordBase& record) override { signature_.TakeArguments(record, *call_); }
+  CallStatus Begin(Time now, Duration timeout, const RobotStop::AsOf& as_of) override {
+    const RobotStop& stop = service_.port().runtime().robot_stop();
+    call_->NoteStop(stop);  // first: what comes after the comparison is seen when the call is taken out
+    if (!stop.CheckIsKnown(as_of)) {
+      error_ = kCalledBeforeStop;
+      return status_ = CallStatus::kFailed;
+    }
+    return status_ = BeginCall(service_.endpoint(), *call_, now, timeout);
+  }
+  CallStatus Poll(Time now) override {
+    if (status_ != CallStatus::kPending) return status_;
+    if (call_->is_answered()) {
+      status_ = call_->status;
+      error_ = call_->error;
+    } else if (now >= call_->deadline) {
+      Abort();
+      status_ = CallStatus::kTimedOut;
+    }
+    return status_;
+  }
+  [[nodiscard]] const void* reply() const override { return form_->reply() == nullptr ? nullptr : form_->ReplyOf(*call_); }
+  [[nodiscard]] std::string error() const override { return error_; }
+  [[nodiscard]] double progress() const override { return call_->progress.load(std::memory_order_relaxed); }
+  [[nodiscard]] const char* doing() const override { return call_->doing.load(std::memory_order_relaxed); }
+  void Abort() override { call_->is_given_up.store(true, std::memory_order_relaxed); }
+
+ private:
+  ServiceBase& service_;  // until Begin()
+  const ServiceSignature& signature_;
+  const std::shared_ptr<const CallForm> form_;
+  std::unique_ptr<CallSlots> slots_;
+  CallBase* const call_;
+  CallStatus status_ = CallStatus::kNotConnected;
+  std::string error_;
+};
+
+}  // namespace
+
+std::unique_ptr<AnyCall> CallableService::NewCall() {
+  auto call = std::make_unique<OwnCall>(service_, signature_, form_);
+  // What cannot be said of a type, a union, is not.
+  if (!options_.defaults.empty()) (void)SetFromText(*arguments(), options_.defaults, call->arguments());
+  return call;
 }
 
 }  // namespace runnel

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "core/types/type_builder.h"
 
 namespace runnel {
@@ -17,28 +20,19 @@ enum class CallStatus {
   kFaulted,       ///< the module that serves has failed
 };
 
+/// By CallStatus.
+inline constexpr std::array kCallStatusNames{"pending",       "answered", "failed",       "aborted", "timed_out",
+                                             "not_connected", "busy",     "disconnected", "faulted"};
+static_assert(kCallStatusNames.size() == static_cast<std::size_t>(CallStatus::kFaulted) + 1);
+
 /// "answered", "timed_out", …
 [[nodiscard]] inline const char* CallStatusName(CallStatus status) noexcept {
-  switch (status) {
-    case CallStatus::kPending: return "pending";
-    case CallStatus::kAnswered: return "answered";
-    case CallStatus::kFailed: return "failed";
-    case CallStatus::kAborted: return "aborted";
-    case CallStatus::kTimedOut: return "timed_out";
-    case CallStatus::kNotConnected: return "not_connected";
-    case CallStatus::kBusy: return "busy";
-    case CallStatus::kDisconnected: return "disconnected";
-    case CallStatus::kFaulted: return "faulted";
-  }
-  return "";
+  return kCallStatusNames[static_cast<std::size_t>(status)];
 }
 
 inline void Describe(TypeBuilder<CallStatus>& type) {
   type.Name("call_status");
-  for (int i = 0; i <= static_cast<int>(CallStatus::kFaulted); ++i) {
-    const auto status = static_cast<CallStatus>(i);
-    type.Value(CallStatusName(status), status);
-  }
+  for (std::size_t i = 0; i < kCallStatusNames.size(); ++i) type.Value(kCallStatusNames[i], static_cast<CallStatus>(i));
 }
 
 }  // namespace runnel

@@ -131,9 +131,8 @@ class Client<Reply(Arguments...)> final : public ClientBase {
       : ClientBase(options, std::make_unique<CallSlotsOf<Signature>>(options.calls)),
         port_(group, std::move(name),
               {.description = options.description, .required = options.required}) {
-    internal::MakeServiceSignatureKnown<Signature, false>();
-    port_.template Annotate<ClientForm>(
-        std::make_unique<ClientForm>(std::make_shared<CallFormOf<Signature>>(options.arguments)));
+    const ServiceSignature& signature = internal::MakeServiceSignatureKnown<Signature, false>();
+    port_.template Annotate<ClientForm>(std::make_unique<ClientForm>(signature.MakeForm(options.arguments)));
     Open(port_);
   }
   ~Client() { Close(); }

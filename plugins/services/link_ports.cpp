@@ -58,10 +58,4 @@ std::unique_ptr<Port> MakeLinkInput(const TypeInfo& link, FrameworkElement& grou
   return std::make_unique<AnyLinkInput>(link, group, std::move(name), std::move(options));
 }
 
-ServiceEndpoint* EndpointAt(const Port& port) {
-  ServiceEndpoint* found = nullptr;
-  port.VisitLatest([&found](const void* link, ValueTimes) { found = *static_cast<ServiceEndpoint* const*>(link); });
-  return found;
-}
-
 }  // namespace runnel

@@ -58,10 +58,11 @@ class Service<Reply(Arguments...)> final : public ServiceBase {
         records_(group, name + "_calls",
                  {.description = "what has come of each call of " + name, .pool = {}}) {
     // First, as it may refuse the options, and nothing is to be left of a service then.
-    auto callable =
-        std::make_unique<CallableOf<Signature>>(*this, options, kIsActivity<Owner, Handler>);
+    const ServiceSignature& signature = internal::MakeServiceSignatureKnown<Signature, true>();
+    auto callable = std::make_unique<CallableService>(
+        *this, signature, signature.MakeForm(options.arguments), options.description,
+        CallableOptions{.is_activity = kIsActivity<Owner, Handler>});
     port_.Publish(ServiceLink<Signature>{endpoint_.get()});
-    internal::MakeServiceSignatureKnown<Signature, true>();
     port_.template Annotate<Callable>(std::move(callable));
     Open(port_, kIsActivity<Owner, Handler>);
     (void)endpoint_.release();  // the channel's from here on

@@ -63,13 +63,7 @@ void ServiceWorker::Stop() noexcept {
 
 // Always that of the channel which the port has now: a swap exchanges channels, and those who have put their calls
 // into one find the module that serves it.
-ServiceEndpoint* ServiceBase::endpoint() const {
-  ServiceEndpoint* found = nullptr;
-  port_->VisitLatest([&found](const void* link, ValueTimes) {
-    found = *static_cast<ServiceEndpoint* const*>(link);
-  });
-  return found;
-}
+ServiceEndpoint* ServiceBase::endpoint() const { return EndpointAt(*port_); }
 
 void ServiceBase::Open(Port& port, bool is_activity) {
   port_ = &port;

@@ -1,5 +1,7 @@
 #include "plugins/services/service_endpoint.h"
 
+#include "core/port/port.h"
+
 namespace runnel {
 
 CallBase* ServiceEndpoint::Take(Time now, const RobotStop& stop) {
@@ -13,6 +15,12 @@ CallBase* ServiceEndpoint::Take(Time now, const RobotStop& stop) {
     }
   }
   return nullptr;
+}
+
+ServiceEndpoint* EndpointAt(const Port& port) {
+  ServiceEndpoint* found = nullptr;
+  port.VisitLatest([&found](const void* link, ValueTimes) { found = *static_cast<ServiceEndpoint* const*>(link); });
+  return found;
 }
 
 CallStatus BeginCall(ServiceEndpoint* at, CallBase& call, Time now, Duration timeout) noexcept {

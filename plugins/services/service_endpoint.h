@@ -11,6 +11,8 @@
 
 namespace runnel {
 
+class Port;
+
 /// Where clients put their calls, and the service takes them out. Its address is the value that a service
 /// publishes and its clients read, so that services are connected by what connects ports; it goes with the port's
 /// channel to a module that takes the server's place, and the calls that wait go with it.
@@ -58,6 +60,9 @@ struct ServiceEndpoint {
   std::atomic<std::uint64_t> answered{0};
   std::atomic<std::uint64_t> failed{0};
 };
+
+/// Whose address the port of a service publishes, or a client's reads; nullptr: none. Inside an epoch guard.
+[[nodiscard]] ServiceEndpoint* EndpointAt(const Port& port);
 
 /// Puts the call into the queue: kPending, or why not, and then the call is not under way. Inside an epoch guard, or
 /// under the structure lock.

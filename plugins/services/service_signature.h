@@ -173,10 +173,11 @@ class ServiceSignatureOf final : public ServiceSignature {
 
 /// Called when a service or a client is made. Clients spare themselves the code of records.
 template <typename Signature, bool has_records>
-[[gnu::noinline]] void MakeServiceSignatureKnown() {
+[[gnu::noinline]] const ServiceSignature& MakeServiceSignatureKnown() {
   static const ServiceSignatureOf<Signature, has_records> signature;
   static const bool is_known = (AddServiceSignature(TypeOf<ServiceLink<Signature>>(), signature, has_records), true);
   (void)is_known;
+  return signature;
 }
 
 }  // namespace internal

@@ -8,7 +8,6 @@
 #include "core/types/text_format.h"
 #include "core/types/type_builder.h"
 #include "core/types/type_of.h"
-#include "plugins/services/any_call.h"
 
 namespace runnel {
 
@@ -167,51 +166,10 @@ FoundSignature Found(const SignatureTypes& types) {
   return *found;
 }
 
-class CallOfOffer final : public OwnCall {
- public:
-  CallOfOffer(ServiceBase& service, const ServiceSignature& signature, std::shared_ptr<const CallForm> form)
-      : OwnCall(service, signature.MakeSlots(1)), signature_(signature), form_(std::move(form)) {}
-
-  [[nodiscard]] void* arguments() override {
-    return form_->arguments() == nullptr ? nullptr : const_cast<void*>(form_->ArgumentsOf(call()));
-  }
-  void TakeArguments(const CallRecordBase& record) override { signature_.TakeArguments(record, call()); }
-  [[nodiscard]] const void* reply() const override { return form_->reply() == nullptr ? nullptr : form_->ReplyOf(call()); }
-
- private:
-  const ServiceSignature& signature_;
-  const std::shared_ptr<const CallForm> form_;
-};
-
 }  // namespace
 
-/// What it is to those who call it from outside.
-class ServiceAtRunTime::Offer final : public Callable {
- public:
-  Offer(ServiceAtRunTime& service, const ServiceSignature& signature, std::string description, Extra extra)
-      : service_(service), signature_(signature), description_(std::move(description)), extra_(std::move(extra)) {}
-  [[nodiscard]] const TypeInfo* arguments() const override { return service_.form_->arguments(); }
-  [[nodiscard]] const TypeInfo* reply() const override { return service_.form_->reply(); }
-  [[nodiscard]] const std::string& description() const override { return description_; }
-  [[nodiscard]] bool is_activity() const override { return extra_.is_activity; }
-  [[nodiscard]] bool are_arguments_optional() const override { return extra_.are_arguments_optional; }
-  [[nodiscard]] std::unique_ptr<AnyCall> NewCall() override {
-    auto call = std::make_unique<CallOfOffer>(service_, signature_, service_.form_);
-    if (!extra_.defaults.empty()) (void)SetFromText(*arguments(), extra_.defaults, call->arguments());
-    return call;
-  }
-  [[nodiscard]] ServiceState state() const override { return service_.state(); }
-  bool Abort() override { return service_.Abort(); }
-
- private:
-  ServiceAtRunTime& service_;
-  const ServiceSignature& signature_;
-  const std::string description_;
-  const Extra extra_;
-};
-
 ServiceAtRunTime::ServiceAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types,
-                                   ServiceOptions options, Extra extra, Handler handler)
+                                   ServiceOptions options, CallableOptions extra, Handler handler)
     : handler_(std::move(handler)) {
   const FoundSignature found = Found(types);
   form_ = found.signature->MakeForm(options.arguments);
@@ -229,7 +187,8 @@ ServiceAtRunTime::ServiceAtRunTime(FrameworkElement& group, const std::string& n
   });
   if (!published) throw ElementError(published.error());
   records_ = found.signature->MakeRecorder(group, name);
-  port_->Annotate<Callable>(std::make_unique<Offer>(*this, *found.signature, options.description, extra));
+  port_->Annotate<Callable>(
+      std::make_unique<CallableService>(*this, *found.signature, form_, options.description, extra));
   Open(*port_, extra.is_activity);
   (void)endpoint.release();  // the channel's from here on
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/port/port.h"
+#include "plugins/services/any_call.h"
 #include "plugins/services/client_base.h"
 #include "plugins/services/service_base.h"
 #include "plugins/services/service_signature.h"
@@ -36,9 +37,6 @@ struct FoundSignature {
 [[nodiscard]] std::unique_ptr<Port> MakeLinkInput(const TypeInfo& link, FrameworkElement& group, std::string name,
                                                   InputOptions options);
 
-/// Whose address the port publishes, or reads; nullptr: none. Inside an epoch guard.
-[[nodiscard]] ServiceEndpoint* EndpointAt(const Port& port);
-
 /// A Service whose types are known at run time only: of modules that are not written in C++. Modules in C++ that have
 /// clients of the same signature can be connected.
 ///
@@ -48,20 +46,14 @@ class ServiceAtRunTime final : public ServiceBase {
   /// Reads the arguments and writes the reply, by the form. Its error is the call's; what it throws is the module's fault.
   using Handler = std::function<Result<void>(const CallForm& form, CallBase& call, Activity* activity)>;
 
-  struct Extra {
-    bool is_activity = false;             ///< it is served by a thread of its own
-    std::string defaults = {};            ///< text of the arguments, of calls from outside; "": none
-    bool are_arguments_optional = false;  ///< each has a default
-  };
 
   ServiceAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types, ServiceOptions options,
-                   Extra extra, Handler handler);
+                   CallableOptions extra, Handler handler);
   ~ServiceAtRunTime();
 
   [[nodiscard]] const CallForm& form() const noexcept { return *form_; }
 
  private:
-  class Offer;
   CallStatus Invoke(CallBase& call, Activity* activity) override;
 
   const Handler handler_;

@@ -117,10 +117,6 @@ void TraceFile::Write(std::string_view bytes) {
   }
 }
 
-void TraceFile::Fail() {
-  error_ = SystemError("the trace could not be written", name_);
-}
-
 Result<void> TraceFile::Close() {
   Flush();
   Write(events_ == 0 ? "[\n]\n" : "\n]\n");

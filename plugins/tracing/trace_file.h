@@ -75,7 +75,7 @@ class TraceFile {
   bool Begin(char phase, int track, std::string_view name);
   void End(std::string_view arguments);
   void Write(std::string_view bytes);
-  void Fail();
+  void Fail() { error_ = SystemError("the trace could not be written", name_); }
 
   std::string name_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;

@@ -161,16 +161,4 @@ void TraceRecorder::OnReady(FrameworkElement& element) {
   AddChange("put in " + element.path() + (type.empty() ? "" : " (" + type + ")"));
 }
 
-void TraceRecorder::OnDeleted(FrameworkElement& element) {
-  AddChange("took out " + element.path());
-}
-
-void TraceRecorder::OnConnected(FrameworkElement& from, FrameworkElement& to) {
-  AddChange("connected " + from.path() + " to " + to.path());
-}
-
-void TraceRecorder::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
-  AddChange("disconnected " + from.path() + " from " + to.path());
-}
-
 }  // namespace runnel

@@ -64,9 +64,13 @@ class TraceRecorder final : public CycleTracer, private ElementListener {
   TraceRecorder(Runtime& runtime, TraceOptions options, TraceFile file);
 
   void OnReady(FrameworkElement& element) override;
-  void OnDeleted(FrameworkElement& element) override;
-  void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
-  void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
+  void OnDeleted(FrameworkElement& element) override { AddChange("took out " + element.path()); }
+  void OnConnected(FrameworkElement& from, FrameworkElement& to) override {
+    AddChange("connected " + from.path() + " to " + to.path());
+  }
+  void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override {
+    AddChange("disconnected " + from.path() + " from " + to.path());
+  }
 
   void Add(internal::TraceSpan span);
   std::uint64_t GiveNumber(const std::string& name);

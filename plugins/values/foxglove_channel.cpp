@@ -80,13 +80,11 @@ FoxgloveChannel PlainChannel(const TypeInfo& type, std::string_view topic,
   return channel;
 }
 
-FoxgloveChannel DrawnChannel(const Drawing& drawing, const TypeInfo& type, std::string topic,
-                             const FoxgloveOptions& options) {
+FoxgloveChannel DrawnChannel(const Drawing& drawing, const TypeInfo& type, std::string topic) {
   return {std::move(topic), std::string("foxglove.").append(drawing.schema),
           internal::FoxgloveSchema(drawing.schema),
-          [&type, append = drawing.append, options](const void* value, Time timestamp,
-                                                    std::string& json) {
-            append({type, value}, {timestamp, options}, json);
+          [&type, append = drawing.append](const void* value, Time timestamp, std::string& json) {
+            append({type, value}, timestamp, json);
           }};
 }
 
@@ -110,7 +108,7 @@ std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view 
   channels.push_back(PlainChannel(type, topic, options));
   for (const Drawing* drawing : kDrawings) {
     if (drawing->tag != type.semantic_tag() || !drawing->fits(type)) continue;
-    channels.push_back(DrawnChannel(*drawing, type, std::string(topic) + "/foxglove", options));
+    channels.push_back(DrawnChannel(*drawing, type, std::string(topic) + "/foxglove"));
   }
   return channels;
 }
@@ -124,11 +122,10 @@ Result<void> SetFromMessage(const TypeInfo& type, std::string_view json, void* v
   return SetFromJson(type, wrapped != nullptr ? *wrapped : *message, value);
 }
 
-std::optional<FoxgloveChannel> TransformChannelFor(const TypeInfo& type,
-                                                   const FoxgloveOptions& options) {
+std::optional<FoxgloveChannel> TransformChannelFor(const TypeInfo& type) {
   const Drawing& drawing = internal::kTransformDrawing;
   if (drawing.tag != type.semantic_tag() || !drawing.fits(type)) return std::nullopt;
-  return DrawnChannel(drawing, type, "/tf", options);
+  return DrawnChannel(drawing, type, "/tf");
 }
 
 FoxgloveChannel LogChannel() {

@@ -24,8 +24,6 @@ namespace runnel {
 /// lock.
 [[nodiscard]] const Port* RobotPose(std::span<const Port* const> ports);
 
-class TypeInfo;
-
 /// One of the ways in which the values of a port are shown to Foxglove, Lichtblick, PlotJuggler, live or
 /// in a file: messages in JSON with a JSON Schema.
 struct FoxgloveChannel {
@@ -38,8 +36,6 @@ struct FoxgloveChannel {
 };
 
 struct FoxgloveOptions {
-  std::string world_frame = "world";  ///< that poses, points, paths and maps are told in
-  std::string body_frame = "robot";   ///< that scans are told in
   /// Whether infinities may stand in plain values as 1e999, which keeps them; else they are null, so
   /// that every reader takes the message. In Foxglove's own schemas they stay: there they mean "no
   /// echo".
@@ -65,8 +61,7 @@ Result<void> SetFromMessage(const TypeInfo& type, std::string_view json, void* v
 
 /// Foxglove's transform from the world to the body, made of the body's poses: what puts scans where the
 /// robot is. Its topic is "/tf". Nothing if the type's values are no poses.
-[[nodiscard]] std::optional<FoxgloveChannel> TransformChannelFor(
-    const TypeInfo& type, const FoxgloveOptions& options = {});
+[[nodiscard]] std::optional<FoxgloveChannel> TransformChannelFor(const TypeInfo& type);
 
 /// What modules say, in Foxglove's schema for it, foxglove.Log, under the topic "/log". Its values are
 /// LogMessages; the time that is given with one counts.

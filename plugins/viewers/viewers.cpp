@@ -33,22 +33,20 @@ namespace {
 /// A token in a file that only this user can read, for as long as this lives.
 class KeptToken {
  public:
-  /// In the folder of the sockets by which this user's applications are reached (plugins/control). Errors: it cannot
-  /// be written there.
-  static Result<std::unique_ptr<KeptToken>> Write(const std::string& token, std::uint16_t port);
-  ~KeptToken();
+  explicit KeptToken(std::filesystem::path file) : file_(std::move(file)) {}
+  ~KeptToken() { unlink(file_.c_str()); }
   KeptToken(const KeptToken&) = delete;
   KeptToken& operator=(const KeptToken&) = delete;
 
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
 
  private:
-  explicit KeptToken(std::filesystem::path file) : file_(std::move(file)) {}
-
   const std::filesystem::path file_;
 };
 
-Result<std::unique_ptr<KeptToken>> KeptToken::Write(const std::string& token, std::uint16_t port) {
+// In the folder of the sockets by which this user's applications are reached (plugins/control). Errors: it cannot be
+// written there.
+Result<std::unique_ptr<KeptToken>> KeepToken(const std::string& token, std::uint16_t port) {
   const std::filesystem::path folder = ControlFolder();
   if (const auto made = MakeControlFolder(folder); !made) return made.error();
   const std::filesystem::path file = folder / ("inspector-" + std::to_string(port) + ".token");
@@ -59,13 +57,11 @@ Result<std::unique_ptr<KeptToken>> KeptToken::Write(const std::string& token, st
       descriptor >= 0 && write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   const int reason = errno;
   if (descriptor >= 0) close(descriptor);
-  if (is_written) return std::unique_ptr<KeptToken>(new KeptToken(file));
+  if (is_written) return std::make_unique<KeptToken>(file);
   return Error{.message = std::string("the token cannot be written: ") + std::strerror(reason),
                .position = {file.string()},
                .hint = "give one, in a file: --inspect-token-file=FILE"};
 }
-
-KeptToken::~KeptToken() { unlink(file_.c_str()); }
 
 constexpr const char* kTokenVariable = "RUNNEL_INSPECT_TOKEN";
 
@@ -75,15 +71,10 @@ struct ViewerOptions {
   bool is_held = false;     // after the run, until Ctrl-C
   // "[ADDRESS:]PORT"; "": what the file says, or else port 8765 of this machine, or any that is free.
   std::string place = {};
-  std::string token = {};       // one or more; "": the environment's or the file's, or see WebServerOptions
-  std::string token_file = {};  // with more of them
   std::vector<std::string> origins = {};  // of pages of other places that may connect
   std::vector<std::string> names = {};    // by which browsers may call it
-  bool is_for_all_users = false;
-  std::string certificate = {};  // "": the file's
-  std::string key = {};
-  bool is_insecure = false;
-  bool is_read_only = false;
+  // All but where it is; what is not said there is as the file, or for tokens the environment, says.
+  InspectorPlace said = {};
 };
 
 struct ViewerRequest {
@@ -105,22 +96,24 @@ Result<std::optional<ViewerRequest>> RequestOf(const ViewerOptions& options,
     request.is_exact = true;
   }
   // What is said last counts: the command line, or else the environment, or else the file.
+  const InspectorPlace& said = options.said;
+  InspectorPlace& place = request.place;
   const char* const environment = std::getenv(kTokenVariable);
-  if (!options.token.empty() || !options.token_file.empty()) {
-    request.place.token = options.token;
-    request.place.token_file = options.token_file;
+  if (!said.token.empty() || !said.token_file.empty()) {
+    place.token = said.token;
+    place.token_file = said.token_file;
   } else if (environment != nullptr && *environment != '\0') {
-    request.place.token = environment;
-    request.place.token_file.clear();
+    place.token = environment;
+    place.token_file.clear();
   }
-  request.place.is_for_all_users = request.place.is_for_all_users || options.is_for_all_users;
-  if (!options.certificate.empty()) {
-    request.place.certificate = options.certificate;
-    request.place.key.clear();  // the file's belongs to the file's
+  if (!said.certificate.empty()) {
+    place.certificate = said.certificate;
+    place.key.clear();  // the file's belongs to the file's
   }
-  if (!options.key.empty()) request.place.key = options.key;
-  request.place.is_insecure = request.place.is_insecure || options.is_insecure;
-  request.place.is_read_only = request.place.is_read_only || options.is_read_only;
+  if (!said.key.empty()) place.key = said.key;
+  place.is_for_all_users |= said.is_for_all_users;
+  place.is_insecure |= said.is_insecure;
+  place.is_read_only |= said.is_read_only;
   return std::optional(request);
 }
 
@@ -155,7 +148,28 @@ class Viewers final : public ApplicationExtension {
  public:
   explicit Viewers(ViewerOptions options) : options_(std::move(options)) {}
 
-  Result<void> Begin(Application& application, Diagnostics& diagnostics) override;
+  Result<void> Begin(Application& application, Diagnostics& diagnostics) override {
+    const auto request = RequestOf(options_, application.element());
+    if (!request) return request.error();
+    if (!*request) return {};
+    const bool is_read_only = (*request)->place.is_read_only;
+    inspector_ = std::make_unique<Inspector>(application.service(), application.scheduler(),
+                                             InspectorOptions{.application = application.name(),
+                                                              .file = application.file(),
+                                                              .version = Application::Version(),
+                                                              .is_read_only = is_read_only});
+    auto web =
+        StartServer(**request, options_,
+                    {inspector_->Protocol(), FoxgloveProtocol({.service = application.service(),
+                                                               .name = application.name(),
+                                                               .version = Application::Version(),
+                                                               .is_read_only = is_read_only})},
+                    diagnostics);
+    if (!web) return web.error().WithContext("the inspector cannot be started");
+    web_ = std::move(*web);
+    return TellToken((*request)->place.token.size() + (*request)->place.token_file.size() > 0);
+  }
+
   std::string StartText() const override {
     return web_ == nullptr ? "" : "inspector: " + web_->url() + token_text_ + "\n";
   }
@@ -170,7 +184,21 @@ class Viewers final : public ApplicationExtension {
   }
 
  private:
-  Result<void> TellToken(bool is_given);
+  // A token that was made is shown to who sits at the terminal. What is written elsewhere is a log, which others read.
+  Result<void> TellToken(bool is_given) {
+    const std::string& made = web_->made_token();
+    if (is_given) token_text_ = "  (and #token=…)";
+    if (made.empty()) return {};
+    if (isatty(STDOUT_FILENO) != 0) {
+      token_text_ = "#token=" + made;
+      return {};
+    }
+    auto kept = KeepToken(made, web_->port());
+    if (!kept) return kept.error();
+    kept_token_ = std::move(*kept);
+    token_text_ = "  (and #token=…, which is in " + kept_token_->file().string() + ")";
+    return {};
+  }
 
   const ViewerOptions options_;
   std::string token_text_;  // what follows the address where people read it
@@ -179,58 +207,20 @@ class Viewers final : public ApplicationExtension {
   std::unique_ptr<WebServer> web_;  // uses the inspector
 };
 
-Result<void> Viewers::Begin(Application& application, Diagnostics& diagnostics) {
-  const auto request = RequestOf(options_, application.element());
-  if (!request) return request.error();
-  if (!*request) return {};
-  const bool is_read_only = (*request)->place.is_read_only;
-  inspector_ = std::make_unique<Inspector>(application.service(), application.scheduler(),
-                                           InspectorOptions{.application = application.name(),
-                                                            .file = application.file(),
-                                                            .version = Application::Version(),
-                                                            .is_read_only = is_read_only});
-  auto web =
-      StartServer(**request, options_,
-                  {inspector_->Protocol(), FoxgloveProtocol({.service = application.service(),
-                                                             .name = application.name(),
-                                                             .version = Application::Version(),
-                                                             .is_read_only = is_read_only})},
-                  diagnostics);
-  if (!web) return web.error().WithContext("the inspector cannot be started");
-  web_ = std::move(*web);
-  return TellToken((*request)->place.token.size() + (*request)->place.token_file.size() > 0);
-}
-
-// A token that was made is shown to who sits at the terminal. What is written elsewhere is a log, which others read.
-Result<void> Viewers::TellToken(bool is_given) {
-  const std::string& made = web_->made_token();
-  if (is_given) token_text_ = "  (and #token=…)";
-  if (made.empty()) return {};
-  if (isatty(STDOUT_FILENO) != 0) {
-    token_text_ = "#token=" + made;
-    return {};
-  }
-  auto kept = KeptToken::Write(made, web_->port());
-  if (!kept) return kept.error();
-  kept_token_ = std::move(*kept);
-  token_text_ = "  (and #token=…, which is in " + kept_token_->file().string() + ")";
-  return {};
-}
-
 Result<Extensions> MakeViewers(const ExtensionArguments& arguments) {
   ViewerOptions options{.is_wanted = !arguments.values.empty(),
                         .is_refused = arguments.Has("no-inspect"),
                         .is_held = arguments.Has("hold"),
                         .place = arguments.Find("inspect"),
-                        .token = arguments.Find("inspect-token"),
-                        .token_file = arguments.Find("inspect-token-file"),
                         .origins = arguments.All("inspect-origin"),
                         .names = arguments.All("inspect-name"),
-                        .is_for_all_users = arguments.Has("inspect-all-users"),
-                        .certificate = arguments.Find("inspect-certificate"),
-                        .key = arguments.Find("inspect-key"),
-                        .is_insecure = arguments.Has("inspect-insecure"),
-                        .is_read_only = arguments.Has("inspect-read-only")};
+                        .said = {.token = arguments.Find("inspect-token"),
+                                 .token_file = arguments.Find("inspect-token-file"),
+                                 .is_for_all_users = arguments.Has("inspect-all-users"),
+                                 .certificate = arguments.Find("inspect-certificate"),
+                                 .key = arguments.Find("inspect-key"),
+                                 .is_insecure = arguments.Has("inspect-insecure"),
+                                 .is_read_only = arguments.Has("inspect-read-only")}};
   if (options.is_held && options.is_refused) {
     return Error{.message = "--hold is for viewers, and --no-inspect refuses them"};
   }
@@ -238,7 +228,7 @@ Result<Extensions> MakeViewers(const ExtensionArguments& arguments) {
     if (const auto place = ParseInspectorPlace(options.place); !place) return place.error();
   }
   if (arguments.Has("inspect-token")) {
-    if (const auto good = ParseAccessTokens(options.token); !good) return good.error();
+    if (const auto good = ParseAccessTokens(options.said.token); !good) return good.error();
   }
   return Extensions{std::make_shared<Viewers>(std::move(options))};
 }

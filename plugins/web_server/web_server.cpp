@@ -84,9 +84,7 @@ Result<tcp::acceptor> Listen(asio::io_context& context, const WebServerOptions& 
   return acceptor;
 }
 
-}  // namespace
-
-class WebServer::Running {
+class Running final : public WebServer {
  public:
   Running(std::unique_ptr<ConnectionRegistry> registry, std::shared_ptr<TlsIdentity> identity,
           tcp::acceptor acceptor, std::string url, std::string made_token)
@@ -102,7 +100,7 @@ class WebServer::Running {
           registry_->context().run();
         }) {}
 
-  ~Running() {
+  ~Running() override {
     asio::post(registry_->context(), [this] {
       boost::system::error_code ignored;
       acceptor_.close(ignored);
@@ -115,10 +113,10 @@ class WebServer::Running {
     registry_->Clear();
   }
 
-  [[nodiscard]] const std::string& url() const noexcept { return url_; }
-  [[nodiscard]] const std::string& made_token() const noexcept { return made_token_; }
-  [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
-  [[nodiscard]] std::size_t clients() const noexcept { return registry_->sessions(); }
+  [[nodiscard]] const std::string& url() const noexcept override { return url_; }
+  [[nodiscard]] const std::string& made_token() const noexcept override { return made_token_; }
+  [[nodiscard]] std::uint16_t port() const noexcept override { return port_; }
+  [[nodiscard]] std::size_t clients() const noexcept override { return registry_->sessions(); }
 
  private:
   void Accept() {
@@ -167,6 +165,8 @@ class WebServer::Running {
   std::thread thread_;
 };
 
+}  // namespace
+
 Result<std::unique_ptr<WebServer>> WebServer::Start(WebServerOptions options,
                                                     const std::vector<WebResource>& resources,
                                                     std::vector<WebProtocol> protocols) {
@@ -189,16 +189,8 @@ Result<std::unique_ptr<WebServer>> WebServer::Start(WebServerOptions options,
   auto registry = std::make_unique<ConnectionRegistry>(std::move(options), std::move(rules),
                                                        resources, std::move(protocols));
   tcp::acceptor acceptor(registry->context(), protocol, probe->release());
-  return std::unique_ptr<WebServer>(new WebServer(std::make_unique<Running>(
-      std::move(registry), std::move(identity), std::move(acceptor), url, std::move(*made_token))));
+  return std::unique_ptr<WebServer>(std::make_unique<Running>(
+      std::move(registry), std::move(identity), std::move(acceptor), url, std::move(*made_token)));
 }
-
-WebServer::WebServer(std::unique_ptr<Running> running) : running_(std::move(running)) {}
-WebServer::~WebServer() = default;
-
-const std::string& WebServer::url() const noexcept { return running_->url(); }
-const std::string& WebServer::made_token() const noexcept { return running_->made_token(); }
-std::uint16_t WebServer::port() const noexcept { return running_->port(); }
-std::size_t WebServer::clients() const noexcept { return running_->clients(); }
 
 }  // namespace runnel

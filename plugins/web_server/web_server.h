@@ -26,21 +26,15 @@ class WebServer {
                                                   const std::vector<WebResource>& resources,
                                                   std::vector<WebProtocol> protocols);
   /// Tells clients that it ends, and waits for them for a moment.
-  ~WebServer();
+  virtual ~WebServer() = default;
 
   /// What to open in a browser: "http://127.0.0.1:8765/".
-  [[nodiscard]] const std::string& url() const noexcept;
+  [[nodiscard]] virtual const std::string& url() const noexcept = 0;
   /// The token that has been made because there was none; "" if none was needed.
-  [[nodiscard]] const std::string& made_token() const noexcept;
-  [[nodiscard]] std::uint16_t port() const noexcept;
+  [[nodiscard]] virtual const std::string& made_token() const noexcept = 0;
+  [[nodiscard]] virtual std::uint16_t port() const noexcept = 0;
   /// WebSockets that are open.
-  [[nodiscard]] std::size_t clients() const noexcept;
-
- private:
-  class Running;
-  explicit WebServer(std::unique_ptr<Running> running);
-
-  const std::unique_ptr<Running> running_;
+  [[nodiscard]] virtual std::size_t clients() const noexcept = 0;
 };
 
 }  // namespace runnel

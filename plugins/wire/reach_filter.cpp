@@ -60,17 +60,26 @@ FilterProgram OnlyInterfaces(std::vector<std::uint32_t> indices) {
   return OnlyIf(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(SKF_AD_OFF + SKF_AD_IFINDEX), indices);
 }
 
+// Calls `use` with each address of IPv4 that an interface has. False: the system does not say.
+template <typename Use>
+bool ForEachAddress(const Use& use) {
+  ifaddrs* all = nullptr;
+  if (getifaddrs(&all) != 0) return false;
+  for (const ifaddrs* each = all; each != nullptr; each = each->ifa_next) {
+    if (each->ifa_addr != nullptr && each->ifa_addr->sa_family == AF_INET) use(*each);
+  }
+  freeifaddrs(all);
+  return true;
+}
+
 // By its name or its address; 0: there is none.
 std::uint32_t IndexOfInterface(const std::string& interface) {
   std::uint32_t found = if_nametoindex(interface.c_str());
   in_addr wanted{};
-  ifaddrs* all = nullptr;
-  if (found != 0 || inet_pton(AF_INET, interface.c_str(), &wanted) != 1 || getifaddrs(&all) != 0) return found;
-  for (const ifaddrs* each = all; each != nullptr; each = each->ifa_next) {
-    if (each->ifa_addr == nullptr || each->ifa_addr->sa_family != AF_INET) continue;
-    if (reinterpret_cast<const sockaddr_in*>(each->ifa_addr)->sin_addr.s_addr == wanted.s_addr) found = if_nametoindex(each->ifa_name);
-  }
-  freeifaddrs(all);
+  if (found != 0 || inet_pton(AF_INET, interface.c_str(), &wanted) != 1) return found;
+  (void)ForEachAddress([&](const ifaddrs& each) {
+    if (reinterpret_cast<const sockaddr_in*>(each.ifa_addr)->sin_addr.s_addr == wanted.s_addr) found = if_nametoindex(each.ifa_name);
+  });
   return found;
 }
 
@@ -123,30 +132,20 @@ std::string AddressText(const sockaddr& address) {
 }
 
 bool IsInNetwork() {
-  ifaddrs* all = nullptr;
-  if (getifaddrs(&all) != 0) return true;  // who cannot know says nothing
   bool is_in_one = false;
-  for (const ifaddrs* each = all; each != nullptr; each = each->ifa_next) {
-    const bool has_address = each->ifa_addr != nullptr && each->ifa_addr->sa_family == AF_INET;
-    is_in_one |= has_address && (each->ifa_flags & IFF_LOOPBACK) == 0 && (each->ifa_flags & IFF_UP) != 0;
-  }
-  freeifaddrs(all);
-  return is_in_one;
+  const bool is_known = ForEachAddress(
+      [&](const ifaddrs& each) { is_in_one |= (each.ifa_flags & IFF_LOOPBACK) == 0 && (each.ifa_flags & IFF_UP) != 0; });
+  return is_in_one || !is_known;  // who cannot know says nothing
 }
 
 Result<std::string> AddressOfInterface(const std::string& interface) {
-  ifaddrs* all = nullptr;
   std::string found;
   std::string others;
-  if (getifaddrs(&all) == 0) {
-    for (const ifaddrs* each = all; each != nullptr; each = each->ifa_next) {
-      if (each->ifa_addr == nullptr || each->ifa_addr->sa_family != AF_INET) continue;
-      const std::string address = AddressText(*each->ifa_addr);
-      if (interface == each->ifa_name || interface == address) found = address;
-      others += std::string(others.empty() ? "" : ", ") + each->ifa_name + " (" + address + ")";
-    }
-    freeifaddrs(all);
-  }
+  (void)ForEachAddress([&](const ifaddrs& each) {
+    const std::string address = AddressText(*each.ifa_addr);
+    if (interface == each.ifa_name || interface == address) found = address;
+    others += std::string(others.empty() ? "" : ", ") + each.ifa_name + " (" + address + ")";
+  });
   if (!found.empty()) return found;
   return Error{.message = "there is no interface '" + interface + "' with an address", .hint = "there are " + others};
 }

@@ -1,10 +1,8 @@
 #include "plugins/wire_shared_memory/segment.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <new>
-#include <string>
 #include <utility>
 
 #include <sys/mman.h>
@@ -76,26 +74,6 @@ Result<std::unique_ptr<HoldTable>> HoldTable::Map(Descriptor file) {
 }
 
 HoldTable::~HoldTable() { munmap(holds_, kSize); }
-
-void SegmentHolders::Add(std::shared_ptr<const HoldTable> table) {
-  const std::lock_guard lock(mutex_);
-  tables_.push_back(std::move(table));
-}
-
-void SegmentHolders::Remove(const HoldTable& table) {
-  const std::lock_guard lock(mutex_);
-  std::erase_if(tables_, [&](const auto& each) { return each.get() == &table; });
-}
-
-std::size_t SegmentHolders::count() const noexcept {
-  const std::lock_guard lock(mutex_);
-  return tables_.size();
-}
-
-bool SegmentHolders::Hold(std::uint32_t slot) const noexcept {
-  const std::lock_guard lock(mutex_);
-  return std::ranges::any_of(tables_, [&](const auto& each) { return (*each)[slot].is_held(); });
-}
 
 SegmentId NewSegmentId() {
   SegmentId id{};

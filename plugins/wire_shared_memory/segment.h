@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
@@ -45,8 +47,6 @@ class HoldTable {
   /// By the reader. Errors: it is no such memory, whoever has made it.
   static Result<std::unique_ptr<HoldTable>> Map(Descriptor file);
   ~HoldTable();
-  HoldTable(const HoldTable&) = delete;
-  HoldTable& operator=(const HoldTable&) = delete;
 
   [[nodiscard]] int descriptor() const noexcept { return file_.number(); }
   [[nodiscard]] SlotHold<>& operator[](std::uint32_t slot) const noexcept { return holds_[slot]; }
@@ -61,11 +61,23 @@ class HoldTable {
 /// The readers of a segment, as its writer sees them. Threads: any.
 class SegmentHolders {
  public:
-  void Add(std::shared_ptr<const HoldTable> table);
+  void Add(std::shared_ptr<const HoldTable> table) {
+    const std::lock_guard lock(mutex_);
+    tables_.push_back(std::move(table));
+  }
   /// Of a reader that has ended, or reads no more: it holds nothing.
-  void Remove(const HoldTable& table);
-  [[nodiscard]] bool Hold(std::uint32_t slot) const noexcept;
-  [[nodiscard]] std::size_t count() const noexcept;
+  void Remove(const HoldTable& table) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(tables_, [&](const auto& each) { return each.get() == &table; });
+  }
+  [[nodiscard]] bool Hold(std::uint32_t slot) const noexcept {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(tables_, [&](const auto& each) { return (*each)[slot].is_held(); });
+  }
+  [[nodiscard]] std::size_t count() const noexcept {
+    const std::lock_guard lock(mutex_);
+    return tables_.size();
+  }
 
  private:
   mutable std::mutex mutex_;
@@ -105,8 +117,6 @@ class WrittenSegment {
   /// For values of up to `room` octets. Memory is taken as it is written to. Errors: of the system.
   static Result<std::unique_ptr<WrittenSegment>> Make(std::size_t room);
   ~WrittenSegment();
-  WrittenSegment(const WrittenSegment&) = delete;
-  WrittenSegment& operator=(const WrittenSegment&) = delete;
 
   [[nodiscard]] const SegmentId& id() const noexcept { return id_; }
   [[nodiscard]] int descriptor() const noexcept { return file_.number(); }
@@ -138,8 +148,6 @@ class ReadSegment : public std::enable_shared_from_this<ReadSegment> {
   /// `holds`: where the writer looks what is held; as long as `link` is open. Errors: it is no such memory, whoever has made it.
   static Result<std::shared_ptr<ReadSegment>> Map(const Descriptor& file, std::unique_ptr<HoldTable> holds, Descriptor link);
   ~ReadSegment();
-  ReadSegment(const ReadSegment&) = delete;
-  ReadSegment& operator=(const ReadSegment&) = delete;
 
   /// The octets of the value, which stay as they are as long as anybody has what is returned; nullptr if the value has gone,
   /// never was there, or is held. One thread at a time. What is returned may be let go by any, and allocates a little.

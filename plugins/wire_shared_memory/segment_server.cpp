@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <sys/un.h>
@@ -17,12 +18,8 @@ namespace {
 constexpr int kWaiting = 64;
 
 sockaddr_un AddressOf(const SegmentId& server, socklen_t& size) {
-  constexpr const char* kDigits = "0123456789abcdef";
   std::string name = "runnel-segments-";
-  for (const std::byte each : server) {
-    name += kDigits[std::to_integer<unsigned>(each) >> 4];
-    name += kDigits[std::to_integer<unsigned>(each) & 15];
-  }
+  for (const std::byte each : server) name += fmt::format("{:02x}", std::to_integer<unsigned>(each));
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   std::memcpy(address.sun_path + 1, name.data(), name.size());  // behind a zero: in no folder

@@ -22,8 +22,6 @@ class SegmentServer {
   /// Errors: of the system.
   static Result<std::unique_ptr<SegmentServer>> Start();
   ~SegmentServer();
-  SegmentServer(const SegmentServer&) = delete;
-  SegmentServer& operator=(const SegmentServer&) = delete;
 
   [[nodiscard]] const SegmentId& id() const noexcept { return id_; }
   /// Until it is withdrawn the segment must live.

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -35,9 +36,7 @@ std::string MemoryOfThisProcess() {
   const std::string text = started + '/' + std::to_string(network.st_ino) + '/' + std::to_string(geteuid()) + kLayout;
   std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a: others need not know the parts
   for (const char each : text) hash = (hash ^ static_cast<unsigned char>(each)) * 0x100000001b3;
-  std::string said(kKey);
-  for (int shift = 60; shift >= 0; shift -= 4) said += "0123456789abcdef"[hash >> shift & 15];
-  return said + ';';
+  return fmt::format("{}{:016x};", kKey, hash);
 }
 
 /// What a member says besides.

@@ -64,9 +64,9 @@ ModuleService::ModuleService(FrameworkElement& group, const std::string& name, c
   const ServiceOptions options{.description = said["description"].cast<std::string>(),
                                .arguments = said["names"].cast<std::vector<std::string>>(),
                                .queue = said["queue"].cast<std::size_t>()};
-  const ServiceAtRunTime::Extra extra{.is_activity = said["activity"].cast<bool>(),
-                                      .defaults = said["defaults"].cast<std::string>(),
-                                      .are_arguments_optional = said["are_optional"].cast<bool>()};
+  const CallableOptions extra{.is_activity = said["activity"].cast<bool>(),
+                              .defaults = said["defaults"].cast<std::string>(),
+                              .are_arguments_optional = said["are_optional"].cast<bool>()};
   const auto serve = [this](const CallForm& form, CallBase& call, Activity* activity) { return Serve(form, call, activity); };
   service_ = WithoutGil([&] { return std::make_unique<ServiceAtRunTime>(group, name, types, options, extra, serve); });
 }

@@ -154,13 +154,13 @@ void Directory::AddChannels(const Search& search, const Port* robot_pose,
   AddChannel(stop_->topic, "", nullptr, stop_, content);
   for (const Search::FoundPort& port : search.ports) {
     if (port.port != robot_pose) continue;
-    const Encoding& encoding = TransformOf(*port.type);
-    if (encoding) AddChannel("/tf", port.path, port.type, encoding, content);
+    const Encoding& transform = EncodingsOf(*port.type).transform;
+    if (transform) AddChannel("/tf", port.path, port.type, transform, content);
   }
   for (const Search::FoundPort& port : search.ports) {
     if (!port.is_shown) continue;
     const std::string& topic = NameIn(search.shown_topics, port.topic, port.path);
-    const std::vector<Encoding>& encodings = EncodingsOf(*port.type);
+    const std::vector<Encoding>& encodings = EncodingsOf(*port.type).plain;
     for (const Encoding& encoding : encodings) {
       AddChannel(topic + encoding->topic, port.path, port.type, encoding, content);
     }
@@ -175,21 +175,15 @@ void Directory::AddChannel(std::string topic, const std::string& port, const Typ
   content.channels[place->second] = {place->second, std::move(topic), port, type, encoding};
 }
 
-const std::vector<Directory::Encoding>& Directory::EncodingsOf(const TypeInfo& type) {
+const Directory::Encodings& Directory::EncodingsOf(const TypeInfo& type) {
   const auto [place, is_new] = encodings_.try_emplace(&type);
+  auto& [plain, transform] = place->second;
   if (is_new) {
     for (FoxgloveChannel& channel : ChannelsFor(type, "")) {
-      place->second.push_back(std::make_shared<const FoxgloveChannel>(std::move(channel)));
+      plain.push_back(std::make_shared<const FoxgloveChannel>(std::move(channel)));
     }
-  }
-  return place->second;
-}
-
-const Directory::Encoding& Directory::TransformOf(const TypeInfo& type) {
-  const auto [place, is_new] = transforms_.try_emplace(&type);
-  if (is_new) {
     if (auto channel = TransformChannelFor(type)) {
-      place->second = std::make_shared<const FoxgloveChannel>(std::move(*channel));
+      transform = std::make_shared<const FoxgloveChannel>(std::move(*channel));
     }
   }
   return place->second;

@@ -94,14 +94,17 @@ class Directory {
 
  private:
   using Encoding = std::shared_ptr<const FoxgloveChannel>;
+  struct Encodings {
+    std::vector<Encoding> plain;  // under the topic of the port
+    Encoding transform;           // nullptr: the type's values are no poses
+  };
 
   struct Search;
 
   void AddChannels(const Search& search, const Port* robot_pose, DirectoryContent& content);
   void AddChannel(std::string topic, const std::string& port, const TypeInfo* type,
                   const Encoding& encoding, DirectoryContent& content);
-  [[nodiscard]] const std::vector<Encoding>& EncodingsOf(const TypeInfo& type);
-  [[nodiscard]] const Encoding& TransformOf(const TypeInfo& type);
+  [[nodiscard]] const Encodings& EncodingsOf(const TypeInfo& type);
 
   Runtime& runtime_;
   StructureWalk walk_;
@@ -110,8 +113,7 @@ class Directory {
   std::shared_ptr<const DirectoryContent> content_ = std::make_shared<DirectoryContent>();
   const Encoding stop_;
   const Encoding log_ = std::make_shared<const FoxgloveChannel>(LogChannel());
-  std::unordered_map<const TypeInfo*, std::vector<Encoding>> encodings_;
-  std::unordered_map<const TypeInfo*, Encoding> transforms_;
+  std::unordered_map<const TypeInfo*, Encodings> encodings_;
   // Numbers that have been given: a topic that comes back in the same form has its old one.
   std::map<std::pair<std::string, const FoxgloveChannel*>, std::uint32_t> ids_;
   std::map<std::string, std::uint32_t> service_ids_;  // by all that is said of them

@@ -25,18 +25,14 @@ constexpr double kTextHeight = 0.2;  // m
 /// The things that are drawn. A later one of the same id takes its place.
 class Scene {
  public:
-  Scene(std::string& json, const DrawnAt& at)
-      : at_(at), update_(json), entities_(update_.AddJson("deletions", "[]").Key("entities")) {}
+  Scene(std::string& json, Time timestamp)
+      : timestamp_(timestamp), update_(json), entities_(update_.AddJson("deletions", "[]").Key("entities")) {}
 
   /// `fill` adds to a thing what it is made of.
   template <typename Fill>
-  void Add(std::string_view id, const Fill& fill) {
-    Add(id, at_.options.world_frame, fill);
-  }
-  template <typename Fill>
-  void Add(std::string_view id, std::string_view frame, const Fill& fill) {
+  void Add(std::string_view id, const Fill& fill, std::string_view frame = kWorldFrame) {
     JsonObject entity(entities_.Next());
-    AppendTime(at_.timestamp, entity.Key("timestamp"));
+    AppendTime(timestamp_, entity.Key("timestamp"));
     entity.Add("frame_id", frame).Add("id", id);
     entity.AddJson("lifetime", R"({"sec":0,"nsec":0})");  // until it is replaced
     entity.Add("frame_locked", true).AddJson("metadata", "[]");
@@ -44,7 +40,7 @@ class Scene {
   }
 
  private:
-  const DrawnAt& at_;
+  const Time timestamp_;
   JsonObject update_;
   JsonArray entities_;
 };
@@ -231,7 +227,7 @@ bool HasItems(const TypeInfo& type) {
          HasNumbers(*item, {"size"}) && IsText(*item, "text");
 }
 
-void AppendDrawing(const ValueView& drawing, const DrawnAt& at, std::string& json) {
+void AppendDrawing(const ValueView& drawing, Time timestamp, std::string& json) {
   const std::string_view frame = TextOf(drawing.Field("frame"));
   const ValueView values = drawing.Field("items");
   std::vector<Item> items;
@@ -244,28 +240,25 @@ void AppendDrawing(const ValueView& drawing, const DrawnAt& at, std::string& jso
       if (is_it && each.points.size() > 0) append(each, array.Next());
     }
   };
-  Scene scene(json, at);
-  scene.Add("drawing",
-            frame.empty()      ? std::string_view(at.options.world_frame)
-            : frame == "robot" ? std::string_view(at.options.body_frame)
-                               : frame,
-            [&](JsonObject& entity) {
-              {
-                JsonArray balls(entity.Key("spheres"));
-                for (const Item& each : items) {
-                  if (each.kind != "points") continue;
-                  for (std::size_t i = 0; i < each.points.size(); ++i) {
-                    AppendBall(PlaceOf(each.points[i]), each.colour, balls.Next(), each.size);
-                  }
-                }
-              }
-              add(entity.Key("lines"), "line", "closed_line", [](const Item& item, std::string& to) {
-                AppendLine(item.points, 0.0, item.colour, to, item.kind == "closed_line", item.size);
-              });
-              add(entity.Key("texts"), "text", "text", [](const Item& item, std::string& to) {
-                AppendLabel(PlaceOf(item.points[0]), item.text, item.size, item.colour, to);
-              });
-            });
+  Scene scene(json, timestamp);
+  const auto fill = [&](JsonObject& entity) {
+    {
+      JsonArray balls(entity.Key("spheres"));
+      for (const Item& each : items) {
+        if (each.kind != "points") continue;
+        for (std::size_t i = 0; i < each.points.size(); ++i) {
+          AppendBall(PlaceOf(each.points[i]), each.colour, balls.Next(), each.size);
+        }
+      }
+    }
+    add(entity.Key("lines"), "line", "closed_line", [](const Item& item, std::string& to) {
+      AppendLine(item.points, 0.0, item.colour, to, item.kind == "closed_line", item.size);
+    });
+    add(entity.Key("texts"), "text", "text", [](const Item& item, std::string& to) {
+      AppendLabel(PlaceOf(item.points[0]), item.text, item.size, item.colour, to);
+    });
+  };
+  scene.Add("drawing", fill, frame.empty() ? kWorldFrame : frame);
 }
 
 // Of what else a map may have, nothing is drawn if it is not there.
@@ -274,23 +267,23 @@ bool HasOutlines(const TypeInfo& type) {
   return outline != nullptr && HasPlaces(*outline, "points");
 }
 
-void AppendPoint(const ValueView& point, const DrawnAt& at, std::string& json) {
-  Scene scene(json, at);
+void AppendPoint(const ValueView& point, Time timestamp, std::string& json) {
+  Scene scene(json, timestamp);
   AddGoal(scene, "point", point);
 }
 
-void AppendHitAndLeavePoints(const ValueView& points, const DrawnAt& at, std::string& json) {
-  Scene scene(json, at);
+void AppendHitAndLeavePoints(const ValueView& points, Time timestamp, std::string& json) {
+  Scene scene(json, timestamp);
   AddNumbered(scene, points.Field("hits"), "hit", kHit);
   AddNumbered(scene, points.Field("leaves"), "leave", kLeave);
 }
 
-void AppendWorldMap(const ValueView& map, const DrawnAt& at, std::string& json) {
+void AppendWorldMap(const ValueView& map, Time timestamp, std::string& json) {
   const auto has = [&](std::string_view name, bool (*fits)(const TypeInfo& type)) {
     const FieldInfo* const field = map.type().FindField(name);
     return field != nullptr && fits(*field->type);
   };
-  Scene scene(json, at);
+  Scene scene(json, timestamp);
   scene.Add("obstacles", [&](JsonObject& entity) {
     AppendLines(map, entity.Key("lines"));
     AppendSides(map, entity.Key("triangles"));

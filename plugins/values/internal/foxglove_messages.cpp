@@ -122,33 +122,33 @@ void AppendSchema(std::string_view type, std::string& json) {
   }
 }
 
-void AddHead(JsonObject& message, const DrawnAt& at, std::string_view frame) {
-  AppendTime(at.timestamp, message.Key("timestamp"));
+void AddHead(JsonObject& message, Time timestamp, std::string_view frame) {
+  AppendTime(timestamp, message.Key("timestamp"));
   message.Add("frame_id", frame);
 }
 
 bool HasPoints(const TypeInfo& type) { return HasPlaces(type, "points"); }
 
-void AppendPoseInFrame(const ValueView& pose, const DrawnAt& at, std::string& json) {
+void AppendPoseInFrame(const ValueView& pose, Time timestamp, std::string& json) {
   JsonObject message(json);
-  AddHead(message, at, at.options.world_frame);
+  AddHead(message, timestamp, kWorldFrame);
   AppendPose(PoseOf(pose), message.Key("pose"));
 }
 
-void AppendTransform(const ValueView& pose, const DrawnAt& at, std::string& json) {
+void AppendTransform(const ValueView& pose, Time timestamp, std::string& json) {
   const PlaceAndHeading body = PoseOf(pose);
   JsonObject message(json);
-  AppendTime(at.timestamp, message.Key("timestamp"));
-  message.Add("parent_frame_id", at.options.world_frame);
-  message.Add("child_frame_id", at.options.body_frame);
+  AppendTime(timestamp, message.Key("timestamp"));
+  message.Add("parent_frame_id", kWorldFrame);
+  message.Add("child_frame_id", kBodyFrame);
   AppendVector(body.place, message.Key("translation"));
   AppendTurn(body.heading, message.Key("rotation"));
 }
 
 // Each pose looks where the path goes on; the last one as the one before.
-void AppendPath(const ValueView& path, const DrawnAt& at, std::string& json) {
+void AppendPath(const ValueView& path, Time timestamp, std::string& json) {
   JsonObject message(json);
-  AddHead(message, at, at.options.world_frame);
+  AddHead(message, timestamp, kWorldFrame);
   JsonArray poses(message.Key("poses"));
   const ValueView points = path.Field("points");
   double heading = 0;
@@ -167,12 +167,12 @@ bool IsRangeScan(const TypeInfo& type) {
   return HasNumbers(type, {"start_angle", "angle_step"}) && range != nullptr && IsNumber(*range);
 }
 
-void AppendRangeScan(const ValueView& scan, const DrawnAt& at, std::string& json) {
+void AppendRangeScan(const ValueView& scan, Time timestamp, std::string& json) {
   const double first = scan.Field("start_angle").number(), step = scan.Field("angle_step").number();
   const ValueView ranges = scan.Field("ranges");
   const std::size_t steps = ranges.size() > 0 ? ranges.size() - 1 : 0;
   JsonObject message(json);
-  AddHead(message, at, at.options.body_frame);
+  AddHead(message, timestamp, kBodyFrame);
   AppendPose({}, message.Key("pose"));
   message.Add("start_angle", first).Add("end_angle", first + step * static_cast<double>(steps));
   // As they are: what has met nothing is infinitely far, and not drawn.
@@ -187,13 +187,13 @@ bool IsImage(const TypeInfo& type) {
          ElementsOf(type, "data") == &TypeOf<std::uint8_t>();
 }
 
-void AppendImage(const ValueView& image, const DrawnAt& at, std::string& json) {
+void AppendImage(const ValueView& image, Time timestamp, std::string& json) {
   const auto count = [&](std::string_view name) {
     return static_cast<std::uint32_t>(image.Field(name).number());
   };
   const ValueView data = image.Field("data");
   JsonObject message(json);
-  AddHead(message, at, at.options.body_frame);
+  AddHead(message, timestamp, kBodyFrame);
   message.Add("width", count("width")).Add("height", count("height"));
   message.Add("encoding", *static_cast<const std::string*>(image.Field("encoding").value()));
   message.Add("step", count("row_stride"));

@@ -67,11 +67,8 @@ class ValueView {
   return is_list ? field->type->elements().type : nullptr;
 }
 
-/// When and where what is drawn is.
-struct DrawnAt {
-  Time timestamp;
-  const FoxgloveOptions& options;
-};
+/// What poses, points, paths and maps are told in; and scans.
+inline constexpr std::string_view kWorldFrame = "world", kBodyFrame = "robot";
 
 /// How values of types with a meaning are told in one of Foxglove's own schemas.
 struct Drawing {
@@ -79,7 +76,7 @@ struct Drawing {
   std::string_view schema;  ///< without "foxglove."
   /// Whether the type has the fields that its meaning promises.
   bool (*fits)(const TypeInfo& type);
-  void (*append)(const ValueView& value, const DrawnAt& at, std::string& json);
+  void (*append)(const ValueView& value, Time timestamp, std::string& json);
 };
 
 extern const Drawing kPoseDrawing, kTransformDrawing, kPathDrawing;

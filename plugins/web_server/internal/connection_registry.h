@@ -27,7 +27,7 @@ class WebConnection {
   /// For sessions; others have nothing to do.
   virtual void Poll() {}
   /// Ends it in order, if its protocol has an order to end in.
-  virtual void End(std::string_view reason) = 0;
+  virtual void End(std::string_view /*reason*/) { Cut(); }
   /// Ends it at once.
   virtual void Cut() noexcept = 0;
   /// No other thread reaches it any more: the server ends.

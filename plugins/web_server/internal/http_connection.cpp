@@ -66,7 +66,6 @@ class HttpConnection final : public WebConnection,
                      beast::bind_front_handler(&HttpConnection::OnRead, shared_from_this()));
   }
 
-  void End(std::string_view /*reason*/) override { Cut(); }
   void Cut() noexcept override {
     beast::error_code ignored;
     stream_.socket().close(ignored);

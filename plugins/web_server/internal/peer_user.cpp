@@ -16,13 +16,8 @@ namespace {
 using Endpoint = boost::asio::ip::tcp::endpoint;
 
 void CopyAddress(const boost::asio::ip::address& address, __be32 (&to)[4]) {
-  if (address.is_v4()) {
-    const auto bytes = address.to_v4().to_bytes();
-    std::memcpy(to, bytes.data(), bytes.size());
-  } else {
-    const auto bytes = address.to_v6().to_bytes();
-    std::memcpy(to, bytes.data(), bytes.size());
-  }
+  const auto copy = [&](const auto& bytes) { std::memcpy(to, bytes.data(), bytes.size()); };
+  address.is_v4() ? copy(address.to_v4().to_bytes()) : copy(address.to_v6().to_bytes());
 }
 
 struct Question {

@@ -72,7 +72,6 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
                                    });
   }
 
-  void End(std::string_view /*reason*/) override { Cut(); }
   void Cut() noexcept override {
     error_code ignored;
     timer_.cancel(ignored);

@@ -29,7 +29,7 @@ class Host final : public Module {
   bool MakeLateService(bool is_activity = false) {
     const auto serve = [](const CallForm&, CallBase&, Activity*) { return Result<void>(); };
     return Make(late_service, OutputGroup(), "late", kWords, ServiceOptions{.arguments = {"text"}},
-                ServiceAtRunTime::Extra{.is_activity = is_activity, .defaults = "{text: a}"}, serve);
+                CallableOptions{.is_activity = is_activity, .defaults = "{text: a}"}, serve);
   }
   bool MakeLateClient() {
     return Make(late_client, InputGroup(), "ask_late", kWords, ClientOptions{}, [](CallBase&, CallStatus) {});
