@@ -8,17 +8,19 @@
 
 namespace runnel {
 
+enum class MetaSignalKind { kStimulation, kInhibition, kActivity, kTargetRating };
+
 /// A signal of behaviours about themselves, within [0, 1]. Four types, so that what must not be connected cannot be:
 /// stimulation and inhibition take their like and activities (RegisterMetaSignals()).
 ///
 /// Errors: the constructor throws std::out_of_range for any other number.
-template <typename Kind>
+template <MetaSignalKind kKind>
 class MetaSignal {
  public:
   constexpr MetaSignal() = default;
   explicit constexpr MetaSignal(double value) : value_(value) {
     if (!IsMetaValue(value)) {
-      throw std::out_of_range(std::string(Kind::kTypeName) + " is within 0 and 1, not " + TextOf(value));
+      throw std::out_of_range(std::string(kTypeNames[kPlace]) + " is within 0 and 1, not " + TextOf(value));
     }
   }
 
@@ -27,36 +29,21 @@ class MetaSignal {
 
   friend constexpr bool operator==(const MetaSignal&, const MetaSignal&) = default;
   friend void Describe(TypeBuilder<MetaSignal>& type) {
-    type.Name(Kind::kTypeName).SemanticTag(Kind::kMeaning).Field("value", &MetaSignal::value_, {.description = "0 .. 1"});
+    type.Name(kTypeNames[kPlace]).SemanticTag(kMeanings[kPlace]).Field("value", &MetaSignal::value_, {.description = "0 .. 1"});
   }
 
  private:
+  static constexpr const char* kTypeNames[] = {"Stimulation", "Inhibition", "Activity", "TargetRating"};
+  static constexpr const char* kMeanings[] = {"stimulation", "inhibition", "activity", "target_rating"};
+  static constexpr auto kPlace = static_cast<std::size_t>(kKind);
+
   double value_ = 0.0;
 };
 
-namespace internal {
-struct StimulationKind {
-  static constexpr const char* kTypeName = "Stimulation";
-  static constexpr const char* kMeaning = "stimulation";
-};
-struct InhibitionKind {
-  static constexpr const char* kTypeName = "Inhibition";
-  static constexpr const char* kMeaning = "inhibition";
-};
-struct ActivityKind {
-  static constexpr const char* kTypeName = "Activity";
-  static constexpr const char* kMeaning = "activity";
-};
-struct TargetRatingKind {
-  static constexpr const char* kTypeName = "TargetRating";
-  static constexpr const char* kMeaning = "target_rating";
-};
-}  // namespace internal
-
-using Stimulation = MetaSignal<internal::StimulationKind>;    ///< how much a behaviour is wanted
-using Inhibition = MetaSignal<internal::InhibitionKind>;      ///< how much it is held back
-using Activity = MetaSignal<internal::ActivityKind>;          ///< how much it does
-using TargetRating = MetaSignal<internal::TargetRatingKind>;  ///< how far it is from content
+using Stimulation = MetaSignal<MetaSignalKind::kStimulation>;    ///< how much a behaviour is wanted
+using Inhibition = MetaSignal<MetaSignalKind::kInhibition>;      ///< how much it is held back
+using Activity = MetaSignal<MetaSignalKind::kActivity>;          ///< how much it does
+using TargetRating = MetaSignal<MetaSignalKind::kTargetRating>;  ///< how far it is from content
 
 /// Makes it known what meta signals may be connected to: an activity also to stimulations, inhibitions and numbers, a
 /// target rating to numbers. Each behaviour sees to it; any thread, any number of times.

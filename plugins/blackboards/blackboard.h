@@ -81,8 +81,6 @@ class Blackboard final {
     *loan = std::move(initial);
     Publish(std::move(loan));
   }
-  Blackboard(const Blackboard&) = delete;
-  Blackboard& operator=(const Blackboard&) = delete;
 
   /// Grows with each commit, and goes on after a swap.
   [[nodiscard]] std::uint64_t revision() const noexcept { return value_.publications(); }

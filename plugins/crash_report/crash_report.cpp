@@ -20,8 +20,8 @@
 
 #include "core/base/call_stack.h"
 #include "core/base/check.h"
-#include "plugins/scheduling/running_task.h"
 #include "core/base/signal_stack.h"
+#include "plugins/scheduling/running_task.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define RUNNEL_CRASHES_ARE_REPORTED 1
@@ -29,7 +29,9 @@
 #define RUNNEL_CRASHES_ARE_REPORTED 0
 #endif
 
-namespace runnel::internal {
+namespace runnel {
+
+namespace {
 
 /// A line that is put together where nothing may be allocated: what finds no room is cut off.
 ///
@@ -84,16 +86,6 @@ constexpr std::array kNames{"SIGSEGV", "SIGBUS", "SIGFPE", "SIGILL", "SIGABRT", 
 const char* SignalName(int signal) noexcept {
   return kNames[static_cast<std::size_t>(std::ranges::find(kSignals, signal) - kSignals.begin())];
 }
-
-}  // namespace runnel::internal
-
-namespace runnel {
-
-namespace {
-
-using internal::CrashText;
-using internal::kSignals;
-using internal::SignalName;
 
 // What stood in the way of going on.
 const void* PlaceIn(const void* context) noexcept {

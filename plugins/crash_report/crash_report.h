@@ -40,8 +40,6 @@ class CrashReport {
  public:
   explicit CrashReport(CrashReportOptions options);
   ~CrashReport();
-  CrashReport(const CrashReport&) = delete;
-  CrashReport& operator=(const CrashReport&) = delete;
 
  private:
   class Installed;

@@ -65,8 +65,6 @@ class Scopes {
 class Description {
  public:
   explicit Description(Diagnostics& diagnostics) : problems(diagnostics), scopes(problems) {}
-  Description(const Description&) = delete;
-  Description& operator=(const Description&) = delete;
 
   Problems problems;
   Scopes scopes;

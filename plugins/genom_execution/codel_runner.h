@@ -88,8 +88,6 @@ class AsyncWork {
 class CodelRunner {
  public:
   CodelRunner(Engine& engine, std::size_t place, std::size_t largest_detail);
-  CodelRunner(const CodelRunner&) = delete;
-  CodelRunner& operator=(const CodelRunner&) = delete;
 
   /// Runs the codel if it may, and says what it returned. False: it may not run yet, or is being run by another
   /// thread; the same call is to be made again later, and nothing else meanwhile.

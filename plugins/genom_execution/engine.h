@@ -94,8 +94,6 @@ struct EngineOptions {
 class Engine {
  public:
   Engine(const ComponentTable& component, const EngineOptions& options);
-  Engine(const Engine&) = delete;
-  Engine& operator=(const Engine&) = delete;
 
   /// False: too many requests wait.
   [[nodiscard]] bool Send(Request& request) noexcept;

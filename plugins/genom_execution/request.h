@@ -58,8 +58,6 @@ class Request {
 
   Request(const ComponentTable& component, const ServiceTable& service);
   ~Request();
-  Request(const Request&) = delete;
-  Request& operator=(const Request&) = delete;
 
   [[nodiscard]] const ServiceTable& service() const noexcept { return service_; }
   [[nodiscard]] void* data() noexcept { return data_; }

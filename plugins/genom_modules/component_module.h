@@ -36,8 +36,6 @@ class AsyncWorker {
     thread_.request_stop();
     given_.Notify();
   }
-  AsyncWorker(const AsyncWorker&) = delete;
-  AsyncWorker& operator=(const AsyncWorker&) = delete;
 
   void Begin(genom_execution::AsyncWork& work) noexcept {
     work_.store(&work, std::memory_order_release);

@@ -56,8 +56,6 @@ class ReleasedGil {
  public:
   ReleasedGil() = default;
   ~ReleasedGil();
-  ReleasedGil(const ReleasedGil&) = delete;
-  ReleasedGil& operator=(const ReleasedGil&) = delete;
 
  private:
   Counted<std::atomic<int>> counted_{threads_without_gil};

@@ -21,8 +21,6 @@ class ModuleService {
   ModuleService(FrameworkElement& group, const std::string& name, const pybind11::dict& said,
                 std::function<void(const std::string&)> log_error);
   ~ModuleService();
-  ModuleService(const ModuleService&) = delete;
-  ModuleService& operator=(const ModuleService&) = delete;
 
   /// Before the first call.
   void SetHandler(pybind11::object handler) { handler_ = handler.release(); }
@@ -70,8 +68,6 @@ class ModuleClient {
   ModuleClient(FrameworkElement& group, const std::string& name, const pybind11::dict& said,
                std::function<void(const pybind11::error_already_set&)> as_fault);
   ~ModuleClient();
-  ModuleClient(const ModuleClient&) = delete;
-  ModuleClient& operator=(const ModuleClient&) = delete;
 
   [[nodiscard]] bool is_connected() const { return client_->is_connected(); }
   /// Whether it is on its way.

@@ -29,9 +29,6 @@ struct OpenApplication {
   std::atomic<bool> is_closed = false;
   std::atomic<bool> is_forked = false;  ///< the process that has opened it is another one
 
-  OpenApplication() = default;
-  OpenApplication(const OpenApplication&) = delete;
-  OpenApplication& operator=(const OpenApplication&) = delete;
   /// One that nobody has closed ends here, or soon after.
   ~OpenApplication();
 
