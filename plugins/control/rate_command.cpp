@@ -85,10 +85,7 @@ CommandResult MakeRateCommand(const Request& request, const CommandContext& cont
       [&runtime = context.application.runtime, path = request.arguments[0], left = *count,
        last = std::optional<Sample>(), rate = PublicationRate(), intervals = Intervals()](Answer& answer) mutable -> CommandStep {
         const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
-        if (!found) {
-          const ControlCode code = Refuse(answer, found.error());
-          return last ? ControlCode::kFailed : code;
-        }
+        if (!found) return last ? Fail(answer, found.error()) : Refuse(answer, found.error());
         const Sample now{Publications::Of(**found), runtime.clock().Now(), SteadyClock().Now()};
         if (now.publications.newest) intervals.Add(now.publications.count, *now.publications.newest);
         if (last && now.machine - last->machine < kWindow) return kLookAgain;

@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,12 +16,27 @@
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/control/command.h"
-#include "plugins/control/readable_text.h"
 #include "plugins/values/watched_port.h"
 
 namespace runnel {
 
 namespace {
+
+constexpr std::size_t kDigits = 6;
+
+bool BelongsToWord(char character) {
+  return std::isalnum(static_cast<unsigned char>(character)) != 0 || character == '_' || character == '.';
+}
+
+// The length of the number that the text begins with; 0 if it begins with none, or with a whole one.
+std::size_t FractionLength(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string_view read(text.data(), static_cast<std::size_t>(end - text.data()));
+  const bool is_fraction = error == std::errc() && read.find_first_of(".e") != read.npos;
+  const bool is_word = text.substr(read.size()).starts_with('.');  // as an address is
+  return is_fraction && !is_word && read.find_first_not_of("-") == read.find_first_of("0123456789") ? read.size() : 0;
+}
 
 Result<void> CheckIsReadable(const Port& port) {
   if (port.type().is_transparent()) return {};
@@ -62,10 +81,8 @@ class Echo {
     {
       const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
       if (!lock) return kLookAgain;
-      if (auto found = Find(); !found) {
-        const ControlCode code = Refuse(answer, found.error());
-        return has_found_ ? ControlCode::kFailed : code;
-      }
+      const auto found = Find();
+      if (!found) return has_found_ ? Fail(answer, found.error()) : Refuse(answer, found.error());
     }
     has_found_ = true;
     Show(answer);
@@ -122,6 +139,31 @@ class Echo {
 
 }  // namespace
 
+std::string ReadableNumbers(std::string_view text) {
+  std::string readable;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t length = 1;
+    if (text[at] == '"') {
+      while (at + length < text.size() && text[at + length] != '"') length += text[at + length] == '\\' ? 2 : 1;
+      length = std::min(length + 1, text.size() - at);
+    } else if (const std::size_t number = FractionLength(text.substr(at)); number > 0) {
+      const std::string word(text.substr(at, number));
+      if (number > kDigits + 1) {
+        readable += fmt::format("{:.{}g}", std::strtod(word.c_str(), nullptr), kDigits);
+      } else {
+        readable += word;
+      }
+      at += number;
+      continue;
+    } else {
+      while (BelongsToWord(text[at]) && at + length < text.size() && BelongsToWord(text[at + length])) ++length;
+    }
+    readable += text.substr(at, length);
+    at += length;
+  }
+  return readable;
+}
+
 CommandResult MakeGetCommand(const Request& request, const CommandContext& context) {
   Runtime& runtime = context.application.runtime;
   return Command(UnderLock(runtime, [&runtime, path = request.arguments[0], is_full = request.Has("full"),
@@ -130,8 +172,7 @@ CommandResult MakeGetCommand(const Request& request, const CommandContext& conte
     if (!value) return Refuse(answer, value.error());
     if (!*value && std::chrono::steady_clock::now() < until) return kLookAgain;
     if (!*value) return Refuse(answer, {.message = "nothing has been published there yet", .path = path});
-    answer.Write((is_full ? **value : ReadableNumbers(**value)) + "\n");
-    return ControlCode::kDone;
+    return Say(answer, (is_full ? **value : ReadableNumbers(**value)) + "\n");
   }));
 }
 
