@@ -26,15 +26,6 @@ namespace runnel {
 [[nodiscard]] XmlTag LoadTag();
 [[nodiscard]] XmlTag LogTag();
 [[nodiscard]] XmlTag ModuleTag();
-[[nodiscard]] XmlTag OnFaultTag();
-[[nodiscard]] XmlTag OnStaleTag();
-[[nodiscard]] XmlTag LatencyTag();
-[[nodiscard]] XmlTag OnPauseTag();
-[[nodiscard]] XmlTag OnStuckTag();
-[[nodiscard]] XmlTag OperatorsTag();
-[[nodiscard]] XmlTag ProfileTag();
-[[nodiscard]] XmlTag StopButtonTag();
-[[nodiscard]] XmlTag OtherwiseTag();
 [[nodiscard]] XmlTag ParameterTag();
 [[nodiscard]] XmlTag PortTag();
 [[nodiscard]] XmlTag ThreadTag();
@@ -79,6 +70,8 @@ Kind Chosen(const TagUse& use, const char* attribute, const std::vector<std::str
 /// A value of the port's type; nothing after reporting that the text is none.
 [[nodiscard]] AnyValue ReadValue(const TagUse& use, const XmlAttribute& text, const Port& port);
 
+/// The tags <on_fault>, <stop_button>, <latency> … that say what is watched and measured.
+[[nodiscard]] std::vector<XmlTag> WatchingTags();
 /// The tags <publish>, <switch>, <set>, <replace> and <quit>, which are read by the tag that they stand in.
 [[nodiscard]] std::vector<XmlTag> ReactionTags();
 
