@@ -53,12 +53,11 @@ void Plan::MoveExtensions(const FrameworkElement& renamed, const std::string& na
                       TellFollowers(runtime_.root(), from, to);
                       return {};
                     },
-                    [=, this] { TellFollowers(runtime_.root(), to, from); },
-                    [](auto&) { return ChangeSet(); }});
+                    [=, this] { TellFollowers(runtime_.root(), to, from); }});
   const auto* const known = runtime_.root().FindAnnotation<ExtensionChanges>();
   if (known == nullptr || !known->rename) return;
   const ExtensionStep step = known->rename(from, to);
-  if (step.apply) steps_.push_back({step.apply, step.undo, [](auto&) { return ChangeSet(); }});
+  if (step.apply) steps_.push_back({step.apply, step.undo});
 }
 
 }  // namespace runnel::internal

@@ -196,8 +196,7 @@ Result<void> Plan::MovePort(const Placement& place, Port& port) {
                       if (*has_taken) port.TakeOver(made);
                       *has_taken = false;
                       if (!*kept) *kept = runtime_.Unlist(made).value();
-                    },
-                    [](auto&) { return ChangeSet(); }});
+                    }});
   return {};
 }
 
@@ -253,8 +252,7 @@ void Plan::AddExchange(FrameworkElement& before, UnlistedElement after) {
                       Must(runtime_.List(std::move(removed_.back()), done->place));
                       removed_.pop_back();
                       done->is_removed = false;
-                    },
-                    [](auto&) { return ChangeSet(); }});
+                    }});
 }
 
 }  // namespace runnel::internal
