@@ -170,8 +170,7 @@ XmlTag ConnectTag() {
       .is_structure = true,
       .handle = internal::ReadAt<BuildStage::kConnections, ConnectAll>,
       .update = internal::UpdateConnect,
-      .missing = [](const XmlElement*, FrameworkElement& home, internal::Saving& saving,
-                    internal::FileUpdate*) { return internal::MissingConnections(home, saving); },
+      .missing = internal::MissingConnections,
       .place = 4};
 }
 

@@ -85,7 +85,7 @@ void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update)
 }
 
 // Those of copies: the application says it of them.
-std::vector<NewElement> MissingMarks(FrameworkElement& home, Saving& saving) {
+std::vector<NewElement> MissingMarks(const XmlElement*, FrameworkElement& home, Saving& saving, FileUpdate*) {
   std::vector<NewElement> elements;
   if (&home != &saving.application) return elements;
   const auto& said = saving.Note<SaidMarks>().ports;
@@ -118,8 +118,7 @@ XmlTag DrivingTag() {
                                   "velocity, which begins from 0 when a STOP or a value by hand ends; other units an effort")},
           .handle = internal::ReadAt<BuildStage::kChecks, MarkDriving>,
           .update = UpdateDriving,
-          .missing = [](const XmlElement*, FrameworkElement& home, Saving& saving,
-                        FileUpdate*) { return MissingMarks(home, saving); },
+          .missing = MissingMarks,
           .place = 5};
 }
 

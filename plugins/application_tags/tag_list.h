@@ -97,7 +97,8 @@ void NoteLoaded(const ConfigurableElement& parameter);
 
 void UpdateConnect(XmlElement tag, FrameworkElement& group, FileUpdate& update);
 /// Of the connections that no tag says yet; those of one port together.
-[[nodiscard]] std::vector<NewElement> MissingConnections(FrameworkElement& home, Saving& saving);
+[[nodiscard]] std::vector<NewElement> MissingConnections(const XmlElement* tag, FrameworkElement& home, Saving& saving,
+                                                         FileUpdate* update);
 
 }  // namespace internal
 
