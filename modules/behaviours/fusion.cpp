@@ -1,6 +1,5 @@
 #include "modules/behaviours/fusion.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/conversion/number_conversion.h"
