@@ -85,6 +85,13 @@ class FrameworkElement {
   [[nodiscard]] bool IsAtOrBelow(const FrameworkElement& ancestor) const noexcept;
   /// Calls `visit` for this element and all below it, parents before children.
   void Visit(const std::function<void(FrameworkElement&)>& visit);
+  /// The same for those of them that are a T: ports, threads …
+  template <typename T>
+  void VisitAll(const std::function<void(T&)>& visit) {
+    Visit([&](FrameworkElement& each) {
+      if (auto* const found = dynamic_cast<T*>(&each)) visit(*found);
+    });
+  }
 
   /// Whether Construct() has made something, so that what it went by can no longer be set.
   [[nodiscard]] bool has_constructed() const noexcept { return has_constructed_; }

@@ -42,8 +42,6 @@ requires(!std::same_as<E, bool>) void Describe(TypeBuilder<std::vector<E>>& type
   type.Name(TypeOf<E>().name() + "[]")
       .Elements(TypeKind::kSequence,
                 {.type = &TypeOf<E>(),
-                 .is_fixed = false,
-                 .rows = [](const void*) -> std::size_t { return 1; },
                  .columns = [](const void* at) { return static_cast<const List*>(at)->size(); },
                  .resize =
                      [](void* at, std::size_t, std::size_t columns) {
@@ -67,7 +65,6 @@ void Describe(TypeBuilder<std::array<E, count>>& type) {
       .Elements(TypeKind::kSequence,
                 {.type = &TypeOf<E>(),
                  .is_fixed = true,
-                 .rows = [](const void*) -> std::size_t { return 1; },
                  .columns = [](const void*) { return count; },
                  .resize = [](void*, std::size_t, std::size_t columns) { return columns == count; },
                  .element = [](void* at, std::size_t index) -> void* {
@@ -82,8 +79,6 @@ void Describe(TypeBuilder<std::optional<E>>& type) {
   using Optional = std::optional<E>;
   type.Name(TypeOf<E>().name() + "?")
       .Elements(TypeKind::kSequence, {.type = &TypeOf<E>(),
-                                      .is_fixed = false,
-                                      .rows = [](const void*) -> std::size_t { return 1; },
                                       .columns = [](const void* at) -> std::size_t {
                                         return static_cast<const Optional*>(at)->has_value() ? 1
                                                                                              : 0;

@@ -18,8 +18,6 @@ void Describe(TypeBuilder<SharedVector<E>>& type) {
   type.Name("shared " + TypeOf<E>().name() + "[]")
       .Elements(TypeKind::kSequence,
                 {.type = &TypeOf<E>(),
-                 .is_fixed = false,
-                 .rows = [](const void*) -> std::size_t { return 1; },
                  .columns = [](const void* at) { return static_cast<const List*>(at)->size(); },
                  .resize =
                      [](void* at, std::size_t, std::size_t columns) {

@@ -85,8 +85,8 @@ struct EnumerationOperations {
 /// counted row by row.
 struct ElementOperations {
   const TypeInfo* type;
-  bool is_fixed;  ///< the number of elements is part of the type
-  std::size_t (*rows)(const void* value);
+  bool is_fixed = false;  ///< the number of elements is part of the type
+  std::size_t (*rows)(const void* value) = [](const void*) -> std::size_t { return 1; };
   std::size_t (*columns)(const void* value);
   /// False if the type cannot have that many.
   bool (*resize)(void* value, std::size_t rows, std::size_t columns);

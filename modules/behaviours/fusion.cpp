@@ -1,6 +1,5 @@
 #include "modules/behaviours/fusion.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/conversion/number_conversion.h"
@@ -8,7 +7,7 @@
 #include "core/port/port_stop.h"
 #include "core/types/type_of.h"
 #include "core/types/value_copy.h"
-#include "modules/flow/ports_by_name.h"
+#include "modules/flow/passing_module.h"
 
 namespace runnel {
 

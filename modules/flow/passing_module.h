@@ -13,6 +13,10 @@
 
 namespace runnel::flow {
 
+/// What makes ports for values of the type called `name`, as in `<port type="…">`, for modules that take any. Errors: no
+/// such type, with the nearest; none that a port of a loaded plugin has. Locks.
+[[nodiscard]] Result<const TypedPorts*> FindPortsByName(const std::string& name);
+
 /// What modules have in common that pass on values of any type, without copying them: `type` says which, in the words
 /// of `<port type="…">`, and is known before the ports are made.
 ///

@@ -7,13 +7,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/base/diagnostics.h"
 #include "core/element/runtime.h"
+#include "core/paths/path_search.h"
+#include "core/port/input.h"
+#include "core/port/output.h"
 #include "plugins/application/application_description.h"
-#include "plugins/application/found_kind.h"
+#include "plugins/parameters/parameter.h"
+#include "plugins/parameters/static_parameter.h"
 #include "plugins/structure/structure_editor.h"
 
 namespace runnel {
@@ -25,6 +30,36 @@ class LoadedApplication;
 class PluginManager;
 class RunReport;
 class XmlTagRegistry;
+
+namespace internal {
+
+/// What somebody who asks for such a thing expects at a path, and what it is called in errors.
+struct FoundKind {
+  PathKind kind;
+  std::string name;
+};
+template <typename T>
+FoundKind FoundKindOf(std::type_identity<T>) {
+  return {PathKind::kElement, "what was asked for"};
+}
+template <typename T>
+FoundKind FoundKindOf(std::type_identity<Output<T>>) {
+  return {PathKind::kOutput, "an output of type " + TypeOf<T>().name()};
+}
+template <typename T>
+FoundKind FoundKindOf(std::type_identity<Input<T>>) {
+  return {PathKind::kInput, "an input of type " + TypeOf<T>().name()};
+}
+template <typename T>
+FoundKind FoundKindOf(std::type_identity<Parameter<T>>) {
+  return {PathKind::kParameter, "a parameter of type " + TypeOf<T>().name()};
+}
+template <typename T>
+FoundKind FoundKindOf(std::type_identity<StaticParameter<T>>) {
+  return {PathKind::kParameter, "a static parameter of type " + TypeOf<T>().name()};
+}
+
+}  // namespace internal
 
 /// Something that has happened to an application and that a person should read.
 struct ApplicationEvent {
@@ -193,11 +228,11 @@ class Application {
   /// something else.
   template <typename T>
   [[nodiscard]] Result<T*> Find(std::string_view path) {
-    using Kind = internal::FoundKind<T>;
-    const auto found = FindElement(path, Kind::kKind);
+    const internal::FoundKind wanted = internal::FoundKindOf(std::type_identity<T>());
+    const auto found = FindElement(path, wanted.kind);
     if (!found) return found.error();
-    if (auto* const wanted = dynamic_cast<T*>(*found)) return wanted;
-    return IsAnother(**found, Kind::Name());
+    if (auto* const it = dynamic_cast<T*>(*found)) return it;
+    return IsAnother(**found, wanted.name);
   }
   /// A copy of the newest value at a port; nullopt: none yet. Errors: no such port, another type.
   template <typename T>

@@ -45,8 +45,4 @@ class ApplicationChecks final : public OfferedRegistry {
   std::string plugin_;
 };
 
-/// Warns where something moves, by the types of ports, and no port is marked as driving; and, on a real clock, of modules
-/// that drive and share a thread with others.
-void CheckMotion(const ApplicationCheckUse& use);
-
 }  // namespace runnel

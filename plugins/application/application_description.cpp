@@ -1,9 +1,11 @@
 #include "plugins/application/application_description.h"
 
 #include <algorithm>
+#include <memory>
 #include <mutex>
 #include <utility>
 
+#include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
 #include "core/module/group.h"
 #include "plugins/application_tags/application_tags.h"
@@ -32,6 +34,35 @@ Result<void> CheckOptions(const ExtensionDescription& extension,
 }
 
 }  // namespace
+
+void ExtensionRegistry::Add(ExtensionFactory factory) {
+  if (!factories_.try_emplace(plugin_, std::move(factory)).second) {
+    throw ElementError({.message = "plugin '" + plugin_ + "' adds two extensions"});
+  }
+}
+
+std::function<void()> ExtensionRegistry::SetAside(std::string_view plugin) {
+  const auto aside = std::make_shared<decltype(factories_)>();
+  std::function<void()> back = [this, aside] { factories_.merge(*aside); };
+  if (const auto found = factories_.find(plugin); found != factories_.end()) {
+    aside->insert(factories_.extract(found));
+  }
+  return back;
+}
+
+Result<Extensions> ExtensionRegistry::Make(const std::string& plugin,
+                                           const ExtensionArguments& arguments) const {
+  const auto found = factories_.find(plugin);
+  if (found == factories_.end()) {
+    return Error{.message = "the plugin '" + plugin + "' is no extension of applications"};
+  }
+  try {
+    return found->second(arguments);
+  } catch (...) {
+    return Error{.message =
+                     "the extension '" + plugin + "' cannot be made: " + DescribeException()};
+  }
+}
 
 ApplicationDescription::ApplicationDescription(ApplicationOptions options)
     : options_(std::move(options)), tags_(ApplicationTags()), extensions_(options_.extensions) {

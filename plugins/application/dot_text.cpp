@@ -42,9 +42,7 @@ class DotWriter {
         "  label=" +
         Quoted(application_.name()) + "\n  labelloc=t\n";
     WriteContents(application_, 1);
-    application_.Visit([this](FrameworkElement& element) {
-      if (const auto* const port = dynamic_cast<const Port*>(&element)) WriteEdges(*port);
-    });
+    application_.VisitAll<const Port>([this](const Port& port) { WriteEdges(port); });
     WriteKey();
     return text_ + "}\n";
   }
@@ -104,12 +102,10 @@ class DotWriter {
   void WriteModule(FrameworkElement& module, int depth) {
     std::vector<const Port*> inputs;
     std::vector<const Port*> outputs;
-    module.Visit([&](FrameworkElement& element) {
-      const auto* const port = dynamic_cast<const Port*>(&element);
-      if (port == nullptr) return;
-      const bool is_input = port->direction() == Port::Direction::kInput;
-      if (port->incoming().empty() && port->outgoing().empty()) return;
-      (is_input ? inputs : outputs).push_back(port);
+    module.VisitAll<const Port>([&](const Port& port) {
+      const bool is_input = port.direction() == Port::Direction::kInput;
+      if (port.incoming().empty() && port.outgoing().empty()) return;
+      (is_input ? inputs : outputs).push_back(&port);
     });
     std::string label =
         R"(<table border="1" cellborder="0" cellspacing="0" cellpadding="3" color="#606060" bgcolor=")" +

@@ -65,12 +65,10 @@ std::string WhatPasses(FrameworkElement& application, const Scheduler& scheduler
   if (!has_stop && application.runtime().robot_stop().in_force()) add("the STOP of the robot");
   bool is_recorded = false;
   for (const std::string& path : scheduler.PausedPaths()) add("the pause of " + path);
-  application.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr) return;
-    if (port->is_blocked()) add("the block of " + port->path());
-    is_recorded = is_recorded || IsRecorded(*port);
-    if (port->is_set_by_hand()) add("the value by hand of " + port->path());
+  application.VisitAll<const Port>([&](const Port& port) {
+    if (port.is_blocked()) add("the block of " + port.path());
+    is_recorded = is_recorded || IsRecorded(port);
+    if (port.is_set_by_hand()) add("the value by hand of " + port.path());
   });
   if (is_recorded) add("recordings");
   return all.empty() ? "" : "not saved, as it ends with the run: " + all;

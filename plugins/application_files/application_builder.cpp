@@ -78,11 +78,10 @@ constexpr std::size_t kMostOutputsNamed = 3;
 
 std::string Hint(const Port& input, FrameworkElement& application) {
   std::vector<std::string> outputs;
-  application.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr || port->is_proxy()) return;
-    if (port->direction() != Port::Direction::kOutput || &port->type() != &input.type()) return;
-    if (outputs.size() < kMostOutputsNamed) outputs.push_back(port->path());
+  application.VisitAll<const Port>([&](const Port& port) {
+    if (port.is_proxy()) return;
+    if (port.direction() != Port::Direction::kOutput || &port.type() != &input.type()) return;
+    if (outputs.size() < kMostOutputsNamed) outputs.push_back(port.path());
   });
   const std::string type = input.type().name();
   if (outputs.empty()) return "the application has no output of type " + type;
@@ -153,11 +152,9 @@ Result<ApplicationFile> ApplicationFile::Read(const std::filesystem::path& file)
 
 void CheckRequiredInputs(FrameworkElement& application, BuildContext& context) {
   std::vector<Port*> unconnected;
-  application.Visit([&](FrameworkElement& element) {
-    auto* const port = dynamic_cast<Port*>(&element);
-    if (port == nullptr || !port->is_required() || !port->Sources().empty()) return;
-    if (LateConnections::Awaits(*port)) return;
-    if (context.IsUnfedUnnoticed(*port)) unconnected.push_back(port);
+  application.VisitAll<Port>([&](Port& port) {
+    if (!port.is_required() || !port.Sources().empty() || LateConnections::Awaits(port)) return;
+    if (context.IsUnfedUnnoticed(port)) unconnected.push_back(&port);
   });
   for (Port* port : unconnected) {
     context.Report({.message = "nothing is connected to this input, which its module requires",

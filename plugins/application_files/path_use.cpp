@@ -16,7 +16,9 @@ void Report(Error error, const PathUse& use, BuildContext& context) {
   context.Report(std::move(error), use.position, use.base);
 }
 
-FrameworkElement* Search(const PathUse& use, PathKind kind, BuildContext& context) {
+}  // namespace
+
+FrameworkElement* SearchElement(const PathUse& use, BuildContext& context, PathKind kind) {
   PathEnd end = PathSearch(use.base).Follow(use.path, kind);
   if (end.found != nullptr) return end.found;
   if (kind == PathKind::kInput) {  // it remains without what was meant for it
@@ -27,8 +29,6 @@ FrameworkElement* Search(const PathUse& use, PathKind kind, BuildContext& contex
   if (is_news) Report(std::move(end.error), use, context);
   return nullptr;
 }
-
-}  // namespace
 
 PathUse PathIn(const XmlAttribute& attribute, FrameworkElement& base) {
   return {base, attribute.value, attribute.value_position};
@@ -56,12 +56,8 @@ std::vector<PathUse> PathsIn(const XmlAttribute& attribute, FrameworkElement& ba
   return paths;
 }
 
-FrameworkElement* SearchElement(const PathUse& use, BuildContext& context, PathKind kind) {
-  return Search(use, kind, context);
-}
-
 Port* SearchPort(const PathUse& use, PathKind kind, BuildContext& context) {
-  FrameworkElement* const found = Search(use, kind, context);
+  FrameworkElement* const found = SearchElement(use, context, kind);
   if (found == nullptr) return nullptr;
   const auto port = PathSearch(*found).FindPort("", kind);
   if (port) return *port;
@@ -73,7 +69,7 @@ Port* SearchPort(const PathUse& use, PathKind kind, BuildContext& context) {
 FrameworkElement* SearchSettable(const XmlAttribute& path, const XmlAttribute& value,
                                  FrameworkElement& base, BuildContext& context) {
   const PathUse use = PathIn(path, base);
-  FrameworkElement* const found = Search(use, PathKind::kParameter, context);
+  FrameworkElement* const found = SearchElement(use, context, PathKind::kParameter);
   if (found == nullptr) return nullptr;
   const auto* const parameter = dynamic_cast<const Configurable*>(found);
   if (parameter == nullptr) {

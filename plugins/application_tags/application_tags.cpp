@@ -9,11 +9,12 @@ namespace runnel {
 XmlTagRegistry ApplicationTags() {
   XmlTagRegistry tags;
   for (const auto& make : {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag,
-                           ModuleTag, ParameterTag, InputTag, DrivingTag, GroupTag, ConnectTag, LogTag, OnFaultTag,
-                           OnStaleTag, OnStuckTag, OnPauseTag, StopButtonTag, OperatorsTag, LatencyTag, ProfileTag, OtherwiseTag}) {
+                           ModuleTag, ParameterTag, InputTag, DrivingTag, GroupTag, ConnectTag, LogTag}) {
     tags.AddTag(make());
   }
-  for (XmlTag& tag : internal::ReactionTags()) tags.AddTag(std::move(tag));
+  for (const auto& make : {internal::WatchingTags, internal::ReactionTags}) {
+    for (XmlTag& tag : make()) tags.AddTag(std::move(tag));
+  }
   for (const char* tag : {"application", "group", "module"}) {
     tags.AddAttribute(ThreadAttribute(tag));
     tags.AddAttribute(ConfigurationAttribute(tag));

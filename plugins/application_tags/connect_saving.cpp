@@ -140,7 +140,7 @@ void UpdateConnect(XmlElement tag, FrameworkElement& group, FileUpdate& update) 
   }
 }
 
-std::vector<NewElement> MissingConnections(FrameworkElement& home, Saving& saving) {
+std::vector<NewElement> MissingConnections(const XmlElement*, FrameworkElement& home, Saving& saving, FileUpdate*) {
   std::vector<NewElement> elements;
   const SavedEdge* last = nullptr;
   for (SavedEdge& edge : saving.edges) {

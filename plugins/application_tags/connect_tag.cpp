@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -170,8 +169,7 @@ XmlTag ConnectTag() {
       .is_structure = true,
       .handle = internal::ReadAt<BuildStage::kConnections, ConnectAll>,
       .update = internal::UpdateConnect,
-      .missing = [](const XmlElement*, FrameworkElement& home, internal::Saving& saving,
-                    internal::FileUpdate*) { return internal::MissingConnections(home, saving); },
+      .missing = internal::MissingConnections,
       .place = 4};
 }
 

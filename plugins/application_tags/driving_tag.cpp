@@ -85,19 +85,18 @@ void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update)
 }
 
 // Those of copies: the application says it of them.
-std::vector<NewElement> MissingMarks(FrameworkElement& home, Saving& saving) {
+std::vector<NewElement> MissingMarks(const XmlElement*, FrameworkElement& home, Saving& saving, FileUpdate*) {
   std::vector<NewElement> elements;
   if (&home != &saving.application) return elements;
   const auto& said = saving.Note<SaidMarks>().ports;
-  home.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    const auto* const mark = element.FindAnnotation<DrivingMark>();
-    if (port == nullptr || mark == nullptr || said.contains(port)) return;
+  home.VisitAll<const Port>([&](const Port& port) {
+    const auto* const mark = port.FindAnnotation<DrivingMark>();
+    if (mark == nullptr || said.contains(&port)) return;
     NewElement& made = elements.emplace_back(
-        NewElement{.name = "driving", .attributes = {{"port", port->path().substr(home.path().size() + 1)}}});
-    if (mark->safe) made.attributes.emplace_back("safe", ToText(port->type(), mark->safe.get()));
+        NewElement{.name = "driving", .attributes = {{"port", port.path().substr(home.path().size() + 1)}}});
+    if (mark->safe) made.attributes.emplace_back("safe", ToText(port.type(), mark->safe.get()));
     if (!mark->brake.empty()) made.attributes.emplace_back("brake", mark->brake);
-    if (const std::string command = CommandOf(*port, *mark); !command.empty()) made.attributes.emplace_back("command", command);
+    if (const std::string command = CommandOf(port, *mark); !command.empty()) made.attributes.emplace_back("command", command);
   });
   return elements;
 }
@@ -119,8 +118,7 @@ XmlTag DrivingTag() {
                                   "velocity, which begins from 0 when a STOP or a value by hand ends; other units an effort")},
           .handle = internal::ReadAt<BuildStage::kChecks, MarkDriving>,
           .update = UpdateDriving,
-          .missing = [](const XmlElement*, FrameworkElement& home, Saving& saving,
-                        FileUpdate*) { return MissingMarks(home, saving); },
+          .missing = MissingMarks,
           .place = 5};
 }
 

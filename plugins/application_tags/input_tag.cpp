@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,18 +63,17 @@ void SetInputLimits(const TagUse& use) {
 
 std::vector<SavedTag> SavedLimits(FrameworkElement& module) {
   std::vector<SavedTag> tags;
-  module.Visit([&](FrameworkElement& element) {
-    const auto* const given = element.FindAnnotation<GivenLimits>();
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (given == nullptr || port == nullptr) return;
+  module.VisitAll<const Port>([&](const Port& port) {
+    const auto* const given = port.FindAnnotation<GivenLimits>();
+    if (given == nullptr) return;
     const InputLimits& limits = given->limits;
     const auto bound = [](const std::optional<double>& value) {
       return value ? TextOf(*value) : std::string();
     };
-    const std::string text = limits.default_value ? ToText(port->type(), limits.default_value.get())
+    const std::string text = limits.default_value ? ToText(port.type(), limits.default_value.get())
                                                   : std::string();
     const auto out = static_cast<std::size_t>(limits.out_of_bounds);
-    tags.push_back({{{"name", port->name()},
+    tags.push_back({{{"name", port.name()},
                      {"default", text, !limits.default_value},
                      {"minimum", bound(limits.minimum), !limits.minimum},
                      {"maximum", bound(limits.maximum), !limits.maximum},

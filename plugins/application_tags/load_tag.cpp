@@ -32,7 +32,7 @@ FrameworkElement* Load(const TagUse& use) {
 }
 
 // Which are needed besides is known when all else has been written.
-void UpdateLoad(XmlElement tag, internal::FileUpdate& update) {
+void UpdateLoad(XmlElement tag, FrameworkElement&, internal::FileUpdate& update) {
   const std::string& plugin = tag.Attribute("plugin")->value;
   const bool is_file = plugin.find('/') != std::string::npos;
   update.NoteLoad(is_file ? std::filesystem::path(plugin).stem().string() : plugin);
@@ -54,9 +54,7 @@ XmlTag LoadTag() {
                           .summary = "its name, or its file if it contains a '/'"}},
           .comes_first = true,
           .handle = Load,
-          .update = [](XmlElement tag, FrameworkElement&, internal::FileUpdate& update) {
-            UpdateLoad(tag, update);
-          }};
+          .update = UpdateLoad};
 }
 
 }  // namespace runnel

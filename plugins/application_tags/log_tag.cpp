@@ -90,7 +90,7 @@ bool IsMadeByOthers(const FrameworkElement& element, const FrameworkElement& app
   return false;
 }
 
-std::vector<NewElement> MissingLevels(FrameworkElement& home, Saving& saving, const FileUpdate* update) {
+std::vector<NewElement> MissingLevels(const XmlElement*, FrameworkElement& home, Saving& saving, FileUpdate* update) {
   SavedLevels& levels = LevelsOf(saving);
   // All tags are known now, and the first that is asked is the application.
   if (!std::exchange(levels.are_compared, true)) Compare(levels, update);
@@ -116,8 +116,7 @@ XmlTag LogTag() {
                          PathRule("of", false, "the module or group, with all below it; the one around if left out")},
           .handle = internal::ReadAt<BuildStage::kChecks, ReadLog>,
           .update = UpdateLog,
-          .missing = [](const XmlElement*, FrameworkElement& home, Saving& saving,
-                        FileUpdate* update) { return MissingLevels(home, saving, update); },
+          .missing = MissingLevels,
           .place = 5};
 }
 

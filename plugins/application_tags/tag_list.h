@@ -26,15 +26,6 @@ namespace runnel {
 [[nodiscard]] XmlTag LoadTag();
 [[nodiscard]] XmlTag LogTag();
 [[nodiscard]] XmlTag ModuleTag();
-[[nodiscard]] XmlTag OnFaultTag();
-[[nodiscard]] XmlTag OnStaleTag();
-[[nodiscard]] XmlTag LatencyTag();
-[[nodiscard]] XmlTag OnPauseTag();
-[[nodiscard]] XmlTag OnStuckTag();
-[[nodiscard]] XmlTag OperatorsTag();
-[[nodiscard]] XmlTag ProfileTag();
-[[nodiscard]] XmlTag StopButtonTag();
-[[nodiscard]] XmlTag OtherwiseTag();
 [[nodiscard]] XmlTag ParameterTag();
 [[nodiscard]] XmlTag PortTag();
 [[nodiscard]] XmlTag ThreadTag();
@@ -79,6 +70,8 @@ Kind Chosen(const TagUse& use, const char* attribute, const std::vector<std::str
 /// A value of the port's type; nothing after reporting that the text is none.
 [[nodiscard]] AnyValue ReadValue(const TagUse& use, const XmlAttribute& text, const Port& port);
 
+/// The tags <on_fault>, <stop_button>, <latency> … that say what is watched and measured.
+[[nodiscard]] std::vector<XmlTag> WatchingTags();
 /// The tags <publish>, <switch>, <set>, <replace> and <quit>, which are read by the tag that they stand in.
 [[nodiscard]] std::vector<XmlTag> ReactionTags();
 
@@ -104,7 +97,8 @@ void NoteLoaded(const ConfigurableElement& parameter);
 
 void UpdateConnect(XmlElement tag, FrameworkElement& group, FileUpdate& update);
 /// Of the connections that no tag says yet; those of one port together.
-[[nodiscard]] std::vector<NewElement> MissingConnections(FrameworkElement& home, Saving& saving);
+[[nodiscard]] std::vector<NewElement> MissingConnections(const XmlElement* tag, FrameworkElement& home, Saving& saving,
+                                                         FileUpdate* update);
 
 }  // namespace internal
 

@@ -14,36 +14,24 @@ namespace runnel {
 
 namespace {
 
-ApplicationLog::Kind KindOf(LogLevel level) {
-  switch (level) {
-    case LogLevel::kDebug:
-      return ApplicationLog::Kind::kDebug;
-    case LogLevel::kInfo:
-      return ApplicationLog::Kind::kInfo;
-    case LogLevel::kWarning:
-      return ApplicationLog::Kind::kWarning;
-    case LogLevel::kError:
-    case LogLevel::kOff:
-      break;
-  }
-  return ApplicationLog::Kind::kError;
-}
+using Kind = ApplicationLog::Kind;
 
-LogLevel LevelOf(ApplicationLog::Kind kind) {
-  switch (kind) {
-    case ApplicationLog::Kind::kDebug:
-      return LogLevel::kDebug;
-    case ApplicationLog::Kind::kInfo:
-    case ApplicationLog::Kind::kChange:
-      return LogLevel::kInfo;
-    case ApplicationLog::Kind::kWarning:
-      return LogLevel::kWarning;
-    case ApplicationLog::Kind::kFault:
-    case ApplicationLog::Kind::kError:
-      break;
-  }
-  return LogLevel::kError;
-}
+// In the order of their levels.
+constexpr std::array kKindsByLevel{Kind::kDebug, Kind::kInfo, Kind::kWarning, Kind::kError, Kind::kError};
+
+struct KindInfo {
+  const char* name;
+  LogLevel level;
+};
+// In the order of the kinds.
+constexpr std::array<KindInfo, 6> kKinds{{{"fault", LogLevel::kError},
+                                          {"warning", LogLevel::kWarning},
+                                          {"change", LogLevel::kInfo},
+                                          {"error", LogLevel::kError},
+                                          {"info", LogLevel::kInfo},
+                                          {"debug", LogLevel::kDebug}}};
+
+const KindInfo& InfoOf(Kind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
 
 }  // namespace
 
@@ -60,7 +48,8 @@ void ApplicationLog::Add(Kind kind, std::string text, std::string module,
 
 void ApplicationLog::Add(const LogMessage& message) noexcept {
   try {
-    Keep({0, std::chrono::system_clock::now(), message.time - start_, KindOf(message.level),
+    const Kind kind = kKindsByLevel[static_cast<std::size_t>(message.level)];
+    Keep({0, std::chrono::system_clock::now(), message.time - start_, kind,
           Shortened(message.BodyText(), kLongestText), message.path, {}});
   } catch (const std::bad_alloc&) {
   }
@@ -98,17 +87,14 @@ std::uint64_t ApplicationLog::faults() const {
   return faults_;
 }
 
-const char* ApplicationLog::KindName(Kind kind) noexcept {
-  static constexpr std::array kNames{"fault", "warning", "change", "error", "info", "debug"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
+const char* ApplicationLog::KindName(Kind kind) noexcept { return InfoOf(kind).name; }
 
 // The path that a text begins with is told apart.
 LogMessage ApplicationLog::MessageOf(const Entry& entry) const {
   const std::string prefix = entry.module + ": ";
   const bool has_prefix = !entry.module.empty() && entry.text.starts_with(prefix);
   return {.time = start_ + entry.time,
-          .level = LevelOf(entry.kind),
+          .level = InfoOf(entry.kind).level,
           .path = entry.module,
           .text = has_prefix ? entry.text.substr(prefix.size()) : entry.text};
 }

@@ -198,13 +198,12 @@ std::optional<StopReach> FindStopReach(Runtime& runtime, const Scheduler* schedu
   const auto lock = TryStructureLock(runtime, std::chrono::milliseconds(20));
   if (!lock) return {};
   StopReach reach{.drives = FindWhatDrives(runtime).value_or(""), .unreached = {}};
-  runtime.root().Visit([&](const FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr || !port->is_driving()) return;
-    reach.brake = std::max(reach.brake, port->stop()->brake());
-    if (port->is_set_by_hand(Port::Setter::kRule)) reach.at_rest += (reach.at_rest.empty() ? "" : ", ") + port->path();
-    const std::string why = scheduler != nullptr ? scheduler->WhyUnreached(*port) : "";
-    if (!why.empty()) reach.unreached.emplace_back(port->path(), why);
+  runtime.root().VisitAll<const Port>([&](const Port& port) {
+    if (!port.is_driving()) return;
+    reach.brake = std::max(reach.brake, port.stop()->brake());
+    if (port.is_set_by_hand(Port::Setter::kRule)) reach.at_rest += (reach.at_rest.empty() ? "" : ", ") + port.path();
+    const std::string why = scheduler != nullptr ? scheduler->WhyUnreached(port) : "";
+    if (!why.empty()) reach.unreached.emplace_back(port.path(), why);
   });
   return reach;
 }

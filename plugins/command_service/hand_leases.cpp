@@ -1,6 +1,7 @@
 #include "plugins/command_service/hand_settings.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/types/duration_text.h"
 
@@ -14,13 +15,8 @@ constexpr const char* kTakeHoldAgain = "let go, and take hold again";
 }  // namespace
 
 const char* HandStateName(HandState state) noexcept {
-  switch (state) {
-    case HandState::kSet: return "set";
-    case HandState::kDriven: return "driven";
-    case HandState::kLost: return "lost";
-    case HandState::kStopped: return "stopped";
-  }
-  return "";
+  static constexpr std::array kNames{"set", "driven", "lost", "stopped"};
+  return kNames[static_cast<std::size_t>(state)];
 }
 
 void EndedLeases::Add(const std::string& lease) {

@@ -119,13 +119,11 @@ HandSettings::HandSettings(Runtime& runtime, CommandWorker& worker, ApplicationL
 std::vector<std::pair<std::string, HandState>> HandSettings::All() const {
   if (const std::unique_lock structure(runtime_.structure_mutex(), std::try_to_lock); structure) {
     std::vector<std::pair<std::string, HandState>> found;  // `mutex_` comes after those of the slots
-    runtime_.root().Visit([&](FrameworkElement& element) {
-      const auto* const port = dynamic_cast<const Port*>(&element);
-      if (port == nullptr) return;
-      if (port->is_blocked()) {
-        found.emplace_back(port->path(), HandState::kStopped);
-      } else if (port->is_set_by_hand()) {
-        found.emplace_back(port->path(), StateOf(*port));
+    runtime_.root().VisitAll<const Port>([&](const Port& port) {
+      if (port.is_blocked()) {
+        found.emplace_back(port.path(), HandState::kStopped);
+      } else if (port.is_set_by_hand()) {
+        found.emplace_back(port.path(), StateOf(port));
       }
     });
     const std::lock_guard lock(mutex_);

@@ -43,13 +43,11 @@ class CallCommand {
     ShowProgress(answer);
     if (status == CallStatus::kPending) return kLookAgain;
     if (status == CallStatus::kAnswered) {
-      answer.Write((reply_ != nullptr ? ToText(*reply_, call_->reply()) : "done") + "\n");
-      return ControlCode::kDone;
+      return Say(answer, (reply_ != nullptr ? ToText(*reply_, call_->reply()) : "done") + "\n");
     }
     const std::string why = call_->error();
-    answer.WriteError(ErrorLine({.message = "the call has " + Verb(status) + (why.empty() ? "" : ": " + why),
-                                 .path = path_}));
-    return ControlCode::kFailed;
+    return Fail(answer, {.message = "the call has " + Verb(status) + (why.empty() ? "" : ": " + why),
+                         .path = path_});
   }
 
  private:
@@ -132,8 +130,7 @@ CommandStep ListActivities(Runtime& runtime, bool all, Answer& answer) {
     const auto* const callable = each.FindAnnotation<Callable>();
     if (callable != nullptr && (all || callable->is_activity())) text += ServiceLine(each, *callable);
   });
-  answer.Write(text.empty() ? all ? "no module offers a service\n" : "no module offers an activity\n" : text);
-  return ControlCode::kDone;
+  return Say(answer, text.empty() ? all ? "no module offers a service\n" : "no module offers an activity\n" : text);
 }
 
 }  // namespace
@@ -163,12 +160,8 @@ CommandResult MakeActivitiesCommand(const Request& request, const CommandContext
     if (request.arguments.empty()) return ListActivities(runtime, request.Has("all"), answer);
     const auto found = FindCallable(runtime, request.arguments[0]);
     if (!found) return Refuse(answer, found.error());
-    if ((*found)->Abort()) {
-      answer.Write(request.arguments[0] + " is asked to end\n");
-      return ControlCode::kDone;
-    }
-    answer.WriteError(ErrorLine({.message = "no call is under way there", .path = request.arguments[0]}));
-    return ControlCode::kFailed;
+    if ((*found)->Abort()) return Say(answer, request.arguments[0] + " is asked to end\n");
+    return Fail(answer, {.message = "no call is under way there", .path = request.arguments[0]});
   }));
 }
 

@@ -142,6 +142,16 @@ Command::Step UnderLock(Runtime& runtime, Command::Step work) {
   };
 }
 
+ControlCode Say(Answer& answer, std::string_view text) {
+  answer.Write(text);
+  return ControlCode::kDone;
+}
+
+ControlCode Fail(Answer& answer, const Error& error) {
+  answer.WriteError(ErrorLine(error));
+  return ControlCode::kFailed;
+}
+
 ControlCode Refuse(Answer& answer, const Error& error) {
   answer.WriteError(ErrorLine(error));
   return ControlCode::kBadInput;

@@ -91,7 +91,13 @@ CommandMaker MakeServiceCommand;
 /// "path: error: message; hint" with an end of line.
 [[nodiscard]] std::string ErrorLine(const Error& error);
 
-/// Complains of the error, which is the client's.
+/// Says it, and is done.
+ControlCode Say(Answer& answer, std::string_view text);
+/// Values in text format with their numbers as people read them: six significant digits. Whole numbers, and what stands in
+/// quotation marks, stay as they are.
+[[nodiscard]] std::string ReadableNumbers(std::string_view text);
+/// Complains of the error: what was wanted could have worked, and has not; or it is the client's.
+ControlCode Fail(Answer& answer, const Error& error);
 ControlCode Refuse(Answer& answer, const Error& error);
 
 /// How often a command that finds the structure locked, or has to look again and again, does so.

@@ -1,6 +1,5 @@
 #include "plugins/control/control_client.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>

@@ -229,10 +229,8 @@ std::string RateText(double hertz) {
 
 PublicationRates LookAtRates(FrameworkElement& start) {
   PublicationRates rates;
-  start.Visit([&](FrameworkElement& element) {
-    if (const auto* const port = dynamic_cast<const Port*>(&element)) {
-      rates[port->path()].Look(Publications::Of(*port), element.runtime().clock().Now());
-    }
+  start.VisitAll<const Port>([&](const Port& port) {
+    rates[port.path()].Look(Publications::Of(port), port.runtime().clock().Now());
   });
   return rates;
 }

@@ -1,8 +1,12 @@
+#include <chrono>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/paths/distant_ports.h"
 #include "core/paths/path_search.h"
+#include "plugins/command_service/extension_texts.h"
 #include "plugins/control/command.h"
 #include "plugins/control/element_listing.h"
 
@@ -19,13 +23,34 @@ constexpr Duration kLookForNew = std::chrono::milliseconds(100);
 
 // Says what `text` makes under the lock.
 Command Told(Runtime& runtime, std::function<std::string()> text) {
-  return Command(UnderLock(runtime, [text = std::move(text)](Answer& answer) -> CommandStep {
-    answer.Write(text());
-    return ControlCode::kDone;
-  }));
+  return Command(
+      UnderLock(runtime, [text = std::move(text)](Answer& answer) { return Say(answer, text()); }));
 }
 
 }  // namespace
+
+Command ShowExtensionText(Runtime& runtime, const std::string& name, const std::string& argument, Duration patience) {
+  return Command(UnderLock(runtime, [&runtime, name, argument, patience, latest = std::optional<Command::SteadyTime>(),
+                                     asking = std::shared_ptr<void>()](Answer& answer) mutable -> CommandStep {
+    const ExtensionTexts::Text* const text = ExtensionTexts::Find(runtime, name);
+    if (text == nullptr) {
+      return Refuse(answer, {.message = "the application has no network", .hint = "add <network/> to its file"});
+    }
+    if (!latest) latest = std::chrono::steady_clock::now() + patience;  // the lock may have come late
+    const auto told = (*text)(argument, asking);
+    if (!told) return Refuse(answer, told.error());
+    if (*told) return Say(answer, **told);
+    if (std::chrono::steady_clock::now() < *latest) return kLookAgain;
+    asking.reset();  // whoever is told that it has failed does not find it done later
+    return Fail(answer, {.message = "nobody in the network has answered",
+                         .path = argument,
+                         .hint = "who is listed by 'runnel network' all the same is held up, or cannot reach this application"});
+  }));
+}
+
+CommandResult MakeNetworkCommand(const Request&, const CommandContext& context) {
+  return ShowExtensionText(context.application.runtime, "network", "");
+}
 
 CommandResult MakeListCommand(const Request& request, const CommandContext& context) {
   if (!request.arguments.empty() && IsDistantPath(request.arguments[0])) {
@@ -47,8 +72,7 @@ CommandResult MakeListCommand(const Request& request, const CommandContext& cont
                     return kRateWindow;
                   }
                   options.now = runtime.clock().Now();
-                  answer.Write(ListElements(**start, options));
-                  return ControlCode::kDone;
+                  return Say(answer, ListElements(**start, options));
                 }));
 }
 

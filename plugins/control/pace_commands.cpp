@@ -24,10 +24,7 @@ std::string SpeedText(double speed) {
 
 // Says what has been done; what could not be is the command's error.
 CommandResult SayAtOnce(std::string text) {
-  return Command([text = std::move(text)](Answer& answer) -> CommandStep {
-    answer.Write(text + "\n");
-    return ControlCode::kDone;
-  });
+  return Command([text = std::move(text)](Answer& answer) { return Say(answer, text + "\n"); });
 }
 
 // What it wants, done and logged. Errors: of the pace.
@@ -66,8 +63,7 @@ CommandResult MakeStepCommand(const Request& request, const CommandContext& cont
       return ControlCode::kFailed;
     }
     if (pace.cycles_to_step() > 0) return kLookWhetherDone;
-    answer.Write("stands at " + TimeText(application) + "\n");
-    return ControlCode::kDone;
+    return Say(answer, "stands at " + TimeText(application) + "\n");
   });
 }
 

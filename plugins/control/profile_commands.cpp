@@ -1,9 +1,11 @@
-// How long modules and chains of them take.
+// How long modules and chains of them take, and may take.
 
 #include <memory>
 
 #include <fmt/format.h>
 
+#include "core/paths/path_search.h"
+#include "core/types/duration_text.h"
 #include "plugins/control/command.h"
 #include "plugins/scheduling/scheduler.h"
 
@@ -23,9 +25,22 @@ struct Top {
   bool has_begun = false;
 };
 
-ControlCode Say(Answer& answer, const std::string& text) {
-  answer.Write(text);
-  return ControlCode::kDone;
+std::string LimitText(Duration after) {
+  return after > Duration{} ? ": at most " + DurationText(after) + " in a cycle\n"
+                            : ": no deadline\n";
+}
+
+std::string StuckText(const Scheduler& scheduler) {
+  std::string text;
+  for (const StuckRule& rule : scheduler.StuckRules()) {
+    text += (rule.of.empty() ? "all others" : rule.of) + LimitText(rule.after);
+  }
+  if (text.empty()) text = "no module has a deadline\n";
+  for (const StuckModule& stuck : scheduler.StuckModules()) {
+    text += stuck.path + " has not returned for " + DurationText(stuck.since) + "; " +
+            stuck.thread + " waits for it\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -89,6 +104,34 @@ CommandResult MakeLatencyCommand(const Request& request, const CommandContext& c
     if (!done) return Refuse(answer, done.error());
     return Say(answer, ends ? "measured no more\n"
                             : ProfileText({.tasks = {}, .latencies = {scheduler.ReadLatencies().back()}}, {}));
+  }));
+}
+
+// What is shown needs no structure lock, so that it is shown although a module is stuck with that.
+CommandResult MakeDeadlineCommand(const Request& request, const CommandContext& context) {
+  Scheduler& scheduler = *context.application.scheduler;
+  if (request.arguments.empty()) {
+    return Command([&scheduler](Answer& answer) { return Say(answer, StuckText(scheduler)); });
+  }
+  if (request.arguments.size() == 1) {
+    return Error{.message = "'deadline PATH' wants a time",
+                 .hint = "for example 200ms; off: modules may take as long as they like"};
+  }
+  Duration after{};
+  if (request.arguments[1] != "off") {
+    const auto time = ParseDuration(request.arguments[1]);
+    if (!time) return time.error();
+    if (*time <= Duration::zero()) return Error{.message = "a deadline is longer than nothing"};
+    after = *time;
+  }
+  Runtime& runtime = context.application.runtime;
+  return Command(UnderLock(runtime, [&, after, path = request.arguments[0]](Answer& answer) -> CommandStep {
+    const auto found = PathSearch(runtime).Find(path);
+    if (!found) return Refuse(answer, found.error());
+    if (auto set = scheduler.SetStuckLimit((*found)->path(), after); !set) {
+      return Refuse(answer, set.error());
+    }
+    return Say(answer, (*found)->path() + LimitText(after));
   }));
 }
 

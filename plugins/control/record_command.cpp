@@ -43,19 +43,14 @@ class RecordCommand {
     if (!task_->is_done()) return task_;
     if (!shared_->outcome) {
       has_ended_ = true;
-      answer.WriteError(ErrorLine(shared_->outcome.error()));
-      return has_begun_ ? ControlCode::kFailed : ControlCode::kBadInput;
+      return has_begun_ ? Fail(answer, shared_->outcome.error()) : Refuse(answer, shared_->outcome.error());
     }
     if (is_ending_) {
       has_ended_ = true;
-      answer.Write(*shared_->outcome + "\n");
-      return ControlCode::kDone;
+      return Say(answer, *shared_->outcome + "\n");
     }
     if (!std::exchange(has_begun_, true)) began_ = std::chrono::steady_clock::now();
-    if (const auto failure = shared_->recording->Failure()) {
-      answer.WriteError(ErrorLine(*failure));
-      return ControlCode::kFailed;
-    }
+    if (const auto failure = shared_->recording->Failure()) return Fail(answer, *failure);
     const bool is_long_enough =
         seconds_ && std::chrono::steady_clock::now() - began_ >= std::chrono::seconds(*seconds_);
     if (is_long_enough || answer.has_enough()) {

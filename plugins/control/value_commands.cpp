@@ -1,4 +1,9 @@
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <chrono>
+#include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,12 +17,28 @@
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/control/command.h"
-#include "plugins/control/readable_text.h"
+#include "plugins/control/element_listing.h"
 #include "plugins/values/watched_port.h"
 
 namespace runnel {
 
 namespace {
+
+constexpr std::size_t kDigits = 6;
+
+bool BelongsToWord(char character) {
+  return std::isalnum(static_cast<unsigned char>(character)) != 0 || character == '_' || character == '.';
+}
+
+// The length of the number that the text begins with; 0 if it begins with none, or with a whole one.
+std::size_t FractionLength(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string_view read(text.data(), static_cast<std::size_t>(end - text.data()));
+  const bool is_fraction = error == std::errc() && read.find_first_of(".e") != read.npos;
+  const bool is_word = text.substr(read.size()).starts_with('.');  // as an address is
+  return is_fraction && !is_word && read.find_first_not_of("-") == read.find_first_of("0123456789") ? read.size() : 0;
+}
 
 Result<void> CheckIsReadable(const Port& port) {
   if (port.type().is_transparent()) return {};
@@ -62,10 +83,8 @@ class Echo {
     {
       const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
       if (!lock) return kLookAgain;
-      if (auto found = Find(); !found) {
-        const ControlCode code = Refuse(answer, found.error());
-        return has_found_ ? ControlCode::kFailed : code;
-      }
+      const auto found = Find();
+      if (!found) return has_found_ ? Fail(answer, found.error()) : Refuse(answer, found.error());
     }
     has_found_ = true;
     Show(answer);
@@ -120,7 +139,92 @@ class Echo {
   std::optional<std::uint64_t> shown_;  // the count with the last value
 };
 
+constexpr Duration kWindow = std::chrono::seconds(1);
+
+struct Sample {
+  Publications publications;
+  Time time;     // of the application
+  Time machine;  // of the machine
+};
+
+/// The times between values, as far as each of them is seen.
+class Intervals {
+ public:
+  // `count`: published by then.
+  void Add(std::uint64_t count, Time time) {
+    if (last_ && count == last_->first + 1) {
+      const double seconds = ToSeconds(time - last_->second);
+      ++seen_;
+      sum_ += seconds;
+      squares_ += seconds * seconds;
+      least_ = seen_ == 1 ? seconds : std::min(least_, seconds);
+      most_ = std::max(most_, seconds);
+    }
+    last_ = {count, time};
+  }
+  // Since the last call.
+  std::string Take() {
+    std::string text;
+    if (seen_ > 1) {
+      const double mean = sum_ / static_cast<double>(seen_);
+      const double jitter = std::sqrt(std::max(0.0, squares_ / static_cast<double>(seen_) - mean * mean));
+      text = fmt::format(", every {:.4g} ms (min {:.4g}, max {:.4g}, jitter {:.3g})", mean * 1e3, least_ * 1e3,
+                         most_ * 1e3, jitter * 1e3);
+    }
+    seen_ = 0;
+    sum_ = squares_ = least_ = most_ = 0;
+    return text;
+  }
+
+ private:
+  std::optional<std::pair<std::uint64_t, Time>> last_;
+  std::uint64_t seen_ = 0;
+  double sum_ = 0;
+  double squares_ = 0;
+  double least_ = 0;
+  double most_ = 0;
+};
+
+// `hertz`: of the application's time.
+std::string LineOf(const Sample& before, const Sample& now, double hertz, const std::string& intervals) {
+  // A module that was made anew counts from 0 again.
+  const std::uint64_t count = now.publications.count;
+  const std::uint64_t passed = count >= before.publications.count ? count - before.publications.count : count;
+  const double simulated = ToSeconds(now.time - before.time);
+  const double real = ToSeconds(now.machine - before.machine);
+  std::string text = RateText(hertz) + " Hz";
+  if (std::abs(simulated - real) >= 0.01 * real) {
+    text += " of the application's time (" + RateText(hertz * simulated / real) + " Hz of real time)";
+  }
+  return text + ", " + std::to_string(passed) + " values" + intervals + "\n";
+}
+
 }  // namespace
+
+std::string ReadableNumbers(std::string_view text) {
+  std::string readable;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t length = 1;
+    if (text[at] == '"') {
+      while (at + length < text.size() && text[at + length] != '"') length += text[at + length] == '\\' ? 2 : 1;
+      length = std::min(length + 1, text.size() - at);
+    } else if (const std::size_t number = FractionLength(text.substr(at)); number > 0) {
+      const std::string word(text.substr(at, number));
+      if (number > kDigits + 1) {
+        readable += fmt::format("{:.{}g}", std::strtod(word.c_str(), nullptr), kDigits);
+      } else {
+        readable += word;
+      }
+      at += number;
+      continue;
+    } else {
+      while (BelongsToWord(text[at]) && at + length < text.size() && BelongsToWord(text[at + length])) ++length;
+    }
+    readable += text.substr(at, length);
+    at += length;
+  }
+  return readable;
+}
 
 CommandResult MakeGetCommand(const Request& request, const CommandContext& context) {
   Runtime& runtime = context.application.runtime;
@@ -130,8 +234,7 @@ CommandResult MakeGetCommand(const Request& request, const CommandContext& conte
     if (!value) return Refuse(answer, value.error());
     if (!*value && std::chrono::steady_clock::now() < until) return kLookAgain;
     if (!*value) return Refuse(answer, {.message = "nothing has been published there yet", .path = path});
-    answer.Write((is_full ? **value : ReadableNumbers(**value)) + "\n");
-    return ControlCode::kDone;
+    return Say(answer, (is_full ? **value : ReadableNumbers(**value)) + "\n");
   }));
 }
 
@@ -140,6 +243,29 @@ CommandResult MakeEchoCommand(const Request& request, const CommandContext& cont
   if (!count) return count.error();
   return Command(
       Echo(context.application, request.arguments[0], *count, request.Has("full")));
+}
+
+// Looks at the publisher: nothing is subscribed or copied. Intervals are those of values that are seen one by one, up to
+// about 200 Hz.
+CommandResult MakeRateCommand(const Request& request, const CommandContext& context) {
+  const auto count = ReadCountOption(request);
+  if (!count) return count.error();
+  return Command(UnderLock(
+      context.application.runtime,
+      [&runtime = context.application.runtime, path = request.arguments[0], left = *count,
+       last = std::optional<Sample>(), rate = PublicationRate(), intervals = Intervals()](Answer& answer) mutable -> CommandStep {
+        const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
+        if (!found) return last ? Fail(answer, found.error()) : Refuse(answer, found.error());
+        const Sample now{Publications::Of(**found), runtime.clock().Now(), SteadyClock().Now()};
+        if (now.publications.newest) intervals.Add(now.publications.count, *now.publications.newest);
+        if (last && now.machine - last->machine < kWindow) return kLookAgain;
+        const double hertz = rate.Look(now.publications, now.time);
+        const auto before = std::exchange(last, now);
+        if (!before) return kLookAgain;
+        answer.Write(LineOf(*before, now, hertz, intervals.Take()));
+        if (left && --*left == 0) return ControlCode::kDone;
+        return kLookAgain;
+      }));
 }
 
 }  // namespace runnel

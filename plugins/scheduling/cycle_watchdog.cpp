@@ -21,23 +21,18 @@ Time Now() { return SteadyClock().Now(); }
 }  // namespace
 
 void CycleWatchdog::Add(StuckRule rule) {
-  {
-    const std::lock_guard lock(mutex_);
-    rules_.push_back(std::make_shared<KnownRule>(KnownRule{std::move(rule), false}));
-  }
+  const std::lock_guard lock(mutex_);
+  rules_.push_back(std::make_shared<KnownRule>(KnownRule{std::move(rule), false}));
   Change();
 }
 
 void CycleWatchdog::SetLimit(const std::string& of, Duration after) {
-  {
-    const std::lock_guard lock(mutex_);
-    std::erase_if(rules_, [&](const auto& each) { return each->is_limit && each->rule.of == of; });
-    const bool has_default =
-        std::ranges::any_of(rules_, [](const auto& each) { return each->IsDefault(); });
-    if (after > Duration{} || has_default) {
-      rules_.push_back(
-          std::make_shared<KnownRule>(KnownRule{{.of = of, .after = after}, true}));
-    }
+  const std::lock_guard lock(mutex_);
+  std::erase_if(rules_, [&](const auto& each) { return each->is_limit && each->rule.of == of; });
+  const bool has_default =
+      std::ranges::any_of(rules_, [](const auto& each) { return each->IsDefault(); });
+  if (after > Duration{} || has_default) {
+    rules_.push_back(std::make_shared<KnownRule>(KnownRule{{.of = of, .after = after}, true}));
   }
   Change();
 }
@@ -59,12 +54,10 @@ void CycleWatchdog::MovePaths(const std::function<void(std::string& path)>& move
   for (const auto& each : rules_) move(each->rule.of);
 }
 
+// Under the mutex.
 void CycleWatchdog::Change() {
-  {
-    const std::lock_guard lock(mutex_);
-    looks_anew_ = true;
-    StartIfNeeded();
-  }
+  looks_anew_ = true;
+  StartIfNeeded();
   has_changed_.notify_all();
 }
 

@@ -5,7 +5,7 @@
 
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/path_search.h"
-#include "plugins/scheduling/internal/pause_mark.h"
+#include "plugins/scheduling/internal/schedule_plan.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {

@@ -7,8 +7,6 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/cycle_runner.h"
-#include "plugins/scheduling/internal/pause_mark.h"
-#include "plugins/scheduling/internal/trigger_binding.h"
 #include "plugins/timing/cycle_tracer.h"
 
 namespace runnel {

@@ -66,26 +66,15 @@ Error At(const SourcePosition& position, std::string message, std::string hint =
 }
 
 Result<void> TakeEscaped(Reader& reader, std::string& text) {
+  constexpr std::string_view kNames = "\"\\ntr", kMeant = "\"\\\n\t\r";
   const SourcePosition position = reader.position();
   reader.Take();
-  const char character = reader.IsAtEndOfLine() ? '\0' : reader.Take();
-  switch (character) {
-    case '"':
-    case '\\':
-      text += character;
-      return {};
-    case 'n':
-      text += '\n';
-      return {};
-    case 't':
-      text += '\t';
-      return {};
-    case 'r':
-      text += '\r';
-      return {};
-    default:
-      return At(position, "a '\\' in quotation marks must stand before one of \" \\ n t r");
+  const std::size_t named = kNames.find(reader.IsAtEndOfLine() ? '\0' : reader.Take());
+  if (named == std::string_view::npos) {
+    return At(position, "a '\\' in quotation marks must stand before one of \" \\ n t r");
   }
+  text += kMeant[named];
+  return {};
 }
 
 Result<void> TakeQuoted(Reader& reader, std::string& text) {

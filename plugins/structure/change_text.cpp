@@ -46,6 +46,24 @@ void ReadThreadOptions(Arguments& arguments, Thread& thread) {
   arguments.TakeOptions({"period", "priority", "on_overrun", "activation"}, read);
 }
 
+std::string TakeDescription(Arguments& arguments) {
+  std::string description;
+  arguments.TakeOptions({"description"}, [&](const ChangeArgument& argument) {
+    if (argument.name() == "description") description = argument.value();
+    return argument.name() == "description";
+  });
+  return description;
+}
+
+std::vector<Setting> TakeSettings(Arguments& arguments) {
+  std::vector<Setting> settings;
+  arguments.TakeOptions({}, [&](const ChangeArgument& argument) {
+    settings.push_back({argument.name(), argument.value()});
+    return true;
+  });
+  return settings;
+}
+
 Change ReadCreate(Arguments& arguments) {
   if (arguments.IsNext("group")) {
     arguments.Take("group");
@@ -64,27 +82,18 @@ Change ReadCreate(Arguments& arguments) {
                            ? Port::Direction::kInput
                            : Port::Direction::kOutput;
     change.type = arguments.Take("a data type");
-    arguments.TakeOptions({"description"}, [&](const ChangeArgument& argument) {
-      if (argument.name() == "description") change.description = argument.value();
-      return argument.name() == "description";
-    });
+    change.description = TakeDescription(arguments);
     return change;
   }
   if (arguments.IsNext("parameter")) {
     arguments.Take("parameter");
     CreateParameter change{arguments.Take("a path"), {}};
     change.targets = arguments.TakeWords("a parameter that it stands for");
-    arguments.TakeOptions({"description"}, [&](const ChangeArgument& argument) {
-      if (argument.name() == "description") change.description = argument.value();
-      return argument.name() == "description";
-    });
+    change.description = TakeDescription(arguments);
     return change;
   }
   CreateModule change{arguments.Take("a path"), arguments.Take("a module type")};
-  arguments.TakeOptions({}, [&](const ChangeArgument& argument) {
-    change.settings.push_back({argument.name(), argument.value()});
-    return true;
-  });
+  change.settings = TakeSettings(arguments);
   return change;
 }
 
@@ -182,10 +191,7 @@ template <std::size_t kWords>
 Change ReadExtension(Arguments& arguments) {
   ExtensionChange change{arguments.verb(), {}};
   while (change.words.size() < kWords) change.words.push_back(arguments.Take("a path"));
-  arguments.TakeOptions({}, [&](const ChangeArgument& argument) {
-    change.settings.push_back({argument.name(), argument.value()});
-    return true;
-  });
+  change.settings = TakeSettings(arguments);
   return change;
 }
 

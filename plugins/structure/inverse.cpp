@@ -82,10 +82,8 @@ void AddConnection(const Connection& edge, ChangeSet& changes) {
 }
 
 void AddInnerConnections(FrameworkElement& element, ChangeSet& changes) {
-  element.Visit([&](FrameworkElement& each) {
-    const auto* const port = dynamic_cast<const Port*>(&each);
-    if (port == nullptr) return;
-    for (const Connection& edge : port->outgoing()) {
+  element.VisitAll<const Port>([&](const Port& port) {
+    for (const Connection& edge : port.outgoing()) {
       if (edge.to->IsAtOrBelow(element)) AddConnection(edge, changes);
     }
   });

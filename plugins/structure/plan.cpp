@@ -21,14 +21,12 @@ const FrameworkElement* NextSibling(const FrameworkElement& element) {
 
 std::vector<Connection> ExternalConnectionsOf(FrameworkElement& element) {
   std::vector<Connection> ties;
-  element.Visit([&](FrameworkElement& each) {
-    auto* const port = dynamic_cast<Port*>(&each);
-    if (port == nullptr) return;
-    for (const Connection& edge : port->outgoing()) {
+  element.VisitAll<Port>([&](Port& port) {
+    for (const Connection& edge : port.outgoing()) {
       if (!edge.to->IsAtOrBelow(element)) ties.push_back(edge);
     }
-    for (Port* from : port->incoming()) {
-      if (!from->IsAtOrBelow(element)) ties.push_back({from, port, from->OptionsTo(*port)});
+    for (Port* from : port.incoming()) {
+      if (!from->IsAtOrBelow(element)) ties.push_back({from, &port, from->OptionsTo(port)});
     }
   });
   return ties;
@@ -112,12 +110,10 @@ void Plan::Concern(const FrameworkElement& element) {
 
 void Plan::WarnOfMissingSources(Diagnostics& diagnostics) const {
   for (FrameworkElement* each : made_) {
-    each->Visit([&](FrameworkElement& element) {
-      const auto* const port = dynamic_cast<const Port*>(&element);
-      if (port == nullptr || !port->is_required() || overlay_.HasSource(*port)) return;
-      if (LateConnections::Awaits(*port)) return;
+    each->VisitAll<const Port>([&](const Port& port) {
+      if (!port.is_required() || overlay_.HasSource(port) || LateConnections::Awaits(port)) return;
       diagnostics.AddWarning(
-          {.message = "is required, and nothing is connected to it", .path = port->path()});
+          {.message = "is required, and nothing is connected to it", .path = port.path()});
     });
   }
 }

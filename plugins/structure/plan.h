@@ -123,8 +123,8 @@ class Plan {
   struct Step {
     std::function<Result<void>()> apply;
     std::function<void()> undo;
-    // What would take it back, asked right before it is applied.
-    std::function<ChangeSet(std::optional<Error>& why_not)> inverse;
+    // What would take it back, asked right before it is applied; nothing where another step's does.
+    std::function<ChangeSet(std::optional<Error>& why_not)> inverse = [](auto&) { return ChangeSet(); };
   };
 
   Result<void> Check(const CreateModule& change);

@@ -277,11 +277,10 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
 }
 
 void Plan::WarnOfLost(FrameworkElement& before, const std::function<bool(const Port&)>& is_kept) {
-  before.Visit([&](FrameworkElement& each) {
-    const auto* const port = dynamic_cast<const Port*>(&each);
-    if (port == nullptr || is_kept(*port)) return;
-    if (const std::string what = WhatIsSetAt(*port); !what.empty()) {
-      warnings_.push_back({.message = what + " went with it: the new module has no such port", .path = port->path()});
+  before.VisitAll<const Port>([&](const Port& port) {
+    if (is_kept(port)) return;
+    if (const std::string what = WhatIsSetAt(port); !what.empty()) {
+      warnings_.push_back({.message = what + " went with it: the new module has no such port", .path = port.path()});
     }
   });
 }

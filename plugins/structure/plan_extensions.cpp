@@ -1,6 +1,11 @@
-// Changes that extensions carry out.
+// Changes that extensions carry out, and from which level on modules log.
+
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "core/element/runtime.h"
+#include "core/log/log_level.h"
 #include "plugins/structure/extension_changes.h"
 #include "plugins/structure/plan.h"
 
@@ -26,7 +31,42 @@ void TellFollowers(const FrameworkElement& root, const std::string& from, const 
   for (const auto& each : followers->all) each(move);
 }
 
+// What has been set for this very path.
+std::optional<LogLevel> LevelOf(Runtime& runtime, const std::string& path) {
+  for (const auto& [whose, level] : ReadLogLevels(runtime)) {
+    if (whose == path) return level;
+  }
+  return {};
+}
+
+void SetLevel(Runtime& runtime, const std::string& path, std::optional<LogLevel> level) {
+  if (level) return SetLogLevel(runtime, path, *level);
+  (void)ResetLogLevel(runtime, path);
+}
+
 }  // namespace
+
+Result<void> Plan::Check(const LogElement& change) {
+  std::string path;  // of everything
+  if (!change.path.empty() && change.path != "/") {
+    const auto found = overlay_.Find(change.path);
+    if (!found) return found.error();
+    path = (*found)->path();
+  }
+  auto before = std::make_shared<std::optional<std::optional<LogLevel>>>();
+  steps_.push_back({[=, this, level = change.level]() -> Result<void> {
+                      *before = LevelOf(runtime_, path);
+                      SetLevel(runtime_, path, level);
+                      return {};
+                    },
+                    [=, this] {
+                      if (*before) SetLevel(runtime_, path, **before);
+                    },
+                    [=, this](auto&) -> ChangeSet {
+                      return {LogElement{path.empty() ? "/" : path, LevelOf(runtime_, path)}};
+                    }});
+  return {};
+}
 
 Result<void> Plan::Check(const ExtensionChange& change) {
   const auto* const known = runtime_.root().FindAnnotation<ExtensionChanges>();
@@ -53,12 +93,11 @@ void Plan::MoveExtensions(const FrameworkElement& renamed, const std::string& na
                       TellFollowers(runtime_.root(), from, to);
                       return {};
                     },
-                    [=, this] { TellFollowers(runtime_.root(), to, from); },
-                    [](auto&) { return ChangeSet(); }});
+                    [=, this] { TellFollowers(runtime_.root(), to, from); }});
   const auto* const known = runtime_.root().FindAnnotation<ExtensionChanges>();
   if (known == nullptr || !known->rename) return;
   const ExtensionStep step = known->rename(from, to);
-  if (step.apply) steps_.push_back({step.apply, step.undo, [](auto&) { return ChangeSet(); }});
+  if (step.apply) steps_.push_back({step.apply, step.undo});
 }
 
 }  // namespace runnel::internal

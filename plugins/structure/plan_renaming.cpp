@@ -82,10 +82,9 @@ Result<void> Plan::Check(const CopyElement& change) {
                                     (is_recorded ? ", nor recorded by that name" : ""),
                          .path = Sibling(element, name)});
   }
-  element.Visit([&](const FrameworkElement& each) {
-    const auto* const port = dynamic_cast<const Port*>(&each);
-    if (port == nullptr || !IsOffered(*port)) return;
-    warnings_.push_back({.message = "is not offered, as " + port->path() + " is", .path = Sibling(element, name)});
+  element.VisitAll<const Port>([&](const Port& port) {
+    if (!IsOffered(port)) return;
+    warnings_.push_back({.message = "is not offered, as " + port.path() + " is", .path = Sibling(element, name)});
   });
   for (const Change& each : changes) {
     const auto check = [this](const auto& one) { return Check(one); };
@@ -197,18 +196,16 @@ Result<void> Plan::MovePort(const Placement& place, Port& port) {
                       if (*has_taken) port.TakeOver(made);
                       *has_taken = false;
                       if (!*kept) *kept = runtime_.Unlist(made).value();
-                    },
-                    [](auto&) { return ChangeSet(); }});
+                    }});
   return {};
 }
 
 // Parameters of groups around it, which stand for some within.
 Result<void> Plan::MoveTargets(const FrameworkElement& renamed, const std::string& name) {
   std::vector<GroupParameter*> all;
-  runtime_.root().Visit([&](FrameworkElement& each) {
-    auto* const parameter = dynamic_cast<GroupParameter*>(&each);
+  runtime_.root().VisitAll<GroupParameter>([&](GroupParameter& each) {
     // Those within go with it, and look no further.
-    if (parameter != nullptr && !each.IsAtOrBelow(renamed)) all.push_back(parameter);
+    if (!each.IsAtOrBelow(renamed)) all.push_back(&each);
   });
   for (GroupParameter* before : all) {
     std::vector<std::string> targets;
@@ -255,8 +252,7 @@ void Plan::AddExchange(FrameworkElement& before, UnlistedElement after) {
                       Must(runtime_.List(std::move(removed_.back()), done->place));
                       removed_.pop_back();
                       done->is_removed = false;
-                    },
-                    [](auto&) { return ChangeSet(); }});
+                    }});
 }
 
 }  // namespace runnel::internal

@@ -123,17 +123,15 @@ Result<void> CopyLateSettings(const FrameworkElement& before, const Values& valu
 PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
                      const std::function<bool(const Port&)>& is_connected) {
   PortMatch result;
-  before.Visit([&](FrameworkElement& each) {
-    auto* const port = dynamic_cast<Port*>(&each);
-    if (port == nullptr) return;
-    Port* const match = Counterpart(*port, before, after);
+  before.VisitAll<Port>([&](Port& port) {
+    Port* const match = Counterpart(port, before, after);
     const auto possible =
-        match != nullptr ? Port::CheckTakeOver(*match, *port) : NoCounterpart(*port, before, after);
+        match != nullptr ? Port::CheckTakeOver(*match, port) : NoCounterpart(port, before, after);
     if (possible) {
-      result.ports.push_back({port, match});
-    } else if (is_connected(*port)) {
+      result.ports.push_back({&port, match});
+    } else if (is_connected(port)) {
       result.errors.push_back(possible.error());
-      result.misfits.push_back(port);
+      result.misfits.push_back(&port);
     }
   });
   return result;

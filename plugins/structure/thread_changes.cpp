@@ -27,10 +27,9 @@ Result<ThreadContainer*> FindThread(const StructureOverlay& overlay, const std::
 // Whether any other thread begins cycles by itself.
 bool IsLastToBegin(const ThreadContainer& thread) {
   bool is_last = true;
-  thread.runtime().root().Visit([&](FrameworkElement& each) {
-    const auto* const other = dynamic_cast<const ThreadContainer*>(&each);
-    if (other == nullptr || other == &thread) return;
-    if (other->options().activation != ThreadOptions::Activation::kTrigger) is_last = false;
+  thread.runtime().root().VisitAll<const ThreadContainer>([&](const ThreadContainer& other) {
+    if (&other == &thread) return;
+    if (other.options().activation != ThreadOptions::Activation::kTrigger) is_last = false;
   });
   return is_last;
 }

@@ -30,10 +30,8 @@ FrameworkElement* RunnerOf(const Port& port) {
 
 std::vector<Port*> OutputsOf(FrameworkElement& element) {
   std::vector<Port*> outputs;
-  element.Visit([&](FrameworkElement& each) {
-    auto* const port = dynamic_cast<Port*>(&each);
-    if (port == nullptr || port->is_proxy()) return;
-    if (port->direction() == Port::Direction::kOutput) outputs.push_back(port);
+  element.VisitAll<Port>([&](Port& port) {
+    if (!port.is_proxy() && port.direction() == Port::Direction::kOutput) outputs.push_back(&port);
   });
   return outputs;
 }

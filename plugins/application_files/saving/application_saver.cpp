@@ -66,17 +66,16 @@ void CheckRequiredInputs(Saving& saving, bool is_new_file) {
   const auto feeds = [&](const Port* source) {
     return !is_new_file || source->IsAtOrBelow(saving.application);
   };
-  saving.application.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr || !port->is_required()) return;
-    const std::vector<Port*> sources = port->Sources();
-    if (std::ranges::any_of(sources, feeds) || LateConnections::Awaits(*port)) return;
-    if (std::ranges::count(saving.edges, port, &internal::SavedEdge::to) > 0) return;  // a rule has cut it
+  saving.application.VisitAll<const Port>([&](const Port& port) {
+    if (!port.is_required()) return;
+    const std::vector<Port*> sources = port.Sources();
+    if (std::ranges::any_of(sources, feeds) || LateConnections::Awaits(port)) return;
+    if (std::ranges::count(saving.edges, &port, &internal::SavedEdge::to) > 0) return;  // a rule has cut it
     const std::string what = sources.empty() ? "nothing is connected to this input"
                                              : "only another application feeds this input";
     saving.Fail(
         {.message = what + ", which its module requires: a file that says so would not load",
-         .path = port->path(),
+         .path = port.path(),
          .hint = "connect it, or delete the module"});
   });
 }

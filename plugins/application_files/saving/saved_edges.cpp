@@ -91,10 +91,8 @@ void TakeBack(const ChangeSet& back, FrameworkElement& application, std::vector<
 
 std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
   std::vector<SavedEdge> edges;
-  application.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr) return;
-    for (const Connection& connection : port->outgoing()) {
+  application.VisitAll<const Port>([&](const Port& port) {
+    for (const Connection& connection : port.outgoing()) {
       FrameworkElement* const home = Home(connection.from, *connection.to, application);
       if (home == nullptr) continue;
       edges.push_back({connection.from, connection.to, connection.options, home});

@@ -1,13 +1,23 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "core/element/annotation.h"
+#include "core/element/framework_element.h"
+#include "core/module/executable.h"
 #include "plugins/scheduling/cycle_runner.h"
-#include "plugins/task_order/running_order.h"
 #include "plugins/scheduling/schedule.h"
+#include "plugins/scheduling/scheduled_element.h"
+#include "plugins/task_order/running_order.h"
+
+namespace runnel {
+class InputBase;
+class Port;
+}  // namespace runnel
 
 namespace runnel::internal {
 
@@ -98,6 +108,33 @@ class TasksOfGroups {
 
   // Only looked up, never walked through: the order of addresses has no influence.
   std::unordered_map<const FrameworkElement*, Tasks> groups_;
+};
+
+/// Calls `visit` for every port below `group`, in the order of their creation; nullptr: for none.
+void VisitPorts(const FrameworkElement* group, const std::function<void(Port&)>& visit);
+
+/// Of all that the tasks read, the inputs at which new data set an element off.
+[[nodiscard]] std::vector<InputBase*> TriggerInputs(const std::vector<Task>& tasks);
+
+/// New data at `inputs`, and what else sets it off (WakeSource), set off the element, in `runner`'s thread; nullptr: they
+/// set off nobody any more. Data that came before it was tied count as new. What has come by then, the runner finds when
+/// a schedule with the element is installed.
+void BindTriggers(const FrameworkElement& element, const std::vector<InputBase*>& inputs,
+                  ScheduledElement& state, CycleRunner* runner);
+
+/// That somebody has paused the element, or lets it run again. It goes along with the element's other annotations.
+struct PauseMark final : Annotation {
+  explicit PauseMark(bool is_it) : is_paused(is_it) {}
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<PauseMark>(is_paused);
+  }
+  /// Not of what is above it.
+  [[nodiscard]] static bool IsAt(const FrameworkElement& element) {
+    const auto* const mark = element.FindAnnotation<PauseMark>();
+    return mark != nullptr && mark->is_paused;
+  }
+
+  const bool is_paused;
 };
 
 }  // namespace runnel::internal

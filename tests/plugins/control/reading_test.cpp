@@ -2,8 +2,8 @@
 
 #include "core/base/clock.h"
 #include "plugins/control/application_state.h"
+#include "plugins/control/command.h"
 #include "plugins/control/element_listing.h"
-#include "plugins/control/readable_text.h"
 #include "tests/plugins/control/control_fixture.h"
 #include "tests/support/wait_until.h"
 

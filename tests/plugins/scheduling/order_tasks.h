@@ -10,7 +10,7 @@
 #include "core/module/executable.h"
 #include "core/port/port.h"
 #include "plugins/task_order/running_order.h"
-#include "plugins/scheduling/internal/trigger_binding.h"
+#include "plugins/scheduling/internal/schedule_plan.h"
 
 namespace runnel::testing {
 
