@@ -41,6 +41,8 @@ const std::vector<std::string>& DrivingKindNames() {
   return names;
 }
 
+const std::string& NameOf(DrivingKind kind) { return DrivingKindNames()[static_cast<std::size_t>(kind) - 1]; }
+
 std::optional<DrivingKind> DrivingKindCalled(std::string_view name) {
   const auto found = std::ranges::find(DrivingKindNames(), name);
   if (found == DrivingKindNames().end()) return {};

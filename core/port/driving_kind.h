@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/clock.h"
 #include "core/types/any_value.h"
 
 namespace runnel {
@@ -14,8 +15,18 @@ namespace runnel {
 /// effort (force, torque, current, power) begins from its safe value where that is zero.
 enum class DrivingKind { kUnspecified, kPosition, kVelocity, kEffort };
 
+/// What an application says of a port by which something moves. What it leaves out is as the port's module declares, or as its
+/// unit says.
+struct DrivingMark {
+  AnyValue safe_value;
+  std::optional<Duration> brake;
+  DrivingKind command = DrivingKind::kUnspecified;
+};
+
 /// How files write it: position, velocity, effort. In its order, from the first that is specified.
 [[nodiscard]] const std::vector<std::string>& DrivingKindNames();
+/// Precondition: specified.
+[[nodiscard]] const std::string& NameOf(DrivingKind kind);
 [[nodiscard]] std::optional<DrivingKind> DrivingKindCalled(std::string_view name);
 
 /// Whether zero of the type is a standstill: a twist, or all that is inside is in m/s or rad/s. `unit`: of the port.

@@ -23,14 +23,21 @@ class Runtime;
 void VisitSiblings(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit);
 
 namespace internal {
-/// Kept with a port of which Port::SetDriving() has said whether it drives: that counts before what its module declares.
-struct MarkedAsDriving final : Annotation {
-  explicit MarkedAsDriving(bool drives) : is_marked(drives) {}
-  static bool Is(const Port& port) {
-    const auto* const mark = port.FindAnnotation<MarkedAsDriving>();
-    return mark != nullptr && mark->is_marked;
+/// Kept with a port: what Port::SetDriving() has said of it, which goes over to a port in its place; and what it had when another
+/// one took its place, for the way back.
+struct DrivingState final : Annotation {
+  explicit DrivingState(std::shared_ptr<const DrivingMark> said) : mark(std::move(said)) {}
+  static DrivingState& Of(Port& port) {
+    auto* const found = port.FindAnnotation<DrivingState>();
+    return found != nullptr ? *found : port.Annotate(std::make_unique<DrivingState>(nullptr));
   }
-  bool is_marked;
+  static std::shared_ptr<const DrivingMark> MarkOf(const Port& port) {
+    const auto* const found = port.FindAnnotation<DrivingState>();
+    return found != nullptr ? found->mark : nullptr;
+  }
+  std::shared_ptr<const DrivingMark> mark;  // nullptr: nothing
+  bool is_replaced = false;
+  std::shared_ptr<const PortStop> stop_before;
 };
 
 /// What stops the velocities by which the robot moves that are made of what the port passes on. `held`: the ports where that

@@ -161,6 +161,9 @@ class Port : public FrameworkElement {
   /// module declares, or no time. `command`: unspecified: as its module declares, or its units say.
   Result<void> SetDriving(bool drives, AnyValue safe_value = {}, std::optional<Duration> brake = {},
                           DrivingKind command = DrivingKind::kUnspecified);
+  /// What SetDriving() is to be told of one like this for it to drive as this does; nothing: its module says it, or it does not.
+  /// Under the structure lock, as all that follows.
+  [[nodiscard]] std::optional<DrivingMark> FindMark() const;
   /// Stops this port alone, as the robot's STOP would; of ports that do not drive, too.
   /// Errors: there is no safe value. Locks.
   Result<void> Block();
@@ -277,7 +280,9 @@ class Port : public FrameworkElement {
   [[nodiscard]] Time CoarseTimeOutsideOfCycles(Time timestamp) const noexcept;
   [[nodiscard]] Port* by_hand() const noexcept;
   void TellOfChange();
-  [[nodiscard]] std::shared_ptr<const PortStop> StopInPlaceOf(const Port& from) const;
+  /// `before`: what stopped the port in whose place this one is; nullptr: there is none.
+  [[nodiscard]] Result<DrivingMark> Complete(DrivingMark mark, const PortStop* before) const;
+  [[nodiscard]] Result<std::shared_ptr<const PortStop>> StopInPlaceOf(const Port& from) const;
   static Result<void> CheckConnection(const Port& from, const Port& to,
                                       const ConnectOptions& options);
   /// What this port passes on to who is connected to it: itself, or what it receives.

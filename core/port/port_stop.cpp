@@ -14,6 +14,7 @@
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/port/stop_link.h"
+#include "core/types/text_format.h"
 #include "core/types/type_info.h"
 
 namespace runnel {
@@ -47,9 +48,10 @@ Result<AnyValue> Port::FindSafeValue(const AnyValue& declared, DrivingKind comma
 
 Result<DrivingKind> Port::FindDrivingKind(DrivingKind declared, const AnyValue& safe_value) const {
   const DrivingKind known = DrivingKindByUnits(type_, unit());
-  const auto name = [](DrivingKind kind) { return DrivingKindNames()[static_cast<std::size_t>(kind) - 1]; };
-  if (declared != DrivingKind::kUnspecified && known != DrivingKind::kUnspecified && declared != known && internal::IsNumber(type_)) {
-    return Error{.message = "is in " + unit() + ", which is that of a " + name(known) + ", and is said to be a " + name(declared), .path = path(),
+  // A unit of anything else, as the microseconds of a pulse, says little.
+  const bool is_said_otherwise = known == DrivingKind::kPosition || known == DrivingKind::kVelocity;
+  if (declared != DrivingKind::kUnspecified && is_said_otherwise && declared != known && internal::IsNumber(type_)) {
+    return Error{.message = "is in " + unit() + ", which is that of a " + NameOf(known) + ", and is said to be a " + NameOf(declared), .path = path(),
                  .hint = "leave out what it is said to be"};
   }
   if (declared != DrivingKind::kUnspecified) return declared;
@@ -62,21 +64,59 @@ Result<DrivingKind> Port::FindDrivingKind(DrivingKind declared, const AnyValue& 
 
 Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Duration> brake, DrivingKind command) {
   const std::lock_guard lock(runtime().structure_mutex());
-  const PortStop* const declared = declared_stop();
-  if (!drives && declared != nullptr) {
+  if (!drives && declared_stop() != nullptr) {
     return Error{.message = "its module says that something moves by it", .path = path()};
   }
   if (!drives && !is_driving()) return {};
-  if (!safe_value && declared != nullptr) safe_value = declared->safe_value();
-  if (command == DrivingKind::kUnspecified && declared != nullptr) command = declared->command();
-  auto safe = FindSafeValue(safe_value, command);
-  if (!safe) return safe.error();
-  auto kind = drives ? FindDrivingKind(command, *safe) : command;
-  if (!kind) return kind.error();
-  if (!brake) brake = declared != nullptr ? declared->brake() : Duration{};
-  auto set = SetStop(std::move(*safe), *brake, *kind, drives ? runtime().robot_stop().signal() : nullptr);
-  if (set) Annotate(std::make_unique<internal::MarkedAsDriving>(drives));
+  std::shared_ptr<const DrivingMark> mark;
+  Result<void> set;
+  if (drives) {
+    mark = std::make_shared<const DrivingMark>(DrivingMark{std::move(safe_value), brake, command});
+    auto whole = Complete(*mark, nullptr);
+    if (!whole) return whole.error();
+    set = SetStop(std::move(whole->safe_value), *whole->brake, whole->command, runtime().robot_stop().signal());
+  } else {
+    auto safe = FindSafeValue(safe_value, command);
+    if (!safe) return safe.error();
+    set = SetStop(std::move(*safe), {}, command, nullptr);
+  }
+  if (set) Annotate(std::make_unique<internal::DrivingState>(std::move(mark)));
   return set;
+}
+
+Result<DrivingMark> Port::Complete(DrivingMark mark, const PortStop* before) const {
+  const PortStop* const declared = declared_stop();
+  const PortStop* const rest = declared != nullptr ? declared : before;
+  if (!mark.safe_value && rest != nullptr) mark.safe_value = rest->safe_value();
+  if (!mark.brake) mark.brake = rest != nullptr ? rest->brake() : Duration{};
+  // The unit of this one says more than that the other one's was any.
+  const bool is_told = rest != nullptr && (rest == declared || rest->command() != DrivingKind::kEffort ||
+                                           DrivingKindByUnits(type_, unit()) == DrivingKind::kUnspecified);
+  if (mark.command == DrivingKind::kUnspecified && is_told) mark.command = rest->command();
+  auto safe = FindSafeValue(mark.safe_value, mark.command);
+  if (!safe) return safe.error();
+  mark.safe_value = std::move(*safe);
+  const auto command = FindDrivingKind(mark.command, mark.safe_value);
+  if (!command) return command.error();
+  mark.command = *command;
+  return mark;
+}
+
+std::optional<DrivingMark> Port::FindMark() const {
+  const auto said = internal::DrivingState::MarkOf(*this);
+  const bool is_declared = declared_stop() != nullptr;
+  if (!is_driving() || (is_declared && !said)) return {};
+  DrivingMark mark = said ? *said : DrivingMark{};
+  if (is_declared) return mark;
+  // What is from a module that was in its place.
+  const PortStop& now = *extras_->stop;
+  const auto is_as_now = [&] {
+    const auto whole = Complete(mark, nullptr);
+    return whole && ToText(type_, whole->safe_value.get()) == ToText(type_, now.safe_value().get()) && whole->brake == now.brake() &&
+           whole->command == now.command();
+  };
+  if (said && is_as_now()) return mark;
+  return DrivingMark{now.safe_value(), now.brake(), now.command()};
 }
 
 Result<void> Port::Block() {

@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/conversion/number_conversion.h"
 #include "core/element/runtime.h"
 #include "core/port/converted_flow.h"
 #include "core/port/driving_ports.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
+#include "core/types/text_format.h"
 #include "core/types/type_info.h"
 
 namespace runnel {
@@ -41,12 +41,10 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from) {
     return CannotTakeOver(port, "is in " + port.unit() + " and cannot take over from " + from.path() + ", which is in " +
                                     from.unit());
   }
-  // A module in between may not have known its unit.
-  const auto stop = port.StopInPlaceOf(from);
-  const DrivingKind known = DrivingKindByUnits(port.type(), port.unit());
-  if (stop && stop->robot() && internal::IsNumber(port.type()) && known != DrivingKind::kUnspecified && known != stop->command()) {
-    return CannotTakeOver(port, "is in " + port.unit() + " and cannot take over from " + from.path() + ", by which something moves as by a " +
-                                    DrivingKindNames()[static_cast<std::size_t>(stop->command()) - 1]);
+  if (const auto stop = port.StopInPlaceOf(from); !stop) {
+    Error error = CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path());
+    error.hint = stop.error().hint;
+    return error;
   }
   if (!port.incoming_.empty() || !port.outgoing_.empty()) {
     return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
@@ -63,13 +61,10 @@ void Port::TakeOver(Port& from) {
   RUNNEL_CHECK(possible, "a port cannot take over from another one");
   const std::vector<Port*> sinks = from.BoundSinks();
   const std::shared_ptr<const PortStop> before = from.stop();
-  std::shared_ptr<const PortStop> after = StopInPlaceOf(from);
+  std::shared_ptr<const PortStop> after = *StopInPlaceOf(from);
   if (after) from.Extras();  // which this port has then
-  const bool is_marked = internal::MarkedAsDriving::Is(*this), was_marked = internal::MarkedAsDriving::Is(from);
-  if (is_marked || was_marked) {
-    Annotate(std::make_unique<internal::MarkedAsDriving>(is_marked));
-    from.Annotate(std::make_unique<internal::MarkedAsDriving>(was_marked));
-  }
+  auto& own = internal::DrivingState::Of(*this);
+  auto& its = internal::DrivingState::Of(from);
   ExchangeConnections(from, sinks);
   try {
     TakeOverFlow(from);
@@ -91,9 +86,11 @@ void Port::TakeOver(Port& from) {
     from.TakeOverFlow(*this);
     throw;
   }
-  if (is_marked == was_marked) return;
-  FindAnnotation<internal::MarkedAsDriving>()->is_marked = was_marked;
-  from.FindAnnotation<internal::MarkedAsDriving>()->is_marked = is_marked;
+  own.mark = its.mark;
+  own.is_replaced = false;
+  own.stop_before.reset();
+  its.is_replaced = true;
+  its.stop_before = before;
 }
 
 void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept {
@@ -123,14 +120,36 @@ void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noex
   }
 }
 
-// What stops this port in the place of the other: what its own module declares, with the block of the place. What an
-// application has marked stays as it is.
-std::shared_ptr<const PortStop> Port::StopInPlaceOf(const Port& from) const {
+// What stops this port in the place of the other: what it had if it was there before; else what has been said of the place, then
+// what its own module declares, then what stopped the other. With the block of the place.
+Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) const {
   const std::shared_ptr<const PortStop> before = from.stop();
-  const PortStop* const declared = declared_stop();
-  const bool is_kept = declared == nullptr || (before && before->robot() && internal::MarkedAsDriving::Is(from));
-  if (is_kept) return before;
-  return std::make_shared<PortStop>(declared->safe_value(), declared->brake(), declared->command(), declared->robot(), before.get());
+  const auto mark = internal::DrivingState::MarkOf(from);
+  const auto* const state = FindAnnotation<internal::DrivingState>();
+  const bool comes_back = state != nullptr && state->is_replaced && state->mark == mark;
+  const PortStop* const own = comes_back ? state->stop_before.get() : declared_stop();
+  const auto with_block = [&](const AnyValue& safe, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot) {
+    return std::make_shared<const PortStop>(safe, brake, command, std::move(robot), before.get());
+  };
+  if (comes_back && own != nullptr) return with_block(own->safe_value(), own->brake(), own->command(), own->robot());
+  if (own == nullptr && (!before || (comes_back && !before->block()->in_force()))) return std::shared_ptr<const PortStop>();
+  if (own == nullptr && comes_back) {  // it only has the block
+    const auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
+    return with_block(safe ? *safe : before->safe_value(), {}, DrivingKind::kUnspecified, nullptr);
+  }
+  if (own == nullptr && !before->robot()) return before;
+  const DrivingMark said = mark ? *mark : DrivingMark{};
+  auto whole = Complete(said, before.get());
+  if (!whole) return whole.error();
+  const bool is_its_own = own != nullptr && !said.safe_value;
+  if (!is_its_own && unit() != from.unit() && !IsZero(whole->safe_value)) {
+    return Error{.message = "is in " + (unit().empty() ? "no unit" : unit()) + ", and its safe value, " + ToText(type(), whole->safe_value.get()) + ", is not",
+                 .hint = "have the new module declare that it drives, with its safe value"};
+  }
+  const bool is_as_before = before && before->robot() && whole->safe_value.get() == before->safe_value().get() &&
+                            whole->brake == before->brake() && whole->command == before->command();
+  if (is_as_before) return before;
+  return with_block(whole->safe_value, *whole->brake, whole->command, runtime().robot_stop().signal());
 }
 
 }  // namespace runnel

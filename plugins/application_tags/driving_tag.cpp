@@ -25,17 +25,6 @@ namespace {
 using internal::FileUpdate;
 using internal::Saving;
 
-/// Kept with the port, for files.
-struct DrivingMark final : Annotation {
-  DrivingMark(AnyValue safe_value, std::string time, std::string kind)
-      : safe(std::move(safe_value)), brake(std::move(time)), command(std::move(kind)) {}
-  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
-    return std::make_unique<DrivingMark>(safe, brake, command);
-  }
-  AnyValue safe;  // none: the port has one by itself
-  std::string brake, command;  // as the file says them; "": so
-};
-
 /// The ports that one saving has found marked in the file.
 struct SaidMarks {
   std::set<const Port*> ports;
@@ -61,42 +50,41 @@ void MarkDriving(const TagUse& use) {
   const auto time = brake != nullptr ? std::optional(ParseDuration(brake->value).value()) : std::nullopt;
   const std::string kind = use.xml.TextOr("command", "");
   const auto command = kind.empty() ? DrivingKind::kUnspecified : *DrivingKindCalled(kind);
-  if (auto set = port->SetDriving(true, safe, time, command); !set) return use.Report(set.error(), use.xml.position());
-  port->Annotate(std::make_unique<DrivingMark>(std::move(safe), brake != nullptr ? brake->value : "", kind));
+  if (auto set = port->SetDriving(true, safe, time, command); !set) use.Report(set.error(), use.xml.position());
 }
 
-// What a file has to say: the module in whose place another one is may have known its unit, or not.
-std::string CommandOf(const Port& port, const DrivingMark& mark) {
-  const bool is_known = DrivingKindByUnits(port.type(), port.unit()) != DrivingKind::kUnspecified;
-  const bool is_needed = is_known ? !mark.command.empty() : HasNumbers(port.type());
-  if (!is_needed || !port.is_driving()) return mark.command;
-  return DrivingKindNames()[static_cast<std::size_t>(port.stop()->command()) - 1];
+std::vector<std::pair<std::string, std::string>> AttributesOf(const Port& port, const DrivingMark& mark) {
+  std::vector<std::pair<std::string, std::string>> attributes;
+  if (mark.safe_value) attributes.emplace_back("safe", ToText(port.type(), mark.safe_value.get()));
+  if (mark.brake && *mark.brake != Duration{}) attributes.emplace_back("brake", DurationText(*mark.brake));
+  if (mark.command != DrivingKind::kUnspecified) attributes.emplace_back("command", NameOf(mark.command));
+  return attributes;
 }
 
 void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update) {
   const PathUse use = PathIn(*tag.Attribute("port"), parent);
   const Port* const port = FindMarked(use);
-  const auto* const mark = port != nullptr ? port->FindAnnotation<DrivingMark>() : nullptr;
+  const auto mark = port != nullptr ? port->FindMark() : std::nullopt;
   const bool is_passing = internal::IsByRule(*PathSearch(use.base).Follow(use.path, PathKind::kInput).at);
-  if (mark == nullptr) return is_passing ? void() : update.editor().Remove(tag);
-  const std::string command = CommandOf(*port, *mark);
-  if (!command.empty() && tag.TextOr("command") != command) update.editor().SetAttribute(tag, "command", command);
+  if (!mark) return is_passing ? void() : update.editor().Remove(tag);
+  // A module in the place of another one may not say what that one has said.
+  for (const auto& [name, value] : AttributesOf(*port, *mark)) {
+    if (tag.TextOr(name, "").empty()) update.editor().SetAttribute(tag, name, value);
+  }
   update.saving().Note<SaidMarks>().ports.insert(port);
 }
 
-// Those of copies: the application says it of them.
+// Those of copies, and of what moved by a module that is gone: the application says it of them.
 std::vector<NewElement> MissingMarks(const XmlElement*, FrameworkElement& home, Saving& saving, FileUpdate*) {
   std::vector<NewElement> elements;
   if (&home != &saving.application) return elements;
   const auto& said = saving.Note<SaidMarks>().ports;
   home.VisitAll<const Port>([&](const Port& port) {
-    const auto* const mark = port.FindAnnotation<DrivingMark>();
-    if (mark == nullptr || said.contains(&port)) return;
+    const auto mark = port.FindMark();
+    if (!mark || said.contains(&port)) return;
     NewElement& made = elements.emplace_back(
         NewElement{.name = "driving", .attributes = {{"port", port.path().substr(home.path().size() + 1)}}});
-    if (mark->safe) made.attributes.emplace_back("safe", ToText(port.type(), mark->safe.get()));
-    if (!mark->brake.empty()) made.attributes.emplace_back("brake", mark->brake);
-    if (const std::string command = CommandOf(port, *mark); !command.empty()) made.attributes.emplace_back("command", command);
+    for (auto& each : AttributesOf(port, *mark)) made.attributes.push_back(std::move(each));
   });
   return elements;
 }

@@ -35,7 +35,8 @@ struct PortState final : Annotation {
   // Not of what is copied: no rule knows the copy. Rules act when something changes, and would not set it again.
   std::optional<Port::HandValue> by_rule;
   std::shared_ptr<const PortStop> stop;
-  bool is_marked = false, is_blocked = false;
+  std::optional<DrivingMark> mark;
+  bool is_blocked = false;
 };
 
 Result<void> GiveTo(Port& port, const PortState& state) {
@@ -44,9 +45,10 @@ Result<void> GiveTo(Port& port, const PortState& state) {
     if (auto set = port.SetLimits(state.limits); !set) return set;
   }
   // What its module declares is its module's business: one in its place may declare another safe value.
-  if (state.stop && state.stop->robot() && (state.is_marked || !port.is_driving())) {
-    if (auto set = port.SetDriving(true, state.stop->safe_value(), state.stop->brake(), state.stop->command()); !set) return set;
-    if (!state.is_marked) port.Annotate(std::make_unique<MarkedAsDriving>(false));  // as a module has declared it
+  const PortStop* const stop = state.stop && state.stop->robot() ? state.stop.get() : nullptr;
+  if (stop != nullptr && (state.mark || !port.is_driving())) {
+    const DrivingMark mark = state.mark ? *state.mark : DrivingMark{stop->safe_value(), stop->brake(), stop->command()};
+    if (auto set = port.SetDriving(true, mark.safe_value, mark.brake, mark.command); !set) return set;
   }
   // What was published before a block was released counts no more afterwards either.
   if (state.stop && state.stop->block()->bar() != StopSignal::kNever) {
@@ -68,7 +70,7 @@ void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkEle
     state->by_hand = port->ValueByHand();
     if (how == FrameworkElement::Inherit::kAsReplacement) state->by_rule = port->ValueByHand(Port::Setter::kRule);
     state->stop = port->stop();
-    state->is_marked = MarkedAsDriving::Is(*port);
+    state->mark = port->FindMark();
     state->is_blocked = port->is_blocked();
     noted.Annotate(std::move(state));
   }

@@ -129,7 +129,7 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
         match != nullptr ? Port::CheckTakeOver(*match, port) : NoCounterpart(port, before, after);
     if (possible) {
       result.ports.push_back({&port, match});
-    } else if (is_connected(port)) {
+    } else if (is_connected(port) || (match != nullptr && port.FindMark())) {
       result.errors.push_back(possible.error());
       result.misfits.push_back(&port);
     }

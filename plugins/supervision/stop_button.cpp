@@ -144,6 +144,7 @@ void StopButton::Work() {
   while (!ends_.load()) {
     (void)element_->probe.Wait(kLookForPort);
     TakeValues();
+    if (down_ && !is_set_by_hand_ && !runtime_.robot_stop().in_force()) Press(rule_.port);  // somebody else has released it
     if (!LookForPort()) continue;
     const auto let_go = std::exchange(let_go_, {});
     if (!let_go || !rule_.releases) continue;
@@ -198,7 +199,8 @@ bool StopButton::LookForPort() {
     bool is_down = false;
     const auto look = [&](const void* value, ValueTimes) { is_down = is_down || NumberIn(element_->probe.type(), value) != 0; };
     for (const Port* each : sources.front()->ShownPorts()) each->VisitLatest(look);
-    if (is_down && !sources.front()->is_set_by_hand() && !runtime_.robot_stop().in_force()) Press(rule_.port);
+    is_set_by_hand_ = sources.front()->is_set_by_hand();
+    if (is_down && !is_set_by_hand_ && !runtime_.robot_stop().in_force()) Press(rule_.port);
     for (const std::string& each : way.lacks) {
       if (!lacks_.contains(each)) Press(rule_.port + ", as " + each);
     }

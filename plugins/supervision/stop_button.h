@@ -58,6 +58,7 @@ class StopButton {
     std::uint64_t source;  // ProbePort::last_source()
     ValueTimes times;
   };
+  bool is_set_by_hand_ = false;  // as of the last look
   std::optional<Down> down_;  // the newest value, if it was not 0
   std::uint64_t dropped_ = 0;
   std::uint64_t pressed_ = 0;  // RobotStop::State::requests after its own press, if nobody else has pressed meanwhile
