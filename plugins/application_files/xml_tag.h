@@ -43,6 +43,11 @@ struct AttributeRule {
   /// nothing, and is left out when the application is saved.
   bool names_element = false;
 };
+/// One that has one of some words.
+[[nodiscard]] inline AttributeRule WordRule(const char* name, std::vector<std::string> words, const char* summary = "",
+                                            bool required = false) {
+  return {name, AttributeKind::kChoice, required, summary, std::move(words)};
+}
 
 /// Whether `value` may stand in the attribute, as far as its form goes; the error says what may.
 Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view value);

@@ -43,11 +43,6 @@ namespace runnel {
 [[nodiscard]] inline AttributeRule PathRule(const char* name, bool required, const char* summary = "") {
   return {.name = name, .kind = AttributeKind::kPath, .required = required, .summary = summary, .names_element = true};
 }
-/// One that has one of some words.
-[[nodiscard]] inline AttributeRule WordRule(const char* name, std::vector<std::string> words, const char* summary = "",
-                                            bool required = false) {
-  return {name, AttributeKind::kChoice, required, summary, std::move(words)};
-}
 [[nodiscard]] inline AttributeRule YesNoRule(const char* name, const char* summary) {
   return WordRule(name, {"false", "true"}, summary);
 }

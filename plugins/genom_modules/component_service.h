@@ -122,8 +122,7 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
         take_(options.take),
         endpoint_(std::make_unique<ServiceEndpoint>(options.service.queue)),
         port_(owner.OutputGroup(), name, {.description = options.service.description}),
-        records_(owner.OutputGroup(), name + "_calls",
-                 {.description = "what has come of each call of " + name, .pool = {}}) {
+        records_(owner.OutputGroup(), name) {
     const ServiceSignature& signature = runnel::internal::MakeServiceSignatureKnown<Signature, true>();
     auto callable = std::make_unique<CallableService>(
         *this, signature, signature.MakeForm(options.service.arguments), options.service.description,
@@ -146,15 +145,13 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
   void Take(genom_execution::Request& request, CallBase& call) override {
     if (take_ != nullptr) take_(request, static_cast<Call<Signature>&>(call).reply);
   }
-  void Record(CallBase& base, CallStatus status) override {
-    runnel::internal::PublishRecord(records_, static_cast<const Call<Signature>&>(base), status);
-  }
+  void Record(CallBase& base, CallStatus status) override { records_.Record(base, status); }
 
   void (*const fill_)(genom_execution::Request& request, Pack& arguments);
   void (*const take_)(genom_execution::Request& request, Answered& reply);
   std::unique_ptr<ServiceEndpoint> endpoint_;
   Output<ServiceLink<Signature>> port_;
-  Output<CallRecord<Signature>> records_;
+  runnel::internal::CallRecorderOf<Signature> records_;
 };
 
 }  // namespace runnel::genom_modules

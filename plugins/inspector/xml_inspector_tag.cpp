@@ -114,13 +114,6 @@ std::vector<SavedTag> SavedInspector(const FrameworkElement& application) {
                     {"insecure", place.is_insecure ? "true" : "false", !place.is_insecure}}}};
 }
 
-AttributeRule Choice(const char* name, const char* summary) {
-  return {.name = name,
-          .kind = AttributeKind::kChoice,
-          .summary = summary,
-          .choices = {"true", "false"}};
-}
-
 }  // namespace
 
 std::optional<InspectorPlace> InspectorPlaceOf(const FrameworkElement& application) {
@@ -138,23 +131,23 @@ void AddInspectorTag(XmlTagRegistry& tags) {
                               {.name = "address",
                                .summary = "of this machine; 127.0.0.1 by default, which only it "
                                           "reaches; others need a certificate and a token"},
-                              Choice("read_only", "true: viewers look, and change nothing"),
+                              WordRule("read_only", {"true", "false"}, "true: viewers look, and change nothing"),
                               {.name = "token",
                                .summary = "what viewers must show; without, one is made if the "
                                           "address is reached by others; ROLE:TOKEN for more than "
                                           "one: look, drive (publish, pause), change"},
                               {.name = "token_file",
                                .summary = "with more of them, which not everybody may read"},
-                              Choice("all_users",
-                                     "true: every user of this machine may, without a token, and "
-                                     "not only who has started the program"),
+                              WordRule("all_users", {"true", "false"},
+                                       "true: every user of this machine may, without a token, and "
+                                       "not only who has started the program"),
                               {.name = "certificate",
                                .summary = "file (PEM) by which it encrypts: https, wss"},
                               {.name = "key",
                                .summary = "file (PEM) with its key, if that is in another one"},
-                              Choice("insecure",
-                                     "true: other addresses are served without a certificate, "
-                                     "where nobody else listens or a proxy encrypts")},
+                              WordRule("insecure", {"true", "false"},
+                                       "true: other addresses are served without a certificate, "
+                                       "where nobody else listens or a proxy encrypts")},
                .handle = ChooseInspector,
                .saved = SavedInspector});
 }

@@ -240,10 +240,6 @@ FrameworkElement* HandleRos(const TagUse& use) {
   return &use.parent;
 }
 
-AttributeRule Choice(const char* name, const char* summary, std::vector<std::string> choices = {"true", "false"}) {
-  return {.name = name, .kind = AttributeKind::kChoice, .summary = summary, .choices = std::move(choices)};
-}
-
 }  // namespace
 
 void AddNetworkTags(XmlTagRegistry& tags) {
@@ -256,13 +252,13 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                               {.name = "name",
                                .kind = AttributeKind::kName,
                                .summary = "of the application in the network; its own by default"},
-                              Choice("reach",
-                                     "loopback: only processes of this machine that say so, too (the default); machine: "
-                                     "also nodes of ROS 2 on it; network: whoever is there",
-                                     kReaches),
+                              WordRule("reach", kReaches,
+                                       "loopback: only processes of this machine that say so, too (the default); machine: "
+                                       "also nodes of ROS 2 on it; network: whoever is there"),
                               {.name = "peers", .summary = "addresses of others, where not all can be asked at once; separated by blanks"},
                               {.name = "interface", .summary = "the only one that is used, by its name or address"},
-                              Choice("multicast", "false: only peers, and this machine, are asked"),
+                              WordRule("multicast", {"true", "false"},
+                                       "false: only peers, and this machine, are asked"),
                               {.name = "datagram",
                                .kind = AttributeKind::kCount,
                                .summary = "octets of the largest one: 1400 where the reach is the network, so that it fits into a frame; else 65500"},
@@ -271,8 +267,9 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                                .summary = "so long after its last sign of life the application counts as gone, as after kill -9; 10 s"},
                               {.name = "commands",
                                .summary = "what applications that can reach this one may have it do: set, swap; nothing if left out"},
-                              Choice("live", "true: what is taken may come although time is simulated, of which runs are not "
-                                             "repeatable then"),
+                              WordRule("live", {"true", "false"},
+                                       "true: what is taken may come although time is simulated, of which runs are not "
+                                       "repeatable then"),
                               {.name = "messages",
                                .summary = ".msg and .srv files, and folders with <package>/msg/*.msg and <package>/srv/*.srv, beside ROS 2's own; separated by blanks"},
                               {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone (the default), or fast: Fast DDS"}},
@@ -286,20 +283,19 @@ void AddNetworkTags(XmlTagRegistry& tags) {
   tags.AddTag({.name = "ros",
                .summary = "what nodes of ROS 2 are told besides topics",
                .parents = {"network"},
-               .attributes = {Choice("distribution",
-                                     "of the other nodes, which decides how a node is told; ROS_DISTRO if left out",
-                                     RosDistributions()),
+               .attributes = {WordRule("distribution", RosDistributions(),
+                                       "of the other nodes, which decides how a node is told; ROS_DISTRO if left out"),
                               {.name = "node", .summary = "name of the node: /base; /<name of the application> by default"},
-                              Choice("clock",
-                                     "true: publishes the application's time on /clock; follow: the application, which has "
-                                     "<clock type=\"outside\"/>, takes its time from there",
-                                     {"true", "false", "follow"}),
-                              Choice("log", "true: publishes what modules say on /rosout"),
-                              Choice("diagnostics", "true: publishes faults, silent inputs and late threads on /diagnostics"),
-                              Choice("parameters",
-                                     "read: nodes may look at the application's parameters; write: and set them; none by default",
-                                     RosParameterUses()),
-                              Choice("stop_releases", "true: false, sent to the service ~/stop, releases the STOP of the robot; else it does nothing")},
+                              WordRule("clock", {"true", "false", "follow"},
+                                       "true: publishes the application's time on /clock; follow: the application, which has "
+                                       "<clock type=\"outside\"/>, takes its time from there"),
+                              WordRule("log", {"true", "false"}, "true: publishes what modules say on /rosout"),
+                              WordRule("diagnostics", {"true", "false"},
+                                       "true: publishes faults, silent inputs and late threads on /diagnostics"),
+                              WordRule("parameters", RosParameterUses(),
+                                       "read: nodes may look at the application's parameters; write: and set them; none by default"),
+                              WordRule("stop_releases", {"true", "false"},
+                                       "true: false, sent to the service ~/stop, releases the STOP of the robot; else it does nothing")},
                .handle = HandleRos});
   tags.AddTag({.name = "take",
                .summary = "a topic whose values go to ports of this application, or a service that they call",

@@ -13,11 +13,7 @@ namespace {
 const std::vector<std::string> kQualities = {"newest", "each", "sensor", "latched"};
 const std::vector<std::string> kSendings = {"network", "after_cycle"};
 
-AttributeRule Choice(const char* name, const char* summary, std::vector<std::string> choices = {"true", "false"}) {
-  return {.name = name, .kind = AttributeKind::kChoice, .summary = summary, .choices = std::move(choices)};
-}
-
-AttributeRule Quality(const char* summary) { return Choice("qos", summary, kQualities); }
+AttributeRule Quality(const char* summary) { return WordRule("qos", kQualities, summary); }
 
 AttributeRule MessageTypeRule() {
   return {.name = "as", .summary = "type of the messages: sensor_msgs/msg/LaserScan; without, the values by their description; of services: "
@@ -61,13 +57,15 @@ std::vector<AttributeRule> OfferRules() {
       {.name = "child_frame", .kind = AttributeKind::kName, .summary = "what moves, for transforms and odometry"},
       Quality("newest (default): reliable; each: every value, in a queue; sensor: best effort; latched: "
               "who comes late gets the newest"),
-      Choice("sending", "which thread sends: network (default), the network's; after_cycle: for small values, the one that has "
-             "published them, when its cycle has ended", kSendings),
+      WordRule("sending", kSendings,
+               "which thread sends: network (default), the network's; after_cycle: for small values, the one that has "
+               "published them, when its cycle has ended"),
       {.name = "rate", .kind = AttributeKind::kNumber, .summary = "most values a second; the newest wins"},
       {.name = "strength",
        .kind = AttributeKind::kCount,
        .summary = "for who takes exclusively: of several that offer the topic the strongest counts"},
-      Choice("measured", "true: a velocity that is measured, and no command: it is sent on in STOP")};
+      WordRule("measured", {"true", "false"},
+               "true: a velocity that is measured, and no command: it is sent on in STOP")};
 }
 
 std::vector<AttributeRule> TakeRules() {
@@ -81,12 +79,11 @@ std::vector<AttributeRule> TakeRules() {
        .summary = "inputs, of whose type the values are",
        .names_element = true},
       Quality("what is asked of those who write; by default what they offer"),
-      Choice("stamp",
-             "arrived (default): measured when they came; sent: when the writer says, if the clocks of "
-             "both machines are synchronised",
-             {"arrived", "sent"}),
-      Choice("exclusive", "true: of several that write only the strongest counts"),
-      Choice("live", "true: also with simulated time, of which runs are not repeatable then")};
+      WordRule("stamp", {"arrived", "sent"},
+               "arrived (default): measured when they came; sent: when the writer says, if the clocks of "
+               "both machines are synchronised"),
+      WordRule("exclusive", {"true", "false"}, "true: of several that write only the strongest counts"),
+      WordRule("live", {"true", "false"}, "true: also with simulated time, of which runs are not repeatable then")};
 }
 
 OfferOptions OfferSaid(const SaidOf& said) {

@@ -27,9 +27,6 @@ struct ClientOptions {
 /// The part of a client that does not depend on the types of its calls.
 class ClientBase : public CyclePart {
  public:
-  ClientBase(const ClientBase&) = delete;
-  ClientBase& operator=(const ClientBase&) = delete;
-
   /// Whether there is a service at the other end. Any thread.
   [[nodiscard]] bool is_connected() const noexcept { return endpoint() != nullptr; }
   [[nodiscard]] Port& port() noexcept { return *port_; }

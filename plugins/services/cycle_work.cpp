@@ -26,8 +26,6 @@ CycleWork* CycleWork::Add(FrameworkElement& element, CyclePart& part) {
   return work;
 }
 
-void CycleWork::Remove(CyclePart& part) noexcept { std::erase(parts_, &part); }
-
 std::vector<Task> CycleWork::Wrap(std::vector<Task> tasks) {
   if (tasks.empty()) return tasks;
   if (!module_) module_ = tasks.front().run;

@@ -31,7 +31,7 @@ class CycleWork final : public Annotation {
  public:
   /// Of the module that `element` is part of; nullptr if nothing there is executed: the owner does it itself.
   static CycleWork* Add(FrameworkElement& element, CyclePart& part);
-  void Remove(CyclePart& part) noexcept;
+  void Remove(CyclePart& part) noexcept { std::erase(parts_, &part); }
   [[nodiscard]] FrameworkElement& module() const noexcept { return *element_; }
 
  private:

@@ -55,8 +55,7 @@ class Service<Reply(Arguments...)> final : public ServiceBase {
       : handler_(Bind(owner, std::move(handler))),
         endpoint_(std::make_unique<ServiceEndpoint>(options.queue)),
         port_(group, name, {.description = options.description}),
-        records_(group, name + "_calls",
-                 {.description = "what has come of each call of " + name, .pool = {}}) {
+        records_(group, name) {
     // First, as it may refuse the options, and nothing is to be left of a service then.
     const ServiceSignature& signature = internal::MakeServiceSignatureKnown<Signature, true>();
     auto callable = std::make_unique<CallableService>(
@@ -113,16 +112,15 @@ class Service<Reply(Arguments...)> final : public ServiceBase {
   }
 
   CallStatus Invoke(CallBase& base, Activity* activity) override {
-    auto& call = static_cast<Call<Signature>&>(base);
-    const CallStatus status = handler_(call, activity);
-    internal::PublishRecord(records_, call, status);
+    const CallStatus status = handler_(static_cast<Call<Signature>&>(base), activity);
+    records_.Record(base, status);
     return status;
   }
 
   const std::function<CallStatus(Call<Signature>&, Activity*)> handler_;
   std::unique_ptr<ServiceEndpoint> endpoint_;
   Output<ServiceLink<Signature>> port_;
-  Output<CallRecord<Signature>> records_;
+  internal::CallRecorderOf<Signature> records_;
 };
 
 }  // namespace runnel

@@ -61,10 +61,6 @@ void ServiceWorker::Stop() noexcept {
   thread_.join();
 }
 
-// Always that of the channel which the port has now: a swap exchanges channels, and those who have put their calls
-// into one find the module that serves it.
-ServiceEndpoint* ServiceBase::endpoint() const { return EndpointAt(*port_); }
-
 void ServiceBase::Open(Port& port, bool is_activity) {
   port_ = &port;
   work_ = CycleWork::Add(port, *this);

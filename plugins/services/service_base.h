@@ -113,9 +113,6 @@ struct ServiceOptions {
 /// The part of a service that does not depend on its types.
 class ServiceBase : public CyclePart {
  public:
-  ServiceBase(const ServiceBase&) = delete;
-  ServiceBase& operator=(const ServiceBase&) = delete;
-
   /// By a thread of the program's own, for a service that is part of no module: serves what waits. Modules do it by
   /// themselves, before each Update().
   void Serve() { BeforeUpdate(); }
@@ -124,11 +121,11 @@ class ServiceBase : public CyclePart {
   [[nodiscard]] Port& port() noexcept { return *port_; }
   [[nodiscard]] virtual ServiceState state() const;
   virtual bool Abort();
-  /// Whose queue its clients fill. nullptr: none yet.
-  [[nodiscard]] ServiceEndpoint* endpoint() const;
+  /// Whose queue its clients fill. nullptr: none yet. Always that of the channel which the port has now: a swap exchanges
+  /// channels, and those who have put their calls into one find the module that serves it.
+  [[nodiscard]] ServiceEndpoint* endpoint() const { return EndpointAt(*port_); }
 
  protected:
-  ServiceBase() = default;
   /// Also where Open() has thrown: no module calls what is not there.
   ~ServiceBase() { Leave(); }
 

@@ -23,6 +23,12 @@ ServiceEndpoint* EndpointAt(const Port& port) {
   return found;
 }
 
+std::string SignatureName(const TypeInfo* reply, const std::vector<const TypeInfo*>& arguments) {
+  std::string name = (reply != nullptr ? reply->name() : "void") + "(";
+  for (const TypeInfo* each : arguments) name += (name.ends_with('(') ? "" : ", ") + each->name();
+  return name + ")";
+}
+
 CallStatus BeginCall(ServiceEndpoint* at, CallBase& call, Time now, Duration timeout) noexcept {
   if (at == nullptr) return CallStatus::kNotConnected;
   if (at->is_faulted.load(std::memory_order_relaxed)) return CallStatus::kFaulted;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/lockfree/bounded_queue.h"
 #include "core/channel/waker.h"
@@ -75,17 +76,13 @@ struct ServiceLink {
   ServiceEndpoint* endpoint = nullptr;
 };
 
+/// "bool(double)"; `reply` nullptr: "void(double)".
+[[nodiscard]] std::string SignatureName(const TypeInfo* reply, const std::vector<const TypeInfo*>& arguments);
 template <typename Reply, typename... Arguments>
 [[nodiscard]] std::string SignatureName(std::type_identity<Reply(Arguments...)>) {
-  std::string name;
-  if constexpr (std::is_void_v<Reply>) {
-    name = "void(";
-  } else {
-    name = TypeOf<Reply>().name() + "(";
-  }
-  [[maybe_unused]] const char* separator = "";
-  ((name += separator + TypeOf<std::remove_cvref_t<Arguments>>().name(), separator = ", "), ...);
-  return name + ")";
+  const TypeInfo* reply = nullptr;
+  if constexpr (!std::is_void_v<Reply>) reply = &TypeOf<Reply>();
+  return SignatureName(reply, {&TypeOf<std::remove_cvref_t<Arguments>>()...});
 }
 
 template <typename Signature>

@@ -137,9 +137,7 @@ void internal::AddServiceSignature(const TypeInfo& link, const ServiceSignature&
 }
 
 std::string LinkName(const SignatureTypes& types) {
-  std::string name = "service " + (types.reply != nullptr ? types.reply->name() : "void") + "(";
-  for (const TypeInfo* each : types.arguments) name += (each == types.arguments.front() ? "" : ", ") + each->name();
-  return name + ")";
+  return "service " + SignatureName(types.reply, types.arguments);
 }
 
 Result<FoundSignature> SignatureAtRunTime(const SignatureTypes& types) {
@@ -193,8 +191,6 @@ ServiceAtRunTime::ServiceAtRunTime(FrameworkElement& group, const std::string& n
   (void)endpoint.release();  // the channel's from here on
 }
 
-ServiceAtRunTime::~ServiceAtRunTime() { Close(); }
-
 CallStatus ServiceAtRunTime::Invoke(CallBase& call, Activity* activity) {
   const auto done = handler_(*form_, call, activity);
   if (!done) call.error = done.error().ToString();
@@ -216,7 +212,5 @@ ClientAtRunTime::ClientAtRunTime(FrameworkElement& group, const std::string& nam
   port_->Annotate<ClientForm>(std::make_unique<ClientForm>(form_));
   Open(*port_);
 }
-
-ClientAtRunTime::~ClientAtRunTime() { Close(); }
 
 }  // namespace runnel

@@ -49,7 +49,7 @@ class ServiceAtRunTime final : public ServiceBase {
 
   ServiceAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types, ServiceOptions options,
                    CallableOptions extra, Handler handler);
-  ~ServiceAtRunTime();
+  ~ServiceAtRunTime() { Close(); }
 
   [[nodiscard]] const CallForm& form() const noexcept { return *form_; }
 
@@ -77,7 +77,7 @@ class ClientAtRunTime final : public ClientBase {
 
   ClientAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types, const ClientOptions& options,
                   CalledBack called_back);
-  ~ClientAtRunTime();
+  ~ClientAtRunTime() { Close(); }
 
   using ClientBase::Acquire;
   using ClientBase::AwaitInCycle;

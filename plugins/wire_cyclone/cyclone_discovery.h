@@ -15,8 +15,6 @@ class CycloneDiscovery {
  public:
   CycloneDiscovery(dds_entity_t participant, const WireId& own, WireDiscovery& listener);
   ~CycloneDiscovery();
-  CycloneDiscovery(const CycloneDiscovery&) = delete;
-  CycloneDiscovery& operator=(const CycloneDiscovery&) = delete;
 
  private:
   void TakeMembers(dds_entity_t reader);

@@ -177,8 +177,6 @@ Result<std::shared_ptr<CycloneDomain>> CycloneDomain::Join(const WireMemberOptio
   return made;
 }
 
-CycloneDomain::~CycloneDomain() { (void)dds_delete(domain_); }
-
 Result<void> SetSecurity(dds_qos_t& qos, const WireSecurity& security) {
   const auto set = [&](const std::string& name, const std::string& value) {
     dds_qset_prop(&qos, ("dds.sec." + name).c_str(), value.c_str());

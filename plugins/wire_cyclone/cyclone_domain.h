@@ -18,7 +18,7 @@ class CycloneDomain {
  public:
   /// Errors: what Cyclone says; another reach than that of somebody else in this process.
   static Result<std::shared_ptr<CycloneDomain>> Join(const WireMemberOptions& options);
-  ~CycloneDomain();
+  ~CycloneDomain() { (void)dds_delete(domain_); }
   CycloneDomain(const CycloneDomain&) = delete;
   CycloneDomain& operator=(const CycloneDomain&) = delete;
 

@@ -22,8 +22,6 @@ class FastMember {
  public:
   FastMember(eprosima::fastdds::dds::DomainParticipant& participant, FastDiscovery& discovery);
   ~FastMember();
-  FastMember(const FastMember&) = delete;
-  FastMember& operator=(const FastMember&) = delete;
 
   /// To be given back. Errors: it is there already, of another type.
   Result<eprosima::fastdds::dds::Topic*> TakeTopic(const std::string& name, const std::string& type);

@@ -43,19 +43,19 @@ auto ItemsIn(JsonMembers& members, const std::string& name, const Read& read) {
   return items;
 }
 
-ClientMessage ReadSubscribe(JsonMembers& members) {
+ClientSaid ReadSubscribe(JsonMembers& members) {
   return SubscribeMessage{ItemsIn(members, "subscriptions", [](JsonMembers& item) {
     return SubscribeMessage::Item{IdIn(item, "id"), IdIn(item, "channelId")};
   })};
 }
-ClientMessage ReadAdvertise(JsonMembers& members) {
+ClientSaid ReadAdvertise(JsonMembers& members) {
   return AdvertiseMessage{ItemsIn(members, "channels", [](JsonMembers& item) {
     for (const char* each : {"schemaName", "schemaEncoding", "schema"}) (void)item.Find(each);  // the input knows it
     return AdvertiseMessage::Channel{IdIn(item, "id"), item.NeedText("topic"),
                                      item.NeedText("encoding")};
   })};
 }
-ClientMessage ReadSetParameters(JsonMembers& members) {
+ClientSaid ReadSetParameters(JsonMembers& members) {
   auto items = ItemsIn(members, "parameters", [](JsonMembers& item) {
     const JsonPart* const value = item.Find("value");
     return SetParametersMessage::Item{item.NeedText("name"),
@@ -67,19 +67,21 @@ ClientMessage ReadSetParameters(JsonMembers& members) {
 
 struct Operation {
   std::string_view name;
-  ClientMessage (*read)(JsonMembers& members);
+  WebRole role;
+  ClientSaid (*read)(JsonMembers& members);
 };
+using enum WebRole;
 constexpr std::array<Operation, 10> kOperations{{
-    {"subscribe", ReadSubscribe},
-    {"unsubscribe", [](JsonMembers& m) -> ClientMessage { return UnsubscribeMessage{IdsIn(m, "subscriptionIds")}; }},
-    {"advertise", ReadAdvertise},
-    {"unadvertise", [](JsonMembers& m) -> ClientMessage { return UnadvertiseMessage{IdsIn(m, "channelIds")}; }},
-    {"getParameters", [](JsonMembers& m) -> ClientMessage { return GetParametersMessage{NamesIn(m), m.Text("id")}; }},
-    {"setParameters", ReadSetParameters},
-    {"subscribeParameterUpdates", [](JsonMembers& m) -> ClientMessage { return SubscribeParametersMessage{NamesIn(m), true}; }},
-    {"unsubscribeParameterUpdates", [](JsonMembers& m) -> ClientMessage { return SubscribeParametersMessage{NamesIn(m), false}; }},
-    {"subscribeConnectionGraph", [](JsonMembers&) -> ClientMessage { return SubscribeGraphMessage{true}; }},
-    {"unsubscribeConnectionGraph", [](JsonMembers&) -> ClientMessage { return SubscribeGraphMessage{false}; }},
+    {"subscribe", kLook, ReadSubscribe},
+    {"unsubscribe", kLook, [](JsonMembers& m) -> ClientSaid { return UnsubscribeMessage{IdsIn(m, "subscriptionIds")}; }},
+    {"advertise", kLook, ReadAdvertise},
+    {"unadvertise", kLook, [](JsonMembers& m) -> ClientSaid { return UnadvertiseMessage{IdsIn(m, "channelIds")}; }},
+    {"getParameters", kLook, [](JsonMembers& m) -> ClientSaid { return GetParametersMessage{NamesIn(m), m.Text("id")}; }},
+    {"setParameters", kChange, ReadSetParameters},
+    {"subscribeParameterUpdates", kLook, [](JsonMembers& m) -> ClientSaid { return SubscribeParametersMessage{NamesIn(m), true}; }},
+    {"unsubscribeParameterUpdates", kLook, [](JsonMembers& m) -> ClientSaid { return SubscribeParametersMessage{NamesIn(m), false}; }},
+    {"subscribeConnectionGraph", kLook, [](JsonMembers&) -> ClientSaid { return SubscribeGraphMessage{true}; }},
+    {"unsubscribeConnectionGraph", kLook, [](JsonMembers&) -> ClientSaid { return SubscribeGraphMessage{false}; }},
 }};
 
 }  // namespace
@@ -114,7 +116,7 @@ Result<ClientMessage> ParseClientMessage(std::string_view text) {
     return Error{.message = "there is no operation '" + *op + "' here",
                  .hint = NearestNameHint(*op, NamesOf(kOperations, &Operation::name))};
   }
-  ClientMessage message = operation->read(members);
+  ClientMessage message{operation->name, operation->role, operation->read(members)};
   members.RefuseOthers();
   if (!members.error()) return message;
   return members.error()->WithContext(*op);

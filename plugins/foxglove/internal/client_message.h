@@ -14,8 +14,6 @@
 namespace runnel::internal {
 
 struct SubscribeMessage {
-  static constexpr std::string_view kName = "subscribe";
-  static constexpr WebRole kRole = WebRole::kLook;
   struct Item {
     std::uint32_t id;
     std::uint32_t channel;
@@ -23,13 +21,10 @@ struct SubscribeMessage {
   std::vector<Item> subscriptions;
 };
 struct UnsubscribeMessage {
-  static constexpr std::string_view kName = "unsubscribe";
-  static constexpr WebRole kRole = WebRole::kLook;
   std::vector<std::uint32_t> ids;
 };
+/// Of other topics than the STOP it takes kDrive besides.
 struct AdvertiseMessage {
-  static constexpr std::string_view kName = "advertise";  ///< of other topics than the STOP: kDrive
-  static constexpr WebRole kRole = WebRole::kLook;
   struct Channel {
     std::uint32_t id;
     std::string topic;
@@ -38,19 +33,13 @@ struct AdvertiseMessage {
   std::vector<Channel> channels;
 };
 struct UnadvertiseMessage {
-  static constexpr std::string_view kName = "unadvertise";
-  static constexpr WebRole kRole = WebRole::kLook;
   std::vector<std::uint32_t> ids;
 };
 struct GetParametersMessage {
-  static constexpr std::string_view kName = "getParameters";
-  static constexpr WebRole kRole = WebRole::kLook;
   std::vector<std::string> names;  ///< none: all
   std::optional<std::string> id;
 };
 struct SetParametersMessage {
-  static constexpr std::string_view kName = "setParameters";
-  static constexpr WebRole kRole = WebRole::kChange;
   struct Item {
     std::string name;
     std::optional<JsonPart> value;
@@ -60,21 +49,22 @@ struct SetParametersMessage {
   std::optional<std::string> id;
 };
 struct SubscribeParametersMessage {
-  static constexpr std::string_view kName = "subscribeParameterUpdates";
-  static constexpr WebRole kRole = WebRole::kLook;
   std::vector<std::string> names;  ///< none: all
   bool is_wanted;
 };
 struct SubscribeGraphMessage {
-  static constexpr std::string_view kName = "subscribeConnectionGraph";
-  static constexpr WebRole kRole = WebRole::kLook;
   bool is_wanted;
 };
 
-/// What a client says in text; kName: how errors call it, kRole: that is needed for it.
-using ClientMessage = std::variant<SubscribeMessage, UnsubscribeMessage, AdvertiseMessage,
-                                   UnadvertiseMessage, GetParametersMessage, SetParametersMessage,
-                                   SubscribeParametersMessage, SubscribeGraphMessage>;
+using ClientSaid = std::variant<SubscribeMessage, UnsubscribeMessage, AdvertiseMessage, UnadvertiseMessage,
+                                GetParametersMessage, SetParametersMessage, SubscribeParametersMessage,
+                                SubscribeGraphMessage>;
+/// What a client says in text.
+struct ClientMessage {
+  std::string_view op;
+  WebRole role;  ///< that is needed for it
+  ClientSaid said;
+};
 
 /// What a client says in binary to call a service.
 struct ServiceCallMessage {

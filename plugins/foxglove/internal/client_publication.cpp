@@ -77,8 +77,6 @@ ClientPublication::~ClientPublication() {
   });
 }
 
-std::optional<Error> ClientPublication::TakeError() { return std::exchange(error_, std::nullopt); }
-
 bool ClientPublication::Continue() {
   if (task_) {
     if (!task_->is_done()) return false;  // the worker tells when it is

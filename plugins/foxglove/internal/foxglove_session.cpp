@@ -78,11 +78,7 @@ void FoxgloveSession::OnTooMany(std::string_view /*message*/, bool /*is_text*/) 
 void FoxgloveSession::OnText(std::string_view message) {
   const auto parsed = ParseClientMessage(message);
   if (!parsed) return SendError(parsed.error());
-  std::visit(
-      [this](const auto& each) {
-        if (MayDo(each.kRole, each.kName)) Handle(each);
-      },
-      *parsed);
+  if (MayDo(parsed->role, parsed->op)) std::visit([this](const auto& each) { Handle(each); }, parsed->said);
 }
 
 void FoxgloveSession::OnBinary(std::string_view message) {
@@ -142,7 +138,7 @@ void FoxgloveSession::Advertise(const AdvertiseMessage::Channel& channel, bool& 
     publications_[channel.id] = nullptr;
     return;
   }
-  if (!MayDo(RoleFor("publish"), AdvertiseMessage::kName)) return;
+  if (!MayDo(RoleFor("publish"), "advertise")) return;
   const auto content = shared_->directory.content();
   const auto input = content->inputs.find(channel.topic);
   if (input == content->inputs.end()) {

@@ -38,8 +38,6 @@ class ClientPublication {
   ClientPublication(FoxgloveShared& shared, const DirectoryInput& input,
                     std::function<void()> wake);
   ~ClientPublication();
-  ClientPublication(const ClientPublication&) = delete;
-  ClientPublication& operator=(const ClientPublication&) = delete;
 
   /// Publishes a value that is told in JSON as its channel would tell it; fields that are left out have
   /// their usual values. One that comes before the output is there, or while the structure is locked,
@@ -48,7 +46,7 @@ class ClientPublication {
   Result<void> Publish(std::string_view json, Time received);
   [[nodiscard]] const DirectoryInput& input() const noexcept { return input_; }
   /// What has come of making the output, once; nothing if that is not known yet, or all is well.
-  [[nodiscard]] std::optional<Error> TakeError();
+  [[nodiscard]] std::optional<Error> TakeError() { return std::exchange(error_, std::nullopt); }
   /// Whether values can be published (which some may still not be good for).
   [[nodiscard]] bool is_made() const noexcept { return is_made_; }
   /// Publishes what has waited. Whether it is still to be called.

@@ -4,13 +4,13 @@
 #include <array>
 #include <functional>
 #include <mutex>
+#include <utility>
 
 #include "core/base/nearest_name.h"
 #include "core/plugin/module_type_name.h"
 #include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
-#include "plugins/manifest/module_description.h"
 #include "plugins/manifest/plugin_manifest.h"
 #include "plugins/values/json_writer.h"
 
@@ -45,22 +45,16 @@ void AppendType(const TypeInfo* type, std::string& text) {
   }
 }
 
-CatalogueItem ItemOf(const ModuleDescription& module) {
-  CatalogueItem item{module.type, module.summary, {}, {}};
-  for (const ModuleDescription::Port& port : module.ports) {
-    item.ports.push_back({port.name, port.is_input, port.type});
-  }
-  AppendJson(module, item.json);
-  return item;
-}
-
 // A module's connected ports, those of its other faces included.
-std::vector<CatalogueItemPort> ConnectedPorts(FrameworkElement& module) {
-  std::vector<CatalogueItemPort> ports;
+std::vector<ModuleDescription::Port> ConnectedPorts(FrameworkElement& module) {
+  std::vector<ModuleDescription::Port> ports;
   for (const Port* port : PortsOf(module)) {
     if (port->outgoing().empty() && port->incoming().empty()) continue;
-    ports.push_back({port->name(), port->direction() == Port::Direction::kInput,
-                     port->type().name()});
+    ports.push_back({.name = port->name(),
+                     .group = {},
+                     .is_input = port->direction() == Port::Direction::kInput,
+                     .type = port->type().name(),
+                     .description = {}});
   }
   return ports;
 }
@@ -77,12 +71,12 @@ Catalogue MakeCatalogue(const ServedApplication& application) {
   ModuleDescriber describer(application.runtime, application.modules,
                             application.hooks.library_of);
   for (const std::string& name : names) {
-    if (const auto module = describer.Describe(name)) catalogue.modules.push_back(ItemOf(*module));
+    if (auto module = describer.Describe(name)) catalogue.modules.push_back(std::move(*module));
   }
   JsonObject json(catalogue.message);
   json.Add("op", "catalogue");
   AppendList(catalogue.modules, json.Key("modules"),
-             [](const CatalogueItem& item, std::string& text) { text += item.json; });
+             [](const ModuleDescription& module, std::string& text) { AppendJson(module, text); });
   AppendList(RegisteredTypes(), json.Key("types"), AppendType);
   return catalogue;
 }
@@ -98,7 +92,7 @@ std::uint64_t RegistryFingerprint(const ModuleRegistry& modules) {
 
 Result<std::string> CompatibleTypes(Runtime& runtime, const Catalogue& catalogue,
                                     const std::string& path) {
-  std::vector<CatalogueItemPort> connected;
+  std::vector<ModuleDescription::Port> connected;
   std::string own_type;
   {
     const std::lock_guard lock(runtime.structure_mutex());
@@ -113,14 +107,17 @@ Result<std::string> CompatibleTypes(Runtime& runtime, const Catalogue& catalogue
     own_type = FindModuleType(**found);
   }
   struct Candidate {
-    const CatalogueItem* item;
+    const ModuleDescription* item;
     std::vector<std::string> lost;
   };
   std::vector<Candidate> candidates;
-  for (const CatalogueItem& item : catalogue.modules) {
+  for (const ModuleDescription& item : catalogue.modules) {
     Candidate candidate{&item, {}};
-    for (const CatalogueItemPort& port : connected) {
-      if (std::ranges::count(item.ports, port) == 0) candidate.lost.push_back(port.name);
+    for (const ModuleDescription::Port& port : connected) {
+      const auto is_it = [&](const ModuleDescription::Port& each) {
+        return each.name == port.name && each.is_input == port.is_input && each.type == port.type;
+      };
+      if (std::ranges::none_of(item.ports, is_it)) candidate.lost.push_back(port.name);
     }
     const bool is_stranger = !connected.empty() && candidate.lost.size() == connected.size();
     const bool is_own = item.type == own_type;

@@ -118,21 +118,6 @@ Inspection::Inspection(CommandService& service, Scheduler& scheduler, InspectorO
   if (!read) application_.log.Add(ApplicationLog::Kind::kWarning, read.error().ToString());
 }
 
-std::shared_ptr<const Catalogue> Inspection::catalogue() const {
-  const std::lock_guard lock(mutex_);
-  return catalogue_;
-}
-
-void Inspection::NoteEnd(std::string verdict) {
-  const std::lock_guard lock(mutex_);
-  verdict_ = std::move(verdict);
-}
-
-std::optional<std::string> Inspection::verdict() const {
-  const std::lock_guard lock(mutex_);
-  return verdict_;
-}
-
 Inspection::SteadyTime Inspection::Look() {
   const SteadyTime now = std::chrono::steady_clock::now();
   if (now < look_at_) return look_at_;
@@ -160,8 +145,7 @@ void Inspection::LookAtRegistry(SteadyTime now) {
   registry_ = registry;
   // Modules are made for it, some of which take their time.
   cataloguing_ = tasks_.Post([this] {
-    auto made = std::make_shared<const Catalogue>(
-        MakeCatalogue(application_));
+    auto made = std::make_shared<const Catalogue>(MakeCatalogue(application_));
     const std::lock_guard guard(mutex_);
     catalogue_ = std::move(made);
   });

@@ -16,28 +16,13 @@
 #include "plugins/inspector/inspector.h"
 #include "plugins/inspector/panel_file.h"
 #include "plugins/inspector/structure_mirror.h"
+#include "plugins/manifest/module_description.h"
 
 namespace runnel::internal {
 
-/// A port as a module type has it.
-struct CatalogueItemPort {
-  std::string name;
-  bool is_input = false;
-  std::string type;
-
-  friend bool operator==(const CatalogueItemPort&, const CatalogueItemPort&) = default;
-};
-
-/// What modules of a type look like.
-struct CatalogueItem {
-  std::string type;
-  std::string summary;
-  std::vector<CatalogueItemPort> ports;
-  std::string json;  ///< as the protocol has it
-};
-
+/// What modules can be made of.
 struct Catalogue {
-  std::vector<CatalogueItem> modules;
+  std::vector<ModuleDescription> modules;
   std::string message;  ///< of the protocol, with all modules and types
 };
 
@@ -128,7 +113,10 @@ class Inspection {
   /// viewers at once, since everything is walked through for it.
   [[nodiscard]] const std::optional<StopReach>& stop_reach();
   /// nullptr until it has been made. Any thread.
-  [[nodiscard]] std::shared_ptr<const Catalogue> catalogue() const;
+  [[nodiscard]] std::shared_ptr<const Catalogue> catalogue() const {
+    const std::lock_guard lock(mutex_);
+    return catalogue_;
+  }
 
   /// Looks at what all share, unless that has just been done. When it is to be called again.
   SteadyTime Look();
@@ -136,8 +124,14 @@ class Inspection {
   void LookSoon() noexcept { look_at_ = {}; }
 
   /// Any thread.
-  void NoteEnd(std::string verdict);
-  [[nodiscard]] std::optional<std::string> verdict() const;
+  void NoteEnd(std::string verdict) {
+    const std::lock_guard lock(mutex_);
+    verdict_ = std::move(verdict);
+  }
+  [[nodiscard]] std::optional<std::string> verdict() const {
+    const std::lock_guard lock(mutex_);
+    return verdict_;
+  }
 
  private:
   void LookAtRegistry(SteadyTime now);

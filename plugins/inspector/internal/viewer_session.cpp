@@ -1,7 +1,6 @@
 #include "plugins/inspector/internal/viewer_session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 #include <utility>
 
@@ -43,10 +42,6 @@ ViewerSession::ViewerSession(Inspection& inspection, WebClient& client)
       is_for_stop_(client.protocol() == kStopProtocol),
       pressed_(inspection.application().runtime.robot_stop().signal()->Listen(client.Waker())) {
   if (!is_for_stop_) SendHello();
-}
-
-WebRole ViewerSession::role() const {
-  return inspection_.options().is_read_only ? WebRole::kLook : client_.role();
 }
 
 bool ViewerSession::IsSlow() const { return client_.waiting_bytes() > kSlow; }
@@ -243,10 +238,6 @@ void ViewerSession::SendProfile() {
   const bool is_any = measured || !profile.latencies.empty();
   if (!is_any && !has_profile_) return;
   if (client_.SendText(ProfileMessage(profile, measured))) has_profile_ = is_any;
-}
-
-void ViewerSession::OnBinary(std::string_view /*message*/) {
-  client_.Close("messages of this protocol are text");
 }
 
 void ViewerSession::OnText(std::string_view text) {

@@ -27,7 +27,7 @@ class ViewerSession final : public WebSession {
   ViewerSession(Inspection& inspection, WebClient& client);
 
   void OnText(std::string_view message) override;
-  void OnBinary(std::string_view message) override;
+  void OnBinary(std::string_view /*message*/) override { client_.Close("messages of this protocol are text"); }
   WebArrival OnArrival(std::string_view message, bool is_text) override;
   void OnTooMany(std::string_view message, bool is_text) override;
   SteadyTime OnPoll() override;
@@ -67,7 +67,7 @@ class ViewerSession final : public WebSession {
   void Refuse(const ViewerMessage& message, Error error);
   void RefuseRole(const ViewerMessage& message, WebRole needed);
   [[nodiscard]] bool IsSlow() const;
-  [[nodiscard]] WebRole role() const;
+  [[nodiscard]] WebRole role() const { return inspection_.options().is_read_only ? WebRole::kLook : client_.role(); }
 
   Inspection& inspection_;
   WebClient& client_;
