@@ -41,11 +41,6 @@ std::vector<Codel*> CodelsOf(const Properties& properties) {
   return codels;
 }
 
-double Task::period() const {
-  const Property* found = Find(properties, PropertyKind::kPeriod);
-  return found == nullptr ? 0 : found->number;
-}
-
 Task* Service::task() const {
   const Property* found = Find(properties, PropertyKind::kTask);
   return found == nullptr ? nullptr : found->task;

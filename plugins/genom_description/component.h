@@ -130,9 +130,6 @@ struct Task {
   Component* component = nullptr;
   Properties properties = {};
   std::map<std::string, Codel*, std::less<>> states = {};  ///< which codel runs in which state
-
-  /// In seconds; 0: not periodic.
-  [[nodiscard]] double period() const;
 };
 
 struct Service {

@@ -44,7 +44,6 @@ class Scopes {
 
   /// In the order of declaration.
   [[nodiscard]] const std::deque<Type>& types() const { return types_; }
-  [[nodiscard]] std::deque<Type>& types() { return types_; }
 
  private:
   Scope* MakeScope(const std::string& name, Place place, bool is_module);

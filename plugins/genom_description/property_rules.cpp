@@ -105,8 +105,6 @@ bool Merge(Property& into, const Property& from, Problems& problems) {
 
 }  // namespace
 
-std::string_view NameOf(Owner owner) { return kOwners.at(static_cast<std::size_t>(owner)); }
-
 Owner OwnerOf(ServiceKind kind) {
   return kind == ServiceKind::kAttribute ? Owner::kAttribute
          : kind == ServiceKind::kFunction ? Owner::kFunction : Owner::kActivity;
@@ -114,7 +112,7 @@ Owner OwnerOf(ServiceKind kind) {
 
 bool AddProperty(Properties& properties, Property property, Owner owner, Problems& problems) {
   if (!IsAllowed(property, owner)) {
-    problems.Add(property.place, WhatIsSaid(property) + " is nothing for " + std::string(NameOf(owner)),
+    problems.Add(property.place, WhatIsSaid(property) + " is nothing for " + std::string(kOwners.at(static_cast<std::size_t>(owner))),
                  Cure(property, owner));
     return false;
   }

@@ -130,7 +130,7 @@ bool CodelRunner::Run(std::size_t codel, Request* request, Event& event) {
     work_.invocation_ = invocation;
     work_.state_.store(AsyncWork::State::kGiven, std::memory_order_relaxed);  // handed over by run_async
     engine_.options().run_async(engine_.options().glue, place_, work_);
-    if (is_away()) return false;
+    if (work_.state_.load(std::memory_order_acquire) == AsyncWork::State::kGiven) return false;
   }
   const Leaving leaving(*this);
   event = work_.event_;
@@ -154,10 +154,6 @@ bool CodelRunner::TakeException(Event event, std::span<const Event> throws, Outc
     outcome.Fail(event);
   }
   return true;
-}
-
-bool CodelRunner::is_away() const noexcept {
-  return work_.state_.load(std::memory_order_acquire) == AsyncWork::State::kGiven;
 }
 
 }  // namespace runnel::genom_execution

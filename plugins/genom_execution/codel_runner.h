@@ -97,8 +97,6 @@ class CodelRunner {
   [[nodiscard]] bool Assign(const ServiceTable& attribute, void* data);
   /// The exception that the last codel has returned, with its detail, if it is one of these; else false.
   [[nodiscard]] bool TakeException(Event event, std::span<const Event> throws, Outcome& outcome) const noexcept;
-  /// Whether a codel has been handed to another thread and has not come back.
-  [[nodiscard]] bool is_away() const noexcept;
 
  private:
   /// The context first: codels get its address.

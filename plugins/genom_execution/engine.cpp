@@ -83,10 +83,6 @@ void Engine::Stop() noexcept {
   Wake();
 }
 
-bool Engine::is_away() const noexcept {
-  return control_.is_away() || std::ranges::any_of(tasks_, &ExecutionTask::is_away);
-}
-
 const Outcome* Engine::failure() const noexcept { return failure_.load(std::memory_order_acquire); }
 
 void Engine::NoteFailure(const Outcome& outcome) noexcept {

@@ -22,7 +22,6 @@ class ControlTask {
   Pass Run();
   /// Everything is to end, permanent activities in the reverse order of their tasks; true when all has.
   [[nodiscard]] bool ShutDown();
-  [[nodiscard]] bool is_away() const noexcept { return runner_.is_away(); }
 
  private:
   enum class Step : std::uint8_t { kValidate, kAssign, kCodels, kInterrupt };
@@ -103,11 +102,8 @@ class Engine {
   /// All that is under way is to end.
   void Stop() noexcept;
 
-  [[nodiscard]] bool is_running() const noexcept { return phase() == Phase::kRunning; }
   [[nodiscard]] bool is_stopping() const noexcept { return is_stop_asked_.load(std::memory_order_acquire); }
   [[nodiscard]] bool is_ended() const noexcept { return phase() == Phase::kEnded; }
-  /// Whether a codel is with another thread: the engine, and what codels use, must stay.
-  [[nodiscard]] bool is_away() const noexcept;
   /// Of a permanent activity that has ended by an exception, the first one; nullptr: none. During the start it ends the
   /// component.
   [[nodiscard]] const Outcome* failure() const noexcept;

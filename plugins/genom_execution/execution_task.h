@@ -62,7 +62,6 @@ class ExecutionTask {
   [[nodiscard]] bool is_periodic() const noexcept { return table_.period > Duration::zero(); }
   /// Whether the `start` codel of the permanent activity has been run, if there is one.
   [[nodiscard]] bool has_passed() const noexcept { return has_passed_.load(std::memory_order_acquire); }
-  [[nodiscard]] bool is_away() const noexcept { return runner_.is_away(); }
   [[nodiscard]] TaskFigures figures() const noexcept;
 
   /// The permanent activity first. The control task looks at all, the task at those below used().
