@@ -13,7 +13,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "core/base/printable.h"
+#include "core/base/characters.h"
 #include "core/element/runtime.h"
 #include "plugins/control/command.h"
 #include "plugins/scheduling/thread_container.h"

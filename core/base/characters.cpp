@@ -7,6 +7,8 @@ namespace runnel {
 
 namespace {
 
+constexpr std::string_view kDigits = "0123456789abcdef";
+
 bool IsInner(char byte) noexcept { return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80U; }
 
 }  // namespace
@@ -48,7 +50,6 @@ std::string UnwritableCharacter(std::string_view text) {
   for (std::size_t length = 0; !text.empty(); text.remove_prefix(length)) {
     length = FileCharacterLength(text);
     if (length > 0) continue;
-    constexpr std::string_view kDigits = "0123456789abcdef";
     const auto byte = static_cast<unsigned char>(text.front());
     const std::string number{'0', 'x', kDigits[byte / 16U], kDigits[byte % 16U]};
     if (byte < 0x80) return "control character " + number;
@@ -103,6 +104,23 @@ std::string EscapedMarkup(std::string_view text) {
     escaped += named != std::string_view::npos ? kNames[named] : std::string(1, character);
   }
   return escaped;
+}
+
+std::string Printable(std::string_view text, std::string_view kept) {
+  std::string printable;
+  for (std::size_t length = 0; !text.empty(); text.remove_prefix(length)) {
+    length = std::max<std::size_t>(CharacterLength(text), 1);
+    const auto byte = static_cast<unsigned char>(text.front());
+    const bool is_late_control = byte == 0xc2 && length == 2 && static_cast<unsigned char>(text[1]) < 0xa0;
+    const bool is_shown = byte < 0x80 ? byte >= 0x20 && byte != 0x7f : length > 1 && !is_late_control;
+    if (is_shown || kept.find(text.front()) != std::string_view::npos) {
+      printable += text.substr(0, length);
+      continue;
+    }
+    length = 1;  // of a late control character the second byte follows
+    printable += {'\\', 'x', kDigits[byte / 16U], kDigits[byte % 16U]};
+  }
+  return printable;
 }
 
 }  // namespace runnel

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/element/runtime.h"
 #include "core/log/internal/log_dispatcher.h"
 #include "core/log/internal/log_ring.h"
+#include "core/log/log_sink.h"
 #include "core/port/cycle.h"
 
 namespace runnel {
@@ -49,5 +52,25 @@ bool Logger::TokenBucket::Take(Time now) noexcept {
   tokens -= 1;
   return true;
 }
+
+std::string LogMessage::TextWithCount() const {
+  return left_out > 0 ? fmt::format("{} ({} more left out)", text, left_out) : text;
+}
+
+std::string LogMessage::BodyText() const {
+  return fmt::format("{}{}{}", path, path.empty() ? "" : ": ", TextWithCount());
+}
+
+std::string LogMessage::ToString() const {
+  return fmt::format("{:<8} {}", LogLevelName(level), BodyText());
+}
+
+LogSink::LogSink(Runtime& runtime, Receive receive) {
+  internal::LogDispatcher::OfProcess().Add(*this, runtime, std::move(receive));
+}
+
+LogSink::~LogSink() { internal::LogDispatcher::OfProcess().Remove(*this); }
+
+void FlushLog() { internal::LogDispatcher::OfProcess().Flush(); }
 
 }  // namespace runnel

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/types/duration_text.h"
+#include "core/types/signal.h"
 #include "core/types/type_of.h"
 
 namespace runnel {
@@ -98,5 +99,16 @@ void Describe(TypeBuilder<std::string>& type) {
 
 void Describe(TypeBuilder<Duration>& type) { type.Name("duration").Leaf(kDurationOperations); }
 void Describe(TypeBuilder<Time>& type) { type.Name("time").Leaf(kDurationOperations); }
+
+void Describe(TypeBuilder<Signal>& type) {
+  type.Name("signal").Leaf({.to_text = [](const void*) { return std::string("now"); },
+                            .from_text = [](std::string_view text, void*) -> Result<void> {
+                              if (text.empty() || text == "now" || text == "{}") return {};
+                              return Error{.message = "'" + std::string(text) +
+                                                      "' is no signal, which has no content",
+                                           .hint = "write 'now'"};
+                            },
+                            .needs_quotes = false});
+}
 
 }  // namespace runnel

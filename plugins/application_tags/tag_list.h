@@ -14,7 +14,7 @@
 
 namespace runnel {
 
-// The words that every application file may use, each made in the file named after it.
+// The words that every application file may use.
 
 [[nodiscard]] XmlTag ApplicationTag();
 [[nodiscard]] XmlTag ClockTag();

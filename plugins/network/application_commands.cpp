@@ -5,10 +5,10 @@
 
 #include <fmt/ranges.h>
 
+#include "core/base/characters.h"
 #include "core/base/erase_where.h"
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
-#include "core/base/printable.h"
 #include "core/paths/distant_ports.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"

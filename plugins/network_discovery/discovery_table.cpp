@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/printable.h"
+#include "core/base/characters.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/network_discovery/value_form.h"
 

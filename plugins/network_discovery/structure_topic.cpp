@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/characters.h"
 #include "core/base/nearest_name.h"
-#include "core/base/printable.h"
 #include "core/element/element_path.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"

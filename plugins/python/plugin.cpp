@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/element/framework_element.h"
-#include "core/plugin/late_types.h"
+#include "core/plugin/module_registry.h"
 #include "core/plugin/plugin_entry.h"
 #include "plugins/python/python_types.h"
 

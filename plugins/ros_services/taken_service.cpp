@@ -4,9 +4,9 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/characters.h"
 #include "core/base/erase_where.h"
 #include "core/base/exception_text.h"
-#include "core/base/printable.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/lockfree/wake_event.h"
 #include "core/port/own_cycle.h"

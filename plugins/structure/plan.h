@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/base/diagnostics.h"
@@ -197,6 +199,19 @@ class Plan {
   void AddRemoval(FrameworkElement& element);
   void AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change);
+  // Has `set` set what is wanted instead of what `get` finds then, and that again if need be.
+  template <typename Get, typename Set, typename Inverse>
+  void AddSetting(Get get, Set set, std::invoke_result_t<Get> wanted, Inverse inverse) {
+    auto before = std::make_shared<std::optional<std::invoke_result_t<Get>>>();
+    steps_.push_back({[=]() -> Result<void> {
+                        *before = get();
+                        return set(wanted);
+                      },
+                      [=] {
+                        if (*before) (void)set(**before);  // it has been good before
+                      },
+                      std::move(inverse)});
+  }
   // The module that a port or parameter belongs to, or the group.
   void Concern(const FrameworkElement& element);
 

@@ -166,19 +166,13 @@ Result<void> Plan::Check(const SetParameter& change) {
   if (!value) return value.error().WithPath((*found)->path());
   if (is_settled) return CheckStatic(**found, *parameter, value->get());
   Concern(**found);
-  auto before = std::make_shared<std::shared_ptr<const void>>();
-  steps_.push_back({[parameter, before, value = *value] {
-                      *before = parameter->Value();
-                      return parameter->SetFrom(value.get());
-                    },
-                    [parameter, before] {
-                      if (*before) (void)parameter->SetFrom(before->get());
-                    },
-                    [parameter, path = (*found)->path()](auto&) -> ChangeSet {
-                      // The module has been made by this change set, and goes as a whole.
-                      if (parameter->info().is_static) return {};
-                      return {SetParameter{path, parameter->ToText()}};
-                    }});
+  AddSetting([parameter]() -> std::shared_ptr<const void> { return parameter->Value(); },
+             [parameter](const std::shared_ptr<const void>& each) { return parameter->SetFrom(each.get()); }, *value,
+             [parameter, path = (*found)->path()](auto&) -> ChangeSet {
+               // The module has been made by this change set, and goes as a whole.
+               if (parameter->info().is_static) return {};
+               return {SetParameter{path, parameter->ToText()}};
+             });
   return {};
 }
 
@@ -327,17 +321,9 @@ Result<void> Plan::Check(const TagElement& change) {
   FrameworkElement& element = **found;
   if (const auto good = CheckTags(change.tags); !good) return good.error().WithPath(element.path());
   Concern(element);
-  auto before = std::make_shared<std::optional<std::vector<std::string>>>();
-  steps_.push_back({[=, &element, tags = change.tags] {
-                      *before = TagsOf(element);
-                      return SetTags(element, tags);
-                    },
-                    [=, &element] {
-                      if (*before) (void)SetTags(element, **before);  // they have been good tags
-                    },
-                    [&element](auto&) -> ChangeSet {
-                      return {TagElement{element.path(), TagsOf(element)}};
-                    }});
+  const auto get = [&element] { return TagsOf(element); };
+  const auto set = [&element](const std::vector<std::string>& tags) { return SetTags(element, tags); };
+  AddSetting(get, set, change.tags, [&element, get](auto&) -> ChangeSet { return {TagElement{element.path(), get()}}; });
   return {};
 }
 

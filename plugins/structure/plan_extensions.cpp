@@ -39,11 +39,6 @@ std::optional<LogLevel> LevelOf(Runtime& runtime, const std::string& path) {
   return {};
 }
 
-void SetLevel(Runtime& runtime, const std::string& path, std::optional<LogLevel> level) {
-  if (level) return SetLogLevel(runtime, path, *level);
-  (void)ResetLogLevel(runtime, path);
-}
-
 }  // namespace
 
 Result<void> Plan::Check(const LogElement& change) {
@@ -53,18 +48,12 @@ Result<void> Plan::Check(const LogElement& change) {
     if (!found) return found.error();
     path = (*found)->path();
   }
-  auto before = std::make_shared<std::optional<std::optional<LogLevel>>>();
-  steps_.push_back({[=, this, level = change.level]() -> Result<void> {
-                      *before = LevelOf(runtime_, path);
-                      SetLevel(runtime_, path, level);
-                      return {};
-                    },
-                    [=, this] {
-                      if (*before) SetLevel(runtime_, path, **before);
-                    },
-                    [=, this](auto&) -> ChangeSet {
-                      return {LogElement{path.empty() ? "/" : path, LevelOf(runtime_, path)}};
-                    }});
+  const auto get = [=, this] { return LevelOf(runtime_, path); };
+  const auto set = [=, this](std::optional<LogLevel> level) -> Result<void> {
+    level ? SetLogLevel(runtime_, path, *level) : (void)ResetLogLevel(runtime_, path);
+    return {};
+  };
+  AddSetting(get, set, change.level, [=](auto&) -> ChangeSet { return {LogElement{path.empty() ? "/" : path, get()}}; });
   return {};
 }
 

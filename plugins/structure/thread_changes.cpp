@@ -75,24 +75,18 @@ Result<void> Plan::Check(const ScheduleThread& change) {
                  .hint = "make another one first: create thread NAME period=10ms"};
   }
   if (auto good = ThreadContainer::Check(wanted, thread->path()); !good) return good;
-  auto before = std::make_shared<std::optional<ThreadOptions>>();
-  steps_.push_back({[=]() -> Result<void> {
-                      *before = thread->options();
-                      return thread->SetOptions(wanted);
-                    },
-                    [=] {
-                      if (*before) (void)thread->SetOptions(**before);
-                    },
-                    [=](auto&) -> ChangeSet {
-                      const ThreadOptions now = thread->options();
-                      ScheduleThread back{.thread = thread->path()};
-                      const bool has_period = now.activation != ThreadOptions::Activation::kTrigger;
-                      if (change.period && has_period) back.period = now.period;
-                      if (change.activation) back.activation = now.activation;
-                      if (change.priority) back.priority = now.priority;
-                      if (change.on_overrun) back.on_overrun = now.on_overrun;
-                      return {back};
-                    }});
+  AddSetting([thread] { return thread->options(); },
+             [thread](const ThreadOptions& options) { return thread->SetOptions(options); }, wanted,
+             [=](auto&) -> ChangeSet {
+               const ThreadOptions now = thread->options();
+               ScheduleThread back{.thread = thread->path()};
+               const bool has_period = now.activation != ThreadOptions::Activation::kTrigger;
+               if (change.period && has_period) back.period = now.period;
+               if (change.activation) back.activation = now.activation;
+               if (change.priority) back.priority = now.priority;
+               if (change.on_overrun) back.on_overrun = now.on_overrun;
+               return {back};
+             });
   return {};
 }
 
@@ -120,21 +114,13 @@ Result<void> Plan::Check(const AssignToThread& change) {
                  .path = element.path()};
   }
   Concern(element);
-  const auto assign = [&element](ThreadContainer* to) {
+  const auto assign = [&element](ThreadContainer* to) -> Result<void> {
     to != nullptr ? AssignThread(element, *to) : UnassignThread(element);
+    return {};
   };
-  auto before = std::make_shared<std::optional<ThreadContainer*>>();
-  steps_.push_back({[=, &element]() -> Result<void> {
-                      *before = OwnThread(element);
-                      assign(thread);
-                      return {};
-                    },
-                    [=] {
-                      if (*before) assign(**before);
-                    },
-                    [&element](auto&) -> ChangeSet {
-                      return {AssignToThread{element.path(), OwnThreadPath(element)}};
-                    }});
+  AddSetting([&element] { return OwnThread(element); }, assign, thread, [&element](auto&) -> ChangeSet {
+    return {AssignToThread{element.path(), OwnThreadPath(element)}};
+  });
   return {};
 }
 

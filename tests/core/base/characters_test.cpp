@@ -1,5 +1,4 @@
 #include "core/base/characters.h"
-#include "core/base/printable.h"
 
 #include <gtest/gtest.h>
 
