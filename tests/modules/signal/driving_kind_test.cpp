@@ -210,12 +210,14 @@ TEST(DrivingKindOfMarks, FollowsTheUnitsOfWhatIsThere) {
   Numbers numbers({runtime.root(), "numbers"});
   Speeds speeds({runtime.root(), "speeds"});
   ASSERT_TRUE(metres.in.SetDriving(true, AnyValue(0.5)));
+  EXPECT_FALSE(Port::CheckTakeOver(numbers.in, metres.in)) << "its safe value is so many metres";
+  ASSERT_TRUE(metres.in.SetDriving(true, AnyValue(0.0)));
   numbers.in.TakeOver(metres.in);
   EXPECT_EQ(numbers.in.stop()->command(), DrivingKind::kPosition) << "it knows no better";
   EXPECT_FALSE(metres.in.is_driving());
   const auto refused = Port::CheckTakeOver(speeds.in, numbers.in);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().ToString(), HasSubstr("is in m/s and cannot take over from /numbers/input/in, by which something moves as by a position"));
+  EXPECT_THAT(refused.error().ToString(), HasSubstr("is in m/s, which is that of a velocity, and is said to be a position; it cannot take over from /numbers/input/in"));
 }
 
 }  // namespace

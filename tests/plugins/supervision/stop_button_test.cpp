@@ -169,5 +169,15 @@ TEST(StopButtonTag, IsReadWithItsPortAndRefusesWhatIsNoNumber) {
   WaitUntil("it is released", [&] { return !other.runtime.robot_stop().in_force(); });
 }
 
+// Neither by a terminal, nor while somebody changes the application for long: nobody needs to be asked where the button is.
+TEST_F(StopButtonTest, IsPressedAsLongAsItIsHeldWhoeverHasTheLock) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
+  Press(1);
+  WaitForStop("the button");
+  const std::lock_guard lock(runtime.structure_mutex());
+  MustSucceed(runtime.robot_stop().Release("a terminal"));
+  WaitUntil("it presses again", [&] { return runtime.robot_stop().in_force(); });
+}
+
 }  // namespace
 }  // namespace runnel::testing
