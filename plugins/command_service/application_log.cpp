@@ -14,10 +14,10 @@ namespace runnel {
 
 namespace {
 
-using Kind = ApplicationLog::Kind;
+using EntryKind = ApplicationLog::Kind;
 
 // In the order of their levels.
-constexpr std::array kKindsByLevel{Kind::kDebug, Kind::kInfo, Kind::kWarning, Kind::kError, Kind::kError};
+constexpr std::array kKindsByLevel{EntryKind::kDebug, EntryKind::kInfo, EntryKind::kWarning, EntryKind::kError, EntryKind::kError};
 
 struct KindInfo {
   const char* name;
@@ -31,7 +31,7 @@ constexpr std::array<KindInfo, 6> kKinds{{{"fault", LogLevel::kError},
                                           {"info", LogLevel::kInfo},
                                           {"debug", LogLevel::kDebug}}};
 
-const KindInfo& InfoOf(Kind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+const KindInfo& InfoOf(EntryKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "core/module/kept_state.h"
+#include "core/plugin/module_type_name.h"
 #include "core/port/port_stop.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"
