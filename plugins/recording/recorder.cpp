@@ -189,7 +189,7 @@ Result<void> Recorder::Finish() {
     // Destroyed after the mutex is free: cutting their connections takes the structure lock.
     std::vector<std::shared_ptr<Recorded>> ended;
     const std::lock_guard lock(mutex_);
-    for (const auto& each : recorded_) status_.dropped += each->probe->dropped();
+    for (const auto& each : recorded_) status_.dropped += each->dropped();
     ended.swap(recorded_);
   }
   const std::lock_guard lock(mutex_);
@@ -235,14 +235,15 @@ void Recorder::Wake() noexcept {
 RecordingStatus Recorder::status() const {
   const std::lock_guard lock(mutex_);
   RecordingStatus status = status_;
-  for (const auto& each : recorded_) status.dropped += each->probe->dropped();
+  for (const auto& each : recorded_) status.dropped += each->dropped();
   return status;
 }
 
 std::optional<Error> Recorder::TakeFailure() {
   const std::lock_guard lock(mutex_);
-  if (!status_.failure || std::exchange(failure_is_told_, true)) return {};
-  return status_.failure;
+  if (status_.failure && !std::exchange(failure_is_told_, true)) return status_.failure;
+  if (status_.unwritable && !std::exchange(unwritable_is_told_, true)) return status_.unwritable;
+  return {};
 }
 
 std::vector<std::shared_ptr<Recorder::Recorded>> Recorder::All() const {
