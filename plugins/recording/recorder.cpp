@@ -303,10 +303,28 @@ void Recorder::ShowWhereTheRobotIs() {
 
 void Recorder::OnReady(FrameworkElement& element) {
   if (has_failed_) return;
+  has_new_names_ = true;
   try {
     for (Port* const each : PortsWithin(element)) Follow(*each);
   } catch (
       ...) {  // the recording would lack something; the change of the structure is none of its business
+    NoteException();
+  }
+}
+
+// What has another name now goes on as what it is called, from its next value on.
+void Recorder::OnChangesEnd() {
+  if (!std::exchange(has_new_names_, false) || has_failed_) return;
+  try {
+    for (const auto& each : All()) {
+      if (each->probe->incoming().empty()) continue;
+      Port& port = *each->probe->incoming().front();
+      if (port.life_cycle() == LifeCycle::kDeleted || port.path() == each->path) continue;
+      each->probe->DisconnectAll();
+      has_gone_ = true;
+      Follow(port);
+    }
+  } catch (...) {
     NoteException();
   }
 }

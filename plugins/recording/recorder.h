@@ -93,6 +93,7 @@ class Recorder final : public ElementListener, public BackpressureSource {
 
   void OnReady(FrameworkElement& element) override;
   void OnDeleted(FrameworkElement& element) override;
+  void OnChangesEnd() override;
   void WaitForRoom() noexcept override;
 
  private:
@@ -101,9 +102,9 @@ class Recorder final : public ElementListener, public BackpressureSource {
     std::string path;
     const TypeInfo* type;
     std::unique_ptr<ProbePort> probe;
-    std::vector<FoxgloveChannel> forms;  // in which its values are written, the whole one first
     std::uint64_t unwritten = 0;  // guarded by mutex_
     [[nodiscard]] std::uint64_t dropped() const { return unwritten + probe->dropped(); }
+    std::vector<FoxgloveChannel> forms;  // in which its values are written, the whole one first
     // The writing thread's own:
     std::vector<std::uint16_t> channels;  // one for each form, once there is a value
     std::vector<std::string> messages;    // likewise: the newest
@@ -155,9 +156,10 @@ class Recorder final : public ElementListener, public BackpressureSource {
   std::deque<LogMessage> said_;  // and is not written yet; guarded by mutex_
   std::uint64_t lost_messages_ = 0;  // likewise
   bool failure_is_told_ = false;
-  bool is_finishing_ = false;      // guarded by mutex_: nothing is taken out of recorded_ any more
   bool unwritable_is_told_ = false;
+  bool is_finishing_ = false;      // guarded by mutex_: nothing is taken out of recorded_ any more
   std::uint64_t made_probes_ = 0;  // under the structure lock
+  bool has_new_names_ = false;     // likewise: OnChangesEnd() has to look
 
   std::unique_ptr<McapWriter> writer_;
   std::map<std::string, std::uint16_t> schemas_;
