@@ -48,7 +48,7 @@ void Print(const RecordingInfo& info) {
   PrintLine("duration", fmt::format("{:.3f} s, from {:.3f} s to {:.3f} s", info.duration(),
                                     info.start, info.end));
   PrintLine("values", std::to_string(info.values) + " of " + std::to_string(info.ports) +
-                          " ports, " + std::to_string(info.dropped) + " more came too fast");
+                          " ports, " + std::to_string(info.dropped) + " more came too fast or could not be written");
   PrintLine("chunks", PackingText(info));
   for (const auto& [key, text] : info.about) PrintLine(key.c_str(), text);
   if (info.about.empty()) PrintLine("library", info.library);

@@ -44,7 +44,7 @@ struct RecorderState {
 inline void Describe(TypeBuilder<RecorderState>& type) {
   type.Name("RecorderState")
       .Field("values", &RecorderState::values, {.description = "written so far"})
-      .Field("dropped", &RecorderState::dropped, {.description = "came too fast"})
+      .Field("dropped", &RecorderState::dropped, {.description = "came too fast, or could not be written"})
       .Field("bytes", &RecorderState::bytes, {.unit = "B", .description = "of the file"});
 }
 
@@ -94,7 +94,7 @@ class RecorderModule final : public Module {
   void Update() override {
     if (is_simulated_) recorder_->WaitForRoom();
     if (const auto failure = recorder_->TakeFailure()) {
-      throw std::runtime_error("the recording has ended: " + failure->ToString());
+      throw std::runtime_error("the recording: " + failure->ToString());
     }
     const RecordingStatus status = recorder_->status();
     state.Publish({status.values, status.dropped, status.bytes});
@@ -113,8 +113,9 @@ std::string RecordingText(const Recorder& recorder) {
                      std::to_string(status.ports) + (status.ports == 1 ? " port, " : " ports, ") +
                      SizeText(status.bytes) + ", to " + recorder.file();
   if (status.dropped > 0) {
-    text += "; " + std::to_string(status.dropped) + " came too fast and are not in it";
+    text += "; " + std::to_string(status.dropped) + " came too fast or could not be written, and are not in it";
   }
+  if (status.unwritable) text += "; " + status.unwritable->ToString();
   if (!status.left_out.empty()) {
     text += "; not recorded, because their values have no form to be written in:";
     for (const std::string& path : status.left_out) text += " " + ShortPortPath(path);
@@ -132,7 +133,7 @@ class RecordingOfClient final : public ClientRecording {
   explicit RecordingOfClient(std::unique_ptr<Recorder> recorder) : recorder_(std::move(recorder)) {}
 
   std::string Progress() override { return RecordingText(*recorder_); }
-  std::optional<Error> Failure() override { return recorder_->TakeFailure(); }
+  std::optional<Error> Failure() override { return recorder_->status().failure; }
   Result<std::string> Finish() override {
     if (auto finished = recorder_->Finish(); !finished) return finished.error();
     return RecordingText(*recorder_);

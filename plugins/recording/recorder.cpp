@@ -189,7 +189,7 @@ Result<void> Recorder::Finish() {
     // Destroyed after the mutex is free: cutting their connections takes the structure lock.
     std::vector<std::shared_ptr<Recorded>> ended;
     const std::lock_guard lock(mutex_);
-    for (const auto& each : recorded_) status_.dropped += each->probe->dropped();
+    for (const auto& each : recorded_) status_.dropped += each->dropped();
     ended.swap(recorded_);
   }
   const std::lock_guard lock(mutex_);
@@ -235,14 +235,15 @@ void Recorder::Wake() noexcept {
 RecordingStatus Recorder::status() const {
   const std::lock_guard lock(mutex_);
   RecordingStatus status = status_;
-  for (const auto& each : recorded_) status.dropped += each->probe->dropped();
+  for (const auto& each : recorded_) status.dropped += each->dropped();
   return status;
 }
 
 std::optional<Error> Recorder::TakeFailure() {
   const std::lock_guard lock(mutex_);
-  if (!status_.failure || std::exchange(failure_is_told_, true)) return {};
-  return status_.failure;
+  if (status_.failure && !std::exchange(failure_is_told_, true)) return status_.failure;
+  if (status_.unwritable && !std::exchange(unwritable_is_told_, true)) return status_.unwritable;
+  return {};
 }
 
 std::vector<std::shared_ptr<Recorder::Recorded>> Recorder::All() const {
@@ -256,7 +257,7 @@ bool Recorder::IsRecorded(const Port& port) {
   return port.direction() == Port::Direction::kOutput && patterns_.Fit(port.path());
 }
 
-void Recorder::Follow(Port& port) {
+void Recorder::Follow(Port& port, const Recorded* before) {
   if (!IsRecorded(port) || port.IsAtOrBelow(*element_) || Feeds(port, *element_)) return;
   NoteUse(port);
   if (!port.type().is_transparent()) {
@@ -272,6 +273,8 @@ void Recorder::Follow(Port& port) {
   recorded->probe = std::make_unique<ProbePort>(
       *element_, "probe_" + std::to_string(++made_probes_), port.type(), options_.capacity);
   recorded->forms = ChannelsFor(port.type(), TopicOf(port), WholeValues());
+  const bool has_transform = before != nullptr && before->forms.size() > recorded->forms.size();
+  if (has_transform) recorded->forms.push_back(before->forms.back());
   if (const auto connected = Port::Connect(port, *recorded->probe); !connected) {
     if (port.life_cycle() == LifeCycle::kDeleted) return;
     throw ElementError(connected.error());
@@ -302,10 +305,28 @@ void Recorder::ShowWhereTheRobotIs() {
 
 void Recorder::OnReady(FrameworkElement& element) {
   if (has_failed_) return;
+  has_new_names_ = true;
   try {
     for (Port* const each : PortsWithin(element)) Follow(*each);
   } catch (
       ...) {  // the recording would lack something; the change of the structure is none of its business
+    NoteException();
+  }
+}
+
+// What has another name now goes on as what it is called, from its next value on.
+void Recorder::OnChangesEnd() {
+  if (!std::exchange(has_new_names_, false) || has_failed_) return;
+  try {
+    for (const auto& each : All()) {
+      if (each->probe->incoming().empty()) continue;
+      Port& port = *each->probe->incoming().front();
+      if (port.life_cycle() == LifeCycle::kDeleted || port.path() == each->path) continue;
+      each->probe->DisconnectAll();
+      has_gone_ = true;
+      Follow(port, each.get());
+    }
+  } catch (...) {
     NoteException();
   }
 }

@@ -47,14 +47,15 @@ struct RecorderOptions {
 /// How a recording is going.
 struct RecordingStatus {
   std::uint64_t values = 0;
-  std::uint64_t dropped = 0;  ///< had no room to wait
+  std::uint64_t dropped = 0;  ///< had no room to wait, or could not be written
   std::size_t ports = 0;      ///< all that were there while it ran
   std::uint64_t bytes = 0;    ///< of the file
   /// Ports that fit, but whose values have no form that can be written.
   std::vector<std::string> left_out = {};
   /// Patterns that no port has fitted so far.
   std::vector<std::string> idle_patterns = {};
-  std::optional<Error> failure = {};  ///< nothing more is written
+  std::optional<Error> unwritable = {};  ///< the first value that could not be written
+  std::optional<Error> failure = {};     ///< nothing more is written
 };
 
 /// Records the values of outputs into an MCAP file: as JSON, with the times at which each value was published
@@ -87,12 +88,13 @@ class Recorder final : public ElementListener, public BackpressureSource {
   void FinishFile() noexcept { EndWriting(); }
   [[nodiscard]] RecordingStatus status() const;
   [[nodiscard]] const std::string& file() const noexcept { return options_.file; }
-  /// The failure, once.
+  /// The failure, or that a value could not be written, once each.
   [[nodiscard]] std::optional<Error> TakeFailure();
 
   void OnReady(FrameworkElement& element) override;
   // Whether another module takes over its connections, as one that replaces it does, is seen later.
   void OnDeleted(FrameworkElement& /*element*/) override { has_gone_ = true; }
+  void OnChangesEnd() override;
   void WaitForRoom() noexcept override;
 
  private:
@@ -101,6 +103,8 @@ class Recorder final : public ElementListener, public BackpressureSource {
     std::string path;
     const TypeInfo* type;
     std::unique_ptr<ProbePort> probe;
+    std::uint64_t unwritten = 0;  // guarded by mutex_
+    [[nodiscard]] std::uint64_t dropped() const { return unwritten + probe->dropped(); }
     std::vector<FoxgloveChannel> forms;  // in which its values are written, the whole one first
     // The writing thread's own:
     std::vector<std::uint16_t> channels;  // one for each form, once there is a value
@@ -114,7 +118,7 @@ class Recorder final : public ElementListener, public BackpressureSource {
   Result<void> WriteAbout();
 
   // Under the structure lock.
-  void Follow(Port& port);
+  void Follow(Port& port, const Recorded* before = nullptr);  // as what it was recorded before
   void NoteUse(const Port& port);
   void ShowWhereTheRobotIs();
   [[nodiscard]] bool IsRecorded(const Port& port);
@@ -153,8 +157,10 @@ class Recorder final : public ElementListener, public BackpressureSource {
   std::deque<LogMessage> said_;  // and is not written yet; guarded by mutex_
   std::uint64_t lost_messages_ = 0;  // likewise
   bool failure_is_told_ = false;
+  bool unwritable_is_told_ = false;
   bool is_finishing_ = false;      // guarded by mutex_: nothing is taken out of recorded_ any more
   std::uint64_t made_probes_ = 0;  // under the structure lock
+  bool has_new_names_ = false;     // likewise: OnChangesEnd() has to look
 
   std::unique_ptr<McapWriter> writer_;
   std::map<std::string, std::uint16_t> schemas_;

@@ -35,7 +35,7 @@ Result<std::uint16_t> FindOrMake(std::map<std::string, std::uint16_t>& known,
 
 }  // namespace
 
-// Whatever a type's description throws ends the recording, and nothing else.
+// Whatever is thrown here ends the recording, and nothing else.
 void Recorder::Write() noexcept {
   try {
     WriteUntilEnd();
@@ -104,10 +104,10 @@ std::uint64_t Recorder::WriteLog() {
 // No more than a queue full, so that all ports have their turn.
 std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
   std::uint64_t count = 0;
-  while (count < recorded.probe->capacity() && !has_failed_) {
+  for (std::size_t taken = 0; taken < recorded.probe->capacity() && !has_failed_; ++taken) {
     ValueTimes times;
     std::exception_ptr failure;  // the value must be let go of first
-    const bool taken = recorded.probe->Take([&](const void* value, ValueTimes of) {
+    const bool found = recorded.probe->Take([&](const void* value, ValueTimes of) {
       times = of;
       try {
         recorded.messages.resize(recorded.forms.size());
@@ -119,11 +119,14 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
         failure = std::current_exception();
       }
     });
-    if (!taken) break;
-    if (failure) {
-      Note(Error{.message = "the value cannot be written: " + DescribeException(failure),
-                 .path = recorded.path});
-      break;
+    if (!found) break;
+    if (failure) {  // those that can be are recorded all the same
+      Error error{.message = "a value cannot be written, and is left out: " + DescribeException(failure),
+                  .path = recorded.path};
+      const std::lock_guard lock(mutex_);
+      ++recorded.unwritten;
+      if (!status_.unwritable) status_.unwritable = std::move(error);
+      continue;
     }
     if (auto written = WriteValue(recorded, times); !written) {
       Note(written);
@@ -181,7 +184,7 @@ Result<void> Recorder::WriteDrops() {
     if (count > 0) drops.texts.emplace_back(path, std::to_string(count));
   };
   for (const auto& [path, count] : drops_of_gone_) add(path, count);
-  for (const auto& each : All()) add(each->path, each->probe->dropped());
+  for (const auto& each : All()) add(each->path, each->dropped());
   {
     const std::lock_guard lock(mutex_);
     add("log", lost_messages_);
@@ -215,8 +218,8 @@ void Recorder::DropGone() {
     const std::lock_guard lock(mutex_);
     if (is_finishing_) return;
     std::erase(recorded_, each);
-    status_.dropped += each->probe->dropped();
-    drops_of_gone_.emplace_back(each->path, each->probe->dropped());
+    status_.dropped += each->dropped();
+    drops_of_gone_.emplace_back(each->path, each->dropped());
   }
 }
 

@@ -99,10 +99,14 @@ void TraceFile::AddArrow(int track, std::string_view name, char phase, Time when
 }
 
 void TraceFile::Flush() {
+  const std::uint64_t before = written_;
   Write(text_);
-  if (error_) {
+  if (error_ && events_in_text_ > 0) {
     events_ -= events_in_text_;
     left_out_ += events_in_text_;
+    // Half an event could not be read, and the bracket needs room.
+    const auto end = static_cast<off_t>(before);
+    if (fseeko(file_.get(), end, SEEK_SET) == 0) (void)ftruncate(fileno(file_.get()), end);
   }
   text_.clear();
   events_in_text_ = 0;
@@ -119,7 +123,8 @@ void TraceFile::Write(std::string_view bytes) {
 
 Result<void> TraceFile::Close() {
   Flush();
-  Write(events_ == 0 ? "[\n]\n" : "\n]\n");
+  const std::string_view end = events_ == 0 ? "[\n]\n" : "\n]\n";
+  if (std::fwrite(end.data(), 1, end.size(), file_.get()) != end.size() && !error_) Fail();
   if (std::fclose(file_.release()) != 0 && !error_) Fail();
   return error_ ? Result<void>(*error_) : Result<void>();
 }

@@ -283,14 +283,17 @@ class Application(_extension.Application):
     def apply(self, text):
         """Changes as text, all or none: "connect /a/out /b/in; set /b/gain 2"."""
         self._apply(text)
+        self._readers.clear()  # names may mean others now
 
     def undo(self):
         """Takes the last change back."""
         self._undo()
+        self._readers.clear()
 
     def redo(self):
         """Makes the change again that was taken back last."""
         self._redo()
+        self._readers.clear()
 
     def reload(self, plugin="python"):
         """Loads a plugin anew, and makes its modules anew; "python": the files of all modules in Python."""

@@ -33,6 +33,22 @@ def test_composed_in_code():
         assert ("/demo/robot/planner", "module", "planning/bug2") in app.paths("module")
 
 
+def test_reads_what_has_a_name_now_after_a_rename():
+    with runnel.compose("demo", clock="simulated") as app:
+        app.thread("control", 0.05)
+        app.create("world", "simulation/world", world="rooms")
+        app.step(2)
+        assert app.read("/world/goal") is not None
+        app.apply("rename /demo/world other")
+        assert app.read("/other/goal") is not None
+        with pytest.raises(runnel.Error):
+            app.read("/world/goal")
+        app.undo()
+        assert app.read("/world/goal") is not None
+        with pytest.raises(runnel.Error):
+            app.read("/other/goal")
+
+
 def test_changes_are_undone_and_refused_with_the_nearest_name(app):
     app.run_for(1)
     app.swap("/robot/planner", "planning/tangent_bug")

@@ -1,4 +1,4 @@
-// What ends a recording, and never the application.
+// What a recording lacks or is ended by, and never the application.
 #include "tests/plugins/recording/recording_fixture.h"
 #include "tests/support/wait_until.h"
 
@@ -8,7 +8,7 @@ namespace {
 using std::chrono::milliseconds;
 using testing::HasSubstr;
 
-/// Its text format throws an int from the third value on.
+/// Its text format throws an int for each third value.
 struct Moody {
   int number = 0;
 };
@@ -16,7 +16,7 @@ inline void Describe(TypeBuilder<Moody>& type) {
   type.Name("test::Moody")
       .Leaf({[](const void* at) -> std::string {
                const int number = static_cast<const Moody*>(at)->number;
-               if (number >= 3) throw number;
+               if (number % 3 == 0) throw number;
                return std::to_string(number);
              },
              [](std::string_view, void*) -> Result<void> { return {}; }, true});
@@ -34,25 +34,31 @@ class MoodySource final : public Module {
 
 using RecorderFailures = RecordingTest;
 
-TEST_F(RecorderFailures, ATypeWhoseTextFormatThrowsEndsTheRecordingAndNotTheProcess) {
+TEST_F(RecorderFailures, AValueWhoseTextFormatThrowsIsLeftOutAndCountedAndToldOnce) {
   Runtime runtime;
   Scheduler scheduler(runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
   CreateThread(runtime, "main", {.period = milliseconds(10)});
-  auto& source = runtime.Create<MoodySource>(runtime.root(), "source");
+  auto& moody = runtime.Create<MoodySource>(runtime.root(), "source");
+  runtime.Create<Source>(runtime.root(), "other");
   Must(runtime.MakeReady(runtime.root()));
-  auto recorder = Must(Recorder::Start(runtime, &scheduler, {.file = Path("a.mcap")}));
+  auto recorder = Must(Recorder::Start(runtime, &scheduler, {.file = Path("a.mcap"), .ports = {"mood", "number"}}));
   scheduler.RunUntil(runtime.clock().Now() + milliseconds(100));
   std::optional<Error> failure;
-  WaitUntil("the recording has failed", [&] {
+  WaitUntil("the value is told", [&] {
     failure = recorder->TakeFailure();
     return failure.has_value();
   });
   EXPECT_THAT(failure->message, HasSubstr("exception of type int"));
   EXPECT_EQ(failure->path, "/source/output/mood");
-  EXPECT_FALSE(recorder->Finish());
-  // The application has gone on, and nothing of the recorder is left in it.
-  EXPECT_EQ(source.mood.publications(), 10u);
-  EXPECT_TRUE(source.mood.outgoing().empty());
+  EXPECT_TRUE(recorder->Finish());
+  EXPECT_FALSE(recorder->TakeFailure());
+  EXPECT_EQ(recorder->status().values, 17u);
+  EXPECT_EQ(recorder->status().dropped, 3u);
+  EXPECT_THAT(ValuesOf(Path("a.mcap"), "/source/output/mood"), testing::SizeIs(7));
+  EXPECT_THAT(ValuesOf(Path("a.mcap"), "/other/output/number"), testing::SizeIs(10));
+  EXPECT_TRUE(Must(McapReader::Open(Path("a.mcap")))->contents().ended_properly);
+  EXPECT_EQ(moody.mood.publications(), 10u);
+  EXPECT_TRUE(moody.mood.outgoing().empty()) << "nothing of the recorder is left in the application";
 }
 
 }  // namespace

@@ -9,7 +9,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/module/group.h"
+#include "core/plugin/module_registry.h"
 #include "plugins/recording/recording_names.h"
+#include "plugins/structure/structure_editor.h"
 #include "plugins/values/json_values.h"
 #include "tests/plugins/recording/recording_fixture.h"
 #include "tests/support/wait_until.h"
@@ -167,6 +170,31 @@ TEST_F(RecorderTest, FollowsModulesThatComeAndGo) {
   EXPECT_THAT(ValuesOf(Path("a.mcap"), "/late/output/number"), SizeIs(5));
   EXPECT_THAT(Must(McapReader::Open(Path("a.mcap")))->contents().channels, SizeIs(2))
       << "what comes back goes on in its channel";
+}
+
+TEST_F(RecorderTest, WhatIsRenamedGoesOnUnderItsNewNameAndItsOldNameIsFree) {
+  Application application;
+  ModuleRegistry registry;
+  Must(registry.Add({"test/source", "", "test", [](const Placement& placement) {
+                       return std::unique_ptr<FrameworkElement>(std::make_unique<Source>(placement));
+                     }}));
+  StructureEditor editor(application.runtime, registry, &application.scheduler);
+  const auto change = [&](const ChangeSet& changes) {
+    const ChangeOutcome outcome = editor.Apply(changes);
+    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+  };
+  application.runtime.Create<Group>(application.runtime.root(), "app");
+  change({CreateModule{"/app/first", "test/source"}});
+  auto recorder = Must(Recorder::Start(application.runtime, &application.scheduler,
+                                       {.file = Path("a.mcap"), .ports = {"**/number"}}));
+  application.Run(milliseconds(30));
+  change({RenameElement{"/app/first", "second"}});
+  change({CreateModule{"/app/first", "test/source"}});
+  application.Run(milliseconds(40));
+  Must(recorder->Finish());
+  EXPECT_EQ(recorder->status().dropped, 0u);
+  EXPECT_THAT(ValuesOf(Path("a.mcap"), "/app/first/output/number"), SizeIs(7)) << "3 of one, 4 of the other";
+  EXPECT_THAT(ValuesOf(Path("a.mcap"), "/app/second/output/number"), SizeIs(5)) << "the newest one of before, too";
 }
 
 TEST_F(RecorderTest, CountsWhatComesTooFastOnARealClock) {

@@ -126,9 +126,9 @@ TEST_F(RecordingFaults, OneThatCannotWriteOnLetsTheApplicationGoOn) {
     writer_fails_at = nth;
     ASSERT_TRUE(scheduler.RunUntil(runtime.clock().Now() + milliseconds(100)));
     const auto finished = recorder->Finish();
-    fails = !finished.has_value();
+    fails = recorder->TakeFailure().has_value();  // of a value, too, which is left out
     failures += fails;
-    ASSERT_EQ(recorder->TakeFailure().has_value(), fails);
+    ASSERT_TRUE(finished || fails);
     recorder.reset();
     ASSERT_TRUE(source.out.outgoing().empty());
     ASSERT_EQ(source.out.publications(), 10u);

@@ -1,11 +1,13 @@
 #include "plugins/tracing/trace_file.h"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 namespace runnel::test {
 namespace {
@@ -102,6 +104,28 @@ TEST_F(TraceFileTest, SaysAtTheEndWhatCouldNotBeWritten) {
   EXPECT_THAT(closed.error().message, HasSubstr("No space left"));
   EXPECT_EQ(file->events(), 0U);
   EXPECT_EQ(file->left_out(), 2U);
+}
+
+TEST_F(TraceFileTest, IsWholeWhereTheDiskHasBecomeFull) {
+  struct rlimit before {};
+  getrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_IGN);
+  TraceFile file = Make();
+  const auto add = [&](int count) {
+    for (int i = 0; i < count; ++i) file.AddInstant(1, "\"x\"", "test", file.start(), "");
+    file.Flush();
+  };
+  add(10);
+  const struct rlimit until_the_second_event {std::filesystem::file_size(path_) * 23 / 20, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &until_the_second_event);
+  add(10);
+  const auto closed = file.Close();
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_DFL);
+  EXPECT_FALSE(closed);
+  EXPECT_EQ(file.events(), 10U);
+  EXPECT_EQ(file.left_out(), 10U);
+  EXPECT_EQ(json::parse(Text()).size(), 10U);
 }
 
 }  // namespace
