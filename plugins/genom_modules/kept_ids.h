@@ -34,7 +34,6 @@ void Describe(TypeBuilder<KeptIds<View, Ids>>& type) {
   type.Name("kept " + TypeOf<View>().name());
   type.Elements(TypeKind::kSequence, {.type = &TypeOf<View>(),
                                       .is_fixed = true,
-                                      .rows = [](const void*) -> std::size_t { return 1; },
                                       .columns = [](const void*) -> std::size_t { return 2; },
                                       .resize = [](void*, std::size_t, std::size_t columns) { return columns == 2; },
                                       .element = [](void* at, std::size_t index) -> void* {

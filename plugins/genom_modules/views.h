@@ -41,8 +41,6 @@ template <typename List, typename E>
 void DescribeList(TypeBuilder<List>& type) {
   type.Elements(TypeKind::kSequence,
                 {.type = &TypeOf<E>(),
-                 .is_fixed = false,
-                 .rows = [](const void*) -> std::size_t { return 1; },
                  .columns = [](const void* at) -> std::size_t { return static_cast<const List*>(at)->length; },
                  .resize = [](void* at, std::size_t, std::size_t columns) { return static_cast<List*>(at)->Resize(columns); },
                  .element = [](void* at, std::size_t index) -> void* { return &static_cast<List*>(at)->buffer[index]; }});
@@ -68,8 +66,6 @@ void Describe(TypeBuilder<Presence<E>>& type) {
   type.Name("genom " + TypeOf<E>().name() + "?")
       .Elements(TypeKind::kSequence,
                 {.type = &TypeOf<E>(),
-                 .is_fixed = false,
-                 .rows = [](const void*) -> std::size_t { return 1; },
                  .columns = [](const void* at) -> std::size_t { return static_cast<const Presence<E>*>(at)->is_present; },
                  .resize =
                      [](void* at, std::size_t, std::size_t columns) {
