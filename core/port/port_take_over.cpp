@@ -142,8 +142,8 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
   auto whole = Complete(said, before.get());
   if (!whole) return whole.error();
   const bool is_its_own = own != nullptr && !said.safe_value;
-  if (!is_its_own && unit() != from.unit() && !IsZero(whole->safe_value)) {
-    return Error{.message = "is in " + (unit().empty() ? "no unit" : unit()) + ", and its safe value, " + ToText(type(), whole->safe_value.get()) + ", is not",
+  if (!is_its_own && !unit().empty() && unit() != from.unit() && !IsZero(whole->safe_value)) {
+    return Error{.message = "is in " + unit() + ", and its safe value, " + ToText(type(), whole->safe_value.get()) + ", is not",
                  .hint = "have the new module declare that it drives, with its safe value"};
   }
   const bool is_as_before = before && before->robot() && whole->safe_value.get() == before->safe_value().get() &&

@@ -36,6 +36,7 @@ struct PortState final : Annotation {
   std::optional<Port::HandValue> by_rule;
   std::shared_ptr<const PortStop> stop;
   std::optional<DrivingMark> mark;
+  std::shared_ptr<const DrivingMark> said;
   bool is_blocked = false;
 };
 
@@ -71,6 +72,7 @@ void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkEle
     if (how == FrameworkElement::Inherit::kAsReplacement) state->by_rule = port->ValueByHand(Port::Setter::kRule);
     state->stop = port->stop();
     state->mark = port->FindMark();
+    state->said = DrivingState::MarkOf(*port);
     state->is_blocked = port->is_blocked();
     noted.Annotate(std::move(state));
   }
@@ -107,6 +109,18 @@ ElementState::ElementState(const FrameworkElement& element, Inherit how, Below b
 
 Result<void> ElementState::GivePorts(FrameworkElement& made, const TakenOver& taken_over) const {
   return Give(*noted_, made, taken_over);
+}
+
+void ElementState::NoteWayBack(FrameworkElement& made) const {
+  made.VisitAll<Port>([&](Port& port) {
+    const auto found = noted_->Find(port.path().substr(made.path().size() + 1));
+    const auto* const state = found ? (*found)->FindAnnotation<PortState>() : nullptr;
+    if (state == nullptr) return;
+    auto& driving = DrivingState::Of(port);
+    driving.mark = state->said;
+    driving.is_replaced = true;
+    driving.stop_before = state->stop;
+  });
 }
 
 const Port* ElementState::FindCounterpart(const Port& port, const FrameworkElement& before, const FrameworkElement& made) {

@@ -33,6 +33,8 @@ class ElementState {
   /// When nobody but its readers can see `made` yet. Nothing to ports that take over from others, as they have that.
   /// Errors: as Port::PublishByHand().
   Result<void> GivePorts(FrameworkElement& made, const TakenOver& taken_over = {}) const;
+  /// Tells the ports of `made` what stopped those noted, to be so again when they take the places of others.
+  void NoteWayBack(FrameworkElement& made) const;
   /// The port in `made` that gets what is set at `port`, which is below `before`: at the same place in it, and of the same
   /// kind; nullptr: none.
   [[nodiscard]] static const Port* FindCounterpart(const Port& port, const FrameworkElement& before, const FrameworkElement& made);

@@ -240,6 +240,7 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
   if (before.kind() == ElementKind::kGroup || made.kind() == ElementKind::kGroup) {
     return ExchangeComposite(before, work->element, misfits);
   }
+  if (change.state) change.state->NoteWayBack(made);
   PortMatch match = MatchPorts(before, made, [this](const Port& port) {
     return overlay_.IsConnected(port) || !AwaitedWith(port).empty();
   });

@@ -137,7 +137,7 @@ TEST_F(Driving, GoesWithItsModuleAndIsSavedOfACopy) {
   Must({CopyElement{"/demo/g/motor", "second"}, DeleteElement{"/demo/g/motor"}});
   const std::string text = Text();
   EXPECT_THAT(text, ::testing::Not(HasSubstr("port=\"motor")));
-  EXPECT_THAT(text, HasSubstr("<driving port=\"g/second/input/angle\" safe=\"0.5\" brake=\"0.3 s\" command=\"position\"/>"));
+  EXPECT_THAT(text, HasSubstr("<driving port=\"g/second/input/angle\" safe=\"0.5\" brake=\"300ms\" command=\"position\"/>"));
   SavingWorkshop other;
   other.Add<Motor>("test/motor");
   WriteAll(folder_ / "again.xml", text);
