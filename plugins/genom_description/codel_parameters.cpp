@@ -11,11 +11,6 @@ namespace {
 
 using Source = ParameterSource;
 
-const Parameter* FindLocal(const std::vector<Parameter>& locals, std::string_view name) {
-  const auto found = std::ranges::find(locals, name, &Parameter::name);
-  return found == locals.end() ? nullptr : &*found;
-}
-
 std::vector<std::string> NamesIn(const Component& component, Source source, const std::vector<Parameter>& locals) {
   std::vector<std::string> names;
   const auto add = [&](const std::vector<std::string>& more) { names.insert(names.end(), more.begin(), more.end()); };
@@ -65,7 +60,7 @@ bool ComponentRules::Resolve(Parameter& parameter, const std::vector<Parameter>&
   const std::string first = parameter.path.empty() ? "" : parameter.path[0].member;
   Component& component = *current_;
   Type* ids_member = component.ids == nullptr ? nullptr : MemberOf(component.ids, first);
-  const Parameter* local = FindLocal(locals, first);
+  const Parameter* local = FindParameter(locals, first);
   Port* port = FindByName(component.ports, first);
   Remote* remote = FindByName(component.remotes, first);
   if (parameter.source == Source::kNone) {

@@ -41,6 +41,18 @@ std::vector<Codel*> CodelsOf(const Properties& properties) {
   return codels;
 }
 
+std::string LastName(const std::vector<PathStep>& path) {
+  for (auto step = path.rbegin(); step != path.rend(); ++step) {
+    if (!step->member.empty()) return step->member;
+  }
+  return "";
+}
+
+const Parameter* FindParameter(const std::vector<Parameter>& parameters, std::string_view name) {
+  const auto found = std::ranges::find(parameters, name, &Parameter::name);
+  return found == parameters.end() ? nullptr : &*found;
+}
+
 Task* Service::task() const {
   const Property* found = Find(properties, PropertyKind::kTask);
   return found == nullptr ? nullptr : found->task;

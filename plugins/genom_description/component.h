@@ -166,6 +166,10 @@ struct Component {
 /// The codels among the properties, in order.
 [[nodiscard]] std::vector<Codel*> CodelsOf(const Properties& properties);
 
+/// The name that a path gives to what it leads to.
+[[nodiscard]] std::string LastName(const std::vector<PathStep>& path);
+/// nullptr if there is none of that name.
+[[nodiscard]] const Parameter* FindParameter(const std::vector<Parameter>& parameters, std::string_view name);
 /// The thing of that name, nullptr if there is none.
 template <typename Thing>
 [[nodiscard]] Thing* FindByName(const std::vector<Thing*>& things, std::string_view name) {

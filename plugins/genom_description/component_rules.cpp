@@ -221,9 +221,7 @@ void ComponentRules::AddService(Service draft) {
   } else {
     if (!Agree(draft, *service)) return;
     for (Parameter& each : draft.parameters) {
-      const bool is_known = std::ranges::any_of(service->parameters,
-                                                [&](const Parameter& old) { return old.name == each.name; });
-      if (!is_known) service->parameters.push_back(std::move(each));
+      if (FindParameter(service->parameters, each.name) == nullptr) service->parameters.push_back(std::move(each));
     }
   }
   for (Property& each : draft.properties) {

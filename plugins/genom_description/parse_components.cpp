@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "plugins/genom_description/component.h"
 #include "plugins/genom_description/parser.h"
 #include "plugins/genom_text/preprocessor.h"
@@ -103,11 +101,7 @@ void Parser::Item() {
 void Parser::Ids() {
   reader_.Take();
   scopes_.Enter(rules_.current()->ids_scope);
-  reader_.ExpectMark("{");
-  do {
-    Member(nullptr);
-  } while (!reader_.IsMark("}"));
-  reader_.Take();
+  Members(nullptr);
   scopes_.Enter(rules_.current()->scope);
   reader_.Semicolon();
 }
@@ -172,18 +166,6 @@ void Parser::Pragma(const Token& token) {
   }
 }
 
-namespace {
-
-// The name that a path gives to what it leads to.
-std::string LastName(const std::vector<PathStep>& path) {
-  for (auto step = path.rbegin(); step != path.rend(); ++step) {
-    if (!step->member.empty()) return step->member;
-  }
-  return "";
-}
-
-}  // namespace
-
 void Parser::ServiceDeclaration(ServiceKind kind) {
   reader_.Take();
   const Token name = reader_.Identifier(NameOf(kind));
@@ -229,8 +211,7 @@ std::vector<PathStep> Parser::ReadPath() {
 
 bool Parser::AddLocal(Service& draft, Parameter parameter) {
   const bool is_right = !parameter.initial || CheckInitializer(*parameter.initial, parameter.type, problems_);
-  const auto before = std::ranges::find(draft.parameters, parameter.name, &Parameter::name);
-  if (before != draft.parameters.end()) {
+  if (const Parameter* const before = FindParameter(draft.parameters, parameter.name)) {
     problems_.Add(parameter.place, "there is a parameter '" + parameter.name + "' already",
                   problems_.DeclaredAt(before->place));
     return is_right;

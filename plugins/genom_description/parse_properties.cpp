@@ -9,16 +9,29 @@ namespace runnel::genom {
 
 namespace {
 
-constexpr std::array<std::string_view, 31> kWords = {
-    "doc", "version", "lang", "email", "require", "requires", "codels-require", "codels-requires", "clock-rate",
-    "provide", "provides", "use", "uses", "extend", "extends", "throw", "throws", "period", "delay", "priority",
-    "scheduling", "stack", "task", "interrupt", "interrupts", "before", "after", "local", "validate", "async", "codel"};
+using Kind = PropertyKind;
+
+struct PropertyWord {
+  std::string_view text;
+  Kind kind;
+};
+// What "local" says is no property.
+constexpr std::array<PropertyWord, 31> kWords = {{
+    {"doc", Kind::kDoc}, {"version", Kind::kVersion}, {"lang", Kind::kLanguage}, {"email", Kind::kEmail},
+    {"require", Kind::kRequire}, {"requires", Kind::kRequire}, {"codels-require", Kind::kCodelsRequire},
+    {"codels-requires", Kind::kCodelsRequire}, {"clock-rate", Kind::kClockRate}, {"provide", Kind::kProvides},
+    {"provides", Kind::kProvides}, {"use", Kind::kUses}, {"uses", Kind::kUses}, {"extend", Kind::kExtends},
+    {"extends", Kind::kExtends}, {"throw", Kind::kThrow}, {"throws", Kind::kThrow}, {"period", Kind::kPeriod},
+    {"delay", Kind::kDelay}, {"priority", Kind::kPriority}, {"scheduling", Kind::kScheduling},
+    {"stack", Kind::kStack}, {"task", Kind::kTask}, {"interrupt", Kind::kInterrupts},
+    {"interrupts", Kind::kInterrupts}, {"before", Kind::kBefore}, {"after", Kind::kAfter}, {"local", Kind::kCodel},
+    {"validate", Kind::kCodel}, {"async", Kind::kCodel}, {"codel", Kind::kCodel}}};
 
 }  // namespace
 
 bool Parser::IsProperty() {
   const Token& token = reader_.Peek();
-  return token.kind == Token::Kind::kWord && std::ranges::find(kWords, token.text) != kWords.end();
+  return token.kind == Token::Kind::kWord && std::ranges::find(kWords, token.text, &PropertyWord::text) != kWords.end();
 }
 
 void Parser::PropertyBlock(Properties& into, PropertyOwner owner, Service* draft) {
@@ -47,59 +60,46 @@ bool Parser::ReadProperty(Property& property, Service* draft) {
   const Token word = reader_.Peek();
   property.place = word.place;
   if (!IsProperty()) {
-    std::vector<std::string> words(kWords.begin(), kWords.end());
-    reader_.Fail("a property", NearestNameHint(word.text.substr(0, 50), words));
+    reader_.Fail("a property", NearestNameHint(word.text.substr(0, 50), NamesOf(kWords, &PropertyWord::text)));
   }
   if (word.text == "local") reader_.Fail("a property", "only functions and activities have variables of their own");
   reader_.Take();
-  const std::string& text = word.text;
-  if (text == "doc") TextProperty(property, PropertyKind::kDoc);
-  else if (text == "version") TextProperty(property, PropertyKind::kVersion);
-  else if (text == "lang") TextProperty(property, PropertyKind::kLanguage);
-  else if (text == "email") TextProperty(property, PropertyKind::kEmail);
-  else if (text == "scheduling") {
-    property.kind = PropertyKind::kScheduling;
-    if (!reader_.AcceptWord("real-time")) reader_.Fail("'real-time'");
-    property.text = "real-time";
-  } else if (text.starts_with("require") || text.starts_with("codels-require")) {
-    property.kind = text.starts_with("require") ? PropertyKind::kRequire : PropertyKind::kCodelsRequire;
-    property.texts = TextList(&property.places);
-  } else if (text == "clock-rate") return TimeProperty(property, PropertyKind::kClockRate);
-  else if (text == "period") return TimeProperty(property, PropertyKind::kPeriod);
-  else if (text == "delay") return TimeProperty(property, PropertyKind::kDelay);
-  else if (text == "priority" || text == "stack") {
-    property.kind = text == "stack" ? PropertyKind::kStack : PropertyKind::kPriority;
-    property.number = static_cast<double>(Size());
-    if (text == "stack" && reader_.AcceptWord("k")) property.number *= 1024;
-    else if (text == "stack" && reader_.AcceptWord("M")) property.number *= 1024.0 * 1024;
-  } else if (text.starts_with("provide")) return InterfacesProperty(property, PropertyKind::kProvides);
-  else if (text.starts_with("use")) return InterfacesProperty(property, PropertyKind::kUses);
-  else if (text.starts_with("extend")) return InterfacesProperty(property, PropertyKind::kExtends);
-  else if (text.starts_with("throw")) return ThrowProperty(property);
-  else if (text.starts_with("interrupt")) NamesProperty(property, PropertyKind::kInterrupts);
-  else if (text == "before") NamesProperty(property, PropertyKind::kBefore);
-  else if (text == "after") NamesProperty(property, PropertyKind::kAfter);
-  else if (text == "task") {
-    property.kind = PropertyKind::kTask;
-    const Token name = reader_.Identifier("a task");
-    reader_.Semicolon();
-    property.task = FindByName(rules_.current()->tasks, name.text);
-    if (property.task != nullptr) return true;
-    problems_.Add(name.place, "there is no task '" + name.text + "' until here",
-                  NearestNameHint(name.text, NamesOf(rules_.current()->tasks, &Task::name)));
-    return false;
-  } else {
-    const bool is_async = text == "async";
-    if (is_async && !reader_.AcceptWord("codel")) reader_.Fail("'codel' behind 'async'");
-    return CodelProperty(property, is_async, text == "validate", draft);
+  property.kind = std::ranges::find(kWords, word.text, &PropertyWord::text)->kind;
+  switch (property.kind) {
+    case Kind::kDoc: case Kind::kVersion: case Kind::kLanguage: case Kind::kEmail: property.text = Text(); break;
+    case Kind::kScheduling:
+      if (!reader_.AcceptWord("real-time")) reader_.Fail("'real-time'");
+      property.text = "real-time";
+      break;
+    case Kind::kRequire: case Kind::kCodelsRequire: property.texts = TextList(&property.places); break;
+    case Kind::kPriority: case Kind::kStack: {
+      property.number = static_cast<double>(Size());
+      const bool is_stack = property.kind == Kind::kStack;
+      if (is_stack && reader_.AcceptWord("k")) property.number *= 1024;
+      else if (is_stack && reader_.AcceptWord("M")) property.number *= 1024.0 * 1024;
+      break;
+    }
+    case Kind::kInterrupts: case Kind::kBefore: case Kind::kAfter: NamesProperty(property); break;
+    case Kind::kProvides: case Kind::kUses: case Kind::kExtends: InterfacesProperty(property); break;
+    case Kind::kClockRate: case Kind::kPeriod: case Kind::kDelay: return TimeProperty(property);
+    case Kind::kThrow: return ThrowProperty(property);
+    case Kind::kTask: return TaskProperty(property);
+    case Kind::kCodel:
+      if (word.text == "async" && !reader_.AcceptWord("codel")) reader_.Fail("'codel' behind 'async'");
+      return CodelProperty(property, word.text == "async", word.text == "validate", draft);
   }
   reader_.Semicolon();
   return true;
 }
 
-void Parser::TextProperty(Property& property, PropertyKind kind) {
-  property.kind = kind;
-  property.text = Text();
+bool Parser::TaskProperty(Property& property) {
+  const Token name = reader_.Identifier("a task");
+  reader_.Semicolon();
+  property.task = FindByName(rules_.current()->tasks, name.text);
+  if (property.task != nullptr) return true;
+  problems_.Add(name.place, "there is no task '" + name.text + "' until here",
+                NearestNameHint(name.text, NamesOf(rules_.current()->tasks, &Task::name)));
+  return false;
 }
 
 double Parser::TimeUnit() {
@@ -109,8 +109,7 @@ double Parser::TimeUnit() {
   return 1;
 }
 
-bool Parser::TimeProperty(Property& property, PropertyKind kind) {
-  property.kind = kind;
+bool Parser::TimeProperty(Property& property) {
   const Place place = reader_.Peek().place;
   const Constant value = Expression();
   property.number = value.AsReal() * TimeUnit();
@@ -121,7 +120,6 @@ bool Parser::TimeProperty(Property& property, PropertyKind kind) {
 }
 
 bool Parser::ThrowProperty(Property& property) {
-  property.kind = PropertyKind::kThrow;
   bool is_right = true;
   do {
     const Place place = reader_.Peek().place;
@@ -142,8 +140,7 @@ bool Parser::ThrowProperty(Property& property) {
   return is_right;
 }
 
-bool Parser::InterfacesProperty(Property& property, PropertyKind kind) {
-  property.kind = kind;
+void Parser::InterfacesProperty(Property& property) {
   do {
     const Token name = reader_.Identifier("an interface");
     Component* component = description_.FindComponent(name.text);
@@ -161,12 +158,9 @@ bool Parser::InterfacesProperty(Property& property, PropertyKind kind) {
       property.interfaces.push_back(component);
     }
   } while (reader_.AcceptMark(","));
-  reader_.Semicolon();
-  return true;
 }
 
-void Parser::NamesProperty(Property& property, PropertyKind kind) {
-  property.kind = kind;
+void Parser::NamesProperty(Property& property) {
   do {
     const Token name = reader_.Identifier("a service");
     if (std::ranges::find(property.texts, name.text) != property.texts.end()) {
@@ -178,7 +172,6 @@ void Parser::NamesProperty(Property& property, PropertyKind kind) {
 }
 
 bool Parser::CodelProperty(Property& property, bool is_async, bool is_validate, Service* draft) {
-  property.kind = PropertyKind::kCodel;
   Codel codel{.kind = is_validate ? CodelKind::kValidate : CodelKind::kSimple, .is_async = is_async};
   const bool is_right = ReadCodel(codel, draft);
   reader_.Semicolon();
@@ -197,11 +190,10 @@ bool Parser::ReadCodel(Codel& codel, Service* draft) {
   const Token name = reader_.Identifier("a codel");
   codel.name = name.text;
   codel.place = name.place;
-  static const std::vector<Parameter> kNone;
   reader_.ExpectMark("(");
   if (!reader_.IsMark(")")) {
     do {
-      is_right = CodelParameter(codel, draft == nullptr ? kNone : draft->parameters) && is_right;
+      is_right = CodelParameter(codel, draft) && is_right;
     } while (reader_.AcceptMark(","));
   }
   reader_.ExpectMark(")");
@@ -241,7 +233,7 @@ bool Parser::Events(std::vector<Type*>& events, bool are_states) {
   return is_right;
 }
 
-bool Parser::CodelParameter(Codel& codel, const std::vector<Parameter>& locals) {
+bool Parser::CodelParameter(Codel& codel, const Service* of) {
   Parameter parameter;
   if (reader_.AcceptWord("ids")) parameter.source = ParameterSource::kIds;
   else if (reader_.AcceptWord("local")) parameter.source = ParameterSource::kLocal;
@@ -251,14 +243,12 @@ bool Parser::CodelParameter(Codel& codel, const std::vector<Parameter>& locals) 
   parameter.place = reader_.Peek().place;
   if (!reader_.IsMark("::")) {
     parameter.path = ReadPath();
-    for (const PathStep& step : parameter.path) {
-      if (!step.member.empty()) parameter.name = step.member;
-    }
+    parameter.name = LastName(parameter.path);
   }
   if (reader_.AcceptMark("::")) parameter.name = reader_.Identifier("a parameter").text;
-  if (!rules_.Resolve(parameter, locals)) return false;
-  const bool is_new = std::ranges::find(codel.parameters, parameter.name, &Parameter::name) == codel.parameters.end();
-  if (!is_new) {
+  static const std::vector<Parameter> kNone;
+  if (!rules_.Resolve(parameter, of != nullptr ? of->parameters : kNone)) return false;
+  if (FindParameter(codel.parameters, parameter.name) != nullptr) {
     problems_.Add(parameter.place, "codel '" + codel.name + "' has two parameters '" + parameter.name + "'",
                   "give one another name: PATH::NAME");
     return false;

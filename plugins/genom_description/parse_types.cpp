@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::size_t kMostDimensions = 32;
 
+bool IsConstructed(const Token& word) { return word.IsWord("struct") || word.IsWord("union") || word.IsWord("enum"); }
+
 }  // namespace
 
 // Whether the next tokens declare a type, constant or exception, which has then been read.
@@ -20,14 +22,8 @@ bool Parser::TypeStatement() {
     NativeDeclaration();
   } else if (reader_.IsWord("exception")) {
     ExceptionDeclaration();
-  } else if (reader_.IsWord("struct")) {
-    (void)Struct();
-    reader_.Semicolon();
-  } else if (reader_.IsWord("union")) {
-    (void)Union();
-    reader_.Semicolon();
-  } else if (reader_.IsWord("enum")) {
-    (void)Enum();
+  } else if (IsConstructed(reader_.Peek())) {
+    (void)ConstructedType();
     reader_.Semicolon();
   } else {
     return false;
@@ -38,8 +34,7 @@ bool Parser::TypeStatement() {
 void Parser::ConstantDeclaration() {
   const Token begin = reader_.Take();
   const Token& next = reader_.Peek();
-  if (next.IsWord("struct") || next.IsWord("union") || next.IsWord("enum") || next.IsWord("sequence") ||
-      next.IsWord("optional") || next.IsWord("any")) {
+  if (IsConstructed(next) || next.IsWord("sequence") || next.IsWord("optional") || next.IsWord("any")) {
     reader_.Fail("the type of a constant: a number, boolean, char, string, or the name of a type");
   }
   Type* type = SimpleType();
@@ -61,9 +56,7 @@ void Parser::ConstantDeclaration() {
 void Parser::TypedefDeclaration() {
   reader_.Take();
   // An alias may be made of what is only announced.
-  const Token& next = reader_.Peek();
-  const bool is_constructed = next.IsWord("struct") || next.IsWord("union") || next.IsWord("enum");
-  Type* type = is_constructed ? TypeSpecification() : SimpleType(true);
+  Type* type = IsConstructed(reader_.Peek()) ? TypeSpecification() : SimpleType(true);
   do {
     const Declarator declarator = ReadDeclarator("a type");
     if (type == nullptr) {
@@ -132,11 +125,12 @@ Type* Parser::WithSizes(Type* type, const Declarator& declarator) {
 
 Type* Parser::TypeSpecification() {
   const TokenReader::Depth depth(reader_);
-  const Token begin = reader_.Peek();
-  if (begin.IsWord("struct")) return Struct();
-  if (begin.IsWord("union")) return Union();
-  if (begin.IsWord("enum")) return Enum();
-  return SimpleType();
+  return IsConstructed(reader_.Peek()) ? ConstructedType() : SimpleType();
+}
+
+Type* Parser::ConstructedType() {
+  if (reader_.IsWord("struct")) return Struct();
+  return reader_.IsWord("union") ? Union() : Enum();
 }
 
 Type* Parser::SimpleType(bool may_be_forward) {
@@ -155,8 +149,7 @@ Type* Parser::SimpleType(bool may_be_forward) {
     return nullptr;
   }
   if (!reader_.IsIdentifier() && !reader_.IsMark("::")) {
-    const bool is_inline = begin.IsWord("struct") || begin.IsWord("union") || begin.IsWord("enum");
-    reader_.Fail("a type", is_inline ? "declare it before, and name it here" : "");
+    reader_.Fail("a type", IsConstructed(begin) ? "declare it before, and name it here" : "");
   }
   Type* type = NamedType();
   if (type != nullptr && type->Is(TypeKind::kException) && type->members.empty()) {
@@ -258,10 +251,10 @@ Type* Parser::NamedType() {
   return type;
 }
 
-void Parser::Members(std::vector<Type*>& members) {
+void Parser::Members(std::vector<Type*>* members) {
   reader_.ExpectMark("{");
   do {
-    Member(&members);
+    Member(members);
   } while (!reader_.IsMark("}"));
   reader_.Take();
 }
@@ -296,7 +289,7 @@ Type* Parser::Struct() {
   if (reader_.IsMark(";")) return scopes_.Declare(TypeKind::kForwardStruct, name.text, begin.place);
   Scope* scope = scopes_.EnterMembers(name.text, name.place, TypeKind::kStruct);
   std::vector<Type*> members;
-  Members(members);
+  Members(&members);
   return Finished(scope, TypeKind::kStruct, name, std::move(members), nullptr);
 }
 

@@ -83,6 +83,7 @@ class Parser {
   void NativeDeclaration();
   void ExceptionDeclaration();
   Type* TypeSpecification();                     // nullptr: told
+  Type* ConstructedType();
   Type* SimpleType(bool may_be_forward = false);
   Type* BaseType();                              // nullptr: the next token begins none
   Type* Sequence();
@@ -96,7 +97,7 @@ class Parser {
   void UnionCase(std::vector<Type*>& cases);
   bool CaseLabel(std::vector<Constant>& labels);
   void CheckLabels(Type& new_union);
-  void Members(std::vector<Type*>& members);
+  void Members(std::vector<Type*>* members);
   void Member(std::vector<Type*>* members);
   struct Declarator {
     Token name;
@@ -143,16 +144,16 @@ class Parser {
   void PropertyBlock(Properties& into, PropertyOwner owner, Service* draft);
   bool ReadProperty(Property& property, Service* draft);  // false: told
   bool IsProperty();
-  void TextProperty(Property& property, PropertyKind kind);
-  bool TimeProperty(Property& property, PropertyKind kind);
+  bool TaskProperty(Property& property);
+  bool TimeProperty(Property& property);
   bool ThrowProperty(Property& property);
-  bool InterfacesProperty(Property& property, PropertyKind kind);
-  void NamesProperty(Property& property, PropertyKind kind);
+  void InterfacesProperty(Property& property);
+  void NamesProperty(Property& property);
   double TimeUnit();
   bool CodelProperty(Property& property, bool is_async, bool is_validate, Service* draft);
   bool ReadCodel(Codel& codel, Service* draft);
   bool Events(std::vector<Type*>& events, bool are_states);
-  bool CodelParameter(Codel& codel, const std::vector<Parameter>& locals);
+  bool CodelParameter(Codel& codel, const Service* of);
 
   Description& description_;
   Problems& problems_;
