@@ -12,6 +12,7 @@
 #include "core/port/port_extras.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
+#include "core/types/value_copy.h"
 
 namespace runnel {
 
@@ -69,7 +70,7 @@ void Port::TakeOver(Port& from) {
   try {
     TakeOverFlow(from);
     if (after != before) {
-      extras_->stop = std::move(after);
+      extras_->stop = after;
       RebindSinks();
     }
     // What moves by what its module passes on may be something else now.
@@ -79,6 +80,7 @@ void Port::TakeOver(Port& from) {
     bool moves = false;
     if (is_input) VisitSiblings(*this, Direction::kOutput, [&](const Port& each) { moves = moves || has_moved(&each); });
     if (moves) RebindSinks();
+    if (after && after != before) MoveToRest(before.get(), *after);
   } catch (...) {
     // Each as it was, and what has been exchanged by then is exchanged again.
     if (extras_) extras_->stop = before;
@@ -91,6 +93,20 @@ void Port::TakeOver(Port& from) {
   own.stop_before.reset();
   its.is_replaced = true;
   its.stop_before = before;
+}
+
+// What stands at rest there, by a rule or for somebody who drives it no more, does so at the safe value of now.
+void Port::MoveToRest(const PortStop* before, const PortStop& now) {
+  const std::shared_ptr<HandSlot> slot = HandSlot::Find(*this);
+  const auto publisher = slot ? std::unique_lock(slot->mutex) : std::unique_lock<std::mutex>();
+  for (const auto& each : extras_->by_hand) {
+    if (!each || before == nullptr || !type().is_transparent()) continue;
+    bool is_at_rest = false;
+    each->VisitLatest([&](const void* value, ValueTimes) { is_at_rest = ToText(type(), value) == ToText(type(), before->safe_value().get()); });
+    if (!is_at_rest) continue;
+    if (auto set = each->PublishFilled(internal::FillWith(now.safe_value())); !set) throw ElementError(set.error());
+  }
+  if (slot && slot->hold && slot->hold->safe_value) slot->hold->safe_value = now.safe_value();
 }
 
 void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept {
@@ -127,11 +143,13 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
   const auto mark = internal::DrivingState::MarkOf(from);
   const auto* const state = FindAnnotation<internal::DrivingState>();
   const bool comes_back = state != nullptr && state->is_replaced && state->mark == mark;
-  const PortStop* const own = comes_back ? state->stop_before.get() : declared_stop();
+  // Its plugin may have been loaded anew meanwhile: what its module declares now counts.
+  const PortStop* const declared = declared_stop();
+  const PortStop* const own = declared == nullptr && comes_back ? state->stop_before.get() : declared;
   const auto with_block = [&](const AnyValue& safe, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot) {
     return std::make_shared<const PortStop>(safe, brake, command, std::move(robot), before.get());
   };
-  if (comes_back && own != nullptr) return with_block(own->safe_value(), own->brake(), own->command(), own->robot());
+  if (own != nullptr && own != declared) return with_block(own->safe_value(), own->brake(), own->command(), own->robot());
   if (own == nullptr && (!before || (comes_back && !before->block()->in_force()))) return std::shared_ptr<const PortStop>();
   if (own == nullptr && comes_back) {  // it only has the block
     const auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
@@ -142,7 +160,9 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
   auto whole = Complete(said, before.get());
   if (!whole) return whole.error();
   const bool is_its_own = own != nullptr && !said.safe_value;
-  if (!is_its_own && !unit().empty() && unit() != from.unit() && !IsZero(whole->safe_value)) {
+  // Zero of a position would be a motion.
+  const bool is_anywhere = IsZero(whole->safe_value) && whole->command != DrivingKind::kPosition;
+  if (!comes_back && !is_its_own && !unit().empty() && unit() != from.unit() && !is_anywhere) {
     return Error{.message = "is in " + unit() + ", and its safe value, " + ToText(type(), whole->safe_value.get()) + ", is not",
                  .hint = "have the new module declare that it drives, with its safe value"};
   }

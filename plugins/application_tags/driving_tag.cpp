@@ -65,8 +65,8 @@ void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update)
   const PathUse use = PathIn(*tag.Attribute("port"), parent);
   const Port* const port = FindMarked(use);
   const auto mark = port != nullptr ? port->FindMark() : std::nullopt;
-  const bool is_passing = internal::IsByRule(*PathSearch(use.base).Follow(use.path, PathKind::kInput).at);
-  if (!mark) return is_passing ? void() : update.editor().Remove(tag);
+  if (internal::IsByRule(*PathSearch(use.base).Follow(use.path, PathKind::kInput).at)) return;  // for the time being
+  if (!mark) return update.editor().Remove(tag);
   // A module in the place of another one may not say what that one has said.
   for (const auto& [name, value] : AttributesOf(*port, *mark)) {
     if (tag.TextOr(name, "").empty()) update.editor().SetAttribute(tag, name, value);
@@ -81,7 +81,7 @@ std::vector<NewElement> MissingMarks(const XmlElement*, FrameworkElement& home, 
   const auto& said = saving.Note<SaidMarks>().ports;
   home.VisitAll<const Port>([&](const Port& port) {
     const auto mark = port.FindMark();
-    if (!mark || said.contains(&port)) return;
+    if (!mark || said.contains(&port) || internal::IsByRule(port)) return;
     NewElement& made = elements.emplace_back(
         NewElement{.name = "driving", .attributes = {{"port", port.path().substr(home.path().size() + 1)}}});
     for (auto& each : AttributesOf(port, *mark)) made.attributes.push_back(std::move(each));

@@ -258,7 +258,7 @@ bool Recorder::IsRecorded(const Port& port) {
 }
 
 void Recorder::Follow(Port& port, const Recorded* before) {
-  if (!IsRecorded(port) || port.IsAtOrBelow(*element_) || Feeds(port, *element_)) return;
+  if ((before == nullptr && !IsRecorded(port)) || port.IsAtOrBelow(*element_) || Feeds(port, *element_)) return;
   NoteUse(port);
   if (!port.type().is_transparent()) {
     const std::lock_guard lock(mutex_);

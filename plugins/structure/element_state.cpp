@@ -50,6 +50,7 @@ Result<void> GiveTo(Port& port, const PortState& state) {
   if (stop != nullptr && (state.mark || !port.is_driving())) {
     const DrivingMark mark = state.mark ? *state.mark : DrivingMark{stop->safe_value(), stop->brake(), stop->command()};
     if (auto set = port.SetDriving(true, mark.safe_value, mark.brake, mark.command); !set) return set;
+    DrivingState::Of(port).mark = state.said;  // nobody has said what is only from a module that was there before
   }
   // What was published before a block was released counts no more afterwards either.
   if (state.stop && state.stop->block()->bar() != StopSignal::kNever) {

@@ -200,6 +200,7 @@ bool StopButton::LookForPort() {
     const auto look = [&](const void* value, ValueTimes) { is_down = is_down || NumberIn(element_->probe.type(), value) != 0; };
     for (const Port* each : sources.front()->ShownPorts()) each->VisitLatest(look);
     is_set_by_hand_ = sources.front()->is_set_by_hand();
+    if (down_ && !element_->probe.IsFedBy(down_->source)) down_.reset();  // a value by hand has ended
     if (is_down && !is_set_by_hand_ && !runtime_.robot_stop().in_force()) Press(rule_.port);
     for (const std::string& each : way.lacks) {
       if (!lacks_.contains(each)) Press(rule_.port + ", as " + each);

@@ -10,7 +10,9 @@
 
 #include "core/module/kept_state.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/hand_slot.h"
 #include "core/port/port_stop.h"
+#include "core/port/stand_in.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/structure/structure_editor.h"
@@ -26,7 +28,7 @@ using namespace std::chrono_literals;
 template <int kUnit>
 struct Undeclared final : Module {
   using Module::Module;
-  static constexpr const char* kUnits[] = {"", "m/s", "us", "V", "%"};
+  static constexpr const char* kUnits[] = {"", "m/s", "us", "V", "%", "rad"};
   Input<double> in{this, "in", {.unit = kUnits[kUnit]}};
   void Update() override {}
 };
@@ -61,6 +63,7 @@ class DrivingSwap : public ::testing::Test {
     shop.Add<Undeclared<2>>("test/pulse");
     shop.Add<Undeclared<3>>("test/volts");
     shop.Add<Undeclared<4>>("test/percent");
+    shop.Add<Undeclared<5>>("test/servo");
     shop.Add<Declared<DrivingKind::kVelocity, 1500>>("test/esc");
     shop.Add<Declared<DrivingKind::kVelocity, 0>>("test/drive");
     shop.Add<Declared<DrivingKind::kEffort, 0>>("test/throttle");
@@ -127,6 +130,73 @@ TEST_F(DrivingSwap, NorIsOneThatWasMarked) {
   Load("test/number", "  <driving port=\"m/in\" safe=\"1500\" command=\"velocity\"/>\n");
   EXPECT_FALSE(history_.Apply({ReplaceModule{"/demo/m", "test/motor"}}));
   EXPECT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/esc"}}));
+}
+
+TEST_F(DrivingSwap, NorIsZeroOfAnEffortThatOfAPosition) {
+  Load("test/throttle", "");
+  EXPECT_FALSE(history_.Apply({ReplaceModule{"/demo/m", "test/servo"}}));
+  EXPECT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/motor"}}));
+}
+
+// By a rule, as while what feeds it is paused, or for somebody who drives it no more.
+TEST_F(DrivingSwap, WhatStandsAtRestDoesSoAtTheNewSafeValue) {
+  for (const auto setter : {Port::Setter::kRule, Port::Setter::kPerson}) {
+    Load("test/esc", "");
+    const auto held = [&](const char* type, double value, double read) {
+      ASSERT_TRUE(In().PublishByHand(internal::FillWith(AnyValue(value)), setter));
+      const auto slot = HandSlot::Of(In());
+      slot->hold = std::make_unique<HandSlot::Hold>();
+      slot->hold->safe_value = AnyValue(Safe());
+      ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", type}}));
+      EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), read);
+      EXPECT_EQ(*static_cast<const double*>(HandSlot::Find(In())->hold->safe_value.get()), Safe());
+    };
+    held("test/drive", 1500, 0);
+    held("test/esc", 0, 1500);
+    held("test/drive", 1400, 1400);
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
+/// As a plugin that is loaded anew with another version of it.
+struct Corrected final : Module {
+  using Module::Module;
+  static inline double safe = 0;
+  Input<double> in{this, "in", safe == 0 ? InputOptions{} : InputOptions{.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(safe)}};
+  void Update() override {}
+};
+
+TEST_F(DrivingSwap, AnUndoMakesWhatItsModuleDeclaresNow) {
+  shop_.Add<Corrected>("test/corrected");
+  for (const double before : {0., 1500.}) {
+    Corrected::safe = before;
+    Load("test/corrected", "");
+    ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/drive"}}));
+    Corrected::safe = 1480;
+    ASSERT_TRUE(history_.Undo());
+    EXPECT_EQ(ReadUnderStop(), 1480);
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
+TEST_F(DrivingSwap, WhatWasDeletedMeanwhileIsAsItWas) {
+  Load("test/motor", kMarks[1]);
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/esc"}}));
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/demo/m"}}));
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_EQ(Safe(), 1500);
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_EQ(Safe(), 0);
+}
+
+TEST_F(DrivingSwap, WhatIsInheritedIsNoMarkAfterADeletion) {
+  Load("test/esc", "");
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/number"}}));
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/demo/m"}}));
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_EQ(Safe(), 1500);
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/drive"}}));
+  EXPECT_EQ(Safe(), 0);
 }
 
 TEST_F(DrivingSwap, WhatItBringsGoesWithItsUndo) {

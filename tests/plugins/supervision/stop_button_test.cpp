@@ -10,6 +10,7 @@
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/supervisor.h"
 #include "tests/plugins/application_files/reading/test_application.h"
+#include "core/port/stand_in.h"
 #include "tests/plugins/supervision/stop_button_fixture.h"
 
 namespace runnel::testing {
@@ -167,6 +168,22 @@ TEST(StopButtonTag, IsReadWithItsPortAndRefusesWhatIsNoNumber) {
   WaitUntil("the STOP is in force", [&] { return other.runtime.robot_stop().in_force(); });
   other.Get<Source>("/demo/a").value.Publish(0);
   WaitUntil("it is released", [&] { return !other.runtime.robot_stop().in_force(); });
+}
+
+// A value by hand that came and went is not the button that is held.
+TEST_F(StopButtonTest, IsNotHeldByAValueByHandThatIsGone) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    MustSucceed(panel.out.PublishByHand(internal::FillWith(AnyValue(1.))));
+    WaitForStop("the button");
+    ASSERT_TRUE(panel.out.Release());
+  }
+  WaitUntil("the STOP stays released", [&] {
+    (void)runtime.robot_stop().Release("a test");
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    return !runtime.robot_stop().in_force();
+  });
 }
 
 // Neither by a terminal, nor while somebody changes the application for long: nobody needs to be asked where the button is.
