@@ -38,6 +38,7 @@ class AsyncWorker {
   }
 
   void Begin(genom_execution::AsyncWork& work) noexcept {
+    away_.fetch_add(1, std::memory_order_relaxed);
     work_.store(&work, std::memory_order_release);
     given_.Notify();
   }
@@ -48,20 +49,23 @@ class AsyncWorker {
   }
 
  private:
-  [[nodiscard]] bool is_away() const noexcept { return work_.load(std::memory_order_acquire) != nullptr; }
+  [[nodiscard]] bool is_away() const noexcept { return away_.load(std::memory_order_acquire) != 0; }
   void Run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
       given_.Wait();
-      genom_execution::AsyncWork* const work = work_.load(std::memory_order_acquire);
+      // Taken before it runs: when it is done its task may at once give the next one.
+      genom_execution::AsyncWork* const work = work_.exchange(nullptr, std::memory_order_acquire);
       if (work == nullptr) continue;
       work->Run();
-      work_.store(nullptr, std::memory_order_release);
+      away_.fetch_sub(1, std::memory_order_release);
       back_.Notify();
     }
   }
 
-  // release by who gives or has done the work, acquire by who looks.
+  // release by who gives the work, acquire by who takes it.
   std::atomic<genom_execution::AsyncWork*> work_{nullptr};
+  // How much is given and not done: changed by the task, then by the thread. release by who has done it, acquire by who looks.
+  std::atomic<int> away_{0};
   WakeEvent given_;
   WakeEvent back_;
   std::jthread thread_;  // last: uses all of it
