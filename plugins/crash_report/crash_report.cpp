@@ -145,9 +145,11 @@ class CrashReport::Installed {
   }
 
   void Report(int signal, const siginfo_t& info, const void* context) noexcept {
-    if (has_crashed_.exchange(true)) {
+    const std::thread::id self = std::this_thread::get_id();
+    if (std::thread::id first; !crashed_.compare_exchange_strong(first, self)) {
+      if (first == self) return;  // while it tells of its crash: it has told what it could
       // Another thread is about to tell of its own crash, and will end the process.
-      if (std::this_thread::get_id() == rescuer_.get_id()) (void)write(done_[1], "!", 1);
+      if (self == rescuer_.get_id()) (void)write(done_[1], "!", 1);
       for (;;) WaitForByte(-1, 1000);
     }
     signal_ = signal;
@@ -203,7 +205,7 @@ class CrashReport::Installed {
   std::array<struct sigaction, kSignals.size()> before_{};
   std::array<int, 2> wake_{-1, -1};
   std::array<int, 2> done_{-1, -1};
-  std::atomic<bool> has_crashed_{false};
+  std::atomic<std::thread::id> crashed_{};  // nobody yet
   // Written by the handler before it wakes the rescuer.
   int signal_ = 0;
   const char* module_ = nullptr;
