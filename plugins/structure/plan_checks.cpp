@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "core/base/characters.h"
@@ -285,6 +286,7 @@ void Plan::WarnOfLost(FrameworkElement& before, const std::function<bool(const P
 Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfits misfits) {
   FrameworkElement& made = **after;
   std::vector<Connection> ties;
+  std::set<const Port*> marked;
   for (const Connection& tie : ExternalConnectionsOf(before)) {
     Port& own = tie.from->IsAtOrBelow(before) ? *tie.from : *tie.to;
     // A module has its ports in groups, a composite has not.
@@ -292,6 +294,10 @@ Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfit
         own.name(), &own == tie.from ? PathKind::kOutput : PathKind::kInput);
     Port* const port = found && own.IsAtOrBelow(before) ? *found : nullptr;
     if (auto cut = CheckTie(*tie.from, *tie.to, std::nullopt); !cut) return cut;
+    const auto mark = port != nullptr && own.IsAtOrBelow(before) ? own.FindMark() : std::nullopt;
+    if (mark && marked.insert(&own).second) {
+      if (auto set = port->SetDriving(true, mark->safe_value, mark->brake, mark->command); !set) return set;
+    }
     if (port != nullptr) {
       ties.push_back(&own == tie.from ? Connection{port, tie.to, tie.options}
                                       : Connection{tie.from, port, tie.options});
@@ -307,7 +313,7 @@ Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfit
   Concern(before);
   overlay_.Remove(before);
   AddRemoval(before);
-  WarnOfLost(before, [&](const Port& port) { return ElementState::FindCounterpart(port, before, made) != nullptr; });
+  WarnOfLost(before, [&](const Port& port) { return marked.contains(&port) || ElementState::FindCounterpart(port, before, made) != nullptr; });
   AddCreation(std::move(after), nullptr,
               std::make_shared<const ElementState>(before, ElementState::Inherit::kAsReplacement, ElementState::Below::kIncluded));
   for (const Connection& tie : ties) {

@@ -8,11 +8,14 @@
 
 #include <gmock/gmock.h>
 
+#include "core/module/group.h"
 #include "core/module/kept_state.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/hand_slot.h"
 #include "core/port/port_stop.h"
+#include "core/port/proxy_port.h"
 #include "core/port/stand_in.h"
+#include "core/types/type_of.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/structure/structure_editor.h"
@@ -49,6 +52,14 @@ struct Keeper final : Module {
   Output<double> value{this, "value"};
   State state;
   void Update() override {}
+};
+
+struct Boxed final : Group {
+  using Group::Group;
+  Result<void> Construct() override {
+    auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
+    return Port::Connect(in, runtime().Create<Undeclared<1>>(*this, "motor").in);
+  }
 };
 
 class DrivingSwap : public ::testing::Test {
@@ -177,6 +188,17 @@ TEST_F(DrivingSwap, AnUndoMakesWhatItsModuleDeclaresNow) {
     EXPECT_EQ(ReadUnderStop(), 1480);
     ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
   }
+}
+
+TEST_F(DrivingSwap, ACompositeHasTheMarkOfThePlaceToo) {
+  shop_.Add<Boxed>("test/boxed");
+  Load("test/motor", kMarks[1]);
+  const auto swapped = history_.Apply({ReplaceModule{"/demo/m", "test/boxed"}});
+  ASSERT_TRUE(swapped) << swapped.diagnostics.ToString();
+  EXPECT_TRUE(shop_.Get<Port>("/demo/m/in").is_driving());
+  EXPECT_THAT(SavedText(), HasSubstr("<driving port=\"m/in\""));
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_TRUE(In().is_driving());
 }
 
 TEST_F(DrivingSwap, WhatWasDeletedMeanwhileIsAsItWas) {
