@@ -14,6 +14,7 @@
 #include "core/module/group_parameter.h"
 #include "core/paths/late_connections.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/port_stop.h"
 #include "core/port/proxy_port.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
@@ -294,9 +295,9 @@ Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfit
         own.name(), &own == tie.from ? PathKind::kOutput : PathKind::kInput);
     Port* const port = found && own.IsAtOrBelow(before) ? *found : nullptr;
     if (auto cut = CheckTie(*tie.from, *tie.to, std::nullopt); !cut) return cut;
-    const auto mark = port != nullptr && own.IsAtOrBelow(before) ? own.FindMark() : std::nullopt;
-    if (mark && marked.insert(&own).second) {
-      if (auto set = port->SetDriving(true, mark->safe_value, mark->brake, mark->command); !set) return set;
+    // A port of a composite has no unit by which it would be known.
+    if (const auto stop = own.stop(); port != nullptr && own.FindMark() && marked.insert(&own).second) {
+      if (auto set = port->SetDriving(true, stop->safe_value(), stop->brake(), stop->command()); !set) return set;
     }
     if (port != nullptr) {
       ties.push_back(&own == tie.from ? Connection{port, tie.to, tie.options}
