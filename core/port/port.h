@@ -280,7 +280,6 @@ class Port : public FrameworkElement {
   [[nodiscard]] Time CoarseTimeOutsideOfCycles(Time timestamp) const noexcept;
   [[nodiscard]] Port* by_hand() const noexcept;
   void TellOfChange();
-  /// `before`: what stopped the port in whose place this one is; nullptr: there is none.
   [[nodiscard]] Result<DrivingMark> Complete(DrivingMark mark, const PortStop* before) const;
   [[nodiscard]] Result<std::shared_ptr<const PortStop>> StopInPlaceOf(const Port& from) const;
   void MoveToRest(const PortStop* before, const PortStop& now);

@@ -298,6 +298,7 @@ Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfit
     // A port of a composite has no unit by which it would be known.
     if (const auto stop = own.stop(); port != nullptr && own.FindMark() && marked.insert(&own).second) {
       if (auto set = port->SetDriving(true, stop->safe_value(), stop->brake(), stop->command()); !set) return set;
+      if (auto blocked = own.is_blocked() ? port->Block() : Result<void>(); !blocked) return blocked;
     }
     if (port != nullptr) {
       ties.push_back(&own == tie.from ? Connection{port, tie.to, tie.options}
@@ -314,7 +315,7 @@ Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfit
   Concern(before);
   overlay_.Remove(before);
   AddRemoval(before);
-  WarnOfLost(before, [&](const Port& port) { return marked.contains(&port) || ElementState::FindCounterpart(port, before, made) != nullptr; });
+  WarnOfLost(before, [&](const Port& port) { return (marked.contains(&port) && !port.is_set_by_hand()) || ElementState::FindCounterpart(port, before, made) != nullptr; });
   AddCreation(std::move(after), nullptr,
               std::make_shared<const ElementState>(before, ElementState::Inherit::kAsReplacement, ElementState::Below::kIncluded));
   for (const Connection& tie : ties) {

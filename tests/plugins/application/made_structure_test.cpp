@@ -168,7 +168,8 @@ TEST_F(Composite, WhatIsSetAtItsPortsGoesAlongAndWhatHasNoPlaceThereIsTold) {
   EXPECT_TRUE(is_kept());
   EXPECT_TRUE(is_set());
   const std::string swapped = application_->Swap("/stairs", "counting/filter").diagnostics.ToString();
-  EXPECT_THAT(swapped, HasSubstr("/stairs/out: its block, its mark as driving went with it"));
+  EXPECT_THAT(swapped, HasSubstr("/stairs/stair3/input/in: its value by hand went with it"));
+  EXPECT_TRUE(is_kept()) << "what is connected in their place has it";
   Undo();
   EXPECT_TRUE(is_kept());
   EXPECT_TRUE(is_set());
