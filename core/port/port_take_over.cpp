@@ -136,30 +136,30 @@ void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noex
   }
 }
 
-// What stops this port in the place of the other: what it had if it was there before; else what has been said of the place, then
-// what its own module declares, then what stopped the other. With the block of the place.
+// What stops this port in the place of the other: what has been said of the place, then what its own module declares, then what
+// it had if it was there before, else what stopped the other. With the block of the place.
 Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) const {
   const std::shared_ptr<const PortStop> before = from.stop();
   const auto mark = internal::DrivingState::MarkOf(from);
   const auto* const state = FindAnnotation<internal::DrivingState>();
   const bool comes_back = state != nullptr && state->is_replaced && state->mark == mark;
   // Its plugin may have been loaded anew meanwhile: what its module declares now counts.
-  const PortStop* const declared = declared_stop();
-  const PortStop* const own = declared == nullptr && comes_back ? state->stop_before.get() : declared;
+  const bool is_declared = declared_stop() != nullptr;
   const auto with_block = [&](const AnyValue& safe, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot) {
     return std::make_shared<const PortStop>(safe, brake, command, std::move(robot), before.get());
   };
-  if (own != nullptr && own != declared) return with_block(own->safe_value(), own->brake(), own->command(), own->robot());
-  if (own == nullptr && (!before || (comes_back && !before->block()->in_force()))) return std::shared_ptr<const PortStop>();
-  if (own == nullptr && comes_back) {  // it only has the block
+  if (!is_declared && comes_back) {
+    const PortStop* const had = state->stop_before.get();
+    if (had != nullptr) return with_block(had->safe_value(), had->brake(), had->command(), had->robot());
+    if (!before || !before->block()->in_force()) return std::shared_ptr<const PortStop>();
     const auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
     return with_block(safe ? *safe : before->safe_value(), {}, DrivingKind::kUnspecified, nullptr);
   }
-  if (own == nullptr && !before->robot()) return before;
+  if (!is_declared && (!before || !before->robot())) return before;
   const DrivingMark said = mark ? *mark : DrivingMark{};
   auto whole = Complete(said, before.get());
   if (!whole) return whole.error();
-  const bool is_its_own = own != nullptr && !said.safe_value;
+  const bool is_its_own = is_declared && !said.safe_value;
   // Zero of a position would be a motion.
   const bool is_anywhere = IsZero(whole->safe_value) && whole->command != DrivingKind::kPosition;
   if (!comes_back && !is_its_own && !unit().empty() && unit() != from.unit() && !is_anywhere) {

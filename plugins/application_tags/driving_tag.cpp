@@ -1,6 +1,5 @@
 // Ports by which something moves, though no module says so of them: <driving port="drive/twist" safe="…"/>.
 
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -9,7 +8,6 @@
 
 #include "core/port/driving_kind.h"
 #include "core/port/port.h"
-#include "core/port/port_stop.h"
 #include "core/types/duration_text.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"

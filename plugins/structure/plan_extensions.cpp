@@ -1,6 +1,5 @@
 // Changes that extensions carry out, and from which level on modules log.
 
-#include <memory>
 #include <optional>
 #include <string>
 
