@@ -18,6 +18,8 @@ namespace runnel {
 
 namespace {
 
+constexpr const char* kDeclare = "have the new module declare that it drives, with its safe value";
+
 Error CannotTakeOver(const Port& port, std::string message) {
   return {.message = std::move(message), .path = port.path()};
 }
@@ -155,16 +157,25 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
     const auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
     return with_block(safe ? *safe : before->safe_value(), {}, DrivingKind::kUnspecified, nullptr);
   }
-  if (!is_declared && (!before || !before->robot())) return before;
+  // Zero of a position would be a motion.
+  const auto goes_over = [&](const AnyValue& safe, DrivingKind command) {
+    return comes_back || unit().empty() || unit() == from.unit() || (IsZero(safe) && command != DrivingKind::kPosition);
+  };
+  const auto refuse = [&](const AnyValue& safe, std::string hint) {
+    return Error{.message = "is in " + unit() + ", and its safe value, " + ToText(type(), safe.get()) + ", is not", .hint = std::move(hint)};
+  };
+  if (!is_declared && (!before || !before->robot())) {
+    for (const internal::PassedStop& each : internal::PassedStops(from)) {
+      if (each.stop->robot() && !goes_over(each.safe_value, each.stop->command())) return refuse(each.safe_value, kDeclare);
+    }
+    return before;
+  }
   const DrivingMark said = mark ? *mark : DrivingMark{};
   auto whole = Complete(said, before.get());
   if (!whole) return whole.error();
   const bool is_its_own = is_declared && !said.safe_value;
-  // Zero of a position would be a motion.
-  const bool is_anywhere = IsZero(whole->safe_value) && whole->command != DrivingKind::kPosition;
-  if (!comes_back && !is_its_own && !unit().empty() && unit() != from.unit() && !is_anywhere) {
-    return Error{.message = "is in " + unit() + ", and its safe value, " + ToText(type(), whole->safe_value.get()) + ", is not",
-                 .hint = "have the new module declare that it drives, with its safe value"};
+  if (!is_its_own && !goes_over(whole->safe_value, whole->command)) {
+    return refuse(whole->safe_value, said.safe_value ? "the application says the safe value of the place: correct its <driving>" : kDeclare);
   }
   const bool is_as_before = before && before->robot() && whole->safe_value.get() == before->safe_value().get() &&
                             whole->brake == before->brake() && whole->command == before->command();

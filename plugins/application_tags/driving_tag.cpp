@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/port/driving_kind.h"
+#include "core/port/driving_ports.h"
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
 #include "core/types/text_format.h"
@@ -63,7 +64,9 @@ void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update)
   const PathUse use = PathIn(*tag.Attribute("port"), parent);
   const Port* const port = FindMarked(use);
   const auto mark = port != nullptr ? port->FindMark() : std::nullopt;
-  if (internal::IsByRule(*PathSearch(use.base).Follow(use.path, PathKind::kInput).at)) return;  // for the time being
+  // For the time being: by a rule, or as a replay has the place.
+  const auto* const driving = port != nullptr ? port->FindAnnotation<internal::DrivingState>() : nullptr;
+  if (internal::IsByRule(*PathSearch(use.base).Follow(use.path, PathKind::kInput).at) || (driving != nullptr && driving->is_replaced)) return;
   if (!mark) return update.editor().Remove(tag);
   // A module in the place of another one may not say what that one has said.
   for (const auto& [name, value] : AttributesOf(*port, *mark)) {

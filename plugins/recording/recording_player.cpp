@@ -11,6 +11,7 @@
 #include "core/port/probe_port.h"
 #include "core/types/type_info.h"
 #include "plugins/recording/recording_names.h"
+#include "plugins/structure/extension_changes.h"
 #include "plugins/values/foxglove_channel.h"
 
 namespace runnel {
@@ -55,6 +56,7 @@ struct Player::PlayedPort {
   std::uint16_t channel;
   std::unique_ptr<Port> output;
   std::string path;  // of the original
+  ChangeSet sources = {};
 
   [[nodiscard]] Port& publisher() const noexcept { return output ? *output : *original; }
 };
@@ -102,6 +104,12 @@ Result<std::unique_ptr<Player>> Player::Prepare(Runtime& runtime,
   if (auto found = player->FindPorts(*patterns); !found) return found.error().WithPosition(file);
   if (auto found = player->FindCalls(*patterns); !found) return found.error();
   player->WrapTasks();
+  auto* const known = runtime.root().FindAnnotation<SwitchedByRules>();
+  auto& switched = known != nullptr ? *known : runtime.root().Annotate(std::make_unique<SwitchedByRules>());
+  switched.all.push_back([self = std::weak_ptr(player->self_)] {
+    const auto there = self.lock();
+    return there != nullptr ? std::vector<ChangeSet>{(*there)->Connections()} : std::vector<ChangeSet>();
+  });
   player->calls_.WrapTasks([&](const FrameworkElement& module) { return !player->resting_.contains(&module); });
   if (auto ready = runtime.MakeReady(*player->element_); !ready) return ready.error();
   return player;
@@ -213,16 +221,34 @@ FrameworkElement& Player::TakePlaces(const std::vector<PlayedPort*>& ports) {
   auto& group = runtime_.Create<PlayerElement>(*element_, FreeName(*element_, "played"));
   for (PlayedPort* each : ports) {
     Port& port = *each->original;
-    each->output = port.MakeOutput(group, FreeName(group, port.name()), {});
+    each->output = port.MakeOutput(group, FreeName(group, port.name()), {.unit = port.unit()});
     if (!port.is_proxy() && port.direction() == Port::Direction::kOutput) {
       each->output->TakeOver(port);
       continue;
     }
     const std::vector<Port*> sources = port.incoming();
-    for (Port* source : sources) (void)Port::Disconnect(*source, port);
+    for (Port* source : sources) {
+      each->sources.push_back(ConnectPorts{source->path(), each->path, source->ConnectionTo(port)->options});
+      (void)Port::Disconnect(*source, port);
+    }
     (void)Port::Connect(*each->output, port);
   }
   return group;
+}
+
+ChangeSet Player::Connections() const {
+  ChangeSet all;
+  // Those that are deleted by now are not visited.
+  runtime_.root().VisitAll<const Port>([&](const Port& port) {
+    for (const auto& each : played_) {
+      if (each->original != &port || !each->output) continue;
+      all.insert(all.end(), each->sources.begin(), each->sources.end());
+      for (const Connection& edge : each->output->outgoing()) {
+        if (edge.to != &port) all.push_back(ConnectPorts{port.path(), edge.to->path(), edge.options});
+      }
+    }
+  });
+  return all;
 }
 
 // Whether somebody, recorders aside, reads what the task publishes and is not played.

@@ -17,6 +17,7 @@
 #include "core/port/port.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/played_values.h"
+#include "plugins/structure/change.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {
@@ -117,6 +118,8 @@ class Player {
   Result<void> FindPorts(const PortPatterns& patterns);
   Result<void> FindCalls(const PortPatterns& patterns);
   Result<void> CheckType(const Port& port, const McapChannel& channel) const;
+  // What a file that is saved meanwhile has of the ports that are played by others.
+  [[nodiscard]] ChangeSet Connections() const;
   // A group of outputs that stand where those of `ports` stood.
   FrameworkElement& TakePlaces(const std::vector<PlayedPort*>& ports);
   void WrapTasks();
@@ -129,6 +132,7 @@ class Player {
   std::unique_ptr<PlayedValues> values_;
   FrameworkElement* element_ = nullptr;
   std::vector<std::unique_ptr<PlayedPort>> played_;
+  std::shared_ptr<const Player* const> self_ = std::make_shared<const Player* const>(this);  // for who may outlive it
   std::vector<std::unique_ptr<PlayedTask>> tasks_;
   std::set<const FrameworkElement*> resting_;  // modules that do not run
   PlayedCalls calls_;

@@ -46,12 +46,12 @@ struct PathFollowers final : Annotation {
   std::vector<std::function<void(const Move& move)>> all = {};
 };
 
-/// Who knows what rules have switched for the time being, which a file that is saved does not get. Kept with the root of the
+/// Who knows what rules, or a replay, have switched for the time being, which a file that is saved does not get. Kept with the root of the
 /// tree.
 ///
 /// Threads: under the structure lock.
 struct SwitchedByRules final : Annotation {
-  /// Each of these takes back what one rule has connected and cut; the last one first.
+  /// Each of these takes back what one of them has connected and cut; the last one first.
   std::vector<std::function<std::vector<ChangeSet>()>> all = {};
 };
 

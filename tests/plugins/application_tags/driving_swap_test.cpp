@@ -305,6 +305,31 @@ TEST_F(DrivingSwap, OfWhatFailsInItsFirstCyclesIsTakenBackWithItsConnections) {
   EXPECT_FALSE(In().is_driving());
 }
 
+TEST_F(DrivingSwap, NorIsOneThatWasMarkedFartherUp) {
+  for (const char* const mark : {"safe=\"1500\" command=\"velocity\"", "safe=\"0\" command=\"position\""}) {
+    Load("test/number", "  <driving port=\"s/value\" " + std::string(mark) + "/>\n");
+    EXPECT_FALSE(history_.Apply({ReplaceModule{"/demo/m", "test/motor"}}));
+    EXPECT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/esc"}}));
+    EXPECT_TRUE(history_.Undo());
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+  Load("test/number", "  <driving port=\"s/value\" safe=\"0\" command=\"velocity\"/>\n");
+  EXPECT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/motor"}}));
+}
+
+// As a replay takes the places of outputs.
+TEST_F(DrivingSwap, AFileThatIsSavedMeanwhileKeepsTheMarkOfThePlace) {
+  Load("test/number", "  <driving port=\"s/value\" safe=\"0\" command=\"velocity\"/>\n");
+  const std::string mark = "<driving port=\"s/value\" safe=\"0\" command=\"velocity\"/>";
+  auto& source = shop_.Get<Port>("/demo/s/output/value");
+  auto& elsewhere = shop_.runtime.Create<FrameworkElement>(shop_.runtime.root(), "elsewhere");
+  const auto output = source.MakeOutput(elsewhere, "played", {});
+  output->TakeOver(source);
+  EXPECT_THAT(SavedText(), HasSubstr(mark));
+  source.TakeOver(*output);
+  EXPECT_THAT(SavedText(), HasSubstr(mark));
+}
+
 // A unit that is neither of a position nor of a velocity is that of an effort only if nobody says otherwise.
 TEST_F(DrivingSwap, APulseMayBeAVelocity) {
   for (const char* const type : {"test/pulse", "test/volts", "test/percent"}) {

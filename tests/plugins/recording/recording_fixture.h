@@ -34,7 +34,7 @@ inline void Describe(TypeBuilder<Secret>& type) { type.Name("test::Secret"); }
 class Source final : public Module {
  public:
   using Module::Module;
-  Output<double> number{this, "number"};
+  Output<double> number{this, "number", {.unit = "rad"}};
   Output<Sample> sample{this, "sample"};
   Output<Secret> secret{this, "secret"};
   double factor = 0.1;

@@ -1,5 +1,6 @@
 #include "plugins/recording/recording_player.h"
 
+#include "plugins/structure/extension_changes.h"
 #include "plugins/values/json_values.h"
 #include "tests/plugins/recording/recording_fixture.h"
 
@@ -74,6 +75,34 @@ TEST_F(RecordingPlayerTest, AModuleRunsOnIfSomethingElseOfItIsRead) {
   EXPECT_EQ(one.source->secret.publications(), 10u);
   EXPECT_EQ(one.source->number.publications(), 10u) << "into a channel that nobody reads";
   EXPECT_EQ(one.source->number.outgoing().size(), 0u);
+}
+
+TEST_F(RecordingPlayerTest, AMarkThatIsNotZeroGoesAlong) {
+  Application recorded, other;
+  const std::string file = Record("a.mcap", recorded, seconds(1));
+  Port& number = other.source->number;
+  Must(number.SetDriving(true, AnyValue(0.3)));
+  const auto player = Must(Play(other, file, {.ports = {"/source/number"}}));
+  EXPECT_EQ(number.outgoing().size(), 0u);
+  other.runtime.robot_stop().Press("a test");
+  EXPECT_EQ(other.sink->number.Get(), 0.3);
+}
+
+TEST_F(RecordingPlayerTest, AFileThatIsSavedMeanwhileKeepsTheConnections) {
+  Application recorded, other;
+  const std::string file = Record("a.mcap", recorded, seconds(1));
+  auto player = Must(Play(other, file, {.ports = {"/source/number"}}));
+  const auto& switched = other.runtime.root().FindAnnotation<SwitchedByRules>()->all;
+  const auto connected = [&] {
+    std::string text;
+    for (const ChangeSet& back : switched.back()()) {
+      for (const Change& each : back) text += std::get<ConnectPorts>(each).from + " " + std::get<ConnectPorts>(each).to + "\n";
+    }
+    return text;
+  };
+  EXPECT_EQ(connected(), "/source/output/number /sink/input/number\n");
+  player.reset();
+  EXPECT_EQ(connected(), "");
 }
 
 TEST_F(RecordingPlayerTest, PlaysAStretchFromLaterOn) {
