@@ -118,8 +118,8 @@ bool HoldsWhatTagsMake(const FrameworkElement& element) {
 
 Result<void> CheckIsNotOfTags(const FrameworkElement& element, const char* what) {
   if (!HoldsWhatTagsMake(element)) return {};
-  return Error{.message = std::string("is, or holds, what a tag of the file makes, and cannot be ") + what + " while it runs",
-               .path = element.path(), .hint = "change the tag in the file, and run it again"};
+  return Error{.message = std::string("is, or holds, what a tag of the file or a program has made for itself, and cannot be ") + what + " while it runs",
+               .path = element.path(), .hint = "change the tag in the file, and run it again; or have the program let go of it"};
 }
 
 Result<void> Plan::Check(const DeleteElement& change) {

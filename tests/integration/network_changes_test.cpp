@@ -78,7 +78,7 @@ TEST_F(NetworkChanges, MistakesAreToldAndNothingIsChanged) {
   EXPECT_THAT(told("offer --app lonely /gate/allowed"), HasSubstr("<network/>"));
   // It is used until the run ends.
   for (const char* const command : {"delete --app follower /network", "rename --app follower /network other"}) {
-    EXPECT_THAT(told(command), HasSubstr("what a tag of the file makes"));
+    EXPECT_THAT(told(command), HasSubstr("what a tag of the file or a program has made"));
   }
   EXPECT_THAT(Runnel("network --app follower").text, HasSubstr("offers /follower/gate/output/allowed"));
 }

@@ -119,13 +119,24 @@ void CallOfModule::Forget() {
   client_ = nullptr;
 }
 
+void CallOfModule::Keep() {
+  reply_ = Reply();
+  error_ = Error();
+}
+
+void CallOfModule::Leave() noexcept {
+  if (client_ != nullptr) client_->looked_at_.erase(this);
+  call_ = nullptr;
+  client_ = nullptr;
+}
+
 CallStatus CallOfModule::Poll() {
   if (call_ != nullptr && status_ == CallStatus::kPending) status_ = client_->client_->Poll(*call_);
   return status_;
 }
 
 py::object CallOfModule::Reply() {
-  if (Poll() != CallStatus::kAnswered || call_ == nullptr) return py::none();
+  if (Poll() != CallStatus::kAnswered || call_ == nullptr) return reply_;
   const CallForm& form = *client_->client_->form();
   return form.reply() == nullptr ? py::none() : CopyToPython(*form.reply(), form.ReplyOf(*call_));
 }
@@ -133,6 +144,7 @@ py::object CallOfModule::Reply() {
 std::string CallOfModule::Error() {
   const CallStatus status = Poll();
   if (status == CallStatus::kPending || status == CallStatus::kAnswered) return "";
+  if (!error_.empty()) return error_;
   const bool is_told = call_ != nullptr && call_->is_answered() && !call_->error.empty();
   return is_told ? call_->error : CallStatusName(status);
 }
@@ -219,7 +231,7 @@ std::unique_ptr<CallOfModule> ModuleClient::Begin(const py::args& positional, co
   return std::make_unique<CallOfModule>(*this, call, call == nullptr ? CallStatus::kBusy : client_->Begin(*call));
 }
 
-// The client lets go of the call afterwards, and so does the object before.
+// The client lets go of the call afterwards.
 void ModuleClient::CalledBack(CallBase& call, CallStatus status) {
   const GilInCycle gil;
   const auto found = callbacks_.find(&call);
@@ -227,8 +239,11 @@ void ModuleClient::CalledBack(CallBase& call, CallStatus status) {
   const py::object callback = std::move(found->second);
   callbacks_.erase(found);
   try {
-    py::object outcome = py::cast(std::make_unique<CallOfModule>(*this, &call, status));
+    const py::object outcome = py::cast(std::make_unique<CallOfModule>(*this, &call, status));
+    auto& told = outcome.cast<CallOfModule&>();
+    const std::shared_ptr<void> end(nullptr, [&](void*) { told.Leave(); });
     callback(outcome);
+    if (outcome.ref_count() > 1) told.Keep();
   } catch (const py::error_already_set& thrown) {
     if (!KeepInterrupt(thrown)) as_fault_(thrown);
   }

@@ -35,7 +35,8 @@ class ModuleService {
 
 class ModuleClient;
 
-/// One call, as update() looks at it; of a client that has gone, disconnected. With the GIL.
+/// One call, as update() looks at it; of a client that has gone, disconnected. Who keeps one that a callback got finds what came
+/// of it: its slot is another call's by then. With the GIL.
 class CallOfModule {
  public:
   CallOfModule(ModuleClient& client, CallBase* call, CallStatus status);
@@ -53,10 +54,14 @@ class CallOfModule {
  private:
   friend class ModuleClient;
   void Forget();
+  void Keep();
+  void Leave() noexcept;
 
   ModuleClient* client_;
   CallBase* call_;
   CallStatus status_;
+  pybind11::object reply_ = pybind11::none();  // without a call
+  std::string error_;
 };
 
 /// A client of a module in Python.

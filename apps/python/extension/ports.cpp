@@ -9,6 +9,7 @@
 
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/value.h"
+#include "core/element/not_saved.h"
 #include "core/paths/path_search.h"
 #include "plugins/application/run_report.h"
 
@@ -131,10 +132,10 @@ void PublishFromPython(Port& output, const py::args& positional, const py::kwarg
   }
 }
 
-/// What holds the port, beside the application.
+/// What holds the port, beside the application. Nobody else deletes it.
 class TiedPort::Place final : public FrameworkElement {
  public:
-  explicit Place(const Placement& placement) : FrameworkElement(placement) {}
+  explicit Place(const Placement& placement) : FrameworkElement(placement) { Annotate(std::make_unique<NotSaved>()); }
   std::unique_ptr<Port> port;
 };
 

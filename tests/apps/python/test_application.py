@@ -185,6 +185,14 @@ def test_threads_of_its_own_and_values_as_they_come(xml):
         assert not app.is_running
 
 
+def test_nobody_deletes_what_a_reader_reads_by(app):
+    reader = app.reader("/world/pose")
+    with pytest.raises(runnel.Error, match="made for itself"):
+        app.delete("/python")
+    app.run_for(0.1)
+    assert reader.read() is not None
+
+
 def test_a_closed_application_says_so(app):
     reader = app.reader("/world/pose")
     app.close()

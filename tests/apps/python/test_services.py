@@ -73,6 +73,20 @@ class Asker(runnel.Module):
             self.said.publish(" | ".join(map(str, self.answers)))
 
 
+class Collector(runnel.Module):
+    """Keeps what callbacks got, though there is one slot for all of its calls."""
+    period = 0.01
+    save = runnel.Client("Pose2", {"file": str, "scale": float}, calls=1, timeout=1)
+    said = runnel.Output("string")
+
+    def __init__(self):
+        self.kept = []
+
+    def update(self):
+        self.save.call(self.kept.append, "nowhere" if len(self.kept) == 1 else "a.pgm", scale=len(self.kept))
+        self.said.publish(" ".join(each.error[:4] or str(each.reply.x) for each in self.kept))
+
+
 @pytest.fixture
 def app():
     with runnel.compose("house", clock="simulated") as app:
@@ -92,6 +106,14 @@ def test_modules_call_each_other(app):
     assert not app.faults()
     assert any("Traceback" in each.text and "no such folder" in each.text for each in app.log() if each.kind == "error")
     assert app.call("/mapper/save").y == 1 + 10 + 2 + 1
+
+
+def test_what_is_kept_of_a_call_is_that_call(app):
+    app.create("collector", Collector)
+    app.connect("/mapper/save", "/collector/save")
+    app.run_for(0.3)
+    assert app.read("/collector/said").startswith("0.0 File 2.0 3.0 4.0")
+    assert not app.faults()
 
 
 def test_who_is_outside_calls_them(app):
