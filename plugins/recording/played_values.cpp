@@ -25,6 +25,8 @@ std::int64_t Signed(std::uint64_t time) {
 }
 
 constexpr std::string_view kSuffix = "_calls";
+// How long a round waits for who takes its last values: a module may be paused, or deleted.
+constexpr Duration kAwaited = std::chrono::seconds(1);
 constexpr Duration kNoTimeout = std::chrono::hours(24 * 365);
 
 }  // namespace
@@ -103,9 +105,9 @@ std::optional<PlayedValues::Value> PlayedValues::Take(std::uint16_t channel, Tim
   const std::lock_guard lock(mutex_);
   if (!has_begun_ || failure_) return {};
   std::int64_t at = now.time_since_epoch().count() - offset_;
-  if (loops_ && at > end_ && HasEnded()) {
+  if (loops_ && at > end_ && (HasEnded() || at - end_ > kAwaited.count())) {
     // The next round begins a nanosecond after the last value, so that time goes on.
-    offset_ += end_ - start_ + 1;
+    offset_ += HasEnded() ? end_ - start_ + 1 : at - start_;
     at = now.time_since_epoch().count() - offset_;
     Rewind();
   }

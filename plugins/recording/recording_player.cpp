@@ -7,6 +7,7 @@
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"
 #include "core/module/run_monitor.h"
+#include "core/module/module.h"
 #include "core/paths/path_search.h"
 #include "core/port/probe_port.h"
 #include "core/types/type_info.h"
@@ -289,6 +290,11 @@ void Player::WrapTasksOf(FrameworkElement& module, const std::vector<PlayedPort*
     task.run = BoundCall::To<&PlayedTask::Run>(*tasks_.back());
   }
   module.Annotate(std::make_unique<Executable>([tasks] { return tasks; }));
+  if (!resting_.contains(&module)) return;
+  // Tasks of its own that other threads run publish there, too.
+  module.VisitAll<Module>([&](Module& each) {
+    if (&each != &module) each.Annotate(std::make_unique<Executable>([] { return std::vector<Task>(); }));
+  });
 }
 
 void Player::Publish(const std::vector<PlayedPort*>& ports) {

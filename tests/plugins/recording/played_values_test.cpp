@@ -101,6 +101,27 @@ TEST_F(PlayedValuesTest, TheTimesOfTheirMeasurementMoveWithThem) {
       << "what is published later than it was is measured later, too";
 }
 
+TEST_F(PlayedValuesTest, ARoundDoesNotWaitForWhoIsPaused) {
+  auto writer = Must(McapWriter::Create(Path("a.mcap"), {}));
+  const auto taken = Must(writer->AddChannel(0, "/x", "json", {}));
+  const auto paused = Must(writer->AddChannel(0, "/y", "json", {}));
+  for (const std::uint16_t channel : {taken, paused}) {
+    Must(writer->AddMessage({channel, 0, 0, 0, "1"}));
+    Must(writer->AddMessage({channel, 1, 1'000'000'000, 1'000'000'000, "2"}));
+  }
+  Must(writer->Finish());
+  PlayedValues values(Must(McapReader::Open(Path("a.mcap"))), {}, {}, true);
+  for (const std::uint16_t channel : {taken, paused}) values.Want(channel);
+  values.Start(Time{});
+  std::vector<double> times;
+  for (double now = 0; now < 7; now += 0.01) {
+    while (const auto value = values.Take(taken, Time(FromSeconds(now)))) times.push_back(ToSeconds(value->time));
+  }
+  using ::testing::DoubleNear;
+  EXPECT_THAT(times, ElementsAre(DoubleNear(0, 0.02), DoubleNear(1, 0.02), DoubleNear(2, 0.02), DoubleNear(3, 0.03), DoubleNear(4, 0.03),
+                                 DoubleNear(5, 0.04), DoubleNear(6, 0.05)));
+}
+
 TEST_F(PlayedValuesTest, ABrokenChunkEndsThePlaying) {
   const std::string file = WriteFile("a.mcap", "", 60);
   std::string bytes = ReadBytes(file);

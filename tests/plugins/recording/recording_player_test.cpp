@@ -1,5 +1,7 @@
 #include "plugins/recording/recording_player.h"
 
+#include <map>
+
 #include "plugins/structure/extension_changes.h"
 #include "plugins/values/json_values.h"
 #include "tests/plugins/recording/recording_fixture.h"
@@ -103,6 +105,27 @@ TEST_F(RecordingPlayerTest, AFileThatIsSavedMeanwhileKeepsTheConnections) {
   EXPECT_EQ(connected(), "/source/output/number /sink/input/number\n");
   player.reset();
   EXPECT_EQ(connected(), "");
+}
+
+// As a task of a component that has a thread of its own.
+struct Below final : Module {
+  using Module::Module;
+  int cycles = 0;
+  void Update() override { ++cycles; }
+};
+
+TEST_F(RecordingPlayerTest, WhatIsBelowAModuleThatRestsRestsToo) {
+  Application recorded;
+  const std::string file = Record("a.mcap", recorded, seconds(1));
+  for (const auto& [ports, cycles] : std::map<std::string, int>{{"/source/*", 0}, {"/source/number", 10}}) {
+    Application other;
+    auto& below = other.runtime.Create<Below>(*other.source, "below");
+    Must(other.runtime.MakeReady(below));
+    const auto player = Must(Play(other, file, {.ports = {ports}}));
+    player->Start(Time{});
+    other.Run(milliseconds(100));
+    EXPECT_EQ(below.cycles, cycles) << ports;
+  }
 }
 
 TEST_F(RecordingPlayerTest, PlaysAStretchFromLaterOn) {
