@@ -93,6 +93,7 @@ Result<void> ApplicationDescription::Attach(const ExtensionDescription& extensio
   auto made = MakeExtensions(extension, need, arguments);
   if (!made) return made.error();
   extensions_.insert(extensions_.end(), made->begin(), made->end());
+  attached_.insert(extension.name);
   return {};
 }
 
@@ -119,7 +120,7 @@ Result<void> ApplicationDescription::AttachForTag(std::string_view tag) {
   const auto catalogue = Catalogue();
   if (!catalogue) return catalogue.error();
   const ExtensionDescription* const known = (*catalogue)->FindTag(tag);
-  if (known == nullptr) return {};
+  if (known == nullptr || attached_.contains(known->name)) return {};
   return Attach(*known, "<" + std::string(tag) + ">", {});
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -102,6 +103,7 @@ class ApplicationDescription {
   std::optional<ExtensionCatalogue> catalogue_;
   Configuration configuration_;
   Extensions extensions_;
+  std::set<std::string> attached_;  // their names
   ManualClock beginning_;  // of simulated time, until the scheduler brings its clock
   Runtime runtime_;  // last, for modules may still use what plugins gave them
 };

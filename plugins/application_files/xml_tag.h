@@ -165,12 +165,14 @@ class XmlTagRegistry final : public OfferedRegistry {
   /// Both throw ElementError if the word is taken, as registrations of plugins do.
   void AddTag(XmlTag tag);
   void AddAttribute(AddedAttribute attribute);
-  /// Is asked for tags that are not there, and adds those that it knows of. Errors: it has one, and cannot add it.
+  /// Is asked for tags that are not there, and those of plugins: the plugin may be loaded, and nobody has made its extension.
+  /// Adds those that it knows of. Errors: it has one, and cannot add it.
   using Source = std::function<Result<void>(std::string_view tag)>;
   void set_source(Source source) { source_ = std::move(source); }
   /// Has the tag added if it is not there and somebody knows of it. Errors: the source's.
   Result<void> Bring(std::string_view tag) const {
-    return source_ && FindTag(tag) == nullptr ? source_(tag) : Result<void>();
+    const XmlTag* const known = FindTag(tag);
+    return source_ && (known == nullptr || !known->plugin.empty()) ? source_(tag) : Result<void>();
   }
   std::function<void()> SetAside(std::string_view plugin) override;
   void set_plugin(const std::string& plugin) override { plugin_ = plugin; }

@@ -59,6 +59,9 @@ TEST(Extension, IsAttachedByAWordOfTheFileAndOnlyOnce) {
   const auto by_both = LoadWith("<greeting/>", {{"greeting", {{{"name", "Ada"}}}}});
   ASSERT_TRUE(by_both) << by_both.diagnostics().ToString();
   EXPECT_EQ(StartTexts(*by_both), "hello Ada\n");
+  const auto loaded = LoadWith("<load plugin=\"greeting\"/><greeting/>");
+  ASSERT_TRUE(loaded) << loaded.diagnostics().ToString();
+  EXPECT_EQ(StartTexts(*loaded), "hello\n");
 }
 
 TEST(Extension, IsNotLoadedIfNobodyAsksForIt) {
