@@ -1,8 +1,8 @@
 #include "apps/generate/component_check.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "core/base/number_text.h"
 #include "plugins/genom_templates/template_run.h"
 #include "plugins/model_checker/spin.h"
 
@@ -24,18 +24,12 @@ std::string Take(std::string& text, char until) {
   return taken;
 }
 
-int Number(const std::string& text) {
-  int number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
-}
-
 // "fault FILE<tab>LINE<tab>COLUMN<tab>MESSAGE"
 Error ReadFault(std::string line) {
   Error error;
   error.position.file = Take(line, '\t');
-  error.position.line = Number(Take(line, '\t'));
-  error.position.column = Number(Take(line, '\t'));
+  error.position.line = NumberIn<int>(Take(line, '\t')).value_or(0);
+  error.position.column = NumberIn<int>(Take(line, '\t')).value_or(0);
   error.message = line;
   return error;
 }

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "apps/program.h"
 #include "plugins/mcap/mcap_reader.h"
@@ -52,11 +52,7 @@ void Print(const RecordingInfo& info) {
   PrintLine("chunks", PackingText(info));
   for (const auto& [key, text] : info.about) PrintLine(key.c_str(), text);
   if (info.about.empty()) PrintLine("library", info.library);
-  std::string attachments;
-  for (const std::string& each : info.attachments) {
-    attachments += (attachments.empty() ? "" : ", ") + each;
-  }
-  PrintLine("attached", attachments);
+  PrintLine("attached", fmt::format("{}", fmt::join(info.attachments, ", ")));
   PrintLine("end", info.ended_properly ? "as its writer wanted it"
                                        : "missing: its writer was killed, or is still at work");
   if (!info.channels.empty()) PrintChannels(info);

@@ -58,11 +58,9 @@ std::vector<Element> Elements(ControlClient& client) {
     std::istringstream parts(line);
     Element element;
     std::string interface;
-    std::getline(parts, element.kind, '\t');
-    std::getline(parts, element.path, '\t');
-    std::getline(parts, interface, '\t');
-    std::getline(parts, element.type, '\t');
-    std::getline(parts, element.choices, '\t');
+    for (std::string* const part : {&element.kind, &element.path, &interface, &element.type, &element.choices}) {
+      std::getline(parts, *part, '\t');
+    }
     element.is_interface = interface == "interface";
     elements.push_back(std::move(element));
   }
@@ -156,46 +154,41 @@ Candidates SettingsOf(ControlClient& client, const std::string& path) {
   return names;
 }
 
-// What can be the word number `place` (from 0) after the command.
+// Which elements can be the word number `place` (from 0) after some commands.
+struct Meant {
+  std::vector<std::string_view> commands;
+  std::size_t place;
+  std::function<bool(const Element&)> fits;
+};
+const std::vector<Meant> kMeant{
+    {{"ls"}, 0, [](const Element&) { return true; }},
+    {{"offer", "connect", "disconnect"}, 0, Sends},
+    {{"take", "disconnect"}, 1, Receives},
+    {{"echo", "hz", "publish", "release", "block"}, 0, IsPort},
+    {{"call", "activities"}, 0, IsService},
+    {{"set"}, 0, OfKind("parameter")},
+    {{"get"}, 0, [](const Element& each) { return IsPort(each) || each.kind == "parameter"; }},
+    {{"rename", "copy", "restart", "tag", "move"}, 0, IsPart},
+    {{"pause", "resume"}, 0, [](const Element& each) { return IsPart(each) || each.kind == "thread"; }},
+    {{"delete"}, 0, [](const Element& each) { return IsPart(each) || each.is_interface; }},
+    {{"swap"}, 0, OfKind("module")}};
+
+// What can be the last word after the command.
 Candidates Propose(ControlClient& client, const Candidates& plain) {
   const std::string& command = plain.front();
   const std::size_t place = plain.size() - 2;
-  const auto word = [&](std::size_t number) { return plain[number + 1]; };
-  const bool is_first = place == 0;
-  if (command == "ls" && is_first) return Paths(client, [](const Element&) { return true; });
-  if (command == "offer" && is_first) return Paths(client, Sends);
-  if (command == "take" && place == 1) return Paths(client, Receives);
-  const bool is_of_port = command == "echo" || command == "hz" || command == "publish" || command == "release" || command == "block";
-  if (is_of_port && is_first) return Paths(client, IsPort);
-  if ((command == "call" || command == "activities") && is_first) return Paths(client, IsService);
-  if (command == "call" && place == 1) return ArgumentsOf(client, word(0));
-  if (command == "set" && is_first) return Paths(client, OfKind("parameter"));
-  if (command == "set" && place == 1) return ValuesOf(client, word(0));
-  if (command == "get" && is_first) {
-    return Paths(client, [](const Element& each) { return IsPort(each) || each.kind == "parameter"; });
+  for (const Meant& each : kMeant) {
+    if (each.place == place && std::ranges::count(each.commands, command) > 0) return Paths(client, each.fits);
   }
-  if ((command == "rename" || command == "copy" || command == "restart" || command == "tag") && is_first) return Paths(client, IsPart);
-  if (command == "connect" && place == 1) return Takers(client, word(0));
-  if (command == "swap" && place > 1) return SettingsOf(client, word(0));
-  if ((command == "pause" || command == "resume") && is_first) {
-    return Paths(client, [](const Element& each) { return IsPart(each) || each.kind == "thread"; });
-  }
-  if ((command == "connect" || command == "disconnect") && place < 2) {
-    return Paths(client, is_first ? Sends : Receives);
-  }
-  if (command == "delete" && is_first) {
-    return Paths(client, [](const Element& each) { return IsPart(each) || each.is_interface; });
-  }
-  if (command == "swap" && is_first) return Paths(client, OfKind("module"));
-  if (command == "create" && is_first) {
-    Candidates groups = Paths(client, OfKind("group"));
-    for (std::string& each : groups) each += '/';
-    return groups;
-  }
-  if ((command == "create" || command == "swap") && place == 1) return Types(client);
   if (command == "record") return Paths(client, Sends);
-  if (command == "speed" && is_first) return {"0", "0.5", "1", "2", "10"};
-  if (command == "move") return is_first ? Paths(client, IsPart) : Threads(client);
+  if (command == "move") return Threads(client);
+  if (command == "speed" && place == 0) return {"0", "0.5", "1", "2", "10"};
+  if (command == "create" && place == 0) return NamesOf(Paths(client, OfKind("group")), [](const auto& each) { return each + '/'; });
+  if ((command == "create" || command == "swap") && place == 1) return Types(client);
+  if (command == "call" && place == 1) return ArgumentsOf(client, plain[1]);
+  if (command == "set" && place == 1) return ValuesOf(client, plain[1]);
+  if (command == "connect" && place == 1) return Takers(client, plain[1]);
+  if (command == "swap") return SettingsOf(client, plain[1]);
   return {};
 }
 

@@ -96,11 +96,9 @@ std::string StatisticsTable(FrameworkElement& root) {
   const std::lock_guard lock(root.runtime().structure_mutex());
   std::vector<const ThreadContainer*> threads;
   int width = 0;
-  root.Visit([&](FrameworkElement& element) {
-    const auto* const thread = dynamic_cast<const ThreadContainer*>(&element);
-    if (thread == nullptr) return;
-    threads.push_back(thread);
-    width = std::max(width, static_cast<int>(thread->path().size()));
+  root.VisitAll<const ThreadContainer>([&](const ThreadContainer& thread) {
+    threads.push_back(&thread);
+    width = std::max(width, static_cast<int>(thread.path().size()));
   });
   std::string text = Heading(width);
   for (const ThreadContainer* each : threads) text += Line(*each, width);

@@ -50,10 +50,7 @@ Result<void> Attempt(const Step& step) {
 }  // namespace
 
 Error Application::Parts::Placed(Error error) const {
-  if (error.path.empty()) error.path = path();
-  if (error.position.file.empty()) error.position = FindSourcePlace(*element_);
-  if (error.position.file.empty()) error.position.file = file();
-  return error;
+  return error.WithPath(path()).WithPosition(FindSourcePlace(*element_)).WithPosition(file());
 }
 
 Result<void> Application::Parts::Schedule() {

@@ -158,9 +158,8 @@ void Application::Attend() {
 void Application::LogProfile() {
   const auto measured = parts_->scheduler->profiled_for();
   const Profile profile = parts_->scheduler->ReadProfile();
-  std::string_view text;
   const std::string table = ProfileText(profile, measured.value_or(Duration{}));
-  for (text = table; !text.empty(); text.remove_prefix(std::min(text.size(), text.find('\n') + 1))) {
+  for (std::string_view text = table; !text.empty(); text.remove_prefix(std::min(text.size(), text.find('\n') + 1))) {
     parts_->log->Add(ApplicationLog::Kind::kInfo, std::string(text.substr(0, text.find('\n'))));
   }
 }

@@ -99,11 +99,9 @@ Result<void> MakeReady(FrameworkElement& application, FrameworkElement& element)
   const std::lock_guard lock(runtime.structure_mutex());
   const auto ready = runtime.MakeReady(element);
   if (ready) return {};
-  Error error = ready.error();
-  const auto culprit = runtime.root().Find(error.path);
+  const auto culprit = runtime.root().Find(ready.error().path);
   const FrameworkElement& at = culprit ? **culprit : application;
-  if (error.path.empty()) error.path = at.path();
-  if (error.position.file.empty()) error.position = FindSourcePlace(at);
+  Error error = ready.error().WithPath(at.path()).WithPosition(FindSourcePlace(at));
   const std::string chain = UseChain(error.position.file, at);
   if (!chain.empty()) error.hint += (error.hint.empty() ? "" : "; ") + chain;
   return error;

@@ -14,6 +14,12 @@ namespace {
 
 using Places = std::map<const Behaviour*, std::size_t>;
 
+Places PlacesOf(const std::vector<Behaviour*>& behaviours) {
+  Places places;
+  for (std::size_t i = 0; i < behaviours.size(); ++i) places[behaviours[i]] = i;
+  return places;
+}
+
 const Behaviour* OwnerOf(const FrameworkElement& port) {
   for (const FrameworkElement* at = &port; at != nullptr; at = at->parent()) {
     if (const auto* const behaviour = dynamic_cast<const Behaviour*>(at)) return behaviour;
@@ -41,10 +47,9 @@ bool IsLate(const Port& port, const Port& source) {
 
 void AddLateSources(const Port& port, const Places& places, NetworkNode& node) {
   for (const Port* const source : port.Sources()) {
-    const Behaviour* const owner = OwnerOf(*source);
-    const auto place = owner != nullptr ? places.find(owner) : places.end();
+    const auto place = places.find(OwnerOf(*source));
     if (place == places.end()) continue;
-    if (AssignedThread(*owner) != AssignedThread(*node.behaviour)) {
+    if (AssignedThread(*place->first) != AssignedThread(*node.behaviour)) {
       AddOnce(node.elsewhere, place->second);
     } else if (IsLate(port, *source)) {
       AddOnce(node.late, place->second);
@@ -56,8 +61,7 @@ void AddLateSources(const Port& port, const Places& places, NetworkNode& node) {
 bool AddSources(const Port& port, const Places& places, std::vector<std::size_t>& sources) {
   bool is_foreign = false;
   for (const Port* const source : port.Sources()) {
-    const Behaviour* const owner = OwnerOf(*source);
-    const auto place = owner != nullptr ? places.find(owner) : places.end();
+    const auto place = places.find(OwnerOf(*source));
     if (place != places.end()) {
       AddOnce(sources, place->second);
     } else {
@@ -107,8 +111,7 @@ NetworkNode ReadNode(Behaviour& behaviour, const FrameworkElement& application, 
 
 // Those that it depends on come first, as far as there is no loop.
 std::vector<Behaviour*> InOrder(std::vector<Behaviour*> behaviours, const FrameworkElement& application) {
-  Places places;
-  for (std::size_t i = 0; i < behaviours.size(); ++i) places[behaviours[i]] = i;
+  const Places places = PlacesOf(behaviours);
   std::vector<Behaviour*> ordered;
   std::set<std::size_t> visited;
   const std::function<void(std::size_t)> visit = [&](std::size_t place) {
@@ -124,11 +127,10 @@ std::vector<Behaviour*> InOrder(std::vector<Behaviour*> behaviours, const Framew
 }
 
 void ReadActuators(FrameworkElement& application, const Places& places, BehaviourNetwork& network) {
-  application.Visit([&](FrameworkElement& element) {
-    const auto* const input = dynamic_cast<const InputBase*>(&element);
-    if (input == nullptr || OwnerOf(*input) != nullptr) return;
-    SharedActuator actuator{.path = input->path(), .behaviours = {}};
-    (void)AddSources(*input, places, actuator.behaviours);
+  application.VisitAll<const InputBase>([&](const InputBase& input) {
+    if (OwnerOf(input) != nullptr) return;
+    SharedActuator actuator{.path = input.path(), .behaviours = {}};
+    (void)AddSources(input, places, actuator.behaviours);
     if (actuator.behaviours.size() > 1) network.shared.push_back(std::move(actuator));
   });
 }
@@ -137,12 +139,9 @@ void ReadActuators(FrameworkElement& application, const Places& places, Behaviou
 
 BehaviourNetwork ReadNetwork(FrameworkElement& application) {
   std::vector<Behaviour*> behaviours;
-  application.Visit([&](FrameworkElement& element) {
-    if (auto* const behaviour = dynamic_cast<Behaviour*>(&element)) behaviours.push_back(behaviour);
-  });
+  application.VisitAll<Behaviour>([&](Behaviour& behaviour) { behaviours.push_back(&behaviour); });
   behaviours = InOrder(std::move(behaviours), application);
-  Places places;
-  for (std::size_t i = 0; i < behaviours.size(); ++i) places[behaviours[i]] = i;
+  const Places places = PlacesOf(behaviours);
   BehaviourNetwork network;
   for (Behaviour* const each : behaviours) network.nodes.push_back(ReadNode(*each, application, places));
   ReadActuators(application, places, network);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include <fmt/ranges.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -134,17 +135,10 @@ Result<std::vector<RunningApplication>> FindRunningApplications(const std::files
 
 Result<RunningApplication> ChooseApplication(const std::vector<RunningApplication>& applications,
                                              const std::string& wanted) {
-  std::vector<RunningApplication> meant;
-  std::vector<std::string> names;
-  std::string list;
-  for (const RunningApplication& each : applications) {
-    names.push_back(each.hello.application);
-    const bool is_meant = wanted.empty() || wanted == each.hello.application ||
-                          wanted == std::to_string(each.hello.process);
-    if (!is_meant) continue;
-    list += (list.empty() ? "" : ", ") + Described(each);
-    meant.push_back(each);
-  }
+  std::vector<RunningApplication> meant = applications;
+  std::erase_if(meant, [&](const RunningApplication& each) {
+    return !wanted.empty() && wanted != each.hello.application && wanted != std::to_string(each.hello.process);
+  });
   if (meant.size() == 1) return meant.front();
   if (applications.empty()) {
     return Error{.message = "no application is running that could be reached",
@@ -152,10 +146,10 @@ Result<RunningApplication> ChooseApplication(const std::vector<RunningApplicatio
   }
   if (meant.empty()) {
     return Error{.message = "no running application is called '" + wanted + "'",
-                 .hint = NearestNameHint(wanted, names)};
+                 .hint = NearestNameHint(wanted, NamesOf(applications, [](const auto& each) { return each.hello.application; }))};
   }
   const std::string called = wanted.empty() ? "" : " called '" + wanted + "'";
-  return Error{.message = std::to_string(meant.size()) + " applications" + called + " are running: " + list,
+  return Error{.message = fmt::format("{} applications{} are running: {}", meant.size(), called, fmt::join(NamesOf(meant, Described), ", ")),
                .hint = wanted.empty() ? "choose one by --app NAME or --app PROCESS, or by a path that begins with its name"
                                       : "choose one by --app PROCESS"};
 }

@@ -7,6 +7,49 @@
 
 namespace runnel::genom {
 
+namespace {
+
+// What `make` makes of each.
+template <typename List, typename Make>
+Json ListOf(const List& list, const Make& make) {
+  Json json = Json::array();
+  for (const auto& each : list) json.push_back(make(each));
+  return json;
+}
+
+// null: there is none.
+constexpr auto kNameOf = [](const auto* named) { return named == nullptr ? Json(nullptr) : Json(named->name); };
+
+Json Texts(const Properties& properties, PropertyKind kind) {
+  const Property* found = Find(properties, kind);
+  return found == nullptr ? Json::array() : Json(found->texts);
+}
+
+// The services that one interrupts, or is before or after.
+Json Named(PropertyKind relation, const Service& service) {
+  Json names = Json::array();
+  for (const Service* each : service.component->services) {
+    if (Names(relation, service, *each)) names.push_back(each->name);
+  }
+  return names;
+}
+
+Json Interfaces(const Properties& properties, PropertyKind kind) {
+  const Property* found = Find(properties, kind);
+  return found == nullptr ? Json::array() : ListOf(found->interfaces, kNameOf);
+}
+
+Json Number(const Properties& properties, PropertyKind kind) {
+  const Property* found = Find(properties, kind);
+  return found == nullptr ? Json(nullptr) : Json(found->number);
+}
+
+Json EventNames(const std::vector<Type*>& events) {
+  return ListOf(events, [](const Type* each) { return (each->Is(TypeKind::kPauseEvent) ? "pause::" : "") + each->name; });
+}
+
+}  // namespace
+
 Json JsonWriter::PlaceJson(Place place) const {
   if (place.file < 0) return nullptr;
   return {{"file", problems_.FileName(place.file)}, {"line", place.line}, {"column", place.column}};
@@ -88,8 +131,7 @@ Json JsonWriter::Declared(const Type& type) const {
   if (type.Is(TypeKind::kTypedef)) json["type"] = Reference(type.type);
   if (type.Is(TypeKind::kUnion)) json["switch"] = Reference(type.type);
   if (type.Is(TypeKind::kEnum)) {
-    json["enumerators"] = Json::array();
-    for (const Type* each : type.members) json["enumerators"].push_back(each->ShownName());
+    json["enumerators"] = ListOf(type.members, [](const Type* each) { return each->ShownName(); });
   } else if (type.Is(TypeKind::kStruct) || type.Is(TypeKind::kUnion) || type.Is(TypeKind::kException)) {
     json["members"] = Members(type);
   }
@@ -102,58 +144,18 @@ Json JsonWriter::InitialJson(const Initializer& initial) const {
   if (initial.index) json["index"] = *initial.index;
   if (initial.has_doc) json["doc"] = initial.doc;
   if (initial.is_compound) {
-    json["parts"] = Json::array();
-    for (const Initializer& each : initial.parts) json["parts"].push_back(InitialJson(each));
+    json["parts"] = ListOf(initial.parts, [this](const Initializer& each) { return InitialJson(each); });
   } else if (initial.value.kind != Constant::Kind::kNone) {
     json["value"] = ConstantJson(initial.value);
   }
   return json;
 }
 
-namespace {
-
-Json Texts(const Properties& properties, PropertyKind kind) {
-  const Property* found = Find(properties, kind);
-  return found == nullptr ? Json::array() : Json(found->texts);
-}
-
-// The services that one interrupts, or is before or after.
-Json Named(PropertyKind relation, const Service& service) {
-  Json names = Json::array();
-  for (const Service* each : service.component->services) {
-    if (Names(relation, service, *each)) names.push_back(each->name);
-  }
-  return names;
-}
-
-Json Interfaces(const Properties& properties, PropertyKind kind) {
-  Json names = Json::array();
-  if (const Property* found = Find(properties, kind)) {
-    for (const Component* each : found->interfaces) names.push_back(each->name);
-  }
-  return names;
-}
-
-Json Number(const Properties& properties, PropertyKind kind) {
-  const Property* found = Find(properties, kind);
-  return found == nullptr ? Json(nullptr) : Json(found->number);
-}
-
-Json EventNames(const std::vector<Type*>& events) {
-  Json names = Json::array();
-  for (const Type* each : events) names.push_back((each->Is(TypeKind::kPauseEvent) ? "pause::" : "") + each->name);
-  return names;
-}
-
-}  // namespace
-
 Json JsonWriter::ParameterJson(const Parameter& parameter) const {
   Json json{{"name", parameter.name}, {"direction", NameOf(parameter.direction)}, {"source", NameOf(parameter.source)}};
   if (parameter.is_variable) json.erase("direction");
   json["place"] = PlaceJson(parameter.place);
-  Json path = Json::array();
-  for (const PathStep& each : parameter.path) path.push_back(each.member.empty() ? Json(each.index) : Json(each.member));
-  json["path"] = path;
+  json["path"] = ListOf(parameter.path, [](const PathStep& each) { return each.member.empty() ? Json(each.index) : Json(each.member); });
   if (parameter.port != nullptr) {
     json["port"] = parameter.port->name;
     json["type"] = Reference(parameter.port->type);
@@ -197,8 +199,7 @@ Json JsonWriter::TaskJson(const Task& task) const {
   json["throws"] = Exceptions({&task.properties, &task.component->properties});
   json["states"] = Json::object();
   for (const auto& [state, codel] : task.states) json["states"][state] = codel->name;
-  json["codels"] = Json::array();
-  for (const Codel* each : CodelsOf(task.properties)) json["codels"].push_back(CodelJson(*each));
+  json["codels"] = ListOf(CodelsOf(task.properties), [this](const Codel* each) { return CodelJson(*each); });
   return json;
 }
 
@@ -211,7 +212,7 @@ Json JsonWriter::ServiceJson(const Service& service) const {
   Json json{{"name", service.name}, {"kind", NameOf(service.kind)}, {"place", PlaceJson(service.place)},
             {"doc", TextOf(service.properties, PropertyKind::kDoc)}};
   const Task* task = service.task();
-  json["task"] = task == nullptr ? Json(nullptr) : Json(task->name);
+  json["task"] = kNameOf(task);
   json["parameters"] = Parameters(service.parameters, false);
   json["variables"] = Parameters(service.parameters, true);
   json["throws"] = task == nullptr ? Exceptions({&service.properties, &service.component->properties})
@@ -221,28 +222,22 @@ Json JsonWriter::ServiceJson(const Service& service) const {
   json["after"] = Named(PropertyKind::kAfter, service);
   json["states"] = Json::object();
   for (const auto& [state, codel] : service.states) json["states"][state] = codel->name;
-  json["codels"] = Json::array();
-  for (const Codel* each : CodelsOf(service.properties)) json["codels"].push_back(CodelJson(*each));
-  json["excludes_codels"] = Json::array();
-  for (const Codel* each : ConflictingCodels(service)) json["excludes_codels"].push_back(each->name);
+  json["codels"] = ListOf(CodelsOf(service.properties), [this](const Codel* each) { return CodelJson(*each); });
+  json["excludes_codels"] = ListOf(ConflictingCodels(service), kNameOf);
   return json;
 }
 
 Json JsonWriter::CodelJson(const Codel& codel) const {
   Json json{{"name", codel.name}, {"kind", NameOf(codel.kind)}, {"place", PlaceJson(codel.place)},
             {"is_async", codel.is_async}};
-  json["task"] = codel.task == nullptr ? Json(nullptr) : Json(codel.task->name);
+  json["task"] = kNameOf(codel.task);
   json["parameters"] = Parameters(codel.parameters, false);
   json["states"] = EventNames(codel.triggers);
   json["yields"] = EventNames(codel.yields);
-  json["excludes_codels"] = Json::array();
-  for (const Codel* each : ConflictingCodels(codel)) {
-    json["excludes_codels"].push_back({{"codel", each->name},
-                                       {"task", each->task == nullptr ? Json(nullptr) : Json(each->task->name)},
-                                       {"service", each->service == nullptr ? Json(nullptr) : Json(each->service->name)}});
-  }
-  json["excludes_services"] = Json::array();
-  for (const Service* each : ConflictingServices(codel)) json["excludes_services"].push_back(each->name);
+  json["excludes_codels"] = ListOf(ConflictingCodels(codel), [](const Codel* each) {
+    return Json{{"codel", each->name}, {"task", kNameOf(each->task)}, {"service", kNameOf(each->service)}};
+  });
+  json["excludes_services"] = ListOf(ConflictingServices(codel), kNameOf);
   return json;
 }
 
@@ -259,14 +254,13 @@ Json JsonWriter::ComponentJson(const Component& component) const {
   json["extends"] = Interfaces(properties, PropertyKind::kExtends);
   json["throws"] = Exceptions({&properties});
   json["ids"] = component.ids == nullptr ? Json(nullptr) : Declared(*component.ids);
-  for (const char* list : {"tasks", "ports", "services", "remotes"}) json[list] = Json::array();
-  for (const Task* each : component.tasks) json["tasks"].push_back(TaskJson(*each));
-  for (const Port* each : component.ports) json["ports"].push_back(PortJson(*each));
-  for (const Service* each : component.services) json["services"].push_back(ServiceJson(*each));
-  for (const Remote* each : component.remotes) {
-    json["remotes"].push_back({{"name", each->name}, {"kind", NameOf(each->kind)}, {"place", PlaceJson(each->place)},
-                               {"parameters", Parameters(each->parameters, false)}});
-  }
+  json["tasks"] = ListOf(component.tasks, [this](const Task* each) { return TaskJson(*each); });
+  json["ports"] = ListOf(component.ports, [this](const Port* each) { return PortJson(*each); });
+  json["services"] = ListOf(component.services, [this](const Service* each) { return ServiceJson(*each); });
+  json["remotes"] = ListOf(component.remotes, [this](const Remote* each) {
+    return Json{{"name", each->name}, {"kind", NameOf(each->kind)}, {"place", PlaceJson(each->place)},
+                {"parameters", Parameters(each->parameters, false)}};
+  });
   json["digest"] = DigestOf(component);
   return json;
 }

@@ -146,11 +146,8 @@ std::string BuildIdIn(std::string_view notes) {
     if (name > notes.size() || length > notes.size() - name) return {};
     const bool is_of_linker = notes.substr(0, note.n_namesz) == std::string_view("GNU\0", 4);
     if (is_of_linker && note.n_type == NT_GNU_BUILD_ID) {
-      std::string text;
-      for (const char byte : notes.substr(name, note.n_descsz)) {
-        text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-      }
-      return text;
+      const std::string_view id = notes.substr(name, note.n_descsz);
+      return fmt::format("{:02x}", fmt::join(std::vector<unsigned char>(id.begin(), id.end()), ""));
     }
     notes.remove_prefix(name + length);
   }

@@ -100,15 +100,13 @@ class ApplicationHealth {
     Runtime& runtime = application_->runtime();
     const Time now = runtime.clock().Now();
     const std::lock_guard lock(runtime.structure_mutex());
-    runtime.root().Visit([&](FrameworkElement& element) {
-      const auto* const thread = dynamic_cast<const ThreadContainer*>(&element);
-      if (thread == nullptr) return;
-      const CycleStatistics cycles = thread->statistics();
-      Overruns& known = overruns_[thread->path()];
+    runtime.root().VisitAll<const ThreadContainer>([&](const ThreadContainer& thread) {
+      const CycleStatistics cycles = thread.statistics();
+      Overruns& known = overruns_[thread.path()];
       if (cycles.overruns > known.count) known = {cycles.overruns, now};
       const bool is_late = known.count > 0 && now - known.since < kLate;
       all.push_back({.level = is_late ? RosHealth::kWarning : RosHealth::kOk,
-                     .name = application_->name() + ": thread " + thread->name(),
+                     .name = application_->name() + ": thread " + thread.name(),
                      .message = is_late ? "cycles end too late" : "in time",
                      .hardware_id = application_->name(),
                      .values = {{"cycles", std::to_string(cycles.cycles)},

@@ -86,13 +86,12 @@ std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
     }
     const auto patterns = PortPatterns::Make(offer.patterns);
     if (!patterns) continue;  // told when the file was read
-    application_.Visit([&](FrameworkElement& element) {
-      auto* const port = dynamic_cast<Port*>(&element);
-      if (port == nullptr || port->direction() != Port::Direction::kOutput || port->IsAtOrBelow(element_)) return;
+    application_.VisitAll<Port>([&](Port& port) {
+      if (port.direction() != Port::Direction::kOutput || port.IsAtOrBelow(element_)) return;
       // Interface ports only pass on: only who names one wants it.
-      if (port->FindAnnotation<Callable>() != nullptr) return;  // offered by name only
-      const bool is_meant = port->is_proxy() ? patterns->Name(port->path()) : patterns->Fit(port->path());
-      if (is_meant && port->life_cycle() != LifeCycle::kDeleted) add(*port, offer);
+      if (port.FindAnnotation<Callable>() != nullptr) return;  // offered by name only
+      const bool is_meant = port.is_proxy() ? patterns->Name(port.path()) : patterns->Fit(port.path());
+      if (is_meant && port.life_cycle() != LifeCycle::kDeleted) add(port, offer);
     });
   }
   return wanted;

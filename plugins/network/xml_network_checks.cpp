@@ -77,10 +77,8 @@ void CheckReachOfNodes(const TagUse& use, const WireMemberOptions& member) {
 void CheckPatterns(const TagUse& use, const OfferOptions& offer) {
   std::vector<std::string> paths;
   const NetworkElement* const network = NetworkElement::FindIn(use.parent);
-  use.parent.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    const bool is_meant = port != nullptr && port->direction() == Port::Direction::kOutput && !port->IsAtOrBelow(*network);
-    if (is_meant) paths.push_back(port->path());
+  use.parent.VisitAll<const Port>([&](const Port& port) {
+    if (port.direction() == Port::Direction::kOutput && !port.IsAtOrBelow(*network)) paths.push_back(port.path());
   });
   for (const std::string& pattern : offer.patterns) {
     const auto alone = PortPatterns::Make({pattern});

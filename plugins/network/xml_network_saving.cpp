@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include <fmt/ranges.h>
+
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/values/port_patterns.h"
@@ -26,11 +28,7 @@ Words MapOf(const Options& options) {
   return words;
 }
 
-std::string Joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& each : words) text += (text.empty() ? "" : " ") + each;
-  return text;
-}
+std::string Joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
 // As the file calls a port, seen from the application.
 std::string NameInFile(const std::string& path) { return ShortPortPath(path).substr(1); }

@@ -250,14 +250,9 @@ std::vector<const MessageDefinition*> MessageLibrary::All() const {
 }
 
 std::string TypeHashOf(const MessageDefinition& definition, const MessageLibrary& library) {
-  std::string text = R"({"type_description": )" + DescriptionOf(definition) +
-                     R"(, "referenced_type_descriptions": [)";
-  std::string between;
-  for (const MessageDefinition* const each : library.InsideOf(definition)) {
-    text += between + DescriptionOf(*each);
-    between = ", ";
-  }
-  return "RIHS01_" + Sha256(text + "]}");
+  const auto inside = NamesOf(library.InsideOf(definition), [](const auto* each) { return DescriptionOf(*each); });
+  return "RIHS01_" + Sha256(fmt::format(R"({{"type_description": {}, "referenced_type_descriptions": [{}]}})",
+                                        DescriptionOf(definition), fmt::join(inside, ", ")));
 }
 
 }  // namespace runnel

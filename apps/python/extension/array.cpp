@@ -4,7 +4,7 @@
 #include <map>
 
 #include "apps/python/extension/value.h"
-#include "core/types/type_of.h"
+#include "core/types/leaf_types.h"
 
 namespace py = pybind11;
 
@@ -12,16 +12,12 @@ namespace runnel::python {
 
 namespace {
 
-// Strings as NumPy names them.
-const char* CodeOf(const TypeInfo& type) {
-  static const std::map<std::type_index, const char*> codes{
-      {typeid(bool), "?"},         {typeid(std::int8_t), "i1"},   {typeid(std::int16_t), "i2"},
-      {typeid(std::int32_t), "i4"}, {typeid(std::int64_t), "i8"}, {typeid(std::uint8_t), "u1"},
-      {typeid(std::uint16_t), "u2"}, {typeid(std::uint32_t), "u4"}, {typeid(std::uint64_t), "u8"},
-      {typeid(float), "f4"},       {typeid(double), "f8"},        {typeid(Duration), "i8"},
-      {typeid(Time), "i8"}};
-  const auto found = codes.find(type.cpp_type());
-  return found == codes.end() ? nullptr : found->second;
+py::object LeafDtype(const TypeInfo& type) {
+  return WithLeafType(type, []<typename T>(std::type_identity<T>) -> py::object {
+    if constexpr (std::is_arithmetic_v<T>) return py::dtype::of<T>();
+    if constexpr (std::is_same_v<T, Duration> || std::is_same_v<T, Time>) return py::dtype::of<std::int64_t>();
+    return py::none();
+  });
 }
 
 py::object StructureDtype(const TypeInfo& type) {
@@ -60,8 +56,8 @@ py::object DtypeOf(const TypeInfo& type) {
   static auto* const known = new std::map<const TypeInfo*, py::object>;  // with the GIL; never freed, as types are
   if (const auto found = known->find(&type); found != known->end()) return found->second;
   py::object made = py::none();
-  if (const char* const code = CodeOf(type)) {
-    made = py::dtype(code);
+  if (type.kind() == TypeKind::kLeaf) {
+    made = LeafDtype(type);
   } else if (type.kind() == TypeKind::kStructure && !type.fields().empty()) {
     made = StructureDtype(type);
   } else if (type.kind() == TypeKind::kSequence || type.kind() == TypeKind::kMatrix) {

@@ -6,8 +6,8 @@
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/value.h"
 #include "core/base/nearest_name.h"
+#include "core/types/leaf_types.h"
 #include "core/types/text_format.h"
-#include "core/types/type_of.h"
 #include "core/types/value_copy.h"
 
 namespace py = pybind11;
@@ -29,16 +29,14 @@ namespace {
 }
 
 template <typename T>
-bool SetWhole(const TypeInfo& type, py::handle object, void* at) {
-  if (type.cpp_type() != typeid(T)) return false;
+void SetWhole(const TypeInfo& type, py::handle object, T& value) {
   const py::object number = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
   if (!number) RefuseNumber(type, object);
   try {
-    *static_cast<T*>(at) = number.cast<T>();
+    value = number.cast<T>();
   } catch (const py::cast_error&) {
     throw py::value_error(py::repr(object).cast<std::string>() + " is out of the range of " + type.name());
   }
-  return true;
 }
 
 double NumberOf(const TypeInfo& type, py::handle object) {
@@ -58,30 +56,26 @@ Duration SecondsOf(const TypeInfo& type, py::handle object) {
 }
 
 void SetLeaf(const TypeInfo& type, py::handle object, void* at) {
-  const std::type_index is = type.cpp_type();
-  if (is == typeid(std::string)) {
-    if (!py::isinstance<py::str>(object)) Refuse(type, object);
-    *static_cast<std::string*>(at) = object.cast<std::string>();
-  } else if (py::isinstance<py::str>(object)) {
-    SetText(type, object.cast<std::string>(), at);
-  } else if (is == typeid(double)) {
-    *static_cast<double*>(at) = NumberOf(type, object);
-  } else if (is == typeid(float)) {
-    *static_cast<float*>(at) = static_cast<float>(NumberOf(type, object));
-  } else if (is == typeid(bool)) {
-    const int truth = PyObject_IsTrue(object.ptr());
-    if (truth < 0) throw py::error_already_set();
-    *static_cast<bool*>(at) = truth != 0;
-  } else if (is == typeid(Duration)) {
-    *static_cast<Duration*>(at) = SecondsOf(type, object);
-  } else if (is == typeid(Time)) {
-    *static_cast<Time*>(at) = Time(SecondsOf(type, object));
-  } else if (!(SetWhole<std::int32_t>(type, object, at) || SetWhole<std::int64_t>(type, object, at) ||
-               SetWhole<std::uint8_t>(type, object, at) || SetWhole<std::uint32_t>(type, object, at) ||
-               SetWhole<std::uint64_t>(type, object, at) || SetWhole<std::int8_t>(type, object, at) ||
-               SetWhole<std::int16_t>(type, object, at) || SetWhole<std::uint16_t>(type, object, at))) {
-    Refuse(type, object);
-  }
+  WithLeafType(type, [&]<typename T>(std::type_identity<T>) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      if (!py::isinstance<py::str>(object)) Refuse(type, object);
+      *static_cast<T*>(at) = object.cast<T>();
+    } else if (py::isinstance<py::str>(object)) {
+      SetText(type, object.cast<std::string>(), at);
+    } else if constexpr (std::is_void_v<T>) {
+      Refuse(type, object);
+    } else if constexpr (std::is_floating_point_v<T>) {
+      *static_cast<T*>(at) = static_cast<T>(NumberOf(type, object));
+    } else if constexpr (std::is_same_v<T, bool>) {
+      const int truth = PyObject_IsTrue(object.ptr());
+      if (truth < 0) throw py::error_already_set();
+      *static_cast<T*>(at) = truth != 0;
+    } else if constexpr (std::is_integral_v<T>) {
+      SetWhole(type, object, *static_cast<T*>(at));
+    } else {
+      *static_cast<T*>(at) = T(SecondsOf(type, object));
+    }
+  });
 }
 
 void SetEnumeration(const TypeInfo& type, py::handle object, void* at) {

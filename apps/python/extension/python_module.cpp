@@ -230,9 +230,7 @@ void PythonModule::GoToOwnThread() {
 // What is assigned to none goes on where it is run: with one more thread nobody would have said where.
 void PythonModule::KeepOthersTogether() {
   std::vector<ThreadContainer*> threads;
-  runtime().root().Visit([&](FrameworkElement& each) {
-    if (auto* const thread = dynamic_cast<ThreadContainer*>(&each)) threads.push_back(thread);
-  });
+  runtime().root().VisitAll<ThreadContainer>([&](ThreadContainer& each) { threads.push_back(&each); });
   if (threads.empty()) threads.push_back(&CreateThread(runtime(), "main"));
   FrameworkElement* application = this;
   while (application->parent()->parent() != nullptr) application = application->parent();

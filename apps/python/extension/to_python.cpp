@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "apps/python/extension/value.h"
-#include "core/types/type_of.h"
+#include "core/types/leaf_types.h"
 
 namespace py = pybind11;
 
@@ -17,22 +17,15 @@ const T& As(const void* at) {
 }
 
 py::object LeafToPython(const TypeInfo& type, const void* at) {
-  const std::type_index is = type.cpp_type();
-  if (is == typeid(double)) return py::float_(As<double>(at));
-  if (is == typeid(float)) return py::float_(static_cast<double>(As<float>(at)));
-  if (is == typeid(bool)) return py::bool_(As<bool>(at));
-  if (is == typeid(std::string)) return py::str(As<std::string>(at));
-  if (is == typeid(std::int32_t)) return py::int_(As<std::int32_t>(at));
-  if (is == typeid(std::int64_t)) return py::int_(As<std::int64_t>(at));
-  if (is == typeid(std::uint8_t)) return py::int_(As<std::uint8_t>(at));
-  if (is == typeid(std::uint32_t)) return py::int_(As<std::uint32_t>(at));
-  if (is == typeid(std::uint64_t)) return py::int_(As<std::uint64_t>(at));
-  if (is == typeid(std::int8_t)) return py::int_(As<std::int8_t>(at));
-  if (is == typeid(std::int16_t)) return py::int_(As<std::int16_t>(at));
-  if (is == typeid(std::uint16_t)) return py::int_(As<std::uint16_t>(at));
-  if (is == typeid(Duration)) return py::float_(ToSeconds(As<Duration>(at)));
-  if (is == typeid(Time)) return py::float_(ToSeconds(As<Time>(at)));
-  return py::str(type.leaf().to_text(at));
+  return WithLeafType(type, [&]<typename T>(std::type_identity<T>) -> py::object {
+    if constexpr (std::is_void_v<T>) {
+      return py::str(type.leaf().to_text(at));
+    } else if constexpr (std::is_same_v<T, Duration> || std::is_same_v<T, Time>) {
+      return py::float_(ToSeconds(As<T>(at)));
+    } else {
+      return py::cast(As<T>(at));
+    }
+  });
 }
 
 py::object NameOf(const TypeInfo& type, const void* at) {

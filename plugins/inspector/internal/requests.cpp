@@ -227,8 +227,7 @@ ViewerRequest BeginCommand(Inspection& inspection, const ViewerMessage& message,
 // How an operation is carried out: by the service, which is asked for what `kMake` makes of the message.
 template <auto kMake>
 ViewerRequest ByService(Inspection& inspection, ViewerMessage message, std::function<void()> on_done) {
-  CommandOrErrors command = kMake(message);
-  return BeginCommand(inspection, message, std::move(command), std::move(on_done));
+  return BeginCommand(inspection, message, kMake(message), std::move(on_done));
 }
 
 // For this viewer alone.
