@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include <poll.h>
@@ -20,6 +22,7 @@ constexpr std::size_t kReadAtOnce = 65'536;
 constexpr std::size_t kBacklog = 65'536;
 // Larger buffers are given back when they are empty.
 constexpr std::size_t kKept = 1'000'000;
+constexpr auto kAwaitsTask = std::chrono::milliseconds(500);  // at the end
 
 }  // namespace
 
@@ -143,10 +146,11 @@ void ClientConnection::Work(CommandService& service, TaskGroup& tasks) {
 
 void ClientConnection::Finish() {
   try {
-    // What has been done is done, though it is what has ended the application.
-    const auto code = command_ && command_->waits_for_task() && command_->due() == SteadyTime::min()
-                          ? command_->Continue(*this)
-                          : std::nullopt;
+    // What has been done is done, though it is what has ended the application; and may be about to say so.
+    const auto is_under_way = [this] { return command_ && command_->waits_for_task() && command_->due() != SteadyTime::min(); };
+    const auto last = std::chrono::steady_clock::now() + kAwaitsTask;
+    while (is_under_way() && std::chrono::steady_clock::now() < last) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const auto code = command_ && command_->waits_for_task() && !is_under_way() ? command_->Continue(*this) : std::nullopt;
     if (code) {
       command_.reset();
       SendEnd(*code);

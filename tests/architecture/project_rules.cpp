@@ -132,7 +132,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/recording",
                    "plugins/recording",
                    {"core", "plugins/values", "plugins/mcap", "plugins/application_files",
-                    "plugins/parameters", "plugins/scheduling", "plugins/services", "plugins/timing"}});
+                    "plugins/parameters", "plugins/scheduling", "plugins/services", "plugins/structure", "plugins/timing"}});
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
   rules.push_back(
       {"the tags of the inspector",
