@@ -82,7 +82,8 @@ void Port::TakeOver(Port& from) {
     bool moves = false;
     if (is_input) VisitSiblings(*this, Direction::kOutput, [&](const Port& each) { moves = moves || has_moved(&each); });
     if (moves) RebindSinks();
-    if (after && after != before) MoveToRest(before.get(), *after);
+    const auto rest = after ? Result<AnyValue>(after->safe_value()) : FindSafeValue({}, DrivingKind::kUnspecified);
+    if (after != before && rest) MoveToRest(before.get(), PortStop(*rest, {}, DrivingKind::kUnspecified, nullptr));
   } catch (...) {
     // Each as it was, and what has been exchanged by then is exchanged again.
     if (extras_) extras_->stop = before;
@@ -168,7 +169,11 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
     for (const internal::PassedStop& each : internal::PassedStops(from)) {
       if (each.stop->robot() && !goes_over(each.safe_value, each.stop->command())) return refuse(each.safe_value, kDeclare);
     }
-    return before;
+    if (!before || goes_over(before->safe_value(), before->command())) return before;
+    const auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
+    if (safe) return with_block(*safe, {}, DrivingKind::kUnspecified, nullptr);
+    if (before->block()->in_force()) return refuse(before->safe_value(), "release its block first");
+    return std::shared_ptr<const PortStop>();
   }
   const DrivingMark said = mark ? *mark : DrivingMark{};
   auto whole = Complete(said, before.get());

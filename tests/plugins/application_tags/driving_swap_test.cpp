@@ -41,6 +41,11 @@ struct Declared final : Module {
   Input<double> in{this, "in", {.drives = true, .command = kKind, .safe_value = AnyValue(double(kSafe))}};
   void Update() override {}
 };
+struct Defaulted final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.limits = {.default_value = 1500.}}};
+  void Update() override {}
+};
 /// Nobody can take its place.
 struct Keeper final : Module {
   explicit Keeper(const Placement& at) : Module(at) { KeepState(state); }
@@ -165,6 +170,31 @@ TEST_F(DrivingSwap, WhatStandsAtRestDoesSoAtTheNewSafeValue) {
     held("test/drive", 1500, 0);
     held("test/esc", 0, 1500);
     held("test/drive", 1400, 1400);
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
+// Also where no stop is left.
+TEST_F(DrivingSwap, WhatStandsAtRestDoesSoAfterAnUndo) {
+  Load("test/motor", "");
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/esc"}}));
+  ASSERT_TRUE(In().PublishByHand(internal::FillWith(AnyValue(1500.)), Port::Setter::kRule));
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0);
+}
+
+TEST_F(DrivingSwap, ABlockHasASafeValueOfTheNewUnit) {
+  shop_.Add<Defaulted>("test/defaulted");
+  for (const bool is_in_force : {true, false}) {
+    Load("test/defaulted", "");
+    ASSERT_TRUE(In().Block());
+    ASSERT_EQ(Safe(), 1500);
+    if (!is_in_force) In().Unblock();
+    EXPECT_EQ(bool(history_.Apply({ReplaceModule{"/demo/m", "test/servo"}})), !is_in_force);
+    EXPECT_EQ(In().stop() != nullptr, is_in_force);
+    EXPECT_EQ(bool(history_.Apply({ReplaceModule{"/demo/m", "test/motor"}})), is_in_force) << "from rad to m/s";
+    EXPECT_TRUE(!is_in_force || dynamic_cast<Input<double>&>(In()).Get() == 0);
+    EXPECT_EQ(In().is_blocked(), is_in_force);
     ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
   }
 }
