@@ -231,6 +231,26 @@ TEST_F(DrivingSwap, ACompositeHasTheMarkOfThePlaceToo) {
   EXPECT_TRUE(In().is_driving());
 }
 
+TEST_F(DrivingSwap, ACompositeHasWhatTheModuleDeclared) {
+  shop_.Add<Boxed>("test/boxed");
+  Load("test/throttle", "");
+  ASSERT_TRUE(In().Block());
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/boxed"}}));
+  EXPECT_TRUE(shop_.Get<Port>("/demo/m/in").is_driving());
+  EXPECT_TRUE(shop_.Get<Port>("/demo/m/in").is_blocked());
+  EXPECT_THAT(SavedText(), HasSubstr("<driving port=\"m/in\""));
+}
+
+TEST_F(DrivingSwap, NorIsASafeValueThatOfACompositeOfAnotherUnit) {
+  shop_.Add<Boxed>("test/boxed");
+  for (const char* const mark : kMarks) {
+    Load("test/esc", mark);
+    EXPECT_FALSE(history_.Apply({ReplaceModule{"/demo/m", "test/boxed"}}));
+    EXPECT_EQ(ReadUnderStop(), 1500);
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
 TEST_F(DrivingSwap, WhatWasDeletedMeanwhileIsAsItWas) {
   Load("test/motor", kMarks[1]);
   ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/esc"}}));
