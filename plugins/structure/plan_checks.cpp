@@ -282,23 +282,17 @@ void Plan::WarnOfLost(FrameworkElement& before, const std::function<bool(const P
   });
 }
 
-namespace {
-// Of the port, or of the first that reads from it.
-std::string UnitBehind(const Port& port) {
-  if (!port.unit().empty()) return port.unit();
-  for (const Port* sink : port.Sinks()) {
-    if (!sink->unit().empty()) return sink->unit();
-  }
-  return {};
-}
-}  // namespace
-
 // What a composite consists of is its own: only its interface is connected anew, and modules keep no state. What has been set
 // at its ports, those within included, goes to the port of the same place and kind.
 Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfits misfits) {
   FrameworkElement& made = **after;
   std::vector<Connection> ties;
   std::set<const Port*> marked;
+  const auto unit_behind = [](const Port& port) {
+    std::string unit = port.unit();
+    for (const Port* sink : port.Sinks()) unit = unit.empty() ? sink->unit() : unit;
+    return unit;
+  };
   for (const Connection& tie : ExternalConnectionsOf(before)) {
     Port& own = tie.from->IsAtOrBelow(before) ? *tie.from : *tie.to;
     // A module has its ports in groups, a composite has not.
@@ -308,11 +302,10 @@ Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfit
     if (auto cut = CheckTie(*tie.from, *tie.to, std::nullopt); !cut) return cut;
     // A port of a composite has no unit by which it would be known, and says nothing itself.
     if (const auto stop = own.stop(); port != nullptr && stop && stop->robot() && (own.FindMark() || !port->is_driving()) && marked.insert(&own).second) {
-      const std::string unit = UnitBehind(*port);
+      const std::string unit = unit_behind(*port);
       const bool is_anywhere = IsZero(stop->safe_value()) && stop->command() != DrivingKind::kPosition;
-      if (!is_anywhere && !unit.empty() && unit != UnitBehind(own)) {
-        return Error{.message = "its safe value is not in " + unit + ", which the new module reads there", .path = own.path(),
-                     .hint = "have the new module declare that it drives, with its safe value"};
+      if (!is_anywhere && !unit.empty() && unit != unit_behind(own)) {
+        return Error{.message = "its safe value is not in " + unit + ", which the new module reads there", .path = own.path()};
       }
       if (auto set = port->SetDriving(true, stop->safe_value(), stop->brake(), stop->command()); !set) return set;
       if (auto blocked = own.is_blocked() ? port->Block() : Result<void>(); !blocked) return blocked;

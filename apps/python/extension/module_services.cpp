@@ -1,5 +1,6 @@
 #include "apps/python/extension/module_services.h"
 
+#include <tuple>
 #include <utility>
 
 #include <pybind11/stl.h>
@@ -117,11 +118,6 @@ void CallOfModule::Forget() {
   }
   if (status_ == CallStatus::kPending) status_ = CallStatus::kDisconnected;
   client_ = nullptr;
-}
-
-void CallOfModule::Keep() {
-  reply_ = Reply();
-  error_ = Error();
 }
 
 void CallOfModule::Leave() noexcept {
@@ -243,7 +239,7 @@ void ModuleClient::CalledBack(CallBase& call, CallStatus status) {
     auto& told = outcome.cast<CallOfModule&>();
     const std::shared_ptr<void> end(nullptr, [&](void*) { told.Leave(); });
     callback(outcome);
-    if (outcome.ref_count() > 1) told.Keep();
+    if (outcome.ref_count() > 1) std::tie(told.reply_, told.error_) = std::pair(told.Reply(), told.Error());
   } catch (const py::error_already_set& thrown) {
     if (!KeepInterrupt(thrown)) as_fault_(thrown);
   }

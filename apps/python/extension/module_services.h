@@ -54,7 +54,6 @@ class CallOfModule {
  private:
   friend class ModuleClient;
   void Forget();
-  void Keep();
   void Leave() noexcept;
 
   ModuleClient* client_;

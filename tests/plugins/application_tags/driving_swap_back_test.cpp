@@ -1,0 +1,206 @@
+// The same, in the way back, as a composite, and in files.
+
+#include <chrono>
+
+#include "tests/plugins/application_tags/driving_swap_fixture.h"
+
+namespace runnel::testing {
+namespace {
+
+using namespace driving_swap;
+using ::testing::HasSubstr;
+using namespace std::chrono_literals;
+
+/// As a plugin that is loaded anew with another version of it.
+struct Corrected final : Module {
+  using Module::Module;
+  static inline double safe = 0;
+  Input<double> in{this, "in", safe == 0 ? InputOptions{} : InputOptions{.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(safe)}};
+  void Update() override {}
+};
+
+TEST_F(DrivingSwap, AnUndoMakesWhatItsModuleDeclaresNow) {
+  shop_.Add<Corrected>("test/corrected");
+  for (const double before : {0., 1500.}) {
+    Corrected::safe = before;
+    Load("test/corrected", "");
+    ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/drive"}}));
+    Corrected::safe = 1480;
+    ASSERT_TRUE(history_.Undo());
+    EXPECT_EQ(ReadUnderStop(), 1480);
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
+TEST_F(DrivingSwap, ACompositeHasTheMarkOfThePlaceToo) {
+  shop_.Add<Boxed>("test/boxed");
+  Load("test/motor", kMarks[1]);
+  const auto swapped = history_.Apply({ReplaceModule{"/demo/m", "test/boxed"}});
+  ASSERT_TRUE(swapped) << swapped.diagnostics.ToString();
+  EXPECT_TRUE(shop_.Get<Port>("/demo/m/in").is_driving());
+  EXPECT_THAT(SavedText(), HasSubstr("<driving port=\"m/in\""));
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_TRUE(In().is_driving());
+}
+
+TEST_F(DrivingSwap, ACompositeHasWhatTheModuleDeclared) {
+  shop_.Add<Boxed>("test/boxed");
+  Load("test/throttle", "");
+  ASSERT_TRUE(In().Block());
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/boxed"}}));
+  EXPECT_TRUE(shop_.Get<Port>("/demo/m/in").is_driving());
+  EXPECT_TRUE(shop_.Get<Port>("/demo/m/in").is_blocked());
+  EXPECT_THAT(SavedText(), HasSubstr("<driving port=\"m/in\""));
+}
+
+TEST_F(DrivingSwap, NorIsASafeValueThatOfACompositeOfAnotherUnit) {
+  shop_.Add<Boxed>("test/boxed");
+  for (const char* const mark : kMarks) {
+    Load("test/esc", mark);
+    EXPECT_FALSE(history_.Apply({ReplaceModule{"/demo/m", "test/boxed"}}));
+    EXPECT_EQ(ReadUnderStop(), 1500);
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
+TEST_F(DrivingSwap, WhatWasDeletedMeanwhileIsAsItWas) {
+  Load("test/motor", kMarks[1]);
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/esc"}}));
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/demo/m"}}));
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_EQ(Safe(), 1500);
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_EQ(Safe(), 0);
+}
+
+TEST_F(DrivingSwap, WhatIsInheritedIsNoMarkAfterADeletion) {
+  Load("test/esc", "");
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/number"}}));
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/demo/m"}}));
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_EQ(Safe(), 1500);
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/drive"}}));
+  EXPECT_EQ(Safe(), 0);
+}
+
+TEST_F(DrivingSwap, WhatItBringsGoesWithItsUndo) {
+  for (const char* const type : {"test/esc", "test/throttle"}) {
+    Load("test/motor", "");
+    ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", type}}));
+    const double safe = Safe();
+    for (int i = 0; i < 2; ++i) {
+      const auto undone = history_.Undo();
+      ASSERT_TRUE(undone) << undone.diagnostics.ToString();
+      EXPECT_FALSE(In().is_driving()) << type;
+      EXPECT_EQ(In().incoming().size(), 1U);
+      ASSERT_TRUE(history_.Redo());
+      EXPECT_EQ(Safe(), safe) << type;
+    }
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
+TEST_F(DrivingSwap, TheUndoLeavesTheBlockOfThePlace) {
+  Load("test/motor", "");
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/esc"}}));
+  ASSERT_TRUE(In().Block());
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_TRUE(In().is_blocked());
+  EXPECT_EQ(Safe(), 0);
+  ASSERT_TRUE(history_.Redo());
+  EXPECT_TRUE(In().is_blocked());
+  EXPECT_EQ(Safe(), 1500);
+}
+
+TEST_F(DrivingSwap, ThatIsFollowedByAFailureIsTakenBack) {
+  Load("test/motor", "", "test/keeper");
+  EXPECT_FALSE(history_.Apply({ReplaceModule{"/demo/m", "test/throttle"}, ReplaceModule{"/demo/s", "test/keeper"}}));
+  EXPECT_EQ(In().incoming().size(), 1U);
+  EXPECT_FALSE(In().is_driving());
+}
+
+TEST_F(DrivingSwap, OfAMarkedPortThatIsNotConnectedIsRefusedToo) {
+  Load("test/number", "  <driving port=\"m/in\" safe=\"0\" command=\"position\"/>\n");
+  ASSERT_TRUE(history_.Apply({DisconnectPorts{"/demo/s/value", "/demo/m/in"}}));
+  const auto refused = history_.Apply({ReplaceModule{"/demo/m", "test/motor"}});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("is in m/s, which is that of a velocity, and is said to be a position"));
+}
+
+TEST_F(DrivingSwap, WhatTheFormerModuleHasSaidIsSaved) {
+  Load("test/motor", kMarks[2]);
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/number"}}));
+  const auto velocity = Again();
+  ASSERT_TRUE(velocity);
+  EXPECT_EQ(velocity->command, DrivingKind::kVelocity);
+  EXPECT_EQ(velocity->brake, 400ms);
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_THAT(SavedText(), HasSubstr(std::string(kMarks[2]).substr(2)));
+}
+
+TEST_F(DrivingSwap, WhatOnlyTheFormerModuleDeclaredIsSaved) {
+  Load("test/throttle", "");
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/number"}}));
+  ASSERT_TRUE(In().is_driving());
+  const auto effort = Again();
+  ASSERT_TRUE(effort);
+  EXPECT_EQ(effort->command, DrivingKind::kEffort);
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/throttle"}}));
+  EXPECT_FALSE(In().FindMark()) << "its module says it again";
+}
+
+struct Fails final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.drives = true, .command = DrivingKind::kEffort, .safe_value = AnyValue(0.0)}};
+  void Update() override { throw std::runtime_error("no such device"); }
+};
+
+TEST_F(DrivingSwap, OfWhatFailsInItsFirstCyclesIsTakenBackWithItsConnections) {
+  shop_.Add<Fails>("test/fails");
+  Load("test/motor", "");
+  Scheduler scheduler(shop_.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+  StructureEditor editor(shop_.runtime, shop_.plugins.modules(), &scheduler);
+  ASSERT_TRUE(editor.Apply({ReplaceModule{"/demo/m", "test/fails"}}));
+  for (int i = 0; i < 5; ++i) scheduler.Step();
+  EXPECT_EQ(FindModuleType(*In().parent()->parent()), "test/motor");
+  EXPECT_EQ(In().incoming().size(), 1U);
+  EXPECT_FALSE(In().is_driving());
+}
+
+TEST_F(DrivingSwap, NorIsOneThatWasMarkedFartherUp) {
+  for (const char* const mark : {"safe=\"1500\" command=\"velocity\"", "safe=\"0\" command=\"position\""}) {
+    Load("test/number", "  <driving port=\"s/value\" " + std::string(mark) + "/>\n");
+    EXPECT_FALSE(history_.Apply({ReplaceModule{"/demo/m", "test/motor"}}));
+    EXPECT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/esc"}}));
+    EXPECT_TRUE(history_.Undo());
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+  Load("test/number", "  <driving port=\"s/value\" safe=\"0\" command=\"velocity\"/>\n");
+  EXPECT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/motor"}}));
+}
+
+// As a replay takes the places of outputs.
+TEST_F(DrivingSwap, AFileThatIsSavedMeanwhileKeepsTheMarkOfThePlace) {
+  Load("test/number", "  <driving port=\"s/value\" safe=\"0\" command=\"velocity\"/>\n");
+  const std::string mark = "<driving port=\"s/value\" safe=\"0\" command=\"velocity\"/>";
+  auto& source = shop_.Get<Port>("/demo/s/output/value");
+  auto& elsewhere = shop_.runtime.Create<FrameworkElement>(shop_.runtime.root(), "elsewhere");
+  const auto output = source.MakeOutput(elsewhere, "played", {});
+  output->TakeOver(source);
+  EXPECT_THAT(SavedText(), HasSubstr(mark));
+  source.TakeOver(*output);
+  EXPECT_THAT(SavedText(), HasSubstr(mark));
+}
+
+// A unit that is neither of a position nor of a velocity is that of an effort only if nobody says otherwise.
+TEST_F(DrivingSwap, APulseMayBeAVelocity) {
+  for (const char* const type : {"test/pulse", "test/volts", "test/percent"}) {
+    Load(type, "  <driving port=\"m/in\" safe=\"1500\" command=\"velocity\"/>\n");
+    EXPECT_EQ(In().stop()->command(), DrivingKind::kVelocity);
+    EXPECT_FALSE(history_.Apply({ReplaceModule{"/demo/m", "test/motor"}}));
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
+}  // namespace
+}  // namespace runnel::testing
