@@ -160,30 +160,32 @@ struct Meant {
   std::size_t place;
   std::function<bool(const Element&)> fits;
 };
-const std::vector<Meant> kMeant{
-    {{"ls"}, 0, [](const Element&) { return true; }},
-    {{"offer", "connect", "disconnect"}, 0, Sends},
-    {{"take", "disconnect"}, 1, Receives},
-    {{"echo", "hz", "publish", "release", "block"}, 0, IsPort},
-    {{"call", "activities"}, 0, IsService},
-    {{"set"}, 0, OfKind("parameter")},
-    {{"get"}, 0, [](const Element& each) { return IsPort(each) || each.kind == "parameter"; }},
-    {{"rename", "copy", "restart", "tag", "move"}, 0, IsPart},
-    {{"pause", "resume"}, 0, [](const Element& each) { return IsPart(each) || each.kind == "thread"; }},
-    {{"delete"}, 0, [](const Element& each) { return IsPart(each) || each.is_interface; }},
-    {{"swap"}, 0, OfKind("module")}};
 
 // What can be the last word after the command.
 Candidates Propose(ControlClient& client, const Candidates& plain) {
   const std::string& command = plain.front();
   const std::size_t place = plain.size() - 2;
-  for (const Meant& each : kMeant) {
+  const std::vector<Meant> all{
+      {{"ls"}, 0, [](const Element&) { return true; }},
+      {{"offer", "connect", "disconnect"}, 0, Sends},
+      {{"take", "disconnect"}, 1, Receives},
+      {{"echo", "hz", "publish", "release", "block"}, 0, IsPort},
+      {{"call", "activities"}, 0, IsService},
+      {{"set"}, 0, OfKind("parameter")},
+      {{"get"}, 0, [](const Element& each) { return IsPort(each) || each.kind == "parameter"; }},
+      {{"rename", "copy", "restart", "tag", "move"}, 0, IsPart},
+      {{"pause", "resume"}, 0, [](const Element& each) { return IsPart(each) || each.kind == "thread"; }},
+      {{"delete"}, 0, [](const Element& each) { return IsPart(each) || each.is_interface; }},
+      {{"swap"}, 0, OfKind("module")}};
+  for (const Meant& each : all) {
     if (each.place == place && std::ranges::count(each.commands, command) > 0) return Paths(client, each.fits);
   }
   if (command == "record") return Paths(client, Sends);
   if (command == "move") return Threads(client);
   if (command == "speed" && place == 0) return {"0", "0.5", "1", "2", "10"};
-  if (command == "create" && place == 0) return NamesOf(Paths(client, OfKind("group")), [](const auto& each) { return each + '/'; });
+  if (command == "create" && place == 0) {
+    return NamesOf(Paths(client, OfKind("group")), [](const auto& each) { return each + '/'; });
+  }
   if ((command == "create" || command == "swap") && place == 1) return Types(client);
   if (command == "call" && place == 1) return ArgumentsOf(client, plain[1]);
   if (command == "set" && place == 1) return ValuesOf(client, plain[1]);

@@ -16,14 +16,25 @@ ExtensionCommandLine::ExtensionCommandLine(const ExtensionCatalogue& catalogue, 
 
 void ExtensionCommandLine::Add(CLI::App& command, Entry& entry, const std::string& group) {
   const ExtensionOption& option = entry.option;
-  const std::string name = (option.kind == Kind::kArgument ? "" : "--") + option.name;
-  // What may have a value is a flag, so that the word after it is not taken for that.
-  entry.parsed = option.kind == Kind::kFlag            ? command.add_flag(name, option.summary)
-                 : option.kind == Kind::kOptionalValue ? command.add_flag(name, entry.value, option.summary)
-                 : option.kind == Kind::kList          ? command.add_option(name, entry.values, option.summary)
-                                                       : command.add_option(name, entry.value, option.summary);
-  if (option.kind == Kind::kList) entry.parsed->allow_extra_args(false);
-  if (option.kind == Kind::kArgument) entry.parsed->required();
+  const std::string name = "--" + option.name;
+  switch (option.kind) {
+    case Kind::kFlag:
+      entry.parsed = command.add_flag(name, option.summary);
+      break;
+    case Kind::kOptionalValue:  // a flag, so that the word after it is not taken for its value
+      entry.parsed = command.add_flag(name, entry.value, option.summary);
+      break;
+    case Kind::kValue:
+      entry.parsed = command.add_option(name, entry.value, option.summary);
+      break;
+    case Kind::kList:
+      entry.parsed = command.add_option(name, entry.values, option.summary);
+      entry.parsed->allow_extra_args(false);
+      break;
+    case Kind::kArgument:
+      entry.parsed = command.add_option(option.name, entry.value, option.summary)->required();
+      break;
+  }
   const bool has_value = option.kind != Kind::kFlag && option.kind != Kind::kOptionalValue;
   if (has_value) entry.parsed->type_name(option.value_name);
   if (option.kind != Kind::kArgument) entry.parsed->group(group);

@@ -113,6 +113,12 @@ class FrameworkElement {
     const auto found = annotations_.find(typeid(T));
     return found == annotations_.end() ? nullptr : static_cast<T*>(found->second.get());
   }
+  /// Made of `arguments` if there is none.
+  template <typename T, typename... Arguments>
+  T& FindOrAnnotate(Arguments&&... arguments) {
+    T* const found = FindAnnotation<T>();
+    return found != nullptr ? *found : Annotate(std::make_unique<T>(std::forward<Arguments>(arguments)...));
+  }
 
  protected:
   /// Called once, when the parameters are set and before anybody looks for ports: make here the ports, and in

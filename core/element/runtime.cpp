@@ -193,8 +193,7 @@ void Runtime::DestroyAll(UnlistedElement* elements, std::size_t count) {
     while (!OwnThread::AskToEnd(*last) && SteadyClock().Now() < latest) std::this_thread::sleep_for(kLook);
     if (OwnThread::AskToEnd(*last)) continue;
     const std::lock_guard lock(structure_mutex_);
-    auto* const known = root_.FindAnnotation<Leaving>();
-    (known != nullptr ? *known : root_.Annotate(std::make_unique<Leaving>())).elements.push_back(std::move(last));
+    root_.FindOrAnnotate<Leaving>().elements.push_back(std::move(last));
   }
   std::list<UnlistedElement> ended;  // goes without the lock
   const std::lock_guard lock(structure_mutex_);

@@ -79,9 +79,7 @@ Result<LogLevel> LogLevelOf(std::string_view name) {
 
 void SetLogLevel(Runtime& runtime, std::string path, LogLevel level) {
   const std::lock_guard lock(runtime.structure_mutex());
-  if (runtime.root().FindAnnotation<LevelsOfRuntime>() == nullptr) {
-    runtime.root().Annotate(std::make_unique<LevelsOfRuntime>(runtime));
-  }
+  (void)runtime.root().FindOrAnnotate<LevelsOfRuntime>(runtime);
   NoteAt(runtime, path, level);
   internal::LogDispatcher::OfProcess().SetLevel(runtime, std::move(path), level);
 }

@@ -80,9 +80,7 @@ class Module : public FrameworkElement, public PortOwner {
   /// after Prepare(). `state` is a member of the module.
   template <typename State>
   void KeepState(State& state) {
-    auto* kept = FindAnnotation<KeptState>();
-    if (kept == nullptr) kept = &Annotate(std::make_unique<KeptState>());
-    kept->Add(state);
+    FindOrAnnotate<KeptState>().Add(state);
   }
 
   struct NoTasks {};

@@ -76,8 +76,7 @@ std::string LateConnection::SourceText() const {
 }
 
 LateConnections& LateConnections::Of(Runtime& runtime) {
-  if (LateConnections* const known = FindIn(runtime)) return *known;
-  return runtime.root().Annotate(std::make_unique<LateConnections>(runtime));
+  return runtime.root().FindOrAnnotate<LateConnections>(runtime);
 }
 
 LateConnections* LateConnections::FindIn(Runtime& runtime) {

@@ -92,4 +92,6 @@ bool IsZero(const AnyValue& value) {
   return zero != nullptr && value.type().is_transparent() && ToText(value.type(), value.get()) == ToText(value.type(), zero.get());
 }
 
+bool IsSafeInAnyUnit(const AnyValue& safe_value, DrivingKind command) { return IsZero(safe_value) && command != DrivingKind::kPosition; }
+
 }  // namespace runnel

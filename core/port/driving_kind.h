@@ -44,5 +44,7 @@ struct DrivingMark {
 
 /// Whether it is what its type begins with.
 [[nodiscard]] bool IsZero(const AnyValue& value);
+/// Whether the safe value is one in each unit, too: zero, but of a position, for which it would be a motion.
+[[nodiscard]] bool IsSafeInAnyUnit(const AnyValue& safe_value, DrivingKind command);
 
 }  // namespace runnel

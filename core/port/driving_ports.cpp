@@ -58,10 +58,9 @@ Error NothingDrives() {
 
 void AddWhatDrives(Runtime& runtime, std::string name, const std::shared_ptr<const PortStop>& stop) {
   const std::lock_guard lock(runtime.structure_mutex());
-  auto* known = runtime.root().FindAnnotation<DrivingBeside>();
-  if (known == nullptr) known = &runtime.root().Annotate(std::make_unique<DrivingBeside>());
-  std::erase_if(known->all, [](const auto& each) { return each.second.expired(); });
-  known->all.emplace_back(std::move(name), stop);
+  auto& all = runtime.root().FindOrAnnotate<DrivingBeside>().all;
+  std::erase_if(all, [](const auto& each) { return each.second.expired(); });
+  all.emplace_back(std::move(name), stop);
 }
 
 }  // namespace runnel

@@ -27,10 +27,7 @@ namespace internal {
 /// one took its place, for the way back.
 struct DrivingState final : Annotation {
   explicit DrivingState(std::shared_ptr<const DrivingMark> said) : mark(std::move(said)) {}
-  static DrivingState& Of(Port& port) {
-    auto* const found = port.FindAnnotation<DrivingState>();
-    return found != nullptr ? *found : port.Annotate(std::make_unique<DrivingState>(nullptr));
-  }
+  static DrivingState& Of(Port& port) { return port.FindOrAnnotate<DrivingState>(nullptr); }
   static std::shared_ptr<const DrivingMark> MarkOf(const Port& port) {
     const auto* const found = port.FindAnnotation<DrivingState>();
     return found != nullptr ? found->mark : nullptr;

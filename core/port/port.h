@@ -282,7 +282,7 @@ class Port : public FrameworkElement {
   void TellOfChange();
   [[nodiscard]] Result<DrivingMark> Complete(DrivingMark mark, const PortStop* before) const;
   [[nodiscard]] Result<std::shared_ptr<const PortStop>> StopInPlaceOf(const Port& from) const;
-  void MoveToRest(const PortStop* before, const PortStop& now);
+  void MoveToRest(const PortStop* before, const AnyValue& now);
   static Result<void> CheckConnection(const Port& from, const Port& to,
                                       const ConnectOptions& options);
   /// What this port passes on to who is connected to it: itself, or what it receives.

@@ -82,8 +82,10 @@ void Port::TakeOver(Port& from) {
     bool moves = false;
     if (is_input) VisitSiblings(*this, Direction::kOutput, [&](const Port& each) { moves = moves || has_moved(&each); });
     if (moves) RebindSinks();
-    const auto rest = after ? Result<AnyValue>(after->safe_value()) : FindSafeValue({}, DrivingKind::kUnspecified);
-    if (after != before && rest) MoveToRest(before.get(), PortStop(*rest, {}, DrivingKind::kUnspecified, nullptr));
+    if (after != before) {
+      const auto rest = after ? Result<AnyValue>(after->safe_value()) : FindSafeValue({}, DrivingKind::kUnspecified);
+      if (rest) MoveToRest(before.get(), *rest);
+    }
   } catch (...) {
     // Each as it was, and what has been exchanged by then is exchanged again.
     if (extras_) extras_->stop = before;
@@ -99,7 +101,7 @@ void Port::TakeOver(Port& from) {
 }
 
 // What stands at rest there, by a rule or for somebody who drives it no more, does so at the safe value of now.
-void Port::MoveToRest(const PortStop* before, const PortStop& now) {
+void Port::MoveToRest(const PortStop* before, const AnyValue& now) {
   const std::shared_ptr<HandSlot> slot = HandSlot::Find(*this);
   const auto publisher = slot ? std::unique_lock(slot->mutex) : std::unique_lock<std::mutex>();
   for (const auto& each : extras_->by_hand) {
@@ -107,9 +109,9 @@ void Port::MoveToRest(const PortStop* before, const PortStop& now) {
     bool is_at_rest = false;
     each->VisitLatest([&](const void* value, ValueTimes) { is_at_rest = ToText(type(), value) == ToText(type(), before->safe_value().get()); });
     if (!is_at_rest) continue;
-    if (auto set = each->PublishFilled(internal::FillWith(now.safe_value())); !set) throw ElementError(set.error());
+    if (auto set = each->PublishFilled(internal::FillWith(now)); !set) throw ElementError(set.error());
   }
-  if (slot && slot->hold && slot->hold->safe_value) slot->hold->safe_value = now.safe_value();
+  if (slot && slot->hold && slot->hold->safe_value) slot->hold->safe_value = now;
 }
 
 void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept {
@@ -158,9 +160,8 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
     const auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
     return with_block(safe ? *safe : before->safe_value(), {}, DrivingKind::kUnspecified, nullptr);
   }
-  // Zero of a position would be a motion.
   const auto goes_over = [&](const AnyValue& safe, DrivingKind command) {
-    return comes_back || unit().empty() || unit() == from.unit() || (IsZero(safe) && command != DrivingKind::kPosition);
+    return comes_back || unit().empty() || unit() == from.unit() || IsSafeInAnyUnit(safe, command);
   };
   const auto refuse = [&](const AnyValue& safe, std::string hint) {
     return Error{.message = "is in " + unit() + ", and its safe value, " + ToText(type(), safe.get()) + ", is not", .hint = std::move(hint)};

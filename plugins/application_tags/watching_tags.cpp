@@ -165,9 +165,7 @@ FrameworkElement& internal::ApplicationOf(FrameworkElement& element) {
 }
 
 RunRules& internal::RunRulesAround(FrameworkElement& element) {
-  FrameworkElement& application = ApplicationOf(element);
-  auto* const rules = application.FindAnnotation<RunRules>();
-  return rules != nullptr ? *rules : application.Annotate(std::make_unique<RunRules>());
+  return ApplicationOf(element).FindOrAnnotate<RunRules>();
 }
 
 AddedAttribute StuckAfterAttribute(std::string tag) {

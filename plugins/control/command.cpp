@@ -27,37 +27,41 @@ constexpr std::size_t kMostPatterns = 1000;
 // Options that are either there, as "yes", or not.
 constexpr std::array kFlags{"long", "full", "follow", "yes", "config", "overwrite", "once", "all", "abort"};
 
-const std::vector<CommandKind> kKinds{
-    {"ls", 0, 1, {"long"}, MakeListCommand},
-    {"paths", 0, 0, {}, MakePathsCommand},
-    {"types", 0, 0, {}, MakeTypesCommand},
-    {"get", 1, 1, {"full"}, MakeGetCommand},
-    {"echo", 1, 1, {"count", "full"}, MakeEchoCommand},
-    {"hz", 1, 1, {"count"}, MakeRateCommand},
-    {"log", 0, 0, {"follow", "level"}, MakeLogCommand},
-    {"change", 0, 0, {"file", "yes"}, MakeServiceCommand},
-    {"undo", 0, 0, {}, MakeServiceCommand},
-    {"redo", 0, 0, {}, MakeServiceCommand},
-    {"save", 0, 1, {"config", "overwrite"}, MakeServiceCommand},
-    {"pause", 0, 1, {}, MakePauseCommand, Needs::kPace},
-    {"resume", 0, 1, {}, MakeResumeCommand, Needs::kPace},
-    {"step", 0, 1, {}, MakeStepCommand, Needs::kPace},
-    {"speed", 0, 1, {}, MakeSpeedCommand, Needs::kPace},
-    {"top", 0, 0, {"once", "count"}, MakeTopCommand, Needs::kScheduler},
-    {"profile", 0, 1, {}, MakeProfileCommand, Needs::kScheduler},
-    {"latency", 0, 3, {}, MakeLatencyCommand, Needs::kScheduler},
-    {"deadline", 0, 2, {}, MakeDeadlineCommand, Needs::kScheduler},
-    {"reload", 1, 1, {}, MakeServiceCommand},
-    {"restart", 0, 1, {}, MakeServiceCommand},
-    {"stop", 0, 0, {}, MakeServiceCommand},
-    {"release", 0, 1, {}, MakeServiceCommand},
-    {"block", 1, 1, {}, MakeServiceCommand},
-    {"quit", 0, 0, {}, MakeServiceCommand},
-    {"publish", 2, 2, {"rate", "deadline"}, MakeServiceCommand},
-    {"call", 1, 2, {"timeout"}, MakeCallCommand},
-    {"network", 0, 0, {}, MakeNetworkCommand},
-    {"activities", 0, 1, {"all", "abort"}, MakeActivitiesCommand},
-    {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand}};
+const std::vector<CommandKind>& Kinds() {
+  static const std::vector<CommandKind> kinds{
+      {"ls", 0, 1, {"long"}, MakeListCommand},
+      {"paths", 0, 0, {}, MakePathsCommand},
+      {"types", 0, 0, {}, MakeTypesCommand},
+      {"get", 1, 1, {"full"}, MakeGetCommand},
+      {"echo", 1, 1, {"count", "full"}, MakeEchoCommand},
+      {"hz", 1, 1, {"count"}, MakeRateCommand},
+      {"log", 0, 0, {"follow", "level"}, MakeLogCommand},
+      {"change", 0, 0, {"file", "yes"}, MakeServiceCommand},
+      {"undo", 0, 0, {}, MakeServiceCommand},
+      {"redo", 0, 0, {}, MakeServiceCommand},
+      {"save", 0, 1, {"config", "overwrite"}, MakeServiceCommand},
+      {"pause", 0, 1, {}, MakePauseCommand, Needs::kPace},
+      {"resume", 0, 1, {}, MakeResumeCommand, Needs::kPace},
+      {"step", 0, 1, {}, MakeStepCommand, Needs::kPace},
+      {"speed", 0, 1, {}, MakeSpeedCommand, Needs::kPace},
+      {"top", 0, 0, {"once", "count"}, MakeTopCommand, Needs::kScheduler},
+      {"profile", 0, 1, {}, MakeProfileCommand, Needs::kScheduler},
+      {"latency", 0, 3, {}, MakeLatencyCommand, Needs::kScheduler},
+      {"deadline", 0, 2, {}, MakeDeadlineCommand, Needs::kScheduler},
+      {"reload", 1, 1, {}, MakeServiceCommand},
+      {"restart", 0, 1, {}, MakeServiceCommand},
+      {"stop", 0, 0, {}, MakeServiceCommand},
+      {"release", 0, 1, {}, MakeServiceCommand},
+      {"block", 1, 1, {}, MakeServiceCommand},
+      {"quit", 0, 0, {}, MakeServiceCommand},
+      {"publish", 2, 2, {"rate", "deadline"}, MakeServiceCommand},
+      {"call", 1, 2, {"timeout"}, MakeCallCommand},
+      {"network", 0, 0, {}, MakeNetworkCommand},
+      {"activities", 0, 1, {"all", "abort"}, MakeActivitiesCommand},
+      {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand},
+  };
+  return kinds;
+}
 
 Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
   // In this version, what clients of before ask for.
@@ -98,10 +102,10 @@ Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
 CommandResult MakeCommand(const std::string& text, CommandService& service, TaskGroup& tasks, std::optional<Time> asked) {
   const auto request = Request::Parse(text);
   if (!request) return request.error();
-  const auto kind = std::ranges::find(kKinds, request->command, &CommandKind::name);
-  if (kind == kKinds.end()) {
+  const auto kind = std::ranges::find(Kinds(), request->command, &CommandKind::name);
+  if (kind == Kinds().end()) {
     return Error{.message = "there is no command '" + request->command + "'",
-                 .hint = NearestNameHint(request->command, NamesOf(kKinds, &CommandKind::name))};
+                 .hint = NearestNameHint(request->command, NamesOf(Kinds(), &CommandKind::name))};
   }
   if (auto good = CheckArguments(*request, *kind); !good) return good.error();
   const ServedApplication& application = service.application();

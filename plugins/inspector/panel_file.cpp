@@ -24,8 +24,12 @@ constexpr std::uint64_t kColumns = 12;
 constexpr std::uint64_t kMostRows = 1000;
 constexpr int kDeepest = 6;
 
-const std::vector<std::string> kKinds{"joystick", "keys", "gamepad", "slider", "button", "switch", "gauge",
-                                      "plot",     "map",  "image",   "value",  "text",   "stop"};
+const std::vector<std::string>& Kinds() {
+  static const std::vector<std::string> kinds{"joystick", "keys",  "gamepad", "slider", "button",
+                                              "switch",   "gauge", "plot",    "map",
+                                              "image",    "value", "text",  "stop"};
+  return kinds;
+}
 
 enum class Kind { kText, kNumber, kFlag, kCurves };
 
@@ -76,8 +80,8 @@ Result<void> CheckWidget(const JsonPart& json, std::set<std::string>& ids) {
   for (const auto& [name, its_kind] : kSettings) CheckSetting(members, name, its_kind);
   members.RefuseOthers();
   if (members.error()) return *members.error();
-  if (std::ranges::find(kKinds, kind) == kKinds.end()) {
-    return Error{.message = "there is no kind '" + kind + "'", .hint = NearestNameHint(kind, kKinds)};
+  if (std::ranges::find(Kinds(), kind) == Kinds().end()) {
+    return Error{.message = "there is no kind '" + kind + "'", .hint = NearestNameHint(kind, Kinds())};
   }
   if (width == 0 || height == 0 || x + width > kColumns) {
     return Error{.message = "'" + id + "' lies beside the grid of " + std::to_string(kColumns) + " columns"};

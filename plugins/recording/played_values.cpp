@@ -105,9 +105,10 @@ std::optional<PlayedValues::Value> PlayedValues::Take(std::uint16_t channel, Tim
   const std::lock_guard lock(mutex_);
   if (!has_begun_ || failure_) return {};
   std::int64_t at = now.time_since_epoch().count() - offset_;
-  if (loops_ && at > end_ && (HasEnded() || at - end_ > kAwaited.count())) {
+  const bool has_ended = loops_ && at > end_ && HasEnded();
+  if (has_ended || (loops_ && at - end_ > kAwaited.count())) {
     // The next round begins a nanosecond after the last value, so that time goes on.
-    offset_ += HasEnded() ? end_ - start_ + 1 : at - start_;
+    offset_ += has_ended ? end_ - start_ + 1 : at - start_;
     at = now.time_since_epoch().count() - offset_;
     Rewind();
   }

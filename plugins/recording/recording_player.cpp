@@ -6,8 +6,8 @@
 #include "core/base/nearest_name.h"
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"
-#include "core/module/run_monitor.h"
 #include "core/module/module.h"
+#include "core/module/run_monitor.h"
 #include "core/paths/path_search.h"
 #include "core/port/probe_port.h"
 #include "core/types/type_info.h"
@@ -105,9 +105,7 @@ Result<std::unique_ptr<Player>> Player::Prepare(Runtime& runtime,
   if (auto found = player->FindPorts(*patterns); !found) return found.error().WithPosition(file);
   if (auto found = player->FindCalls(*patterns); !found) return found.error();
   player->WrapTasks();
-  auto* const known = runtime.root().FindAnnotation<SwitchedByRules>();
-  auto& switched = known != nullptr ? *known : runtime.root().Annotate(std::make_unique<SwitchedByRules>());
-  switched.all.push_back([self = std::weak_ptr(player->self_)] {
+  runtime.root().FindOrAnnotate<SwitchedByRules>().all.push_back([self = std::weak_ptr(player->self_)] {
     const auto there = self.lock();
     return there != nullptr ? std::vector<ChangeSet>{(*there)->Connections()} : std::vector<ChangeSet>();
   });

@@ -46,8 +46,8 @@ struct PathFollowers final : Annotation {
   std::vector<std::function<void(const Move& move)>> all = {};
 };
 
-/// Who knows what rules, or a replay, have switched for the time being, which a file that is saved does not get. Kept with the root of the
-/// tree.
+/// Who knows what rules, or a replay, have switched for the time being, which a file that is saved does not get. Kept with
+/// the root of the tree.
 ///
 /// Threads: under the structure lock.
 struct SwitchedByRules final : Annotation {

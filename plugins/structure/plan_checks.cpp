@@ -118,7 +118,8 @@ bool HoldsWhatTagsMake(const FrameworkElement& element) {
 
 Result<void> CheckIsNotOfTags(const FrameworkElement& element, const char* what) {
   if (!HoldsWhatTagsMake(element)) return {};
-  return Error{.message = std::string("is, or holds, what a tag of the file or a program has made for itself, and cannot be ") + what + " while it runs",
+  return Error{.message = std::string("is, or holds, what a tag of the file or a program has made for itself, and cannot be ") + what +
+                          " while it runs",
                .path = element.path(), .hint = "change the tag in the file, and run it again; or have the program let go of it"};
 }
 
@@ -301,10 +302,10 @@ Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfit
     Port* const port = found && own.IsAtOrBelow(before) ? *found : nullptr;
     if (auto cut = CheckTie(*tie.from, *tie.to, std::nullopt); !cut) return cut;
     // A port of a composite has no unit by which it would be known, and says nothing itself.
-    if (const auto stop = own.stop(); port != nullptr && stop && stop->robot() && (own.FindMark() || !port->is_driving()) && marked.insert(&own).second) {
+    const auto stop = own.is_driving() ? own.stop() : nullptr;
+    if (port != nullptr && stop && (own.FindMark() || !port->is_driving()) && marked.insert(&own).second) {
       const std::string unit = unit_behind(*port);
-      const bool is_anywhere = IsZero(stop->safe_value()) && stop->command() != DrivingKind::kPosition;
-      if (!is_anywhere && !unit.empty() && unit != unit_behind(own)) {
+      if (!unit.empty() && unit != unit_behind(own) && !IsSafeInAnyUnit(stop->safe_value(), stop->command())) {
         return Error{.message = "its safe value is not in " + unit + ", which the new module reads there", .path = own.path()};
       }
       if (auto set = port->SetDriving(true, stop->safe_value(), stop->brake(), stop->command()); !set) return set;

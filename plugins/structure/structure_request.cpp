@@ -10,10 +10,7 @@ namespace runnel {
 StructureRequest::StructureRequest(FrameworkElement* element) : element_(*element) {
   Runtime& runtime = element_.runtime();
   const std::lock_guard lock(runtime.structure_mutex());
-  auto* requests = StructureRequests::Of(runtime);
-  if (requests == nullptr)
-    requests = &runtime.root().Annotate(std::make_unique<StructureRequests>());
-  requests->all_.push_back(this);
+  runtime.root().FindOrAnnotate<StructureRequests>().all_.push_back(this);
 }
 
 StructureRequest::~StructureRequest() {

@@ -21,12 +21,6 @@ namespace {
 // How often modules are asked for what they want.
 constexpr Duration kLookForRequests = std::chrono::milliseconds(50);
 
-template <typename Note>
-Note& RootNote(Runtime& runtime) {
-  auto* const known = runtime.root().FindAnnotation<Note>();
-  return known != nullptr ? *known : runtime.root().Annotate(std::make_unique<Note>());
-}
-
 }  // namespace
 
 void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
@@ -121,10 +115,10 @@ Supervisor::Supervisor(Runtime& runtime, Scheduler& scheduler, Perform perform)
   scheduler_.SetWatchdog([shared = shared_](Time now) { return shared->Watch(now); });
   const std::lock_guard lock(runtime.structure_mutex());
   const std::weak_ptr<Shared> shared = shared_;
-  RootNote<PathFollowers>(runtime).all.push_back([shared](const PathFollowers::Move& move) {
+  runtime.root().FindOrAnnotate<PathFollowers>().all.push_back([shared](const PathFollowers::Move& move) {
     if (const auto there = shared.lock()) there->MovePaths(move);
   });
-  RootNote<SwitchedByRules>(runtime).all.push_back([shared] {
+  runtime.root().FindOrAnnotate<SwitchedByRules>().all.push_back([shared] {
     std::vector<ChangeSet> back;
     const auto there = shared.lock();
     if (there == nullptr) return back;

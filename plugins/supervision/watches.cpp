@@ -54,12 +54,6 @@ bool HasPublishedSince(const Port& source, Time since) {
   return has_published;
 }
 
-template <typename Mark>
-Mark& MarkAt(FrameworkElement& element) {
-  auto* const mark = element.FindAnnotation<Mark>();
-  return mark != nullptr ? *mark : element.Annotate(std::make_unique<Mark>());
-}
-
 // By which something moves: the port itself, or whoever beside the tree sends it to another application; nullptr: none.
 const Port* FindWhatMoves(const Port& port) {
   if (port.is_driving()) return &port;
@@ -82,7 +76,7 @@ std::string WhySilent(Port& output, const Scheduler& scheduler, Time now) {
   const std::string why = scheduler.WhyAtRest(output);
   auto* const mark = output.FindAnnotation<SilentMark>();
   if (!why.empty()) {
-    MarkAt<SilentMark>(output).since = now;
+    output.FindOrAnnotate<SilentMark>().since = now;
     return why;
   }
   if (mark == nullptr || !mark->since) return "";
@@ -156,7 +150,7 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
   }
   for (Port* const each : outputs_) {
     (void)WhySilent(*each, scheduler, now);  // it is noted: a rule may have switched it away, and switch it back
-    if (!each->stamps_ahead() || std::exchange(MarkAt<RestMark>(*each).is_ahead_told, true)) continue;
+    if (!each->stamps_ahead() || std::exchange(each->FindOrAnnotate<RestMark>().is_ahead_told, true)) continue;
     tell(*each, "bears times of measurement that are still to come; they count as the time of publication", false);
   }
 }
@@ -206,7 +200,7 @@ void Feeding::LookAtParameters(const Port& of) {
 bool Feeding::LookAtCut(FrameworkElement& element, bool is_fed) const {
   auto* mark = element.FindAnnotation<FedMark>();
   if (is_fed) {
-    MarkAt<FedMark>(element).is_fed = true;
+    element.FindOrAnnotate<FedMark>().is_fed = true;
     return false;
   }
   if (mark == nullptr) return false;
@@ -242,7 +236,7 @@ void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler,
   }
   const std::string why = scheduler.WhyUnreached(port, driven.sinks);
   if (why.empty() && MarkOf(port) == nullptr) return;
-  if (std::exchange(MarkAt<RestMark>(port).is_unreached, !why.empty()) == !why.empty()) return;
+  if (std::exchange(port.FindOrAnnotate<RestMark>().is_unreached, !why.empty()) == !why.empty()) return;
   tell(port,
        why.empty() ? "can be reached again"
                    : "cannot be reached: " + why + "; until it runs, no STOP counts there but the time-out of what it moves",
@@ -256,13 +250,13 @@ void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler,
   const bool is_set = port.is_set_by_hand(Port::Setter::kRule);
   if (!why.empty()) {
     if (is_set) {  // a rule may have been first
-      if (held) MarkAt<RestMark>(port).rested = now;
+      if (held) port.FindOrAnnotate<RestMark>().rested = now;
       return;
     }
     const auto safe = SafeValueToHold(port);
     const auto set = safe ? PublishByHand(port, safe->get(), Port::Setter::kRule) : safe.error();
     if (!set && held) return;  // it has been told
-    MarkAt<RestMark>(port).rested = now;
+    port.FindOrAnnotate<RestMark>().rested = now;
     return tell(port,
                 set ? "has its safe value: " + why
                     : why + ", and it has no safe value: " + set.error().message,
@@ -272,19 +266,19 @@ void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler,
   const bool is_fed = std::ranges::any_of(
       driven.feeding.sources(), [&](const Port* each) { return HasPublishedSince(*each, *held); });
   if (!is_fed && !driven.feeding.sources().empty()) return;
-  MarkAt<RestMark>(port).rested.reset();
+  port.FindOrAnnotate<RestMark>().rested.reset();
   if (port.Release(Port::Setter::kRule)) tell(port, "is driven again: what feeds it runs", true);
 }
 
 void Standstill::LeaveToRule(Port& port) {
-  if (MarkOf(port) != nullptr) MarkAt<RestMark>(port).rested.reset();
+  if (MarkOf(port) != nullptr) port.FindOrAnnotate<RestMark>().rested.reset();
 }
 
 bool Standstill::TakesOver(Port& port, const Scheduler& scheduler, Time now) {
   if (FindWhatMoves(port) == nullptr || Feeding(port, now).WhyAtRest(scheduler, now).empty()) return false;
   const auto safe = SafeValueToHold(port);
   if (!safe || !PublishByHand(port, safe->get(), Port::Setter::kRule)) return false;
-  MarkAt<RestMark>(port).rested = now;
+  port.FindOrAnnotate<RestMark>().rested = now;
   return true;
 }
 

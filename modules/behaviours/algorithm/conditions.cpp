@@ -12,11 +12,17 @@ bool HoldsNow(const ConditionState& state) {
 bool AreBasicOnesTrue(std::span<ConditionState> conditions) {
   bool are_true = true;
   for (ConditionState& each : conditions) {
-    if (each.condition.kind == ConditionKind::kEnabling) continue;
-    const bool is_ordering = each.condition.kind == ConditionKind::kOrdering;
-    const bool holds = HoldsNow(each) || (is_ordering && each.is_latched);
-    if (is_ordering) each.is_latched = holds;
-    are_true = holds && are_true;
+    switch (each.condition.kind) {
+      case ConditionKind::kPermanent:
+        are_true = HoldsNow(each) && are_true;
+        break;
+      case ConditionKind::kOrdering:
+        each.is_latched = each.is_latched || HoldsNow(each);
+        are_true = each.is_latched && are_true;
+        break;
+      case ConditionKind::kEnabling:
+        break;
+    }
   }
   return are_true;
 }

@@ -14,20 +14,27 @@ double Rise(CurveShape shape, double start, double end, double x) {
   return std::clamp(0.5 + 0.5 * std::sin(std::numbers::pi * (part - 0.5)), 0.0, 1.0);
 }
 
-bool HasTwo(const Curve& curve) { return curve.kind == CurveKind::kRiseFall || curve.kind == CurveKind::kFallRise; }
-
 }  // namespace
 
 bool IsOrdered(const Curve& curve) {
   if (!(curve.start < curve.end)) return false;
-  return !HasTwo(curve) || (curve.end <= curve.second_start && curve.second_start < curve.second_end);
+  const bool has_two = curve.kind == CurveKind::kRiseFall || curve.kind == CurveKind::kFallRise;
+  return !has_two || (curve.end <= curve.second_start && curve.second_start < curve.second_end);
 }
 
 double ValueAt(const Curve& curve, double x) {
   const double first = Rise(curve.shape, curve.start, curve.end, x);
-  const double second = HasTwo(curve) ? Rise(curve.shape, curve.second_start, curve.second_end, x) : 0.0;
-  const bool falls = curve.kind == CurveKind::kFall || curve.kind == CurveKind::kFallRise;
-  return falls ? 1.0 - first + second : first - second;
+  switch (curve.kind) {
+    case CurveKind::kRise:
+      return first;
+    case CurveKind::kFall:
+      return 1.0 - first;
+    case CurveKind::kRiseFall:
+      return first - Rise(curve.shape, curve.second_start, curve.second_end, x);
+    case CurveKind::kFallRise:
+      return 1.0 - first + Rise(curve.shape, curve.second_start, curve.second_end, x);
+  }
+  return 0.0;
 }
 
 }  // namespace runnel

@@ -57,11 +57,21 @@ FusedSignals Fuse(FusionMethod method, std::span<const FusedChannel> channels, d
 
 void WeighChannels(FusionMethod method, std::span<const FusedChannel> channels, std::span<double> weights) {
   const std::size_t winner = WinnerOf(channels);
-  const double whole = method == FusionMethod::kWeightedAverage ? SumOf(channels) : channels[winner].activity;
-  const bool takes_all = method == FusionMethod::kWinnerTakesAll;
+  const double sum = SumOf(channels);
+  const double greatest = channels[winner].activity;
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    const double part = takes_all && i != winner ? 0.0 : channels[i].activity;
-    weights[i] = whole > 0.0 ? part / whole : 0.0;
+    const double activity = channels[i].activity;
+    switch (method) {
+      case FusionMethod::kWinnerTakesAll:
+        weights[i] = i == winner && greatest > 0.0 ? 1.0 : 0.0;
+        break;
+      case FusionMethod::kWeightedAverage:
+        weights[i] = sum > 0.0 ? activity / sum : 0.0;
+        break;
+      case FusionMethod::kWeightedSum:
+        weights[i] = greatest > 0.0 ? activity / greatest : 0.0;
+        break;
+    }
   }
 }
 

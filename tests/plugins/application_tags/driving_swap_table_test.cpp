@@ -8,17 +8,10 @@
 #include <string>
 #include <utility>
 
-#include <gmock/gmock.h>
-
-#include "core/module/kept_state.h"
 #include "core/port/driving_ports.h"
 #include "core/port/port_stop.h"
 #include "core/types/text_format.h"
-#include "core/types/type_of.h"
-#include "plugins/scheduling/scheduler.h"
-#include "plugins/structure/change_history.h"
-#include "plugins/structure/structure_editor.h"
-#include "tests/plugins/application_files/saving/saving_workshop.h"
+#include "tests/plugins/application_tags/driving_swap_fixture.h"
 
 namespace runnel::testing {
 namespace {
@@ -56,18 +49,6 @@ struct Variant final : Module {
     if (is_bad) throw std::runtime_error("no such device");
   }
 };
-struct NeverReplaced final : Module {
-  explicit NeverReplaced(const Placement& at) : Module(at) { KeepState(state); }
-  struct State {
-    State() = default;
-    State(const State&) = default;
-    State& operator=(const State&) { throw std::runtime_error("no"); }
-  };
-  Output<double> value{this, "value"};
-  State state;
-  void Update() override {}
-};
-
 struct Stop {
   bool drives = false;
   double safe = 0;
@@ -87,7 +68,7 @@ struct DrivingSwapTable : ::testing::TestWithParam<std::size_t> {
   template <std::size_t... kIndex>
   void Know(SavingWorkshop& workshop, std::index_sequence<kIndex...>) {
     (workshop.Add<Variant<kIndex>>(Name(kIndex)), ...);
-    workshop.Add<NeverReplaced>("test/never_replaced");
+    workshop.Add<driving_swap::Keeper>("test/keeper");
   }
   bool Load(const std::string& type, const std::string& said) {
     history.reset();
@@ -96,7 +77,7 @@ struct DrivingSwapTable : ::testing::TestWithParam<std::size_t> {
     shop.emplace();
     Know(*shop, std::make_index_sequence<kVariants>());
     const std::string mark = said.empty() ? "" : "<driving port=\"m/in\"" + said + "/>";
-    WriteAll(folder / "app.xml", "<application name=\"demo\"><module name=\"s\" type=\"test/never_replaced\"/><module name=\"m\" type=\"" + type +
+    WriteAll(folder / "app.xml", "<application name=\"demo\"><module name=\"s\" type=\"test/keeper\"/><module name=\"m\" type=\"" + type +
                                      "\"/><connect from=\"s/value\" to=\"m/in\"/>" + mark + "</application>");
     if (!BuildApplication(folder / "app.xml", {shop->runtime, shop->plugins, shop->tags, shop->configuration}, BuildMode::kRun).diagnostics.ok())
       return false;
@@ -168,7 +149,7 @@ void DrivingSwapTable::Swap(std::size_t variant) {
   const std::string type = Name(variant);
   const Place before = Now();
   // With a step after it that fails: taken back.
-  (void)history->Apply({ReplaceModule{"/demo/m", type}, ReplaceModule{"/demo/s", "test/never_replaced"}});
+  (void)history->Apply({ReplaceModule{"/demo/m", type}, ReplaceModule{"/demo/s", "test/keeper"}});
   ExpectAsBefore(before, "rolled back");
   if (!history->Apply({ReplaceModule{"/demo/m", type}})) return ExpectAsBefore(before, "refused");
   ExpectSwapped(before, variant);
