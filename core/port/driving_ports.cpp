@@ -34,6 +34,12 @@ void VisitSiblings(const Port& port, Port::Direction direction, const std::funct
   });
 }
 
+Result<void> internal::CheckHasItsPlace(const Port& port) {
+  const auto* const state = port.FindAnnotation<DrivingState>();
+  if (state == nullptr || !state->is_replaced) return {};
+  return Error{.message = "nothing reads what it publishes: a recording that is played has its place", .path = port.path(), .hint = "end that first"};
+}
+
 std::optional<std::string> FindWhatDrives(Runtime& runtime) {
   const auto lock = TryStructureLock(runtime, std::chrono::milliseconds(20));
   if (!lock) return {};

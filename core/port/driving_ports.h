@@ -34,8 +34,16 @@ struct DrivingState final : Annotation {
   }
   std::shared_ptr<const DrivingMark> mark;  // nullptr: nothing
   bool is_replaced = false;
+  bool is_later = false;  // the way back is one of later: what has been stopped meanwhile stays so
   std::shared_ptr<const PortStop> stop_before;
 };
+
+/// Whose units say what the values of the port are: itself; of an interface port those that it leads to, or is fed by, with no
+/// conversion to another type.
+[[nodiscard]] std::vector<const Port*> EndsOf(const Port& port);
+
+/// Errors: another port has its place now, as an output's while a recording is played.
+[[nodiscard]] Result<void> CheckHasItsPlace(const Port& port);
 
 /// What stops the velocities by which the robot moves that are made of what the port passes on. `held`: the ports where that
 /// ends, as another value is set by hand there.

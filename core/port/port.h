@@ -123,8 +123,7 @@ class Port : public FrameworkElement {
   static Result<void> Disconnect(Port& from, Port& to);
   void DisconnectAll();
   /// What Connect() would say, but for `from` and `to` being connected already or for a cycle.
-  [[nodiscard]] static Result<void> CheckEnds(const Port& from, const Port& to,
-                                              const ConnectOptions& options = {});
+  [[nodiscard]] static Result<void> CheckEnds(const Port& from, const Port& to, const ConnectOptions& options = {});
 
   /// Has readers of this port find the value that `fill` writes, in place of whatever else is published, until
   /// Release(); the next time, a new value. Inputs: this one alone; outputs and interface ports: all that
@@ -135,18 +134,17 @@ class Port : public FrameworkElement {
   using Fill = std::function<Result<void>(void* value)>;
   enum class Setter { kPerson, kRule };
   /// `timestamp`: of a value that was set before, and is set again.
-  Result<void> PublishByHand(const Fill& fill, Setter setter = Setter::kPerson,
-                             std::optional<Time> timestamp = {});
+  Result<void> PublishByHand(const Fill& fill, Setter setter = Setter::kPerson, std::optional<Time> timestamp = {});
   /// Readers find again what is published; if something moves by the port and a person releases, what is published from
   /// now on. False: it was not set by hand.
   bool Release(Setter setter = Setter::kPerson);
   /// Under the structure lock.
   [[nodiscard]] bool is_set_by_hand(Setter setter = Setter::kPerson) const noexcept;
-  /// A copy of what is set by hand, with its own timestamp; none if nothing is, or if values of its type cannot be
-  /// copied. Under the structure lock.
+  /// A copy of what is set by hand, with its own timestamp; none if nothing is, or it cannot be copied. Under the structure lock.
   struct HandValue {
     AnyValue value;
     Time timestamp;
+    bool is_at_rest = false;  // as nobody is heard of who drives there
   };
   [[nodiscard]] std::optional<HandValue> ValueByHand(Setter setter = Setter::kPerson) const;
 
@@ -185,14 +183,19 @@ class Port : public FrameworkElement {
   /// How many values have come that were out of the bounds. Under the structure lock.
   [[nodiscard]] std::uint64_t out_of_bounds() const noexcept;
 
+  struct ExchangedModules {
+    const FrameworkElement &before, &after;
+  };
   /// Takes the place of `from` in all its connections, without a value being lost, repeated, or seen
   /// anew: an input goes on reading where the other has stopped, an output publishes into the channel
   /// that the readers of the other are bound to. `from` has no connection then; it can take over again.
   /// Preconditions, by CheckTakeOver(): one type and one direction, both or neither interface ports, this
   /// port can be pulled if connections of the other pull, and it is not connected. Nobody reads or publishes through either of them meanwhile;
   /// those at the other ends may. Throws for lack of memory, and has changed nothing then.
-  static Result<void> CheckTakeOver(const Port& port, const Port& from);
-  void TakeOver(Port& from);
+  /// `modules`: of which at least one is a composite. What is connected within one stays; the ports may be of other kinds, and
+  /// readers get queues anew.
+  static Result<void> CheckTakeOver(const Port& port, const Port& from, const ExchangedModules* modules = nullptr);
+  void TakeOver(Port& from, const ExchangedModules* modules = nullptr);
 
   /// Shows the newest value to `visit`, without marking it as read; false if there is none. For
   /// viewers that know the type by its TypeInfo only. Any thread. Ports without values of their own show
@@ -211,12 +214,10 @@ class Port : public FrameworkElement {
   /// Another output for values of the type of this one, which the caller owns; nullptr if only a module
   /// can make such values (no default constructor), and if no module has ports of the type (typed_ports.h).
   /// Throws what the constructor of an element throws.
-  [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
-                                                 OutputOptions options) const;
+  [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name, OutputOptions options) const;
 
  protected:
-  Port(const Placement& placement, Direction direction, const TypeInfo& type,
-       std::string description);
+  Port(const Placement& placement, Direction direction, const TypeInfo& type, std::string description);
 
   /// What an input is bound to: one output and how the connection to it behaves.
   struct Source {
@@ -238,8 +239,7 @@ class Port : public FrameworkElement {
   /// module follows: what it puts out after this has begun anew.
   bool BeginMotionAnew();
   /// PublishFilled() of ports that have a channel.
-  Result<PublishStatus> PublishInto(ChannelBase& channel, const Fill& fill,
-                                    std::optional<Time> timestamp);
+  Result<PublishStatus> PublishInto(ChannelBase& channel, const Fill& fill, std::optional<Time> timestamp);
   /// Outputs that publish in the place of somebody else: at which port it goes on.
   [[nodiscard]] virtual const Port* goes_on_at() const noexcept { return nullptr; }
   /// What PublishFilled() says when it cannot.
@@ -263,8 +263,7 @@ class Port : public FrameworkElement {
   [[nodiscard]] inline ValueTimes PublicationTimes() const noexcept;
   /// The time that a value published now by the calling thread bears.
   [[nodiscard]] inline Time PublicationTime() const noexcept;
-  /// The times of a value that was measured at `timestamp`, for which the clock's coarse time is good enough outside
-  /// of cycles.
+  /// The times of a value that was measured at `timestamp`, for which the clock's coarse time will do outside of cycles.
   [[nodiscard]] inline ValueTimes PublicationTimes(Time timestamp) const noexcept;
   /// The same, published at `now`: what is still to come counts as now.
   [[nodiscard]] inline ValueTimes TimesOf(Time timestamp, Time now) const noexcept;
@@ -282,14 +281,12 @@ class Port : public FrameworkElement {
   void TellOfChange();
   [[nodiscard]] Result<DrivingMark> Complete(DrivingMark mark, const PortStop* before) const;
   [[nodiscard]] Result<std::shared_ptr<const PortStop>> StopInPlaceOf(const Port& from) const;
-  void MoveToRest(const PortStop* before, const AnyValue& now);
-  static Result<void> CheckConnection(const Port& from, const Port& to,
-                                      const ConnectOptions& options);
+  [[nodiscard]] AnyValue FindRest() const;
+  void MoveToRest(const AnyValue& before, const AnyValue& now);
+  static Result<void> CheckConnection(const Port& from, const Port& to, const ConnectOptions& options);
   /// What this port passes on to who is connected to it: itself, or what it receives.
-  void CollectPassedOn(const ConnectOptions& options, Links links,
-                       std::vector<Source>& sources) const;
-  void CollectSources(const ConnectOptions& options, Links links,
-                      std::vector<Source>& sources) const;
+  void CollectPassedOn(const ConnectOptions& options, Links links, std::vector<Source>& sources) const;
+  void CollectSources(const ConnectOptions& options, Links links, std::vector<Source>& sources) const;
   [[nodiscard]] std::vector<Source> BoundSources(Links links) const;
   static void CollectBound(const Port& port, const Port& source, std::vector<Port*>& sinks);
   /// What takes the values of `source` for this input: itself, or what looks whether they are in its limits.
@@ -300,7 +297,10 @@ class Port : public FrameworkElement {
   /// Ports without values of their own: whose values they show.
   [[nodiscard]] std::vector<const Port*> ValueSources() const;
   static bool RemoveEdge(Port& from, Port& to);
-  void ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept;
+  void ReserveFor(const Port& from);
+  /// `module`: that `from` is in, if what is within it stays.
+  void ExchangeConnections(Port& from, const std::vector<Port*>& sinks, const FrameworkElement* module) noexcept;
+  void BindAnew(Port& from);
 
   const Direction direction_;
   const TypeInfo& type_;

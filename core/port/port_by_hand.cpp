@@ -52,12 +52,13 @@ std::optional<Port::HandValue> Port::ValueByHand(Setter setter) const {
   const std::shared_ptr<void> copy = type_.Make();
   std::optional<HandValue> found;
   extras_->by_hand[SlotOf(setter)]->VisitLatest([&](const void* value, ValueTimes times) {
-    if (copy != nullptr && CopyValue(type_, value, copy.get())) found = {AnyValue(type_, copy), times.timestamp};
+    if (copy != nullptr && CopyValue(type_, value, copy.get())) found = HandValue{AnyValue(type_, copy), times.timestamp};
   });
   if (const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr; slot && found) {
     // Whoever takes the value elsewhere, an undo, takes no person along who is heard of: it is at rest there.
     const std::lock_guard publisher(slot->mutex);
-    if (slot->hold && slot->hold->safe_value) found->value = slot->hold->safe_value;
+    found->is_at_rest = slot->hold && slot->hold->safe_value;
+    if (found->is_at_rest) found->value = slot->hold->safe_value;
   }
   return found;
 }
@@ -83,6 +84,7 @@ internal::PortExtras& Port::Extras() {
 
 Result<void> Port::PublishByHand(const Fill& fill, Setter setter, std::optional<Time> timestamp) {
   const std::lock_guard lock(runtime().structure_mutex());
+  if (auto read = internal::CheckHasItsPlace(*this); !read) return read;
   const Fill fill_within = [&](void* value) -> Result<void> {
     if (auto filled = fill(value); !filled) return filled;
     return internal::CheckWithin(*this, limits(), value);

@@ -121,6 +121,7 @@ std::optional<DrivingMark> Port::FindMark() const {
 
 Result<void> Port::Block() {
   const std::lock_guard lock(runtime().structure_mutex());
+  if (auto read = internal::CheckHasItsPlace(*this); !read) return read;
   if (!extras_ || !extras_->stop) {
     auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
     if (!safe) return safe.error();

@@ -13,6 +13,7 @@
 #include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
 #include "core/port/stand_in.h"
+#include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/structure/extension_changes.h"
 
@@ -29,6 +30,7 @@ struct PortState final : Annotation {
   const TypeInfo& type;
   const Port::Direction direction;
   const bool is_proxy;
+  std::vector<std::string> units;
   InputLimits limits;
   // With its own stamp, so that it does not become a command from after a STOP.
   std::optional<Port::HandValue> by_hand;
@@ -39,6 +41,13 @@ struct PortState final : Annotation {
   std::shared_ptr<const DrivingMark> said;
   bool is_blocked = false;
 };
+
+// Of what its values are.
+std::vector<std::string> UnitsOf(const Port& port) {
+  std::vector<std::string> units;
+  for (const Port* end : EndsOf(port)) units.push_back(end->unit());
+  return units;
+}
 
 Result<void> GiveTo(Port& port, const PortState& state) {
   const bool is_input = !port.is_proxy() && port.direction() == Port::Direction::kInput;
@@ -58,7 +67,11 @@ Result<void> GiveTo(Port& port, const PortState& state) {
     if (!state.is_blocked) port.Unblock();
   }
   const auto give = [&](const std::optional<Port::HandValue>& by, Port::Setter setter) {
-    return by ? port.PublishByHand(FillWith(by->value), setter, by->timestamp) : Result<void>();
+    if (!by) return Result<void>();
+    // It is at rest, or might be.
+    const bool rests = state.stop && port.stop() && (by->is_at_rest || setter == Port::Setter::kRule) &&
+                       ToText(port.type(), by->value.get()) == ToText(port.type(), state.stop->safe_value().get());
+    return port.PublishByHand(FillWith(rests ? port.stop()->safe_value() : by->value), setter, by->timestamp);
   };
   if (auto given = give(state.by_rule, Port::Setter::kRule); !given) return given;
   return give(state.by_hand, Port::Setter::kPerson);
@@ -68,6 +81,7 @@ void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkEle
           ElementState::Below below) {
   if (const auto* const port = dynamic_cast<const Port*>(&element)) {
     auto state = std::make_unique<PortState>(*port);
+    state->units = UnitsOf(*port);
     state->limits = port->limits();
     state->by_hand = port->ValueByHand();
     if (how == FrameworkElement::Inherit::kAsReplacement) state->by_rule = port->ValueByHand(Port::Setter::kRule);
@@ -88,6 +102,7 @@ Result<void> Give(const FrameworkElement& noted, FrameworkElement& made, const E
   const bool has_its_own = std::ranges::any_of(taken_over, [&](const auto& each) { return each.second == port; });
   const auto* const state = noted.FindAnnotation<PortState>();
   if (port != nullptr && state != nullptr && !has_its_own && state->Fits(*port)) {
+    DrivingState::Of(*port).is_replaced = false;
     if (auto given = GiveTo(*port, *state); !given) return given;
   }
   for (const FrameworkElement* child : noted.children()) {
@@ -116,18 +131,13 @@ void ElementState::NoteWayBack(FrameworkElement& made) const {
   made.VisitAll<Port>([&](Port& port) {
     const auto found = noted_->Find(port.path().substr(made.path().size() + 1));
     const auto* const state = found ? (*found)->FindAnnotation<PortState>() : nullptr;
-    if (state == nullptr) return;
+    if (state == nullptr || !state->Fits(port) || state->units != UnitsOf(port)) return;
     auto& driving = DrivingState::Of(port);
     driving.mark = state->said;
     driving.is_replaced = true;
+    driving.is_later = true;
     driving.stop_before = state->stop;
   });
-}
-
-const Port* ElementState::FindCounterpart(const Port& port, const FrameworkElement& before, const FrameworkElement& made) {
-  const auto found = made.Find(port.path().substr(before.path().size() + 1));
-  const auto* const counterpart = found ? dynamic_cast<const Port*>(*found) : nullptr;
-  return counterpart != nullptr && PortState(port).Fits(*counterpart) ? counterpart : nullptr;
 }
 
 bool IsRecorded(const Port& port) {
@@ -148,8 +158,9 @@ std::string WhatIsSetAt(const Port& port) {
     if (is_set) text += (text.empty() ? "" : ", ") + std::string(what);
   };
   add(port.is_blocked(), "its block");
-  add(port.is_driving(), "its mark as driving");
+  add(port.FindMark().has_value(), "its mark as driving");
   add(port.is_set_by_hand(), "its value by hand");
+  add(port.is_set_by_hand(Port::Setter::kRule), "its value by a rule");
   add(port.FindAnnotation<GivenLimits>() != nullptr, "its limits");
   add(!TagsOf(port).empty(), "its tags");
   add(IsRecorded(port), "its recording");

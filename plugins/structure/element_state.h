@@ -35,10 +35,6 @@ class ElementState {
   Result<void> GivePorts(FrameworkElement& made, const TakenOver& taken_over = {}) const;
   /// Tells the ports of `made` what stopped those noted, to be so again when they take the places of others.
   void NoteWayBack(FrameworkElement& made) const;
-  /// The port in `made` that gets what is set at `port`, which is below `before`: at the same place in it, and of the same
-  /// kind; nullptr: none.
-  [[nodiscard]] static const Port* FindCounterpart(const Port& port, const FrameworkElement& before, const FrameworkElement& made);
-
  private:
   Inherit how_;
   // Elements of no kind beside the tree, under the names of those whose annotations they keep.

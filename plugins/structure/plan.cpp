@@ -206,7 +206,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       if (!taken) return taken.error();
                       done->before = std::move(*taken);
                       for (const auto& [from, to] : ports) {
-                        to->TakeOver(*from);
+                        TakeOver(*to, *from, before, next);
                         ++done->moved;
                       }
                       const bool is_same_place = next.parent() == before.parent();
@@ -233,7 +233,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       }
                       for (; done->moved > 0; --done->moved) {
                         const auto& [from, to] = ports[done->moved - 1];
-                        from->TakeOver(*to);
+                        TakeOver(*from, *to, next, before);
                       }
                       Must(runtime_.List(std::move(done->before), done->place));
                     },

@@ -167,13 +167,10 @@ class Plan {
   Result<void> MoveTargets(const FrameworkElement& renamed, const std::string& path);
   void MoveExtensions(const FrameworkElement& renamed, const std::string& name);
   void AddExchange(FrameworkElement& before, UnlistedElement after);
-  Result<void> ExchangeComposite(FrameworkElement& before, New after, Misfits misfits);
-  /// Warns of what is set at ports of `before` that are not kept.
-  void WarnOfLost(FrameworkElement& before, const std::function<bool(const Port&)>& is_kept);
   Result<void> CheckAll(const GroupParameter& group, const SetParameter& change);
   Result<void> CheckStatic(const FrameworkElement& element, const Configurable& parameter,
                            const void* value);
-  Result<void> Cut(const std::vector<Port*>& ports);
+  Result<void> Cut(const std::vector<Port*>& ports, const FrameworkElement& module);
 
   // One that is to be when its ends are there, and at least one is not; or that has been to be until now.
   Result<void> CheckLateTie(const std::string& from, const std::string& to,

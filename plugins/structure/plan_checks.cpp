@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "core/base/characters.h"
@@ -14,7 +13,7 @@
 #include "core/module/group_parameter.h"
 #include "core/paths/late_connections.h"
 #include "core/plugin/module_type_name.h"
-#include "core/port/port_stop.h"
+#include "core/port/driving_ports.h"
 #include "core/port/proxy_port.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
@@ -213,9 +212,9 @@ Result<void> Plan::CheckStatic(const FrameworkElement& element, const Configurab
 }
 
 // Cuts the connections of `ports`, which nothing takes over.
-Result<void> Plan::Cut(const std::vector<Port*>& ports) {
+Result<void> Plan::Cut(const std::vector<Port*>& ports, const FrameworkElement& module) {
   for (Port* port : ports) {
-    for (const auto& [from, to] : overlay_.EdgesOf(*port)) {
+    for (const auto& [from, to] : overlay_.EdgesOf(*port, &module)) {
       if (auto cut = CheckTie(*from, *to, std::nullopt); !cut) return cut;
       warnings_.push_back({.message = "is not connected to " + to->path() +
                                       " any more: the module made anew has no such port",
@@ -237,18 +236,20 @@ Result<void> Plan::CheckReplacement(const ReplaceModule& change, Misfits misfits
 
 Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& place,
                                     const ReplaceModule& change, Misfits misfits) {
+  Result<void> has_places;
+  before.VisitAll<const Port>([&](const Port& port) {
+    if (has_places) has_places = CheckHasItsPlace(port);
+  });
+  if (!has_places) return has_places;
   const auto work = MakeModule(place, change, &before);
   if (!work) return work.error();
   FrameworkElement& made = **work->element;
-  if (before.kind() == ElementKind::kGroup || made.kind() == ElementKind::kGroup) {
-    return ExchangeComposite(before, work->element, misfits);
-  }
   if (change.state) change.state->NoteWayBack(made);
-  PortMatch match = MatchPorts(before, made, [this](const Port& port) {
-    return overlay_.IsConnected(port) || !AwaitedWith(port).empty();
+  PortMatch match = MatchPorts(before, made, [&](const Port& port) {
+    return overlay_.IsConnected(port, &before) || !AwaitedWith(port).empty();
   });
-  if (misfits == Misfits::kAreCut && !match.errors.empty()) {
-    if (auto cut = Cut(match.misfits); !cut) return cut;
+  if (misfits == Misfits::kAreCut && match.errors.size() == match.misfits.size()) {
+    if (auto cut = Cut(match.misfits, before); !cut) return cut;
     match.errors.clear();
   }
   if (!match.errors.empty()) {
@@ -263,75 +264,22 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
                                     "' went with it: the new module has no such parameter",
                          .path = before.path()});
   }
-  WarnOfLost(before, [&](const Port& port) { return std::ranges::count(match.ports, &port, &std::pair<Port*, Port*>::first) > 0; });
+  before.VisitAll<Port>([&](Port& port) {
+    if (std::ranges::count(match.ports, &port, &std::pair<Port*, Port*>::first) > 0) return;
+    if (const std::string what = WhatIsSetAt(port); !what.empty()) {
+      warnings_.push_back({.message = what + " went with it: the new module has no such port", .path = port.path()});
+    }
+  });
   const bool is_made_anew = FindModuleType(before) == change.type;
   for (Error& each : StateRefusals(before, made)) {
     (is_made_anew ? further_errors_ : warnings_).push_back(std::move(each));
   }
   overlay_.Replace(before, made, match.ports);
+  for (const auto& [from, to] : match.ports) {
+    if (overlay_.IsInCycle(*to)) return Error{.message = "in the place of " + from->path() + " it would close a cycle of interface ports", .path = to->path()};
+  }
   made_.push_back(&made);
   AddReplacement(before, *work, std::move(match.ports), change);
-  return {};
-}
-
-void Plan::WarnOfLost(FrameworkElement& before, const std::function<bool(const Port&)>& is_kept) {
-  before.VisitAll<const Port>([&](const Port& port) {
-    if (is_kept(port)) return;
-    if (const std::string what = WhatIsSetAt(port); !what.empty()) {
-      warnings_.push_back({.message = what + " went with it: the new module has no such port", .path = port.path()});
-    }
-  });
-}
-
-// What a composite consists of is its own: only its interface is connected anew, and modules keep no state. What has been set
-// at its ports, those within included, goes to the port of the same place and kind.
-Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfits misfits) {
-  FrameworkElement& made = **after;
-  std::vector<Connection> ties;
-  std::set<const Port*> marked;
-  const auto unit_behind = [](const Port& port) {
-    std::string unit = port.unit();
-    for (const Port* sink : port.Sinks()) unit = unit.empty() ? sink->unit() : unit;
-    return unit;
-  };
-  for (const Connection& tie : ExternalConnectionsOf(before)) {
-    Port& own = tie.from->IsAtOrBelow(before) ? *tie.from : *tie.to;
-    // A module has its ports in groups, a composite has not.
-    const auto found = PathSearch(made).FindPort(
-        own.name(), &own == tie.from ? PathKind::kOutput : PathKind::kInput);
-    Port* const port = found && own.IsAtOrBelow(before) ? *found : nullptr;
-    if (auto cut = CheckTie(*tie.from, *tie.to, std::nullopt); !cut) return cut;
-    // A port of a composite has no unit by which it would be known, and says nothing itself.
-    const auto stop = own.is_driving() ? own.stop() : nullptr;
-    if (port != nullptr && stop && (own.FindMark() || !port->is_driving()) && marked.insert(&own).second) {
-      const std::string unit = unit_behind(*port);
-      if (!unit.empty() && unit != unit_behind(own) && !IsSafeInAnyUnit(stop->safe_value(), stop->command())) {
-        return Error{.message = "its safe value is not in " + unit + ", which the new module reads there", .path = own.path()};
-      }
-      if (auto set = port->SetDriving(true, stop->safe_value(), stop->brake(), stop->command()); !set) return set;
-      if (auto blocked = own.is_blocked() ? port->Block() : Result<void>(); !blocked) return blocked;
-    }
-    if (port != nullptr) {
-      ties.push_back(&own == tie.from ? Connection{port, tie.to, tie.options}
-                                      : Connection{tie.from, port, tie.options});
-    } else if (misfits == Misfits::kAreRefused) {
-      return Error{.message = "the new module has no port '" + own.name() + "', which is connected",
-                   .path = own.path()};
-    } else {
-      warnings_.push_back({.message = "is not connected to " + tie.to->path() +
-                                      " any more: the module made anew has no such port",
-                           .path = tie.from->path()});
-    }
-  }
-  Concern(before);
-  overlay_.Remove(before);
-  AddRemoval(before);
-  WarnOfLost(before, [&](const Port& port) { return (marked.contains(&port) && !port.is_set_by_hand()) || ElementState::FindCounterpart(port, before, made) != nullptr; });
-  AddCreation(std::move(after), nullptr,
-              std::make_shared<const ElementState>(before, ElementState::Inherit::kAsReplacement, ElementState::Below::kIncluded));
-  for (const Connection& tie : ties) {
-    if (auto tied = CheckTie(*tie.from, *tie.to, tie.options); !tied) return tied;
-  }
   return {};
 }
 

@@ -1,6 +1,7 @@
 #include "plugins/structure/replacement.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -15,10 +16,23 @@ namespace runnel::internal {
 
 namespace {
 
+bool IsComposite(const FrameworkElement& module) { return module.kind() == ElementKind::kGroup; }
+
+std::optional<Port::ExchangedModules> Composites(const FrameworkElement& before, const FrameworkElement& after) {
+  if (!IsComposite(before) && !IsComposite(after)) return {};
+  return Port::ExchangedModules{before, after};
+}
+
 // The element below `after` that is called as `port` is below `before`.
 Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {
   const auto found = after.Find(port.path().substr(before.path().size() + 1));
   if (found) return dynamic_cast<Port*>(*found);
+  // A module has its ports in groups, a composite has not.
+  if (IsComposite(before) != IsComposite(after) && (!IsComposite(before) || port.parent() == &before)) {
+    const bool is_output = port.direction() == Port::Direction::kOutput;
+    const auto same = PathSearch(after).FindPort(port.name(), is_output ? PathKind::kOutput : PathKind::kInput);
+    if (same) return *same;
+  }
   // By which an output sets a parameter: it is made when it is asked for.
   const FrameworkElement* const parameter = port.parent()->parent();
   if (parameter == nullptr || parameter->kind() != ElementKind::kParameter) return nullptr;
@@ -123,18 +137,26 @@ Result<void> CopyLateSettings(const FrameworkElement& before, const Values& valu
 PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
                      const std::function<bool(const Port&)>& is_connected) {
   PortMatch result;
+  const auto composites = Composites(before, after);
   before.VisitAll<Port>([&](Port& port) {
-    Port* const match = Counterpart(port, before, after);
-    const auto possible =
-        match != nullptr ? Port::CheckTakeOver(*match, port) : NoCounterpart(port, before, after);
+    Port* match = Counterpart(port, before, after);
+    if (std::ranges::count(result.ports, match, &std::pair<Port*, Port*>::second) > 0) match = nullptr;
+    const auto possible = match != nullptr ? Port::CheckTakeOver(*match, port, composites ? &*composites : nullptr)
+                                           : NoCounterpart(port, before, after);
+    const bool is_stopped = match != nullptr && (port.FindMark() || port.is_blocked());
     if (possible) {
       result.ports.push_back({&port, match});
-    } else if (is_connected(port) || (match != nullptr && port.FindMark())) {
+    } else if (is_stopped || is_connected(port)) {
       result.errors.push_back(possible.error());
-      result.misfits.push_back(&port);
+      if (!is_stopped) result.misfits.push_back(&port);
     }
   });
   return result;
+}
+
+void TakeOver(Port& port, Port& from, const FrameworkElement& before, const FrameworkElement& after) {
+  const auto composites = Composites(before, after);
+  port.TakeOver(from, composites ? &*composites : nullptr);
 }
 
 std::vector<Error> StateRefusals(const FrameworkElement& before, const FrameworkElement& after) {

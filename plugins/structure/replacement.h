@@ -36,11 +36,14 @@ Result<void> CopyLateSettings(const FrameworkElement& before, const Values& valu
 /// The ports of a module, each with that which takes over from it.
 struct PortMatch {
   std::vector<std::pair<Port*, Port*>> ports;
-  std::vector<Error> errors;   ///< what is connected and has no counterpart, with the nearest name
-  std::vector<Port*> misfits;  ///< these, in the same order
+  std::vector<Error> errors;   ///< what is connected, marked or blocked, and has no counterpart, with the nearest name
+  std::vector<Port*> misfits;  ///< those of them that can be cut
 };
 [[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
                                    const std::function<bool(const Port&)>& is_connected);
+
+/// As a module's port does, or a composite's.
+void TakeOver(Port& port, Port& from, const FrameworkElement& before, const FrameworkElement& after);
 
 /// Which kept states of `before` cannot be handed over to `after`, and why.
 [[nodiscard]] std::vector<Error> StateRefusals(const FrameworkElement& before,

@@ -14,6 +14,7 @@
 #include "core/element/own_thread.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/driving_ports.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/replacement.h"
 
@@ -139,6 +140,7 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
   const FrameworkElement* const place = NextSibling(*after);
   std::vector<BeforeHandOver::Held> held;
   for (const auto* each : {after, &*waiting.replaced.before}) (void)Settle(*each, held);  // it has failed, and goes anyway
+  waiting.replaced.before->VisitAll<Port>([](Port& port) { DrivingState::Of(port).is_later = true; });
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
   const PortMatch match =
       MatchPorts(*after, *waiting.replaced.before, [](const Port&) { return false; });

@@ -1,12 +1,22 @@
 #include "plugins/structure/structure_overlay.h"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
 #include "core/port/probe_port.h"
 
 namespace runnel::internal {
+
+namespace {
+
+bool IsWithin(const FrameworkElement& module, const Port& from, const Port& to) {
+  return module.kind() == ElementKind::kGroup && from.IsAtOrBelow(module) && to.IsAtOrBelow(module);
+}
+
+}  // namespace
 
 bool StructureOverlay::IsGone(const FrameworkElement& element) const {
   return std::ranges::any_of(removed_,
@@ -76,6 +86,7 @@ void StructureOverlay::Replace(FrameworkElement& gone, FrameworkElement& element
     }
   }
   removed_.push_back(&gone);
+  composites_.push_back(&gone);
   Add(element);
 }
 
@@ -92,7 +103,8 @@ std::vector<Port*> StructureOverlay::Targets(const Port& from) const {
   const auto add_outgoing = [&](const Port& port) {
     for (const Connection& each : port.outgoing()) {
       Port& now = NowFor(*each.to);
-      if (!IsGone(now)) targets.push_back(&now);
+      const bool has_gone = std::ranges::any_of(composites_, [&](const auto* gone) { return IsWithin(*gone, port, *each.to); });
+      if (!has_gone && !IsGone(now)) targets.push_back(&now);
     }
   };
   add_outgoing(from);
@@ -109,17 +121,20 @@ std::vector<Port*> StructureOverlay::Targets(const Port& from) const {
   return targets;
 }
 
-bool StructureOverlay::IsConnected(const Port& port) const {
-  return HasSource(port) || std::ranges::any_of(Targets(port), [](const Port* to) {
-           return dynamic_cast<const ProbePort*>(to) == nullptr;
-         });
+bool StructureOverlay::IsConnected(const Port& port, const FrameworkElement* module) const {
+  return std::ranges::any_of(EdgesOf(const_cast<Port&>(port), module), [&](const Edge& edge) {
+    return edge.second == &port || dynamic_cast<const ProbePort*>(edge.second) == nullptr;
+  });
 }
 
-bool StructureOverlay::Reaches(const Port& from, const Port& to) const {
-  if (&from == &to) return true;
-  return std::ranges::any_of(Targets(from), [&](const Port* next) {
-    return next == &to || (next->is_proxy() && Reaches(*next, to));
-  });
+bool StructureOverlay::IsInCycle(const Port& port) const {
+  std::set<const Port*> seen;
+  const std::function<bool(const Port&)> leads_back = [&](const Port& at) {
+    return std::ranges::any_of(Targets(at), [&](const Port* next) {
+      return next == &port || (next->is_proxy() && seen.insert(next).second && leads_back(*next));
+    });
+  };
+  return port.is_proxy() && leads_back(port);
 }
 
 Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOptions& options) {
@@ -148,7 +163,7 @@ Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
   return {};
 }
 
-std::vector<std::pair<Port*, Port*>> StructureOverlay::EdgesOf(Port& port) const {
+std::vector<std::pair<Port*, Port*>> StructureOverlay::EdgesOf(Port& port, const FrameworkElement* module) const {
   std::vector<Edge> edges;
   for (Port* to : Targets(port)) edges.push_back({&port, to});
   const auto add_from = [&](const std::vector<Port*>& sources) {
@@ -165,6 +180,7 @@ std::vector<std::pair<Port*, Port*>> StructureOverlay::EdgesOf(Port& port) const
   for (const Edge& edge : connected_) {
     if (edge.second == &port && std::ranges::count(edges, edge) == 0) edges.push_back(edge);
   }
+  std::erase_if(edges, [&](const Edge& edge) { return module != nullptr && IsWithin(*module, *edge.first, *edge.second); });
   return edges;
 }
 

@@ -34,10 +34,12 @@ class StructureOverlay final : public PathSearch {
   Result<void> Disconnect(Port& from, Port& to);
 
   [[nodiscard]] bool HasSource(const Port& port) const;
-  /// From and to the port.
-  [[nodiscard]] std::vector<std::pair<Port*, Port*>> EdgesOf(Port& port) const;
-  /// Who only probes the port does not count: a recorder can do without.
-  [[nodiscard]] bool IsConnected(const Port& port) const;
+  /// From and to the port; of those of a composite, if `module` is one, not what is within it.
+  [[nodiscard]] std::vector<std::pair<Port*, Port*>> EdgesOf(Port& port, const FrameworkElement* module = nullptr) const;
+  /// Likewise. Who only probes the port does not count: a recorder can do without.
+  [[nodiscard]] bool IsConnected(const Port& port, const FrameworkElement* module) const;
+  /// Of interface ports alone.
+  [[nodiscard]] bool IsInCycle(const Port& port) const;
 
  private:
   using Edge = std::pair<Port*, Port*>;
@@ -55,6 +57,7 @@ class StructureOverlay final : public PathSearch {
   std::vector<FrameworkElement*> added_;
   std::vector<FrameworkElement*> removed_;
   std::map<const Port*, Port*> replaced_;  // a port, and that which stands in its place
+  std::vector<const FrameworkElement*> composites_;  // that have been replaced, with what is connected within
   std::vector<Edge> connected_;
   std::vector<Edge> disconnected_;
 };
