@@ -127,14 +127,18 @@ bool StructureOverlay::IsConnected(const Port& port, const FrameworkElement* mod
   });
 }
 
-bool StructureOverlay::IsInCycle(const Port& port) const {
+bool StructureOverlay::Reaches(const Port& from, const Port& to) const {
   std::set<const Port*> seen;
-  const std::function<bool(const Port&)> leads_back = [&](const Port& at) {
+  const std::function<bool(const Port&)> leads_there = [&](const Port& at) {
     return std::ranges::any_of(Targets(at), [&](const Port* next) {
-      return next == &port || (next->is_proxy() && seen.insert(next).second && leads_back(*next));
+      return next == &to || (next->is_proxy() && seen.insert(next).second && leads_there(*next));
     });
   };
-  return port.is_proxy() && leads_back(port);
+  return &from == &to || leads_there(from);
+}
+
+bool StructureOverlay::IsInCycle(const Port& port) const {
+  return port.is_proxy() && std::ranges::any_of(Targets(port), [&](const Port* next) { return next->is_proxy() && Reaches(*next, port); });
 }
 
 Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOptions& options) {
