@@ -56,11 +56,16 @@ const Port* FindOtherMeaning(const Port& port, const Port& from, const AnyValue&
   return found != ends.end() ? *found : nullptr;
 }
 
-// What each module declares that an interface port leads to.
+// What stops all that an interface port leads to.
 std::shared_ptr<const PortStop> StopWithin(const Port& port) {
   const auto drives = [](const Port* each) { return each->is_driving(); };
   const auto ends = port.is_proxy() ? internal::EndsOf(port) : std::vector<const Port*>();
   return !ends.empty() && std::ranges::all_of(ends, drives) ? ends.front()->stop() : nullptr;
+}
+
+bool IsStoppedBefore(const Port& port) {
+  const auto of_robot = [](const internal::PassedStop& each) { return each.stop->robot() != nullptr; };
+  return std::ranges::any_of(internal::PassedStops(port), of_robot);
 }
 
 }  // namespace
@@ -253,7 +258,10 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
   const bool comes_back = state != nullptr && state->is_replaced && state->mark == mark;
   // Its plugin may have been loaded anew meanwhile: what its module declares now counts.
   const bool is_declared = declared_stop() != nullptr;
-  const std::shared_ptr<const PortStop> within = StopWithin(*this);
+  // An interface port says nothing where all that it leads to says it.
+  const auto ends = is_proxy() ? internal::EndsOf(*this) : std::vector<const Port*>();
+  const bool has_own = !ends.empty() && std::ranges::all_of(ends, [](const Port* each) { return each->declared_stop() != nullptr; });
+  const PortStop* const within = has_own ? ends.front()->declared_stop() : nullptr;
   const auto with_block = [&](const AnyValue& safe, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot) {
     return std::make_shared<const PortStop>(safe, brake, command, std::move(robot), before.get());
   };
@@ -271,11 +279,11 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
     return with_block(safe ? *safe : by.safe_value(), {}, robot ? by.command() : DrivingKind::kUnspecified, robot);
   };
   const std::shared_ptr<const PortStop> drove = before && before->robot() ? before : StopWithin(from);
-  if (!is_declared && !within && comes_back) {
+  if (!is_declared && within == nullptr && comes_back) {
     const PortStop* const had = state->stop_before.get();
     if (had != nullptr) return with_block(had->safe_value(), had->brake(), had->command(), had->robot());
     // What nobody has said to drive is not let go of while it is stopped.
-    if (state->is_later && drove && drove->robot()->in_force()) return stopped(*drove, drove->robot());
+    if (state->is_later && drove && drove->robot()->in_force() && !IsStoppedBefore(*this)) return stopped(*drove, drove->robot());
     if (before && before->block()->in_force()) return stopped(*before, nullptr);
     return std::shared_ptr<const PortStop>();
   }
@@ -284,7 +292,7 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
     const Port* const other = FindOtherMeaning(*this, from, each.safe_value, each.stop->command());
     if (other != nullptr) return refuse(*other, each.safe_value, kDeclare);
   }
-  if (within && !mark) {
+  if (within != nullptr && !mark) {
     if (!before || before->block()->bar() == StopSignal::kNever) return std::shared_ptr<const PortStop>();
     return with_block(within->safe_value(), {}, DrivingKind::kUnspecified, nullptr);
   }
@@ -293,9 +301,9 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
     return other == nullptr ? before : stopped(*before, nullptr);
   }
   const DrivingMark said = mark ? *mark : DrivingMark{};
-  auto whole = Complete(said, drove.get());
+  auto whole = Complete(said, within != nullptr ? within : drove.get());
   if (!whole) return whole.error();
-  const bool is_its_own = is_declared && !said.safe_value;
+  const bool is_its_own = (is_declared || within != nullptr) && !said.safe_value;
   if (const Port* const other = is_its_own || comes_back ? nullptr : FindOtherMeaning(*this, from, whole->safe_value, whole->command)) {
     return refuse(*other, whole->safe_value, said.safe_value ? "the application says the safe value of the place: correct its <driving>" : kDeclare);
   }

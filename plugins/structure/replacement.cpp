@@ -151,6 +151,8 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
       if (!is_stopped) result.misfits.push_back(&port);
     }
   });
+  // By what those within have, too, it is found what an interface port inherits.
+  std::ranges::stable_partition(result.ports, [&](const auto& each) { return each.first->parent() == &before; });
   return result;
 }
 

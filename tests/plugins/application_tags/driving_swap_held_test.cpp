@@ -72,6 +72,9 @@ void DrivingSwapHeld::Swap(std::size_t variant, Held how) {
     return;
   }
   const Stop after = StopAt(*shop);
+  // What is said of a composite is where it is at rest; what a part of it declares, where it is stopped.
+  const auto own = In(*shop).stop();
+  const double rest = own && own->robot() ? Number(own->safe_value()) : after.safe;
   const std::string other = Reader(*shop).unit();
   const bool is_position = DrivingKindByUnits(TypeOf<double>(), other) == DrivingKind::kPosition;
   if (how == Held::kStopped) shop->runtime.robot_stop().Press("a test");
@@ -83,9 +86,9 @@ void DrivingSwapHeld::Swap(std::size_t variant, Held how) {
   } else if (how == Held::kStopped) {
     EXPECT_EQ(now, after.drives ? after.safe : kPublished);
   } else if (how == Held::kBlocked) {
-    EXPECT_TRUE((after.drives && now == after.safe) || is_same || is_zero) << now;
+    EXPECT_TRUE((after.drives && (now == after.safe || now == rest)) || is_same || is_zero) << now;
   } else {
-    EXPECT_TRUE(after.drives ? now == after.safe : now == 0) << now;
+    EXPECT_EQ(now, after.drives ? rest : 0);
   }
   const bool is_undone = bool(history->Undo());
   EXPECT_TRUE(IsHeld(how));
@@ -112,8 +115,9 @@ void DrivingSwapHeld::Swap(std::size_t variant, Held how) {
 // The parameter is the module that is there first.
 TEST_P(DrivingSwapHeld, MovesNothing) {
   for (const Held how : {Held::kBlocked, Held::kByRule, Held::kByRuleAtSource, Held::kByPersonWhoIsHeardOf, Held::kByPerson, Held::kStopped}) {
+    std::size_t first = int(how);  // each second module with one of the marks
     for (const std::string said : {"", " ", " safe=\"0\" command=\"velocity\"", " safe=\"1500\" command=\"velocity\""}) {
-      for (std::size_t second = 0; second < kVariants && !HasFailure(); ++second) {
+      for (std::size_t second = first++ % 4; second < kVariants && !HasFailure(); second += 4) {
         if (!Load(Name(GetParam()), said)) break;
         ASSERT_TRUE(Source().PublishFilled(internal::FillWith(AnyValue(kPublished))));
         SCOPED_TRACE(Name(GetParam()) + said + " -> " + Name(second) + ", held " + std::to_string(int(how)));
