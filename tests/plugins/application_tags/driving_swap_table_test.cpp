@@ -21,7 +21,6 @@ struct Place {
   std::string text;  // of the file
   std::shared_ptr<const DrivingMark> said;
   std::string unit;
-  bool part_drives = false;  // of a composite
 };
 
 struct DrivingSwapTable : TableOfVariants {
@@ -41,7 +40,7 @@ struct DrivingSwapTable : TableOfVariants {
     const ChangeOutcome undone = history->Undo();
     EXPECT_TRUE(undone) << undone.diagnostics.ToString();
   }
-  Place Now() { return {StopAt(*shop), Text(), internal::DrivingState::MarkOf(In(*shop)), Reader(*shop).unit(), In(*shop).is_proxy() && Reader(*shop).is_driving()}; }
+  Place Now() { return {StopAt(*shop), Text(), internal::DrivingState::MarkOf(In(*shop)), Reader(*shop).unit()}; }
   void ExpectAsBefore(const Place& place, const char* after) {
     EXPECT_EQ(StopAt(*shop), place.stop) << after;
     EXPECT_EQ(Text(), place.text) << after;
@@ -61,7 +60,7 @@ void DrivingSwapTable::ExpectSwapped(const Place& before, std::size_t variant) {
   EXPECT_EQ(after.drives, before.stop.drives || declared.drives);
   EXPECT_EQ(Again(), after) << Text();
   if (!after.drives) return;
-  const bool is_of_part = IsComposite(variant) && (declared.drives || (before.part_drives && reader.unit() == before.unit));
+  const bool is_of_part = IsComposite(variant) && reader.is_driving();
   const bool is_said = before.said && !is_of_part;
   const bool says_safe = is_said && before.said->safe_value;
   EXPECT_EQ(after.safe, says_safe ? Number(before.said->safe_value) : declared.drives ? Number(declared.safe_value) : before.stop.safe);
