@@ -9,6 +9,7 @@
 
 #include "core/module/group.h"
 #include "core/module/kept_state.h"
+#include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/hand_slot.h"
 #include "core/port/port_stop.h"
@@ -61,6 +62,8 @@ struct Boxed final : Group {
     return Port::Connect(in, runtime().Create<Undeclared<1>>(*this, "motor").in);
   }
 };
+
+inline double Number(const AnyValue& value) { return *static_cast<const double*>(value.get()); }
 
 class DrivingSwap : public ::testing::Test {
  protected:

@@ -68,8 +68,6 @@ struct Stop {
   bool operator==(const Stop&) const = default;
 };
 
-inline double Number(const AnyValue& value) { return *static_cast<const double*>(value.get()); }
-
 struct TableOfVariants : ::testing::TestWithParam<std::size_t> {
   template <std::size_t... kIndex>
   void Know(SavingWorkshop& workshop, std::index_sequence<kIndex...>) {

@@ -73,6 +73,18 @@ class OtherFragile final : public Fragile {
   Parameter<int> own{this, "own", {.default_value = 7}};
 };
 
+class FragileBox final : public Group {
+ public:
+  using Group::Group;
+  Result<void> Construct() override {
+    auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<int>());
+    auto& out = runtime().Create<ProxyPort>(*this, "out", Port::Direction::kOutput, TypeOf<int>());
+    auto& part = runtime().Create<Fragile>(*this, "part");
+    if (auto tied = Port::Connect(in, part.in, {.queue = 50}); !tied) return tied;
+    return Port::Connect(part.out, out);
+  }
+};
+
 /// A chain of two modules, one of them in a group behind an interface port, and a third that nobody is
 /// connected to.
 class World {
@@ -82,6 +94,7 @@ class World {
     Register<Fragile>("test/fragile");
     Register<OtherFragile>("test/other_fragile");
     Register<Faulty>("test/faulty");
+    Register<FragileBox>("test/fragile_box");
     CreateThread(runtime, "fast", {.period = 10ms});
     CreateThread(runtime, "slow", {.period = 20ms});
     runtime.Create<Group>(runtime.root(), "app");
@@ -257,6 +270,11 @@ TEST_F(FaultsTest, AModuleIsReplacedOrNot) {
 }
 TEST_F(FaultsTest, AReaderIsReplacedOrNot) {
   EndureAll({ReplaceModule{"/app/group/sink", "test/other_fragile"}});
+}
+TEST_F(FaultsTest, AModuleIsReplacedByACompositeOrNot) {
+  EndureAll({ConnectPorts{"/app/source/out", "/app/alone/in", {.queue = 5}}, ConnectPorts{"/app/alone/out", "/app/source/in"},
+             ReplaceModule{"/app/alone", "test/fragile_box"}, ReplaceModule{"/app/alone", "test/other_fragile"},
+             ReplaceModule{"/app/alone", "test/fragile_box"}});
 }
 TEST_F(FaultsTest, AModuleIsAssignedOrNot) {
   EndureAll({AssignToThread{"/app/alone", "fast"}});
