@@ -109,6 +109,9 @@ PathEnd PathSearch::FollowFrom(FrameworkElement& start, std::string_view path,
     FrameworkElement* next = Child(*at, name);
     if (name == ".") next = at;
     if (name == "..") next = at->parent();
+    // As in a module, whose place a composite may have got.
+    const bool is_of_module = name == "input" || name == "output" || name == "parameter";
+    if (next == nullptr && is_of_module && at->kind() == ElementKind::kGroup && &name != &names.back()) next = at;
     if (next == nullptr) {
       const bool is_last = &name == &names.back();
       const bool is_of_group = kind == PathKind::kParameter && FindConfigurable(*at, name);

@@ -19,6 +19,8 @@ class Runtime;
 
 /// The module that has the port as its own; nullptr: none. Under the structure lock, as what follows.
 [[nodiscard]] FrameworkElement* FindModuleOf(const Port& port);
+/// Whether the module is a composite that makes the connection itself: not one that leads round it.
+[[nodiscard]] bool IsWithinComposite(const FrameworkElement& module, const Port& from, const Port& to);
 /// The inputs, or outputs, of the port's module, but for those by which its parameters are set.
 void VisitSiblings(const Port& port, Port::Direction direction, const std::function<void(Port&)>& visit);
 
@@ -38,9 +40,11 @@ struct DrivingState final : Annotation {
   std::shared_ptr<const PortStop> stop_before;
 };
 
-/// Whose units say what the values of the port are: itself; of an interface port those that it leads to, or is fed by, with no
-/// conversion to another type.
+/// Whose units say what the values of the port are: itself; of an interface port those in its group that it leads to, or is fed
+/// by, with no conversion to another type.
 [[nodiscard]] std::vector<const Port*> EndsOf(const Port& port);
+/// Of an interface port: what stops those of them that drive, if that is one and the same.
+[[nodiscard]] std::shared_ptr<const PortStop> StopWithin(const Port& port);
 
 /// Errors: another port has its place now, as an output's while a recording is played.
 [[nodiscard]] Result<void> CheckHasItsPlace(const Port& port);

@@ -21,16 +21,48 @@ namespace runnel {
 
 namespace {
 
-constexpr const char* kDeclare = "have the new module declare that it drives, with its safe value";
-
 Error CannotTakeOver(const Port& port, std::string message) {
   return {.message = std::move(message), .path = port.path()};
 }
 
-// Made by the composite, which makes it again: not what leads round it.
-bool IsWithin(const FrameworkElement& composite, const Port& from, const Port& to) {
-  const bool leads_round_it = from.parent() == &composite && to.parent() == &composite && from.direction() == Port::Direction::kOutput;
-  return from.IsAtOrBelow(composite) && to.IsAtOrBelow(composite) && !leads_round_it;
+std::string TextOf(const AnyValue& value) { return ToText(value.type(), value.get()); }
+
+// A port farther up that is at rest at `before`, and moves others for which `now` is no rest.
+const Port* FindRestOfOthers(const Port& port, const std::vector<Port*>& sinks, const AnyValue& before, const AnyValue& now) {
+  for (const Port* from : port.incoming()) {
+    if (from->is_driving() || from->ConnectionTo(port)->converted) continue;
+    const auto held = from->ValueByHand(Port::Setter::kRule), driven = from->ValueByHand();
+    const bool rests = (held && TextOf(held->value) == TextOf(before)) || (driven && driven->is_at_rest && TextOf(driven->value) == TextOf(before));
+    const auto is_other = [&](const Port* sink) {
+      const auto is_held = [&](const internal::PassedStop& each) { return each.stop->robot() && TextOf(each.safe_value) != TextOf(now); };
+      return std::ranges::find(sinks, sink) == sinks.end() && std::ranges::any_of(internal::PassedStops(*sink), is_held);
+    };
+    if (rests && std::ranges::any_of(from->Sinks(), is_other)) return from;
+    if (const Port* const farther = FindRestOfOthers(*from, sinks, before, now)) return farther;
+  }
+  return nullptr;
+}
+
+bool StaysWithin(const Port::ExchangedModules* modules, const Port& from, const Port& to) {
+  return modules != nullptr && IsWithinComposite(modules->before, from, to);
+}
+
+// As a file would connect it.
+Result<void> CheckConversions(const Port& port, const Port& from, const FrameworkElement& module) {
+  const auto check = [&](const Connection& edge, const Port& source, const Port& to) -> Result<void> {
+    if (IsWithinComposite(module, *edge.from, *edge.to)) return {};
+    const auto conversion = internal::ConversionBetween(source, to, edge.options.part, edge.options.convert);
+    if (conversion && bool(*conversion) == bool(edge.converted)) return {};
+    return CannotTakeOver(port, "cannot take over from " + from.path() + ": the values between " + edge.from->path() + " and " + edge.to->path() +
+                                    (edge.converted ? " are converted by their units, which an interface port has not" : " would be converted"));
+  };
+  for (const Connection& each : from.outgoing()) {
+    if (auto good = check(each, port, *each.to); !good) return good;
+  }
+  for (const Port* source : from.incoming()) {
+    if (auto good = check(*source->ConnectionTo(from), *source, port); !good) return good;
+  }
+  return {};
 }
 
 // A port and one in its place whose units differ.
@@ -43,41 +75,11 @@ std::pair<const Port*, const Port*> FindOtherUnit(const Port& port, const Port& 
   return {};
 }
 
-// Where the safe value of `from` would be that of something else: the command of another unit, a zero that has become a position.
-const Port* FindOtherMeaning(const Port& port, const Port& from, const AnyValue& safe_value, DrivingKind command) {
-  const auto others = internal::EndsOf(from);
-  const auto is_other = [&](const Port* end) {
-    const bool is_same = !others.empty() && std::ranges::all_of(others, [&](const Port* each) { return each->unit() == end->unit(); });
-    const bool is_position = DrivingKindByUnits(end->type(), end->unit()) == DrivingKind::kPosition;
-    return !end->unit().empty() && !is_same && (is_position || !IsSafeInAnyUnit(safe_value, command));
-  };
-  const auto ends = internal::EndsOf(port);
-  const auto found = std::ranges::find_if(ends, is_other);
-  return found != ends.end() ? *found : nullptr;
-}
-
-// What stops all that an interface port leads to.
-std::shared_ptr<const PortStop> StopWithin(const Port& port) {
-  const auto drives = [](const Port* each) { return each->is_driving(); };
-  const auto ends = port.is_proxy() ? internal::EndsOf(port) : std::vector<const Port*>();
-  return !ends.empty() && std::ranges::all_of(ends, drives) ? ends.front()->stop() : nullptr;
-}
-
-bool IsStoppedBefore(const Port& port) {
-  const auto of_robot = [](const internal::PassedStop& each) { return each.stop->robot() != nullptr; };
-  return std::ranges::any_of(internal::PassedStops(port), of_robot);
-}
-
 }  // namespace
 
-// Those whose values are as they come through an interface port.
-std::vector<const Port*> internal::EndsOf(const Port& port) {
-  if (!port.is_proxy()) return {&port};
-  std::vector<const Port*> ends;
-  for (const Port* each : port.direction() == Port::Direction::kInput ? port.Sinks() : port.Sources()) {
-    if (&each->type() == &port.type()) ends.push_back(each);
-  }
-  return ends;
+bool IsWithinComposite(const FrameworkElement& module, const Port& from, const Port& to) {
+  const bool leads_round_it = from.parent() == &module && to.parent() == &module && from.direction() == Port::Direction::kOutput;
+  return module.kind() == ElementKind::kGroup && from.IsAtOrBelow(module) && to.IsAtOrBelow(module) && !leads_round_it;
 }
 
 Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const ExchangedModules* modules) {
@@ -102,11 +104,22 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
     Error error = CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path());
     error.hint = stop.error().hint;
     return error;
+  } else if (const auto* state = port.FindAnnotation<internal::DrivingState>(); state == nullptr || !state->is_replaced) {
+    const AnyValue before = from.FindRest(), now = *stop ? (*stop)->safe_value() : port.FindRest();
+    const bool changes = before && now && TextOf(before) != TextOf(now);
+    if (const Port* const rests = changes ? FindRestOfOthers(from, from.Sinks(), before, now) : nullptr) {
+      Error error = CannotTakeOver(port, "has the safe value " + TextOf(now) + ", and " + rests->path() + " is at rest at " + TextOf(before) + ", by which others move, too");
+      error.hint = "release it first";
+      return error;
+    }
+  }
+  if (modules != nullptr) {
+    if (auto converted = CheckConversions(port, from, modules->before); !converted) return converted;
   }
   if (modules == nullptr && (!port.incoming_.empty() || !port.outgoing_.empty())) {
     return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
   }
-  const auto pulls = [](const Connection& each) { return each.options.pull; };
+  const auto pulls = [&](const Connection& each) { return each.options.pull && !StaysWithin(modules, from, *each.to); };
   if (!port.is_pullable() && std::ranges::any_of(from.outgoing_, pulls))
     return CannotTakeOver(port, "cannot be pulled, and is to take over from one that is");
   return {};
@@ -168,7 +181,7 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
 
 // Where it is for somebody who drives it no more, as SafeValueOf() says it.
 AnyValue Port::FindRest() const {
-  const auto stop = this->stop() ? this->stop() : StopWithin(*this);
+  const auto stop = this->stop() ? this->stop() : internal::StopWithin(*this);
   if (stop) return stop->safe_value();
   if (auto safe = FindSafeValue({}, DrivingKind::kUnspecified)) return *safe;
   const std::shared_ptr<const void> value = type_.is_transparent() ? type_.Make() : nullptr;
@@ -203,8 +216,7 @@ void Port::ReserveFor(const Port& from) {
 }
 
 void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks, const FrameworkElement* module) noexcept {
-  const bool is_composite = module != nullptr && module->kind() == ElementKind::kGroup;
-  const auto stays = [&](const Port& source, const Port& to) { return is_composite && IsWithin(*module, source, to); };
+  const auto stays = [&](const Port& source, const Port& to) { return module != nullptr && IsWithinComposite(*module, source, to); };
   const auto stays_at_source = [&](const Connection& each) { return stays(from, *each.to); };
   const auto stays_at_end = [&](const Port* each) { return stays(*each, from); };
   const auto first = std::stable_partition(from.outgoing_.begin(), from.outgoing_.end(), stays_at_source);
@@ -247,70 +259,6 @@ void Port::BindAnew(Port& from) {
     port->RebindSinks();
     port->PruneConversions();
   }
-}
-
-// What stops this port in the place of the other: what has been said of the place, then what its own module declares, then what
-// it had if it was there before, else what stopped the other. With the block of the place.
-Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) const {
-  const std::shared_ptr<const PortStop> before = from.stop();
-  const auto mark = internal::DrivingState::MarkOf(from);
-  const auto* const state = FindAnnotation<internal::DrivingState>();
-  const bool comes_back = state != nullptr && state->is_replaced && state->mark == mark;
-  // Its plugin may have been loaded anew meanwhile: what its module declares now counts.
-  const bool is_declared = declared_stop() != nullptr;
-  // An interface port says nothing where all that it leads to says it.
-  const auto ends = is_proxy() ? internal::EndsOf(*this) : std::vector<const Port*>();
-  const bool has_own = !ends.empty() && std::ranges::all_of(ends, [](const Port* each) { return each->declared_stop() != nullptr; });
-  const PortStop* const within = has_own ? ends.front()->declared_stop() : nullptr;
-  const auto with_block = [&](const AnyValue& safe, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot) {
-    return std::make_shared<const PortStop>(safe, brake, command, std::move(robot), before.get());
-  };
-  const auto refuse = [&](const Port& end, const AnyValue& safe, std::string hint) {
-    return Error{.message = "is in " + end.unit() + ", and its safe value, " + ToText(type(), safe.get()) + ", is not", .hint = std::move(hint)};
-  };
-  // Where nothing else is known of its place: of its own unit.
-  const auto stopped = [&](const PortStop& by, const std::shared_ptr<StopSignal>& robot) -> Result<std::shared_ptr<const PortStop>> {
-    const auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
-    const Port* const other = safe ? nullptr : FindOtherMeaning(*this, from, by.safe_value(), by.command());
-    if (other != nullptr && !by.in_force()) return std::shared_ptr<const PortStop>();
-    if (other != nullptr && (!comes_back || state->is_later)) {
-      return refuse(*other, by.safe_value(), by.block()->in_force() ? "release its block first" : "release STOP first");
-    }
-    return with_block(safe ? *safe : by.safe_value(), {}, robot ? by.command() : DrivingKind::kUnspecified, robot);
-  };
-  const std::shared_ptr<const PortStop> drove = before && before->robot() ? before : StopWithin(from);
-  if (!is_declared && within == nullptr && comes_back) {
-    const PortStop* const had = state->stop_before.get();
-    if (had != nullptr) return with_block(had->safe_value(), had->brake(), had->command(), had->robot());
-    // What nobody has said to drive is not let go of while it is stopped.
-    if (state->is_later && drove && drove->robot()->in_force() && !IsStoppedBefore(*this)) return stopped(*drove, drove->robot());
-    if (before && before->block()->in_force()) return stopped(*before, nullptr);
-    return std::shared_ptr<const PortStop>();
-  }
-  for (const internal::PassedStop& each : internal::PassedStops(from)) {
-    if (each.stop == before || !each.stop->robot() || comes_back) continue;
-    const Port* const other = FindOtherMeaning(*this, from, each.safe_value, each.stop->command());
-    if (other != nullptr) return refuse(*other, each.safe_value, kDeclare);
-  }
-  if (within != nullptr && !mark) {
-    if (!before || before->block()->bar() == StopSignal::kNever) return std::shared_ptr<const PortStop>();
-    return with_block(within->safe_value(), {}, DrivingKind::kUnspecified, nullptr);
-  }
-  if (!is_declared && !drove) {
-    const Port* const other = before ? FindOtherMeaning(*this, from, before->safe_value(), before->command()) : nullptr;
-    return other == nullptr ? before : stopped(*before, nullptr);
-  }
-  const DrivingMark said = mark ? *mark : DrivingMark{};
-  auto whole = Complete(said, within != nullptr ? within : drove.get());
-  if (!whole) return whole.error();
-  const bool is_its_own = (is_declared || within != nullptr) && !said.safe_value;
-  if (const Port* const other = is_its_own || comes_back ? nullptr : FindOtherMeaning(*this, from, whole->safe_value, whole->command)) {
-    return refuse(*other, whole->safe_value, said.safe_value ? "the application says the safe value of the place: correct its <driving>" : kDeclare);
-  }
-  const bool is_as_before = before && before->robot() && whole->safe_value.get() == before->safe_value().get() &&
-                            whole->brake == before->brake() && whole->command == before->command();
-  if (is_as_before) return before;
-  return with_block(whole->safe_value, *whole->brake, whole->command, runtime().robot_stop().signal());
 }
 
 }  // namespace runnel

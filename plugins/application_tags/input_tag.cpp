@@ -65,7 +65,7 @@ std::vector<SavedTag> SavedLimits(FrameworkElement& module) {
   std::vector<SavedTag> tags;
   module.VisitAll<const Port>([&](const Port& port) {
     const auto* const given = port.FindAnnotation<GivenLimits>();
-    if (given == nullptr) return;
+    if (given == nullptr || !given->limits.has_some()) return;
     const InputLimits& limits = given->limits;
     const auto bound = [](const std::optional<double>& value) {
       return value ? TextOf(*value) : std::string();

@@ -158,10 +158,11 @@ std::string WhatIsSetAt(const Port& port) {
     if (is_set) text += (text.empty() ? "" : ", ") + std::string(what);
   };
   add(port.is_blocked(), "its block");
-  add(port.FindMark().has_value(), "its mark as driving");
+  add(port.is_driving(), "its mark as driving");
   add(port.is_set_by_hand(), "its value by hand");
   add(port.is_set_by_hand(Port::Setter::kRule), "its value by a rule");
-  add(port.FindAnnotation<GivenLimits>() != nullptr, "its limits");
+  const auto* const given = port.FindAnnotation<GivenLimits>();
+  add(given != nullptr && given->limits.has_some(), "its limits");
   add(!TagsOf(port).empty(), "its tags");
   add(IsRecorded(port), "its recording");
   add(IsOffered(port), "its offer");

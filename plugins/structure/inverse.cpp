@@ -9,6 +9,7 @@
 #include "core/module/group_parameter.h"
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/driving_ports.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
@@ -67,17 +68,13 @@ void AddCreation(const FrameworkElement& element, FrameworkElement::Inherit how,
 }
 
 // Whether a composite has made it, and makes it again by itself.
-bool IsWithinComposite(const Connection& edge) {
+bool IsWithinOne(const Connection& edge) {
   const FrameworkElement* const composite = FindModuleAround(*edge.from);
-  if (composite == nullptr || composite->kind() != ElementKind::kGroup) return false;
-  if (FindModuleAround(*edge.to) != composite) return false;
-  const bool leads_round_it = edge.from->parent() == composite && edge.to->parent() == composite &&
-                              edge.from->direction() == Port::Direction::kOutput;
-  return !leads_round_it;
+  return composite != nullptr && IsWithinComposite(*composite, *edge.from, *edge.to);
 }
 
 void AddConnection(const Connection& edge, ChangeSet& changes) {
-  if (IsWithinComposite(edge)) return;
+  if (IsWithinOne(edge)) return;
   changes.push_back(ConnectPorts{edge.from->path(), LastingPath(*edge.to), edge.options});
 }
 

@@ -191,7 +191,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       // What has been set or assigned since the new module was made, by this change set or others.
                       if (auto set = CopyLateSettings(before, values, change.settings, next); !set)
                         return set;
-                      next.InheritAnnotations(before);
+                      InheritAnnotations(next, before, ports);
                       if (change.state) {
                         if (auto given = change.state->GivePorts(next, ports); !given) return given;
                       }

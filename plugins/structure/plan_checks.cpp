@@ -14,6 +14,7 @@
 #include "core/paths/late_connections.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"
+#include "core/port/given_limits.h"
 #include "core/port/proxy_port.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
@@ -265,7 +266,12 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
                          .path = before.path()});
   }
   before.VisitAll<Port>([&](Port& port) {
-    if (std::ranges::count(match.ports, &port, &std::pair<Port*, Port*>::first) > 0) return;
+    const auto found = std::ranges::find(match.ports, &port, &std::pair<Port*, Port*>::first);
+    const auto* const given = port.FindAnnotation<GivenLimits>();
+    if (found != match.ports.end() && found->second->is_proxy() && given != nullptr && given->limits.has_some()) {
+      warnings_.push_back({.message = "its limits went with it: an interface port has none", .path = port.path()});
+    }
+    if (found != match.ports.end()) return;
     if (const std::string what = WhatIsSetAt(port); !what.empty()) {
       warnings_.push_back({.message = what + " went with it: the new module has no such port", .path = port.path()});
     }

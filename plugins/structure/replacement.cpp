@@ -11,6 +11,8 @@
 #include "core/module/group_parameter.h"
 #include "core/module/kept_state.h"
 #include "core/paths/path_search.h"
+#include "core/port/driving_ports.h"
+#include "core/port/given_limits.h"
 
 namespace runnel::internal {
 
@@ -21,6 +23,20 @@ bool IsComposite(const FrameworkElement& module) { return module.kind() == Eleme
 std::optional<Port::ExchangedModules> Composites(const FrameworkElement& before, const FrameworkElement& after) {
   if (!IsComposite(before) && !IsComposite(after)) return {};
   return Port::ExchangedModules{before, after};
+}
+
+// Whether something moves by what comes to the port, through parts of the module, too.
+bool MovesSomething(const Port& port, const FrameworkElement& module, const std::set<const Port*>& driving) {
+  std::set<const Port*> seen;
+  const std::function<bool(const Port&)> moves = [&](const Port& at) {
+    if (!at.IsAtOrBelow(module) || !seen.insert(&at).second) return false;
+    if (at.is_driving() || driving.contains(&at)) return true;
+    bool found = std::ranges::any_of(at.outgoing(), [&](const Connection& each) { return moves(*each.to); });
+    if (at.is_proxy() || at.direction() == Port::Direction::kOutput) return found;
+    VisitSiblings(at, Port::Direction::kOutput, [&](const Port& output) { found = found || moves(output); });
+    return found;
+  };
+  return moves(port);
 }
 
 // The element below `after` that is called as `port` is below `before`.
@@ -41,7 +57,7 @@ Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkEle
 }
 
 Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {
-  const auto group = after.Find(port.parent()->path().substr(before.path().size() + 1));
+  const auto group = port.parent() == &before ? Result<FrameworkElement*>(&after) : after.Find(port.parent()->path().substr(before.path().size() + 1));
   return {.message = "the new module has no port '" + port.name() + "', which is connected",
           .path = port.path(),
           .hint = group ? NearestNameHint(port.name(),
@@ -138,22 +154,47 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
                      const std::function<bool(const Port&)>& is_connected) {
   PortMatch result;
   const auto composites = Composites(before, after);
+  std::set<const Port*> driving;  // of those that take over
   before.VisitAll<Port>([&](Port& port) {
     Port* match = Counterpart(port, before, after);
     if (std::ranges::count(result.ports, match, &std::pair<Port*, Port*>::second) > 0) match = nullptr;
     const auto possible = match != nullptr ? Port::CheckTakeOver(*match, port, composites ? &*composites : nullptr)
                                            : NoCounterpart(port, before, after);
+    const bool is_held = port.is_blocked() || port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule);
     const bool is_stopped = match != nullptr && (port.FindMark() || port.is_blocked());
     if (possible) {
       result.ports.push_back({&port, match});
+      if (port.is_driving()) driving.insert(match);
     } else if (is_stopped || is_connected(port)) {
       result.errors.push_back(possible.error());
       if (!is_stopped) result.misfits.push_back(&port);
+    } else if (composites && is_held && port.parent() != &before) {
+      result.errors.push_back({.message = "it is held, and the new module has no such port", .path = port.path(), .hint = "release it first"});
     }
   });
   // By what those within have, too, it is found what an interface port inherits.
   std::ranges::stable_partition(result.ports, [&](const auto& each) { return each.first->parent() == &before; });
+  if (!composites) return result;
+  for (const auto& [port, match] : result.ports) {
+    const auto* const state = match->FindAnnotation<DrivingState>();
+    const bool comes_back = state != nullptr && state->is_replaced && !port->runtime().robot_stop().in_force();
+    const bool is_input = port->direction() == Port::Direction::kInput;
+    if (!is_input || comes_back || StopWithin(*port) || !MovesSomething(*port, before, {}) || MovesSomething(*match, after, driving)) continue;
+    result.errors.push_back({.message = "something moves by it, and the new module does not say that", .path = port->path(),
+                             .hint = "have the new module declare that it drives, with its safe value"});
+  }
   return result;
+}
+
+void InheritAnnotations(FrameworkElement& after, const FrameworkElement& before, const std::vector<std::pair<Port*, Port*>>& ports) {
+  after.InheritAnnotations(before);
+  for (const auto& [from, to] : ports) {
+    if (from->is_proxy() == to->is_proxy()) continue;
+    const auto* const own = to->FindAnnotation<GivenLimits>();
+    auto limits = std::make_unique<GivenLimits>(own != nullptr ? own->limits : InputLimits{});
+    to->InheritAnnotations(*from);
+    to->Annotate(std::move(limits));
+  }
 }
 
 void TakeOver(Port& port, Port& from, const FrameworkElement& before, const FrameworkElement& after) {

@@ -42,6 +42,8 @@ struct PortMatch {
 [[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
                                    const std::function<bool(const Port&)>& is_connected);
 
+/// Also of ports that are not at the same place in a module as in a composite. What only a module's input can have stays.
+void InheritAnnotations(FrameworkElement& after, const FrameworkElement& before, const std::vector<std::pair<Port*, Port*>>& ports);
 /// As a module's port does, or a composite's.
 void TakeOver(Port& port, Port& from, const FrameworkElement& before, const FrameworkElement& after);
 

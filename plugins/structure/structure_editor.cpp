@@ -140,17 +140,17 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
   const FrameworkElement* const place = NextSibling(*after);
   std::vector<BeforeHandOver::Held> held;
   for (const auto* each : {after, &*waiting.replaced.before}) (void)Settle(*each, held);  // it has failed, and goes anyway
-  waiting.replaced.before->VisitAll<Port>([](Port& port) { DrivingState::Of(port).is_later = true; });
+  FrameworkElement& before = *waiting.replaced.before;
+  before.VisitAll<Port>([](Port& port) { DrivingState::Of(port).is_later = true; });
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
-  const PortMatch match =
-      MatchPorts(*after, *waiting.replaced.before, [](const Port&) { return false; });
-  waiting.replaced.before->InheritAnnotations(*after);
+  const PortMatch match = MatchPorts(*after, before, [](const Port&) { return false; });
+  InheritAnnotations(before, *after, match.ports);
   auto gone = runtime_.Unlist(*after);
   if (!gone) return gone.error();
   std::size_t moved = 0;
   try {
     for (const auto& [from, to] : match.ports) {
-      to->TakeOver(*from);
+      TakeOver(*to, *from, *after, before);
       ++moved;
     }
     Must(runtime_.List(std::move(waiting.replaced.before), place));
@@ -159,7 +159,7 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
     Retry([&] {
       for (; moved > 0; --moved) {
         const auto& [from, to] = match.ports[moved - 1];
-        from->TakeOver(*to);
+        TakeOver(*from, *to, before, *after);
       }
       (void)runtime_.List(std::move(*gone), place);
     });

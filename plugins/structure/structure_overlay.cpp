@@ -6,17 +6,10 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
+#include "core/port/driving_ports.h"
 #include "core/port/probe_port.h"
 
 namespace runnel::internal {
-
-namespace {
-
-bool IsWithin(const FrameworkElement& module, const Port& from, const Port& to) {
-  return module.kind() == ElementKind::kGroup && from.IsAtOrBelow(module) && to.IsAtOrBelow(module);
-}
-
-}  // namespace
 
 bool StructureOverlay::IsGone(const FrameworkElement& element) const {
   return std::ranges::any_of(removed_,
@@ -103,7 +96,7 @@ std::vector<Port*> StructureOverlay::Targets(const Port& from) const {
   const auto add_outgoing = [&](const Port& port) {
     for (const Connection& each : port.outgoing()) {
       Port& now = NowFor(*each.to);
-      const bool has_gone = std::ranges::any_of(composites_, [&](const auto* gone) { return IsWithin(*gone, port, *each.to); });
+      const bool has_gone = std::ranges::any_of(composites_, [&](const auto* gone) { return IsWithinComposite(*gone, port, *each.to); });
       if (!has_gone && !IsGone(now)) targets.push_back(&now);
     }
   };
@@ -184,7 +177,7 @@ std::vector<std::pair<Port*, Port*>> StructureOverlay::EdgesOf(Port& port, const
   for (const Edge& edge : connected_) {
     if (edge.second == &port && std::ranges::count(edges, edge) == 0) edges.push_back(edge);
   }
-  std::erase_if(edges, [&](const Edge& edge) { return module != nullptr && IsWithin(*module, *edge.first, *edge.second); });
+  std::erase_if(edges, [&](const Edge& edge) { return module != nullptr && IsWithinComposite(*module, *edge.first, *edge.second); });
   return edges;
 }
 

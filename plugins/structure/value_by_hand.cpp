@@ -18,12 +18,14 @@ Error At(const Port& port, std::string message) {
   return {.message = std::move(message), .path = port.path()};
 }
 
-// Of what something moves by if a value comes to the port.
+bool IsInOtherUnit(const Port& a, const Port& b) { return !a.unit().empty() && !b.unit().empty() && a.unit() != b.unit(); }
+
+// Of what something moves by if a value comes to the port; none of what is in another unit.
 std::vector<AnyValue> SafeValuesBehind(const Port& port) {
   std::vector<AnyValue> all;
   for (const Port* sink : port.Sinks()) {
     for (const internal::PassedStop& each : internal::PassedStops(*sink)) {
-      if (each.stop->robot() != nullptr) all.push_back(each.safe_value);
+      if (each.stop->robot() != nullptr) all.push_back(IsInOtherUnit(*sink, port) ? AnyValue() : each.safe_value);
     }
   }
   return all;
@@ -71,8 +73,9 @@ Result<AnyValue> SafeValueOf(const Port& port) {
   std::optional<std::string> text;
   for (const AnyValue& each : SafeValuesBehind(port)) {
     const bool is_zero = IsVelocity(port.type(), port.unit());
-    if (&each.type() != &port.type() && !is_zero) return At(port, "moves something behind a conversion; only that has a safe value");
-    if (&each.type() != &port.type()) continue;
+    const bool is_another = !each || &each.type() != &port.type();
+    if (is_another && !is_zero) return At(port, "moves something behind a conversion; only that has a safe value");
+    if (is_another) continue;
     std::string other = ToText(each.type(), each.get());
     if (text && *text != other) return At(port, "moves several things, and their safe values differ");
     text = std::move(other);

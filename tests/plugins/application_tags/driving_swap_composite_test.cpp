@@ -31,6 +31,22 @@ struct Two final : Group {
     return Port::Connect(in, runtime().Create<Undeclared<1>>(*this, "right").in);
   }
 };
+struct Ramped final : Module {
+  using Module::Module;
+  Input<double> in{this, "in"};
+  Output<double> out{this, "out"};
+  void Update() override {}
+};
+/// What drives is behind another module.
+struct Deep final : Group {
+  using Group::Group;
+  Result<void> Construct() override {
+    auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
+    auto& ramp = runtime().Create<Ramped>(*this, "ramp");
+    if (auto tied = Port::Connect(in, ramp.in); !tied) return tied;
+    return Port::Connect(ramp.out, runtime().Create<Declared<DrivingKind::kVelocity, 0>>(*this, "wheels").in);
+  }
+};
 /// As a plugin that is loaded anew with another unit.
 struct Changing final : Module {
   using Module::Module;
@@ -55,6 +71,7 @@ struct DrivingSwapComposite : DrivingSwap {
     shop_.Add<Boxed>("test/boxed");
     shop_.Add<BoxedNumber>("test/boxed_number");
     shop_.Add<Two>("test/two");
+    shop_.Add<Deep>("test/deep");
     shop_.Add<Brakes>("test/brakes");
     shop_.Add<Changing>("test/changing");
     shop_.Add<OfUnit>("test/of_unit");
@@ -118,6 +135,44 @@ TEST_F(DrivingSwapComposite, WhatDroveDrivesInEachPart) {
   ASSERT_TRUE(shop_.runtime.robot_stop().Release("a test"));
   Load("test/esc", "");
   EXPECT_FALSE(Swap("test/two")) << "1500 is not in m/s";
+}
+
+// Nor under STOP, on the way back.
+TEST_F(DrivingSwapComposite, WhatDroveSomewhereWithinHasToBeDeclared) {
+  Load("test/motor", "");
+  ASSERT_TRUE(Swap("test/deep"));
+  const auto refused = Swap("test/boxed");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/m/in: something moves by it, and the new module does not say that"));
+  EXPECT_TRUE(Swap("test/drive"));
+  EXPECT_TRUE(history_.Undo());
+  EXPECT_TRUE(Swap("test/deep"));
+  EXPECT_TRUE(history_.Undo());
+  EXPECT_TRUE(history_.Undo()) << "to the motor";
+  ASSERT_TRUE(history_.Redo());
+  shop_.runtime.robot_stop().Press("a test");
+  EXPECT_FALSE(history_.Undo());
+}
+
+TEST_F(DrivingSwapComposite, WhatRestsFartherUpMovesNobodyElse) {
+  shop_.Add<Declared<DrivingKind::kVelocity, 1520>>("test/other_esc");
+  Load("test/esc", "  <module name=\"right\" type=\"test/esc\"/>\n  <connect from=\"s/value\" to=\"right/in\"/>\n");
+  auto& source = shop_.Get<Port>("/demo/s/output/value");
+  ASSERT_TRUE(source.PublishByHand(internal::FillWith(AnyValue(1500.)), Port::Setter::kRule));
+  const auto refused = Swap("test/other_esc");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/s/output/value is at rest at 1500, by which others move, too"));
+  EXPECT_EQ(shop_.Get<Input<double>>("/demo/right/input/in").Get(), 1500);
+  source.Release(Port::Setter::kRule);
+  EXPECT_TRUE(Swap("test/other_esc"));
+}
+
+TEST_F(DrivingSwapComposite, ABlockOfAPartIsNotLetGoOf) {
+  Load("test/two", "");
+  ASSERT_TRUE(shop_.Get<Port>("/demo/m/right/input/in").Block());
+  const auto refused = Swap("test/drive");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/m/right/input/in: it is held, and the new module has no such port; release it first"));
 }
 
 TEST_F(DrivingSwapComposite, TheWayBackIsNoneIntoAnotherUnit) {

@@ -1,6 +1,8 @@
 // Composites in the place of modules, and of one another.
 
+#include "core/element/tags.h"
 #include "core/paths/path_search.h"
+#include "core/port/given_limits.h"
 #include "core/port/proxy_port.h"
 #include "core/port/stand_in.h"
 #include "plugins/structure/change_history.h"
@@ -21,6 +23,15 @@ class Passer final : public Module {
   void Update() override {
     in.Drain([this](const auto& value) { out.Publish(*value); });
   }
+};
+
+class Taker final : public Module {
+ public:
+  using Module::Module;
+  Input<int> in{this, "in"};
+
+ private:
+  void Update() override {}
 };
 
 struct Interface : Group {
@@ -68,6 +79,7 @@ class CompositeTest : public EditorTest {
     Register<Passer>("test/passer");
     Register<Boxed>("test/boxed");
     Register<Straight>("test/straight");
+    Register<Taker>("test/taker");
     Register<Measured>("test/measured");
     Register<BoxedMeasured>("test/boxed_measured");
   }
@@ -134,6 +146,10 @@ TEST_F(CompositeTest, ACycleOfInterfacePortsIsRefused) {
   EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/straight"}}), HasSubstr("would close a cycle of interface ports"));
   Swap("test/boxed");
   EXPECT_EQ(At<Port>("/app/m/out").outgoing().size(), 3U) << "what leads round it stays";
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/straight"}}), HasSubstr("would close a cycle of interface ports"));
+  Must({DisconnectPorts{"/app/m/out", "/app/sink/in"}, DisconnectPorts{"/app/m/out", "/app/sink/side"}});
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/taker"}}), HasSubstr("/app/m/out: the new module has no port 'out', which is connected"));
+  Must({ConnectPorts{"/app/m/out", "/app/sink/in"}, ConnectPorts{"/app/m/out", "/app/sink/side"}});
   Swap("test/passer");
   EXPECT_EQ(At<Passer>("/app/m").out.outgoing().size(), 3U);
   Must({CreateGroup{"/app/g"}, CreatePort{"/app/g/in", Port::Direction::kInput, "int32"}, CreatePort{"/app/g/out", Port::Direction::kOutput, "int32"},
@@ -182,6 +198,39 @@ TEST_F(CompositeTest, ValuesAreConvertedAndWithinTheLimitsOfWhoReadsThem) {
   const int last = At<Sink>("/app/sink").side.Get();
   Steps(5);
   EXPECT_NEAR(At<Sink>("/app/sink").side.Get(), last, 3) << "out of the limits";
+}
+
+// By which rules, and connections that wait, know it.
+TEST_F(CompositeTest, IsFoundByThePathsOfAModule) {
+  Make("test/passer");
+  const auto found = [&](const char* path) { return *PathSearch(runtime).FindPort(path, PathKind::kElement); };
+  Swap("test/boxed");
+  for (const char* const path : {"/app/m/in", "/app/m/input/in"}) EXPECT_EQ(found(path), &At<Port>("/app/m/in"));
+  Swap("test/passer");
+  for (const char* const path : {"/app/m/in", "/app/m/input/in"}) EXPECT_EQ(found(path), &At<Passer>("/app/m").in);
+  EXPECT_FALSE(PathSearch(runtime).FindPort("/app/input/m", PathKind::kElement));
+}
+
+TEST_F(CompositeTest, HasTheTagsOfThePlaceAndTellsOfLimits) {
+  Make("test/measured", "round");
+  ASSERT_TRUE(SetTags(At<Port>("/app/m/input/in"), {"fast"}));
+  At<Port>("/app/m/input/in").Annotate(std::make_unique<GivenLimits>(InputLimits{.maximum = 3.}));
+  const auto swapped = history_.Apply({ReplaceModule{"/app/m", "test/boxed_measured"}});
+  ASSERT_TRUE(swapped);
+  EXPECT_THAT(swapped.diagnostics.ToString(), HasSubstr("/app/m/input/in: its limits went with it"));
+  EXPECT_THAT(TagsOf(At<Port>("/app/m/in")), ElementsAre("fast"));
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_THAT(TagsOf(At<Port>("/app/m/input/in")), ElementsAre("fast"));
+  EXPECT_EQ(At<Port>("/app/m/input/in").limits().maximum, 3.);
+}
+
+TEST_F(CompositeTest, APartThatIsHeldIsNotLetGoOf) {
+  Make("test/boxed");
+  auto& part = At<Passer>("/app/m/part").in;
+  ASSERT_TRUE(part.PublishByHand(internal::FillWith(AnyValue(-3)), Port::Setter::kRule));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/passer"}}), HasSubstr("/app/m/part/input/in: it is held, and the new module has no such port; release it first"));
+  Swap("test/boxed");
+  EXPECT_TRUE(At<Passer>("/app/m/part").in.is_set_by_hand(Port::Setter::kRule));
 }
 
 TEST_F(CompositeTest, HasAnotherNameWithAllItsConnections) {
