@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/paths/path_search.h"
 #include "plugins/application/application.h"
 #include "plugins/command_service/command_service.h"
 #include "plugins/recording/recorder.h"
@@ -48,8 +49,15 @@ struct Trial {
     return dynamic_cast<T&>(**found);
   }
   [[nodiscard]] FrameworkElement& Module() { return At(module); }
-  [[nodiscard]] Port& In(const std::string& name = "in") { return At<Port>(module + "/input/" + name); }
-  [[nodiscard]] Port& Out() { return At<Port>(module + "/output/out"); }
+  // Of a module, or of a composite.
+  [[nodiscard]] Port& In(const std::string& name = "in") { return Find(name, PathKind::kInput); }
+  [[nodiscard]] Port& Out() { return Find("out", PathKind::kOutput); }
+  [[nodiscard]] Port& Find(const std::string& name, PathKind kind) {
+    const std::lock_guard lock(application->runtime().structure_mutex());
+    const auto found = PathSearch(application->runtime()).FindPort(module + "/" + name, kind);
+    if (!found) throw std::runtime_error(found.error().ToString());
+    return **found;
+  }
 
   void Note(const ChangeOutcome& outcome) {
     is_refused = is_refused || !outcome;
