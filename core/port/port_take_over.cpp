@@ -104,7 +104,7 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
     Error error = CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path());
     error.hint = stop.error().hint;
     return error;
-  } else if (const auto* state = port.FindAnnotation<internal::DrivingState>(); state == nullptr || !state->is_replaced) {
+  } else if (const auto* state = port.FindAnnotation<internal::DrivingState>(); state == nullptr || !state->is_replaced || state->is_later) {
     const AnyValue before = from.FindRest(), now = *stop ? (*stop)->safe_value() : port.FindRest();
     const bool changes = before && now && TextOf(before) != TextOf(now);
     if (const Port* const rests = changes ? FindRestOfOthers(from, from.Sinks(), before, now) : nullptr) {

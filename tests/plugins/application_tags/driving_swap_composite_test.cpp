@@ -167,6 +167,15 @@ TEST_F(DrivingSwapComposite, WhatRestsFartherUpMovesNobodyElse) {
   EXPECT_TRUE(Swap("test/other_esc"));
 }
 
+TEST_F(DrivingSwapComposite, APortOfAPlainGroupGetsNothingByAnotherName) {
+  Load("test/motor", "  <group name=\"g\">\n    <port name=\"in\" direction=\"input\" type=\"double\"/>\n    <module name=\"w\" type=\"test/drive\"/>\n    <connect from=\"in\" to=\"w/in\"/>\n  </group>\n  <connect from=\"s/value\" to=\"g/in\"/>\n");
+  ASSERT_TRUE(shop_.Get<Port>("/demo/g/in").PublishByHand(internal::FillWith(AnyValue(0.2))));
+  ASSERT_TRUE(history_.Apply({RenameElement{"/demo/g", "h"}}));
+  EXPECT_TRUE(shop_.Get<Port>("/demo/h/in").is_set_by_hand());
+  EXPECT_FALSE(shop_.Get<Port>("/demo/h/in").is_driving());
+  EXPECT_EQ(shop_.Get<Port>("/demo/h/in").Sinks().size(), 1U);
+}
+
 TEST_F(DrivingSwapComposite, ABlockOfAPartIsNotLetGoOf) {
   Load("test/two", "");
   ASSERT_TRUE(shop_.Get<Port>("/demo/m/right/input/in").Block());
