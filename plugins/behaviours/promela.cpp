@@ -21,18 +21,44 @@ std::string Joined(const std::vector<std::size_t>& places, const char* format, c
   return text.empty() ? none : "(" + text + ")";
 }
 
+bool Has(const std::vector<std::size_t>& places, std::size_t place) { return std::ranges::find(places, place) != places.end(); }
+
+// Of the behaviours at `places`, as the one at `at` sees them: late ones as they were in the cycle before, those of other threads
+// as they were or are.
+std::string Seen(const BehaviourNetwork& network, std::size_t at, const std::vector<std::size_t>& places, const char* before,
+                 const char* separator, const char* none) {
+  std::string text;
+  for (const std::size_t each : places) {
+    text += (text.empty() ? "" : separator) + std::string(before);
+    if (Has(network.nodes[at].elsewhere, each)) {
+      text += fmt::format("seen_{}_{}", at, each);
+    } else {
+      text += fmt::format("{}_{}", Has(network.nodes[at].late, each) ? "before" : "active", each);
+    }
+  }
+  return text.empty() ? none : "(" + text + ")";
+}
+
+// Whether somebody sees what it was before.
+bool IsSeenLate(const BehaviourNetwork& network, std::size_t place) {
+  return std::ranges::any_of(network.nodes, [&](const NetworkNode& node) { return Has(node.late, place) || Has(node.elsewhere, place); });
+}
+
 bool HasWill(const NetworkNode& node) { return node.needs_any.empty(); }
 
-std::string Stimulated(const NetworkNode& node) {
+std::string Stimulated(const BehaviourNetwork& network, std::size_t at) {
+  const NetworkNode& node = network.nodes[at];
   if (node.mode != StimulationMode::kAuto) return node.mode == StimulationMode::kEnabled ? "true" : "false";
   if (node.has_foreign_stimulation) return "true";  // whether it is, is part of whether it wants to
-  return Joined(node.stimulators, "active_{}", " || ", "false");
+  return Seen(network, at, node.stimulators, "", " || ", "false");
 }
 
 std::string Declarations(const BehaviourNetwork& network, bool is_fair) {
   std::string text;
   for (std::size_t i = 0; i < network.nodes.size(); ++i) {
     text += fmt::format("bool active_{};  /* {} */\n", i, network.nodes[i].name);
+    if (IsSeenLate(network, i)) text += fmt::format("bool before_{};\n", i);
+    for (const std::size_t each : network.nodes[i].elsewhere) text += fmt::format("bool seen_{}_{};\n", i, each);
     if (!HasWill(network.nodes[i])) continue;
     text += fmt::format("bool wants_{};\n", i);
     if (is_fair) text += fmt::format("byte same_{};\n", i);
@@ -54,15 +80,18 @@ std::string Choice(std::size_t i, bool is_fair) {
 std::string OneCycle(const BehaviourNetwork& network, bool is_fair) {
   std::string text;
   for (std::size_t i = 0; i < network.nodes.size(); ++i) {
+    if (IsSeenLate(network, i)) text += fmt::format("      before_{0} = active_{0};\n", i);
     if (HasWill(network.nodes[i])) text += Choice(i, is_fair);
   }
   std::string format, arguments;
   for (std::size_t i = 0; i < network.nodes.size(); ++i) {
     const NetworkNode& node = network.nodes[i];
-    text += fmt::format("      active_{} = {} && {} && {} && {};\n", i, Stimulated(node),
-                        Joined(node.inhibitors, "!active_{}", " && ", "true"),
-                        Joined(node.needs_all, "active_{}", " && ", "true"),
-                        HasWill(node) ? fmt::format("wants_{}", i) : Joined(node.needs_any, "active_{}", " || ", "false"));
+    for (const std::size_t each : node.elsewhere) {
+      text += fmt::format("      if :: seen_{0}_{1} = before_{1} :: seen_{0}_{1} = active_{1} fi;\n", i, each);
+    }
+    text += fmt::format("      active_{} = {} && {} && {} && {};\n", i, Stimulated(network, i),
+                        Seen(network, i, node.inhibitors, "!", " && ", "true"), Seen(network, i, node.needs_all, "", " && ", "true"),
+                        HasWill(node) ? fmt::format("wants_{}", i) : Seen(network, i, node.needs_any, "", " || ", "false"));
     format += "%d";
     arguments += fmt::format(", active_{}", i);
   }

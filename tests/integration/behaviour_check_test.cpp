@@ -164,6 +164,18 @@ TEST(NetworkPropertyTest, HoldInTheDemonstration) {
   EXPECT_THAT(FlawsOf(DemoAsItIs()), IsEmpty());
 }
 
+// What comes a cycle late, or from another thread at any time, leaves room for both.
+TEST(NetworkPropertyTest, DoesNotHoldWhereAnInhibitionComesLate) {
+  if (!HasSpin()) GTEST_SKIP() << "the package spin is not here";
+  const std::string never = DemoWith("<never active=\"drive follow_wall\"/>");
+  const std::string late = With(never, "to=\"drive/inhibition1 follow_wall/stimulation\"/>",
+                                "to=\"follow_wall/stimulation\"/><connect from=\"escape/activity\" to=\"drive/inhibition1\" late=\"true\"/>");
+  EXPECT_THAT(FlawsOf(late), ElementsAre(HasSubstr("<never> can be: ")));
+  const std::string apart = With(With(never, "<module name=\"escape\"", "<module name=\"escape\" thread=\"other\""), "<thread ",
+                                 "<thread name=\"other\" period=\"50ms\"/> <thread ");
+  EXPECT_THAT(FlawsOf(apart), ElementsAre(HasSubstr("<never> can be: ")));
+}
+
 // Somebody has forgotten a connection: the model checker tells what comes of it.
 TEST(NetworkPropertyTest, ASeededFaultIsToldAsTheBehavioursThatFollowEachOther) {
   if (!HasSpin()) GTEST_SKIP() << "the package spin is not here";
