@@ -13,8 +13,7 @@ namespace runnel {
 
 constinit const internal::InputBinding BoundInput::kUnbound{};
 
-BoundInput::BoundInput(FrameworkElement& group, std::string&& name, const TypeInfo& type,
-                       InputOptions&& options)
+BoundInput::BoundInput(FrameworkElement& group, std::string&& name, const TypeInfo& type, InputOptions&& options)
     : InputBase({group, std::move(name)}, type, std::move(options)) {}
 
 BoundInput::~BoundInput() {
@@ -91,8 +90,7 @@ QueueSink* BoundInput::Bind(const std::vector<Source>& sources) {
   return queue;
 }
 
-void BoundInput::BindStops(const Binding& before, Binding& next,
-                           std::vector<internal::PassedStop> stops) {
+void BoundInput::BindStops(const Binding& before, Binding& next, std::vector<internal::PassedStop> stops) {
   for (internal::PassedStop& stop : stops) {
     const auto is_it = [&](const auto& link) { return link->Is(stop); };
     if (const auto kept = std::ranges::find_if(before.stops, is_it); kept != before.stops.end()) {
@@ -108,8 +106,7 @@ void BoundInput::TellStops(const Subscribers& subscribers) {
   for (const auto& stop : binding.stops) stop->SetSubscribers(subscribers, binding.queue != nullptr);
 }
 
-std::shared_ptr<internal::InputLink> BoundInput::KeepOrMakeLink(const Binding& before,
-                                                                ChannelBase& channel) {
+std::shared_ptr<internal::InputLink> BoundInput::KeepOrMakeLink(const Binding& before, ChannelBase& channel) {
   if (const auto kept = before.LinkOf(channel)) return kept;
   fresh_.push_back(&channel);
   auto link = std::make_shared<Link>(&channel);
@@ -120,8 +117,7 @@ std::shared_ptr<internal::InputLink> BoundInput::KeepOrMakeLink(const Binding& b
   return link;
 }
 
-std::shared_ptr<InputQueueBase> BoundInput::KeepOrMakeQueue(const Binding& before,
-                                                            const Binding& next,
+std::shared_ptr<InputQueueBase> BoundInput::KeepOrMakeQueue(const Binding& before, const Binding& next,
                                                             const ConnectOptions& options) const {
   const Writers writers = next.only != nullptr ? Writers::kOne : Writers::kSeveral;
   // A queue for one writer serves the source it was made for: another might begin before that
@@ -139,8 +135,7 @@ void BoundInput::KeepWaitingValues(const Binding& before, Binding& next) {
   for (const auto& older : before.older_queues) {
     // A publisher that found the queue before it was replaced may still put a value in. Its
     // leaving comes before the look at the size.
-    const bool settled =
-        older->left_in_epoch != 0 && ProcessEpochs().HasPassed(older->left_in_epoch);
+    const bool settled = older->left_in_epoch != 0 && ProcessEpochs().HasPassed(older->left_in_epoch);
     if (!settled || older->size() > 0) {
       next.older_queues.push_back(older);
     } else {

@@ -30,8 +30,7 @@ void AddConnectionRule(ConnectionRule rule) {
   const std::lock_guard lock(registry.mutex);
   std::erase_if(registry.rules, [&](const ConnectionRule& each) { return each.name == rule.name; });
   if (rule.check) {
-    const auto place =
-        std::ranges::upper_bound(registry.rules, rule.name, {}, &ConnectionRule::name);
+    const auto place = std::ranges::upper_bound(registry.rules, rule.name, {}, &ConnectionRule::name);
     registry.rules.insert(place, std::move(rule));
   }
   // relaxed: whoever looks has the lock then.

@@ -58,8 +58,7 @@ class ConvertedFlow::Worker final : public Waker {
         const auto& by = *static_cast<Filling*>(context);
         return by.conversion(by.value, result);
       };
-      const auto published =
-          channel_.PublishFilled(convert, &filling, ValueTimes::Of(publication));
+      const auto published = channel_.PublishFilled(convert, &filling, ValueTimes::Of(publication));
       is_published = published && *published != PublishStatus::kNoBuffer;
     } catch (...) {  // no memory for one more buffer
     }
@@ -124,8 +123,7 @@ struct ConvertedFlow::Link {
   LinkInput input;
 };
 
-ConvertedFlow::ConvertedFlow(std::shared_ptr<const Conversion> conversion, const Port& target,
-                             AnyValue first)
+ConvertedFlow::ConvertedFlow(std::shared_ptr<const Conversion> conversion, const Port& target, AnyValue first)
     : conversion_(std::move(conversion)), first_(std::move(first)), target_(&target) {}
 
 ConvertedFlow::~ConvertedFlow() { KeepOnly({}); }
@@ -171,13 +169,11 @@ Port* ConvertedFlow::InputFor(const Port& source) const noexcept {
 
 void ConvertedFlow::KeepOnly(const std::vector<Port*>& sources) {
   const auto stays = [&](const std::unique_ptr<Link>& link) {
-    return std::ranges::any_of(sources,
-                               [&](const Port* source) { return link->input.Takes(*source); });
+    return std::ranges::any_of(sources, [&](const Port* source) { return link->input.Takes(*source); });
   };
   const auto first = std::stable_partition(links_.begin(), links_.end(), stays);
   // Out of the list first: publishers are told then of whom they find in it.
-  std::vector<std::unique_ptr<Link>> ended(std::make_move_iterator(first),
-                                           std::make_move_iterator(links_.end()));
+  std::vector<std::unique_ptr<Link>> ended(std::make_move_iterator(first), std::make_move_iterator(links_.end()));
   links_.erase(first, links_.end());
   for (auto& link : ended) {
     // Nobody reads from its channel any more.
@@ -186,8 +182,7 @@ void ConvertedFlow::KeepOnly(const std::vector<Port*>& sources) {
   }
 }
 
-Result<std::shared_ptr<const Conversion>> ConversionBetween(const Port& from, const Port& to,
-                                                            const std::string& part,
+Result<std::shared_ptr<const Conversion>> ConversionBetween(const Port& from, const Port& to, const std::string& part,
                                                             const std::string& name) {
   const bool is_one_unit = from.unit().empty() || to.unit().empty() || from.unit() == to.unit();
   if (&from.type() == &to.type() && part.empty() && name.empty() && is_one_unit) {

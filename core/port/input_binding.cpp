@@ -4,8 +4,7 @@
 
 namespace runnel::internal {
 
-bool IsLater(const Publication& a, const InputLink& from_a, const Publication& b,
-             const InputLink& from_b) noexcept {
+bool IsLater(const Publication& a, const InputLink& from_a, const Publication& b, const InputLink& from_b) noexcept {
   if (a.order != 0 && b.order != 0) return a.order > b.order;
   if (a.publication_time != b.publication_time) return a.publication_time > b.publication_time;
   return from_a.number > from_b.number;

@@ -61,10 +61,8 @@ void CutOrWait(Port& from, Port& to) noexcept {
 }
 
 // With what would lead from the one to the other.
-Error NoConversion(const Port& from, const Port& to, const ConnectOptions& options,
-                   const Error& why) {
-  Error error = Refusal(from, "carries " + from.type().name() + ", but " + to.path() + " takes " +
-                                  to.type().name());
+Error NoConversion(const Port& from, const Port& to, const ConnectOptions& options, const Error& why) {
+  Error error = Refusal(from, "carries " + from.type().name() + ", but " + to.path() + " takes " + to.type().name());
   const bool is_plain = options.part.empty() && options.convert.empty();
   if (!is_plain || &from.type() == &to.type()) error.message += ": " + why.message;
   error.hint = why.hint;
@@ -98,8 +96,7 @@ const std::vector<std::string>& OutOfBoundsNames() {
   return names;
 }
 
-Port::Port(const Placement& placement, Direction direction, const TypeInfo& type,
-           std::string description)
+Port::Port(const Placement& placement, Direction direction, const TypeInfo& type, std::string description)
     : FrameworkElement(placement, ElementKind::kPort),
       direction_(direction),
       type_(type),
@@ -145,8 +142,7 @@ Result<void> Port::CheckEnds(const Port& from, const Port& to, const ConnectOpti
   if (auto allowed = CheckConnectionRules(from, to); !allowed) return allowed;
   if (!options.pull) return {};
   if (*conversion != nullptr) {
-    return Refusal(from, "cannot be pulled through a conversion to " + to.type().name(),
-                   "leave out one of the two");
+    return Refusal(from, "cannot be pulled through a conversion to " + to.type().name(), "leave out one of the two");
   }
   if (options.queue > 0) {
     return Refusal(from, "a connection that pulls cannot have a queue",
@@ -155,8 +151,7 @@ Result<void> Port::CheckEnds(const Port& from, const Port& to, const ConnectOpti
   return from.is_pullable() ? Result<void>() : CannotBePulled(from);
 }
 
-Result<void> Port::CheckConnection(const Port& from, const Port& to,
-                                   const ConnectOptions& options) {
+Result<void> Port::CheckConnection(const Port& from, const Port& to, const ConnectOptions& options) {
   if (auto ends = CheckEnds(from, to, options); !ends) return ends;
   if (IsConnected(from, to)) return Refusal(from, "is connected to " + to.path() + " already");
   if (from.is_proxy() && to.is_proxy() && Reaches(to, from)) {
@@ -184,8 +179,7 @@ Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) 
     to.RebindSinks();
     return Refusal(from, "cannot be connected to " + to.path() + ": " + DescribeException());
   }
-  from.runtime().ForEachListener(
-      [&](ElementListener& listener) { listener.OnConnected(from, to); });
+  from.runtime().ForEachListener([&](ElementListener& listener) { listener.OnConnected(from, to); });
   return {};
 }
 
@@ -218,8 +212,7 @@ Result<void> Port::Disconnect(Port& from, Port& to) {
     return Refusal(from, "cannot be disconnected from " + to.path() + ": " + DescribeException());
   }
   if (removed.converted) removed.converted->KeepOnly({});
-  from.runtime().ForEachListener(
-      [&](ElementListener& listener) { listener.OnDisconnected(from, to); });
+  from.runtime().ForEachListener([&](ElementListener& listener) { listener.OnDisconnected(from, to); });
   return {};
 }
 
@@ -254,8 +247,7 @@ Result<PublishStatus> Port::PublishFilled(const Fill&, std::optional<Time>) {
   return CannotPublish(is_proxy() ? "is an interface port" : "is an input");
 }
 
-Result<PublishStatus> Port::PublishInto(ChannelBase& channel, const Fill& fill,
-                                        std::optional<Time> timestamp) {
+Result<PublishStatus> Port::PublishInto(ChannelBase& channel, const Fill& fill, std::optional<Time> timestamp) {
   if (!channel.can_be_filled()) return CannotPublish("only its module can make values of its type");
   struct Filling {
     const Fill& fill;
@@ -278,8 +270,7 @@ Error Port::CannotPublish(const char* why) const {
   return Refusal(*this, std::string("cannot publish: ") + why);
 }
 
-std::unique_ptr<Port> Port::MakeOutput(FrameworkElement& group, std::string name,
-                                       OutputOptions options) const {
+std::unique_ptr<Port> Port::MakeOutput(FrameworkElement& group, std::string name, OutputOptions options) const {
   const TypedPorts* const ports = FindTypedPorts(type_);
   return ports != nullptr ? ports->MakeOutput(group, std::move(name), std::move(options)) : nullptr;
 }

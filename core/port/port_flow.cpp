@@ -106,8 +106,7 @@ ConnectOptions Stronger(const ConnectOptions& a, const ConnectOptions& b) {
 
 }  // namespace
 
-void Port::CollectPassedOn(const ConnectOptions& options, Links links,
-                           std::vector<Source>& sources) const {
+void Port::CollectPassedOn(const ConnectOptions& options, Links links, std::vector<Source>& sources) const {
   Port* passed_on = by_hand();
   if (passed_on == nullptr && is_proxy()) return CollectSources(options, links, sources);
   if (passed_on == nullptr) passed_on = const_cast<Port*>(this);
@@ -119,8 +118,7 @@ void Port::CollectPassedOn(const ConnectOptions& options, Links links,
   }
 }
 
-void Port::CollectSources(const ConnectOptions& options, Links links,
-                          std::vector<Source>& sources) const {
+void Port::CollectSources(const ConnectOptions& options, Links links, std::vector<Source>& sources) const {
   for (Port* from : incoming_) {
     const Connection* const edge = from->ConnectionTo(*this);
     const ConnectOptions stronger = Stronger(options, edge->options);
@@ -327,8 +325,7 @@ std::vector<Port*> Port::Sinks() const {
   return sinks;
 }
 
-ProxyPort::ProxyPort(const Placement& placement, Direction direction, const TypeInfo& type,
-                     std::string description)
+ProxyPort::ProxyPort(const Placement& placement, Direction direction, const TypeInfo& type, std::string description)
     : Port(placement, direction, type, std::move(description)) {}
 
 }  // namespace runnel

@@ -42,8 +42,7 @@ Result<void> CheckLimits(const Port& port, const InputLimits& limits) {
                   port.type().name());
   }
   if (!port.type().is_transparent()) return refuse("a " + port.type().name() + " cannot be copied");
-  if (limits.has_bounds() &&
-      !IsWithin(limits, internal::NumberIn(port.type(), limits.default_value.get()))) {
+  if (limits.has_bounds() && !IsWithin(limits, internal::NumberIn(port.type(), limits.default_value.get()))) {
     return refuse("its default value is out of its bounds");
   }
   return {};
@@ -77,8 +76,7 @@ Result<void> Port::SetLimits(InputLimits limits) {
   held->limits = std::move(limits);
   held->out_of_bounds = std::make_shared<std::atomic<std::uint64_t>>(0);
   auto conversion = Conversion::Of(
-      type_, [limits = held->limits, count = held->out_of_bounds, &type = type_](const void* from,
-                                                                                void* to) {
+      type_, [limits = held->limits, count = held->out_of_bounds, &type = type_](const void* from, void* to) {
         const auto copy = [&](const void* value) { return CopyValue(type, value, to); };
         if (!limits.has_bounds()) return copy(from);
         const double number = internal::NumberIn(type, from);
@@ -91,8 +89,7 @@ Result<void> Port::SetLimits(InputLimits limits) {
         internal::SetNumber(type, to, is_below ? *limits.minimum : *limits.maximum);
         return true;
       });
-  held->flow = std::make_unique<internal::ConvertedFlow>(std::move(conversion), *this,
-                                                         held->limits.default_value);
+  held->flow = std::make_unique<internal::ConvertedFlow>(std::move(conversion), *this, held->limits.default_value);
   ExchangeLimits(std::move(held));
   return {};
 }

@@ -88,17 +88,15 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
            (each.direction() == Direction::kInput ? "an input" : "an output");
   };
   if (kind(port) != kind(from)) {
-    return CannotTakeOver(port, "cannot take over from " + from.path() + ": one is " + kind(port) +
-                                    ", the other is " + kind(from));
+    return CannotTakeOver(port, "cannot take over from " + from.path() + ": one is " + kind(port) + ", the other is " + kind(from));
   }
   if (&port.type() != &from.type()) {
-    return CannotTakeOver(port, "carries " + port.type().name() + " and cannot take over from " +
-                                    from.path() + ", which carries " + from.type().name());
+    return CannotTakeOver(port, "carries " + port.type().name() + " and cannot take over from " + from.path() + ", which carries " +
+                                    from.type().name());
   }
   // What is connected was converted for the unit of the other one.
   if (const auto [end, other] = FindOtherUnit(port, from); end != nullptr) {
-    return CannotTakeOver(port, "is in " + end->unit() + " and cannot take over from " + from.path() + ", which is in " +
-                                    other->unit());
+    return CannotTakeOver(port, "is in " + end->unit() + " and cannot take over from " + from.path() + ", which is in " + other->unit());
   }
   if (const auto stop = port.StopInPlaceOf(from); !stop) {
     Error error = CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path());
@@ -113,16 +111,14 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
       return error;
     }
   }
-  if (modules != nullptr) {
-    if (auto converted = CheckConversions(port, from, modules->before); !converted) return converted;
-  }
+  const auto converted = modules != nullptr ? CheckConversions(port, from, modules->before) : Result<void>();
+  if (!converted) return converted;
   if (modules == nullptr && (!port.incoming_.empty() || !port.outgoing_.empty())) {
     return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
   }
   const auto pulls = [&](const Connection& each) { return each.options.pull && !StaysWithin(modules, from, *each.to); };
-  if (!port.is_pullable() && std::ranges::any_of(from.outgoing_, pulls))
-    return CannotTakeOver(port, "cannot be pulled, and is to take over from one that is");
-  return {};
+  if (port.is_pullable() || std::ranges::none_of(from.outgoing_, pulls)) return {};
+  return CannotTakeOver(port, "cannot be pulled, and is to take over from one that is");
 }
 
 void Port::TakeOver(Port& from, const ExchangedModules* modules) {

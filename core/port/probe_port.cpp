@@ -8,8 +8,7 @@
 
 namespace runnel {
 
-ProbePort::ProbePort(FrameworkElement& group, std::string name, const TypeInfo& type,
-                     std::size_t capacity)
+ProbePort::ProbePort(FrameworkElement& group, std::string name, const TypeInfo& type, std::size_t capacity)
     : InputBase({group, std::move(name)}, type, {}),
       queue_(std::make_unique<ProbeQueue>(capacity)) {}
 
@@ -23,8 +22,7 @@ ProbePort::~ProbePort() {
 bool ProbePort::Take(const Visitor& visit) {
   bool is_taken = false;
   while (!is_taken) {
-    const bool found = queue_->TryTake(
-        [&](const void* value, const Publication& publication, std::uint64_t source) {
+    const bool found = queue_->TryTake([&](const void* value, const Publication& publication, std::uint64_t source) {
           std::uint64_t& last = taken_[source];
           if (publication.sequence <= last) return;
           last = publication.sequence;

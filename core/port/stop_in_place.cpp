@@ -104,9 +104,8 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
     return with_block(safe ? *safe : by.safe_value(), {}, robot ? by.command() : DrivingKind::kUnspecified, robot);
   };
   // A port of a plain group, which gets its connections yet, is stopped by what is behind it as ever.
-  const bool leads_nowhere = is_proxy() && ends.empty();
-  const bool drove_itself = before && before->robot();
-  const std::shared_ptr<const PortStop> drove = drove_itself ? before : leads_nowhere ? nullptr : internal::StopWithin(from);
+  const auto behind = is_proxy() && ends.empty() ? nullptr : internal::StopWithin(from);
+  const std::shared_ptr<const PortStop> drove = before && before->robot() ? before : behind;
   if (!is_declared && within == nullptr && comes_back) {
     const PortStop* const had = state->stop_before.get();
     if (had != nullptr) return with_block(had->safe_value(), had->brake(), had->command(), had->robot());

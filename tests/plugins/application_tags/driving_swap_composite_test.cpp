@@ -178,10 +178,20 @@ TEST_F(DrivingSwapComposite, APortOfAPlainGroupGetsNothingByAnotherName) {
 
 TEST_F(DrivingSwapComposite, ABlockOfAPartIsNotLetGoOf) {
   Load("test/two", "");
-  ASSERT_TRUE(shop_.Get<Port>("/demo/m/right/input/in").Block());
-  const auto refused = Swap("test/drive");
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/m/right/input/in: it is held, and the new module has no such port; release it first"));
+  const auto expect_refused = [&](const std::string& part) {
+    const auto refused = Swap("test/drive");
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/m/" + part + "/input/in: it is held, and the new module has no such port; release it first"));
+  };
+  auto &left = shop_.Get<Port>("/demo/m/left/input/in"), &right = shop_.Get<Port>("/demo/m/right/input/in");
+  ASSERT_TRUE(right.Block());
+  expect_refused("right");
+  EXPECT_TRUE(right.is_blocked());
+  right.Unblock();
+  ASSERT_TRUE(left.PublishByHand(internal::FillWith(AnyValue(0.0)), Port::Setter::kRule));
+  expect_refused("left");
+  EXPECT_TRUE(left.Release(Port::Setter::kRule));
+  EXPECT_TRUE(Swap("test/drive"));
 }
 
 TEST_F(DrivingSwapComposite, TheWayBackIsNoneIntoAnotherUnit) {

@@ -224,15 +224,6 @@ TEST_F(CompositeTest, HasTheTagsOfThePlaceAndTellsOfLimits) {
   EXPECT_EQ(At<Port>("/app/m/input/in").limits().maximum, 3.);
 }
 
-TEST_F(CompositeTest, APartThatIsHeldIsNotLetGoOf) {
-  Make("test/boxed");
-  auto& part = At<Passer>("/app/m/part").in;
-  ASSERT_TRUE(part.PublishByHand(internal::FillWith(AnyValue(-3)), Port::Setter::kRule));
-  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/passer"}}), HasSubstr("/app/m/part/input/in: it is held, and the new module has no such port; release it first"));
-  Swap("test/boxed");
-  EXPECT_TRUE(At<Passer>("/app/m/part").in.is_set_by_hand(Port::Setter::kRule));
-}
-
 TEST_F(CompositeTest, HasAnotherNameWithAllItsConnections) {
   Make("test/boxed");
   ASSERT_TRUE(At<Port>("/app/m/in").PublishByHand(internal::FillWith(AnyValue(-3))));
