@@ -140,7 +140,8 @@ const std::vector<State>& States() {
        [](Trial& trial) {
          const auto& offers = NetworkElement::FindIn(trial.application->element())->options().offers;
          return std::ranges::any_of(offers, [&](const OfferOptions& each) {
-           return each.port == trial.Out().path() && each.topic == "/x" && each.quality == ValueQuality::kLatched;
+           const auto port = PathSearch(trial.application->runtime()).FindPort(each.port, PathKind::kOutput);
+           return port && *port == &trial.Out() && each.topic == "/x" && each.quality == ValueQuality::kLatched;
          });
        }},
       {"taken", {"take", "connect", "has been changed"}, [](Trial& trial) { Say(trial, "take /y " + trial.module + "/taken live=true exclusive=true"); },
