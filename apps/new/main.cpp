@@ -62,21 +62,16 @@ Result<void> CheckName(const std::string& name) {
       !name.empty() && IsLetter(name.front()) && !name.ends_with('_') &&
       name.find("__") == std::string::npos &&
       std::ranges::all_of(name, [](char c) { return IsLetter(c) || IsDigit(c) || c == '_'; });
-  if (!is_well_formed) {
-    const std::string proposal = Proposal(name);
-    return Error{.message = "nothing can be called '" + name +
-                            "': names are lower-case letters, digits and single '_', and begin "
-                            "with a letter",
-                 .hint = proposal.empty() ? "" : "how about '" + proposal + "'?"};
-  }
-  if (kKeywords.contains(name)) {
-    return Error{.message = "nothing can be called '" + name + "', which is a word of C++"};
-  }
-  if (kTaken.contains(name)) {
-    return Error{.message = "nothing can be called '" + name +
-                            "', which is the name of something else in each project"};
-  }
-  return {};
+  const char* const why =
+      !is_well_formed
+          ? "': names are lower-case letters, digits and single '_', and begin with a letter"
+      : kKeywords.contains(name) ? "', which is a word of C++"
+      : kTaken.contains(name)    ? "', which is the name of something else in each project"
+                                 : nullptr;
+  if (why == nullptr) return {};
+  const std::string proposal = is_well_formed ? "" : Proposal(name);
+  return Error{.message = "nothing can be called '" + name + why,
+               .hint = proposal.empty() ? "" : "how about '" + proposal + "'?"};
 }
 
 /// "WallFollower" of "wall_follower". Precondition: CheckName() has no objection.

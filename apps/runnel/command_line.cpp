@@ -59,10 +59,9 @@ std::vector<std::string> OptionNames(const CLI::App& command) {
 }
 
 const CLI::App* FindCommand(const CLI::App& program, const std::string& name) {
-  for (const CLI::App* each : program.get_subcommands({})) {
-    if (each->get_name() == name) return each;
-  }
-  return nullptr;
+  const auto has_name = [&](const CLI::App* each) { return each->get_name() == name; };
+  const auto found = program.get_subcommands(has_name);
+  return found.empty() ? nullptr : found.front();
 }
 
 // For the completion of shells that have no rules of their own.

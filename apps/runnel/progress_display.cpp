@@ -1,6 +1,5 @@
 #include "apps/runnel/progress_display.h"
 
-#include <algorithm>
 #include <iostream>
 #include <utility>
 

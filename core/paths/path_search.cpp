@@ -173,8 +173,7 @@ Result<Port*> PathSearch::FindPort(std::string_view path, PathKind kind) const {
 Result<PortPart> PathSearch::FindPortPart(std::string_view path, PathKind kind) const {
   auto whole = FindPort(path, kind);
   if (whole) return PortPart{*whole};
-  const std::size_t slash = path.rfind('/');
-  const std::size_t begin = slash == std::string_view::npos ? 0 : slash + 1;
+  const std::size_t begin = path.rfind('/') + 1;  // npos + 1 is 0
   std::optional<Error> error;
   for (std::size_t at = path.size(); at > begin + 1;) {
     at = path.find_last_of(".[", at - 1);
@@ -260,8 +259,7 @@ const std::string& DistantPathOf(const Port& port) {
 }
 
 PortPathPart SplitPortPath(std::string_view path) {
-  const std::size_t slash = path.rfind('/');
-  const std::size_t begin = slash == std::string_view::npos ? 0 : slash + 1;
+  const std::size_t begin = path.rfind('/') + 1;  // npos + 1 is 0
   const std::size_t end = path.find_first_of(".[", begin + 1);
   if (end == std::string_view::npos) return {std::string(path), {}};
   return {std::string(path.substr(0, end)), std::string(path.substr(path[end] == '.' ? end + 1 : end))};

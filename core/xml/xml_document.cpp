@@ -20,18 +20,12 @@ using internal::XmlNode;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kLargestFile = std::size_t{64} << 20U;
 
-std::string WithoutSpaceAtEnds(std::string_view text) {
-  while (!text.empty() && internal::IsXmlSpace(text.front())) text.remove_prefix(1);
-  while (!text.empty() && internal::IsXmlSpace(text.back())) text.remove_suffix(1);
-  return std::string(text);
-}
-
 std::string TextOf(const tinyxml2::XMLElement& source) {
   std::string text;
   for (const auto* child = source.FirstChild(); child != nullptr; child = child->NextSibling()) {
     if (const tinyxml2::XMLText* piece = child->ToText()) text += piece->Value();
   }
-  return WithoutSpaceAtEnds(text);
+  return std::string(internal::WithoutXmlSpace(text));
 }
 
 // Gives the elements what tinyxml2 has read of them. False if the two do not agree.

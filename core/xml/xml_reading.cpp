@@ -41,8 +41,7 @@ std::vector<std::string> NotYetGiven(XmlElement element, std::span<const std::st
 }  // namespace
 
 std::optional<double> ParseNumber(std::string_view text) {
-  while (!text.empty() && internal::IsXmlSpace(text.front())) text.remove_prefix(1);
-  while (!text.empty() && internal::IsXmlSpace(text.back())) text.remove_suffix(1);
+  text = internal::WithoutXmlSpace(text);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto number = NumberIn<double>(text);
   return number && std::isfinite(*number) ? number : std::nullopt;

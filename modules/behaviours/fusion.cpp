@@ -15,8 +15,6 @@ namespace {
 
 bool IsBroken(const TypeInfo& type) { return &type == &TypeOf<double>() || &type == &TypeOf<float>(); }
 
-bool IsSummable(const TypeInfo& type) { return internal::IsNumber(type) && &type != &TypeOf<bool>(); }
-
 }  // namespace
 
 Result<ValueFusion> ValueFusion::Make(const TypeInfo& type, const std::string& unit, std::size_t values) {
@@ -29,7 +27,7 @@ Result<ValueFusion> ValueFusion::Make(const TypeInfo& type, const std::string& u
 }
 
 Result<void> ValueFusion::AddNumbers(const TypeInfo& type, const std::string& unit, void* at, const void* value) {
-  if (IsSummable(type)) {
+  if (internal::IsNumber(type) && &type != &TypeOf<bool>()) {
     const auto offset = static_cast<const std::byte*>(at) - static_cast<const std::byte*>(value);
     numbers_.push_back({static_cast<std::size_t>(offset), &type, unit == "rad"});
     return {};

@@ -1,6 +1,5 @@
 // What is done about inputs that fall silent and modules that fail, are stuck or paused, and what is measured of them.
 
-#include <memory>
 #include <utility>
 
 #include "core/base/clock.h"

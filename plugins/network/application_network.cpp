@@ -43,8 +43,7 @@ constexpr std::string_view kSilent = ": nothing new for ", kFresh = ": values co
 
 // The path that ends there; a place in a file may stand in front.
 std::string PathBefore(const std::string& text, std::size_t end) {
-  const std::size_t blank = text.rfind(' ', end);
-  const std::size_t begin = blank == std::string::npos ? 0 : blank + 1;
+  const std::size_t begin = text.rfind(' ', end) + 1;  // npos + 1 is 0
   return text.substr(begin, end - begin);
 }
 

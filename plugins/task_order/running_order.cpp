@@ -10,14 +10,6 @@
 
 namespace runnel::internal {
 
-namespace {
-
-bool IsFeedback(const OrderedTask& from, const OrderedTask& to) {
-  return from.phase == Phase::kControl && to.phase == Phase::kSense;
-}
-
-}  // namespace
-
 void RunningOrder::Add(OrderedTask& task) {
   is_sorted_ = false;
   task.place_in_all = all_.size();
@@ -77,7 +69,7 @@ void RunningOrder::Remove(Dependency& dependency) {
 }
 
 void RunningOrder::Connect(OrderedTask& from, OrderedTask& to, const PortPair& connection) {
-  if (IsFeedback(from, to)) return;
+  if (from.phase == Phase::kControl && to.phase == Phase::kSense) return;  // feedback
   Dependency* const known = Find(from, to);
   auto& connections = (known != nullptr ? *known : Add(from, to)).connections;
   if (std::ranges::find(connections, connection) == connections.end()) {

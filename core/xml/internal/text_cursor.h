@@ -9,6 +9,13 @@ namespace runnel::internal {
 inline bool IsXmlSpace(char character) {
   return character == ' ' || character == '\t' || character == '\n' || character == '\r';
 }
+
+/// `text` without the white space at its ends.
+inline std::string_view WithoutXmlSpace(std::string_view text) {
+  while (!text.empty() && IsXmlSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && IsXmlSpace(text.back())) text.remove_suffix(1);
+  return text;
+}
 // The same characters as in tinyxml2, so that both find the same names.
 inline bool IsXmlNameStart(char character) {
   return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||

@@ -40,8 +40,6 @@ class StopFile {
   StopFile(RobotStop& stop, ApplicationLog& log, std::filesystem::path folder, std::string name,
            std::vector<std::filesystem::path> left = {});
   ~StopFile();
-  StopFile(const StopFile&) = delete;
-  StopFile& operator=(const StopFile&) = delete;
 
   /// Whether the last press or release has been written. Waits for that for 50 ms at most.
   [[nodiscard]] bool IsKept();
