@@ -1,6 +1,7 @@
 // What the tables of swaps do not see: composites in a row, units that change, ports farther up, and places that a recording has.
 
 #include "plugins/parameters/static_parameter.h"
+#include "plugins/structure/value_by_hand.h"
 #include "tests/plugins/application_tags/driving_swap_fixture.h"
 
 namespace runnel::testing {
@@ -16,6 +17,25 @@ struct BoxedNumber final : Group {
     auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
     return Port::Connect(in, runtime().Create<Undeclared<0>>(*this, "number").in);
   }
+};
+struct BoxedDrive final : Group {
+  using Group::Group;
+  Result<void> Construct() override {
+    auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
+    return Port::Connect(in, runtime().Create<Declared<DrivingKind::kVelocity, 0>>(*this, "drive").in);
+  }
+};
+template <int kUnit>
+struct Source final : Module {
+  using Module::Module;
+  static constexpr const char* kUnits[] = {"km/h", "deg"};
+  Output<double> value{this, "value", {.unit = kUnits[kUnit]}};
+  void Update() override {}
+};
+struct Arm final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.unit = "rad", .drives = true, .safe_value = AnyValue(0.3)}};
+  void Update() override {}
 };
 struct Brakes final : Module {
   using Module::Module;
@@ -70,6 +90,10 @@ struct DrivingSwapComposite : DrivingSwap {
   DrivingSwapComposite() {
     shop_.Add<Boxed>("test/boxed");
     shop_.Add<BoxedNumber>("test/boxed_number");
+    shop_.Add<BoxedDrive>("test/boxed_drive");
+    shop_.Add<Source<0>>("test/kilometres");
+    shop_.Add<Source<1>>("test/degrees");
+    shop_.Add<Arm>("test/arm");
     shop_.Add<Two>("test/two");
     shop_.Add<Deep>("test/deep");
     shop_.Add<Brakes>("test/brakes");
@@ -165,6 +189,33 @@ TEST_F(DrivingSwapComposite, WhatRestsFartherUpMovesNobodyElse) {
   EXPECT_EQ(shop_.Get<Input<double>>("/demo/right/input/in").Get(), 1500);
   source.Release(Port::Setter::kRule);
   EXPECT_TRUE(Swap("test/other_esc"));
+}
+
+TEST_F(DrivingSwapComposite, WhatWasPublishedBeforeAPersonHasReleasedThePartCountsNoMore) {
+  Load("test/boxed_drive", "");
+  Start(shop_.Get<Port>("/demo/s/output/value"), 0.7);
+  ASSERT_TRUE(Box().PublishByHand(internal::FillWith(AnyValue(0.2))));
+  ASSERT_TRUE(Box().Release());
+  ASSERT_EQ(shop_.Get<Input<double>>("/demo/m/drive/input/in").Get(), 0);
+  ASSERT_TRUE(Swap("test/number"));
+  EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0);
+}
+
+// A file would connect them without.
+TEST_F(DrivingSwapComposite, AConversionByUnitsIsNoneOfAnInterfacePort) {
+  Load("test/motor", "", "test/kilometres");
+  const auto refused = Swap("test/boxed");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("are converted by their units, which an interface port has not"));
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  Load("test/boxed_number", "", "test/kilometres");
+  EXPECT_FALSE(Swap("test/motor"));
+}
+
+TEST_F(DrivingSwapComposite, ASafeValueBehindAnotherUnitIsNone) {
+  Load("test/arm", "", "test/degrees");
+  EXPECT_FALSE(SafeValueOf(shop_.Get<Port>("/demo/s/output/value")));
+  EXPECT_EQ(Number(*SafeValueOf(In())), 0.3);
 }
 
 TEST_F(DrivingSwapComposite, APortOfAPlainGroupGetsNothingByAnotherName) {
