@@ -38,8 +38,7 @@ Result<void> CheckLimits(const Port& port, const InputLimits& limits) {
     return refuse("what is out of bounds is to become the default value, and there is none");
   }
   if (&limits.default_value.type() != &port.type()) {
-    return refuse("its default value is a " + limits.default_value.type().name() + " and not a " +
-                  port.type().name());
+    return refuse("its default value is a " + limits.default_value.type().name() + " and not a " + port.type().name());
   }
   if (!port.type().is_transparent()) return refuse("a " + port.type().name() + " cannot be copied");
   if (limits.has_bounds() && !IsWithin(limits, internal::NumberIn(port.type(), limits.default_value.get()))) {

@@ -21,23 +21,27 @@ namespace runnel {
 
 namespace {
 
-Error CannotTakeOver(const Port& port, std::string message) {
-  return {.message = std::move(message), .path = port.path()};
+Error CannotTakeOver(const Port& port, std::string message, std::string hint = {}) {
+  return {.message = std::move(message), .path = port.path(), .hint = std::move(hint)};
 }
 
 std::string TextOf(const AnyValue& value) { return ToText(value.type(), value.get()); }
 
-// A port farther up that is at rest at `before`, and moves others for which `now` is no rest.
+bool RestsAt(const Port& port, const AnyValue& rest) {
+  const auto held = port.ValueByHand(Port::Setter::kRule), driven = port.ValueByHand();
+  return (held && TextOf(held->value) == TextOf(rest)) || (driven && driven->is_at_rest && TextOf(driven->value) == TextOf(rest));
+}
+
+// A port that is at rest at `before`, and moves something for which `now` is no rest; none of `now`: nothing is rest for all.
 const Port* FindRestOfOthers(const Port& port, const std::vector<Port*>& sinks, const AnyValue& before, const AnyValue& now) {
+  if (!now && RestsAt(port, before)) return &port;
   for (const Port* from : port.incoming()) {
     if (from->is_driving() || from->ConnectionTo(port)->converted) continue;
-    const auto held = from->ValueByHand(Port::Setter::kRule), driven = from->ValueByHand();
-    const bool rests = (held && TextOf(held->value) == TextOf(before)) || (driven && driven->is_at_rest && TextOf(driven->value) == TextOf(before));
     const auto is_other = [&](const Port* sink) {
-      const auto is_held = [&](const internal::PassedStop& each) { return each.stop->robot() && TextOf(each.safe_value) != TextOf(now); };
+      const auto is_held = [&](const internal::PassedStop& each) { return each.stop->robot() && now && TextOf(each.safe_value) != TextOf(now); };
       return std::ranges::find(sinks, sink) == sinks.end() && std::ranges::any_of(internal::PassedStops(*sink), is_held);
     };
-    if (rests && std::ranges::any_of(from->Sinks(), is_other)) return from;
+    if (RestsAt(*from, before) && std::ranges::any_of(from->Sinks(), is_other)) return from;
     if (const Port* const farther = FindRestOfOthers(*from, sinks, before, now)) return farther;
   }
   return nullptr;
@@ -99,16 +103,14 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
     return CannotTakeOver(port, "is in " + end->unit() + " and cannot take over from " + from.path() + ", which is in " + other->unit());
   }
   if (const auto stop = port.StopInPlaceOf(from); !stop) {
-    Error error = CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path());
-    error.hint = stop.error().hint;
-    return error;
+    return CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path(), stop.error().hint);
   } else if (const auto* state = port.FindAnnotation<internal::DrivingState>(); state == nullptr || !state->is_replaced || state->is_later) {
     const AnyValue before = from.FindRest(), now = *stop ? (*stop)->safe_value() : port.FindRest();
-    const bool changes = before && now && TextOf(before) != TextOf(now);
+    const bool changes = before && (!now || TextOf(before) != TextOf(now));
     if (const Port* const rests = changes ? FindRestOfOthers(from, from.Sinks(), before, now) : nullptr) {
-      Error error = CannotTakeOver(port, "has the safe value " + TextOf(now) + ", and " + rests->path() + " is at rest at " + TextOf(before) + ", by which others move, too");
-      error.hint = "release it first";
-      return error;
+      const std::string what = now ? "has the safe value " + TextOf(now) : "moves several things, whose safe values differ";
+      return CannotTakeOver(port, what + ", and " + rests->path() + " is at rest at " + TextOf(before) + (now ? ", by which others move, too" : ""),
+                            "release it first");
     }
   }
   const auto converted = modules != nullptr ? CheckConversions(port, from, modules->before) : Result<void>();
@@ -179,6 +181,8 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
 AnyValue Port::FindRest() const {
   const auto stop = this->stop() ? this->stop() : internal::StopWithin(*this);
   if (stop) return stop->safe_value();
+  const auto drives = [](const Port* each) { return each->is_driving(); };
+  if (is_proxy() && std::ranges::any_of(internal::EndsOf(*this), drives)) return {};  // their safe values differ
   if (auto safe = FindSafeValue({}, DrivingKind::kUnspecified)) return *safe;
   const std::shared_ptr<const void> value = type_.is_transparent() ? type_.Make() : nullptr;
   return value ? AnyValue(type_, value) : AnyValue();

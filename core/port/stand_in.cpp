@@ -50,8 +50,7 @@ std::unique_ptr<ChannelBase> MakeChannelOf(const TypeInfo& type) {
 
 std::unique_ptr<ChannelBase> MakeChannelFor(const TypeInfo& type) {
   const TypedPorts* const ports = FindTypedPorts(type);
-  auto channel =
-      ports != nullptr
+  auto channel = ports != nullptr
           ? ports->MakeChannel()
           : MakeChannelOf<bool, std::int8_t, std::int16_t, std::int32_t, std::int64_t, std::uint8_t,
                           std::uint16_t, std::uint32_t, std::uint64_t, float, double, std::string,

@@ -179,7 +179,8 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
     const auto* const state = match->FindAnnotation<DrivingState>();
     const bool comes_back = state != nullptr && state->is_replaced && !port->runtime().robot_stop().in_force();
     const bool is_input = port->direction() == Port::Direction::kInput;
-    if (!is_input || comes_back || StopWithin(*port) || !MovesSomething(*port, before, {}) || MovesSomething(*match, after, driving)) continue;
+    const bool inherits = StopWithin(*port) && (!match->is_proxy() || !EndsOf(*match).empty());
+    if (!is_input || comes_back || inherits || !MovesSomething(*port, before, {}) || MovesSomething(*match, after, driving)) continue;
     result.errors.push_back({.message = "something moves by it, and the new module does not say that", .path = port->path(),
                              .hint = "have the new module declare that it drives, with its safe value"});
   }

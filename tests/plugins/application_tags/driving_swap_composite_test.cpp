@@ -51,6 +51,14 @@ struct Two final : Group {
     return Port::Connect(in, runtime().Create<Undeclared<1>>(*this, "right").in);
   }
 };
+struct Apart final : Group {
+  using Group::Group;
+  Result<void> Construct() override {
+    auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
+    if (auto tied = Port::Connect(in, runtime().Create<Declared<DrivingKind::kVelocity, 1500>>(*this, "left").in); !tied) return tied;
+    return Port::Connect(in, runtime().Create<Declared<DrivingKind::kVelocity, 1520>>(*this, "right").in);
+  }
+};
 struct Ramped final : Module {
   using Module::Module;
   Input<double> in{this, "in"};
@@ -225,6 +233,17 @@ TEST_F(DrivingSwapComposite, APortOfAPlainGroupGetsNothingByAnotherName) {
   EXPECT_TRUE(shop_.Get<Port>("/demo/h/in").is_set_by_hand());
   EXPECT_FALSE(shop_.Get<Port>("/demo/h/in").is_driving());
   EXPECT_EQ(shop_.Get<Port>("/demo/h/in").Sinks().size(), 1U);
+}
+
+TEST_F(DrivingSwapComposite, WhatRestsDoesNotGoWhereNothingIsRestForAll) {
+  shop_.Add<Apart>("test/apart");
+  Load("test/esc", "");
+  ASSERT_TRUE(In().PublishByHand(internal::FillWith(AnyValue(1500.)), Port::Setter::kRule));
+  const auto refused = Swap("test/apart");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("moves several things, whose safe values differ, and /demo/m/input/in is at rest at 1500"));
+  EXPECT_TRUE(In().Release(Port::Setter::kRule));
+  EXPECT_TRUE(Swap("test/apart"));
 }
 
 TEST_F(DrivingSwapComposite, ABlockOfAPartIsNotLetGoOf) {
