@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/element/runtime.h"
 #include "core/port/driving_ports.h"
