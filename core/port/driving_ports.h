@@ -36,7 +36,7 @@ struct DrivingState final : Annotation {
   }
   std::shared_ptr<const DrivingMark> mark;  // nullptr: nothing
   bool is_replaced = false;
-  bool is_later = false;  // it is to come back: what has been stopped meanwhile stays so
+  bool is_later = false, may_be_refused = false;  // it is to come back: what has been stopped meanwhile stays so
   std::shared_ptr<const PortStop> stop_before;
 };
 

@@ -104,7 +104,7 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
   }
   if (const auto stop = port.StopInPlaceOf(from); !stop) {
     return CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path(), stop.error().hint);
-  } else if (const auto* state = port.FindAnnotation<internal::DrivingState>(); state == nullptr || !state->is_replaced || state->is_later) {
+  } else if (const auto* state = port.FindAnnotation<internal::DrivingState>(); state == nullptr || !state->is_replaced || state->may_be_refused) {
     const AnyValue before = from.FindRest(), now = *stop ? (*stop)->safe_value() : port.FindRest();
     const bool changes = before && (!now || TextOf(before) != TextOf(now));
     if (const Port* const rests = changes ? FindRestOfOthers(from, from.Sinks(), before, now) : nullptr) {
@@ -173,7 +173,7 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   own.is_replaced = false;
   own.stop_before.reset();
   its.is_replaced = true;
-  its.is_later = false;
+  its.is_later = its.may_be_refused = false;
   its.stop_before = before;
 }
 

@@ -1,7 +1,6 @@
 // What stops a port in the place of another one.
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 #include "core/element/runtime.h"
@@ -96,8 +95,9 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
   const auto stopped = [&](const PortStop& by, const std::shared_ptr<StopSignal>& robot) -> Result<std::shared_ptr<const PortStop>> {
     const auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
     const Port* const other = safe ? nullptr : FindOtherMeaning(*this, from, by.safe_value(), by.command());
-    if (other != nullptr && !by.in_force()) return std::shared_ptr<const PortStop>();
-    if (other != nullptr && (!comes_back || state->is_later)) {
+    const bool may_be_refused = !comes_back || state->may_be_refused;
+    if (other != nullptr && (!by.in_force() || (robot && !may_be_refused))) return std::shared_ptr<const PortStop>();
+    if (other != nullptr && may_be_refused) {
       return refuse(*other, by.safe_value(), by.block()->in_force() ? "release its block first" : "release STOP first");
     }
     return with_block(safe ? *safe : by.safe_value(), {}, robot ? by.command() : DrivingKind::kUnspecified, robot);

@@ -135,7 +135,7 @@ void ElementState::NoteWayBack(FrameworkElement& made) const {
     auto& driving = DrivingState::Of(port);
     driving.mark = state->said;
     driving.is_replaced = true;
-    driving.is_later = true;
+    driving.is_later = driving.may_be_refused = true;
     driving.stop_before = state->stop;
   });
 }

@@ -11,18 +11,12 @@ using namespace driving_swap;
 using ::testing::HasSubstr;
 using namespace std::chrono_literals;
 
-struct BoxedNumber final : Group {
+template <typename Part>
+struct BoxOf final : Group {
   using Group::Group;
   Result<void> Construct() override {
     auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
-    return Port::Connect(in, runtime().Create<Undeclared<0>>(*this, "number").in);
-  }
-};
-struct BoxedDrive final : Group {
-  using Group::Group;
-  Result<void> Construct() override {
-    auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
-    return Port::Connect(in, runtime().Create<Declared<DrivingKind::kVelocity, 0>>(*this, "drive").in);
+    return Port::Connect(in, runtime().Create<Part>(*this, "part").in);
   }
 };
 template <int kUnit>
@@ -97,8 +91,8 @@ struct OfUnit final : Module {
 struct DrivingSwapComposite : DrivingSwap {
   DrivingSwapComposite() {
     shop_.Add<Boxed>("test/boxed");
-    shop_.Add<BoxedNumber>("test/boxed_number");
-    shop_.Add<BoxedDrive>("test/boxed_drive");
+    shop_.Add<BoxOf<Undeclared<0>>>("test/boxed_number");
+    shop_.Add<BoxOf<Declared<DrivingKind::kVelocity, 0>>>("test/boxed_drive");
     shop_.Add<Source<0>>("test/kilometres");
     shop_.Add<Source<1>>("test/degrees");
     shop_.Add<Arm>("test/arm");
@@ -204,7 +198,7 @@ TEST_F(DrivingSwapComposite, WhatWasPublishedBeforeAPersonHasReleasedThePartCoun
   Start(shop_.Get<Port>("/demo/s/output/value"), 0.7);
   ASSERT_TRUE(Box().PublishByHand(internal::FillWith(AnyValue(0.2))));
   ASSERT_TRUE(Box().Release());
-  ASSERT_EQ(shop_.Get<Input<double>>("/demo/m/drive/input/in").Get(), 0);
+  ASSERT_EQ(shop_.Get<Input<double>>("/demo/m/part/input/in").Get(), 0);
   ASSERT_TRUE(Swap("test/number"));
   EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0);
 }
@@ -244,6 +238,26 @@ TEST_F(DrivingSwapComposite, WhatRestsDoesNotGoWhereNothingIsRestForAll) {
   EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("moves several things, whose safe values differ, and /demo/m/input/in is at rest at 1500"));
   EXPECT_TRUE(In().Release(Port::Setter::kRule));
   EXPECT_TRUE(Swap("test/apart"));
+}
+
+// Who is put back is refused nothing.
+TEST_F(DrivingSwapComposite, WhatRestsMeanwhileStaysWhereOneIsPutBack) {
+  struct Failing final : Module {
+    using Module::Module;
+    Input<double> in{this, "in", {.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(1500.0)}};
+    void Update() override { throw std::runtime_error("no such device"); }
+  };
+  shop_.Add<Apart>("test/apart");
+  shop_.Add<Failing>("test/failing");
+  Load("test/apart", "");
+  Scheduler scheduler(shop_.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+  StructureEditor editor(shop_.runtime, shop_.plugins.modules(), &scheduler);
+  ASSERT_TRUE(editor.Apply({ReplaceModule{"/demo/m", "test/failing"}}));
+  ASSERT_TRUE(In().PublishByHand(internal::FillWith(AnyValue(1500.)), Port::Setter::kRule));
+  for (int i = 0; i < 5; ++i) scheduler.Step();
+  EXPECT_EQ(FindModuleType(shop_.Get<FrameworkElement>("/demo/m")), "test/apart");
+  EXPECT_EQ(Box().incoming().size(), 1U);
+  EXPECT_EQ(shop_.Get<Input<double>>("/demo/m/left/input/in").Get(), 1500);
 }
 
 TEST_F(DrivingSwapComposite, ABlockOfAPartIsNotLetGoOf) {
