@@ -27,6 +27,10 @@ Error CannotTakeOver(const Port& port, std::string message, std::string hint = {
 
 std::string TextOf(const AnyValue& value) { return ToText(value.type(), value.get()); }
 
+bool Moves(const Port& port) {
+  return port.stop() || std::ranges::any_of(internal::EndsOf(port), [](const Port* each) { return each->is_driving(); });
+}
+
 bool RestsAt(const Port& port, const AnyValue& rest) {
   const auto held = port.ValueByHand(Port::Setter::kRule), driven = port.ValueByHand();
   return (held && TextOf(held->value) == TextOf(rest)) || (driven && driven->is_at_rest && TextOf(driven->value) == TextOf(rest));
@@ -106,7 +110,7 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
     return CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path(), stop.error().hint);
   } else if (const auto* state = port.FindAnnotation<internal::DrivingState>(); state == nullptr || !state->is_replaced || state->may_be_refused) {
     const AnyValue before = from.FindRest(), now = *stop ? (*stop)->safe_value() : port.FindRest();
-    const bool changes = before && (!now || TextOf(before) != TextOf(now));
+    const bool changes = (Moves(port) || Moves(from)) && before && (!now || TextOf(before) != TextOf(now));
     if (const Port* const rests = changes ? FindRestOfOthers(from, from.Sinks(), before, now) : nullptr) {
       const std::string what = now ? "has the safe value " + TextOf(now) : "moves several things, whose safe values differ";
       return CannotTakeOver(port, what + ", and " + rests->path() + " is at rest at " + TextOf(before) + (now ? ", by which others move, too" : ""),
@@ -129,13 +133,10 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   RUNNEL_CHECK(possible, "a port cannot take over from another one");
   const std::vector<Port*> sinks = from.BoundSinks();
   const std::shared_ptr<const PortStop> before = from.stop();
-  const AnyValue rest_before = from.FindRest();
+  const AnyValue rest_before = Moves(*this) || Moves(from) ? from.FindRest() : AnyValue();
   std::shared_ptr<const PortStop> after = *StopInPlaceOf(from);
   if (after) from.Extras();  // which this port has then
-  if (modules != nullptr && (extras_ || from.extras_)) {
-    Extras();
-    from.Extras();
-  }
+  if (modules != nullptr && (extras_ || from.extras_)) Extras(), from.Extras();
   auto& own = internal::DrivingState::Of(*this);
   auto& its = internal::DrivingState::Of(from);
   ReserveFor(from);
@@ -156,8 +157,8 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
     bool moves = false;
     if (is_input) VisitSiblings(*this, Direction::kOutput, [&](const Port& each) { moves = moves || has_moved(&each); });
     if (moves) RebindSinks();
-    const AnyValue rest = FindRest();
-    if (rest && rest_before && (after != before || modules != nullptr)) MoveToRest(rest_before, rest);
+    const AnyValue rest = rest_before ? FindRest() : AnyValue();
+    if (rest && (after != before || modules != nullptr)) MoveToRest(rest_before, rest);
   } catch (...) {
     // Each as it was, and what has been exchanged by then is exchanged again.
     if (extras_) extras_->stop = before;
@@ -181,8 +182,7 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
 AnyValue Port::FindRest() const {
   const auto stop = this->stop() ? this->stop() : internal::StopWithin(*this);
   if (stop) return stop->safe_value();
-  const auto drives = [](const Port* each) { return each->is_driving(); };
-  if (is_proxy() && std::ranges::any_of(internal::EndsOf(*this), drives)) return {};  // their safe values differ
+  if (Moves(*this)) return {};  // several, whose safe values differ
   if (auto safe = FindSafeValue({}, DrivingKind::kUnspecified)) return *safe;
   const std::shared_ptr<const void> value = type_.is_transparent() ? type_.Make() : nullptr;
   return value ? AnyValue(type_, value) : AnyValue();
@@ -239,7 +239,7 @@ void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks, cons
   } else if (extras_) {
     extras_->limits.swap(from.extras_->limits);
   }
-  for (const Port* port : {static_cast<const Port*>(this), static_cast<const Port*>(&from)}) {
+  for (const Port* port : std::initializer_list<const Port*>{this, &from}) {
     if (port->extras_) port->extras_->StandFor(*port);
   }
   outgoing_.insert(outgoing_.end(), std::move_iterator(first), std::move_iterator(from.outgoing_.end()));

@@ -63,6 +63,19 @@ TEST_F(DrivingSwap, NorIsASafeValueThatOfACompositeOfAnotherUnit) {
   }
 }
 
+TEST_F(DrivingSwap, WhereNothingDrivesNothingIsAtRest) {
+  shop_.Add<Boxed>("test/boxed");
+  shop_.Add<Defaulted>("test/defaulted");
+  for (const char* const type : {"test/boxed", "test/motor"}) {
+    Load("test/defaulted", "");
+    ASSERT_TRUE(In().PublishByHand(internal::FillWith(AnyValue(1500.)), Port::Setter::kRule));
+    ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", type}}));
+    auto& in = **PathSearch(shop_.Get<FrameworkElement>("/demo/m")).FindPort("in", PathKind::kInput);
+    EXPECT_EQ(Number(in.ValueByHand(Port::Setter::kRule)->value), 1500);
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
 TEST_F(DrivingSwap, WhatWasDeletedMeanwhileIsAsItWas) {
   Load("test/motor", kMarks[1]);
   ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/esc"}}));
