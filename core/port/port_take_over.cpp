@@ -15,7 +15,6 @@
 #include "core/port/port_extras.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
-#include "core/types/value_copy.h"
 
 namespace runnel {
 
@@ -110,7 +109,8 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
     return CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path(), stop.error().hint);
   } else if (const auto* state = port.FindAnnotation<internal::DrivingState>(); state == nullptr || !state->is_replaced || state->may_be_refused) {
     const AnyValue before = from.FindRest(), now = *stop ? (*stop)->safe_value() : port.FindRest();
-    const bool changes = (Moves(port) || Moves(from)) && before && (!now || TextOf(before) != TextOf(now));
+    const bool leads_nowhere = port.is_proxy() && internal::EndsOf(port).empty(), moves = Moves(port) || Moves(from);
+    const bool changes = moves && !leads_nowhere && before && (!now || TextOf(before) != TextOf(now));
     if (const Port* const rests = changes ? FindRestOfOthers(from, from.Sinks(), before, now) : nullptr) {
       const std::string what = now ? "has the safe value " + TextOf(now) : "moves several things, whose safe values differ";
       return CannotTakeOver(port, what + ", and " + rests->path() + " is at rest at " + TextOf(before) + (now ? ", by which others move, too" : ""),
@@ -188,8 +188,7 @@ AnyValue Port::FindRest() const {
   return value ? AnyValue(type_, value) : AnyValue();
 }
 
-// What stands at rest there, or at ports before it, by a rule or for somebody who drives it no more, does so at the safe value of
-// now.
+// What stands at rest there, or at ports before it, by a rule or for somebody who drives no more, does so at what is safe now.
 void Port::MoveToRest(const AnyValue& before, const AnyValue& now) {
   const auto is_it = [&](const AnyValue& value) { return value && ToText(type(), value.get()) == ToText(type(), before.get()); };
   const std::shared_ptr<HandSlot> slot = HandSlot::Find(*this);

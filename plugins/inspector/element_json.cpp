@@ -94,7 +94,7 @@ void AddPort(const Port& port, JsonObject& json) {
   json.Add("by_hand", port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule));
   json.Add("driving", port.is_driving()).Add("blocked", port.is_blocked());
   const AnyValue behind = SafeValueBehind(port);
-  json.Add("moves", port.is_driving() || behind);
+  json.Add("moves", port.is_driving() || MovesSomething(port));
   const AnyValue safe = port.stop() ? port.stop()->safe_value() : behind;
   if (safe && &safe.type() == &port.type()) json.Add("safe", ToText(safe.type(), safe.get()));
   const InputLimits& limits = port.limits();

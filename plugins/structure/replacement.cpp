@@ -168,7 +168,7 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
     } else if (is_stopped || is_connected(port)) {
       result.errors.push_back(possible.error());
       if (!is_stopped) result.misfits.push_back(&port);
-    } else if (composites && is_held && port.parent() != &before && (port.is_blocked() || MovesSomething(port, before, {}))) {
+    } else if (composites && is_held && port.parent() != &before && (port.is_blocked() || MovesSomething(port, port.runtime().root(), {}))) {
       result.errors.push_back({.message = "it is held, and the new module has no such port", .path = port.path(), .hint = "release it first"});
     }
   });

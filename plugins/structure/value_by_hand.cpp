@@ -64,7 +64,8 @@ bool MovesSomething(const Port& port) {
 
 AnyValue SafeValueBehind(const Port& port) {
   const std::vector<AnyValue> all = SafeValuesBehind(port);
-  return all.empty() ? AnyValue() : all.front();
+  const auto first = std::ranges::find_if(all, [](const AnyValue& each) { return bool(each); });
+  return first != all.end() ? *first : AnyValue();
 }
 
 Result<AnyValue> SafeValueOf(const Port& port) {
