@@ -50,10 +50,6 @@ const Port* FindRestOfOthers(const Port& port, const std::vector<Port*>& sinks, 
   return nullptr;
 }
 
-bool StaysWithin(const Port::ExchangedModules* modules, const Port& from, const Port& to) {
-  return modules != nullptr && IsWithinComposite(modules->before, from, to);
-}
-
 // As a file would connect it.
 Result<void> CheckConversions(const Port& port, const Port& from, const FrameworkElement& module) {
   const auto check = [&](const Connection& edge, const Port& source, const Port& to) -> Result<void> {
@@ -122,7 +118,8 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
   if (modules == nullptr && (!port.incoming_.empty() || !port.outgoing_.empty())) {
     return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
   }
-  const auto pulls = [&](const Connection& each) { return each.options.pull && !StaysWithin(modules, from, *each.to); };
+  const auto stays = [&](const Connection& each) { return modules != nullptr && IsWithinComposite(modules->before, from, *each.to); };
+  const auto pulls = [&](const Connection& each) { return each.options.pull && !stays(each); };
   if (port.is_pullable() || std::ranges::none_of(from.outgoing_, pulls)) return {};
   return CannotTakeOver(port, "cannot be pulled, and is to take over from one that is");
 }
@@ -136,7 +133,10 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   const AnyValue rest_before = Moves(*this) || Moves(from) ? from.FindRest() : AnyValue();
   std::shared_ptr<const PortStop> after = *StopInPlaceOf(from);
   if (after) from.Extras();  // which this port has then
-  if (modules != nullptr && (extras_ || from.extras_)) Extras(), from.Extras();
+  if (modules != nullptr && (extras_ || from.extras_)) {
+    Extras();
+    from.Extras();
+  }
   auto& own = internal::DrivingState::Of(*this);
   auto& its = internal::DrivingState::Of(from);
   ReserveFor(from);
@@ -190,7 +190,6 @@ AnyValue Port::FindRest() const {
 
 // What stands at rest there, or at ports before it, by a rule or for somebody who drives no more, does so at what is safe now.
 void Port::MoveToRest(const AnyValue& before, const AnyValue& now) {
-  const auto is_it = [&](const AnyValue& value) { return value && ToText(type(), value.get()) == ToText(type(), before.get()); };
   const std::shared_ptr<HandSlot> slot = HandSlot::Find(*this);
   const auto publisher = slot ? std::unique_lock(slot->mutex) : std::unique_lock<std::mutex>();
   const bool is_driven = slot && slot->hold && slot->hold->safe_value;
@@ -199,11 +198,11 @@ void Port::MoveToRest(const AnyValue& before, const AnyValue& now) {
     if (!is_set_by_hand(setter) || !type().is_transparent() || (setter == Setter::kPerson && !is_driven)) continue;
     Port& each = *extras_->by_hand[static_cast<std::size_t>(setter)];
     bool is_at_rest = false;
-    each.VisitLatest([&](const void* value, ValueTimes) { is_at_rest = ToText(type(), value) == ToText(type(), before.get()); });
+    each.VisitLatest([&](const void* value, ValueTimes) { is_at_rest = ToText(type(), value) == TextOf(before); });
     if (!is_at_rest) continue;
     if (auto set = each.PublishFilled(internal::FillWith(now)); !set) throw ElementError(set.error());
   }
-  if (is_driven && is_it(slot->hold->safe_value)) slot->hold->safe_value = now;
+  if (is_driven && TextOf(slot->hold->safe_value) == TextOf(before)) slot->hold->safe_value = now;
   for (Port* from : incoming_) {
     if (!from->is_driving() && !from->ConnectionTo(*this)->converted) from->MoveToRest(before, now);
   }

@@ -1,6 +1,7 @@
 #include "plugins/behaviours/promela.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -12,14 +13,15 @@ namespace {
 
 constexpr int kPatience = 3;  // cycles
 
-std::string Joined(const std::vector<std::size_t>& places, const char* format, const char* separator,
-                   const char* none) {
+using PlaceName = std::function<std::string(std::size_t place)>;
+std::string Joined(const std::vector<std::size_t>& places, const PlaceName& name, const char* separator, const char* none) {
   std::string text;
-  for (const std::size_t each : places) {
-    text += (text.empty() ? "" : separator) + fmt::format(fmt::runtime(format), each);
-  }
+  for (const std::size_t each : places) text += (text.empty() ? "" : separator) + name(each);
   return text.empty() ? none : "(" + text + ")";
 }
+
+std::string Active(std::size_t place) { return fmt::format("active_{}", place); }
+std::string NotActive(std::size_t place) { return "!" + Active(place); }
 
 bool Has(const std::vector<std::size_t>& places, std::size_t place) { return std::ranges::find(places, place) != places.end(); }
 
@@ -27,16 +29,12 @@ bool Has(const std::vector<std::size_t>& places, std::size_t place) { return std
 // as they were or are.
 std::string Seen(const BehaviourNetwork& network, std::size_t at, const std::vector<std::size_t>& places, const char* before,
                  const char* separator, const char* none) {
-  std::string text;
-  for (const std::size_t each : places) {
-    text += (text.empty() ? "" : separator) + std::string(before);
-    if (Has(network.nodes[at].elsewhere, each)) {
-      text += fmt::format("seen_{}_{}", at, each);
-    } else {
-      text += fmt::format("{}_{}", Has(network.nodes[at].late, each) ? "before" : "active", each);
-    }
-  }
-  return text.empty() ? none : "(" + text + ")";
+  const NetworkNode& node = network.nodes[at];
+  const auto name = [&](std::size_t each) {
+    if (Has(node.elsewhere, each)) return fmt::format("{}seen_{}_{}", before, at, each);
+    return fmt::format("{}{}_{}", before, Has(node.late, each) ? "before" : "active", each);
+  };
+  return Joined(places, name, separator, none);
 }
 
 // Whether somebody sees what it was before.
@@ -99,9 +97,9 @@ std::string OneCycle(const BehaviourNetwork& network, bool is_fair) {
 }
 
 std::string Formula(const NetworkProperty& property) {
-  const std::string goal = Joined(property.active, "active_{}", " && ", "true");
+  const std::string goal = Joined(property.active, Active, " && ", "true");
   if (property.others.empty()) return "<> " + goal;
-  return "[] (" + Joined(property.others, "active_{}", " && ", "true") + " -> <> " + goal + ")";
+  return "[] (" + Joined(property.others, Active, " && ", "true") + " -> <> " + goal + ")";
 }
 
 // A line has "0101…", a digit for each behaviour.
@@ -123,8 +121,8 @@ std::string PromelaText(const BehaviourNetwork& network, const NetworkProperty* 
   std::string text = "/* A network of behaviours. */\n" + Declarations(network, is_fair) +
                      "\nactive proctype cycles() {\n  do\n  :: atomic {\n" + OneCycle(network, is_fair);
   if (property != nullptr && !is_fair) {
-    text += ";\n      assert(!(" + Joined(property->active, "active_{}", " && ", "true") + " && " +
-            Joined(property->others, "!active_{}", " && ", "true") + "))";
+    text += ";\n      assert(!(" + Joined(property->active, Active, " && ", "true") + " && " +
+            Joined(property->others, NotActive, " && ", "true") + "))";
   }
   text += "\n    }\n  od\n}\n";
   if (is_fair) text += "\nltl property { " + Formula(*property) + " }\n";

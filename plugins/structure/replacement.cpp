@@ -26,7 +26,7 @@ std::optional<Port::ExchangedModules> Composites(const FrameworkElement& before,
 }
 
 // Whether something moves by what comes to the port, through parts of the module, too.
-bool MovesSomething(const Port& port, const FrameworkElement& module, const std::set<const Port*>& driving) {
+bool MovesWithin(const Port& port, const FrameworkElement& module, const std::set<const Port*>& driving) {
   std::set<const Port*> seen;
   const std::function<bool(const Port&)> moves = [&](const Port& at) {
     if (!at.IsAtOrBelow(module) || !seen.insert(&at).second) return false;
@@ -168,7 +168,7 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
     } else if (is_stopped || is_connected(port)) {
       result.errors.push_back(possible.error());
       if (!is_stopped) result.misfits.push_back(&port);
-    } else if (composites && is_held && port.parent() != &before && (port.is_blocked() || MovesSomething(port, port.runtime().root(), {}))) {
+    } else if (composites && is_held && port.parent() != &before && (port.is_blocked() || MovesWithin(port, port.runtime().root(), {}))) {
       result.errors.push_back({.message = "it is held, and the new module has no such port", .path = port.path(), .hint = "release it first"});
     }
   });
@@ -180,7 +180,7 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
     const bool comes_back = state != nullptr && state->is_replaced && !port->runtime().robot_stop().in_force();
     const bool is_input = port->direction() == Port::Direction::kInput;
     const bool inherits = StopWithin(*port) && (!match->is_proxy() || !EndsOf(*match).empty());
-    if (!is_input || comes_back || inherits || !MovesSomething(*port, before, {}) || MovesSomething(*match, after, driving)) continue;
+    if (!is_input || comes_back || inherits || !MovesWithin(*port, before, {}) || MovesWithin(*match, after, driving)) continue;
     result.errors.push_back({.message = "something moves by it, and the new module does not say that", .path = port->path(),
                              .hint = "have the new module declare that it drives, with its safe value"});
   }
