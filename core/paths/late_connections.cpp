@@ -249,7 +249,9 @@ std::vector<const LateConnection*> AwaitedBy(const Port& port) {
 
 std::vector<LateConnection> AwaitedWith(const FrameworkElement& element) {
   std::vector<LateConnection> awaited;
-  for (const LateConnection* const each : Waiting(element.runtime(), [&](const std::string& end) { return IsAtOrBelow(end, element.path()); })) {
+  const std::string path = ShortPath(element.path());
+  const auto goes_with_it = [&](const std::string& end) { return IsAtOrBelow(end, element.path()) || ShortPath(end) == path; };
+  for (const LateConnection* const each : Waiting(element.runtime(), goes_with_it)) {
     if (each->is_of_its_input()) awaited.push_back(*each);
   }
   return awaited;

@@ -38,13 +38,8 @@ struct DrivingState final : Annotation {
   bool is_replaced = false;
   bool is_later = false, may_be_refused = false;  // it is to come back: what has been stopped meanwhile stays so
   std::shared_ptr<const PortStop> stop_before;
+  AnyValue read_before;  // if it can be copied
 };
-
-/// Whose units say what the values of the port are: itself; of an interface port those in its group that it leads to, or is fed
-/// by, with no conversion to another type.
-[[nodiscard]] std::vector<const Port*> EndsOf(const Port& port);
-/// Of an interface port: what stops those of them that drive, if that is one and the same.
-[[nodiscard]] std::shared_ptr<const PortStop> StopWithin(const Port& port);
 
 /// Errors: another port has its place now, as an output's while a recording is played.
 [[nodiscard]] Result<void> CheckHasItsPlace(const Port& port);

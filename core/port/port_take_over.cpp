@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 #include <mutex>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "core/port/port_extras.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
+#include "core/types/value_copy.h"
 
 namespace runnel {
 
@@ -26,8 +29,16 @@ Error CannotTakeOver(const Port& port, std::string message, std::string hint = {
 
 std::string TextOf(const AnyValue& value) { return ToText(value.type(), value.get()); }
 
-bool Moves(const Port& port) {
-  return port.stop() || std::ranges::any_of(internal::EndsOf(port), [](const Port* each) { return each->is_driving(); });
+bool IsSame(const PortStop& a, const PortStop& b) {
+  return TextOf(a.safe_value()) == TextOf(b.safe_value()) && a.command() == b.command() && a.brake() == b.brake();
+}
+
+// What is read there, if it can be copied.
+AnyValue ReadAt(const Port& port) {
+  const std::shared_ptr<void> value = port.type().is_transparent() ? port.type().Make() : nullptr;
+  bool is_copied = false;
+  port.VisitLatest([&](const void* latest, ValueTimes) { is_copied = value && CopyValue(port.type(), latest, value.get()); });
+  return is_copied ? AnyValue(port.type(), value) : AnyValue();
 }
 
 bool RestsAt(const Port& port, const AnyValue& rest) {
@@ -35,13 +46,12 @@ bool RestsAt(const Port& port, const AnyValue& rest) {
   return (held && TextOf(held->value) == TextOf(rest)) || (driven && driven->is_at_rest && TextOf(driven->value) == TextOf(rest));
 }
 
-// A port that is at rest at `before`, and moves something for which `now` is no rest; none of `now`: nothing is rest for all.
+// A port that is at rest at `before`, and moves something for which `now` is no rest.
 const Port* FindRestOfOthers(const Port& port, const std::vector<Port*>& sinks, const AnyValue& before, const AnyValue& now) {
-  if (!now && RestsAt(port, before)) return &port;
   for (const Port* from : port.incoming()) {
     if (from->is_driving() || from->ConnectionTo(port)->converted) continue;
     const auto is_other = [&](const Port* sink) {
-      const auto is_held = [&](const internal::PassedStop& each) { return each.stop->robot() && now && TextOf(each.safe_value) != TextOf(now); };
+      const auto is_held = [&](const internal::PassedStop& each) { return each.stop->robot() && TextOf(each.safe_value) != TextOf(now); };
       return std::ranges::find(sinks, sink) == sinks.end() && std::ranges::any_of(internal::PassedStops(*sink), is_held);
     };
     if (RestsAt(*from, before) && std::ranges::any_of(from->Sinks(), is_other)) return from;
@@ -50,14 +60,16 @@ const Port* FindRestOfOthers(const Port& port, const std::vector<Port*>& sinks, 
   return nullptr;
 }
 
-// As a file would connect it.
-Result<void> CheckConversions(const Port& port, const Port& from, const FrameworkElement& module) {
+// As a file would connect it: of a conversion, its text says all.
+Result<void> CheckConversions(const Port& port, const Port& from, const FrameworkElement* module) {
   const auto check = [&](const Connection& edge, const Port& source, const Port& to) -> Result<void> {
-    if (IsWithinComposite(module, *edge.from, *edge.to)) return {};
+    if (module != nullptr && IsWithinComposite(*module, *edge.from, *edge.to)) return {};
     const auto conversion = internal::ConversionBetween(source, to, edge.options.part, edge.options.convert);
-    if (conversion && bool(*conversion) == bool(edge.converted)) return {};
+    if (!conversion) return conversion.error();
+    const auto* const now = edge.converted ? &edge.converted->conversion() : nullptr;
+    if ((now == nullptr) == (*conversion == nullptr) && (now == nullptr || now->text() == (*conversion)->text())) return {};
     return CannotTakeOver(port, "cannot take over from " + from.path() + ": the values between " + edge.from->path() + " and " + edge.to->path() +
-                                    (edge.converted ? " are converted by their units, which an interface port has not" : " would be converted"));
+                                    " would be converted otherwise", "disconnect them first");
   };
   for (const Connection& each : from.outgoing()) {
     if (auto good = check(each, port, *each.to); !good) return good;
@@ -68,11 +80,26 @@ Result<void> CheckConversions(const Port& port, const Port& from, const Framewor
   return {};
 }
 
-// A port and one in its place whose units differ.
-std::pair<const Port*, const Port*> FindOtherUnit(const Port& port, const Port& from) {
-  for (const Port* end : internal::EndsOf(port)) {
-    for (const Port* other : internal::EndsOf(from)) {
-      if (!end->unit().empty() && !other->unit().empty() && end->unit() != other->unit()) return {end, other};
+// Of which the values are: of an interface port, as they are on either side of it, but within its group, without a conversion to another type.
+std::set<std::string> UnitsOf(const Port& port) {
+  if (!port.is_proxy()) return {port.unit()};
+  std::set<std::string> units;
+  for (const Port* each : port.direction() == Port::Direction::kInput ? port.Sinks() : port.Sources()) {
+    if (&each->type() == &port.type() && each->IsAtOrBelow(*port.parent())) units.insert(each->unit());
+  }
+  return units;
+}
+
+// What is connected was converted for the unit of the other one, and what stops an interface port, or its block, is of its own.
+Result<void> CheckUnits(const Port& port, const Port& from, bool may_be_refused) {
+  const auto units = UnitsOf(port), others = UnitsOf(from);
+  if (units == others) return {};
+  const bool has_to_be_same = may_be_refused && (port.is_proxy() || from.is_proxy()) && !internal::PassedStops(from).empty();
+  for (const std::string& each : units) {
+    for (const std::string& other : others) {
+      if (each == other || (!has_to_be_same && (each.empty() || other.empty()))) continue;
+      const auto in = [](const std::string& unit) { return "is in " + (unit.empty() ? "no unit" : unit); };
+      return CannotTakeOver(port, in(each) + " and cannot take over from " + from.path() + ", which " + in(other));
     }
   }
   return {};
@@ -97,24 +124,29 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
     return CannotTakeOver(port, "carries " + port.type().name() + " and cannot take over from " + from.path() + ", which carries " +
                                     from.type().name());
   }
-  // What is connected was converted for the unit of the other one.
-  if (const auto [end, other] = FindOtherUnit(port, from); end != nullptr) {
-    return CannotTakeOver(port, "is in " + end->unit() + " and cannot take over from " + from.path() + ", which is in " + other->unit());
-  }
+  // On the way back less is refused; on that of a change that has failed nothing that has been there before.
+  const auto* const state = port.FindAnnotation<internal::DrivingState>();
+  const bool may_be_refused = state == nullptr || !state->is_replaced || state->may_be_refused;
+  if (auto good = CheckUnits(port, from, may_be_refused); !good) return good;
   if (const auto stop = port.StopInPlaceOf(from); !stop) {
     return CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path(), stop.error().hint);
-  } else if (const auto* state = port.FindAnnotation<internal::DrivingState>(); state == nullptr || !state->is_replaced || state->may_be_refused) {
+  } else if (may_be_refused) {
+    const auto *declared = port.declared_stop(), *other = from.declared_stop();
+    const bool is_alike = port.is_proxy() == from.is_proxy() && port.unit() == from.unit() &&
+                          (declared == nullptr || other == nullptr ? declared == other : IsSame(*declared, *other));
+    if (modules != nullptr && (port.is_driving() || from.is_driving()) && !is_alike) {
+      return CannotTakeOver(port, "moves nothing, or not in the same way as " + from.path(), "delete the module, and create the other one");
+    }
     const AnyValue before = from.FindRest(), now = *stop ? (*stop)->safe_value() : port.FindRest();
-    const bool leads_nowhere = port.is_proxy() && internal::EndsOf(port).empty(), moves = Moves(port) || Moves(from);
-    const bool changes = moves && !leads_nowhere && before && (!now || TextOf(before) != TextOf(now));
+    const bool changes = (port.stop() || from.stop()) && before && now && TextOf(before) != TextOf(now);
     if (const Port* const rests = changes ? FindRestOfOthers(from, from.Sinks(), before, now) : nullptr) {
-      const std::string what = now ? "has the safe value " + TextOf(now) : "moves several things, whose safe values differ";
-      return CannotTakeOver(port, what + ", and " + rests->path() + " is at rest at " + TextOf(before) + (now ? ", by which others move, too" : ""),
-                            "release it first");
+      const std::string what = "has the safe value " + TextOf(now) + ", and " + rests->path() + " is at rest at " + TextOf(before);
+      return CannotTakeOver(port, what + ", by which others move, too", "release it first");
     }
   }
-  const auto converted = modules != nullptr ? CheckConversions(port, from, modules->before) : Result<void>();
-  if (!converted) return converted;
+  if (may_be_refused || state->is_later) {
+    if (auto good = CheckConversions(port, from, modules != nullptr ? &modules->before : nullptr); !good) return good;
+  }
   if (modules == nullptr && (!port.incoming_.empty() || !port.outgoing_.empty())) {
     return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
   }
@@ -130,8 +162,9 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   RUNNEL_CHECK(possible, "a port cannot take over from another one");
   const std::vector<Port*> sinks = from.BoundSinks();
   const std::shared_ptr<const PortStop> before = from.stop();
-  const AnyValue rest_before = Moves(*this) || Moves(from) ? from.FindRest() : AnyValue();
+  const AnyValue rest_before = stop() || from.stop() ? from.FindRest() : AnyValue();
   std::shared_ptr<const PortStop> after = *StopInPlaceOf(from);
+  AnyValue read = unit() != from.unit() ? ReadAt(from) : AnyValue();
   if (after) from.Extras();  // which this port has then
   if (modules != nullptr && (extras_ || from.extras_)) {
     Extras();
@@ -158,7 +191,7 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
     if (is_input) VisitSiblings(*this, Direction::kOutput, [&](const Port& each) { moves = moves || has_moved(&each); });
     if (moves) RebindSinks();
     const AnyValue rest = rest_before ? FindRest() : AnyValue();
-    if (rest && (after != before || modules != nullptr)) MoveToRest(rest_before, rest);
+    if (rest && after != before) MoveToRest(rest_before, rest);
   } catch (...) {
     // Each as it was, and what has been exchanged by then is exchanged again.
     if (extras_) extras_->stop = before;
@@ -173,16 +206,16 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   own.mark = its.mark;
   own.is_replaced = false;
   own.stop_before.reset();
+  own.read_before = {};
   its.is_replaced = true;
   its.is_later = its.may_be_refused = false;
   its.stop_before = before;
+  its.read_before = std::move(read);
 }
 
 // Where it is for somebody who drives it no more, as SafeValueOf() says it.
 AnyValue Port::FindRest() const {
-  const auto stop = this->stop() ? this->stop() : internal::StopWithin(*this);
-  if (stop) return stop->safe_value();
-  if (Moves(*this)) return {};  // several, whose safe values differ
+  if (const auto stop = this->stop()) return stop->safe_value();
   if (auto safe = FindSafeValue({}, DrivingKind::kUnspecified)) return *safe;
   const std::shared_ptr<const void> value = type_.is_transparent() ? type_.Make() : nullptr;
   return value ? AnyValue(type_, value) : AnyValue();

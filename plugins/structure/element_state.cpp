@@ -30,7 +30,7 @@ struct PortState final : Annotation {
   const TypeInfo& type;
   const Port::Direction direction;
   const bool is_proxy;
-  std::vector<std::string> units;
+  std::string unit;
   InputLimits limits;
   // With its own stamp, so that it does not become a command from after a STOP.
   std::optional<Port::HandValue> by_hand;
@@ -41,13 +41,6 @@ struct PortState final : Annotation {
   std::shared_ptr<const DrivingMark> said;
   bool is_blocked = false;
 };
-
-// Of what its values are.
-std::vector<std::string> UnitsOf(const Port& port) {
-  std::vector<std::string> units;
-  for (const Port* end : EndsOf(port)) units.push_back(end->unit());
-  return units;
-}
 
 Result<void> GiveTo(Port& port, const PortState& state) {
   const bool is_input = !port.is_proxy() && port.direction() == Port::Direction::kInput;
@@ -81,7 +74,7 @@ void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkEle
           ElementState::Below below) {
   if (const auto* const port = dynamic_cast<const Port*>(&element)) {
     auto state = std::make_unique<PortState>(*port);
-    state->units = UnitsOf(*port);
+    state->unit = port->unit();
     state->limits = port->limits();
     state->by_hand = port->ValueByHand();
     if (how == FrameworkElement::Inherit::kAsReplacement) state->by_rule = port->ValueByHand(Port::Setter::kRule);
@@ -131,7 +124,7 @@ void ElementState::NoteWayBack(FrameworkElement& made) const {
   made.VisitAll<Port>([&](Port& port) {
     const auto found = noted_->Find(port.path().substr(made.path().size() + 1));
     const auto* const state = found ? (*found)->FindAnnotation<PortState>() : nullptr;
-    if (state == nullptr || !state->Fits(port) || state->units != UnitsOf(port)) return;
+    if (state == nullptr || port.is_proxy() || !state->Fits(port) || state->unit != port.unit()) return;
     auto& driving = DrivingState::Of(port);
     driving.mark = state->said;
     driving.is_replaced = true;

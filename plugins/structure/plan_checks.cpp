@@ -258,6 +258,7 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
       further_errors_.push_back(match.errors[i]);
     return match.errors.front();
   }
+  if (auto moves = CheckMovesAlike(before, made, match.ports); !moves) return moves;
   // Made anew by its own type it is to go on where it was. Another type takes over what it can.
   for (const Setting& each : SettingsOf(before)) {
     if (FindConfigurable(made, each.parameter)) continue;
@@ -280,10 +281,7 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
   for (Error& each : StateRefusals(before, made)) {
     (is_made_anew ? further_errors_ : warnings_).push_back(std::move(each));
   }
-  overlay_.Replace(before, made, match.ports);
-  for (const auto& [from, to] : match.ports) {
-    if (overlay_.IsInCycle(*to)) return Error{.message = "in the place of " + from->path() + " it would close a cycle of interface ports", .path = to->path()};
-  }
+  if (auto replaced = overlay_.Replace(before, made, match.ports); !replaced) return replaced;
   made_.push_back(&made);
   AddReplacement(before, *work, std::move(match.ports), change);
   return {};

@@ -184,7 +184,7 @@ Result<void> Plan::MovePort(const Placement& place, Port& port) {
   KeepPlace(made, port);
   if (auto prepared = Runtime::Prepare(*kept); !prepared) return prepared;
   Concern(port);
-  overlay_.Replace(port, made, {{&port, &made}});
+  if (auto replaced = overlay_.Replace(port, made, {{&port, &made}}); !replaced) return replaced;
   auto has_taken = std::make_shared<bool>(false);
   steps_.push_back({[=, this, &port, &made]() -> Result<void> {
                       if (auto listed = runtime_.List(std::move(*kept)); !listed) return listed.error();

@@ -25,18 +25,13 @@ std::optional<Port::ExchangedModules> Composites(const FrameworkElement& before,
   return Port::ExchangedModules{before, after};
 }
 
-// Whether something moves by what comes to the port, through parts of the module, too.
-bool MovesWithin(const Port& port, const FrameworkElement& module, const std::set<const Port*>& driving) {
-  std::set<const Port*> seen;
-  const std::function<bool(const Port&)> moves = [&](const Port& at) {
-    if (!at.IsAtOrBelow(module) || !seen.insert(&at).second) return false;
-    if (at.is_driving() || driving.contains(&at)) return true;
-    bool found = std::ranges::any_of(at.outgoing(), [&](const Connection& each) { return moves(*each.to); });
-    if (at.is_proxy() || at.direction() == Port::Direction::kOutput) return found;
-    VisitSiblings(at, Port::Direction::kOutput, [&](const Port& output) { found = found || moves(output); });
-    return found;
-  };
-  return moves(port);
+// That of a port of the module to which what comes to an interface port leads, and by which something moves.
+std::set<const Port*> DrivingEnds(const Port& port, const FrameworkElement& module) {
+  std::set<const Port*> ends;
+  for (const Port* each : port.Sinks()) {
+    if (each->is_driving() && each->IsAtOrBelow(module)) ends.insert(each);
+  }
+  return ends;
 }
 
 // The element below `after` that is called as `port` is below `before`.
@@ -154,7 +149,6 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
                      const std::function<bool(const Port&)>& is_connected) {
   PortMatch result;
   const auto composites = Composites(before, after);
-  std::set<const Port*> driving;  // of those that take over
   before.VisitAll<Port>([&](Port& port) {
     Port* match = Counterpart(port, before, after);
     if (std::ranges::count(result.ports, match, &std::pair<Port*, Port*>::second) > 0) match = nullptr;
@@ -164,27 +158,39 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
     const bool is_stopped = match != nullptr && (port.FindMark() || port.is_blocked());
     if (possible) {
       result.ports.push_back({&port, match});
-      if (port.is_driving()) driving.insert(match);
     } else if (is_stopped || is_connected(port)) {
       result.errors.push_back(possible.error());
       if (!is_stopped) result.misfits.push_back(&port);
-    } else if (composites && is_held && port.parent() != &before && (port.is_blocked() || MovesWithin(port, port.runtime().root(), {}))) {
+    } else if (composites && is_held) {
       result.errors.push_back({.message = "it is held, and the new module has no such port", .path = port.path(), .hint = "release it first"});
     }
   });
-  // By what those within have, too, it is found what an interface port inherits.
-  std::ranges::stable_partition(result.ports, [&](const auto& each) { return each.first->parent() == &before; });
-  if (!composites) return result;
-  for (const auto& [port, match] : result.ports) {
-    const auto* const state = match->FindAnnotation<DrivingState>();
-    const bool comes_back = state != nullptr && state->is_replaced && !port->runtime().robot_stop().in_force();
-    const bool is_input = port->direction() == Port::Direction::kInput;
-    const bool inherits = StopWithin(*port) && (!match->is_proxy() || !EndsOf(*match).empty());
-    if (!is_input || comes_back || inherits || !MovesWithin(*port, before, {}) || MovesWithin(*match, after, driving)) continue;
-    result.errors.push_back({.message = "something moves by it, and the new module does not say that", .path = port->path(),
-                             .hint = "have the new module declare that it drives, with its safe value"});
-  }
   return result;
+}
+
+Result<void> CheckMovesAlike(FrameworkElement& before, FrameworkElement& after, const std::vector<std::pair<Port*, Port*>>& ports) {
+  if (!Composites(before, after)) return {};
+  const auto differs = [](const Port& port) {
+    return Error{.message = "something moves by it, and a composite gives its place only to another one in which the same moves by ports of the same names",
+                 .path = port.path(),
+                 .hint = "delete it, and create the other one"};
+  };
+  std::set<const Port*> moving;  // in both
+  for (const auto& [from, to] : ports) {
+    if (from->is_driving()) moving.insert({from, to});
+  }
+  Result<void> alike;
+  for (auto* module : {&before, &after}) {
+    module->VisitAll<const Port>([&](const Port& port) {
+      if (alike && port.is_driving() && !moving.contains(&port)) alike = differs(port);
+    });
+  }
+  for (const auto& [from, to] : ports) {
+    const auto ends = DrivingEnds(*to, after);
+    const auto leads_there = [&, &from = from](const auto& each) { return DrivingEnds(*from, before).contains(each.first) == ends.contains(each.second); };
+    if (alike && from->is_proxy() && !std::ranges::all_of(ports, leads_there)) alike = differs(*from);
+  }
+  return alike;
 }
 
 void InheritAnnotations(FrameworkElement& after, const FrameworkElement& before, const std::vector<std::pair<Port*, Port*>>& ports) {

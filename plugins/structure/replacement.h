@@ -42,6 +42,11 @@ struct PortMatch {
 [[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
                                    const std::function<bool(const Port&)>& is_connected);
 
+/// Errors: one of them is a composite, and not the same moves in both, by ports of the same names. What stops and holds that is kept
+/// with each port, so it would have no place in the other one, or another meaning.
+[[nodiscard]] Result<void> CheckMovesAlike(FrameworkElement& before, FrameworkElement& after,
+                                           const std::vector<std::pair<Port*, Port*>>& ports);
+
 /// Also of ports that are not at the same place in a module as in a composite. What only a module's input can have stays.
 void InheritAnnotations(FrameworkElement& after, const FrameworkElement& before, const std::vector<std::pair<Port*, Port*>>& ports);
 /// As a module's port does, or a composite's.

@@ -17,6 +17,7 @@
 #include "core/port/driving_ports.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/replacement.h"
+#include "plugins/structure/structure_overlay.h"
 
 namespace runnel {
 
@@ -51,7 +52,7 @@ class Probation {
   [[nodiscard]] FrameworkElement* Successor(const Waiting& waiting);
   [[nodiscard]] bool HasProved(const Waiting& waiting);
   [[nodiscard]] std::vector<Waiting>::iterator Find(const std::string& path);
-  Result<UnlistedElement> PutBack(Waiting& waiting);
+  Result<UnlistedElement> PutBack(Waiting& waiting, std::string& done);
 
   Runtime& runtime_;
   Scheduler& scheduler_;
@@ -64,9 +65,7 @@ void Probation::Add(std::vector<Replaced>& replaced) {
   std::vector<std::uint64_t> until(replaced.size(), 0);
   for (std::size_t i = 0; i < replaced.size(); ++i) {
     const auto progress = scheduler_.ProgressOf(replaced[i].path);
-    if (progress && replaced[i].probation_cycles > 0) {
-      until[i] = progress->cycles + replaced[i].probation_cycles;
-    }
+    if (progress && replaced[i].probation_cycles > 0) until[i] = progress->cycles + replaced[i].probation_cycles;
   }
   waiting_.reserve(waiting_.size() + replaced.size());
   for (std::size_t i = 0; i < replaced.size(); ++i) {
@@ -123,7 +122,7 @@ std::string Probation::PutBack(const Fault& fault, OrderedMutex& mutex) {
   if (!is_there) return "others have removed it meanwhile";
   const std::string before = FindModuleType(*found->replaced.before);
   std::string done = "the module before (" + (before.empty() ? "made by code" : before) + ") is back in its place";
-  auto gone = hold ? PutBack(*found) : hold.error();
+  auto gone = hold ? PutBack(*found, done) : hold.error();
   if (!gone) throw std::runtime_error("the module before could not be put back: " + gone.error().ToString());
   waiting_.erase(found);
   lock.unlock();
@@ -132,8 +131,8 @@ std::string Probation::PutBack(const Fault& fault, OrderedMutex& mutex) {
   return done;
 }
 
-// Between two cycles. Leaves `waiting` as it is if it fails.
-Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
+// Between two cycles. Leaves `waiting` as it is if it fails. `done` gets what is lost.
+Result<UnlistedElement> Probation::PutBack(Waiting& waiting, std::string& done) {
   const ChangeScope all_at_once(runtime_);
   FrameworkElement* const after = Successor(waiting);
   if (after == nullptr) return std::move(waiting.replaced.before);
@@ -143,7 +142,10 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
   FrameworkElement& before = *waiting.replaced.before;
   before.VisitAll<Port>([](Port& port) { DrivingState::Of(port).is_later = true; });
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
-  const PortMatch match = MatchPorts(*after, before, [](const Port&) { return false; });
+  StructureOverlay overlay(runtime_);
+  const PortMatch match = MatchPorts(*after, before, [&](const Port& port) { return overlay.IsConnected(port, after); });
+  for (const Error& each : match.errors) done += "; not taken over: " + each.path + ": " + each.message;
+  if (auto possible = overlay.Replace(*after, before, match.ports); !possible) return possible.error();
   InheritAnnotations(before, *after, match.ports);
   auto gone = runtime_.Unlist(*after);
   if (!gone) return gone.error();
@@ -204,8 +206,7 @@ void WarnOfLeaving(const std::vector<std::string>& removed, Runtime& runtime, Di
 // Shared with the scheduler's fault handler, so that a fault that is just being answered when the editor
 // goes still finds it.
 struct StructureEditor::Shared {
-  std::recursive_mutex
-      applying;  // change sets, one after the other; comes first. Faults are answered meanwhile
+  std::recursive_mutex applying;  // change sets, one after the other; comes first. Faults are answered meanwhile
   OrderedMutex mutex{LockLevel::kEditor};
   std::optional<internal::Probation> probation;  // guarded by mutex; none without a scheduler
   std::vector<UnlistedElement> Take(bool all) {

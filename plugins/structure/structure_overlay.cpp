@@ -67,8 +67,8 @@ void StructureOverlay::Remove(FrameworkElement& element) {
   });
 }
 
-void StructureOverlay::Replace(FrameworkElement& gone, FrameworkElement& element,
-                               const std::vector<std::pair<Port*, Port*>>& ports) {
+Result<void> StructureOverlay::Replace(FrameworkElement& gone, FrameworkElement& element,
+                                       const std::vector<std::pair<Port*, Port*>>& ports) {
   for (const auto& [before, after] : ports) {
     replaced_[before] = after;
     for (auto* edges : {&connected_, &disconnected_}) {
@@ -81,6 +81,11 @@ void StructureOverlay::Replace(FrameworkElement& gone, FrameworkElement& element
   removed_.push_back(&gone);
   composites_.push_back(&gone);
   Add(element);
+  for (const auto& [before, after] : ports) {
+    if (!IsInCycle(*after)) continue;
+    return Error{.message = "in the place of " + before->path() + " it would close a cycle of interface ports", .path = after->path()};
+  }
+  return {};
 }
 
 Port& StructureOverlay::NowFor(Port& port) const {
@@ -130,6 +135,7 @@ bool StructureOverlay::Reaches(const Port& from, const Port& to) const {
   return &from == &to || leads_there(from);
 }
 
+// Of interface ports alone.
 bool StructureOverlay::IsInCycle(const Port& port) const {
   return port.is_proxy() && std::ranges::any_of(Targets(port), [&](const Port* next) { return next->is_proxy() && Reaches(*next, port); });
 }

@@ -25,9 +25,9 @@ class StructureOverlay final : public PathSearch {
 
   void Add(FrameworkElement& element);
   void Remove(FrameworkElement& element);
-  /// `element` stands in the place of `gone` from now on, and its ports in that of the others.
-  void Replace(FrameworkElement& gone, FrameworkElement& element,
-               const std::vector<std::pair<Port*, Port*>>& ports);
+  /// `element` stands in the place of `gone` from now on, and its ports in that of the others. Errors: this closes a cycle of
+  /// interface ports.
+  Result<void> Replace(FrameworkElement& gone, FrameworkElement& element, const std::vector<std::pair<Port*, Port*>>& ports);
 
   /// Errors: what Port::Connect() and Disconnect() would say.
   Result<void> Connect(Port& from, Port& to, const ConnectOptions& options);
@@ -38,8 +38,6 @@ class StructureOverlay final : public PathSearch {
   [[nodiscard]] std::vector<std::pair<Port*, Port*>> EdgesOf(Port& port, const FrameworkElement* module = nullptr) const;
   /// Likewise. Who only probes the port does not count: a recorder can do without.
   [[nodiscard]] bool IsConnected(const Port& port, const FrameworkElement* module) const;
-  /// Of interface ports alone.
-  [[nodiscard]] bool IsInCycle(const Port& port) const;
 
  private:
   using Edge = std::pair<Port*, Port*>;
@@ -51,6 +49,7 @@ class StructureOverlay final : public PathSearch {
   [[nodiscard]] bool IsGone(const FrameworkElement& element) const;
   [[nodiscard]] std::vector<Port*> Targets(const Port& from) const;
   [[nodiscard]] Port& NowFor(Port& port) const;
+  [[nodiscard]] bool IsInCycle(const Port& port) const;
   [[nodiscard]] bool Reaches(const Port& from, const Port& to) const;
 
   Runtime& runtime_;

@@ -181,7 +181,8 @@ TEST(DrivingKindOfComposites, IsThatOfTheModulesInside) {
   ASSERT_TRUE(modules.Add({"test/wheel", "", "test", [](const Placement& at) { return std::make_unique<Composite<Turning>>(at); }}));
   StructureEditor editor{runtime, modules, nullptr};
   ASSERT_TRUE(editor.Apply({CreateModule{"/hand", "test/arm"}}));
-  ASSERT_TRUE(editor.Apply({ReplaceModule{"/hand", "test/wheel"}}));
+  EXPECT_FALSE(editor.Apply({ReplaceModule{"/hand", "test/wheel"}}));
+  ASSERT_TRUE(editor.Apply({DeleteElement{"/hand"}, CreateModule{"/hand", "test/wheel"}}));
   const auto& motor = dynamic_cast<Turning&>(**runtime.root().Find("/hand/motor"));
   EXPECT_EQ(motor.in.stop()->command(), DrivingKind::kVelocity);
   runtime.robot_stop().Press("a test");

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/element/robot_stop.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/structure/change.h"
 #include "tests/plugins/application/state_trial.h"
@@ -29,7 +30,11 @@ inline const std::vector<Operation>& Operations() {
     trial.module = "/app/h/m";
   };
   const auto swap = [](Trial& trial) { trial.Do({ReplaceModule{trial.module, "states/other", {}, 0}}); };
-  const auto box = [](Trial& trial) { trial.Do({ReplaceModule{trial.module, "states/box", {}, 0}}); };
+  const auto box = [](Trial& trial) {
+    // Where something moves, no composite takes the place of a module.
+    if (!trial.application->runtime().robot_stop().in_force()) Require(trial.In().SetDriving(false));
+    trial.Do({ReplaceModule{trial.module, "states/box", {}, 0}});
+  };
   const auto swap_to_empty = [](Trial& trial) { trial.Do({ReplaceModule{trial.module, "states/empty", {}, 0}}); };
   const auto erase = [](Trial& trial) { trial.Do({DeleteElement{trial.module}}); };
   const auto undone = [](const std::function<void(Trial&)>& act) {

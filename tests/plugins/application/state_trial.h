@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/element/robot_stop.h"
 #include "core/paths/path_search.h"
 #include "plugins/application/application.h"
 #include "plugins/command_service/command_service.h"
@@ -33,7 +34,9 @@ inline constexpr const char* kTrialText = R"(<application name="app">
 
 /// An application, and where in it is what has been set.
 struct Trial {
-  explicit Trial(const std::filesystem::path& from) : file(from), application(Load(from)) {}
+  explicit Trial(const std::filesystem::path& from) : file(from), application(Load(from)) {
+    (void)application->runtime().robot_stop().Release("the trial");  // that of a trial before outlives it
+  }
 
   static LoadedApplication Load(const std::filesystem::path& file) {
     auto loaded = Application::Load(file, {.plugin_folders = {RUNNEL_TEST_STATES_PLUGIN, RUNNEL_TEST_PLUGIN_FOLDER}, .keeps_stop = true});

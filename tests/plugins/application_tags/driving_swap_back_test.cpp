@@ -1,4 +1,4 @@
-// The same, in the way back, as a composite, and in files.
+// The same, in the way back, and in files.
 
 #include <chrono>
 
@@ -19,6 +19,13 @@ struct Corrected final : Module {
   void Update() override {}
 };
 
+/// As a plugin that is loaded anew with another unit.
+struct Changing final : Module {
+  using Module::Module;
+  static inline const char* now = "";
+  Input<double> in{this, "in", {.unit = now}};
+  void Update() override {}
+};
 TEST_F(DrivingSwap, AnUndoMakesWhatItsModuleDeclaresNow) {
   shop_.Add<Corrected>("test/corrected");
   for (const double before : {0., 1500.}) {
@@ -28,37 +35,6 @@ TEST_F(DrivingSwap, AnUndoMakesWhatItsModuleDeclaresNow) {
     Corrected::safe = 1480;
     ASSERT_TRUE(history_.Undo());
     EXPECT_EQ(ReadUnderStop(), 1480);
-    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
-  }
-}
-
-TEST_F(DrivingSwap, ACompositeHasTheMarkOfThePlaceToo) {
-  shop_.Add<Boxed>("test/boxed");
-  Load("test/motor", kMarks[1]);
-  const auto swapped = history_.Apply({ReplaceModule{"/demo/m", "test/boxed"}});
-  ASSERT_TRUE(swapped) << swapped.diagnostics.ToString();
-  EXPECT_TRUE(shop_.Get<Port>("/demo/m/in").is_driving());
-  EXPECT_THAT(SavedText(), HasSubstr("<driving port=\"m/in\""));
-  ASSERT_TRUE(history_.Undo());
-  EXPECT_TRUE(In().is_driving());
-}
-
-TEST_F(DrivingSwap, ACompositeHasWhatTheModuleDeclared) {
-  shop_.Add<Boxed>("test/boxed");
-  Load("test/throttle", "");
-  ASSERT_TRUE(In().Block());
-  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/boxed"}}));
-  EXPECT_TRUE(shop_.Get<Port>("/demo/m/in").is_driving());
-  EXPECT_TRUE(shop_.Get<Port>("/demo/m/in").is_blocked());
-  EXPECT_THAT(SavedText(), HasSubstr("<driving port=\"m/in\""));
-}
-
-TEST_F(DrivingSwap, NorIsASafeValueThatOfACompositeOfAnotherUnit) {
-  shop_.Add<Boxed>("test/boxed");
-  for (const char* const mark : kMarks) {
-    Load("test/esc", mark);
-    EXPECT_FALSE(history_.Apply({ReplaceModule{"/demo/m", "test/boxed"}}));
-    EXPECT_EQ(ReadUnderStop(), 1500);
     ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
   }
 }
@@ -211,6 +187,60 @@ TEST_F(DrivingSwap, APulseMayBeAVelocity) {
     Load(type, "  <driving port=\"m/in\" safe=\"1500\" command=\"velocity\"/>\n");
     EXPECT_EQ(In().stop()->command(), DrivingKind::kVelocity);
     EXPECT_FALSE(history_.Apply({ReplaceModule{"/demo/m", "test/motor"}}));
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
+// What is put back stands where it was when it went, if what stops its place has no meaning in its unit.
+TEST_F(DrivingSwap, WhoIsPutBackIsNotMovedByASafeValueOfAnotherUnit) {
+  struct Failing final : Module {
+    using Module::Module;
+    Input<double> in{this, "in", {.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(1500.0)}};
+    void Update() override { throw std::runtime_error("no such device"); }
+  };
+  shop_.Add<Failing>("test/failing");
+  const auto publish = [this](double value) {
+    ASSERT_TRUE(shop_.Get<Port>("/demo/s/output/value").PublishFilled(internal::FillWith(AnyValue(value))));
+  };
+  for (const bool is_stop : {false, true}) {
+    Load("test/servo", "");
+    publish(0.7);
+    Scheduler scheduler(shop_.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+    StructureEditor editor(shop_.runtime, shop_.plugins.modules(), &scheduler);
+    ASSERT_TRUE(editor.Apply({ReplaceModule{"/demo/m", "test/failing"}}));
+    if (is_stop) {
+      shop_.runtime.robot_stop().Press("a test");
+    } else {
+      ASSERT_TRUE(In().Block());
+    }
+    publish(0.1);
+    for (int i = 0; i < 5; ++i) scheduler.Step();
+    EXPECT_EQ(FindModuleType(shop_.Get<FrameworkElement>("/demo/m")), "test/servo");
+    EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0.7) << is_stop;
+    ASSERT_TRUE(editor.Apply({DeleteElement{"/demo"}}));
+  }
+}
+
+TEST_F(DrivingSwap, TheWayBackIsNoneIntoAnotherUnit) {
+  shop_.Add<Changing>("test/changing");
+  Changing::now = "";
+  Load("test/changing", "  <driving port=\"m/in\" safe=\"1500\" command=\"velocity\"/>\n");
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/number"}}));
+  Changing::now = "m/s";
+  EXPECT_FALSE(history_.Undo());
+  EXPECT_EQ(Safe(), 1500);
+}
+
+// Under STOP an undo lets go of nothing. What has no safe value in its unit is not undone.
+TEST_F(DrivingSwap, AnUndoUnderStopLetsNothingGo) {
+  for (const char* const first : {"test/motor", "test/servo"}) {
+    Load(first, "");
+    ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/drive"}}));
+    ASSERT_TRUE(shop_.Get<Port>("/demo/s/output/value").PublishFilled(internal::FillWith(AnyValue(0.7))));
+    shop_.runtime.robot_stop().Press("a test");
+    EXPECT_EQ(bool(history_.Undo()), first == std::string("test/motor"));
+    EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0);
+    EXPECT_TRUE(shop_.runtime.robot_stop().Release("a test"));
     ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
   }
 }

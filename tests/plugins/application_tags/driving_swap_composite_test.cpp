@@ -11,7 +11,12 @@ using namespace driving_swap;
 using ::testing::HasSubstr;
 using namespace std::chrono_literals;
 
-template <typename Part>
+struct Brakes final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(0.0), .brake = 400ms}};
+  void Update() override {}
+};
+template <typename Part, int kVersion = 0>
 struct BoxOf final : Group {
   using Group::Group;
   Result<void> Construct() override {
@@ -31,11 +36,6 @@ struct Arm final : Module {
   Input<double> in{this, "in", {.unit = "rad", .drives = true, .safe_value = AnyValue(0.3)}};
   void Update() override {}
 };
-struct Brakes final : Module {
-  using Module::Module;
-  Input<double> in{this, "in", {.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(0.0), .brake = 400ms}};
-  void Update() override {}
-};
 /// Two motors behind one port, of which one says its safe value.
 struct Two final : Group {
   using Group::Group;
@@ -43,14 +43,6 @@ struct Two final : Group {
     auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
     if (auto tied = Port::Connect(in, runtime().Create<Declared<DrivingKind::kVelocity, 0>>(*this, "left").in); !tied) return tied;
     return Port::Connect(in, runtime().Create<Undeclared<1>>(*this, "right").in);
-  }
-};
-struct Apart final : Group {
-  using Group::Group;
-  Result<void> Construct() override {
-    auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
-    if (auto tied = Port::Connect(in, runtime().Create<Declared<DrivingKind::kVelocity, 1500>>(*this, "left").in); !tied) return tied;
-    return Port::Connect(in, runtime().Create<Declared<DrivingKind::kVelocity, 1520>>(*this, "right").in);
   }
 };
 struct Ramped final : Module {
@@ -69,13 +61,6 @@ struct Deep final : Group {
     return Port::Connect(ramp.out, runtime().Create<Declared<DrivingKind::kVelocity, 0>>(*this, "wheels").in);
   }
 };
-/// As a plugin that is loaded anew with another unit.
-struct Changing final : Module {
-  using Module::Module;
-  static inline const char* now = "";
-  Input<double> in{this, "in", {.unit = now}};
-  void Update() override {}
-};
 /// Of the unit that a parameter says.
 struct OfUnit final : Module {
   using Module::Module;
@@ -93,13 +78,13 @@ struct DrivingSwapComposite : DrivingSwap {
     shop_.Add<Boxed>("test/boxed");
     shop_.Add<BoxOf<Undeclared<0>>>("test/boxed_number");
     shop_.Add<BoxOf<Declared<DrivingKind::kVelocity, 0>>>("test/boxed_drive");
+    shop_.Add<BoxOf<Declared<DrivingKind::kVelocity, 0>, 1>>("test/other_boxed_drive");
+    shop_.Add<BoxOf<Brakes>>("test/boxed_brakes");
     shop_.Add<Source<0>>("test/kilometres");
     shop_.Add<Source<1>>("test/degrees");
     shop_.Add<Arm>("test/arm");
     shop_.Add<Two>("test/two");
     shop_.Add<Deep>("test/deep");
-    shop_.Add<Brakes>("test/brakes");
-    shop_.Add<Changing>("test/changing");
     shop_.Add<OfUnit>("test/of_unit");
   }
   ChangeOutcome Swap(const char* type) { return history_.Apply({ReplaceModule{"/demo/m", type}}); }
@@ -107,77 +92,81 @@ struct DrivingSwapComposite : DrivingSwap {
   void Start(Port& at, double value) { ASSERT_TRUE(at.PublishFilled(internal::FillWith(AnyValue(value)))); }
 };
 
-TEST_F(DrivingSwapComposite, WhatIsOnlyInheritedIsNoMark) {
-  Load("test/esc", "");
-  ASSERT_TRUE(Swap("test/boxed_number"));
-  EXPECT_TRUE(Box().is_driving());
-  ASSERT_TRUE(Swap("test/drive"));
-  EXPECT_EQ(ReadUnderStop(), 0);
-  ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
-  Load("test/motor", kMarks[1]);
-  ASSERT_TRUE(Swap("test/boxed"));
-  ASSERT_TRUE(Swap("test/brakes"));
-  EXPECT_EQ(In().stop()->brake(), 400ms);
-}
-
-TEST_F(DrivingSwapComposite, WhatIsNotConnectedKeepsItsMarkAndItsBlock) {
-  Load("test/motor", kMarks[1]);
-  ASSERT_TRUE(history_.Apply({DisconnectPorts{"/demo/s/value", "/demo/m/in"}}));
-  ASSERT_TRUE(In().Block());
-  ASSERT_TRUE(Swap("test/boxed"));
-  EXPECT_TRUE(Box().is_driving());
-  EXPECT_TRUE(Box().is_blocked());
-}
-
-TEST_F(DrivingSwapComposite, AnUndoLeavesWhatWasSetSince) {
-  for (const char* const type : {"test/boxed", "test/two"}) {
-    Load("test/motor", "");
-    ASSERT_TRUE(Swap(type));
-    ASSERT_TRUE(Box().Block() || Box().SetDriving(true, AnyValue(0.0), {}, DrivingKind::kVelocity));
-    ASSERT_TRUE(Box().Block());
-    ASSERT_TRUE(Box().PublishByHand(internal::FillWith(AnyValue(0.2))));
-    ASSERT_TRUE(Box().PublishByHand(internal::FillWith(AnyValue(0.1)), Port::Setter::kRule));
-    ASSERT_TRUE(history_.Undo());
-    EXPECT_TRUE(In().is_blocked());
-    EXPECT_TRUE(In().is_set_by_hand(Port::Setter::kRule));
-    EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0);
-    In().Unblock();
-    EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0) << "from before the release";
-    ASSERT_TRUE(history_.Redo());
-    EXPECT_TRUE(Box().is_set_by_hand());
+// What stops and holds that would have no place there, or another meaning.
+TEST_F(DrivingSwapComposite, WhereSomethingMovesOnlyTheSameTakesItsPlace) {
+  struct Trial {
+    const char *first, *mark, *second, *says;
+  };
+  constexpr const char* kOther = "a composite gives its place only to another one in which the same moves by ports of the same names";
+  const std::string pulse = "  <driving port=\"m/in\" safe=\"0\" command=\"velocity\"/>\n";
+  for (const Trial& each : {
+           Trial{"test/esc", "", "test/boxed_number", "/demo/m/in: moves nothing, or not in the same way as /demo/m/input/in"},
+           {"test/motor", kMarks[1], "test/boxed", "not in the same way"},
+           {"test/number", "", "test/boxed_drive", kOther},
+           {"test/boxed_drive", "", "test/drive", "/demo/m/input/in: moves nothing, or not in the same way as /demo/m/in"},
+           {"test/boxed_drive", "", "test/boxed_number", kOther},
+           {"test/boxed_number", "", "test/boxed_drive", kOther},
+           {"test/boxed_drive", "", "test/boxed_brakes", kOther},
+           {"test/boxed_drive", "", "test/deep", kOther},
+           {"test/deep", "", "test/two", kOther},
+           {"test/boxed_number", pulse.c_str(), "test/number", "not in the same way"},
+       }) {
+    SCOPED_TRACE(std::string(each.first) + " -> " + each.second);
+    Load(each.first, each.mark);
+    const auto refused = Swap(each.second);
+    EXPECT_FALSE(refused);
+    EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr(each.says));
+    EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("and create the other"));
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
+  for (const auto& [first, second] : {std::pair{"test/boxed_drive", "test/other_boxed_drive"}, {"test/deep", "test/deep"}, {"test/two", "test/two"}}) {
+    Load(first, "");
+    EXPECT_TRUE(Swap(second));
+    EXPECT_TRUE(history_.Undo());
     ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
   }
 }
 
-// Each part that says nothing itself, too.
-TEST_F(DrivingSwapComposite, WhatDroveDrivesInEachPart) {
-  Load("test/motor", kMarks[1]);
-  ASSERT_TRUE(Swap("test/two"));
-  shop_.runtime.robot_stop().Press("a test");
-  for (const char* const part : {"left", "right"}) {
-    EXPECT_FALSE(internal::PassedStops(shop_.Get<Port>("/demo/m/" + std::string(part) + "/input/in")).empty()) << part;
-  }
-  ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
-  ASSERT_TRUE(shop_.runtime.robot_stop().Release("a test"));
-  Load("test/esc", "");
-  EXPECT_FALSE(Swap("test/two")) << "1500 is not in m/s";
+// A ramp before it would make something else of where it is at rest.
+TEST_F(DrivingSwapComposite, NorDoesItMoveByAnotherWay) {
+  struct Straight final : Group {
+    using Group::Group;
+    Result<void> Construct() override {
+      auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
+      return Port::Connect(in, runtime().Create<Declared<DrivingKind::kVelocity, 0>>(*this, "wheels").in);
+    }
+  };
+  shop_.Add<Straight>("test/straight");
+  Load("test/deep", "");
+  const auto refused = Swap("test/straight");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/m/in: something moves by it"));
 }
 
-// Nor under STOP, on the way back.
-TEST_F(DrivingSwapComposite, WhatDroveSomewhereWithinHasToBeDeclared) {
+TEST_F(DrivingSwapComposite, AMarkOfAnInterfacePortGoesAlong) {
+  Load("test/boxed", "  <driving port=\"m/in\" safe=\"0\" brake=\"0.4 s\" command=\"velocity\"/>\n");
+  shop_.Add<BoxOf<Undeclared<1>>>("test/other_boxed");
+  ASSERT_TRUE(Box().Block());
+  EXPECT_FALSE(Swap("test/boxed_number")) << "which is in no unit";
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(Swap("test/boxed"));
+    EXPECT_EQ(Box().stop()->brake(), 400ms);
+    EXPECT_TRUE(Box().is_blocked());
+  }
+  EXPECT_TRUE(history_.Undo());
+  EXPECT_TRUE(Box().is_driving());
+}
+
+TEST_F(DrivingSwapComposite, AnUndoLeavesWhatWasSetSince) {
   Load("test/motor", "");
-  ASSERT_TRUE(Swap("test/deep"));
-  const auto refused = Swap("test/boxed");
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/m/in: something moves by it, and the new module does not say that"));
-  EXPECT_TRUE(Swap("test/drive"));
-  EXPECT_TRUE(history_.Undo());
-  EXPECT_TRUE(Swap("test/deep"));
-  EXPECT_TRUE(history_.Undo());
-  EXPECT_TRUE(history_.Undo()) << "to the motor";
+  ASSERT_TRUE(Swap("test/boxed"));
+  ASSERT_TRUE(Box().PublishByHand(internal::FillWith(AnyValue(0.2))));
+  ASSERT_TRUE(Box().PublishByHand(internal::FillWith(AnyValue(0.1)), Port::Setter::kRule));
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_TRUE(In().is_set_by_hand(Port::Setter::kRule));
+  EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0.2);
   ASSERT_TRUE(history_.Redo());
-  shop_.runtime.robot_stop().Press("a test");
-  EXPECT_FALSE(history_.Undo());
+  EXPECT_TRUE(Box().is_set_by_hand());
 }
 
 TEST_F(DrivingSwapComposite, WhatRestsFartherUpMovesNobodyElse) {
@@ -199,19 +188,31 @@ TEST_F(DrivingSwapComposite, WhatWasPublishedBeforeAPersonHasReleasedThePartCoun
   ASSERT_TRUE(Box().PublishByHand(internal::FillWith(AnyValue(0.2))));
   ASSERT_TRUE(Box().Release());
   ASSERT_EQ(shop_.Get<Input<double>>("/demo/m/part/input/in").Get(), 0);
-  ASSERT_TRUE(Swap("test/number"));
-  EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0);
+  ASSERT_TRUE(Swap("test/other_boxed_drive"));
+  EXPECT_EQ(shop_.Get<Input<double>>("/demo/m/part/input/in").Get(), 0);
+  Start(shop_.Get<Port>("/demo/s/output/value"), 0.6);
+  EXPECT_EQ(shop_.Get<Input<double>>("/demo/m/part/input/in").Get(), 0.6);
 }
 
 // A file would connect them without.
-TEST_F(DrivingSwapComposite, AConversionByUnitsIsNoneOfAnInterfacePort) {
-  Load("test/motor", "", "test/kilometres");
-  const auto refused = Swap("test/boxed");
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("are converted by their units, which an interface port has not"));
-  ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
-  Load("test/boxed_number", "", "test/kilometres");
-  EXPECT_FALSE(Swap("test/motor"));
+TEST_F(DrivingSwapComposite, WhatIsConnectedIsConvertedAsAFileWouldConnectIt) {
+  constexpr const char* kSays = "the values between /demo/s/output/value and /demo/m/input/in would be converted otherwise; disconnect them first";
+  struct Trial {
+    const char *first, *source, *second;
+  };
+  for (const Trial& each : {Trial{"test/motor", "test/kilometres", "test/boxed"},
+                            {"test/boxed_number", "test/kilometres", "test/motor"},
+                            {"test/motor", "test/kilometres", "test/number"},
+                            {"test/number", "test/degrees", "test/servo"}}) {
+    SCOPED_TRACE(std::string(each.first) + " -> " + each.second);
+    Load(each.first, "", each.source);
+    const auto refused = Swap(each.second);
+    EXPECT_FALSE(refused);
+    if (each.first != std::string("test/boxed_number")) {
+      EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr(kSays));
+    }
+    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  }
 }
 
 TEST_F(DrivingSwapComposite, ASafeValueBehindAnotherUnitIsNone) {
@@ -229,65 +230,46 @@ TEST_F(DrivingSwapComposite, APortOfAPlainGroupGetsNothingByAnotherName) {
   EXPECT_EQ(shop_.Get<Port>("/demo/h/in").Sinks().size(), 1U);
 }
 
-TEST_F(DrivingSwapComposite, WhatRestsDoesNotGoWhereNothingIsRestForAll) {
-  shop_.Add<Apart>("test/apart");
-  Load("test/esc", "");
-  ASSERT_TRUE(In().PublishByHand(internal::FillWith(AnyValue(1500.)), Port::Setter::kRule));
-  const auto refused = Swap("test/apart");
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("moves several things, whose safe values differ, and /demo/m/input/in is at rest at 1500"));
-  EXPECT_TRUE(In().Release(Port::Setter::kRule));
-  EXPECT_TRUE(Swap("test/apart"));
-}
-
 // Who is put back is refused nothing.
-TEST_F(DrivingSwapComposite, WhatRestsMeanwhileStaysWhereOneIsPutBack) {
+TEST_F(DrivingSwapComposite, WhatIsSetMeanwhileStaysWhereOneIsPutBack) {
   struct Failing final : Module {
     using Module::Module;
-    Input<double> in{this, "in", {.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(1500.0)}};
+    Input<double> in{this, "in"};
     void Update() override { throw std::runtime_error("no such device"); }
   };
-  shop_.Add<Apart>("test/apart");
   shop_.Add<Failing>("test/failing");
-  Load("test/apart", "");
+  Load("test/boxed_number", "");
   Scheduler scheduler(shop_.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
   StructureEditor editor(shop_.runtime, shop_.plugins.modules(), &scheduler);
   ASSERT_TRUE(editor.Apply({ReplaceModule{"/demo/m", "test/failing"}}));
-  ASSERT_TRUE(In().PublishByHand(internal::FillWith(AnyValue(1500.)), Port::Setter::kRule));
+  ASSERT_TRUE(In().SetDriving(true, AnyValue(1500.), {}, DrivingKind::kVelocity));
+  ASSERT_TRUE(In().Block());
+  ASSERT_TRUE(In().PublishByHand(internal::FillWith(AnyValue(0.3)), Port::Setter::kRule));
   for (int i = 0; i < 5; ++i) scheduler.Step();
-  EXPECT_EQ(FindModuleType(shop_.Get<FrameworkElement>("/demo/m")), "test/apart");
+  EXPECT_EQ(FindModuleType(shop_.Get<FrameworkElement>("/demo/m")), "test/boxed_number");
   EXPECT_EQ(Box().incoming().size(), 1U);
-  EXPECT_EQ(shop_.Get<Input<double>>("/demo/m/left/input/in").Get(), 1500);
+  EXPECT_EQ(shop_.Get<Input<double>>("/demo/m/part/input/in").Get(), 1500);
+  EXPECT_TRUE(Box().is_driving());
 }
 
-TEST_F(DrivingSwapComposite, ABlockOfAPartIsNotLetGoOf) {
-  Load("test/two", "");
-  const auto expect_refused = [&](const std::string& part) {
-    const auto refused = Swap("test/drive");
+TEST_F(DrivingSwapComposite, WhatIsHeldInAPartIsNotLetGoOf) {
+  Load("test/boxed", "");
+  auto& part = shop_.Get<Port>("/demo/m/motor/input/in");
+  const auto expect_refused = [&] {
+    const auto refused = Swap("test/motor");
     ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/m/" + part + "/input/in: it is held, and the new module has no such port; release it first"));
+    EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/m/motor/input/in: it is held, and the new module has no such port; release it first"));
   };
-  auto &left = shop_.Get<Port>("/demo/m/left/input/in"), &right = shop_.Get<Port>("/demo/m/right/input/in");
-  ASSERT_TRUE(right.Block());
-  expect_refused("right");
-  EXPECT_TRUE(right.is_blocked());
-  right.Unblock();
-  ASSERT_TRUE(left.PublishByHand(internal::FillWith(AnyValue(0.0)), Port::Setter::kRule));
-  expect_refused("left");
-  EXPECT_TRUE(left.Release(Port::Setter::kRule));
-  EXPECT_TRUE(Swap("test/drive"));
-}
-
-TEST_F(DrivingSwapComposite, TheWayBackIsNoneIntoAnotherUnit) {
-  for (const char* const between : {"test/number", "test/boxed_number"}) {
-    Changing::now = "";
-    Load("test/changing", "  <driving port=\"m/in\" safe=\"1500\" command=\"velocity\"/>\n");
-    ASSERT_TRUE(Swap(between));
-    Changing::now = "m/s";
-    EXPECT_FALSE(history_.Undo());
-    EXPECT_EQ(Number(internal::PassedStops(*(*PathSearch(shop_.Get<FrameworkElement>("/demo/m")).FindPort("in", PathKind::kInput))).front().safe_value), 1500);
-    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  ASSERT_TRUE(part.Block());
+  expect_refused();
+  EXPECT_TRUE(part.is_blocked());
+  part.Unblock();
+  for (const auto setter : {Port::Setter::kPerson, Port::Setter::kRule}) {
+    ASSERT_TRUE(part.PublishByHand(internal::FillWith(AnyValue(0.0)), setter));
+    expect_refused();
+    EXPECT_TRUE(part.Release(setter));
   }
+  EXPECT_TRUE(Swap("test/motor"));
 }
 
 TEST_F(DrivingSwapComposite, NorIsAMarkFartherUpThatOfWhoDeclaresAnother) {
@@ -322,26 +304,6 @@ TEST_F(DrivingSwapComposite, WhatARecordingHasThePlaceOfCannotBeSet) {
   EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/s/output/value: nothing reads what it publishes: a recording that is played has its place"));
   source.TakeOver(*output);
   EXPECT_TRUE(source.Block());
-}
-
-// Under STOP an undo lets go of nothing. What has no safe value in its unit is not undone.
-TEST_F(DrivingSwapComposite, AnUndoUnderStopLetsNothingGo) {
-  for (const char* const between : {"test/drive", "test/boxed_number"}) {
-    for (const char* const first : {"test/motor", "test/servo"}) {
-      const bool is_position = std::string(first) == "test/servo";
-      const bool is_marked = std::string(between) != "test/drive";
-      if (is_marked && is_position) continue;
-      Load(first, is_marked ? kMarks[1] : "");
-      ASSERT_TRUE(Swap(between));
-      Start(shop_.Get<Port>("/demo/s/output/value"), 0.7);
-      shop_.runtime.robot_stop().Press("a test");
-      const bool is_undone = bool(history_.Undo());
-      EXPECT_EQ(is_undone, !is_position);
-      EXPECT_TRUE(!is_undone || dynamic_cast<Input<double>&>(In()).Get() == 0);
-      EXPECT_TRUE(shop_.runtime.robot_stop().Release("a test"));
-      ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
-    }
-  }
 }
 
 }  // namespace

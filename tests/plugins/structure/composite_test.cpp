@@ -1,6 +1,7 @@
 // Composites in the place of modules, and of one another.
 
 #include "core/element/tags.h"
+#include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "core/port/given_limits.h"
 #include "core/port/proxy_port.h"
@@ -23,6 +24,16 @@ class Passer final : public Module {
   void Update() override {
     in.Drain([this](const auto& value) { out.Publish(*value); });
   }
+};
+
+class FaultyFilter final : public Module {
+ public:
+  using Module::Module;
+  Input<int> in{this, "in"};
+  Output<int> out{this, "out"};
+
+ private:
+  void Update() override { throw std::runtime_error("is faulty"); }
 };
 
 class Taker final : public Module {
@@ -233,6 +244,28 @@ TEST_F(CompositeTest, HasAnotherNameWithAllItsConnections) {
   ASSERT_TRUE(history_.Undo());
   At<Port>("/app/m/in").Release();
   ExpectItRuns();
+}
+
+// Who is put back closes no cycle either, and what it cannot take over is told.
+TEST_F(CompositeTest, IsNotPutBackWhereItWouldCloseACycle) {
+  Register<FaultyFilter>("test/faulty_filter");
+  Make("test/straight");
+  Must({ReplaceModule{"/app/m", "test/faulty_filter"}, ConnectPorts{"/app/m/out", "/app/m/in"}});
+  Steps(5);
+  EXPECT_EQ(FindModuleType(At<FrameworkElement>("/app/m")), "test/faulty_filter") << "stays, and does not run";
+  EXPECT_EQ(At<FaultyFilter>("/app/m").out.outgoing().size(), 3U);
+}
+
+// It waits for the place, by whichever of both paths.
+TEST_F(CompositeTest, WhatWaitsForAPortThatTheNextOneHasNotIsAskedFor) {
+  Make("test/passer");
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    ASSERT_TRUE(LateConnections::Of(runtime).Add("//other/m/cmd", "/app/m/in", {}));
+  }
+  for (const char* const type : {"test/boxed", "test/straight", "test/passer", "test/boxed"}) Swap(type);
+  Must({DisconnectPorts{"/app/counter/out", "/app/m/in"}, DisconnectPorts{"/app/m/out", "/app/sink/in"}, DisconnectPorts{"/app/m/out", "/app/sink/side"}});
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/counter"}}), HasSubstr("/app/m/in: the new module has no port 'in', which is connected"));
 }
 
 }  // namespace
