@@ -93,10 +93,11 @@ class Echo {
   }
 
  private:
-  // Of a value that says when it was measured.
-  [[nodiscard]] std::string Measured(ValueTimes times) const {
-    if (times.timestamp == times.publication_time) return {};
-    return fmt::format("(measured at {:.3f} s)  ", ToSeconds(times.timestamp - zero_));
+  // Of a value that says when it was measured. In full, all of it: a program finds no text of a value in it.
+  [[nodiscard]] std::string Measured(ValueTimes times, std::uint64_t left_out) const {
+    const std::string measured = fmt::format("measured at {:.3f} s", ToSeconds(times.timestamp - zero_));
+    if (is_full_) return fmt::format("({}, {} not shown)  ", measured, left_out);
+    return times.timestamp == times.publication_time ? std::string() : "(" + measured + ")  ";
   }
   Result<void> Find() {
     const auto found = PathSearch(runtime_).FindPort(path_, PathKind::kOutput);
@@ -111,19 +112,19 @@ class Echo {
 
   void Show(Answer& answer) {
     std::string text;
+    ValueTimes measured;
     const auto count = port_->VisitIfNew([&](const void* value, ValueTimes times) {
-      const std::string shown = ToText(port_->type(), value, is_full_ ? kFull : kUsual);
-      text = fmt::format("{:.3f} s  {}{}", ToSeconds(times.publication_time - zero_), Measured(times),
-                         is_full_ ? shown : ReadableNumbers(shown));
+      text = ToText(port_->type(), value, is_full_ ? kFull : kUsual);
+      measured = times;
     });
     if (!count && !shown_ && !std::exchange(has_said_nothing_, true)) {
       answer.WriteError(port_->path() + ": nothing has been published there yet; waits\n");
     }
     if (!count) return;
-    if (shown_ && *count > *shown_ + 1) {
-      text += "  (" + std::to_string(*count - *shown_ - 1) + " not shown)";
-    }
-    answer.Write(text + "\n");
+    const std::uint64_t left_out = shown_ && *count > *shown_ ? *count - *shown_ - 1 : 0;
+    const std::string more = left_out > 0 && !is_full_ ? fmt::format("  ({} not shown)", left_out) : "";
+    answer.Write(fmt::format("{:.3f} s  {}{}{}\n", ToSeconds(measured.publication_time - zero_), Measured(measured, left_out),
+                             is_full_ ? text : ReadableNumbers(text), more));
     shown_ = count;
     if (left_) --*left_;
   }

@@ -446,7 +446,7 @@ class Remote:
                         raise _error("".join(said))
                     return
                 for line in payload.decode().removesuffix("\n").split("\n") if kind == "out" else ():
-                    found = re.fullmatch(r"(\S+) s  (?:\(measured at \S+ s\)  )?(.*?)(?:  \(\d+ not shown\))?", line, re.S)
+                    found = re.fullmatch(r"(\S+) s  \(measured at \S+ s, \d+ not shown\)  (.*)", line, re.S)
                     yield float(found[1]), self._value(path, found[2])
         finally:
             writer.close()

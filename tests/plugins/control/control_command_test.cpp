@@ -62,6 +62,9 @@ TEST_F(ControlTest, ShowsWhenAValueWasMeasured) {
   EXPECT_THAT(Ask("echo /late/out count=1").output,
               ::testing::ContainsRegex("^[0-9.]+ s  \\(measured at -?[0-9.]+ s\\)  7\n"));
   EXPECT_THAT(Ask("echo /a/out count=1").output, ::testing::Not(HasSubstr("measured")));
+  // For programs the same words each time, so that no text of a value is taken for them.
+  EXPECT_THAT(Ask("echo /a/out count=1 full=yes").output,
+              ::testing::ContainsRegex("^[0-9.]+ s  \\(measured at -?[0-9.]+ s, 0 not shown\\)  [0-9]+\n"));
 }
 
 TEST_F(ControlTest, ShowsValuesOfInputsAndShortensLongOnes) {

@@ -87,7 +87,7 @@ TEST_F(ControlTest, CountsWhatASlowReaderMisses) {
   (void)client.Ask(
       "echo /image/image full=yes",
       [&](std::string_view text) {
-        all += text.substr(text.size() > 60 ? text.size() - 60 : 0);
+        all += text.substr(0, 60);
         // What the server sends meanwhile does not fit into the socket: it waits for this.
         const std::uint64_t count = PublicationsOf(runtime, "/app/image/output/image");
         WaitUntil("ten more images are published",
@@ -96,7 +96,7 @@ TEST_F(ControlTest, CountsWhatASlowReaderMisses) {
       },
       [](std::string_view) { return true; });
   EXPECT_EQ(values, 8);
-  EXPECT_THAT(all, HasSubstr(" not shown)"));
+  EXPECT_THAT(all, ::testing::ContainsRegex(", [1-9][0-9]* not shown\\)  "));
 }
 
 TEST_F(ControlTest, RefusesWhatIsTooLongBeforeItHasCome) {
