@@ -199,7 +199,7 @@ void ViewerSession::SendNetwork(SteadyTime now) {
 
 void ViewerSession::SendReplies() {
   std::erase_if(pending_, [&](const ViewerRequest& each) {
-    if (each.task != nullptr ? !each.task->is_done() : each.is_done && !each.is_done()) return false;
+    if (each.is_done && !each.is_done()) return false;
     replies_.push_back(each.take_reply());
     inspection_.LookSoon();
     return true;
