@@ -65,9 +65,7 @@ BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path&
     outcome.application = Build(document.root(), tools, context, outcome.diagnostics);
     if (outcome.application != nullptr && file != nullptr) {
       KeepSource(*outcome.application, *file, context);
-      auto source = std::make_unique<ConfigurationSource>();
-      for (const auto& [name, text] : tools.configuration.files()) source->files.push_back({name, text});
-      outcome.application->Annotate(std::move(source));
+      outcome.application->FindOrAnnotate<ConfigurationSource>().files = tools.configuration.files();
     }
   }
   FinishBuild(outcome, mode);
