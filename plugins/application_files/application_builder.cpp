@@ -138,14 +138,6 @@ BuildOutcome BuildApplication(const std::filesystem::path& file, const BuildTool
   return failed;
 }
 
-Result<ApplicationFile> ApplicationFile::Read(const std::filesystem::path& file) {
-  auto text = XmlDocument::ReadText(file);
-  if (!text) return text.error();
-  auto document = XmlDocument::Parse(*text, file.string());
-  if (!document) return document.error();
-  return ApplicationFile{file, std::move(*text), std::move(*document)};
-}
-
 void CheckRequiredInputs(FrameworkElement& application, BuildContext& context) {
   std::vector<Port*> unconnected;
   application.VisitAll<Port>([&](Port& port) {
