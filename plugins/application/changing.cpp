@@ -212,7 +212,9 @@ Result<void> Application::Save(const std::filesystem::path& file, bool overwrite
     if (auto lost = internal::WhatIsLost(file)) return *lost;
   }
   const auto lost = parts_->Save(file);
-  return lost ? Result<void>() : lost.error();
+  if (!lost) return lost.error();
+  if (!lost->empty()) parts_->Add({ApplicationEvent::Kind::kNotice, *lost});
+  return {};
 }
 
 Result<std::string> Application::Parts::Save(const std::filesystem::path& file) {
@@ -225,13 +227,9 @@ Result<std::string> Application::Parts::Save(const std::filesystem::path& file) 
   auto lost = SaveApplication(runtime(), **found, {plugins(), tags()}, file);
   if (!lost) return lost;
   lock.lock();
-  std::string passing;
-  if (found = FindAgain(); found) {
-    passing = internal::WhatPasses(**found, *scheduler, KeepsStop(stop_file.get(), is_own));
-  }
-  *lost += (lost->empty() || passing.empty() ? "" : "\n") + passing;
-  if (!lost->empty()) Add({ApplicationEvent::Kind::kNotice, *lost});
-  return lost;
+  if (found = FindAgain(); !found) return lost;
+  const std::string passing = internal::WhatPasses(**found, *scheduler, KeepsStop(stop_file.get(), is_own));
+  return *lost + (lost->empty() || passing.empty() ? "" : "\n") + passing;
 }
 
 Result<std::string> Application::SaveConfiguration(const std::filesystem::path& file) {
@@ -266,6 +264,7 @@ CommandService& Application::service() {
     const std::string done = "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
     const auto lost = parts_->Save(file);
     if (!lost) return lost;
+    if (!lost->empty()) parts_->Add({ApplicationEvent::Kind::kNotice, *lost});
     return lost->empty() ? done : done + "\n" + *lost;
   };
   hooks.preview_save = [this](const std::string& file) {
