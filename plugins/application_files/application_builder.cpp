@@ -65,9 +65,7 @@ BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path&
     outcome.application = Build(document.root(), tools, context, outcome.diagnostics);
     if (outcome.application != nullptr && file != nullptr) {
       KeepSource(*outcome.application, *file, context);
-      auto source = std::make_unique<ConfigurationSource>();
-      for (const auto& [name, text] : tools.configuration.files()) source->files.push_back({name, text});
-      outcome.application->Annotate(std::move(source));
+      outcome.application->FindOrAnnotate<ConfigurationSource>().files = tools.configuration.files();
     }
   }
   FinishBuild(outcome, mode);
@@ -138,14 +136,6 @@ BuildOutcome BuildApplication(const std::filesystem::path& file, const BuildTool
   BuildOutcome failed;
   failed.diagnostics.Add(read.error());
   return failed;
-}
-
-Result<ApplicationFile> ApplicationFile::Read(const std::filesystem::path& file) {
-  auto text = XmlDocument::ReadText(file);
-  if (!text) return text.error();
-  auto document = XmlDocument::Parse(*text, file.string());
-  if (!document) return document.error();
-  return ApplicationFile{file, std::move(*text), std::move(*document)};
 }
 
 void CheckRequiredInputs(FrameworkElement& application, BuildContext& context) {

@@ -33,16 +33,6 @@ struct BuildOutcome {
   Diagnostics diagnostics = {};
 };
 
-/// An application file that has been read and parsed, once for all who look at it.
-struct ApplicationFile {
-  std::filesystem::path file;
-  std::string text;  ///< byte for byte
-  XmlDocument document;
-
-  /// Errors: it cannot be read; it is no XML.
-  static Result<ApplicationFile> Read(const std::filesystem::path& file);
-};
-
 /// Builds what an application file describes below one new group of the runtime's root, and makes
 /// it ready. All or nothing: with one error or more, the tree is afterwards what it was before.
 /// Plugins that were loaded stay loaded.

@@ -47,10 +47,7 @@ std::optional<Error> WrongAttribute(const std::vector<AttributeRule>& rules, con
     }
     const auto good =
         attribute != nullptr ? use.context.CheckValue(rule, attribute->value) : Result<void>();
-    if (good) continue;
-    Error error = good.error();
-    error.position = attribute->value_position;
-    return error;
+    if (!good) return good.error().WithPosition(attribute->value_position);
   }
   return std::nullopt;
 }

@@ -27,10 +27,8 @@ bool BuildContext::Place(Error& error, const SourcePosition& position,
   if (error.path.empty()) error.path = element.path();
   const std::string chain = UseChain(error.position.file, element);
   if (chain.empty()) return true;
-  const SourcePosition& at = error.position;
   const std::string own_path = parts_.FindAround(&element)->group.path();
-  const std::string what = at.file + ":" + std::to_string(at.line) + ":" +
-                           std::to_string(at.column) + ":" + WithoutPath(error.message, own_path);
+  const std::string what = PlaceText(error.position) + ":" + WithoutPath(error.message, own_path);
   error.hint += (error.hint.empty() ? "" : "; ") + chain;
   return told_.insert(what).second;
 }

@@ -39,13 +39,19 @@ fs::path PartFiles::FolderOf(const std::string& file) const {
   return files_.contains(file) ? fs::path(file).parent_path() : folder_;
 }
 
-Result<const PartFiles::File*> PartFiles::Read(const std::string& name) {
-  if (const auto known = files_.find(name); known != files_.end()) return &known->second;
-  auto text = XmlDocument::ReadText(name);
+Result<ApplicationFile> ApplicationFile::Read(const fs::path& file) {
+  auto text = XmlDocument::ReadText(file);
   if (!text) return text.error();
-  auto document = XmlDocument::Parse(*text, name);
+  auto document = XmlDocument::Parse(*text, file.string());
   if (!document) return document.error();
-  return &files_.emplace(name, File{std::move(*text), std::move(*document)}).first->second;
+  return ApplicationFile{file, std::move(*text), std::move(*document)};
+}
+
+Result<const ApplicationFile*> PartFiles::Read(const std::string& name) {
+  if (const auto known = files_.find(name); known != files_.end()) return &known->second;
+  auto file = ApplicationFile::Read(name);
+  if (!file) return file.error();
+  return &files_.emplace(name, std::move(*file)).first->second;
 }
 
 std::optional<Error> PartFiles::FindCircle(const std::string& name,

@@ -14,6 +14,16 @@
 
 namespace runnel {
 
+/// A file of an application, or of a part of one, that has been read and parsed, once for all who look at it.
+struct ApplicationFile {
+  std::filesystem::path file;
+  std::string text;  ///< byte for byte
+  XmlDocument document;
+
+  /// Errors: it cannot be read; it is no XML.
+  static Result<ApplicationFile> Read(const std::filesystem::path& file);
+};
+
 /// Kept with a group whose inside another file describes.
 struct PartInstance final : Annotation {
   explicit PartInstance(std::string file_name) : file(std::move(file_name)) {}
@@ -65,20 +75,16 @@ class PartFiles {
   [[nodiscard]] std::map<std::string, std::string> TakeTexts();
 
  private:
-  struct File {
-    std::string text;
-    XmlDocument document;
-  };
   struct Opened {
     std::string name;
     SourcePosition used_at;
   };
-  Result<const File*> Read(const std::string& name);
+  Result<const ApplicationFile*> Read(const std::string& name);
   [[nodiscard]] std::optional<Error> FindCircle(const std::string& name,
                                                 const SourcePosition& position) const;
 
   const std::filesystem::path folder_;
-  std::map<std::string, File> files_;  // by canonical names as errors have them
+  std::map<std::string, ApplicationFile> files_;  // by canonical names as errors have them
   std::vector<Opened> open_;
   std::map<const FrameworkElement*, PartUse> uses_;
 };

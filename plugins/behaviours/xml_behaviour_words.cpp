@@ -52,9 +52,7 @@ FrameworkElement* NoteProperty(const TagUse& use) {
   use.context.Defer(BuildStage::kChecks, [use] {
     constexpr const char* kOthers = kKind == NetworkProperty::Kind::kNever ? "inactive" : "after";
     WantedProperty wanted{kKind, BehavioursIn(use, "active"), BehavioursIn(use, kOthers), use.xml.position()};
-    auto* properties = use.parent.FindAnnotation<WantedProperties>();
-    if (properties == nullptr) properties = &use.parent.Annotate(std::make_unique<WantedProperties>());
-    properties->all.push_back(std::move(wanted));
+    use.parent.FindOrAnnotate<WantedProperties>().all.push_back(std::move(wanted));
   });
   return &use.parent;
 }

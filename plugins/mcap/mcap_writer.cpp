@@ -128,10 +128,8 @@ Result<void> McapWriter::AddMessage(const McapMessage& message) {
   chunk_start_ = chunk_.empty() ? message.log_time : std::min(chunk_start_, message.log_time);
   chunk_end_ = chunk_.empty() ? message.log_time : std::max(chunk_end_, message.log_time);
   index_[message.channel].push_back({message.log_time, chunk_.size()});
-  constexpr std::uint64_t kHead = 2 + 4 + 8 + 8;
-  McapBytesWriter chunk(chunk_);
-  chunk.Number(static_cast<std::uint8_t>(McapOpcode::kMessage)).Number(kHead + message.data.size());
-  MessageHead(chunk, message).Bytes(message.data);
+  AppendMcapRecord(McapOpcode::kMessage, chunk_,
+                   [&](McapBytesWriter& bytes) { MessageHead(bytes, message).Bytes(message.data); });
   McapStatistics& all = statistics_;
   all.start = all.messages == 0 ? message.log_time : std::min(all.start, message.log_time);
   all.end = std::max(all.end, message.log_time);

@@ -13,7 +13,6 @@
 #include "core/element/runtime.h"
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_editor.h"
-#include "plugins/parameters/configuration.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/parameters/value_to_save.h"
 
@@ -96,18 +95,12 @@ std::pair<XmlElement, std::size_t> Innermost(XmlElement root,
   return {at, used};
 }
 
-NewElement Value(std::string_view name, const std::string& text) {
-  return {.name = "value",
-          .attributes = {{"name", std::string(name)}},
-          .children = {},
-          .after_blank_line = false,
-          .text = text};
-}
-
 // Into `parent`, below sections of the names from `from` on: those that are made for one entry serve the next.
 void AddTo(std::vector<NewElement>& contents, const std::string& section,
            const std::vector<std::string_view>& names, std::size_t from, const std::string& text) {
-  if (from + 1 == names.size()) return contents.push_back(Value(names[from], text));
+  if (from + 1 == names.size()) {
+    return contents.push_back({.name = "value", .attributes = {{"name", std::string(names[from])}}, .text = text});
+  }
   const auto is_it = [&](const NewElement& each) {
     return each.name == section && each.attributes[0].second == names[from];
   };
@@ -122,19 +115,19 @@ void AddTo(std::vector<NewElement>& contents, const std::string& section,
 /// One configuration file on its way to what it should be.
 class FileChange {
  public:
-  static Result<std::unique_ptr<FileChange>> Of(const ConfigurationSource::File& source) {
-    const auto now = XmlDocument::ReadText(source.file);
+  static Result<std::unique_ptr<FileChange>> Of(const Configuration::File& source) {
+    const auto now = XmlDocument::ReadText(source.name);
     if (!now) return now.error();
     if (*now != source.text) {
       return Error{.message = "the file has been changed since it was loaded",
-                   .position = {source.file.string()},
+                   .position = {source.name},
                    .hint = "name another file, and compare the two"};
     }
-    auto document = XmlDocument::Parse(source.text, source.file.string());
+    auto document = XmlDocument::Parse(source.text, source.name);
     if (!document) return document.error();
     return std::make_unique<FileChange>(source, std::move(*document));
   }
-  FileChange(const ConfigurationSource::File& source, XmlDocument document)
+  FileChange(const Configuration::File& source, XmlDocument document)
       : source_(source), document_(std::move(document)), editor_(document_, source_.text) {}
 
   /// Whether the entry is there; then it has the value.
@@ -143,7 +136,7 @@ class FileChange {
     const auto [section, used] = Innermost(document_.root(), names);
     if (used + 1 < names.size()) return false;
     const auto value = Child(section, names.back(), false);
-    if (value) editor_.SetText(*value, TextIn(source_.file.parent_path(), entry));
+    if (value) editor_.SetText(*value, TextIn(folder(), entry));
     return value.has_value();
   }
   void Add(const Entry& entry) {
@@ -153,7 +146,7 @@ class FileChange {
         lacking_.try_emplace(section.spans().whole.begin, section, Contents{}).first->second;
     const bool is_of_finroc = document_.root().name() != "configuration";
     AddTo(lacking.second, is_of_finroc ? "node" : "section", names, used,
-          TextIn(source_.file.parent_path(), entry));
+          TextIn(folder(), entry));
   }
   Result<std::string> Write() {
     for (auto& [place, lacking] : lacking_) {
@@ -161,15 +154,16 @@ class FileChange {
     }
     if (!editor_.has_changes()) return source_.text;
     std::string text = editor_.Finish();
-    if (auto kept = KeepBackup(source_.file); !kept) return kept.error();
-    if (auto written = ReplaceFile(source_.file, text); !written) return written.error();
+    if (auto kept = KeepBackup(source_.name); !kept) return kept.error();
+    if (auto written = ReplaceFile(source_.name, text); !written) return written.error();
     return text;
   }
-  [[nodiscard]] const fs::path& file() const noexcept { return source_.file; }
 
  private:
   using Contents = std::vector<NewElement>;
-  ConfigurationSource::File source_;
+  [[nodiscard]] fs::path folder() const { return fs::path(source_.name).parent_path(); }
+
+  Configuration::File source_;
   XmlDocument document_;
   XmlEditor editor_;
   std::map<std::size_t, std::pair<XmlElement, Contents>> lacking_;
@@ -199,7 +193,7 @@ Result<std::string> SaveConfiguration(FrameworkElement& application, const fs::p
                  .hint = "name the file that is to be written"};
   }
   std::vector<std::unique_ptr<FileChange>> files;
-  for (const ConfigurationSource::File& each : source->files) {
+  for (const Configuration::File& each : source->files) {
     auto change = FileChange::Of(each);
     if (!change) return change.error();
     files.push_back(std::move(*change));
@@ -217,9 +211,9 @@ Result<std::string> SaveConfiguration(FrameworkElement& application, const fs::p
   for (std::size_t i = 0; i < files.size(); ++i) {
     auto text = files[i]->Write();
     if (!text) return text.error();
-    if (*text != source->files[i].text)
-      names += (names.empty() ? "" : ", ") + files[i]->file().string();
-    source->files[i].text = std::move(*text);
+    Configuration::File& file = source->files[i];
+    if (*text != file.text) names += (names.empty() ? "" : ", ") + file.name;
+    file.text = std::move(*text);
   }
   for (const Entry& each : *entries) {
     if (!each.has_changed) continue;

@@ -9,16 +9,13 @@
 #include "core/base/result.h"
 #include "core/element/annotation.h"
 #include "core/element/framework_element.h"
+#include "plugins/parameters/configuration.h"
 
 namespace runnel {
 
 /// Kept with an application: the configuration files that it was loaded with, as they were.
 struct ConfigurationSource final : Annotation {
-  struct File {
-    std::filesystem::path file;
-    std::string text;
-  };
-  std::vector<File> files = {};
+  std::vector<Configuration::File> files = {};
 };
 
 /// Kept with a parameter that a file names, or the configuration: what it came to when these were read, or written last,

@@ -176,18 +176,14 @@ Result<void> Recorder::WriteAbout() {
 }
 
 Result<void> Recorder::Finish() {
-  if (std::exchange(has_finished_, true)) {
-    const std::lock_guard lock(mutex_);
-    return status_.failure ? Result<void>(*status_.failure) : Result<void>();
-  }
-  if (scheduler_ != nullptr) scheduler_->backpressure().Remove(*this);
-  runtime_.RemoveListener(*this);
-  log_sink_.reset();  // hands on what has been said so far
-  DisconnectProbes();
-  EndWriting();
-  {
-    // Destroyed after the mutex is free: cutting their connections takes the structure lock.
-    std::vector<std::shared_ptr<Recorded>> ended;
+  // Destroyed after the mutex is free: cutting their connections takes the structure lock.
+  std::vector<std::shared_ptr<Recorded>> ended;
+  if (!std::exchange(has_finished_, true)) {
+    if (scheduler_ != nullptr) scheduler_->backpressure().Remove(*this);
+    runtime_.RemoveListener(*this);
+    log_sink_.reset();  // hands on what has been said so far
+    DisconnectProbes();
+    EndWriting();
     const std::lock_guard lock(mutex_);
     for (const auto& each : recorded_) status_.dropped += each->dropped();
     ended.swap(recorded_);

@@ -24,7 +24,7 @@ inline constexpr const char* kMessageEncoding = "json";
 inline constexpr const char* kSchemaEncoding = "jsonschema";
 
 /// How the values of a type are recorded: as Foxglove wants them, and whole.
-[[nodiscard]] inline FoxgloveOptions WholeValues() { return {.has_infinity = true}; }
+[[nodiscard]] inline JsonLimits WholeValues() { return {}; }
 
 /// The path of the port whose values a channel has: as Runnel notes it, or else the topic.
 [[nodiscard]] inline std::string PortOf(const McapChannel& channel) {

@@ -6,7 +6,6 @@
 #include "core/types/type_info.h"
 #include "plugins/values/internal/message_parts.h"
 #include "plugins/values/json_reader.h"
-#include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel {
@@ -64,15 +63,13 @@ std::string WrappedSchema(const TypeInfo& type) {
   });
 }
 
-FoxgloveChannel PlainChannel(const TypeInfo& type, std::string_view topic,
-                             const FoxgloveOptions& options) {
+FoxgloveChannel PlainChannel(const TypeInfo& type, std::string_view topic, const JsonLimits& limits) {
   const bool is_object = type.kind() == TypeKind::kStructure;
   FoxgloveChannel channel{std::string(topic), type.name(), "", {}};
   if (!type.HasPart(IsListOfLists)) {
     channel.schema = is_object ? JsonSchemaOf(type) : WrappedSchema(type);
   }
-  channel.append = [&type, is_object, limits = JsonLimits{.has_infinity = options.has_infinity}](
-                       const void* value, Time, std::string& json) {
+  channel.append = [&type, is_object, limits](const void* value, Time, std::string& json) {
     if (!is_object) json += "{\"value\":";
     AppendJson(type, value, json, limits);
     if (!is_object) json += '}';
@@ -102,10 +99,10 @@ void AppendLog(const LogMessage& said, Time timestamp, std::string& json) {
 }  // namespace
 
 std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view topic,
-                                         const FoxgloveOptions& options) {
+                                         const JsonLimits& limits) {
   std::vector<FoxgloveChannel> channels;
   if (!type.is_transparent()) return channels;
-  channels.push_back(PlainChannel(type, topic, options));
+  channels.push_back(PlainChannel(type, topic, limits));
   for (const Drawing* drawing : kDrawings) {
     if (drawing->tag != type.semantic_tag() || !drawing->fits(type)) continue;
     channels.push_back(DrawnChannel(*drawing, type, std::string(topic) + "/foxglove"));

@@ -11,6 +11,7 @@
 #include "core/base/result.h"
 #include "core/element/framework_element.h"
 #include "core/port/port.h"
+#include "plugins/values/json_values.h"
 
 namespace runnel {
 
@@ -35,13 +36,6 @@ struct FoxgloveChannel {
   std::function<void(const void* value, Time timestamp, std::string& json)> append;
 };
 
-struct FoxgloveOptions {
-  /// Whether infinities may stand in plain values as 1e999, which keeps them; else they are null, so
-  /// that every reader takes the message. In Foxglove's own schemas they stay: there they mean "no
-  /// echo".
-  bool has_infinity = false;
-};
-
 /// The channels for values of a type that are published under `topic`:
 ///
 ///     topic            the value as it is, for plots, tables and raw views: {"x":1,"y":2,"heading":0};
@@ -50,9 +44,10 @@ struct FoxgloveOptions {
 ///                      (PoseInFrame), path (PosesInFrame), range_scan (LaserScan), image (RawImage),
 ///                      point, hit_and_leave_points, drawing, world_map (SceneUpdate)
 ///
-/// Empty for a type that is not transparent.
+/// `limits`, of plain values: without infinities every reader takes the message. In Foxglove's own schemas they
+/// stay: there they mean "no echo". Empty for a type that is not transparent.
 [[nodiscard]] std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view topic,
-                                                       const FoxgloveOptions& options = {});
+                                                       const JsonLimits& limits = {.has_infinity = false});
 
 /// Sets `value` from a message of the channel that shows values as they are; one that is not within "value", though
 /// its type is no structure, is read, too.

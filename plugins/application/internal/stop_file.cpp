@@ -123,13 +123,12 @@ Result<std::unique_ptr<StopFile>> StopFile::Follow(RobotStop& stop, ApplicationL
   return follows;
 }
 
-StopFile::StopFile(RobotStop& stop, ApplicationLog& log, fs::path folder, std::string name,
+StopFile::StopFile(RobotStop& stop, ApplicationLog& log, fs::path folder, const std::string& name,
                    std::vector<fs::path> left)
     : stop_(stop),
       log_(log),
       folder_(std::move(folder)),
-      name_(std::move(name)),
-      file_(folder_ / (name_ + OwnName())),
+      file_(folder_ / (name + OwnName())),
       left_(std::move(left)),
       lookout_(std::in_place,
                [this]() -> std::optional<Time> {

@@ -37,7 +37,7 @@ class StopFile {
                                                   Diagnostics& diagnostics);
 
   /// `name`: how the names of all files of the application begin. `left`: those that it takes over.
-  StopFile(RobotStop& stop, ApplicationLog& log, std::filesystem::path folder, std::string name,
+  StopFile(RobotStop& stop, ApplicationLog& log, std::filesystem::path folder, const std::string& name,
            std::vector<std::filesystem::path> left = {});
   ~StopFile();
 
@@ -52,7 +52,6 @@ class StopFile {
   RobotStop& stop_;
   ApplicationLog& log_;
   const std::filesystem::path folder_;
-  const std::string name_;
   const std::filesystem::path file_;  // of this process
   std::vector<std::filesystem::path> left_;  // taken over, and there perhaps; of the thread that writes
   int held_ = -1;                     // the file, while STOP is in force; of the thread that writes

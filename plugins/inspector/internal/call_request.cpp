@@ -113,8 +113,7 @@ class ViewerCall {
 ViewerRequest BeginCallRequest(Inspection& inspection, ViewerMessage message, std::function<void()> /*on_done*/) {
   const auto call =
       std::make_shared<ViewerCall>(inspection.application().runtime, message.as_of, message.path, message.value);
-  return {.task = nullptr,
-          .take_reply =
+  return {.take_reply =
               [call, request = message.request] {
                 const auto& outcome = call->outcome();
                 return outcome ? Reply(request, *outcome) : Refusal(request, {{outcome.error()}});

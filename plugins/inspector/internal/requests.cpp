@@ -173,7 +173,7 @@ std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
 }
 
 ViewerRequest Answered(std::string reply) {
-  return {nullptr, [reply = std::move(reply)] { return reply; }};
+  return {[reply = std::move(reply)] { return reply; }};
 }
 
 // By the worker, because it may wait.
@@ -181,9 +181,8 @@ ViewerRequest AnsweredLater(Inspection& inspection, std::optional<std::uint64_t>
                             std::function<void()> on_done) {
   const auto reply = std::make_shared<std::string>();
   auto task = inspection.tasks().Post([reply, answer = std::move(answer)] { *reply = answer(); }, std::move(on_done));
-  return {task, [request, reply, task = task.get()] {
-            return task->failure() ? Refusal(request, {{*task->failure()}}) : *reply;
-          }};
+  return {[request, reply, task] { return task->failure() ? Refusal(request, {{*task->failure()}}) : *reply; },
+          [task] { return task->is_done(); }};
 }
 
 // At once for all viewers; the reply comes when it has been written.
@@ -217,11 +216,12 @@ ViewerRequest BeginCommand(Inspection& inspection, const ViewerMessage& message,
   const std::string copy = message.op == "save" && !message.saves_configuration ? message.file : "";
   const std::shared_ptr<PendingCommand> pending = inspection.service().Begin(
       std::move(std::get<CommandRequest>(command)), inspection.tasks(), std::move(on_done), message.as_of);
-  return {pending->task(), [&inspection, request, pending, copy] {
+  return {[&inspection, request, pending, copy] {
             const CommandAnswer answer = pending->Take();
             if (answer && !copy.empty()) CopyArrangement(inspection, copy);
             return ReplyTo(request, answer);
-          }};
+          },
+          [pending] { return pending->is_done(); }};
 }
 
 // How an operation is carried out: by the service, which is asked for what `kMake` makes of the message.

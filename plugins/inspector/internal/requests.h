@@ -25,10 +25,8 @@ namespace runnel::internal {
 ///
 /// Threads:  the server's; waits for nothing.
 struct ViewerRequest {
-  std::shared_ptr<WorkerTask> task;         ///< nullptr: it has been answered at once
-  std::function<std::string()> take_reply;  ///< once the task is done
-  std::function<bool()> is_done =
-      {};  ///< in the place of a task: asked with each look; none: at once
+  std::function<std::string()> take_reply;  ///< once it is done
+  std::function<bool()> is_done = {};       ///< asked with each look; none: at once
 };
 
 /// What viewers may say, and who may say it.

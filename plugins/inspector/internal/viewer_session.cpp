@@ -7,6 +7,7 @@
 #include "core/base/nearest_name.h"
 #include "core/log/log_level.h"
 #include "core/types/type_info.h"
+#include "plugins/command_service/extension_texts.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/values/json_writer.h"
@@ -26,6 +27,7 @@ constexpr std::size_t kSlow = 1 << 20;
 constexpr auto kState = milliseconds(100);
 constexpr auto kAlive = milliseconds(1000);
 constexpr auto kTimeAlone = milliseconds(200);
+constexpr auto kNetwork = milliseconds(500);
 constexpr double kFastestWatch = 60;
 constexpr double kFastestRates = 10;
 constexpr std::size_t kMostElements = 1'000'000;
@@ -172,9 +174,32 @@ void ViewerSession::SendState(SteadyTime now) {
   state_time_ = time;
 }
 
+// Of applications without a network nothing.
+void ViewerSession::SendNetwork(SteadyTime now) {
+  network_due_ = now + kNetwork;
+  if (structure_ == 0 || IsSlow()) return;
+  Runtime& runtime = inspection_.application().runtime;
+  std::string picture;
+  {
+    const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
+    if (!lock) {
+      network_due_ = now + milliseconds(5);
+      return;
+    }
+    const ExtensionTexts::Text* const text = ExtensionTexts::Find(runtime, "network_picture");
+    if (text == nullptr) return;
+    std::shared_ptr<void> asking;
+    const auto told = (*text)("", asking);
+    if (!told || !*told) return;
+    picture = **told;
+  }
+  if (picture == network_) return;
+  if (client_.SendText("{\"op\":\"network\"," + picture.substr(1))) network_ = std::move(picture);
+}
+
 void ViewerSession::SendReplies() {
   std::erase_if(pending_, [&](const ViewerRequest& each) {
-    if (each.task != nullptr ? !each.task->is_done() : each.is_done && !each.is_done()) return false;
+    if (each.is_done && !each.is_done()) return false;
     replies_.push_back(each.take_reply());
     inspection_.LookSoon();
     return true;

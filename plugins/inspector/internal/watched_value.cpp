@@ -112,7 +112,7 @@ bool ViewerSession::AppendValue(Watch& watch, const void* value, Time time, std:
   const TypeInfo& type = watch.port.type();
   if (watch.wants_image && type.semantic_tag() == "image") {
     if (watch.pictured != &type) {
-      std::vector<FoxgloveChannel> channels = ChannelsFor(type, watch.port.path(), {});
+      std::vector<FoxgloveChannel> channels = ChannelsFor(type, watch.port.path());
       watch.picture.reset();
       if (channels.size() > 1) watch.picture = std::move(channels.back());
       watch.pictured = &type;

@@ -117,10 +117,7 @@ class WebSocketConnection final : public WebConnection,
     Attempt([this] {
       const SteadyTime next = session_->OnPoll();
       if (is_closing_) return;
-      poll_timer_.expires_at(std::max(next, Now() + kShortestPause));
-      poll_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
-        if (!error) self->Poll();
-      });
+      At(std::max(next, Now() + kShortestPause), poll_timer_, &WebSocketConnection::Poll);
     });
   }
   void End(std::string_view reason) override { Close(websocket::close_code::going_away, reason); }
@@ -144,6 +141,14 @@ class WebSocketConnection final : public WebConnection,
     bool is_text;
     WebArrival arrival = {};
   };
+
+  // Unless the timer is cancelled or set anew by then.
+  void At(SteadyTime time, boost::asio::steady_timer& timer, void (WebSocketConnection::*act)()) {
+    timer.expires_at(time);
+    timer.async_wait([self = shared_from_this(), act](beast::error_code cancelled) {
+      if (!cancelled) ((*self).*act)();
+    });
+  }
 
   template <typename Do>
   void Attempt(const Do& attempt) {
@@ -208,6 +213,7 @@ class WebSocketConnection final : public WebConnection,
 
   // What has come too soon waits.
   void HandOverEarly() {
+    if (is_removed_) return;
     while (!early_.empty() && Now() >= next_at_) {
       const Message message = std::move(early_.front());
       early_.pop_front();
@@ -217,10 +223,7 @@ class WebSocketConnection final : public WebConnection,
       HandOver(message);
     }
     if (early_.empty()) return;
-    read_timer_.expires_at(next_at_);
-    read_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
-      if (!cancelled && !self->is_removed_) self->HandOverEarly();
-    });
+    At(next_at_, read_timer_, &WebSocketConnection::HandOverEarly);
   }
 
   [[nodiscard]] bool HasRoomFor(const Message& message) const {
@@ -245,10 +248,7 @@ class WebSocketConnection final : public WebConnection,
     const Message& message = waiting_.front();
     socket_.text(message.is_text);
     // A client that takes nothing of it all that time is not there any more.
-    write_timer_.expires_after(registry_.limits().idle_time);
-    write_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
-      if (!cancelled) self->Cut();
-    });
+    At(Now() + registry_.limits().idle_time, write_timer_, &WebSocketConnection::Cut);
     socket_.async_write(boost::asio::buffer(message.bytes),
                         [self = shared_from_this()](beast::error_code error, std::size_t) {
                           self->OnWritten(error);
@@ -283,10 +283,7 @@ class WebSocketConnection final : public WebConnection,
     is_closing_ = true;
     // Not here: it may be the session itself that has asked for it.
     boost::asio::post(registry_.context(), [self = shared_from_this()] { self->session_.reset(); });
-    poll_timer_.expires_after(kTimeToSayGoodbye);
-    poll_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
-      if (!cancelled) self->Cut();
-    });
+    At(Now() + kTimeToSayGoodbye, poll_timer_, &WebSocketConnection::Cut);
   }
 
   void Remove() {
