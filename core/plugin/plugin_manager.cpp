@@ -70,6 +70,8 @@ Result<const PluginEntry*> Handshake(void* library, const fs::path& file) {
 
 }  // namespace
 
+const char* CoreAbiFingerprint() noexcept { return kAbiFingerprint; }
+
 PluginManager::PluginManager() {
   const char* const variable = std::getenv("RUNNEL_PLUGIN_PATH");
   for (const auto folder : PartsBetween(":", variable != nullptr ? variable : "")) search_path_.emplace_back(folder);
