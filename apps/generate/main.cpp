@@ -2,10 +2,10 @@
 
 #include <array>
 #include <map>
-#include <sstream>
 
 #include "apps/generate/component_check.h"
 #include "apps/program.h"
+#include "core/base/characters.h"
 #include "core/base/program_output.h"
 #include "plugins/genom_description/description.h"
 #include "plugins/genom_templates/template_run.h"
@@ -33,10 +33,8 @@ Result<std::vector<std::string>> FlagsOfPackage(const std::string& package) {
     return Error{.message = "pkg-config knows no package '" + package + "'",
                  .hint = "install it, or say by PKG_CONFIG_PATH where its .pc file is"};
   }
-  std::istringstream words(answer->text);
-  std::vector<std::string> flags;
-  for (std::string word; words >> word;) flags.push_back(word);
-  return flags;
+  const auto flags = PartsBetween(" \t\r\n", answer->text);
+  return std::vector<std::string>(flags.begin(), flags.end());
 }
 
 // For each file by itself, as `runnel check` does with applications.

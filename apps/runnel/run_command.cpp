@@ -101,7 +101,11 @@ class Session {
       return false;
     };
     const auto real_start = std::chrono::steady_clock::now();
-    const auto ran = RunReportingCrashes(options);
+    const auto ran = [&] {
+      const CrashReport report({.file = arguments_.crash_file.value_or(fmt::format("runnel_crash_{}.txt", getpid())),
+                                .rescue = [this](const Crash& crash) { Rescue(crash); }});
+      return application_.Run(options);
+    }();
     const auto real = std::chrono::steady_clock::now() - real_start;
     PrintEvents();
     ClearProgress();
@@ -114,13 +118,6 @@ class Session {
   }
 
  private:
-  Result<Duration> RunReportingCrashes(const RunOptions& options) {
-    const CrashReport report({.file = arguments_.crash_file.value_or(
-                                  fmt::format("runnel_crash_{}.txt", getpid())),
-                              .rescue = [this](const Crash& crash) { Rescue(crash); }});
-    return application_.Run(options);
-  }
-
   // What has come of the run can still be looked at.
   void Hold() const {
     std::cout << "held for viewers; Ctrl-C ends it, 'runnel restart' runs it again\n" << std::flush;

@@ -84,6 +84,16 @@ std::string_view Trimmed(std::string_view text) noexcept {
   return text.substr(begin, text.find_last_not_of(kWhitespace) - begin + 1);
 }
 
+std::vector<std::string_view> PartsBetween(std::string_view separators, std::string_view text) {
+  std::vector<std::string_view> parts;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(separators), text.size());
+    if (end > 0) parts.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return parts;
+}
+
 std::string Quoted(std::string_view text) {
   constexpr std::string_view kMeant = "\"\\\n\t\r", kNames = "\"\\ntr";
   std::string quoted = "\"";

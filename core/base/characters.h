@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace runnel {
 
@@ -31,6 +32,9 @@ namespace runnel {
 
 /// `text` without the white space at its ends.
 [[nodiscard]] std::string_view Trimmed(std::string_view text) noexcept;
+
+/// What stands between any of `separators`, without what is empty: "a" and "b" of "/a//b".
+[[nodiscard]] std::vector<std::string_view> PartsBetween(std::string_view separators, std::string_view text);
 
 /// `text` in quotation marks, with \" \\ \n \t \r for what cannot stand in them as it is.
 [[nodiscard]] std::string Quoted(std::string_view text);

@@ -45,14 +45,6 @@ Result<void> CheckElementName(std::string_view name) {
   return {};
 }
 
-std::vector<std::string_view> SplitPath(std::string_view path) {
-  std::vector<std::string_view> names;
-  while (!path.empty()) {
-    const std::size_t end = std::min(path.find('/'), path.size());
-    if (end > 0) names.push_back(path.substr(0, end));
-    path.remove_prefix(std::min(end + 1, path.size()));
-  }
-  return names;
-}
+std::vector<std::string_view> SplitPath(std::string_view path) { return PartsBetween("/", path); }
 
 }  // namespace runnel

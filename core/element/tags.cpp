@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/characters.h"
 #include "core/element/element_path.h"
 
 namespace runnel {
@@ -50,14 +51,8 @@ std::string TagsText(const FrameworkElement& element) {
 }
 
 std::vector<std::string> TagsInText(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  std::vector<std::string> tags;
-  for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-    tags.emplace_back(text.substr(at, end - at));
-    at = text.find_first_not_of(kBlanks, end);
-  }
-  return tags;
+  const std::vector<std::string_view> tags = PartsBetween(" \t\r\n", text);
+  return {tags.begin(), tags.end()};
 }
 
 }  // namespace runnel

@@ -15,6 +15,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/base/characters.h"
+
 namespace runnel {
 
 namespace {
@@ -35,18 +37,8 @@ constexpr std::array<std::array<Flag, 2>, 3> kKinds{{
     {{{"debug", "with the debug mode of the standard library", "-D_GLIBCXX_DEBUG"}, {}}},
 }};
 
-std::vector<std::string_view> Words(std::string_view text) {
-  std::vector<std::string_view> words;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    if (end > 0) words.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return words;
-}
-
 const Flag* FlagIn(const std::array<Flag, 2>& kind, std::string_view fingerprint) {
-  const std::vector<std::string_view> words = Words(fingerprint);
+  const std::vector<std::string_view> words = PartsBetween(" ", fingerprint);
   const auto found = std::ranges::find_if(kind, [&](const Flag& flag) {
     return !flag.word.empty() && std::ranges::count(words, flag.word) > 0;
   });
@@ -55,7 +47,7 @@ const Flag* FlagIn(const std::array<Flag, 2>& kind, std::string_view fingerprint
 
 std::string WithoutFlags(std::string_view fingerprint) {
   std::string rest;
-  for (const std::string_view word : Words(fingerprint)) {
+  for (const std::string_view word : PartsBetween(" ", fingerprint)) {
     const bool is_flag = std::ranges::any_of(kKinds, [&](const auto& kind) {
       return std::ranges::count(kind, word, &Flag::word) > 0;
     });

@@ -1,12 +1,12 @@
 #include "core/plugin/plugin_manager.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <set>
 
 #include <dlfcn.h>
 
+#include "core/base/characters.h"
 #include "core/base/exception_text.h"
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
@@ -24,16 +24,6 @@ fs::path CoreFolder() {
   Dl_info info;
   if (dladdr(reinterpret_cast<const void*>(&CoreAbiFingerprint), &info) == 0) return {};
   return fs::absolute(info.dli_fname).parent_path();
-}
-
-void AppendEnvironmentFolders(std::vector<fs::path>& folders) {
-  const char* const variable = std::getenv("RUNNEL_PLUGIN_PATH");
-  std::string_view rest = variable != nullptr ? variable : "";
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find(':'), rest.size());
-    if (end > 0) folders.emplace_back(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
 }
 
 Error Refusal(const fs::path& file, std::string why, std::string hint = {}) {
@@ -80,8 +70,11 @@ Result<const PluginEntry*> Handshake(void* library, const fs::path& file) {
 
 }  // namespace
 
+const char* CoreAbiFingerprint() noexcept { return kAbiFingerprint; }
+
 PluginManager::PluginManager() {
-  AppendEnvironmentFolders(search_path_);
+  const char* const variable = std::getenv("RUNNEL_PLUGIN_PATH");
+  for (const auto folder : PartsBetween(":", variable != nullptr ? variable : "")) search_path_.emplace_back(folder);
   search_path_.push_back(CoreFolder() / RUNNEL_PLUGIN_FOLDER);
 }
 

@@ -59,14 +59,9 @@ void PlannerStatusTeller::Note(bool is_round, Point2 place) {
     told_.leave_point = place;
     Append(points_.leaves, place);
   }
-  PublishPoints();
-}
-
-void PlannerStatusTeller::PublishPoints() {
   auto loan = points.Loan();
   if (!loan) return;
-  loan->hits.assign(points_.hits.begin(), points_.hits.end());
-  loan->leaves.assign(points_.leaves.begin(), points_.leaves.end());
+  *loan = points_;  // within what its lists have reserved
   points.Publish(std::move(loan));
 }
 

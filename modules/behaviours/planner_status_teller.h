@@ -34,7 +34,6 @@ class PlannerStatusTeller final : public Module {
   static constexpr std::size_t kMostPoints = 256;
   Result<void> Prepare() override;
   void Note(bool is_round, Point2 place);
-  void PublishPoints();
   void Update() override;
 
   PlannerStatus told_;

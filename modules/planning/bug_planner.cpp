@@ -24,9 +24,7 @@ std::vector<Point2> BoundaryPoints(const Pose2& pose, const Surroundings& surrou
   for (int sector = 0; sector < Surroundings::kSectors; ++sector) {
     const double distance = ContourDistance(surroundings, sector);
     if (!std::isfinite(distance)) continue;
-    const double bearing = pose.heading + SectorBearing(sector);
-    points.push_back(
-        {pose.x + distance * std::cos(bearing), pose.y + distance * std::sin(bearing)});
+    points.push_back(Position(pose) + distance * UnitVector(pose.heading + SectorBearing(sector)));
   }
   return points;
 }

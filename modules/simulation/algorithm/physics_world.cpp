@@ -210,13 +210,8 @@ struct PhysicsWorld::State {
         robot_is_first = manifold.getBody0() == &robot;
       }
     }
-    if (strongest != nullptr) {
-      NoteContact(robot_is_first ? strongest->getPositionWorldOnA()
-                                 : strongest->getPositionWorldOnB());
-    }
-  }
-
-  void NoteContact(const btVector3& place) {
+    if (strongest == nullptr) return;
+    const btVector3& place = robot_is_first ? strongest->getPositionWorldOnA() : strongest->getPositionWorldOnB();
     const btVector3 offset = place - robot.getWorldTransform().getOrigin();
     contact = {true, WrapAngle(Direction({offset.x(), offset.y()}) - Heading())};
   }
@@ -244,8 +239,6 @@ struct PhysicsWorld::State {
 
 PhysicsWorld::PhysicsWorld(const World& world, const PhysicsOptions& options)
     : state_(std::make_unique<State>(world, options)) {}
-PhysicsWorld::PhysicsWorld(PhysicsWorld&&) noexcept = default;
-PhysicsWorld& PhysicsWorld::operator=(PhysicsWorld&&) noexcept = default;
 PhysicsWorld::~PhysicsWorld() = default;
 
 void PhysicsWorld::SetWheelSpeeds(const WheelSpeeds& speeds) {

@@ -35,8 +35,6 @@ struct PhysicsOptions {
 class PhysicsWorld {
  public:
   explicit PhysicsWorld(const World& world, const PhysicsOptions& options = {});
-  PhysicsWorld(PhysicsWorld&&) noexcept;
-  PhysicsWorld& operator=(PhysicsWorld&&) noexcept;
   ~PhysicsWorld();
 
   /// What the wheels shall do from now on (rad/s). Beyond the robot's limits both are slowed down

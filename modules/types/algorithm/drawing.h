@@ -42,9 +42,6 @@ struct Drawing {
   void AddLine(std::vector<Point2> points, const DrawnColour& colour, double width = 0.02) {
     items.push_back({DrawnKind::kLine, std::move(points), colour, width, {}});
   }
-  void AddClosedLine(std::vector<Point2> points, const DrawnColour& colour, double width = 0.02) {
-    items.push_back({DrawnKind::kClosedLine, std::move(points), colour, width, {}});
-  }
   void AddText(const Point2& at, std::string text, const DrawnColour& colour, double height = 0.2) {
     items.push_back({DrawnKind::kText, {at}, colour, height, std::move(text)});
   }

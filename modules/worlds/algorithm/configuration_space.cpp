@@ -80,28 +80,20 @@ double BoundaryPiece::DistanceTo(Point2 point) const {
 
 ConfigurationSpace::ConfigurationSpace(World world, double radius)
     : world_(std::move(world)), radius_(radius), outline_(OutlineOf(world_)) {
-  MakeOffsets();
-  MakeCircles();
-  for (Circle& circle : circles_) CutCircle(circle);
-}
-
-void ConfigurationSpace::MakeOffsets() {
   for (const Outline::Flat& flat : outline_.flats) {
     offsets_.push_back(MovedRight(flat.ground, radius_));
     offsets_.push_back(MovedRight({flat.ground.to, flat.ground.from}, radius_));
   }
-}
-
-void ConfigurationSpace::MakeCircles() {
-  const auto add = [this](Point2 centre, double radius) {
+  const auto add = [this](Point2 centre, double grown) {
     const bool is_known = std::ranges::any_of(circles_, [&](const Circle& circle) {
-      return circle.radius == radius && Distance(circle.centre, centre) < kSamePlace;
+      return circle.radius == grown && Distance(circle.centre, centre) < kSamePlace;
     });
-    if (!is_known && radius > 0.0) circles_.push_back({centre, radius});
+    if (!is_known && grown > 0.0) circles_.push_back({centre, grown});
   };
   for (const Outline::Round& round : outline_.rounds) add(round.centre, round.radius + radius_);
   for (const Outline::Flat& flat : outline_.flats) add(flat.ground.from, radius_);
   for (const Outline::Flat& flat : outline_.flats) add(flat.ground.to, radius_);
+  for (Circle& circle : circles_) CutCircle(circle);
 }
 
 void ConfigurationSpace::CutCircle(Circle& circle) const {

@@ -64,8 +64,6 @@ class ConfigurationSpace {
 
  private:
   [[nodiscard]] double SurfaceDistance(Point2 point) const;
-  void MakeCircles();
-  void MakeOffsets();
   void CutCircle(Circle& circle) const;
   void AddPiecesOf(const Segment2& offset, std::vector<BoundaryPiece>& pieces) const;
   void AddPiecesOf(const Circle& circle, std::vector<BoundaryPiece>& pieces) const;

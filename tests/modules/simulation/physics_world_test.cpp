@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <list>
 #include <memory>
 #include <string>
 #include <thread>
@@ -260,7 +261,7 @@ TEST(PhysicsWorld, RepeatsItselfToTheBit) {
     for (std::size_t i = 1; i < 200; ++i) blocks.push_back(std::make_unique<char[]>(i * 37));
     return blocks;
   }();
-  std::vector<PhysicsWorld> worlds;
+  std::list<PhysicsWorld> worlds;
   for (int i = 0; i < 3; ++i) worlds.emplace_back(Clutter());
   for (auto world = worlds.rbegin(); world != worlds.rend(); ++world) {
     const std::vector<double> again = BumpAround(*world);

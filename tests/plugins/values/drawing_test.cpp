@@ -20,7 +20,7 @@ Drawing Sketch() {
   Drawing drawing{"robot", {}};
   drawing.AddPoints({{1, 2}}, {.red = 1}, 0.1);
   drawing.AddLine({{0, 0}, {1, 0}}, {.green = 1, .alpha = 0.5});
-  drawing.AddClosedLine({{0, 0}, {1, 0}, {0, 1}}, {.blue = 1});
+  drawing.items.push_back({DrawnKind::kClosedLine, {{0, 0}, {1, 0}, {0, 1}}, {.blue = 1}, 0.02, {}});
   drawing.AddText({3, 4}, "near", {});
   return drawing;
 }

@@ -114,27 +114,21 @@ class Maze {
 
   /// Straight pieces, each as long as it can be.
   void AddWalls(World& world) const {
-    for (int column = 1; column < columns_; ++column) {
-      int first = 0;
-      for (int row = 0; row <= rows_; ++row) {
-        if (row < rows_ && !is_joined_right_[Index({column - 1, row})]) continue;
-        AddWall(world, Corner(column, first), Corner(column, row));
-        first = row + 1;
+    const auto add = [&world](int lines, int length, const auto& is_joined, const auto& corner) {
+      for (int line = 1; line < lines; ++line) {
+        int first = 0;
+        for (int at = 0; at <= length; ++at) {
+          if (at < length && !is_joined(line, at)) continue;
+          const Point2 from = corner(line, first), to = corner(line, at);
+          if (from != to) world.walls.push_back({.points = {from, to}, .thickness = kThickness});
+          first = at + 1;
+        }
       }
-    }
-    for (int row = 1; row < rows_; ++row) {
-      int first = 0;
-      for (int column = 0; column <= columns_; ++column) {
-        if (column < columns_ && !is_joined_up_[Index({column, row - 1})]) continue;
-        AddWall(world, Corner(first, row), Corner(column, row));
-        first = column + 1;
-      }
-    }
-  }
-
-  static void AddWall(World& world, Point2 from, Point2 to) {
-    if (from == to) return;
-    world.walls.push_back({.points = {from, to}, .thickness = kThickness});
+    };
+    add(columns_, rows_, [this](int line, int at) { return is_joined_right_[Index({line - 1, at})]; },
+        [this](int line, int at) { return Corner(line, at); });
+    add(rows_, columns_, [this](int line, int at) { return is_joined_up_[Index({at, line - 1})]; },
+        [this](int line, int at) { return Corner(at, line); });
   }
 
   const GeneratorOptions& options_;
