@@ -38,7 +38,6 @@ struct DrivingState final : Annotation {
   bool is_replaced = false;
   bool is_later = false, may_be_refused = false;  // it is to come back: what has been stopped meanwhile stays so
   std::shared_ptr<const PortStop> stop_before;
-  AnyValue read_before;  // if it can be copied
 };
 
 /// Errors: another port has its place now, as an output's while a recording is played.

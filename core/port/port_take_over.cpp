@@ -17,7 +17,6 @@
 #include "core/port/port_extras.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
-#include "core/types/value_copy.h"
 
 namespace runnel {
 
@@ -31,14 +30,6 @@ std::string TextOf(const AnyValue& value) { return ToText(value.type(), value.ge
 
 bool IsSame(const PortStop& a, const PortStop& b) {
   return TextOf(a.safe_value()) == TextOf(b.safe_value()) && a.command() == b.command() && a.brake() == b.brake();
-}
-
-// What is read there, if it can be copied.
-AnyValue ReadAt(const Port& port) {
-  const std::shared_ptr<void> value = port.type().is_transparent() ? port.type().Make() : nullptr;
-  bool is_copied = false;
-  port.VisitLatest([&](const void* latest, ValueTimes) { is_copied = value && CopyValue(port.type(), latest, value.get()); });
-  return is_copied ? AnyValue(port.type(), value) : AnyValue();
 }
 
 bool RestsAt(const Port& port, const AnyValue& rest) {
@@ -58,26 +49,6 @@ const Port* FindRestOfOthers(const Port& port, const std::vector<Port*>& sinks, 
     if (const Port* const farther = FindRestOfOthers(*from, sinks, before, now)) return farther;
   }
   return nullptr;
-}
-
-// As a file would connect it: of a conversion, its text says all.
-Result<void> CheckConversions(const Port& port, const Port& from, const FrameworkElement* module) {
-  const auto check = [&](const Connection& edge, const Port& source, const Port& to) -> Result<void> {
-    if (module != nullptr && IsWithinComposite(*module, *edge.from, *edge.to)) return {};
-    const auto conversion = internal::ConversionBetween(source, to, edge.options.part, edge.options.convert);
-    if (!conversion) return conversion.error();
-    const auto* const now = edge.converted ? &edge.converted->conversion() : nullptr;
-    if ((now == nullptr) == (*conversion == nullptr) && (now == nullptr || now->text() == (*conversion)->text())) return {};
-    return CannotTakeOver(port, "cannot take over from " + from.path() + ": the values between " + edge.from->path() + " and " + edge.to->path() +
-                                    " would be converted otherwise", "disconnect them first");
-  };
-  for (const Connection& each : from.outgoing()) {
-    if (auto good = check(each, port, *each.to); !good) return good;
-  }
-  for (const Port* source : from.incoming()) {
-    if (auto good = check(*source->ConnectionTo(from), *source, port); !good) return good;
-  }
-  return {};
 }
 
 // Of which the values are: of an interface port, as they are on either side of it, but within its group, without a conversion to another type.
@@ -144,9 +115,6 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
       return CannotTakeOver(port, what + ", by which others move, too", "release it first");
     }
   }
-  if (may_be_refused || state->is_later) {
-    if (auto good = CheckConversions(port, from, modules != nullptr ? &modules->before : nullptr); !good) return good;
-  }
   if (modules == nullptr && (!port.incoming_.empty() || !port.outgoing_.empty())) {
     return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
   }
@@ -164,7 +132,6 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   const std::shared_ptr<const PortStop> before = from.stop();
   const AnyValue rest_before = stop() || from.stop() ? from.FindRest() : AnyValue();
   std::shared_ptr<const PortStop> after = *StopInPlaceOf(from);
-  AnyValue read = unit() != from.unit() ? ReadAt(from) : AnyValue();
   if (after) from.Extras();  // which this port has then
   if (modules != nullptr && (extras_ || from.extras_)) {
     Extras();
@@ -206,11 +173,9 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   own.mark = its.mark;
   own.is_replaced = false;
   own.stop_before.reset();
-  own.read_before = {};
   its.is_replaced = true;
   its.is_later = its.may_be_refused = false;
   its.stop_before = before;
-  its.read_before = std::move(read);
 }
 
 // Where it is for somebody who drives it no more, as SafeValueOf() says it.

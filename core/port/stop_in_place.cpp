@@ -44,12 +44,8 @@ Result<std::shared_ptr<const PortStop>> Port::StopInPlaceOf(const Port& from) co
   const auto stopped = [&](const PortStop& by, const std::shared_ptr<StopSignal>& robot) -> Result<std::shared_ptr<const PortStop>> {
     const auto safe = FindSafeValue({}, DrivingKind::kUnspecified);
     const bool is_other = !safe && MeansOther(*this, from, by.safe_value(), by.command());
-    const bool may_be_refused = !comes_back || state->may_be_refused;
-    if (is_other && !by.in_force()) return std::shared_ptr<const PortStop>();
-    if (is_other && !may_be_refused) {
-      // Who is put back stands where it was when it went.
-      return state->read_before ? with_block(state->read_before, {}, DrivingKind::kUnspecified, robot) : nullptr;
-    }
+    const bool is_rolled_back = comes_back && !state->is_later;
+    if (is_other && (!by.in_force() || is_rolled_back)) return std::shared_ptr<const PortStop>();
     if (is_other) {
       return refuse(by.safe_value(), by.block()->in_force() ? "release its block first" : "release STOP first");
     }

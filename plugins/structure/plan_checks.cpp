@@ -246,9 +246,7 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
   if (!work) return work.error();
   FrameworkElement& made = **work->element;
   if (change.state) change.state->NoteWayBack(made);
-  PortMatch match = MatchPorts(before, made, [&](const Port& port) {
-    return overlay_.IsConnected(port, &before) || !AwaitedWith(port).empty();
-  });
+  PortMatch match = MatchPorts(before, made, overlay_);
   if (misfits == Misfits::kAreCut && match.errors.size() == match.misfits.size()) {
     if (auto cut = Cut(match.misfits, before); !cut) return cut;
     match.errors.clear();

@@ -10,6 +10,7 @@
 #include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
 #include "core/module/kept_state.h"
+#include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "core/port/driving_ports.h"
 #include "core/port/given_limits.h"
@@ -25,13 +26,20 @@ std::optional<Port::ExchangedModules> Composites(const FrameworkElement& before,
   return Port::ExchangedModules{before, after};
 }
 
-// That of a port of the module to which what comes to an interface port leads, and by which something moves.
-std::set<const Port*> DrivingEnds(const Port& port, const FrameworkElement& module) {
-  std::set<const Port*> ends;
-  for (const Port* each : port.Sinks()) {
-    if (each->is_driving() && each->IsAtOrBelow(module)) ends.insert(each);
+// Whether what comes from the one to the other is converted: a file would say nothing of it.
+bool IsConverted(const std::string& from, const std::string& to) { return !from.empty() && !to.empty() && from != to; }
+
+// As a file would connect them. Units that are both there and differ are refused anyway.
+Result<void> CheckConversions(const Port& port, const Port& from, const std::vector<std::pair<Port*, Port*>>& edges) {
+  for (const auto& [source, to] : edges) {
+    const std::string& other = (source == &from ? to : source)->unit();
+    if (IsConverted(other, port.unit()) == IsConverted(other, from.unit())) continue;
+    return Error{.message = "cannot take over from " + from.path() + ": the values between " + source->path() + " and " + to->path() +
+                            " would be converted otherwise",
+                 .path = port.path(),
+                 .hint = "disconnect them first"};
   }
-  return ends;
+  return {};
 }
 
 // The element below `after` that is called as `port` is below `before`.
@@ -145,21 +153,22 @@ Result<void> CopyLateSettings(const FrameworkElement& before, const Values& valu
   return {};
 }
 
-PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
-                     const std::function<bool(const Port&)>& is_connected) {
+PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const StructureOverlay& overlay) {
   PortMatch result;
   const auto composites = Composites(before, after);
   before.VisitAll<Port>([&](Port& port) {
     Port* match = Counterpart(port, before, after);
     if (std::ranges::count(result.ports, match, &std::pair<Port*, Port*>::second) > 0) match = nullptr;
-    const auto possible = match != nullptr ? Port::CheckTakeOver(*match, port, composites ? &*composites : nullptr)
-                                           : NoCounterpart(port, before, after);
+    auto possible = match != nullptr ? Port::CheckTakeOver(*match, port, composites ? &*composites : nullptr)
+                                     : NoCounterpart(port, before, after);
+    if (possible) possible = CheckConversions(*match, port, overlay.EdgesOf(port, &before));
     const bool is_held = port.is_blocked() || port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule);
-    const bool is_stopped = match != nullptr && (port.FindMark() || port.is_blocked());
+    const bool is_stopped = match != nullptr && (port.is_driving() || port.is_blocked());
     if (possible) {
       result.ports.push_back({&port, match});
-    } else if (is_stopped || is_connected(port)) {
-      result.errors.push_back(possible.error());
+    } else if (is_stopped || overlay.IsConnected(port, &before) || !AwaitedWith(port).empty()) {
+      // What is worse first.
+      result.errors.insert(is_stopped ? result.errors.begin() : result.errors.end(), possible.error());
       if (!is_stopped) result.misfits.push_back(&port);
     } else if (composites && is_held) {
       result.errors.push_back({.message = "it is held, and the new module has no such port", .path = port.path(), .hint = "release it first"});
@@ -185,10 +194,11 @@ Result<void> CheckMovesAlike(FrameworkElement& before, FrameworkElement& after, 
       if (alike && port.is_driving() && !moving.contains(&port)) alike = differs(port);
     });
   }
+  const auto leads_to = [](const Port& port, const Port& end) { return std::ranges::count(port.Sinks(), &end) > 0; };
   for (const auto& [from, to] : ports) {
-    const auto ends = DrivingEnds(*to, after);
-    const auto leads_there = [&, &from = from](const auto& each) { return DrivingEnds(*from, before).contains(each.first) == ends.contains(each.second); };
-    if (alike && from->is_proxy() && !std::ranges::all_of(ports, leads_there)) alike = differs(*from);
+    for (const auto& [end, its] : ports) {
+      if (alike && from->is_proxy() && from->direction() == Port::Direction::kInput && end->is_driving() && leads_to(*from, *end) != leads_to(*to, *its)) alike = differs(*from);
+    }
   }
   return alike;
 }

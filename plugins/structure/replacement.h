@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "core/module/hand_over.h"
 #include "core/port/port.h"
 #include "plugins/structure/change.h"
+#include "plugins/structure/structure_overlay.h"
 
 namespace runnel::internal {
 
@@ -39,8 +39,8 @@ struct PortMatch {
   std::vector<Error> errors;   ///< what is connected, marked or blocked, and has no counterpart, with the nearest name
   std::vector<Port*> misfits;  ///< those of them that can be cut
 };
-[[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
-                                   const std::function<bool(const Port&)>& is_connected);
+/// `overlay`: what is connected by then.
+[[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const StructureOverlay& overlay);
 
 /// Errors: one of them is a composite, and not the same moves in both, by ports of the same names. What stops and holds that is kept
 /// with each port, so it would have no place in the other one, or another meaning.

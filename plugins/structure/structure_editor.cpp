@@ -17,7 +17,6 @@
 #include "core/port/driving_ports.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/replacement.h"
-#include "plugins/structure/structure_overlay.h"
 
 namespace runnel {
 
@@ -143,7 +142,8 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting, std::string& done) 
   before.VisitAll<Port>([](Port& port) { DrivingState::Of(port).is_later = true; });
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
   StructureOverlay overlay(runtime_);
-  const PortMatch match = MatchPorts(*after, before, [&](const Port& port) { return overlay.IsConnected(port, after); });
+  const PortMatch match = MatchPorts(*after, before, overlay);
+  if (match.errors.size() > match.misfits.size()) return match.errors.front();  // it would move, or is held
   for (const Error& each : match.errors) done += "; not taken over: " + each.path + ": " + each.message;
   if (auto possible = overlay.Replace(*after, before, match.ports); !possible) return possible.error();
   InheritAnnotations(before, *after, match.ports);

@@ -191,8 +191,8 @@ TEST_F(DrivingSwap, APulseMayBeAVelocity) {
   }
 }
 
-// What is put back stands where it was when it went, if what stops its place has no meaning in its unit.
-TEST_F(DrivingSwap, WhoIsPutBackIsNotMovedByASafeValueOfAnotherUnit) {
+// What stops its place would mean something else in its unit: the one that has failed stays, and does not run.
+TEST_F(DrivingSwap, NoneIsPutBackIntoAStopThatItWouldMoveBy) {
   struct Failing final : Module {
     using Module::Module;
     Input<double> in{this, "in", {.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(1500.0)}};
@@ -215,8 +215,9 @@ TEST_F(DrivingSwap, WhoIsPutBackIsNotMovedByASafeValueOfAnotherUnit) {
     }
     publish(0.1);
     for (int i = 0; i < 5; ++i) scheduler.Step();
-    EXPECT_EQ(FindModuleType(shop_.Get<FrameworkElement>("/demo/m")), "test/servo");
-    EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0.7) << is_stop;
+    EXPECT_EQ(FindModuleType(shop_.Get<FrameworkElement>("/demo/m")), "test/failing");
+    EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 1500) << is_stop;
+    EXPECT_EQ(In().is_blocked(), !is_stop);
     ASSERT_TRUE(editor.Apply({DeleteElement{"/demo"}}));
   }
 }

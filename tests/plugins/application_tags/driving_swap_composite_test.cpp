@@ -104,9 +104,9 @@ TEST_F(DrivingSwapComposite, WhereSomethingMovesOnlyTheSameTakesItsPlace) {
            {"test/motor", kMarks[1], "test/boxed", "not in the same way"},
            {"test/number", "", "test/boxed_drive", kOther},
            {"test/boxed_drive", "", "test/drive", "/demo/m/input/in: moves nothing, or not in the same way as /demo/m/in"},
-           {"test/boxed_drive", "", "test/boxed_number", kOther},
+           {"test/boxed_drive", "", "test/boxed_number", "not in the same way"},
            {"test/boxed_number", "", "test/boxed_drive", kOther},
-           {"test/boxed_drive", "", "test/boxed_brakes", kOther},
+           {"test/boxed_drive", "", "test/boxed_brakes", "not in the same way"},
            {"test/boxed_drive", "", "test/deep", kOther},
            {"test/deep", "", "test/two", kOther},
            {"test/boxed_number", pulse.c_str(), "test/number", "not in the same way"},
@@ -213,6 +213,44 @@ TEST_F(DrivingSwapComposite, WhatIsConnectedIsConvertedAsAFileWouldConnectIt) {
     }
     ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
   }
+}
+
+// By what is connected when all of the set is done.
+TEST_F(DrivingSwapComposite, WhatIsConnectedInTheSameSetCounts) {
+  struct Metres final : Module {
+    using Module::Module;
+    Input<double> in{this, "in", {.unit = "m/s", .drives = true}};
+    void Update() override {}
+  };
+  shop_.Add<Metres>("test/metres");
+  Load("test/metres", "", "test/kilometres");
+  const ReplaceModule swap{"/demo/m", "test/number"};
+  const DisconnectPorts disconnect{"/demo/s/value", "/demo/m/in"};
+  const ConnectPorts connect{"/demo/s/value", "/demo/m/in"};
+  EXPECT_FALSE(history_.Apply({swap}));
+  ASSERT_TRUE(history_.Apply({disconnect, swap, connect}));
+  EXPECT_TRUE(In().is_driving()) << "as the one before";
+  EXPECT_EQ(ReadUnderStop(), 0);
+  ASSERT_TRUE(shop_.runtime.robot_stop().Release("a test"));
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  Load("test/number", "");
+  constexpr const char* kSays = "would be converted otherwise; disconnect them first";
+  for (const ChangeSet& each : {ChangeSet{disconnect, CreateModule{"/demo/t", "test/degrees"}, ConnectPorts{"/demo/t/value", "/demo/m/in"},
+                                          ReplaceModule{"/demo/m", "test/servo"}},
+                                ChangeSet{ReplaceModule{"/demo/s", "test/degrees"}, ReplaceModule{"/demo/m", "test/servo"}},
+                                ChangeSet{ReplaceModule{"/demo/m", "test/servo"}, ReplaceModule{"/demo/s", "test/degrees"}}}) {
+    EXPECT_THAT(history_.Apply(each).diagnostics.ToString(), HasSubstr(kSays));
+  }
+}
+
+TEST_F(DrivingSwapComposite, APartThatTheApplicationHasMarkedMovesInTheNextOneToo) {
+  Load("test/boxed_number", "  <driving port=\"m/part/in\" safe=\"0\" command=\"velocity\"/>\n");
+  ASSERT_TRUE(Swap("test/boxed_number"));
+  ASSERT_TRUE(history_.Apply({RenameElement{"/demo/m", "n"}}));
+  EXPECT_TRUE(shop_.Get<Port>("/demo/n/part/input/in").is_driving());
+  EXPECT_TRUE(history_.Undo());
+  EXPECT_TRUE(history_.Undo());
+  EXPECT_TRUE(shop_.Get<Port>("/demo/m/part/input/in").is_driving());
 }
 
 TEST_F(DrivingSwapComposite, ASafeValueBehindAnotherUnitIsNone) {
