@@ -250,7 +250,9 @@ std::vector<const LateConnection*> AwaitedBy(const Port& port) {
 std::vector<LateConnection> AwaitedWith(const FrameworkElement& element) {
   std::vector<LateConnection> awaited;
   const std::string path = ShortPath(element.path());
-  const auto goes_with_it = [&](const std::string& end) { return IsAtOrBelow(end, element.path()) || ShortPath(end) == path; };
+  const auto* const port = dynamic_cast<const Port*>(&element);
+  const bool is_input = port != nullptr && port->direction() == Port::Direction::kInput;
+  const auto goes_with_it = [&](const std::string& end) { return IsAtOrBelow(end, element.path()) || (is_input && ShortPath(end) == path); };
   for (const LateConnection* const each : Waiting(element.runtime(), goes_with_it)) {
     if (each->is_of_its_input()) awaited.push_back(*each);
   }

@@ -62,15 +62,16 @@ std::set<std::string> UnitsOf(const Port& port) {
 }
 
 // What is connected was converted for the unit of the other one, and what stops an interface port, or its block, is of its own.
-Result<void> CheckUnits(const Port& port, const Port& from, bool may_be_refused) {
+Result<void> CheckUnits(const Port& port, const Port& from, bool is_strict) {
   const auto units = UnitsOf(port), others = UnitsOf(from);
   if (units == others) return {};
-  const bool has_to_be_same = may_be_refused && (port.is_proxy() || from.is_proxy()) && !internal::PassedStops(from).empty();
+  const bool has_to_be_same = is_strict && (port.is_proxy() || from.is_proxy()) && !internal::PassedStops(from).empty();
   for (const std::string& each : units) {
     for (const std::string& other : others) {
       if (each == other || (!has_to_be_same && (each.empty() || other.empty()))) continue;
       const auto in = [](const std::string& unit) { return "is in " + (unit.empty() ? "no unit" : unit); };
-      return CannotTakeOver(port, in(each) + " and cannot take over from " + from.path() + ", which " + in(other));
+      return CannotTakeOver(port, in(each) + " and cannot take over from " + from.path() + ", which " + in(other),
+                            "disconnect it first; where something moves by it, delete the module, and create the other one");
     }
   }
   return {};
@@ -98,13 +99,14 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
   // On the way back less is refused; on that of a change that has failed nothing that has been there before.
   const auto* const state = port.FindAnnotation<internal::DrivingState>();
   const bool may_be_refused = state == nullptr || !state->is_replaced || state->may_be_refused;
-  if (auto good = CheckUnits(port, from, may_be_refused); !good) return good;
+  if (auto good = CheckUnits(port, from, may_be_refused || state->is_later); !good) return good;
   if (const auto stop = port.StopInPlaceOf(from); !stop) {
     return CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path(), stop.error().hint);
   } else if (may_be_refused) {
     const auto *declared = port.declared_stop(), *other = from.declared_stop();
     const bool is_alike = port.is_proxy() == from.is_proxy() && port.unit() == from.unit() &&
-                          (declared == nullptr || other == nullptr ? declared == other : IsSame(*declared, *other));
+                          (declared == nullptr || other == nullptr ? declared == other : IsSame(*declared, *other)) &&
+                          (declared != nullptr || !port.is_driving() || (from.is_driving() && IsSame(*port.stop(), *from.stop())));
     if (modules != nullptr && (port.is_driving() || from.is_driving()) && !is_alike) {
       return CannotTakeOver(port, "moves nothing, or not in the same way as " + from.path(), "delete the module, and create the other one");
     }

@@ -148,6 +148,9 @@ Result<void> Plan::Check(const DeleteElement& change) {
   for (const LateConnection& each : AwaitedWith(element)) {
     if (auto cut = CheckLateTie(each.SourceText(), each.to, std::nullopt); !cut) return cut;
   }
+  element.VisitAll<const Port>([&](const Port& port) {
+    if (port.FindMark()) warnings_.push_back({.message = "its mark as driving goes with it: STOP does not hold what takes its place, unless that declares it", .path = port.path()});
+  });
   overlay_.Remove(element);
   AddRemoval(element);
   return {};
@@ -220,6 +223,10 @@ Result<void> Plan::Cut(const std::vector<Port*>& ports, const FrameworkElement& 
       warnings_.push_back({.message = "is not connected to " + to->path() +
                                       " any more: the module made anew has no such port",
                            .path = from->path()});
+    }
+    for (const LateConnection& each : AwaitedWith(*port)) {
+      if (auto cut = CheckLateTie(each.SourceText(), each.to, std::nullopt); !cut) return cut;
+      warnings_.push_back({.message = "is not waited for any more: the module made anew has no such port", .path = each.from});
     }
   }
   return {};

@@ -12,8 +12,10 @@
 #include "core/module/kept_state.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
+#include "core/port/converted_flow.h"
 #include "core/port/driving_ports.h"
 #include "core/port/given_limits.h"
+#include "core/port/port_stop.h"
 
 namespace runnel::internal {
 
@@ -26,20 +28,34 @@ std::optional<Port::ExchangedModules> Composites(const FrameworkElement& before,
   return Port::ExchangedModules{before, after};
 }
 
-// Whether what comes from the one to the other is converted: a file would say nothing of it.
-bool IsConverted(const std::string& from, const std::string& to) { return !from.empty() && !to.empty() && from != to; }
+// What becomes of values on their way, as a file would connect the two.
+std::string ConversionText(const Port& from, const Port& to, const ConnectOptions& options) {
+  const auto conversion = ConversionBetween(from, to, options.part, options.convert);
+  return !conversion ? conversion.error().message : *conversion ? (*conversion)->text() : "";
+}
 
-// As a file would connect them. Units that are both there and differ are refused anyway.
 Result<void> CheckConversions(const Port& port, const Port& from, const std::vector<std::pair<Port*, Port*>>& edges) {
   for (const auto& [source, to] : edges) {
-    const std::string& other = (source == &from ? to : source)->unit();
-    if (IsConverted(other, port.unit()) == IsConverted(other, from.unit())) continue;
+    const Connection* const edge = source->ConnectionTo(*to);
+    const ConnectOptions options = edge != nullptr ? edge->options : ConnectOptions();
+    const bool is_source = source == &from;
+    if (ConversionText(*source, *to, options) == ConversionText(is_source ? port : *source, is_source ? *to : port, options)) continue;
     return Error{.message = "cannot take over from " + from.path() + ": the values between " + source->path() + " and " + to->path() +
                             " would be converted otherwise",
                  .path = port.path(),
                  .hint = "disconnect them first"};
   }
   return {};
+}
+
+// Whether the newest value of a source is one from before the release of its block.
+bool IsBarred(const Port& port) {
+  const auto stop = port.stop();
+  return stop && std::ranges::any_of(port.Sources(), [&](const Port* source) {
+           bool is_barred = false;
+           source->VisitLatest([&](const void*, ValueTimes times) { is_barred = !stop->LetsPass(times); });
+           return is_barred;
+         });
 }
 
 // The element below `after` that is called as `port` is below `before`.
@@ -163,14 +179,16 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
                                      : NoCounterpart(port, before, after);
     if (possible) possible = CheckConversions(*match, port, overlay.EdgesOf(port, &before));
     const bool is_held = port.is_blocked() || port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule);
-    const bool is_stopped = match != nullptr && (port.is_driving() || port.is_blocked());
+    const bool is_connected = overlay.IsConnected(port, &before) || !AwaitedWith(port).empty();
+    const bool is_in_force = port.stop() && port.stop()->in_force();
+    const bool is_stopped = match != nullptr && (is_in_force || port.FindMark() || (is_connected && port.is_driving()));
     if (possible) {
       result.ports.push_back({&port, match});
-    } else if (is_stopped || overlay.IsConnected(port, &before) || !AwaitedWith(port).empty()) {
+    } else if (is_stopped || is_connected) {
       // What is worse first.
       result.errors.insert(is_stopped ? result.errors.begin() : result.errors.end(), possible.error());
       if (!is_stopped) result.misfits.push_back(&port);
-    } else if (composites && is_held) {
+    } else if (composites && (is_held || IsBarred(port))) {
       result.errors.push_back({.message = "it is held, and the new module has no such port", .path = port.path(), .hint = "release it first"});
     }
   });

@@ -266,6 +266,24 @@ TEST_F(CompositeTest, WhatWaitsForAPortThatTheNextOneHasNotIsAskedFor) {
   for (const char* const type : {"test/boxed", "test/straight", "test/passer", "test/boxed"}) Swap(type);
   Must({DisconnectPorts{"/app/counter/out", "/app/m/in"}, DisconnectPorts{"/app/m/out", "/app/sink/in"}, DisconnectPorts{"/app/m/out", "/app/sink/side"}});
   EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/counter"}}), HasSubstr("/app/m/in: the new module has no port 'in', which is connected"));
+  // It is the input that is waited for.
+  Swap("test/passer");
+  Swap("test/taker");
+}
+
+// What was published before the release of a part counts no more, and there is no place for that in the next one.
+TEST_F(CompositeTest, APartThatWasReleasedIsNotForgotten) {
+  Make("test/boxed_measured", "round");
+  auto& in = At<Measured>("/app/m/part").in;
+  Must({DisconnectPorts{"/app/counter/out", "/app/m/in"}, CreateModule{"/app/s", "test/measured"}, ConnectPorts{"/app/s/out", "/app/m/in"}});
+  Steps(2);
+  ASSERT_TRUE(in.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kVelocity));
+  ASSERT_TRUE(in.Block());
+  in.Unblock();
+  ASSERT_TRUE(in.SetDriving(false, AnyValue(0.0), {}, DrivingKind::kVelocity));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/measured"}}), HasSubstr("it is held, and the new module has no such port"));
+  Steps(2);
+  Swap("test/measured");
 }
 
 }  // namespace
