@@ -67,8 +67,7 @@ void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update)
   // For the time being: by a rule, or as a replay has the place.
   const auto* const driving = port != nullptr ? port->FindAnnotation<internal::DrivingState>() : nullptr;
   if (internal::IsByRule(*PathSearch(use.base).Follow(use.path, PathKind::kInput).at) || (driving != nullptr && driving->is_replaced)) return;
-  if (port == nullptr) return update.editor().Remove(tag);
-  if (!mark) return;  // what has come there is to be stopped, too, once the file is loaded
+  if (!mark) return update.editor().Remove(tag);
   // A module in the place of another one may not say what that one has said.
   for (const auto& [name, value] : AttributesOf(*port, *mark)) {
     if (tag.TextOr(name, "").empty()) update.editor().SetAttribute(tag, name, value);

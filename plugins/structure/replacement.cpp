@@ -180,8 +180,7 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
     if (possible) possible = CheckConversions(*match, port, overlay.EdgesOf(port, &before));
     const bool is_held = port.is_blocked() || port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule);
     const bool is_connected = overlay.IsConnected(port, &before) || !AwaitedWith(port).empty();
-    const bool is_in_force = port.stop() && port.stop()->in_force();
-    const bool is_stopped = match != nullptr && (is_in_force || port.FindMark() || (is_connected && port.is_driving()));
+    const bool is_stopped = match != nullptr && (port.is_blocked() || port.FindMark() || (is_connected && port.is_driving()));
     if (possible) {
       result.ports.push_back({&port, match});
     } else if (is_stopped || is_connected) {
@@ -189,7 +188,9 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
       result.errors.insert(is_stopped ? result.errors.begin() : result.errors.end(), possible.error());
       if (!is_stopped) result.misfits.push_back(&port);
     } else if (composites && (is_held || IsBarred(port))) {
-      result.errors.push_back({.message = "it is held, and the new module has no such port", .path = port.path(), .hint = "release it first"});
+      const char* const what = is_held ? "is held" : "waits for a value from after its release";
+      result.errors.push_back({.message = std::string("it ") + what + ", and the new module has no such port", .path = port.path(),
+                               .hint = is_held ? "release it first" : "publish one, or delete the module and create the other one"});
     }
   });
   return result;

@@ -281,7 +281,7 @@ TEST_F(CompositeTest, APartThatWasReleasedIsNotForgotten) {
   ASSERT_TRUE(in.Block());
   in.Unblock();
   ASSERT_TRUE(in.SetDriving(false, AnyValue(0.0), {}, DrivingKind::kVelocity));
-  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/measured"}}), HasSubstr("it is held, and the new module has no such port"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/measured"}}), HasSubstr("it waits for a value from after its release, and the new module has no such port"));
   Steps(2);
   Swap("test/measured");
 }
