@@ -13,7 +13,6 @@
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "core/port/converted_flow.h"
-#include "core/port/driving_ports.h"
 #include "core/port/given_limits.h"
 #include "core/port/port_stop.h"
 
@@ -213,13 +212,15 @@ Result<void> CheckMovesAlike(FrameworkElement& before, FrameworkElement& after, 
       if (alike && port.is_driving() && !moving.contains(&port)) alike = differs(port);
     });
   }
+  if (!alike) return alike;
   const auto leads_to = [](const Port& port, const Port& end) { return std::ranges::count(port.Sinks(), &end) > 0; };
   for (const auto& [from, to] : ports) {
+    if (!from->is_proxy() || from->direction() != Port::Direction::kInput) continue;
     for (const auto& [end, its] : ports) {
-      if (alike && from->is_proxy() && from->direction() == Port::Direction::kInput && end->is_driving() && leads_to(*from, *end) != leads_to(*to, *its)) alike = differs(*from);
+      if (end->is_driving() && leads_to(*from, *end) != leads_to(*to, *its)) return differs(*from);
     }
   }
-  return alike;
+  return {};
 }
 
 void InheritAnnotations(FrameworkElement& after, const FrameworkElement& before, const std::vector<std::pair<Port*, Port*>>& ports) {
