@@ -145,7 +145,7 @@ Result<void> Plan::Check(const DeleteElement& change) {
     Concern(*tie.from);
     Concern(*tie.to);
   }
-  for (const LateConnection& each : AwaitedWith(element)) {
+  for (const LateConnection& each : overlay_.AwaitedWith(element)) {
     if (auto cut = CheckLateTie(each.SourceText(), each.to, std::nullopt); !cut) return cut;
   }
   element.VisitAll<const Port>([&](const Port& port) {
@@ -215,16 +215,17 @@ Result<void> Plan::CheckStatic(const FrameworkElement& element, const Configurab
   return CheckReplacement({module->path(), type, {{element.name(), text}}}, Misfits::kAreCut);
 }
 
-// Cuts the connections of `ports`, which nothing takes over.
-Result<void> Plan::Cut(const std::vector<Port*>& ports, const FrameworkElement& module) {
-  for (Port* port : ports) {
-    for (const auto& [from, to] : overlay_.EdgesOf(*port, &module)) {
+// Cuts the connections that nothing takes over. One that waits does so for whatever has the name of its port.
+Result<void> Plan::Cut(const std::vector<std::pair<Port*, Port*>>& misfits, const FrameworkElement& module) {
+  for (const auto& [port, counterpart] : misfits) {
+    for (const auto& [from, to, options, converted] : overlay_.EdgesOf(*port, &module)) {
       if (auto cut = CheckTie(*from, *to, std::nullopt); !cut) return cut;
       warnings_.push_back({.message = "is not connected to " + to->path() +
-                                      " any more: the module made anew has no such port",
+                                      " any more: the module made anew has no port that takes it over",
                            .path = from->path()});
     }
-    for (const LateConnection& each : AwaitedWith(*port)) {
+    if (counterpart != nullptr) continue;
+    for (const LateConnection& each : overlay_.AwaitedWith(*port)) {
       if (auto cut = CheckLateTie(each.SourceText(), each.to, std::nullopt); !cut) return cut;
       warnings_.push_back({.message = "is not waited for any more: the module made anew has no such port", .path = each.from});
     }
@@ -279,7 +280,7 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
     }
     if (found != match.ports.end()) return;
     if (const std::string what = WhatIsSetAt(port); !what.empty()) {
-      warnings_.push_back({.message = what + " went with it: the new module has no such port", .path = port.path()});
+      warnings_.push_back({.message = what + " went with it: the new module has no port that takes it over", .path = port.path()});
     }
   });
   const bool is_made_anew = FindModuleType(before) == change.type;

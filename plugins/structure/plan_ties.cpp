@@ -12,10 +12,9 @@ namespace runnel::internal {
 Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string& to,
                                 const std::optional<ConnectOptions>& wanted) {
   const auto [from, part] = SplitPortPath(from_path);
-  const LateConnections* const late = LateConnections::FindIn(runtime_);
-  const LateConnection* const known = late != nullptr ? late->Find(from, to) : nullptr;
-  if (wanted && known != nullptr) {
-    return Error{.message = "is to be connected to " + to + " already", .path = from};
+  const LateConnection* const known = overlay_.FindLate(from, to);
+  if (wanted.has_value() == (known != nullptr)) {
+    return Error{.message = wanted ? "is to be connected to " + to + " already" : "is not connected to " + to, .path = from};
   }
   std::optional<ConnectOptions> next = wanted;
   if (next && next->part.empty()) next->part = part;
@@ -27,6 +26,11 @@ Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string&
     if (all.Remove(from, to)) return {};
     return Error{.message = "is not connected to " + to, .path = from};
   };
+  if (wanted) {
+    overlay_.ConnectLate(from, to);
+  } else {
+    overlay_.DisconnectLate(*known);
+  }
   auto is_done = std::make_shared<bool>(false);
   steps_.push_back({[=] {
                       auto tied = tie(next);
@@ -58,9 +62,8 @@ Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_
   }
   if (!are_there && may_wait) return CheckLateTie(from_path, to_path, asked);
   if (!asked) {
-    const LateConnections* const late = LateConnections::FindIn(runtime_);
     const std::string from = found_from ? found_from->port->path() : SplitPortPath(from_path).path;
-    const LateConnection* const known = late != nullptr ? late->Find(from, to_path) : nullptr;
+    const LateConnection* const known = overlay_.FindLate(from, to_path);
     if (known != nullptr && known->waits_for) return CheckLateTie(from_path, to_path, asked);
   }
   if (!found_from) return found_from.error();

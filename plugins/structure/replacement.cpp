@@ -10,7 +10,6 @@
 #include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
 #include "core/module/kept_state.h"
-#include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "core/port/converted_flow.h"
 #include "core/port/given_limits.h"
@@ -33,10 +32,8 @@ std::string ConversionText(const Port& from, const Port& to, const ConnectOption
   return !conversion ? conversion.error().message : *conversion ? (*conversion)->text() : "";
 }
 
-Result<void> CheckConversions(const Port& port, const Port& from, const std::vector<std::pair<Port*, Port*>>& edges) {
-  for (const auto& [source, to] : edges) {
-    const Connection* const edge = source->ConnectionTo(*to);
-    const ConnectOptions options = edge != nullptr ? edge->options : ConnectOptions();
+Result<void> CheckConversions(const Port& port, const Port& from, const std::vector<Connection>& edges) {
+  for (const auto& [source, to, options, converted] : edges) {
     const bool is_source = source == &from;
     if (ConversionText(*source, *to, options) == ConversionText(is_source ? port : *source, is_source ? *to : port, options)) continue;
     return Error{.message = "cannot take over from " + from.path() + ": the values between " + source->path() + " and " + to->path() +
@@ -178,14 +175,14 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
                                      : NoCounterpart(port, before, after);
     if (possible) possible = CheckConversions(*match, port, overlay.EdgesOf(port, &before));
     const bool is_held = port.is_blocked() || port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule);
-    const bool is_connected = overlay.IsConnected(port, &before) || !AwaitedWith(port).empty();
+    const bool is_connected = overlay.IsConnected(port, &before) || !overlay.AwaitedWith(port).empty();
     const bool is_stopped = match != nullptr && (port.is_blocked() || port.FindMark() || (is_connected && port.is_driving()));
     if (possible) {
       result.ports.push_back({&port, match});
     } else if (is_stopped || is_connected) {
       // What is worse first.
       result.errors.insert(is_stopped ? result.errors.begin() : result.errors.end(), possible.error());
-      if (!is_stopped) result.misfits.push_back(&port);
+      if (!is_stopped) result.misfits.emplace_back(&port, match);
     } else if (composites && (is_held || IsBarred(port))) {
       const char* const what = is_held ? "is held" : "waits for a value from after its release";
       result.errors.push_back({.message = std::string("it ") + what + ", and the new module has no such port", .path = port.path(),

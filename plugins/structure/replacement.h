@@ -37,7 +37,8 @@ Result<void> CopyLateSettings(const FrameworkElement& before, const Values& valu
 struct PortMatch {
   std::vector<std::pair<Port*, Port*>> ports;
   std::vector<Error> errors;   ///< what is connected, marked or blocked, and has no counterpart, with the nearest name
-  std::vector<Port*> misfits;  ///< those of them that can be cut
+  /// Those of them that can be cut, each with what has its name in the other module, if anything has.
+  std::vector<std::pair<Port*, Port*>> misfits;
 };
 /// `overlay`: what is connected by then.
 [[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const StructureOverlay& overlay);

@@ -11,6 +11,19 @@
 
 namespace runnel::internal {
 
+namespace {
+
+bool HasEdge(const std::vector<Connection>& edges, const Port& from, const Port& to) {
+  return std::ranges::any_of(edges, [&](const Connection& edge) { return edge.from == &from && edge.to == &to; });
+}
+
+const LateConnection* KnownLate(Runtime& runtime, std::string_view from, std::string_view to) {
+  const LateConnections* const all = LateConnections::FindIn(runtime);
+  return all != nullptr ? all->Find(from, to) : nullptr;
+}
+
+}  // namespace
+
 bool StructureOverlay::IsGone(const FrameworkElement& element) const {
   return std::ranges::any_of(removed_,
                              [&](const auto* gone) { return element.IsAtOrBelow(*gone); });
@@ -62,8 +75,8 @@ void StructureOverlay::Add(FrameworkElement& element) { added_.push_back(&elemen
 
 void StructureOverlay::Remove(FrameworkElement& element) {
   removed_.push_back(&element);
-  std::erase_if(connected_, [&](const Edge& edge) {
-    return edge.first->IsAtOrBelow(element) || edge.second->IsAtOrBelow(element);
+  std::erase_if(connected_, [&](const Connection& edge) {
+    return edge.from->IsAtOrBelow(element) || edge.to->IsAtOrBelow(element);
   });
 }
 
@@ -72,9 +85,9 @@ Result<void> StructureOverlay::Replace(FrameworkElement& gone, FrameworkElement&
   for (const auto& [before, after] : ports) {
     replaced_[before] = after;
     for (auto* edges : {&connected_, &disconnected_}) {
-      for (Edge& edge : *edges) {
-        if (edge.first == before) edge.first = after;
-        if (edge.second == before) edge.second = after;
+      for (Connection& edge : *edges) {
+        if (edge.from == before) edge.from = after;
+        if (edge.to == before) edge.to = after;
       }
     }
   }
@@ -96,39 +109,37 @@ Port& StructureOverlay::NowFor(Port& port) const {
   return *now;
 }
 
-std::vector<Port*> StructureOverlay::Targets(const Port& from) const {
-  std::vector<Port*> targets;
+std::vector<Connection> StructureOverlay::Targets(Port& from) const {
+  std::vector<Connection> targets;
   const auto add_outgoing = [&](const Port& port) {
     for (const Connection& each : port.outgoing()) {
       Port& now = NowFor(*each.to);
       const bool has_gone = std::ranges::any_of(composites_, [&](const auto* gone) { return IsWithinComposite(*gone, port, *each.to); });
-      if (!has_gone && !IsGone(now)) targets.push_back(&now);
+      if (!has_gone && !IsGone(now)) targets.push_back({&from, &now, each.options});
     }
   };
   add_outgoing(from);
   for (const auto& [before, after] : replaced_) {
     if (&NowFor(*after) == &from) add_outgoing(*before);
   }
-  std::erase_if(targets, [&](Port* to) {
-    return std::ranges::any_of(
-        disconnected_, [&](const Edge& edge) { return edge.first == &from && edge.second == to; });
-  });
-  for (const Edge& edge : connected_) {
-    if (edge.first == &from) targets.push_back(edge.second);
+  std::erase_if(targets, [&](const Connection& target) { return HasEdge(disconnected_, from, *target.to); });
+  for (const Connection& edge : connected_) {
+    if (edge.from == &from) targets.push_back(edge);
   }
   return targets;
 }
 
 bool StructureOverlay::IsConnected(const Port& port, const FrameworkElement* module) const {
-  return std::ranges::any_of(EdgesOf(const_cast<Port&>(port), module), [&](const Edge& edge) {
-    return edge.second == &port || dynamic_cast<const ProbePort*>(edge.second) == nullptr;
+  return std::ranges::any_of(EdgesOf(const_cast<Port&>(port), module), [&](const Connection& edge) {
+    return edge.to == &port || dynamic_cast<const ProbePort*>(edge.to) == nullptr;
   });
 }
 
-bool StructureOverlay::Reaches(const Port& from, const Port& to) const {
+bool StructureOverlay::Reaches(Port& from, const Port& to) const {
   std::set<const Port*> seen;
-  const std::function<bool(const Port&)> leads_there = [&](const Port& at) {
-    return std::ranges::any_of(Targets(at), [&](const Port* next) {
+  const std::function<bool(Port&)> leads_there = [&](Port& at) {
+    return std::ranges::any_of(Targets(at), [&](const Connection& edge) {
+      Port* const next = edge.to;
       return next == &to || (next->is_proxy() && seen.insert(next).second && leads_there(*next));
     });
   };
@@ -136,13 +147,13 @@ bool StructureOverlay::Reaches(const Port& from, const Port& to) const {
 }
 
 // Of interface ports alone.
-bool StructureOverlay::IsInCycle(const Port& port) const {
-  return port.is_proxy() && std::ranges::any_of(Targets(port), [&](const Port* next) { return next->is_proxy() && Reaches(*next, port); });
+bool StructureOverlay::IsInCycle(Port& port) const {
+  return port.is_proxy() && std::ranges::any_of(Targets(port), [&](const Connection& edge) { return edge.to->is_proxy() && Reaches(*edge.to, port); });
 }
 
 Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOptions& options) {
   if (auto ends = Port::CheckEnds(from, to, options); !ends) return ends;
-  if (std::ranges::count(Targets(from), &to) > 0) {
+  if (HasEdge(Targets(from), from, to)) {
     return Error{.message = "is connected to " + to.path() + " already", .path = from.path()};
   }
   if (from.is_proxy() && to.is_proxy() && Reaches(to, from)) {
@@ -150,46 +161,64 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
         .message = "connecting to " + to.path() + " would close a cycle of interface ports",
         .path = from.path()};
   }
-  connected_.push_back({&from, &to});
+  connected_.push_back({&from, &to, options});
   return {};
 }
 
 Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
-  if (std::ranges::count(Targets(from), &to) == 0) {
-    const std::vector<std::string> names = NamesOf(Targets(from), &Port::path);
+  if (!HasEdge(Targets(from), from, to)) {
+    const std::vector<std::string> names = NamesOf(Targets(from), [](const Connection& edge) { return edge.to->path(); });
     return Error{.message = "is not connected to " + to.path(),
                  .path = from.path(),
                  .hint = names.empty() ? "it is not connected to anything"
                                        : NearestNameHint(to.path(), names)};
   }
-  if (std::erase(connected_, Edge{&from, &to}) == 0) disconnected_.push_back({&from, &to});
+  const auto is_same = [&](const Connection& edge) { return edge.from == &from && edge.to == &to; };
+  if (std::erase_if(connected_, is_same) == 0) disconnected_.push_back({&from, &to, {}});
   return {};
 }
 
-std::vector<std::pair<Port*, Port*>> StructureOverlay::EdgesOf(Port& port, const FrameworkElement* module) const {
-  std::vector<Edge> edges;
-  for (Port* to : Targets(port)) edges.push_back({&port, to});
+void StructureOverlay::ConnectLate(const std::string& from, const std::string& to) {
+  if (const LateConnection* const late = KnownLate(runtime_, from, to)) std::erase(disconnected_late_, std::pair{late->from, late->to});
+}
+
+void StructureOverlay::DisconnectLate(const LateConnection& late) { disconnected_late_.emplace_back(late.from, late.to); }
+
+const LateConnection* StructureOverlay::FindLate(std::string_view from, std::string_view to) const {
+  const LateConnection* const late = KnownLate(runtime_, from, to);
+  return late != nullptr && std::ranges::count(disconnected_late_, std::pair{late->from, late->to}) == 0 ? late : nullptr;
+}
+
+std::vector<LateConnection> StructureOverlay::AwaitedWith(const FrameworkElement& element) const {
+  auto awaited = runnel::AwaitedWith(element);
+  std::erase_if(awaited, [&](const LateConnection& late) { return FindLate(late.from, late.to) == nullptr; });
+  return awaited;
+}
+
+std::vector<Connection> StructureOverlay::EdgesOf(Port& port, const FrameworkElement* module) const {
+  std::vector<Connection> edges = Targets(port);
   const auto add_from = [&](const std::vector<Port*>& sources) {
     for (Port* source : sources) {
       Port& now = NowFor(*source);
-      if (!IsGone(now) && std::ranges::count(Targets(now), &port) > 0)
-        edges.push_back({&now, &port});
+      if (IsGone(now)) continue;
+      for (const Connection& edge : Targets(now)) {
+        if (edge.to == &port && !HasEdge(edges, now, port)) edges.push_back(edge);
+      }
     }
   };
   add_from(port.incoming());
   for (const auto& [before, after] : replaced_) {
     if (&NowFor(*after) == &port) add_from(before->incoming());
   }
-  for (const Edge& edge : connected_) {
-    if (edge.second == &port && std::ranges::count(edges, edge) == 0) edges.push_back(edge);
+  for (const Connection& edge : connected_) {
+    if (edge.to == &port && !HasEdge(edges, *edge.from, port)) edges.push_back(edge);
   }
-  std::erase_if(edges, [&](const Edge& edge) { return module != nullptr && IsWithinComposite(*module, *edge.first, *edge.second); });
+  std::erase_if(edges, [&](const Connection& edge) { return module != nullptr && IsWithinComposite(*module, *edge.from, *edge.to); });
   return edges;
 }
 
 bool StructureOverlay::HasSource(const Port& port) const {
-  const std::vector<Edge> edges = EdgesOf(const_cast<Port&>(port));
-  return std::ranges::any_of(edges, [&](const Edge& edge) { return edge.second == &port; });
+  return std::ranges::any_of(EdgesOf(const_cast<Port&>(port)), [&](const Connection& edge) { return edge.to == &port; });
 }
 
 }  // namespace runnel::internal

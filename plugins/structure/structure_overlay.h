@@ -1,12 +1,14 @@
 #pragma once
 
 #include <map>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/element/runtime.h"
+#include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 
 namespace runnel::internal {
@@ -33,32 +35,39 @@ class StructureOverlay final : public PathSearch {
   Result<void> Connect(Port& from, Port& to, const ConnectOptions& options);
   Result<void> Disconnect(Port& from, Port& to);
 
+  /// One that waits is to be, or is not to be any more.
+  void ConnectLate(const std::string& from, const std::string& to);
+  void DisconnectLate(const LateConnection& late);
+  /// nullptr if it is not there, or will not be by then.
+  [[nodiscard]] const LateConnection* FindLate(std::string_view from, std::string_view to) const;
+  /// As runnel::AwaitedWith(), of those that wait by then and waited before.
+  [[nodiscard]] std::vector<LateConnection> AwaitedWith(const FrameworkElement& element) const;
+
   [[nodiscard]] bool HasSource(const Port& port) const;
-  /// From and to the port; of those of a composite, if `module` is one, not what is within it.
-  [[nodiscard]] std::vector<std::pair<Port*, Port*>> EdgesOf(Port& port, const FrameworkElement* module = nullptr) const;
+  /// From and to the port, with the options that they have by then; of those of a composite, if `module` is one, not what is within it.
+  [[nodiscard]] std::vector<Connection> EdgesOf(Port& port, const FrameworkElement* module = nullptr) const;
   /// Likewise. Who only probes the port does not count: a recorder can do without.
   [[nodiscard]] bool IsConnected(const Port& port, const FrameworkElement* module) const;
 
  private:
-  using Edge = std::pair<Port*, Port*>;
-
   [[nodiscard]] FrameworkElement* Child(const FrameworkElement& parent,
                                         std::string_view name) const override;
   [[nodiscard]] std::vector<FrameworkElement*> Children(
       const FrameworkElement& parent) const override;
   [[nodiscard]] bool IsGone(const FrameworkElement& element) const;
-  [[nodiscard]] std::vector<Port*> Targets(const Port& from) const;
+  [[nodiscard]] std::vector<Connection> Targets(Port& from) const;
   [[nodiscard]] Port& NowFor(Port& port) const;
-  [[nodiscard]] bool IsInCycle(const Port& port) const;
-  [[nodiscard]] bool Reaches(const Port& from, const Port& to) const;
+  [[nodiscard]] bool IsInCycle(Port& port) const;
+  [[nodiscard]] bool Reaches(Port& from, const Port& to) const;
 
   Runtime& runtime_;
   std::vector<FrameworkElement*> added_;
   std::vector<FrameworkElement*> removed_;
   std::map<const Port*, Port*> replaced_;  // a port, and that which stands in its place
   std::vector<const FrameworkElement*> composites_;  // that have been replaced, with what is connected within
-  std::vector<Edge> connected_;
-  std::vector<Edge> disconnected_;
+  std::vector<Connection> connected_;
+  std::vector<Connection> disconnected_;
+  std::vector<std::pair<std::string, std::string>> disconnected_late_;
 };
 
 }  // namespace runnel::internal

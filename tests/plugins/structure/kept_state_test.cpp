@@ -160,7 +160,7 @@ TEST_F(KeptStateTest, IsToldToGoWithAPortThatASwappedInModuleHasNot) {
   const auto swapped = history.Apply({ReplaceModule{"/app/source", "test/counter", {}, 0}});
   MustBe(swapped);
   EXPECT_THAT(swapped.diagnostics.ToString(),
-              HasSubstr("/app/source/input/extra: its value by hand went with it: the new module has no such port"));
+              HasSubstr("/app/source/input/extra: its value by hand went with it: the new module has no port that takes it over"));
   MustBe(history.Undo());
   EXPECT_EQ(SetAtSource("/app/source"), kAtSource);
 }

@@ -3,6 +3,15 @@
 #include "tests/support/schedule_order.h"
 
 namespace runnel::test {
+
+struct Place {
+  double x = 0;
+  double heading = 0;
+};
+inline void Describe(TypeBuilder<Place>& type) {
+  type.Name("test::Place").Field("x", &Place::x, {.unit = "m"}).Field("heading", &Place::heading, {.unit = "rad"});
+}
+
 namespace {
 
 class ReplaceTest : public EditorTest {
@@ -187,6 +196,37 @@ TEST_F(ReplaceTest, ASuccessorOnProbationCanItselfBeReplacedOrDeleted) {
   editor.Tend();
   EXPECT_EQ(editor.on_probation(), 0u);
   EXPECT_FALSE(Exists("/app/counter"));
+}
+
+struct Places final : Module {
+  using Module::Module;
+  Output<Place> place{this, "place"};
+  void Update() override {}
+};
+template <bool kHasUnit>
+struct Turning final : Module {
+  using Module::Module;
+  Input<double> in{this, "in", {.unit = kHasUnit ? "deg" : ""}};
+  void Update() override {}
+};
+
+// Of what each set connects and swaps itself, the part counts, too.
+TEST_F(ReplaceTest, APartIsConvertedAsBefore) {
+  Register<Places>("test/places");
+  Register<Turning<false>>("test/turning");
+  Register<Turning<true>>("test/degrees");
+  const ConnectPorts connect{"/app/s/place.heading", "/app/m/in"};
+  Must({CreateModule{"/app/s", "test/places"}, CreateModule{"/app/m", "test/turning"}, connect});
+  const DisconnectPorts disconnect{"/app/s/place", "/app/m/in"};
+  const ReplaceModule source{"/app/s", "test/places"}, sink{"/app/m", "test/degrees"};
+  for (const ChangeSet& each : {ChangeSet{sink}, ChangeSet{source, sink}, ChangeSet{sink, source}, ChangeSet{source, source, sink},
+                                ChangeSet{disconnect, connect, sink}, ChangeSet{disconnect, connect, source, sink}}) {
+    EXPECT_THAT(Refusal(each), HasSubstr("the values between /app/s/output/place and /app/m/input/in would be converted otherwise; disconnect them first"));
+  }
+  Must({source, {ReplaceModule{"/app/m", "test/turning"}}, source});
+  Must({disconnect, source, sink, connect});
+  At<Places>("/app/s").place.Publish({.heading = 1});
+  EXPECT_NEAR(At<Turning<true>>("/app/m").in.Get(), 57.3, 0.1);
 }
 
 }  // namespace

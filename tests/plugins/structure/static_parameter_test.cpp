@@ -1,5 +1,7 @@
 #include <deque>
 
+#include "core/paths/distant_ports.h"
+#include "core/paths/late_connections.h"
 #include "plugins/structure/change_history.h"
 #include "tests/plugins/structure/editor_fixture.h"
 
@@ -94,6 +96,56 @@ TEST_F(StaticParameterTest, WhatDoesNotFitIsCutAndComesBackWithUndo) {
   EXPECT_EQ(At<Port>("/app/counter/output/out").outgoing().back().options.queue, 4u);
   ASSERT_TRUE(history_.Redo());
   EXPECT_THAT(adder().in, SizeIs(1));
+}
+
+struct SilentApplication final : DistantPorts {
+  Port* Find(std::string_view) const override { return nullptr; }
+  DistantType TypeOf(std::string_view) const override { return {.why_not = "it does not answer"}; }
+  Result<Port*> Make(std::string_view, const Port&, const ConnectOptions&) override { return nullptr; }
+};
+/// Of what another application is to send.
+struct Awaiting : StaticParameterTest {
+  Awaiting() {
+    runtime.root().Annotate<DistantPorts>(std::make_unique<SilentApplication>());
+    Must({DisconnectPorts{"/app/counter/out", "/app/adder/in3"}});
+    const std::lock_guard lock(runtime.structure_mutex());
+    EXPECT_TRUE(LateConnections::Of(runtime).Add("//other/m/x", "/app/adder/in3", {}));
+  }
+  bool IsAwaited() {
+    const std::lock_guard lock(runtime.structure_mutex());
+    return LateConnections::Of(runtime).Find("//other/m/x", "/app/adder/in3") != nullptr;
+  }
+};
+
+TEST_F(Awaiting, WhatWaitsForAPortThatGoesIsToldAndComesBackWithUndo) {
+  const ChangeOutcome outcome = history_.Apply({SetParameter{"/app/adder/inputs", "2"}});
+  ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+  EXPECT_THAT(outcome.diagnostics.ToString(), HasSubstr("//other/m/x: is not waited for any more: the module made anew has no such port"));
+  EXPECT_FALSE(IsAwaited());
+  const ChangeOutcome back = history_.Undo();
+  ASSERT_TRUE(back) << back.diagnostics.ToString();
+  EXPECT_TRUE(IsAwaited());
+}
+
+// By what waits when the changes before are made.
+TEST_F(Awaiting, WhatIsDisconnectedInTheSameSetWaitsNoMore) {
+  const DisconnectPorts disconnect{"//other/m/x", "/app/adder/in3"};
+  const ConnectPorts connect{"//other/m/x", "/app/adder/in3"};
+  for (const Change& next : {Change(SetParameter{"/app/adder/inputs", "2"}), Change(ReplaceModule{"/app/adder", "test/adder", {{"inputs", "2"}}}),
+                             Change(DeleteElement{"/app/adder"})}) {
+    const ChangeOutcome outcome = history_.Apply({disconnect, next});
+    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+    EXPECT_THAT(outcome.diagnostics.ToString(), testing::Not(HasSubstr("waited")));
+    EXPECT_FALSE(IsAwaited());
+    ASSERT_TRUE(history_.Undo());
+    EXPECT_TRUE(IsAwaited());
+  }
+  Refusal({disconnect, disconnect});
+  Must({disconnect, connect});
+  EXPECT_TRUE(IsAwaited());
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/adder", "test/adder", {{"inputs", "2"}}}}), HasSubstr("has no port 'in3', which is connected"));
+  Must({disconnect, connect, DeleteElement{"/app/adder"}});
+  EXPECT_FALSE(IsAwaited());
 }
 
 TEST_F(StaticParameterTest, ASwapGivesThePortsThatAreAskedFor) {
