@@ -34,8 +34,9 @@ inline int WriteText(const std::string& text, const std::string& file) {
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << text << std::flush;
   if (stream) return exit_code::kDone;
-  return Fail({.message = "cannot be written", .position = {file},
-               .hint = "is its folder there, and may you write in it?"}, exit_code::kRunFailed);
+  return Fail(
+      {.message = "cannot be written", .position = {file}, .hint = "is its folder there, and may you write in it?"},
+      exit_code::kRunFailed);
 }
 
 /// Reads the command line into what the options of `program` refer to, and does `work`, which returns the exit code.

@@ -16,8 +16,8 @@ constexpr std::string_view kPlugin = "<load plugin=\"planning\"/>";
 Result<void> ReplaceOnce(std::string& text, std::string_view what, const std::string& by) {
   const auto at = text.find(what);
   if (at == std::string::npos || text.find(what, at + 1) != std::string::npos) {
-    return Error{.message = "an application of the arena needs the tag '" + std::string(what) +
-                            "' once, written like that"};
+    return Error{.message =
+                     "an application of the arena needs the tag '" + std::string(what) + "' once, written like that"};
   }
   text.replace(at, what.size(), by);
   return {};
@@ -31,15 +31,15 @@ Result<std::string> ApplicationText(const std::filesystem::path& file, const Var
   if (!text) return text.error();
   std::string loads(kPlugin);
   // One of another plugin of Runnel's; others' are named by --plugin.
-  if (PluginOf(variant.type) == "behaviours" && std::ranges::find(plugins, "behaviours") == plugins.end()) loads += "<load plugin=\"behaviours\"/>";
+  if (PluginOf(variant.type) == "behaviours" && std::ranges::find(plugins, "behaviours") == plugins.end())
+    loads += "<load plugin=\"behaviours\"/>";
   for (const std::string& plugin : plugins) {
     // A plugin may be a file; the application will stand in another folder.
     const bool is_file = plugin.find('/') != std::string::npos;
     const std::string name = is_file ? std::filesystem::absolute(plugin).string() : plugin;
     loads += "<load plugin=\"" + name + "\"/>";
   }
-  const std::string planner =
-      "<module name=\"planner\" type=\"" + variant.type + "\">" + variant.parameters;
+  const std::string planner = "<module name=\"planner\" type=\"" + variant.type + "\">" + variant.parameters;
   for (const auto& [what, by] : {std::pair(kPlugin, loads), std::pair(kPlanner, planner)}) {
     if (auto replaced = ReplaceOnce(*text, what, by); !replaced) return replaced.error().WithPosition(file.string());
   }

@@ -13,9 +13,7 @@ namespace runnel::arena {
 namespace {
 
 void AddChoices(CLI::App& program, ArenaArguments& arguments) {
-  program
-      .add_option("--world", arguments.worlds,
-                  "world files, or names of those that come with Runnel")
+  program.add_option("--world", arguments.worlds, "world files, or names of those that come with Runnel")
       ->type_name("FILE")
       ->required();
   const auto add_list = [&](const char* name, auto& list, const char* what) {
@@ -25,12 +23,10 @@ void AddChoices(CLI::App& program, ArenaArguments& arguments) {
         ->allow_extra_args(false)
         ->capture_default_str();
   };
-  add_list(
-      "--variant", arguments.variants,
-      "planners: all, bug1 (planning/bug1), any module type with a '/', or an .xml file with a "
-      "<module> tag");
-  add_list("--sensor", arguments.sensors,
-           "laser, infrared, bumper: what the applications there are for");
+  add_list("--variant", arguments.variants,
+           "planners: all, bug1 (planning/bug1), any module type with a '/', or an .xml file with a "
+           "<module> tag");
+  add_list("--sensor", arguments.sensors, "laser, infrared, bumper: what the applications there are for");
   add_list("--direction", arguments.directions, "first turn at an obstacle: left, right");
   add_list("--seed", arguments.seeds, "of the noise, and so of the run");
   add_list("--plugin", arguments.plugins, "loads others' plugins, whose planners can be variants");
@@ -47,9 +43,7 @@ void AddNumbers(CLI::App& program, ArenaArguments& arguments) {
   add("--time-limit", settings.time_limit, "S", "of simulated time, for each run; 0: by the length of the walls");
   add("--wall-limit", arguments.wall_limit, "S",
       "of real time, for each run; one that takes longer hangs, and is ended");
-  program.add_option("--jobs", arguments.jobs, "runs at the same time")
-      ->type_name("N")
-      ->capture_default_str();
+  program.add_option("--jobs", arguments.jobs, "runs at the same time")->type_name("N")->capture_default_str();
 }
 
 void AddShard(CLI::App& program, ArenaArguments& arguments) {
@@ -63,16 +57,16 @@ void AddShard(CLI::App& program, ArenaArguments& arguments) {
     arguments.shard = *shard;
     arguments.shards = *shards;
   };
-  program.add_option_function<std::string>("--shard", read, "makes each N-th run only, beginning with number I: the parts of 1/N to N/N are all")
+  program
+      .add_option_function<std::string>(
+          "--shard", read, "makes each N-th run only, beginning with number I: the parts of 1/N to N/N are all")
       ->type_name("I/N");
 }
 
 void AddOutputs(CLI::App& program, ArenaArguments& arguments) {
   program.add_option("--json", arguments.json, "writes all runs into this file")->type_name("FILE");
-  program.add_option("--svg", arguments.svg, "draws a picture of each run in this folder")
-      ->type_name("DIR");
-  program.add_option("--html", arguments.html, "writes a page with all paths and tables")
-      ->type_name("FILE");
+  program.add_option("--svg", arguments.svg, "draws a picture of each run in this folder")->type_name("DIR");
+  program.add_option("--html", arguments.html, "writes a page with all paths and tables")->type_name("FILE");
   program.add_flag("--resume", arguments.resume,
                    "does not repeat runs that an earlier arena with the same --json has finished");
   program.add_flag("--quiet", arguments.quiet, "no progress, only the tables");

@@ -16,8 +16,7 @@ std::vector<std::size_t> BoundariesMet(const Course& course, const std::vector<P
   return met;
 }
 
-std::optional<double> BoundOf(const std::string& variant, const Course& course,
-                              const std::vector<Point2>& hits) {
+std::optional<double> BoundOf(const std::string& variant, const Course& course, const std::vector<Point2>& hits) {
   const Segment2 line{Position(course.world.start), course.world.goal};
   const auto sum = [&](const auto& factor) {
     double bound = Distance(line.from, line.to);

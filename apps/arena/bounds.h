@@ -10,8 +10,7 @@ namespace runnel::arena {
 
 /// The boundaries that the robot has met: for each, by which of its hit points first; indices into
 /// the boundaries of the course, each once.
-[[nodiscard]] std::vector<std::size_t> BoundariesMet(const Course& course,
-                                                     const std::vector<Point2>& hits);
+[[nodiscard]] std::vector<std::size_t> BoundariesMet(const Course& course, const std::vector<Point2>& hits);
 
 /// How long the path may be at most, in m, as its authors have proved for a point that follows
 /// boundaries exactly, with the lengths P of the grown obstacles met and the straight distance D:

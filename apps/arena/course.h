@@ -31,7 +31,7 @@ struct Course {
 inline constexpr double kGoalTolerance = 0.10;  // m
 
 /// Errors are added: all that is wrong with the file.
-[[nodiscard]] std::optional<Course> ReadCourse(const std::filesystem::path& file,
-                                               double safe_distance, Diagnostics& diagnostics);
+[[nodiscard]] std::optional<Course> ReadCourse(const std::filesystem::path& file, double safe_distance,
+                                               Diagnostics& diagnostics);
 
 }  // namespace runnel::arena

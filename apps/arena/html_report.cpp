@@ -1,5 +1,3 @@
-#include "apps/arena/report.h"
-
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/arena/application_text.h"
+#include "apps/arena/report.h"
 #include "core/base/characters.h"
 #include "modules/simulation/algorithm/outline.h"
 #include "modules/simulation/algorithm/trajectory_svg.h"
@@ -54,8 +53,8 @@ void DrawObstacles(const World& world, const Extent& view, SvgWriter& svg) {
 
 std::string ViewBoxText(const Extent& view) {
   const Point2 size = view.high - view.low;
-  return "viewBox=\"" + Fixed(view.low.x, 2) + " " + Fixed(-view.high.y, 2) + " " +
-         Fixed(size.x, 2) + " " + Fixed(size.y, 2) + "\"";
+  return "viewBox=\"" + Fixed(view.low.x, 2) + " " + Fixed(-view.high.y, 2) + " " + Fixed(size.x, 2) + " " +
+         Fixed(size.y, 2) + "\"";
 }
 
 constexpr std::array<const char*, 3> kLooks{"goal-bound", "following", "returning"};
@@ -118,9 +117,11 @@ std::string NumberCell(const std::optional<double>& number, int digits) {
 
 std::string OutcomeText(const Row& row) {
   return std::string("<span class=\"") + (row.is_right ? "good" : "bad") + "\">" +
-         EscapedMarkup(row.record->result.outcome) + (row.is_right                                        ? ""
+         EscapedMarkup(row.record->result.outcome) +
+         (row.is_right                               ? ""
           : MayFailByDesign(row.record->key.variant) ? " (by design: no guarantee)"
-                                                     : " (wrong)") + "</span>";
+                                                     : " (wrong)") +
+         "</span>";
 }
 
 std::string SummaryTable(const std::vector<Row>& rows) {
@@ -128,8 +129,7 @@ std::string SummaryTable(const std::vector<Row>& rows) {
   for (const Summary& summary : SummariesOf(rows)) {
     text += "<tr>" + Cell(summary.variant) + NumberCell(std::to_string(summary.runs)) +
             NumberCell(std::to_string(summary.right)) +
-            NumberCell(
-                100.0 * static_cast<double>(summary.right) / static_cast<double>(summary.runs), 1) +
+            NumberCell(100.0 * static_cast<double>(summary.right) / static_cast<double>(summary.runs), 1) +
             NumberCell(summary.mean_ratio, 3) + NumberCell(summary.path_length, 1) + "</tr>\n";
   }
   return Table({"variant", "#runs", "#right", "#success / %", "#mean ratio", "#all paths / m"}, text);
@@ -142,25 +142,23 @@ std::string RunTable(const std::vector<Row>& rows) {
     const RunResult& result = row.record->result;
     text += "<tr>" + Cell(key.world) + Cell(key.variant) + Cell(key.sensor) + Cell(key.direction) +
             NumberCell(std::to_string(key.seed)) + "<td>" + OutcomeText(row) + "</td>" +
-            NumberCell(result.path_length, 2) + NumberCell(row.ratio, 2) +
-            NumberCell(row.bound, 2) + NumberCell(result.simulated_time, 1) +
-            NumberCell(std::to_string(result.hits.size())) + Cell(result.remark) + "</tr>\n";
+            NumberCell(result.path_length, 2) + NumberCell(row.ratio, 2) + NumberCell(row.bound, 2) +
+            NumberCell(result.simulated_time, 1) + NumberCell(std::to_string(result.hits.size())) +
+            Cell(result.remark) + "</tr>\n";
   }
-  return Table({"world", "variant", "sensor", "direction", "#seed", "outcome", "#length / m", "#ratio",
-                "#bound / m", "#time / s", "#hits", "remark"},
+  return Table({"world", "variant", "sensor", "direction", "#seed", "outcome", "#length / m", "#ratio", "#bound / m",
+                "#time / s", "#hits", "remark"},
                text);
 }
 
 std::string Figure(const Row& row, const std::string& world_id, const Extent& view) {
   const RunKey& key = row.record->key;
-  std::string caption = "<b>" + EscapedMarkup(key.variant) + "</b> " + EscapedMarkup(key.sensor) +
-                        ", " + EscapedMarkup(key.direction) + ", seed " + std::to_string(key.seed) +
-                        "<br>" + OutcomeText(row) + ", " +
-                        Fixed(row.record->result.path_length, 2) + " m";
+  std::string caption = "<b>" + EscapedMarkup(key.variant) + "</b> " + EscapedMarkup(key.sensor) + ", " +
+                        EscapedMarkup(key.direction) + ", seed " + std::to_string(key.seed) + "<br>" +
+                        OutcomeText(row) + ", " + Fixed(row.record->result.path_length, 2) + " m";
   if (row.ratio) caption += ", " + Fixed(*row.ratio, 2) + " × shortest";
   return std::string("<figure") + (row.is_right ? "" : " class=\"wrong\"") + ">" +
-         RunDrawing(world_id, *row.record, view) + "<figcaption>" + caption +
-         "</figcaption></figure>\n";
+         RunDrawing(world_id, *row.record, view) + "<figcaption>" + caption + "</figcaption></figure>\n";
 }
 
 std::string WorldSection(const Course& course, std::size_t number, const std::vector<Row>& rows) {
@@ -171,11 +169,10 @@ std::string WorldSection(const Course& course, std::size_t number, const std::ve
     if (row.course != &course) continue;
     for (const PathSample& sample : row.record->result.path) view.Include(sample.position, 0.3);
   }
-  std::string text = "<h2>" + EscapedMarkup(course.name) + "</h2>\n<p>" +
-                     (course.shortest ? "Shortest path " + Fixed(course.shortest->length, 2) + " m."
-                                      : "The goal cannot be reached.") +
-                     "</p>\n<svg style=\"display:none\">" + WorldSymbol(id, course, view) +
-                     "</svg>\n<div class=\"runs\">\n";
+  std::string text =
+      "<h2>" + EscapedMarkup(course.name) + "</h2>\n<p>" +
+      (course.shortest ? "Shortest path " + Fixed(course.shortest->length, 2) + " m." : "The goal cannot be reached.") +
+      "</p>\n<svg style=\"display:none\">" + WorldSymbol(id, course, view) + "</svg>\n<div class=\"runs\">\n";
   for (const Row& row : rows) {
     if (row.course == &course) text += Figure(row, id, view);
   }
@@ -195,17 +192,15 @@ constexpr std::string_view kKey =
 
 }  // namespace
 
-std::string HtmlReport(const Matrix& matrix, const std::vector<RunRecord>& records,
-                       const RunSettings& settings) {
+std::string HtmlReport(const Matrix& matrix, const std::vector<RunRecord>& records, const RunSettings& settings) {
   const std::vector<Row> rows = RowsOf(matrix, records);
   std::string text =
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>Runnel arena</title>\n<style>" +
       std::string(kPageStyle) + "</style>\n</head>\n<body>\n<h1>Arena</h1>\n";
-  text += "<p>" + std::to_string(records.size()) + " runs; noise of the ranges " +
-          Fixed(settings.noise, 3) + " m, safe distance " + Fixed(settings.safe_distance, 2) +
-          " m; " + TextOf(SpeedOf(records)) + ".</p>\n";
+  text += "<p>" + std::to_string(records.size()) + " runs; noise of the ranges " + Fixed(settings.noise, 3) +
+          " m, safe distance " + Fixed(settings.safe_distance, 2) + " m; " + TextOf(SpeedOf(records)) + ".</p>\n";
   text +=
       "<p>A ratio is the length of a path to that of the shortest one for the robot's centre; "
       "a bound is what has been proved for a point that follows boundaries exactly.</p>\n";
@@ -220,17 +215,15 @@ std::string HtmlReport(const Matrix& matrix, const std::vector<RunRecord>& recor
   return text + "<script>" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";
 }
 
-Result<void> WritePicture(const std::filesystem::path& folder, const Course& course,
-                          const RunRecord& record) {
+Result<void> WritePicture(const std::filesystem::path& folder, const Course& course, const RunRecord& record) {
   const RunResult& result = record.result;
-  Trajectory trajectory{
-      .path = result.path,
-      .hits = result.hits,
-      .leaves = result.leaves,
-      .verdict = result.outcome,
-      .tone = course.IsRight(result.outcome) ? VerdictTone::kGood : VerdictTone::kBad,
-      .duration = result.simulated_time,
-      .length = result.path_length};
+  Trajectory trajectory{.path = result.path,
+                        .hits = result.hits,
+                        .leaves = result.leaves,
+                        .verdict = result.outcome,
+                        .tone = course.IsRight(result.outcome) ? VerdictTone::kGood : VerdictTone::kBad,
+                        .duration = result.simulated_time,
+                        .length = result.path_length};
   if (result.robot_radius > 0.0) trajectory.robot_radius = result.robot_radius;
   if (!result.path.empty()) {
     const PathSample& last = result.path.back();

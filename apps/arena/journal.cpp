@@ -29,17 +29,14 @@ std::string HeadOf(const RunSettings& settings) {
   return head.dump();
 }
 
-Error ErrorIn(const std::filesystem::path& file, int line, const std::string& message,
-              const std::string& hint) {
+Error ErrorIn(const std::filesystem::path& file, int line, const std::string& message, const std::string& hint) {
   return {.message = message, .position = {file.string(), line}, .hint = hint};
 }
 
-Result<void> CheckHead(const std::string& line, const RunSettings& settings,
-                       const std::filesystem::path& file) {
+Result<void> CheckHead(const std::string& line, const RunSettings& settings, const std::filesystem::path& file) {
   const auto head = nlohmann::json::parse(line, nullptr, false);
   if (!head.is_object() || head.value("runnel_arena_journal", 0) != kVersion) {
-    return ErrorIn(file, 1, "this is not the journal of an arena",
-                   "remove it, or leave out --resume");
+    return ErrorIn(file, 1, "this is not the journal of an arena", "remove it, or leave out --resume");
   }
   for (const auto& [name, value] : kSettings) {
     const double before = head.value(name, -1.0);
@@ -82,11 +79,12 @@ Result<Journal> Journal::Resume(const std::filesystem::path& file, const RunSett
   if (auto checked = CheckHead(head, settings, file); !checked) return checked.error();
   Journal journal(file);
   std::string whole = head + "\n";
-  const auto read = ReadEntries(file, *text, [&](const JournalEntry& entry, const std::string& line, int) -> Result<void> {
-    journal.finished_.insert_or_assign(entry.record.key, entry);
-    whole += line + "\n";
-    return {};
-  });
+  const auto read =
+      ReadEntries(file, *text, [&](const JournalEntry& entry, const std::string& line, int) -> Result<void> {
+        journal.finished_.insert_or_assign(entry.record.key, entry);
+        whole += line + "\n";
+        return {};
+      });
   if (!read) return read.error();
   if (whole.size() != text->size()) {
     if (auto written = WriteFile(file, whole); !written) return written.error();

@@ -7,8 +7,8 @@
 #include "apps/arena/application_text.h"
 #include "apps/arena/journal.h"
 #include "apps/arena/progress.h"
-#include "apps/arena/runner.h"
 #include "apps/arena/report.h"
+#include "apps/arena/runner.h"
 #include "apps/program.h"
 
 namespace runnel::arena {
@@ -36,8 +36,7 @@ Result<void> CheckOutputs(const ArenaArguments& arguments) {
     if (file.empty()) continue;
     const auto folder = std::filesystem::absolute(file).parent_path();
     if (std::filesystem::is_directory(file)) {
-      return Error{.message = "there is a folder where the file shall be",
-                   .position = {file}};
+      return Error{.message = "there is a folder where the file shall be", .position = {file}};
     }
     if (auto written = WriteFile(folder / ".runnel-arena", ""); !written) {
       return Error{.message = "the file cannot be written",
@@ -49,8 +48,7 @@ Result<void> CheckOutputs(const ArenaArguments& arguments) {
   std::error_code error;
   if (!arguments.svg.empty()) std::filesystem::create_directories(arguments.svg, error);
   if (error) {
-    return Error{.message = "the folder cannot be made: " + error.message(),
-                 .position = {arguments.svg}};
+    return Error{.message = "the folder cannot be made: " + error.message(), .position = {arguments.svg}};
   }
   return {};
 }
@@ -78,15 +76,14 @@ class Session {
   Result<void> OpenJournal() {
     if (arguments_.json.empty()) return {};
     const std::string file = arguments_.json + ".journal";
-    const bool is_orphan =
-        std::filesystem::exists(arguments_.json) && !std::filesystem::exists(file);
+    const bool is_orphan = std::filesystem::exists(arguments_.json) && !std::filesystem::exists(file);
     if (arguments_.resume && is_orphan) {
       return Error{.message = "the runs in this file have no journal, " + file,
                    .position = {arguments_.json},
                    .hint = "give another file, or leave out --resume to make them all again"};
     }
-    auto journal = arguments_.resume ? Journal::Resume(file, arguments_.settings)
-                                     : Journal::Begin(file, arguments_.settings);
+    auto journal =
+        arguments_.resume ? Journal::Resume(file, arguments_.settings) : Journal::Begin(file, arguments_.settings);
     if (!journal) return journal.error();
     journal_.emplace(std::move(*journal));
     return {};
@@ -118,15 +115,13 @@ class Session {
       if (journal_) {
         if (auto added = journal_->Add(record, run.made_of); !added) return added;
       }
-      progress.Finished(TextOf(record.key) + ": " + record.result.outcome + ", " +
-                        Fixed(record.result.path_length, 2) + " m" +
-                        (remark.empty() ? "" : "; " + remark));
+      progress.Finished(TextOf(record.key) + ": " + record.result.outcome + ", " + Fixed(record.result.path_length, 2) +
+                        " m" + (remark.empty() ? "" : "; " + remark));
       return {};
     };
-    return MakeRuns(to_do, arguments_, product_, matrix_,
-                    {.finished = finished,
-                     .tick = [&] { progress.Show(); },
-                     .is_to_stop = [] { return stop_is_wanted != 0; }});
+    return MakeRuns(
+        to_do, arguments_, product_, matrix_,
+        {.finished = finished, .tick = [&] { progress.Show(); }, .is_to_stop = [] { return stop_is_wanted != 0; }});
   }
 
   std::vector<RunRecord> Finished() const {
@@ -157,8 +152,7 @@ class Session {
     const auto failed = std::ranges::count(finished, false, &RunRecord::has_ended_by_itself);
     if (failed > 0) std::cerr << failed << " of the runs crashed or hung\n";
     if (finished.size() == matrix_.runs.size()) return;
-    std::cerr << "interrupted: " << finished.size() << " of " << matrix_.runs.size()
-              << " runs are finished";
+    std::cerr << "interrupted: " << finished.size() << " of " << matrix_.runs.size() << " runs are finished";
     std::cerr << (journal_ ? "; --resume goes on from here\n" : "\n");
   }
 

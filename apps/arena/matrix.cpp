@@ -10,8 +10,7 @@
 
 namespace runnel::arena {
 
-std::optional<Course> ReadCourse(const std::filesystem::path& file, double safe_distance,
-                                 Diagnostics& diagnostics) {
+std::optional<Course> ReadCourse(const std::filesystem::path& file, double safe_distance, Diagnostics& diagnostics) {
   auto text = ReadFile(file);
   if (!text) {
     diagnostics.Add(text.error());
@@ -79,8 +78,8 @@ void ReadCourses(const ArenaArguments& arguments, Matrix& matrix, Diagnostics& d
 /// By sensor and variant's name.
 using Applications = std::map<std::pair<std::string, std::string>, std::string>;
 
-Applications ReadApplications(const ArenaArguments& arguments, const Product& product,
-                              const Matrix& matrix, Diagnostics& diagnostics) {
+Applications ReadApplications(const ArenaArguments& arguments, const Product& product, const Matrix& matrix,
+                              Diagnostics& diagnostics) {
   CheckNames(arguments.sensors, XmlNamesIn(product.applications), "sensor", diagnostics);
   Applications applications;
   if (!diagnostics.ok()) return applications;
@@ -107,11 +106,10 @@ void AddRuns(const ArenaArguments& arguments, const Applications& applications, 
         const std::string made_of = HashOf(matrix.courses[course].text + '\0' + application);
         for (const std::string& direction : directions) {
           for (const std::uint64_t seed : arguments.seeds) {
-            matrix.runs.push_back(
-                {.key = {matrix.courses[course].name, variant.name, sensor, direction, seed},
-                 .course = course,
-                 .application = application,
-                 .made_of = made_of});
+            matrix.runs.push_back({.key = {matrix.courses[course].name, variant.name, sensor, direction, seed},
+                                   .course = course,
+                                   .application = application,
+                                   .made_of = made_of});
           }
         }
       }
@@ -121,8 +119,7 @@ void AddRuns(const ArenaArguments& arguments, const Applications& applications, 
 
 }  // namespace
 
-std::optional<Matrix> MakeMatrix(const ArenaArguments& arguments, const Product& product,
-                                 Diagnostics& diagnostics) {
+std::optional<Matrix> MakeMatrix(const ArenaArguments& arguments, const Product& product, Diagnostics& diagnostics) {
   Matrix matrix;
   ReadCourses(arguments, matrix, diagnostics);
   const auto types = FindTypes(arguments.plugins, diagnostics);

@@ -28,7 +28,7 @@ struct Matrix {
 
 /// Errors are added, all at once: worlds, variants, sensors, directions that there are not, with
 /// the nearest names that there are; two worlds of one name.
-[[nodiscard]] std::optional<Matrix> MakeMatrix(const ArenaArguments& arguments,
-                                               const Product& product, Diagnostics& diagnostics);
+[[nodiscard]] std::optional<Matrix> MakeMatrix(const ArenaArguments& arguments, const Product& product,
+                                               Diagnostics& diagnostics);
 
 }  // namespace runnel::arena

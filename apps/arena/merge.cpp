@@ -1,10 +1,9 @@
-#include "apps/arena/journal.h"
-
 #include <iostream>
 #include <map>
 #include <string>
 
 #include "apps/arena/application_text.h"
+#include "apps/arena/journal.h"
 #include "apps/arena/run_record.h"
 #include "apps/program.h"
 
@@ -87,7 +86,9 @@ int RunMerge(int count, const char* const* words) {
   program.footer("Tables and pages of all of them: 'runnel arena ... --json INTO --resume' with the same words.");
   std::string into;
   std::vector<std::filesystem::path> parts;
-  program.add_option("into", into, "the file that gets all runs, and its journal beside it")->type_name("INTO.json")->required();
+  program.add_option("into", into, "the file that gets all runs, and its journal beside it")
+      ->type_name("INTO.json")
+      ->required();
   program.add_option("parts", parts, "what was given to --json")->type_name("PART.json")->required();
   return RunProgram(program, count, words, [&] {
     const auto merged = Merge(into, parts);

@@ -69,8 +69,8 @@ Product FindProduct() {
   return {folder / "runnel", XmlFolder() / "apps" / "arena"};
 }
 
-std::vector<Variant> FindVariants(const std::vector<std::string>& words,
-                                  const std::vector<std::string>& types, Diagnostics& diagnostics) {
+std::vector<Variant> FindVariants(const std::vector<std::string>& words, const std::vector<std::string>& types,
+                                  Diagnostics& diagnostics) {
   std::vector<Variant> variants;
   const auto add = [&](const Variant& variant) {
     const auto same = std::ranges::find(variants, variant.name, &Variant::name);
@@ -97,8 +97,7 @@ std::vector<Variant> FindVariants(const std::vector<std::string>& words,
   return variants;
 }
 
-std::vector<std::string> FindTypes(const std::vector<std::string>& plugins,
-                                   Diagnostics& diagnostics) {
+std::vector<std::string> FindTypes(const std::vector<std::string>& plugins, Diagnostics& diagnostics) {
   PluginManager manager;
   if (auto loaded = manager.Load("planning"); !loaded) diagnostics.Add(loaded.error());
   const std::string network = PluginOf(kNetwork);
@@ -111,12 +110,11 @@ std::vector<std::string> FindTypes(const std::vector<std::string>& plugins,
   return NamesOf(manager.modules().All(), &ModuleType::name);
 }
 
-void CheckNames(const std::vector<std::string>& words, const std::vector<std::string>& known,
-                const std::string& what, Diagnostics& diagnostics) {
+void CheckNames(const std::vector<std::string>& words, const std::vector<std::string>& known, const std::string& what,
+                Diagnostics& diagnostics) {
   for (const std::string& word : words) {
     if (Has(known, word)) continue;
-    diagnostics.Add({.message = "there is no " + what + " '" + word + "'",
-                     .hint = NearestNameHint(word, known)});
+    diagnostics.Add({.message = "there is no " + what + " '" + word + "'", .hint = NearestNameHint(word, known)});
   }
 }
 

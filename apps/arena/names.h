@@ -29,16 +29,14 @@ struct Variant {
 
 /// The variants that the words name. `types`: all module types there are. Errors are added.
 [[nodiscard]] std::vector<Variant> FindVariants(const std::vector<std::string>& words,
-                                                const std::vector<std::string>& types,
-                                                Diagnostics& diagnostics);
+                                                const std::vector<std::string>& types, Diagnostics& diagnostics);
 
 /// The names of all module types of the product's planners and of others' plugins. Errors: a plugin
 /// that cannot be loaded.
-[[nodiscard]] std::vector<std::string> FindTypes(const std::vector<std::string>& plugins,
-                                                 Diagnostics& diagnostics);
+[[nodiscard]] std::vector<std::string> FindTypes(const std::vector<std::string>& plugins, Diagnostics& diagnostics);
 
 /// Complains about each word that is not among `known`.
-void CheckNames(const std::vector<std::string>& words, const std::vector<std::string>& known,
-                const std::string& what, Diagnostics& diagnostics);
+void CheckNames(const std::vector<std::string>& words, const std::vector<std::string>& known, const std::string& what,
+                Diagnostics& diagnostics);
 
 }  // namespace runnel::arena

@@ -23,8 +23,8 @@ std::string DurationText(double seconds) {
 std::string ProgressLine(std::size_t done, std::size_t count, double elapsed) {
   const std::size_t filled = count == 0 ? kBar : kBar * done / count;
   const std::size_t percent = count == 0 ? 100 : 100 * done / count;
-  std::string line = fmt::format("[{:#<{}}{:-<{}}] {:3} %  {} of {}", "", filled, "", kBar - filled,
-                                 percent, done, count);
+  std::string line =
+      fmt::format("[{:#<{}}{:-<{}}] {:3} %  {} of {}", "", filled, "", kBar - filled, percent, done, count);
   if (done > 0 && done < count) {
     const double left = elapsed / static_cast<double>(done) * static_cast<double>(count - done);
     line += "  " + DurationText(left) + " left";
@@ -55,8 +55,7 @@ void Progress::Show() {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
   std::string line = ProgressLine(done_, count_, elapsed.count());
   if (done_ == 0) line += "  " + std::to_string(std::min(jobs_, count_)) + " at a time";
-  std::cerr << "\r\x1b[K" << line << (last_.empty() ? "" : "  ") << last_.substr(0, 50)
-            << std::flush;
+  std::cerr << "\r\x1b[K" << line << (last_.empty() ? "" : "  ") << last_.substr(0, 50) << std::flush;
   has_line_ = true;
 }
 

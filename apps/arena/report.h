@@ -17,9 +17,8 @@ namespace runnel::arena {
 struct Row {
   const Course* course = nullptr;
   const RunRecord* record = nullptr;
-  bool is_right = false;  ///< its verdict is the true one
-  std::optional<double> ratio =
-      {};  ///< of the path to the shortest one; only if the goal was reached
+  bool is_right = false;             ///< its verdict is the true one
+  std::optional<double> ratio = {};  ///< of the path to the shortest one; only if the goal was reached
   std::optional<double> bound = {};  ///< m, see BoundOf
   bool is_over_bound = false;
 };
@@ -53,8 +52,7 @@ struct Speed {
 [[nodiscard]] std::string TextOf(const Speed& speed);
 
 /// A block for each world, one for the variants, and notes.
-[[nodiscard]] std::string TablesText(const std::vector<Row>& rows,
-                                     const std::vector<RunRecord>& records);
+[[nodiscard]] std::string TablesText(const std::vector<Row>& rows, const std::vector<RunRecord>& records);
 
 /// With so many digits after the point.
 [[nodiscard]] std::string Fixed(double number, int digits);
@@ -68,7 +66,6 @@ struct Speed {
 extern const std::string_view kPageStyle, kPageScript;
 
 /// Draws the run as the referee does, into <folder>/<world>-<variant>-<sensor>-<direction>-<seed>.svg. Errors: it cannot be written.
-Result<void> WritePicture(const std::filesystem::path& folder, const Course& course,
-                          const RunRecord& record);
+Result<void> WritePicture(const std::filesystem::path& folder, const Course& course, const RunRecord& record);
 
 }  // namespace runnel::arena

@@ -74,9 +74,7 @@ Json ObjectOf(const RunRecord& record) {
 }
 
 // A remark may hold what a program wrote before it crashed, in whatever encoding.
-std::string TextOf(const Json& object) {
-  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string TextOf(const Json& object) { return object.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 template <typename Read>
 auto Attempt(std::string_view text, const Read& read) -> Result<decltype(read(Json()))> {
@@ -90,8 +88,7 @@ auto Attempt(std::string_view text, const Read& read) -> Result<decltype(read(Js
 }  // namespace
 
 std::string TextOf(const RunKey& key) {
-  return key.world + " " + key.variant + " " + key.sensor + " " + key.direction + " " +
-         std::to_string(key.seed);
+  return key.world + " " + key.variant + " " + key.sensor + " " + key.direction + " " + std::to_string(key.seed);
 }
 
 std::string FileNameOf(const RunKey& key) {

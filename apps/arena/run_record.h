@@ -32,10 +32,10 @@ struct RunKey {
 struct RunRecord {
   RunKey key;
   RunResult result = {};
-  double wall_time = 0.0;           ///< s
-  double processor_time = 0.0;      ///< s, less than that where processes wait for their turn
-  bool has_ended_by_itself = true;  ///< false: crashed, or ended because it hung
-  double noise = 0.0;               ///< m, of the ranges
+  double wall_time = 0.0;                    ///< s
+  double processor_time = 0.0;               ///< s, less than that where processes wait for their turn
+  bool has_ended_by_itself = true;           ///< false: crashed, or ended because it hung
+  double noise = 0.0;                        ///< m, of the ranges
   std::optional<double> shortest_path = {};  ///< m, Course::shortest; none: the goal cannot be reached
 };
 

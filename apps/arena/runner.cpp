@@ -78,10 +78,8 @@ bool WaitForEnd(int descriptor, Clock::time_point end, const std::atomic<bool>& 
 // with this program, however that ends.
 //
 // Threads: any, several at the same time. Errors: what the system says.
-Result<ProgramEnding> RunProgram(const std::vector<std::string>& words,
-                                 const std::filesystem::path& output,
-                                 std::chrono::duration<double> limit,
-                                 const std::atomic<bool>& is_to_stop) {
+Result<ProgramEnding> RunProgram(const std::vector<std::string>& words, const std::filesystem::path& output,
+                                 std::chrono::duration<double> limit, const std::atomic<bool>& is_to_stop) {
   std::vector<char*> pointers;
   for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
   pointers.push_back(nullptr);
@@ -139,8 +137,7 @@ struct RunContext {
   std::atomic<bool> is_to_stop = false;
 };
 
-Result<RunRecord> MakeRun(const PlannedRun& run, const std::string& files,
-                          const RunContext& context) {
+Result<RunRecord> MakeRun(const PlannedRun& run, const std::string& files, const RunContext& context) {
   const std::string application = files + ".xml", result = files + ".json", output = files + ".txt";
   if (auto written = WriteFile(application, run.application); !written) return written.error();
   const RunSettings& settings = context.arguments.settings;
@@ -148,8 +145,7 @@ Result<RunRecord> MakeRun(const PlannedRun& run, const std::string& files,
   const double wall_limit = context.arguments.wall_limit;
   const auto ending = RunProgram(
       {context.product.program.string(), "run", application, "--fast", "--quiet", "--no-control",
-       "world=" + course.file.string(),
-       "first_direction=" + run.key.direction, "seed=" + std::to_string(run.key.seed),
+       "world=" + course.file.string(), "first_direction=" + run.key.direction, "seed=" + std::to_string(run.key.seed),
        fmt::format("noise={}", settings.noise), fmt::format("path_step={}", settings.path_step),
        fmt::format("time_limit={}", settings.time_limit > 0.0 ? settings.time_limit : TimeLimitOf(course)),
        fmt::format("safe_distance={}", settings.safe_distance), "result=" + result},
@@ -163,9 +159,8 @@ Result<RunRecord> MakeRun(const PlannedRun& run, const std::string& files,
   if (ending->has_hung || ending->signal != 0) {
     record.has_ended_by_itself = false;
     record.result.outcome = ending->has_hung ? "timeout" : "error";
-    record.result.remark = ending->has_hung
-                               ? fmt::format("hung: ended after {} s of real time", wall_limit)
-                               : std::string("crashed: ") + strsignal(ending->signal);
+    record.result.remark = ending->has_hung ? fmt::format("hung: ended after {} s of real time", wall_limit)
+                                            : std::string("crashed: ") + strsignal(ending->signal);
     return record;
   }
   const auto text = ReadFile(result);

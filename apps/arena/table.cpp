@@ -1,10 +1,9 @@
-#include "apps/arena/report.h"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "apps/arena/bounds.h"
+#include "apps/arena/report.h"
 
 namespace runnel::arena {
 
@@ -34,9 +33,7 @@ std::string Aligned(const std::vector<Line>& lines, std::size_t words, std::size
   return text;
 }
 
-std::string OrNone(const std::optional<double>& number, int digits) {
-  return number ? Fixed(*number, digits) : kNone;
-}
+std::string OrNone(const std::optional<double>& number, int digits) { return number ? Fixed(*number, digits) : kNone; }
 
 Line LineOf(const Row& row) {
   const RunRecord& record = *row.record;
@@ -59,25 +56,22 @@ Line LineOf(const Row& row) {
 }
 
 std::string WorldText(const Course& course, const std::vector<Row>& rows) {
-  std::vector<Line> lines{{"variant", "sensor", "direction", "seed", "outcome", "length/m", "ratio",
-                           "bound/m ", "time/s", "real/s"}};
+  std::vector<Line> lines{
+      {"variant", "sensor", "direction", "seed", "outcome", "length/m", "ratio", "bound/m ", "time/s", "real/s"}};
   for (const Row& row : rows) {
     if (row.course == &course) lines.push_back(LineOf(row));
   }
-  const std::string truth = course.shortest
-                                ? "shortest path " + Fixed(course.shortest->length, 2) + " m"
-                                : "the goal cannot be reached";
+  const std::string truth =
+      course.shortest ? "shortest path " + Fixed(course.shortest->length, 2) + " m" : "the goal cannot be reached";
   return course.name + ": " + truth + "\n" + Aligned(lines, 5, 5) + "\n";
 }
 
 std::string SummaryText(const std::vector<Summary>& summaries) {
   std::vector<Line> lines{{"variant", "runs", "right", "success", "mean ratio", "all paths/m"}};
   for (const Summary& summary : summaries) {
-    const double share =
-        100.0 * static_cast<double>(summary.right) / static_cast<double>(summary.runs);
+    const double share = 100.0 * static_cast<double>(summary.right) / static_cast<double>(summary.runs);
     lines.push_back({summary.variant, std::to_string(summary.runs), std::to_string(summary.right),
-                     Fixed(share, 1) + " %", OrNone(summary.mean_ratio, 3),
-                     Fixed(summary.path_length, 1)});
+                     Fixed(share, 1) + " %", OrNone(summary.mean_ratio, 3), Fixed(summary.path_length, 1)});
   }
   return "summary\n" + Aligned(lines, 1, 5);
 }
@@ -86,9 +80,7 @@ std::string SummaryText(const std::vector<Summary>& summaries) {
 
 std::string Fixed(double number, int digits) { return fmt::format("{:.{}f}", number, digits); }
 
-bool MayFailByDesign(const std::string& variant) {
-  return variant == "com" || variant == "behaviours/navigator";
-}
+bool MayFailByDesign(const std::string& variant) { return variant == "com" || variant == "behaviours/navigator"; }
 
 std::vector<Row> RowsOf(const Matrix& matrix, const std::vector<RunRecord>& records) {
   std::vector<Row> rows;

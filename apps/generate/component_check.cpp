@@ -64,7 +64,8 @@ Error Tell(const SpinAnswer& answer) {
 bool Check(const std::string& model, const SpinSearch& search, const std::string& name, Diagnostics& diagnostics) {
   auto answer = RunSpin(model, search);
   if (!answer) {
-    diagnostics.AddWarning({.message = "component " + name + " " + answer.error().message, .hint = answer.error().hint});
+    diagnostics.AddWarning(
+        {.message = "component " + name + " " + answer.error().message, .hint = answer.error().hint});
     return true;
   }
   if (answer->holds) return true;

@@ -140,15 +140,22 @@ int main(int count, char** words) {
   program.add_option("template", arguments.what, runnel::KnownTemplates())->required();
   program.add_option("files", arguments.files, "read as one, in order")->required()->type_name("FILE.gen");
   program.add_option("-I", arguments.options.include_folders, "look there for included files")
-      ->type_name("FOLDER")->allow_extra_args(false);
-  program.add_option("-D", arguments.options.definitions, "define a macro")->type_name("NAME[=VALUE]")->allow_extra_args(false);
+      ->type_name("FOLDER")
+      ->allow_extra_args(false);
+  program.add_option("-D", arguments.options.definitions, "define a macro")
+      ->type_name("NAME[=VALUE]")
+      ->allow_extra_args(false);
   program.add_option("-o,--output", arguments.output, "the file, of json; the folder, of others (otherwise this one)")
       ->type_name("PATH");
   auto* const overwrites = program.add_flag("--overwrite", arguments.overwrites, "also what you have changed");
-  program.add_flag("--adopt", arguments.adopts,
-                   "a component that was not made here: its files stay, later changes of the description are merged into them")
+  program
+      .add_flag(
+          "--adopt", arguments.adopts,
+          "a component that was not made here: its files stay, later changes of the description are merged into them")
       ->excludes(overwrites);
-  program.add_option("-s,--set", arguments.settings, "for the template")->type_name("NAME=VALUE")->allow_extra_args(false);
+  program.add_option("-s,--set", arguments.settings, "for the template")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
   program.add_flag("--spin", arguments.has_spin_check,
                    "of check: have the model checker Spin look for what threads and interruptions can come to");
   program.add_option("--depfile", arguments.dependencies, "say there what has been read, for make and ninja")

@@ -22,8 +22,7 @@ void PrintLine(const char* name, const std::string& text) {
 std::string PackingText(const RecordingInfo& info) {
   std::string text = std::to_string(info.chunks) + (info.chunks == 1 ? " chunk, " : " chunks, ");
   if (info.compression == "none") return text + "not compressed";
-  return text + info.compression + ", " + SizeText(info.compressed_bytes) + " of " +
-         SizeText(info.uncompressed_bytes);
+  return text + info.compression + ", " + SizeText(info.compressed_bytes) + " of " + SizeText(info.uncompressed_bytes);
 }
 
 void PrintChannels(const RecordingInfo& info) {
@@ -33,28 +32,26 @@ void PrintChannels(const RecordingInfo& info) {
     path_width = std::max(path_width, each.path.size());
     type_width = std::max(type_width, each.type.size());
   }
-  std::printf("\n%-*s  %-*s  %10s  %10s  %10s\n", static_cast<int>(path_width), "port",
-              static_cast<int>(type_width), "type", "values", "rate", "dropped");
+  std::printf("\n%-*s  %-*s  %10s  %10s  %10s\n", static_cast<int>(path_width), "port", static_cast<int>(type_width),
+              "type", "values", "rate", "dropped");
   for (const auto& each : info.channels) {
-    std::printf("%-*s  %-*s  %10llu  %7.2f Hz  %10llu\n", static_cast<int>(path_width),
-                each.path.c_str(), static_cast<int>(type_width), each.type.c_str(),
-                static_cast<unsigned long long>(each.values), each.rate,
-                static_cast<unsigned long long>(each.dropped));
+    std::printf("%-*s  %-*s  %10llu  %7.2f Hz  %10llu\n", static_cast<int>(path_width), each.path.c_str(),
+                static_cast<int>(type_width), each.type.c_str(), static_cast<unsigned long long>(each.values),
+                each.rate, static_cast<unsigned long long>(each.dropped));
   }
 }
 
 void Print(const RecordingInfo& info) {
   PrintLine("file", info.file + ", " + SizeText(info.bytes));
-  PrintLine("duration", fmt::format("{:.3f} s, from {:.3f} s to {:.3f} s", info.duration(),
-                                    info.start, info.end));
-  PrintLine("values", std::to_string(info.values) + " of " + std::to_string(info.ports) +
-                          " ports, " + std::to_string(info.dropped) + " more came too fast or could not be written");
+  PrintLine("duration", fmt::format("{:.3f} s, from {:.3f} s to {:.3f} s", info.duration(), info.start, info.end));
+  PrintLine("values", std::to_string(info.values) + " of " + std::to_string(info.ports) + " ports, " +
+                          std::to_string(info.dropped) + " more came too fast or could not be written");
   PrintLine("chunks", PackingText(info));
   for (const auto& [key, text] : info.about) PrintLine(key.c_str(), text);
   if (info.about.empty()) PrintLine("library", info.library);
   PrintLine("attached", fmt::format("{}", fmt::join(info.attachments, ", ")));
-  PrintLine("end", info.ended_properly ? "as its writer wanted it"
-                                       : "missing: its writer was killed, or is still at work");
+  PrintLine("end",
+            info.ended_properly ? "as its writer wanted it" : "missing: its writer was killed, or is still at work");
   if (!info.channels.empty()) PrintChannels(info);
   std::fflush(stdout);
 }

@@ -54,10 +54,12 @@ std::string DateText(std::chrono::hours from_now) {
 }
 
 std::string PermissionsText(const std::string& name, int days) {
-  return std::string(kHead) + "<permissions><grant name=\"" + name + "\">\n<subject_name>CN=" + name + "</subject_name>\n" +
-         "<validity><not_before>" + DateText(std::chrono::hours(-1)) + "</not_before><not_after>" +
-         DateText(std::chrono::hours(24) * days) + "</not_after></validity>\n<allow_rule>\n" + std::string(kDomains) +
-         "<publish><topics><topic>*</topic></topics></publish>\n<subscribe><topics><topic>*</topic></topics></subscribe>\n"
+  return std::string(kHead) + "<permissions><grant name=\"" + name + "\">\n<subject_name>CN=" + name +
+         "</subject_name>\n" + "<validity><not_before>" + DateText(std::chrono::hours(-1)) +
+         "</not_before><not_after>" + DateText(std::chrono::hours(24) * days) +
+         "</not_after></validity>\n<allow_rule>\n" + std::string(kDomains) +
+         "<publish><topics><topic>*</topic></topics></publish>\n<subscribe><topics><topic>*</topic></topics></"
+         "subscribe>\n"
          "</allow_rule>\n<default>DENY</default>\n</grant></permissions>\n</dds>\n";
 }
 
@@ -78,7 +80,8 @@ std::vector<std::string> operator+(std::vector<std::string> words, const std::ve
 }
 
 // Writes `text` into a folder, signed by the authority that is in `authority`.
-Result<void> WriteSigned(const fs::path& folder, const fs::path& authority, const std::string& name, const std::string& text) {
+Result<void> WriteSigned(const fs::path& folder, const fs::path& authority, const std::string& name,
+                         const std::string& text) {
   const std::string source = name + ".xml";
   if (auto written = ReplaceFile(folder / source, text); !written) return written;
   return OpenSsl(folder, {"smime", "-sign", "-text", "-in", source, "-out", name + ".p7s", "-signer",
@@ -105,9 +108,10 @@ Result<void> MakeAuthority(const fs::path& folder, int days) {
   if (auto made = MakeFolder(folder); !made) return made;
   std::error_code ignored;
   if (!fs::exists(folder / "ca.key.pem", ignored)) {
-    const auto made = OpenSsl(folder, std::vector<std::string>{"req", "-x509"} + kNewKey +
-                                          std::vector<std::string>{"-days", std::to_string(days), "-subj", "/CN=runnel_authority", "-keyout",
-                                                                   "ca.key.pem", "-out", "ca.cert.pem"});
+    const auto made =
+        OpenSsl(folder, std::vector<std::string>{"req", "-x509"} + kNewKey +
+                            std::vector<std::string>{"-days", std::to_string(days), "-subj", "/CN=runnel_authority",
+                                                     "-keyout", "ca.key.pem", "-out", "ca.cert.pem"});
     if (!made) return made;
   }
   if (fs::exists(folder / "governance.p7s", ignored)) return {};
@@ -126,11 +130,13 @@ Result<bool> MakeKeys(const fs::path& folder, const std::string& name, int days)
   std::error_code ignored;
   if (fs::exists(own / "permissions.p7s", ignored)) return false;  // the last that is made
   if (auto made = MakeFolder(own); !made) return made.error();
-  auto made = OpenSsl(own, std::vector<std::string>{"req", "-new"} + kNewKey +
-                               std::vector<std::string>{"-subj", "/CN=" + name, "-keyout", "key.pem", "-out", "request.pem"});
+  auto made =
+      OpenSsl(own, std::vector<std::string>{"req", "-new"} + kNewKey +
+                       std::vector<std::string>{"-subj", "/CN=" + name, "-keyout", "key.pem", "-out", "request.pem"});
   if (!made) return made.error();
-  made = OpenSsl(own, {"x509", "-req", "-in", "request.pem", "-CA", (authority / "ca.cert.pem").string(), "-CAkey",
-                       (authority / "ca.key.pem").string(), "-CAcreateserial", "-days", std::to_string(days), "-out", "cert.pem"});
+  made = OpenSsl(
+      own, {"x509", "-req", "-in", "request.pem", "-CA", (authority / "ca.cert.pem").string(), "-CAkey",
+            (authority / "ca.key.pem").string(), "-CAcreateserial", "-days", std::to_string(days), "-out", "cert.pem"});
   if (!made) return made.error();
   fs::remove(own / "request.pem", ignored);
   for (const char* const copy : {"identity_ca.cert.pem", "permissions_ca.cert.pem"}) {
@@ -157,14 +163,19 @@ int Make(const std::string& folder, const std::vector<std::string>& names, int d
 }  // namespace runnel
 
 int main(int count, char** words) {
-  CLI::App program("Makes keys by which applications in a network know each other: <security keys=\"FOLDER/NAME\"/>.", "runnel keys");
+  CLI::App program("Makes keys by which applications in a network know each other: <security keys=\"FOLDER/NAME\"/>.",
+                   "runnel keys");
   std::string folder;
   std::vector<std::string> names;
   int days = 3650;
-  program.add_option("folder", folder, "of all keys; with it, who has ca.key.pem can let in others")->required()->type_name("FOLDER");
+  program.add_option("folder", folder, "of all keys; with it, who has ca.key.pem can let in others")
+      ->required()
+      ->type_name("FOLDER");
   program.add_option("names", names, "applications; each has a folder of its name there, to be copied to its machine")
       ->required()
       ->type_name("NAME…");
-  program.add_option("--days", days, "until they are no longer valid")->capture_default_str()->check(CLI::PositiveNumber);
+  program.add_option("--days", days, "until they are no longer valid")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   return runnel::RunProgram(program, count, words, [&] { return runnel::Make(folder, names, days); });
 }

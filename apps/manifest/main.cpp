@@ -19,8 +19,7 @@ Result<PluginManifest> ManifestOf(const std::string& library) {
   PluginManager plugins;
   const auto file = std::filesystem::absolute(library);
   if (const auto loaded = plugins.Load(file.string()); !loaded) return loaded.error();
-  PluginManifest manifest{
-      .plugin = file.stem().string(), .build_id = std::move(*build_id), .modules = {}};
+  PluginManifest manifest{.plugin = file.stem().string(), .build_id = std::move(*build_id), .modules = {}};
   Runtime runtime;
   for (const ModuleType* type : plugins.modules().All()) {
     if (auto module = DescribeByMaking(runtime, plugins.modules(), type->name)) {

@@ -35,8 +35,7 @@ const std::set<std::string> kKeywords{
     "typename",      "union",       "unsigned",   "using",     "virtual",   "void",
     "volatile",      "while",       "xor",        "xor_eq"};
 // Names that the project's files or targets have already.
-const std::set<std::string> kTaken{"all",    "build",  "clean", "install", "main",
-                                   "plugin", "runnel", "test",  "world"};
+const std::set<std::string> kTaken{"all", "build", "clean", "install", "main", "plugin", "runnel", "test", "world"};
 
 bool IsLetter(char c) { return c >= 'a' && c <= 'z'; }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
@@ -58,16 +57,14 @@ std::string Proposal(const std::string& name) {
 /// Whether something can be called so, in files, in C++ and in paths: "wall_follower". Errors: why not, and a name
 /// that would do.
 Result<void> CheckName(const std::string& name) {
-  const bool is_well_formed =
-      !name.empty() && IsLetter(name.front()) && !name.ends_with('_') &&
-      name.find("__") == std::string::npos &&
-      std::ranges::all_of(name, [](char c) { return IsLetter(c) || IsDigit(c) || c == '_'; });
-  const char* const why =
-      !is_well_formed
-          ? "': names are lower-case letters, digits and single '_', and begin with a letter"
-      : kKeywords.contains(name) ? "', which is a word of C++"
-      : kTaken.contains(name)    ? "', which is the name of something else in each project"
-                                 : nullptr;
+  const bool is_well_formed = !name.empty() && IsLetter(name.front()) && !name.ends_with('_') &&
+                              name.find("__") == std::string::npos &&
+                              std::ranges::all_of(name, [](char c) { return IsLetter(c) || IsDigit(c) || c == '_'; });
+  const char* const why = !is_well_formed
+                              ? "': names are lower-case letters, digits and single '_', and begin with a letter"
+                          : kKeywords.contains(name) ? "', which is a word of C++"
+                          : kTaken.contains(name)    ? "', which is the name of something else in each project"
+                                                     : nullptr;
   if (why == nullptr) return {};
   const std::string proposal = is_well_formed ? "" : Proposal(name);
   return Error{.message = "nothing can be called '" + name + why,
@@ -101,36 +98,35 @@ struct Kind {
   std::vector<std::pair<const char*, const char*>> files;  ///< and by which templates
   const char* said;                                        ///< how to go on
 };
-const std::vector<Kind> kKinds{
-    {"plugin",
-     "a folder with a plugin: one module, its test, an application with it",
-     false,
-     {{"CMakeLists.txt", "plugin_CMakeLists.txt"},
-      {"plugin.cpp", "plugin.cpp"},
-      {"@name@.h", "module.h"},
-      {"@name@_test.cpp", "test.cpp"},
-      {"@name@.xml", "plugin_application.xml"}},
-     "cd @folder@\ncmake -B build && cmake --build build && ctest --test-dir build\n"
-     "RUNNEL_PLUGIN_PATH=build/lib/runnel/plugins runnel run @name@.xml --duration 5\n"},
-    {"module",
-     "one more module of the plugin in this folder, and its test",
-     true,
-     {{"@name@.h", "module.h"}, {"@name@_test.cpp", "test.cpp"}},
-     "plugin.cpp registers it as @plugin@/@name@\n"},
-    {"application",
-     "a folder with a robot in a world, a program that runs it, and a test",
-     false,
-     {{"CMakeLists.txt", "application_CMakeLists.txt"},
-      {"@name@.xml", "application.xml"},
-      {"world.xml", "world.xml"},
-      {"main.cpp", "main.cpp"},
-      {"@name@_test.cpp", "application_test.cpp"}},
-     "runnel run @folder@/@name@.xml --inspect\n"},
-    {"test",
-     "a test for a module of the plugin in this folder",
-     true,
-     {{"@name@_test.cpp", "own_test.cpp"}},
-     "@name@_test.cpp tests modules of the type @plugin@/@name@\n"}};
+const std::vector<Kind> kKinds{{"plugin",
+                                "a folder with a plugin: one module, its test, an application with it",
+                                false,
+                                {{"CMakeLists.txt", "plugin_CMakeLists.txt"},
+                                 {"plugin.cpp", "plugin.cpp"},
+                                 {"@name@.h", "module.h"},
+                                 {"@name@_test.cpp", "test.cpp"},
+                                 {"@name@.xml", "plugin_application.xml"}},
+                                "cd @folder@\ncmake -B build && cmake --build build && ctest --test-dir build\n"
+                                "RUNNEL_PLUGIN_PATH=build/lib/runnel/plugins runnel run @name@.xml --duration 5\n"},
+                               {"module",
+                                "one more module of the plugin in this folder, and its test",
+                                true,
+                                {{"@name@.h", "module.h"}, {"@name@_test.cpp", "test.cpp"}},
+                                "plugin.cpp registers it as @plugin@/@name@\n"},
+                               {"application",
+                                "a folder with a robot in a world, a program that runs it, and a test",
+                                false,
+                                {{"CMakeLists.txt", "application_CMakeLists.txt"},
+                                 {"@name@.xml", "application.xml"},
+                                 {"world.xml", "world.xml"},
+                                 {"main.cpp", "main.cpp"},
+                                 {"@name@_test.cpp", "application_test.cpp"}},
+                                "runnel run @folder@/@name@.xml --inspect\n"},
+                               {"test",
+                                "a test for a module of the plugin in this folder",
+                                true,
+                                {{"@name@_test.cpp", "own_test.cpp"}},
+                                "@name@_test.cpp tests modules of the type @plugin@/@name@\n"}};
 
 // What is to be printed.
 Result<std::string> MakeFiles(const Kind& kind, const Wanted& wanted) {
@@ -138,8 +134,7 @@ Result<std::string> MakeFiles(const Kind& kind, const Wanted& wanted) {
   auto plugin = kind.is_of_plugin ? OwnPlugin::Find(wanted.folder) : OwnPlugin();
   if (!plugin) return plugin.error();
   if (kind.name == "plugin" && std::ranges::count(PluginManager().Available(), wanted.name) > 0) {
-    return Error{.message = "there is a plugin '" + wanted.name +
-                            "' already, and of two of one name only one is found",
+    return Error{.message = "there is a plugin '" + wanted.name + "' already, and of two of one name only one is found",
                  .hint = "take another name"};
   }
   const fs::path folder = kind.is_of_plugin ? wanted.folder : wanted.folder / wanted.name;
@@ -166,18 +161,14 @@ int Make(const Kind& kind, const Wanted& wanted) {
 }
 
 int Main(int count, char** words) {
-  CLI::App program("Writes what something new begins with: it can be built and tested at once.",
-                   "runnel new");
+  CLI::App program("Writes what something new begins with: it can be built and tested at once.", "runnel new");
   Wanted wanted;
   program.require_subcommand(1);
   std::vector<std::string> names;
   for (const Kind& kind : kKinds) {
     CLI::App& command = *program.add_subcommand(std::string(kind.name), kind.summary);
-    command.add_option("name", wanted.name, "lower-case letters, digits and '_'")
-        ->required()
-        ->type_name("NAME");
-    command.add_option("--in", wanted.folder, "the folder in which it is made; without, this one")
-        ->type_name("FOLDER");
+    command.add_option("name", wanted.name, "lower-case letters, digits and '_'")->required()->type_name("NAME");
+    command.add_option("--in", wanted.folder, "the folder in which it is made; without, this one")->type_name("FOLDER");
     names.emplace_back(kind.name);
   }
   const std::string wanted_kind = count > 1 ? words[1] : "";
@@ -198,6 +189,4 @@ int Main(int count, char** words) {
 
 }  // namespace runnel::new_program
 
-int main(int count, char** words) {
-  return runnel::new_program::Main(count, words);
-}
+int main(int count, char** words) { return runnel::new_program::Main(count, words); }

@@ -104,8 +104,7 @@ Result<OwnPlugin> OwnPlugin::Find(const std::filesystem::path& folder) {
   const std::size_t end = text.find(')', comma);
   const std::size_t body = text.find('{', end);
   if (begin == std::string::npos || body == std::string::npos) {
-    return Error{.message = "no RUNNEL_PLUGIN(name, registry) { … } is in it",
-                 .position = {plugin.file_.string()}};
+    return Error{.message = "no RUNNEL_PLUGIN(name, registry) { … } is in it", .position = {plugin.file_.string()}};
   }
   const std::size_t name = begin + word.size();
   plugin.name_ = Trimmed(text.substr(name, comma - name));
@@ -115,8 +114,7 @@ Result<OwnPlugin> OwnPlugin::Find(const std::filesystem::path& folder) {
   return plugin;
 }
 
-Result<void> OwnPlugin::Register(const std::string& header, const std::string& class_name,
-                                 const std::string& type) {
+Result<void> OwnPlugin::Register(const std::string& header, const std::string& class_name, const std::string& type) {
   text_.insert(body_, "\n  " + registry_ + ".Add<" + class_name + ">(\"" + type +
                           "\", \"follows its input, no faster than it may\");");
   text_.insert(includes_, "#include \"" + header + "\"\n");

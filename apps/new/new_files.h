@@ -30,8 +30,7 @@ class OwnPlugin {
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   /// Has it register a module, in the file too. Errors: as ReplaceFile().
-  Result<void> Register(const std::string& header, const std::string& class_name,
-                        const std::string& type);
+  Result<void> Register(const std::string& header, const std::string& class_name, const std::string& type);
 
  private:
   std::filesystem::path file_;

@@ -64,12 +64,15 @@ int Export(const std::vector<std::string>& plugins, const std::string& folder) {
       messages.push_back(*made);
     }
   }
-  if (messages.empty()) return Fail({.message = "these plugins have no types of their own", .hint = "name others: 'runnel modules' lists all"});
+  if (messages.empty())
+    return Fail(
+        {.message = "these plugins have no types of their own", .hint = "name others: 'runnel modules' lists all"});
   return WriteFiles(MessagePackageOf(messages, library), folder);
 }
 
 // Of names and of files and folders.
-Result<std::vector<const MessageDefinition*>> FindMessages(const std::vector<std::string>& wanted, MessageLibrary& library) {
+Result<std::vector<const MessageDefinition*>> FindMessages(const std::vector<std::string>& wanted,
+                                                           MessageLibrary& library) {
   std::set<const MessageDefinition*> found;
   for (const std::string& each : wanted) {
     if (!std::filesystem::exists(each)) continue;
@@ -116,14 +119,25 @@ int main(int count, char** words) {
   program.require_subcommand(1);
   std::vector<std::string> plugins, messages;
   std::string folder = ".";
-  auto* const export_command = program.add_subcommand("export", "writes a package of ROS 2 with the types of plugins as messages");
-  export_command->add_option("plugins", plugins, "whose modules have ports of these types")->required()->type_name("PLUGIN…");
-  export_command->add_option("-o,--output", folder, "folder of the package")->type_name("FOLDER")->capture_default_str();
+  auto* const export_command =
+      program.add_subcommand("export", "writes a package of ROS 2 with the types of plugins as messages");
+  export_command->add_option("plugins", plugins, "whose modules have ports of these types")
+      ->required()
+      ->type_name("PLUGIN…");
+  export_command->add_option("-o,--output", folder, "folder of the package")
+      ->type_name("FOLDER")
+      ->capture_default_str();
   auto* const import_command = program.add_subcommand("import", "writes C++ types for messages, which ports can carry");
-  import_command->add_option("messages", messages, "sensor_msgs/msg/Imu; a .msg file; a folder of such files")->required()->type_name("MESSAGE…");
-  import_command->add_option("-o,--output", folder, "folder of the headers")->type_name("FOLDER")->capture_default_str();
+  import_command->add_option("messages", messages, "sensor_msgs/msg/Imu; a .msg file; a folder of such files")
+      ->required()
+      ->type_name("MESSAGE…");
+  import_command->add_option("-o,--output", folder, "folder of the headers")
+      ->type_name("FOLDER")
+      ->capture_default_str();
   auto* const show_command = program.add_subcommand("show", "shows messages, with the hash of their types");
-  show_command->add_option("messages", messages, "sensor_msgs/msg/Imu; a .msg file; a folder of such files")->required()->type_name("MESSAGE…");
+  show_command->add_option("messages", messages, "sensor_msgs/msg/Imu; a .msg file; a folder of such files")
+      ->required()
+      ->type_name("MESSAGE…");
   return runnel::RunProgram(program, count, words, [&] {
     if (*export_command) return runnel::Export(plugins, folder);
     return *import_command ? runnel::Import(messages, folder) : runnel::Show(messages);

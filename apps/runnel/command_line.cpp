@@ -121,12 +121,11 @@ std::string CheckDuration(const std::string& text) {
              ? ""
              : "'" + text + "' is not a number of seconds above 0 and up to 9e9";
 }
-std::string CheckFile(const std::string& text) {
-  return text.empty() ? "'' is not the name of a file" : "";
-}
+std::string CheckFile(const std::string& text) { return text.empty() ? "'' is not the name of a file" : ""; }
 
 void AddApplicationArguments(CLI::App& command, ApplicationArguments& arguments) {
-  command.add_option("application", arguments.file, "application file (XML), or the name of one that comes with Runnel")
+  command
+      .add_option("application", arguments.file, "application file (XML), or the name of one that comes with Runnel")
       ->required()
       ->type_name("FILE")
       ->check(CheckFile)
@@ -137,9 +136,7 @@ void AddApplicationArguments(CLI::App& command, ApplicationArguments& arguments)
                   "command_line=\"…\"")
       ->type_name("NAME=VALUE");
   // One file each time, since the application and settings come after it.
-  command
-      .add_option("--config", arguments.configurations,
-                  "configuration file (XML), may be given several times")
+  command.add_option("--config", arguments.configurations, "configuration file (XML), may be given several times")
       ->type_name("FILE")
       ->allow_extra_args(false);
 }
@@ -153,15 +150,13 @@ void AddWhatAccompaniesARun(CLI::App& run, RunArguments& arguments) {
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
   run.add_flag("--profile", arguments.is_profiled, "measures how long each module takes, and says so at the end");
-  run.add_option("--log", arguments.log_file,
-                 "writes faults, warnings, changes and what modules say into a file")
+  run.add_option("--log", arguments.log_file, "writes faults, warnings, changes and what modules say into a file")
       ->type_name("FILE");
   run.add_option("--crash-report", arguments.crash_file,
                  "where a crash is told besides (runnel_crash_PROCESS.txt); '': nowhere")
       ->type_name("FILE");
   run.add_flag_callback(
-      "--no-control", [&arguments] { arguments.has_control = false; },
-      "no other process can look at it or change it");
+      "--no-control", [&arguments] { arguments.has_control = false; }, "no other process can look at it or change it");
 }
 
 CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
@@ -174,7 +169,8 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
       ->check(CheckSpeed)
       ->excludes(fast);
   run.add_flag("--paused", arguments.is_paused, "simulated time stands still until 'runnel resume' or 'runnel step'");
-  run.add_flag("--clear-stop", arguments.clears_stop, "begins without the STOP that an earlier run of the file left in force");
+  run.add_flag("--clear-stop", arguments.clears_stop,
+               "begins without the STOP that an earlier run of the file left in force");
   run.add_flag("--single-thread", arguments.is_single_threaded,
                "the cycles of all threads one after the other in one: simulated time, in step with the real one");
   AddWhatAccompaniesARun(run, arguments);
@@ -182,13 +178,12 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
 }
 
 CLI::App& AddReplay(CLI::App& program, RunArguments& arguments) {
-  CLI::App& replay = *program.add_subcommand(
-      "replay", "publishes what was recorded, into an application or for viewers alone");
+  CLI::App& replay =
+      *program.add_subcommand("replay", "publishes what was recorded, into an application or for viewers alone");
   replay.add_option("--rate", arguments.speed, "1 is real time (usual), 0 as fast as it can")
       ->type_name("FACTOR")
       ->check(CheckSpeed);
-  replay.add_flag("--paused", arguments.is_paused,
-                  "begins with a pause: 'runnel resume' or 'runnel step' go on");
+  replay.add_flag("--paused", arguments.is_paused, "begins with a pause: 'runnel resume' or 'runnel step' go on");
   replay.add_flag("--step", arguments.steps, "paused; each Enter runs one cycle");
   AddWhatAccompaniesARun(replay, arguments);
   return replay;
@@ -240,16 +235,17 @@ Command ParseCommandLine(int count, const char* const* words) {
   AddReplayedApplication(replay, replay_arguments.application);
   CLI::App& check = *program.add_subcommand("check", "looks for mistakes, without running");
   AddApplicationArguments(check, check_arguments.application);
-  check.add_option("--model", check_arguments.model_file,
-                   "writes what is checked of a network of behaviours as a model for Spin (Promela)")
+  check
+      .add_option("--model", check_arguments.model_file,
+                  "writes what is checked of a network of behaviours as a model for Spin (Promela)")
       ->type_name("FILE")
       ->check(CheckFile);
   CLI::App& modules = *program.add_subcommand("modules", "lists module types, ports, parameters");
   modules.add_option("plugins", modules_arguments.plugins, "only of these; without, of all")->type_name("PLUGIN");
   CLI::Option* const names = modules.add_flag("--names", modules_arguments.names_only, "only the names of the types");
   modules.add_flag("--json", modules_arguments.as_json, "all that is known of them, as JSON")->excludes(names);
-  CLI::App& schema = *program.add_subcommand(
-      "schema", "writes the XML schema of application files, for editors and checkers");
+  CLI::App& schema =
+      *program.add_subcommand("schema", "writes the XML schema of application files, for editors and checkers");
   schema.add_option("plugins", schema_arguments.plugins, "only of these; without, of all")->type_name("PLUGIN");
   schema.add_option("-o,--output", schema_arguments.output, "file; without, standard output")
       ->type_name("FILE")
@@ -280,9 +276,7 @@ Command ParseCommandLine(int count, const char* const* words) {
   if (command == "complete" && count > 3 && std::string_view(words[2]) == "--all") {
     const CLI::App* const known = FindCommand(program, words[3]);
     return [=, names = all_commands, options = known != nullptr ? OptionNames(*known) : std::vector<std::string>(),
-            typed = std::vector<std::string>(words + 3, words + count)] {
-      return CompleteAll(typed, names, options);
-    };
+            typed = std::vector<std::string>(words + 3, words + count)] { return CompleteAll(typed, names, options); };
   }
   if (command == "help") {
     const std::string about = count > 2 ? words[2] : "";
@@ -304,9 +298,8 @@ Command ParseCommandLine(int count, const char* const* words) {
   const bool is_known = std::ranges::count(all_commands, command) > 0;
   if (count > 1 && !command.starts_with('-') && !is_known) {
     if (const auto* const extension = catalogue->FindCommand(command)) {
-      return Refuse(
-          "'" + command + "' is of the extension '" + extension->name + "', which is not installed",
-          "it " + extension->summary);
+      return Refuse("'" + command + "' is of the extension '" + extension->name + "', which is not installed",
+                    "it " + extension->summary);
     }
     return Refuse("there is no command '" + command + "'", NearestNameHint(command, all_commands));
   }

@@ -22,9 +22,8 @@ struct ApplicationArguments {
   [[nodiscard]] ApplicationOptions Options() const;
 
   std::string file;
-  std::vector<std::string> configurations =
-      {};                                  ///< files; of two that name a value, the later wins
-  std::vector<std::string> settings = {};  ///< name=value
+  std::vector<std::string> configurations = {};  ///< files; of two that name a value, the later wins
+  std::vector<std::string> settings = {};        ///< name=value
 };
 
 struct CheckArguments {
@@ -41,14 +40,13 @@ struct RunArguments {
   bool quiet = false;
   bool statistics = false;
   bool is_profiled = false;
-  std::string log_file = {};  ///< "": none
+  std::string log_file = {};                   ///< "": none
   std::optional<std::string> crash_file = {};  ///< "": none; without, one that is named after the process
-  bool has_control = true;  ///< other processes of the user can reach it
-  bool clears_stop = false;  ///< begins without the STOP of a process before
-  bool steps = false;       ///< a cycle for each line of standard input
+  bool has_control = true;                     ///< other processes of the user can reach it
+  bool clears_stop = false;                    ///< begins without the STOP of a process before
+  bool steps = false;                          ///< a cycle for each line of standard input
   std::vector<ExtensionByName> extensions = {};
-  std::vector<std::string> preloads =
-      {};  ///< libraries that these need from the start of the process
+  std::vector<std::string> preloads = {};  ///< libraries that these need from the start of the process
 };
 
 struct ModulesArguments {

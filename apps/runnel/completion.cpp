@@ -22,7 +22,7 @@ struct Element {
   std::string path;
   bool is_interface = false;
   std::string type = {};
-  std::string choices = {};  // values that have names, separated by blanks; of a service, what arguments look like
+  std::string choices = {};     // values that have names, separated by blanks; of a service, what arguments look like
   std::string short_path = {};  // without the application and the group of ports, as far as that names it
 };
 
@@ -101,8 +101,7 @@ Candidates WithBeginning(const Candidates& candidates, const std::string& beginn
 }
 
 Candidates Types(ControlClient& client) {
-  return NamesOf(Lines(client, "types"),
-                 [](const std::string& line) { return line.substr(0, line.find('\t')); });
+  return NamesOf(Lines(client, "types"), [](const std::string& line) { return line.substr(0, line.find('\t')); });
 }
 
 auto OfKind(const char* kind) {
@@ -196,9 +195,11 @@ Candidates Propose(ControlClient& client, const Candidates& plain) {
 
 // The words that are no options; what follows an option that has a value is left out.
 Candidates WithoutOptions(const Candidates& words, std::string& application) {
-  static const Candidates kWithValue{"--app",       "-n", "--queue",  "--on-full",
-                                     "--probation", "-o", "--output", "--compression", "--rate", "--deadline", "--convert", "--timeout",
-                                     "--topic", "--as", "--field", "--frame", "--child_frame", "--qos", "--sending", "--strength", "--stamp", "--exclusive", "--live"};
+  static const Candidates kWithValue{
+      "--app",         "-n",      "--queue",       "--on-full", "--probation", "-o",         "--output",
+      "--compression", "--rate",  "--deadline",    "--convert", "--timeout",   "--topic",    "--as",
+      "--field",       "--frame", "--child_frame", "--qos",     "--sending",   "--strength", "--stamp",
+      "--exclusive",   "--live"};
   Candidates plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::ranges::count(kWithValue, words[i]) > 0 && i + 1 < words.size()) {

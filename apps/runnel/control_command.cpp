@@ -42,8 +42,7 @@ std::string WordsText(const std::vector<std::string>& words, std::size_t plain) 
 
 std::string OptionsText(const ControlArguments& arguments) {
   std::string text;
-  for (const auto& [name, value] : arguments.options)
-    text += " " + name + "=" + AsArgument(value);
+  for (const auto& [name, value] : arguments.options) text += " " + name + "=" + AsArgument(value);
   return text;
 }
 
@@ -59,14 +58,11 @@ std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
   }
   if (command == "move") return "move " + AsArgument(words[0]) + " to " + AsArgument(words[1]);
   if (command == "create")
-    return command + WordsText(words, words[0] == "parameter" ? words.size()
-                                      : words[0] == "port"    ? 4
-                                                              : 2);
+    return command + WordsText(words, words[0] == "parameter" ? words.size() : words[0] == "port" ? 4 : 2);
   if (command == "schedule") return command + WordsText(words, 1) + OptionsText(arguments);
   if (command == "copy") return command + WordsText(words, 2);
   if (command == "offer" || command == "take") return command + WordsText(words, words.size()) + OptionsText(arguments);
-  if (command == "set" || command == "disconnect" || command == "delete" || command == "rename" ||
-      command == "tag") {
+  if (command == "set" || command == "disconnect" || command == "delete" || command == "rename" || command == "tag") {
     return command + WordsText(words, words.size());
   }
   return {};
@@ -86,7 +82,8 @@ Result<void> RefuseEmptyWords(const ControlArguments& arguments) {
   const bool is_empty = std::find(arguments.words.begin(), end, "") != end ||
                         std::ranges::any_of(arguments.options, [](const auto& each) { return each.second.empty(); });
   if (!is_empty) return {};
-  return Error{.message = "'" + command + "': one of its words is empty", .hint = "is a variable of the shell not set?"};
+  return Error{.message = "'" + command + "': one of its words is empty",
+               .hint = "is a variable of the shell not set?"};
 }
 
 Result<Request> RequestOf(const ControlArguments& arguments) {
@@ -96,8 +93,7 @@ Result<Request> RequestOf(const ControlArguments& arguments) {
     if (arguments.options.contains("yes")) request.options["yes"] = "yes";
     return request;
   }
-  Request request{
-      .command = arguments.command, .arguments = {}, .options = arguments.options, .body = {}};
+  Request request{.command = arguments.command, .arguments = {}, .options = arguments.options, .body = {}};
   if (arguments.command == "change") {
     const std::string& file = arguments.words[0];
     const auto text = ReadChanges(file);
@@ -133,10 +129,10 @@ ExitCode ListApplications() {
                            "its time", "state", states, "file");
   for (const RunningApplication& each : *applications) {
     const Hello& hello = each.hello;
-    std::cout << Coloured(fmt::format("{:>8}  {:<20}  {:>10.2f} s  {:>10.2f} s  {:<{}}  {}\n", hello.process,
-                                      hello.application, ToSeconds(hello.real), ToSeconds(hello.time), hello.state,
-                                      states, hello.file),
-                          STDOUT_FILENO);
+    std::cout << Coloured(
+        fmt::format("{:>8}  {:<20}  {:>10.2f} s  {:>10.2f} s  {:<{}}  {}\n", hello.process, hello.application,
+                    ToSeconds(hello.real), ToSeconds(hello.time), hello.state, states, hello.file),
+        STDOUT_FILENO);
   }
   std::cout << std::flush;
   return ExitCode::kDone;
@@ -243,7 +239,8 @@ Result<int> Ask(ControlArguments arguments, Request request) {
   const auto applications = FindThem();
   if (!applications) return applications.error();
   std::string wanted = arguments.application;
-  if (wanted.empty() && arguments.command == "network" && applications->size() > 1) return AskAllForNetwork(*applications, request);
+  if (wanted.empty() && arguments.command == "network" && applications->size() > 1)
+    return AskAllForNetwork(*applications, request);
   if (wanted.empty()) wanted = TakeApplication(*applications, request);
   if (wanted.empty()) {
     const std::vector<std::string> words = arguments.words;
@@ -266,8 +263,7 @@ Result<int> Ask(ControlArguments arguments, Request request) {
   }
   if (arguments.command == "record") return AskToRecord(*client, request);
   // One table in the place of the other, where somebody looks on.
-  const bool redraws = arguments.command == "top" && !arguments.options.contains("once") &&
-                       isatty(STDOUT_FILENO) == 1;
+  const bool redraws = arguments.command == "top" && !arguments.options.contains("once") && isatty(STDOUT_FILENO) == 1;
   const auto show = [redraws](std::ostream& stream, int descriptor) {
     return [&stream, redraws, descriptor](std::string_view text) {
       stream << (redraws ? "\x1b[H\x1b[2J" : "") << Coloured(text, descriptor) << std::flush;
@@ -275,8 +271,8 @@ Result<int> Ask(ControlArguments arguments, Request request) {
     };
   };
   const auto code = client->Ask(request.ToText(), show(std::cout, STDOUT_FILENO), show(std::cerr, STDERR_FILENO));
-  const bool ends = code && *code == 0 && request.arguments.empty() &&
-                    (request.command == "restart" || request.command == "quit");
+  const bool ends =
+      code && *code == 0 && request.arguments.empty() && (request.command == "restart" || request.command == "quit");
   if (ends) client->WaitForEnd();
   if (ends && request.command == "restart") WaitForProcess(chosen->hello.process);
   return code;

@@ -39,6 +39,7 @@ struct CommandForm {
   std::vector<OptionForm> options = {};
 };
 
+// clang-format off
 const std::vector<CommandForm> kCommands{
     {kStop, "stop", "stop",
      "STOP: all that moves something has its safe value, in each running application, or in that of --app"},
@@ -168,6 +169,7 @@ const std::vector<CommandForm> kCommands{
        "instead: from now on, what modules at and below PATH say is logged from this level on: debug, info, "
        "warning, error, off, or again as around them: inherit; without PATH all of them", "[PATH=]LEVEL"}}},
     {"", "complete", "complete ls /robot", "for the completion of shells"}};
+// clang-format on
 
 void AddWord(CLI::App& command, const WordForm& form, std::string& word, std::vector<std::string>& all) {
   const bool is_list = form.need == kList || form.need == kOptionalList;
@@ -178,7 +180,8 @@ void AddWord(CLI::App& command, const WordForm& form, std::string& word, std::ve
 
 void AddOption(CLI::App& command, const OptionForm& form, std::map<std::string, std::string>& said) {
   if (form.type == nullptr) {
-    command.add_flag_callback(form.name, [&] { said[form.key] = form.said; }, form.description);
+    command.add_flag_callback(
+        form.name, [&] { said[form.key] = form.said; }, form.description);
     return;
   }
   const auto take = [&](const std::string& value) { said[form.key] = value; };
@@ -237,12 +240,10 @@ std::string WordsOfNow(const std::string& command, const std::vector<std::string
 std::vector<const char*> WithNegativeValues(int count, const char* const* words) {
   std::vector<const char*> all(words, words + count);
   const std::string_view last = all.back();
-  const bool is_number =
-      last.size() > 1 && last[0] == '-' && (last[1] == '.' || (last[1] >= '0' && last[1] <= '9'));
+  const bool is_number = last.size() > 1 && last[0] == '-' && (last[1] == '.' || (last[1] >= '0' && last[1] <= '9'));
   const auto dashes = [](const char* word) { return std::string_view(word) == "--"; };
-  const bool wants_value =
-      count > 3 && (std::string_view(all[1]) == "set" || std::string_view(all[1]) == "publish" ||
-                   std::string_view(all[1]) == "call");
+  const bool wants_value = count > 3 && (std::string_view(all[1]) == "set" || std::string_view(all[1]) == "publish" ||
+                                         std::string_view(all[1]) == "call");
   if (wants_value && std::string_view(all[static_cast<std::size_t>(count) - 2]) != "--rate" && is_number &&
       std::none_of(all.begin(), all.end(), dashes)) {
     all.insert(all.end() - 1, "--");

@@ -32,8 +32,7 @@ Result<void> Draw(const std::string& text, const std::string& output, const std:
   }
   std::cerr << ran->text;
   if (ran->exit_code != 0) {
-    return Error{.message = "'dot' ended with status " + std::to_string(ran->exit_code),
-                 .position = {output}};
+    return Error{.message = "'dot' ended with status " + std::to_string(ran->exit_code), .position = {output}};
   }
   return {};
 }
@@ -45,7 +44,8 @@ ExitCode DrawGraph(const GraphArguments& arguments) {
   if (!kind.empty()) kind.erase(0, 1);
   if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
     return Fail({.message = "no picture can be written as '" + arguments.output + "'",
-                 .hint = "its name ends in .svg, .png, .pdf or .dot"}, ExitCode::kBadInput);
+                 .hint = "its name ends in .svg, .png, .pdf or .dot"},
+                ExitCode::kBadInput);
   }
   ApplicationDescription description(arguments.application.Options());
   const bool is_right = description.Read(arguments.application.file);

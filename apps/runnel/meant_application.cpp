@@ -34,7 +34,8 @@ std::string ProcessOf(const RunningApplication& application) { return std::to_st
 std::string ApplicationByWords(const std::vector<RunningApplication>& running, ControlArguments& arguments) {
   if (running.size() < 2) return {};
   if (const std::string named = ApplicationInPaths(running, arguments.words); !named.empty()) return named;
-  const auto far = std::ranges::find_if(arguments.words, [](const std::string& word) { return word.starts_with("//"); });
+  const auto far =
+      std::ranges::find_if(arguments.words, [](const std::string& word) { return word.starts_with("//"); });
   if (far == arguments.words.end()) return {};
   const std::string name = far->substr(2, far->find('/', 2) - 2);  // of "//robot/laser": "robot"
   const auto is_called = [&](const RunningApplication& each) { return each.hello.application == name; };

@@ -14,7 +14,8 @@ namespace runnel::program {
 /// "/robot/laser" is of the application robot, and so is "//robot/laser", which becomes the former, if it runs here; else it is
 /// for one that sees robot in the network, or at least has a network. What comes of "//robot/laser" by a connection is for the
 /// other one, if there is only one other. Looks at what others say of the network; waits for them.
-[[nodiscard]] std::string ApplicationByWords(const std::vector<RunningApplication>& running, ControlArguments& arguments);
+[[nodiscard]] std::string ApplicationByWords(const std::vector<RunningApplication>& running,
+                                             ControlArguments& arguments);
 
 /// All of an answer at once.
 struct Answer {

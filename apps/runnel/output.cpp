@@ -42,20 +42,18 @@ double Milliseconds(Duration duration) { return ToSeconds(duration) * 1e3; }
 
 std::string Line(const ThreadContainer& thread, int width) {
   const CycleStatistics all = thread.statistics();
-  return fmt::format(
-      "{:<{}} {:9} {:8}  {:8.3f} {:8.3f} {:8.3f}  {:8.3f} {:8.3f}  {:8.3f} {:8.3f}\n",
-      thread.path(), width, all.cycles, all.overruns, Milliseconds(all.period_min),
-      Milliseconds(all.period_mean), Milliseconds(all.period_max), Milliseconds(all.jitter_mean),
-      Milliseconds(all.jitter_max), Milliseconds(all.execution_mean),
-      Milliseconds(all.execution_max));
+  return fmt::format("{:<{}} {:9} {:8}  {:8.3f} {:8.3f} {:8.3f}  {:8.3f} {:8.3f}  {:8.3f} {:8.3f}\n", thread.path(),
+                     width, all.cycles, all.overruns, Milliseconds(all.period_min), Milliseconds(all.period_mean),
+                     Milliseconds(all.period_max), Milliseconds(all.jitter_mean), Milliseconds(all.jitter_max),
+                     Milliseconds(all.execution_mean), Milliseconds(all.execution_max));
 }
 
 std::string Heading(int width) {
   return fmt::format(
       "{:<{}} {:>9} {:>8}  {:>26}  {:>17}  {:>17}\n"
       "{:<{}} {:>9} {:>8}  {:>8} {:>8} {:>8}  {:>8} {:>8}  {:>8} {:>8}\n",
-      "thread", width, "cycles", "overruns", "period / ms", "jitter / ms", "execution / ms", "",
-      width, "", "", "min", "mean", "max", "mean", "max", "mean", "max");
+      "thread", width, "cycles", "overruns", "period / ms", "jitter / ms", "execution / ms", "", width, "", "", "min",
+      "mean", "max", "mean", "max", "mean", "max");
 }
 
 }  // namespace
@@ -66,8 +64,8 @@ std::string Coloured(std::string_view text, int descriptor) {
     return value != nullptr && *value != '\0';
   };
   const char* const kind = std::getenv("TERM");
-  const bool is_plain = isatty(descriptor) != 1 || is_set("NO_COLOR") ||
-                        (kind != nullptr && std::string_view(kind) == "dumb");
+  const bool is_plain =
+      isatty(descriptor) != 1 || is_set("NO_COLOR") || (kind != nullptr && std::string_view(kind) == "dumb");
   std::string coloured = Printable(text, "\n\t");
   if (is_plain) return coloured;
   for (const auto& [word, colour] : kColours) {

@@ -29,14 +29,12 @@ void WriteTable(const std::string& title, const std::vector<Row>& rows) {
   std::cout << "  " << title << '\n';
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i)
-      widths[i] = std::max(widths[i], CharacterCount(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], CharacterCount(row[i]));
   }
   for (const Row& row : rows) {
     std::string line = "   ";
     for (std::size_t i = 0; i < row.size(); ++i) {
-      if (widths[i] > 0)
-        line += " " + row[i] + std::string(widths[i] - CharacterCount(row[i]) + 1, ' ');
+      if (widths[i] > 0) line += " " + row[i] + std::string(widths[i] - CharacterCount(row[i]) + 1, ' ');
     }
     line.erase(line.find_last_not_of(' ') + 1);
     std::cout << line << '\n';
@@ -47,8 +45,7 @@ std::vector<Row> Ports(const ModuleDescription& module, bool are_inputs) {
   std::vector<Row> rows;
   for (const ModuleDescription::Port& port : module.ports) {
     if (port.is_input != are_inputs) continue;
-    rows.push_back({port.PathInModule(), port.type, port.is_required ? "required" : "",
-                    port.description});
+    rows.push_back({port.PathInModule(), port.type, port.is_required ? "required" : "", port.description});
   }
   return rows;
 }
@@ -59,8 +56,7 @@ std::vector<Row> Parameters(const ModuleDescription& module) {
     const std::string unit = each.unit.empty() ? "" : " " + each.unit;
     const std::string value = each.default_value.empty() ? "" : "= " + each.default_value + unit;
     const std::string choices = fmt::format("{}", fmt::join(each.choices, ", "));
-    rows.push_back({each.name, each.type, value,
-                    each.bounds.empty() ? choices : "in " + each.bounds + unit,
+    rows.push_back({each.name, each.type, value, each.bounds.empty() ? choices : "in " + each.bounds + unit,
                     each.is_static ? "static" : "", each.description});
   }
   return rows;
@@ -76,8 +72,7 @@ void WriteModule(const ModuleDescription& module) {
 
 // What the plugins have, or all that can be found if none is named: by their manifests, and by loading those that
 // have none. Says which could not be looked at, and why; then `all_are_there` is false.
-std::vector<ModuleDescription> DescribeModules(const std::vector<std::string>& chosen,
-                                               bool& all_are_there) {
+std::vector<ModuleDescription> DescribeModules(const std::vector<std::string>& chosen, bool& all_are_there) {
   ApplicationDescription surroundings;
   PluginManager& plugins = surroundings.plugins();
   std::vector<ModuleDescription> modules;
@@ -140,8 +135,7 @@ ExitCode WriteSchema(const SchemaArguments& arguments) {
   for (const std::string& plugin : arguments.plugins.empty() ? plugins.Available() : arguments.plugins) {
     if (auto loaded = plugins.Load(plugin); !loaded) diagnostics.Add(loaded.error());
   }
-  const std::string text =
-      SchemaText(surroundings.tags(), plugins.modules(), diagnostics);
+  const std::string text = SchemaText(surroundings.tags(), plugins.modules(), diagnostics);
   std::cerr << diagnostics.ToString();
   if (!diagnostics.ok()) return ExitCode::kBadInput;
   if (arguments.output.empty()) {

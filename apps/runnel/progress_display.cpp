@@ -38,9 +38,7 @@ std::string NumberText(double number) {
 }
 
 ProgressDisplay::ProgressDisplay(bool is_on)
-    : is_on_(is_on),
-      is_terminal_(isatty(STDOUT_FILENO) != 0),
-      shown_at_(std::chrono::steady_clock::now()) {}
+    : is_on_(is_on), is_terminal_(isatty(STDOUT_FILENO) != 0), shown_at_(std::chrono::steady_clock::now()) {}
 
 bool ProgressDisplay::IsDue() const {
   const auto since = std::chrono::steady_clock::now() - shown_at_;

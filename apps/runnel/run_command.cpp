@@ -43,8 +43,8 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
   if (clock == ClockKind::kReal) {
     std::cout << fmt::format("ran for {:.2f} s\n", seconds);
   } else {
-    std::cout << fmt::format("simulated {:.2f} s in {:.2f} s: {} times real time\n", seconds,
-                             real_seconds, NumberText(seconds / real_seconds));
+    std::cout << fmt::format("simulated {:.2f} s in {:.2f} s: {} times real time\n", seconds, real_seconds,
+                             NumberText(seconds / real_seconds));
   }
 }
 
@@ -91,7 +91,8 @@ class Session {
   ~Session() { watch_.WaitFor("one of its connections or extensions"); }
 
   ExitCode Run() {
-    watch_.Begin(application_, [this] { PrintEvents(); }, [this] { FinishFiles(); });
+    watch_.Begin(
+        application_, [this] { PrintEvents(); }, [this] { FinishFiles(); });
     const auto failure = log_file_ ? log_file_->Failure() : std::nullopt;
     if (failure) return Fail(*failure, ExitCode::kBadInput);
     RunOptions options;
@@ -166,8 +167,7 @@ class Session {
   // In a thread of its own, while this one may be the one that has crashed.
   void Rescue(const Crash& crash) {
     application_.log().Add(ApplicationLog::Kind::kFault,
-                           (crash.module.empty() ? "the program" : crash.module) +
-                               " has crashed: " + crash.signal,
+                           (crash.module.empty() ? "the program" : crash.module) + " has crashed: " + crash.signal,
                            crash.module);
     FinishFiles();
   }
@@ -270,9 +270,7 @@ RunArguments ArgumentsOfNextRun(RunArguments arguments) {
   for (ExtensionByName& extension : arguments.extensions) {
     const ExtensionDescription* const known = catalogue ? catalogue->Find(extension.name) : nullptr;
     for (auto& given : extension.arguments.values) {
-      const auto is_output = [&](const ExtensionOption& each) {
-        return each.name == given.first && each.is_output;
-      };
+      const auto is_output = [&](const ExtensionOption& each) { return each.name == given.first && each.is_output; };
       if (known != nullptr && std::ranges::any_of(known->options, is_output)) {
         given.second = FileOfNextRun(given.second);
       }

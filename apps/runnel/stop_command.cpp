@@ -41,7 +41,7 @@ ExitCode Stop(const ControlArguments& arguments) {
   const auto sockets = FindControlSockets(ControlFolder());
   if (!sockets) return Fail(sockets.error());
   std::mutex mutex;
-  std::size_t stopped = 0;                // guarded by mutex
+  std::size_t stopped = 0;          // guarded by mutex
   ExitCode code = ExitCode::kDone;  // guarded by mutex
   const auto stop = [&](const std::filesystem::path& socket) {
     const auto told = StopOne(socket, arguments.application);

@@ -32,24 +32,19 @@ struct Options {
 };
 
 void Declare(CLI::App& app, Options& options) {
-  app.add_option("--filter", options.settings.filter,
-                 "only cases whose \"workload/by\" this regular expression finds");
-  app.add_flag("--list", options.settings.list,
-               "print the names of the cases, and measure nothing");
+  app.add_option("--filter", options.settings.filter, "only cases whose \"workload/by\" this regular expression finds");
+  app.add_flag("--list", options.settings.list, "print the names of the cases, and measure nothing");
   app.add_flag("--quick", options.settings.quick, "in less than a minute, and less exact");
-  app.add_flag(
-      "--best", options.settings.best,
-      "take the best repetition of each case, not the median: where others use the machine");
+  app.add_flag("--best", options.settings.best,
+               "take the best repetition of each case, not the median: where others use the machine");
   app.add_option("--repetitions", options.settings.repetitions, "of each case; the median counts")
       ->check(CLI::PositiveNumber);
-  app.add_option("--image-seconds", options.settings.seconds_per_image_case,
-                 "for each case of the image transport")
+  app.add_option("--image-seconds", options.settings.seconds_per_image_case, "for each case of the image transport")
       ->check(CLI::PositiveNumber);
   app.add_flag("--all", options.all, "print every case, those of the rivals too");
   app.add_option("--json", options.json, "write everything that was measured to this file");
   app.add_option("--charts", options.charts, "draw charts into this folder");
-  app.add_option("--compare", options.compare, "a file of an earlier run: print old and new")
-      ->check(CLI::ExistingFile);
+  app.add_option("--compare", options.compare, "a file of an earlier run: print old and new")->check(CLI::ExistingFile);
   // For the processes that the image transport starts; their time is --image-seconds.
   app.add_option("--image-transport", options.image_transport.subject)->group("");
   app.add_option("--readers", options.image_transport.readers)->group("");
@@ -84,8 +79,7 @@ void WriteFile(const std::string& file, const std::string& text) {
   if (!stream.flush()) throw std::runtime_error("cannot write " + file);
 }
 
-void Report(const Options& options, const Machine& machine, const Results& results,
-            const Quietness& quietness) {
+void Report(const Options& options, const Machine& machine, const Results& results, const Quietness& quietness) {
   if (options.all) std::cout << CaseTable(results) << '\n';
   std::cout << BaselineTable(results) << '\n' << MainTable(results) << Failures(results);
   const std::string peers = PeerTable(results);
@@ -96,8 +90,7 @@ void Report(const Options& options, const Machine& machine, const Results& resul
 }
 
 int Run(int argc, char** argv) {
-  CLI::App app(
-      "Measures Runnel's ports beside their rivals, on the same workloads in one program.");
+  CLI::App app("Measures Runnel's ports beside their rivals, on the same workloads in one program.");
   Options options;
   Declare(app, options);
   CLI11_PARSE(app, argc, argv);

@@ -15,19 +15,16 @@ namespace {
 
 // The library takes its options from a command line only.
 void InitializeLibrary(const Settings& settings) {
-  std::vector<std::string> options = {
-      "runnel_bench", "--benchmark_enable_random_interleaving=true",
-      "--benchmark_repetitions=" + std::to_string(settings.repetitions),
-      "--benchmark_min_time=" + std::to_string(settings.seconds_per_case)};
+  std::vector<std::string> options = {"runnel_bench", "--benchmark_enable_random_interleaving=true",
+                                      "--benchmark_repetitions=" + std::to_string(settings.repetitions),
+                                      "--benchmark_min_time=" + std::to_string(settings.seconds_per_case)};
   std::vector<char*> arguments;
   for (std::string& option : options) arguments.push_back(option.data());
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
 }
 
-std::string NameOf(const Workload& workload, const std::string& subject) {
-  return workload.name + "/" + subject;
-}
+std::string NameOf(const Workload& workload, const std::string& subject) { return workload.name + "/" + subject; }
 
 // How often the cases of a group are repeated again, as long as the machine is not quiet.
 constexpr int kMostRounds = 3;
@@ -67,8 +64,7 @@ class Suite::Collector final : public benchmark::BenchmarkReporter {
   Suite& suite_;
 };
 
-Suite::Suite(Settings settings, Results& results)
-    : settings_(std::move(settings)), results_(results) {
+Suite::Suite(Settings settings, Results& results) : settings_(std::move(settings)), results_(results) {
   InitializeLibrary(settings_);
 }
 
@@ -126,8 +122,7 @@ void Suite::AddProcess(Role role, const std::string& subject, Run run) {
   Register(role, subject, std::move(run), false)->UseRealTime()->Iterations(1);
 }
 
-benchmark::internal::Benchmark* Suite::Register(Role role, const std::string& subject, Run run,
-                                                bool is_probed) {
+benchmark::internal::Benchmark* Suite::Register(Role role, const std::string& subject, Run run, bool is_probed) {
   const std::string name = NameOf(workload_, subject);
   numbers_[name] = cases_.size();
   cases_.push_back({workload_, {role, subject}});
@@ -144,8 +139,7 @@ std::vector<std::string> Suite::WantedNames() const {
   return names;
 }
 
-void Suite::Collect(const std::string& name,
-                    const std::vector<benchmark::BenchmarkReporter::Run>& runs) {
+void Suite::Collect(const std::string& name, const std::vector<benchmark::BenchmarkReporter::Run>& runs) {
   const auto found = numbers_.find(name);
   // The library hands in its own sums as well, after the repetitions.
   if (found == numbers_.end() || runs.front().run_type != runs.front().RT_Iteration) return;

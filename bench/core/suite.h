@@ -59,8 +59,7 @@ class Suite {
     std::vector<Measurement> measurements = {};
   };
 
-  benchmark::internal::Benchmark* Register(Role role, const std::string& subject, Run run,
-                                           bool is_probed = true);
+  benchmark::internal::Benchmark* Register(Role role, const std::string& subject, Run run, bool is_probed = true);
   [[nodiscard]] std::vector<std::string> WantedNames() const;
   void RunCases();
   // Whether all cases of the group have been measured often enough while the core was left alone.

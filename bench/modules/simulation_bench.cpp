@@ -17,16 +17,14 @@ namespace {
 constexpr const char* kWorld = "one_obstacle.xml";
 
 void CountTimesRealTime(benchmark::State& state, double simulated_seconds) {
-  state.counters["times_real_time"] =
-      benchmark::Counter(simulated_seconds, benchmark::Counter::kIsRate);
+  state.counters["times_real_time"] = benchmark::Counter(simulated_seconds, benchmark::Counter::kIsRate);
 }
 
 void RunToVerdict(benchmark::State& state, const char* application) {
   double simulated = 0.0;
   for (auto _ : state) {
     const auto run = test::RunApplication(
-        {.name = application,
-         .arguments = {std::string("world=" RUNNEL_XML "/worlds/") + kWorld, "picture="}});
+        {.name = application, .arguments = {std::string("world=" RUNNEL_XML "/worlds/") + kWorld, "picture="}});
     if (!run.outcome || run.outcome->verdict != "reached") {
       state.SkipWithError("the goal was not reached");
       return;

@@ -1,12 +1,12 @@
 // A map of 10^6 cells that one owner keeps, writers change by one cell and readers look at; beside a mutex and a shared
 // pointer, where a writer copies the map to change it, and a mutex alone, where readers hold up writers.
 
-#include <benchmark/benchmark.h>
-
 #include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
+
+#include <benchmark/benchmark.h>
 
 #include "core/element/runtime.h"
 #include "core/module/module.h"

@@ -44,8 +44,7 @@ class Base final : public Module {
 
 // As a transport asks, and does not wait.
 void Drive(CommandService& service, TaskGroup& tasks, const std::string& lease) {
-  const auto pending = service.Begin(
-      PublishRequest{"/base/input/speed", "0.4", {}, kDeadline, lease}, tasks);
+  const auto pending = service.Begin(PublishRequest{"/base/input/speed", "0.4", {}, kDeadline, lease}, tasks);
   while (!pending->is_done()) std::this_thread::yield();
   if (const CommandAnswer answer = pending->Take(); !answer) Fail(answer.diagnostics.ToString());
 }
@@ -77,8 +76,8 @@ int Main() {
   StructureEditor editor(runtime, modules, nullptr);
   ApplicationLog log(runtime.clock());
   CommandService service({runtime, modules, editor, log});
-  std::printf("deadline %.0f ms, %d rounds    least   median     most (ms)\n",
-              Milliseconds(kDeadline).count(), kRounds);
+  std::printf("deadline %.0f ms, %d rounds    least   median     most (ms)\n", Milliseconds(kDeadline).count(),
+              kRounds);
   Measure("idle", service, base);
   std::atomic<bool> ends{false};
   std::thread changing([&] {

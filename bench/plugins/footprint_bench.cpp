@@ -91,9 +91,8 @@ Footprint Measure(pid_t process) {
 }
 
 struct Start {
-  double took = 0;  // ms to the first cycle
-  double computing =
-      0;  // ms of it, and of being measured: what a busy machine does not change much
+  double took = 0;       // ms to the first cycle
+  double computing = 0;  // ms of it, and of being measured: what a busy machine does not change much
 };
 
 Start Run(const Program& program, Footprint& footprint) {
@@ -144,14 +143,13 @@ int main() try {
       computing[i].push_back(start.computing);
     }
   }
-  std::printf("%-14s %8s %8s %10s %10s %8s %12s %12s %11s %11s\n", "", "files", "Runnel's",
-              "mapped", "Runnel's", "threads", "first cycle", "computing", "resident", "unshared");
+  std::printf("%-14s %8s %8s %10s %10s %8s %12s %12s %11s %11s\n", "", "files", "Runnel's", "mapped", "Runnel's",
+              "threads", "first cycle", "computing", "resident", "unshared");
   for (std::size_t i = 0; i < programs.size(); ++i) {
     const Footprint& found = footprints[i];
     std::printf("%-14s %8zu %8zu %7.2f MB %7.2f MB %8zu %9.2f ms %9.2f ms %8.2f MB %8.2f MB\n",
-                programs[i].name.c_str(), found.files, found.own_files, found.mapped,
-                found.own_mapped, found.threads, Median(times[i]), Median(computing[i]),
-                found.resident, found.own_memory);
+                programs[i].name.c_str(), found.files, found.own_files, found.mapped, found.own_mapped, found.threads,
+                Median(times[i]), Median(computing[i]), found.resident, found.own_memory);
   }
   std::printf(
       "files: libraries and the program; first cycle: from fork() on; medians of %d starts, in "

@@ -2,12 +2,12 @@
 // an ordinary module that does the same; and as a process without Runnel.
 
 #include <benchmark/benchmark.h>
+#include <pulse_module.cpp>  // made from pulse.gen
 
 #include "bench/plugins/genom/standalone_client.h"
 #include "core/element/runtime.h"
 #include "core/module/executable.h"
 #include "core/port/cycle.h"
-#include <pulse_module.cpp>  // made from pulse.gen
 
 namespace runnel {
 namespace {

@@ -126,8 +126,7 @@ Figures Measure(Duration period, int swaps, Duration pause, Duration alone) {
     if (!outcome) Fail(outcome.diagnostics.ToString());
     return outcome;
   };
-  ChangeSet build{CreateModule{"/app/worker", "bench/worker"},
-                  AssignToThread{"/app/worker", "worker"}};
+  ChangeSet build{CreateModule{"/app/worker", "bench/worker"}, AssignToThread{"/app/worker", "worker"}};
   for (int i = 0; i < 10; ++i) {
     const std::string name = "/app/listener" + std::to_string(i);
     build.push_back(CreateModule{name, "bench/listener"});
@@ -166,11 +165,10 @@ Figures Measure(Duration period, int swaps, Duration pause, Duration alone) {
 }
 
 void Print(const char* what, Duration period, const Figures& figures) {
-  std::printf("%-26s %8.1f %9.0f  %7.1f %7.1f %8.1f  %7.1f %7.1f %8.1f  %8.1f %8.1f %8.1f %5d\n",
-              what, Microseconds(period).count(), figures.swaps / figures.seconds,
-              figures.still.median, figures.still.p99, figures.still.most, figures.whole.median,
-              figures.whole.p99, figures.whole.most, figures.gap.median, figures.gap.p99,
-              figures.gap.most, figures.missing);
+  std::printf("%-26s %8.1f %9.0f  %7.1f %7.1f %8.1f  %7.1f %7.1f %8.1f  %8.1f %8.1f %8.1f %5d\n", what,
+              Microseconds(period).count(), figures.swaps / figures.seconds, figures.still.median, figures.still.p99,
+              figures.still.most, figures.whole.median, figures.whole.p99, figures.whole.most, figures.gap.median,
+              figures.gap.p99, figures.gap.most, figures.missing);
 }
 
 }  // namespace
@@ -183,10 +181,10 @@ int main() {
       "Times in us. A thread stands still while a module of it is exchanged; a gap is the time "
       "from "
       "one cycle\nto the next; lost: values that did not come out of the queue in order.\n\n");
-  std::printf("%-26s %8s %9s  %24s  %24s  %26s %5s\n", "", "period", "swaps/s", "stands still",
-              "whole change", "gap", "lost");
-  std::printf("%-26s %8s %9s  %7s %7s %8s  %7s %7s %8s  %8s %8s %8s\n", "", "", "", "median", "p99",
-              "max", "median", "p99", "max", "median", "p99", "max");
+  std::printf("%-26s %8s %9s  %24s  %24s  %26s %5s\n", "", "period", "swaps/s", "stands still", "whole change", "gap",
+              "lost");
+  std::printf("%-26s %8s %9s  %7s %7s %8s  %7s %7s %8s  %8s %8s %8s\n", "", "", "", "median", "p99", "max", "median",
+              "p99", "max", "median", "p99", "max");
   for (const Duration period : {Duration(10ms), Duration(1ms), Duration(100us)}) {
     Print("left alone", period, Measure(period, 0, 0ms, 1s));
     Print("every 5 ms", period, Measure(period, 200, 5ms, 0s));

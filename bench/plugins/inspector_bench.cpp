@@ -86,8 +86,7 @@ class Viewer {
         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
         "Sec-WebSocket-Protocol: runnel.inspector.v1\r\n\r\n");
     for (const std::string& each : messages) {  // all short; masked with zeroes
-      Send("\x81" + std::string(1, static_cast<char>(0x80U | each.size())) + std::string(4, '\0') +
-           each);
+      Send("\x81" + std::string(1, static_cast<char>(0x80U | each.size())) + std::string(4, '\0') + each);
     }
     if (reads) thread_ = std::thread([this] { Read(); });
   }
@@ -124,8 +123,7 @@ struct Case {
 std::vector<std::string> MessagesOf(const Case& each) {
   std::vector<std::string> messages;
   for (int i = 0; each.watches && i < kPorts; ++i) {
-    messages.push_back(R"({"op":"watch","rate":60,"path":"/publisher/output/p)" +
-                       std::to_string(i) + "\"}");
+    messages.push_back(R"({"op":"watch","rate":60,"path":"/publisher/output/p)" + std::to_string(i) + "\"}");
   }
   if (each.measures) messages.emplace_back(R"({"op":"watch_rates","rate":10})");
   return messages;
@@ -194,9 +192,7 @@ class Node final : public Module {
   void Update() override {}
 };
 
-double Milliseconds(MachineClock::duration duration) {
-  return std::chrono::duration<double>(duration).count() * 1e3;
-}
+double Milliseconds(MachineClock::duration duration) { return std::chrono::duration<double>(duration).count() * 1e3; }
 
 struct Looking {
   double all = 0;      // ms
@@ -218,9 +214,8 @@ Looking LookUntilSeen(internal::StructureMirror& mirror) {
 bool MeasureStructure(int count) {
   Runtime runtime;
   ModuleRegistry modules;
-  const auto added = modules.Add({"bench/node", "", "bench", [](const Placement& placement) {
-                                    return std::make_unique<Node>(placement);
-                                  }});
+  const auto added = modules.Add(
+      {"bench/node", "", "bench", [](const Placement& placement) { return std::make_unique<Node>(placement); }});
   if (!added) return false;
   Scheduler scheduler(runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
   StructureEditor editor(runtime, modules, &scheduler);
@@ -229,8 +224,7 @@ bool MeasureStructure(int count) {
     const ChangeScope changes(runtime);
     auto& application = runtime.Create<Group>(runtime.root(), "application");
     for (int i = 0; i < count; ++i) {
-      nodes.push_back(dynamic_cast<Node*>(
-          modules.Create("bench/node", application, "m" + std::to_string(i)).value()));
+      nodes.push_back(dynamic_cast<Node*>(modules.Create("bench/node", application, "m" + std::to_string(i)).value()));
       if (i > 0 && !Port::Connect(nodes[static_cast<std::size_t>(i - 1)]->x, nodes.back()->a)) {
         return false;
       }
@@ -260,10 +254,9 @@ bool MeasureStructure(int count) {
     if (!mirror.Count()) return false;
     counting.push_back(Milliseconds(MachineClock::now() - start));
   }
-  std::printf("%8d %9zu %9.1f %8.2f %9.1f %9.1f %9.2f %9.1f %8.2f %9zu %9.2f\n", count,
-              mirror.size(), first.all, first.longest, static_cast<double>(whole.size()) / 1e6,
-              writing, Median(idle), Median(swap), longest, change != nullptr ? change->size() : 0,
-              Median(counting));
+  std::printf("%8d %9zu %9.1f %8.2f %9.1f %9.1f %9.2f %9.1f %8.2f %9zu %9.2f\n", count, mirror.size(), first.all,
+              first.longest, static_cast<double>(whole.size()) / 1e6, writing, Median(idle), Median(swap), longest,
+              change != nullptr ? change->size() : 0, Median(counting));
   return true;
 }
 
@@ -272,8 +265,7 @@ int Measure() {
   std::printf(
       "\nSeeing the structure; times in ms, of the server's thread\n\n"
       "%8s %9s %9s %8s %9s %9s %9s %9s %8s %9s %9s\n",
-      "modules", "elements", "first", "longest", "MB", "writing", "unchanged", "a swap", "longest",
-      "bytes", "rates");
+      "modules", "elements", "first", "longest", "MB", "writing", "unchanged", "a swap", "longest", "bytes", "rates");
   for (const int count : {100, 1000, 10'000}) {
     if (!MeasureStructure(count)) return 1;
   }

@@ -25,9 +25,7 @@ class Box final : public FrameworkElement {
   explicit Box(const Placement& placement) : FrameworkElement(placement) {}
 };
 
-std::string File() {
-  return (std::filesystem::temp_directory_path() / "recording_bench.mcap").string();
-}
+std::string File() { return (std::filesystem::temp_directory_path() / "recording_bench.mcap").string(); }
 
 // A hundred publications are timed, as in a cycle; then the recorder has time to catch up.
 template <typename T, typename Publish>
@@ -40,8 +38,8 @@ void Measure(benchmark::State& state, const Publish& publish) {
   std::filesystem::remove(File());
   std::unique_ptr<Recorder> recorder;
   if (state.range(0) != 0) {
-    auto started = Recorder::Start(
-        runtime, nullptr, {.file = File(), .ports = {state.range(0) == 1 ? "other" : "out"}});
+    auto started =
+        Recorder::Start(runtime, nullptr, {.file = File(), .ports = {state.range(0) == 1 ? "other" : "out"}});
     if (!started) return state.SkipWithError(started.error().ToString().c_str());
     recorder = std::move(*started);
   }
@@ -59,8 +57,7 @@ void Measure(benchmark::State& state, const Publish& publish) {
   }
   if (recorder) {
     const RecordingStatus status = recorder->status();
-    state.counters["dropped"] =
-        static_cast<double>(status.dropped) / static_cast<double>(count) / kAtOnce;
+    state.counters["dropped"] = static_cast<double>(status.dropped) / static_cast<double>(count) / kAtOnce;
   }
   recorder.reset();
   std::filesystem::remove(File());

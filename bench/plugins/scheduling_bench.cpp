@@ -17,8 +17,8 @@
 #include "core/port/cycle.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "plugins/timing/cycle_tracer.h"
 #include "plugins/scheduling/scheduler.h"
+#include "plugins/timing/cycle_tracer.h"
 
 namespace runnel {
 
@@ -79,8 +79,8 @@ struct Application {
 
   Runtime runtime;
   std::array<T*, kModules> modules{};
-  ThreadContainer& thread = CreateThread(
-      runtime, "main", {.activation = ThreadOptions::Activation::kFreeRunning, .period = 1ms});
+  ThreadContainer& thread =
+      CreateThread(runtime, "main", {.activation = ThreadOptions::Activation::kFreeRunning, .period = 1ms});
   Scheduler scheduler;
 };
 

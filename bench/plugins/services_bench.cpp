@@ -1,10 +1,10 @@
 // What a call costs beside publishing: a number there and a number back, in one thread as in a cycle; the same by
 // ports, two publications and two reads; one way; and a virtual call under a mutex, which does nothing else.
 
-#include <benchmark/benchmark.h>
-
 #include <functional>
 #include <mutex>
+
+#include <benchmark/benchmark.h>
 
 #include "core/element/runtime.h"
 #include "core/module/module.h"

@@ -64,8 +64,7 @@ std::string ApplicationText(int modules) {
     text += "  </group>\n";
   }
   const auto connect = [&](int from, int to, const char* input) {
-    text +=
-        "  <connect from=\"" + NameOf(from) + "/out\" to=\"" + NameOf(to) + "/" + input + "\"/>\n";
+    text += "  <connect from=\"" + NameOf(from) + "/out\" to=\"" + NameOf(to) + "/" + input + "\"/>\n";
   };
   for (int i = 0; i < modules; ++i) {
     // Rings of ten, each with a feedback that is cut, and a tie to some module that came before.
@@ -112,8 +111,7 @@ class Subject {
  public:
   explicit Subject(int modules) : modules_(modules) {
     (void)plugins_.modules().Add(
-        {"bench/stage", "", "bench",
-         [](const Placement& placement) -> std::unique_ptr<FrameworkElement> {
+        {"bench/stage", "", "bench", [](const Placement& placement) -> std::unique_ptr<FrameworkElement> {
            return std::make_unique<Stage>(placement);
          }});
   }
@@ -136,8 +134,8 @@ class Subject {
       document = std::make_unique<XmlDocument>(std::move(*parsed));
     });
     figures_.build = Time<Milliseconds>([&] {
-      const BuildOutcome outcome = BuildApplication(
-          *document, "/", {runtime_, plugins_, tags_, configuration_}, BuildMode::kRun);
+      const BuildOutcome outcome =
+          BuildApplication(*document, "/", {runtime_, plugins_, tags_, configuration_}, BuildMode::kRun);
       if (outcome.application == nullptr) Fail(outcome.diagnostics.ToString());
       application_ = outcome.application;
     });
@@ -148,9 +146,7 @@ class Subject {
     figures_.processor = 1e3 * static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   }
 
-  Stage& At(int module) {
-    return dynamic_cast<Stage&>(**application_->Find(NameOf(module % modules_)));
-  }
+  Stage& At(int module) { return dynamic_cast<Stage&>(**application_->Find(NameOf(module % modules_))); }
   ThreadContainer& Thread(const char* name) {
     return dynamic_cast<ThreadContainer&>(**application_->Find(std::string("threads/") + name));
   }
@@ -179,8 +175,7 @@ class Subject {
       Must(Port::Disconnect(from.out, sink.near));
     });
     MeasureEach("create, connect both ways, make ready", [&](int round) {
-      auto& added =
-          runtime_.Create<Stage>(*At(31 * round).parent(), "added" + std::to_string(round));
+      auto& added = runtime_.Create<Stage>(*At(31 * round).parent(), "added" + std::to_string(round));
       Must(Port::Connect(At(31 * round).out, added.near));
       Must(Port::Connect(added.out, sink.far));
       Must(runtime_.MakeReady(added));

@@ -21,8 +21,7 @@ std::string BarChart(const std::vector<const Measurement*>& measurements) {
   std::vector<const Measurement*> sorted = measurements;
   const Quantity& quantity = measurements.front()->quantity;
   std::ranges::stable_sort(sorted, [&](const Measurement* one, const Measurement* other) {
-    return quantity.more_is_better ? one->Typical() > other->Typical()
-                                   : one->Typical() < other->Typical();
+    return quantity.more_is_better ? one->Typical() > other->Typical() : one->Typical() < other->Typical();
   });
   double largest = 0;
   for (const Measurement* each : sorted) largest = std::max(largest, each->Typical());
@@ -35,8 +34,7 @@ std::string BarChart(const std::vector<const Measurement*>& measurements) {
     const double share = largest > 0 ? each->Typical() / largest : 0;
     const double length = share * (kWidth - kLabels - kFigures);
     chart.Text({kLabels - 8, y + 16}, LabelOf(each->subject), Chart::Anchor::kEnd);
-    chart.Rectangle({kLabels, y + 3}, std::max(length, 1.0), kLine - 6,
-                    BarColour(each->subject.role));
+    chart.Rectangle({kLabels, y + 3}, std::max(length, 1.0), kLine - 6, BarColour(each->subject.role));
     chart.Text({kLabels + length + 6, y + 16}, WithUnit(each->Typical(), quantity.unit));
     y += kLine;
   }

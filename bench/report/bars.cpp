@@ -25,8 +25,7 @@ const Bar::Reference kNobody{kTransport + "0 consumers", kModules, "0 consumers"
 
 // Readers of one port must cost no more than readers of a port each.
 Bar LeaseBeside(const std::string& threads) {
-  return {
-      kLease + threads, "Read", kAtMost, 1.2, {kLease + threads, "a port for each", "a port each"}};
+  return {kLease + threads, "Read", kAtMost, 1.2, {kLease + threads, "a port for each", "a port each"}};
 }
 
 }  // namespace
@@ -57,12 +56,7 @@ const std::vector<Bar>& Bars() {
       LeaseBeside("8 threads"),
       LeaseBeside("16 threads"),
 
-      {kQueue,
-       "queued input",
-       kAtLeast,
-       0.7,
-       {kQueue, "boost spsc_queue", "boost spsc_queue"},
-       "throughput"},
+      {kQueue, "queued input", kAtLeast, 0.7, {kQueue, "boost spsc_queue", "boost spsc_queue"}, "throughput"},
       {kQueue,
        "queued input, drop oldest",
        kAtLeast,

@@ -25,8 +25,7 @@ inline std::string BarColour(Role role) {
 
 /// Of the lines of one chart, by number.
 inline std::string LineColour(std::size_t number) {
-  static const std::array<std::string, 6> colours = {"#30638e", "#3d9970", "#b8860b",
-                                                     "#7b5ea7", "#4aa3b5", "#8d6e63"};
+  static const std::array<std::string, 6> colours = {"#30638e", "#3d9970", "#b8860b", "#7b5ea7", "#4aa3b5", "#8d6e63"};
   return colours[number % colours.size()];
 }
 
@@ -35,8 +34,7 @@ inline std::string LabelOf(const Subject& subject) {
 }
 
 inline std::string TitleOf(const Quantity& quantity) {
-  return quantity.name + " in " + quantity.unit +
-         (quantity.more_is_better ? " (more is better)" : " (less is better)");
+  return quantity.name + " in " + quantity.unit + (quantity.more_is_better ? " (more is better)" : " (less is better)");
 }
 
 }  // namespace runnel::bench

@@ -22,8 +22,7 @@ std::vector<Sheet> CollectSheets(const Results& results) {
   for (const Measurement& each : results.all()) {
     if (each.subject.role == Role::kBaseline || each.samples.empty()) continue;
     const bool is_family = !each.workload.family.empty();
-    const std::string name =
-        (is_family ? each.workload.family : each.workload.name) + ", " + each.quantity.name;
+    const std::string name = (is_family ? each.workload.family : each.workload.name) + ", " + each.quantity.name;
     auto sheet = std::ranges::find(sheets, name, &Sheet::name);
     if (sheet == sheets.end()) sheet = sheets.insert(sheets.end(), Sheet{name, is_family, {}});
     sheet->measurements.push_back(&each);

@@ -21,8 +21,8 @@ EarlierRun::EarlierRun(const std::string& file) try {
   for (const auto& [key, each] : root.get_child("cases")) {
     const auto text = [&tree = each](const char* name) { return tree.get<std::string>(name); };
     const auto number = [&tree = each](const char* name) { return tree.get<double>(name); };
-    cases_[KeyOf(text("workload"), text("subject"), text("quantity"))] = {
-        number("typical"), number("minimum"), number("maximum"), number("f")};
+    cases_[KeyOf(text("workload"), text("subject"), text("quantity"))] = {number("typical"), number("minimum"),
+                                                                          number("maximum"), number("f")};
   }
 } catch (const boost::property_tree::ptree_error& error) {
   throw std::runtime_error(file + " is not what --json wrote: " + error.what());
@@ -50,8 +50,7 @@ std::string EarlierRun::CompareWith(const Results& results) const {
   TextTable table({"Runnel", "old", "new", "new / old", "in f", "verdict"});
   for (const Measurement& each : results.all()) {
     if (each.subject.role != Role::kRunnel || each.samples.empty()) continue;
-    const auto before =
-        cases_.find(KeyOf(each.workload.name, each.subject.name, each.quantity.name));
+    const auto before = cases_.find(KeyOf(each.workload.name, each.subject.name, each.quantity.name));
     if (before == cases_.end() || before->second.typical <= 0) continue;
     table.Add(Cells(before->second, each, results.FetchAdd(each.group)));
   }

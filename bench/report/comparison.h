@@ -25,8 +25,7 @@ class EarlierRun {
     double maximum = 0;
     double f = 0;
   };
-  static std::string KeyOf(const std::string& workload, const std::string& subject,
-                           const std::string& quantity) {
+  static std::string KeyOf(const std::string& workload, const std::string& subject, const std::string& quantity) {
     return workload + "/" + subject + "/" + quantity;
   }
   static std::vector<std::string> Cells(const Case& before, const Measurement& now, double f);

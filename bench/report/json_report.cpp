@@ -23,9 +23,7 @@ std::string Number(double value) {
   return text;
 }
 
-std::string Member(const std::string& name, const std::string& value) {
-  return Quoted(name) + ": " + value;
-}
+std::string Member(const std::string& name, const std::string& value) { return Quoted(name) + ": " + value; }
 
 const char* NameOf(Role role) {
   switch (role) {
@@ -63,22 +61,19 @@ std::string CaseToJson(const Measurement& measurement, const Results& results) {
          Member("role", Quoted(NameOf(measurement.subject.role))) + ", " +
          Member("unit", Quoted(measurement.quantity.unit)) + ", " +
          Member("more_is_better", measurement.quantity.more_is_better ? "true" : "false") + ", " +
-         Member("typical", Number(measurement.Typical())) + ", " +
-         Member("median", Number(measurement.Median())) + ", " +
-         Member("minimum", Number(measurement.Minimum())) + ", " +
+         Member("typical", Number(measurement.Typical())) + ", " + Member("median", Number(measurement.Median())) +
+         ", " + Member("minimum", Number(measurement.Minimum())) + ", " +
          Member("maximum", Number(measurement.Maximum())) + ", " +
          Member("f", Number(results.FetchAdd(measurement.group))) + ", " +
          Member("quiet", std::to_string(measurement.quiet)) + ", " +
          Member("disturbed", measurement.is_disturbed ? "true" : "false") + ", " +
-         Member("error", Quoted(measurement.error)) + ", " +
-         Member("samples", "[" + samples + "]") + "}";
+         Member("error", Quoted(measurement.error)) + ", " + Member("samples", "[" + samples + "]") + "}";
 }
 
 std::string RowToJson(const Row& row) {
   std::string verdicts;
   for (const Verdict& verdict : row.verdicts) {
-    verdicts += std::string(verdicts.empty() ? "" : ", ") + "{" +
-                Member("bar", Quoted(verdict.bar)) + ", " +
+    verdicts += std::string(verdicts.empty() ? "" : ", ") + "{" + Member("bar", Quoted(verdict.bar)) + ", " +
                 Member("met", !verdict.is_known ? "null"
                               : verdict.is_met  ? "true"
                                                 : "false") +
@@ -86,10 +81,8 @@ std::string RowToJson(const Row& row) {
   }
   return "{" + Names(*row.runnel) + ", " + Member("in_f", Number(row.in_f)) + ", " +
          Member("bars", "[" + verdicts + "]") + ", " +
-         Member("best_rival",
-                Quoted(row.best_rival != nullptr ? row.best_rival->subject.name : "")) +
-         ", " + Member("ratio", Number(row.ratio)) + ", " + Member("wins", Quoted(row.winner)) +
-         "}";
+         Member("best_rival", Quoted(row.best_rival != nullptr ? row.best_rival->subject.name : "")) + ", " +
+         Member("ratio", Number(row.ratio)) + ", " + Member("wins", Quoted(row.winner)) + "}";
 }
 
 }  // namespace
@@ -103,10 +96,8 @@ std::string ToJson(const Machine& machine, const Results& results) {
   for (const Measurement& each : results.all()) cases.push_back(CaseToJson(each, results));
   std::vector<std::string> rows;
   for (const Row& row : MakeRows(results)) rows.push_back(RowToJson(row));
-  return "{\n " + Member("machine", Listed(facts, "{", "}")) + ",\n " +
-         Member("warnings", Listed(warnings, "[", "]")) + ",\n " +
-         Member("cases", Listed(cases, "[", "]")) + ",\n " +
-         Member("rows", Listed(rows, "[", "]")) + "\n}\n";
+  return "{\n " + Member("machine", Listed(facts, "{", "}")) + ",\n " + Member("warnings", Listed(warnings, "[", "]")) +
+         ",\n " + Member("cases", Listed(cases, "[", "]")) + ",\n " + Member("rows", Listed(rows, "[", "]")) + "\n}\n";
 }
 
 }  // namespace runnel::bench

@@ -34,8 +34,7 @@ void DrawGrid(Chart& chart, const Plot& plot, const Workload& workload, const Qu
   for (const double tick : plot.y.Ticks()) {
     const double y = kTop + (1 - plot.y.Share(tick)) * kPlotHeight;
     chart.Polyline({{kLeft, y}, {kLeft + kPlotWidth, y}}, kGrid);
-    chart.Text({kLeft - 6, y + 4}, ShortWithUnit(tick, quantity.unit), Chart::Anchor::kEnd, 11,
-               kQuiet);
+    chart.Text({kLeft - 6, y + 4}, ShortWithUnit(tick, quantity.unit), Chart::Anchor::kEnd, 11, kQuiet);
   }
   chart.Text({12, 22}, workload.family, Chart::Anchor::kStart, 16);
   chart.Text({12, 40}, TitleOf(quantity), Chart::Anchor::kStart, 12, kQuiet);
@@ -50,8 +49,8 @@ std::string LineChart(const std::vector<const Measurement*>& measurements) {
   for (const Measurement* each : measurements) {
     plot.x.Include(each->workload.position);
     plot.y.Include(each->Typical());
-    const bool is_known = std::ranges::any_of(
-        subjects, [&](const Subject& subject) { return subject.name == each->subject.name; });
+    const bool is_known =
+        std::ranges::any_of(subjects, [&](const Subject& subject) { return subject.name == each->subject.name; });
     if (!is_known) subjects.push_back(each->subject);
   }
   plot.x.Finish();
@@ -71,8 +70,8 @@ std::string LineChart(const std::vector<const Measurement*>& measurements) {
     }
     chart.Polyline(points, colour, is_own ? 3 : 1.5);
     for (const Point2& point : points) chart.Dot(point, is_own ? 4 : 2.5, colour);
-    chart.Polyline({{kLeft + kPlotWidth + 14, legend - 4}, {kLeft + kPlotWidth + 34, legend - 4}},
-                   colour, is_own ? 3 : 1.5);
+    chart.Polyline({{kLeft + kPlotWidth + 14, legend - 4}, {kLeft + kPlotWidth + 34, legend - 4}}, colour,
+                   is_own ? 3 : 1.5);
     chart.Text({kLeft + kPlotWidth + 40, legend}, LabelOf(subject));
     legend += 20;
   }

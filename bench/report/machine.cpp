@@ -58,8 +58,7 @@ std::vector<std::string> Warnings(double load, unsigned cores) {
   warnings.emplace_back("a sanitizer is on: times mean nothing");
 #endif
   if (load > 0.3 * cores) {
-    warnings.push_back("other work goes on here (load " + Rounded(load) +
-                       "): trust ratios, not times, and repeat");
+    warnings.push_back("other work goes on here (load " + Rounded(load) + "): trust ratios, not times, and repeat");
   }
   if (cores < 2) warnings.emplace_back("one core: cases with two threads take turns");
   return warnings;

@@ -28,8 +28,8 @@ constexpr std::size_t kEnough = 3;
 bool IsQuiet(double probe, double quickest) { return probe <= kMostSlowness * quickest; }
 
 std::size_t CountQuiet(const Measurement& measurement, double quickest) {
-  const auto quiet = std::ranges::count_if(
-      measurement.probes, [quickest](double probe) { return IsQuiet(probe, quickest); });
+  const auto quiet =
+      std::ranges::count_if(measurement.probes, [quickest](double probe) { return IsQuiet(probe, quickest); });
   return static_cast<std::size_t>(quiet);
 }
 
@@ -68,8 +68,8 @@ Quietness KeepQuiet(Results& results) {
 std::string Quietness::ToString() const {
   if (repetitions == 0) return "";
   const double share = 100.0 * static_cast<double>(quiet) / static_cast<double>(repetitions);
-  std::string text = "quiet: " + Rounded(share) + " % of " + std::to_string(repetitions) +
-                     " repetitions, and the others are left out";
+  std::string text =
+      "quiet: " + Rounded(share) + " % of " + std::to_string(repetitions) + " repetitions, and the others are left out";
   if (disturbed_cases > 0) {
     text += "; but for " + std::to_string(disturbed_cases) + " of " + std::to_string(cases) +
             " cases, marked ~, that had too few quiet ones";

@@ -8,8 +8,7 @@ namespace {
 constexpr double kEven = 0.03;
 
 bool IsBetter(const Measurement& one, const Measurement& other) {
-  return one.quantity.more_is_better ? one.Typical() > other.Typical()
-                                     : one.Typical() < other.Typical();
+  return one.quantity.more_is_better ? one.Typical() > other.Typical() : one.Typical() < other.Typical();
 }
 
 const Measurement* BestRival(const Results& results, const Measurement& of) {

@@ -18,8 +18,7 @@ std::string NameOf(const Measurement& measurement) {
 }
 
 std::string TypicalOf(const Measurement& measurement) {
-  return (measurement.is_disturbed ? "~" : "") +
-         WithUnit(measurement.Typical(), measurement.quantity.unit);
+  return (measurement.is_disturbed ? "~" : "") + WithUnit(measurement.Typical(), measurement.quantity.unit);
 }
 
 std::vector<std::string> Cells(const Row& row) {
@@ -36,9 +35,7 @@ std::vector<std::string> Cells(const Row& row) {
           Multiple(row.in_f),
           bars,
           met,
-          row.best_rival == nullptr
-              ? ""
-              : row.best_rival->subject.name + " " + TypicalOf(*row.best_rival),
+          row.best_rival == nullptr ? "" : row.best_rival->subject.name + " " + TypicalOf(*row.best_rival),
           Multiple(row.ratio),
           row.winner};
 }
@@ -71,8 +68,7 @@ std::string BaselineTable(const Results& results) {
   for (const Measurement& each : results.all()) {
     if (each.subject.role != Role::kBaseline || !seen.insert(each.subject.name).second) continue;
     const double f = results.FetchAdd(each.group);
-    table.Add({each.subject.name, TypicalOf(each),
-               Multiple(f > 0 ? each.Typical() / f : 0)});
+    table.Add({each.subject.name, TypicalOf(each), Multiple(f > 0 ? each.Typical() / f : 0)});
   }
   return table.ToString();
 }
@@ -84,8 +80,8 @@ std::string MainTable(const Results& results) {
   for (const Row& row : rows) table.Add(Cells(row));
   const Score score = Count(rows);
   return table.ToString() + "\n" + std::to_string(score.met) + " of " + std::to_string(score.bars) +
-         " bars met; Runnel is ahead in " + std::to_string(score.won) + " of " +
-         std::to_string(score.contests) + " comparisons. A ratio above 1: Runnel is better.\n";
+         " bars met; Runnel is ahead in " + std::to_string(score.won) + " of " + std::to_string(score.contests) +
+         " comparisons. A ratio above 1: Runnel is better.\n";
 }
 
 std::string CaseTable(const Results& results) {

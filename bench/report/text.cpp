@@ -46,8 +46,7 @@ std::string Short(double value) {
   if (value >= 1e6) {
     std::snprintf(text, sizeof(text), "%gM", value * 1e-6);
   } else {
-    std::snprintf(text, sizeof(text), value >= 1e4 ? "%gk" : "%g",
-                  value >= 1e4 ? value * 1e-3 : value);
+    std::snprintf(text, sizeof(text), value >= 1e4 ? "%gk" : "%g", value >= 1e4 ? value * 1e-3 : value);
   }
   return text;
 }

@@ -98,9 +98,7 @@ void CallStack::KeepBetween(const void* inner, const void* outer) noexcept {
   std::fill(frames_.begin() + static_cast<std::ptrdiff_t>(depth_), frames_.end(), nullptr);
 }
 
-bool operator==(const CallStack& a, const CallStack& b) noexcept {
-  return std::ranges::equal(a.frames(), b.frames());
-}
+bool operator==(const CallStack& a, const CallStack& b) noexcept { return std::ranges::equal(a.frames(), b.frames()); }
 
 std::vector<std::string> CallStack::Texts() const {
   std::vector<Place> places;
@@ -112,8 +110,7 @@ std::vector<std::string> CallStack::Texts() const {
   for (const auto& [file, calls] : of_file) {
     // The process that is asked is another one.
     const std::string program = "/proc/" + std::to_string(getpid()) + "/exe";
-    std::vector<std::string> words{"addr2line", "-Cfiae",
-                                   file == "/proc/self/exe" ? program : file};
+    std::vector<std::string> words{"addr2line", "-Cfiae", file == "/proc/self/exe" ? program : file};
     for (const std::size_t each : calls) words.push_back(places[each].offset);
     const Result<ProgramOutput> answer = file.empty() ? ProgramOutput{} : OutputOf({.words = std::move(words)});
     std::string output = answer ? answer->text : "";
@@ -126,8 +123,8 @@ std::vector<std::string> CallStack::Texts() const {
 
 std::string Demangled(const char* name) {
   int status = 0;
-  const std::unique_ptr<char, decltype(&std::free)> readable(
-      abi::__cxa_demangle(name, nullptr, nullptr, &status), &std::free);
+  const std::unique_ptr<char, decltype(&std::free)> readable(abi::__cxa_demangle(name, nullptr, nullptr, &status),
+                                                             &std::free);
   return readable ? readable.get() : name;
 }
 

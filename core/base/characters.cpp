@@ -54,8 +54,7 @@ std::string UnwritableCharacter(std::string_view text) {
     const std::string number{'0', 'x', kDigits[byte / 16U], kDigits[byte % 16U]};
     if (byte < 0x80) return "control character " + number;
     if (CharacterLength(text) == 0) return "byte " + number + ", which is no UTF-8";
-    return text.starts_with("\xef\xbf\xbe") ? "U+FFFE, which is no character"
-                                            : "U+FFFF, which is no character";
+    return text.starts_with("\xef\xbf\xbe") ? "U+FFFE, which is no character" : "U+FFFF, which is no character";
   }
   return "";
 }

@@ -5,8 +5,7 @@
 namespace runnel {
 
 Time SteadyClock::Now() const noexcept {
-  return Time(
-      std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
+  return Time(std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
 }
 
 Time SteadyClock::CoarseNow(Time event) const noexcept {

@@ -21,9 +21,7 @@ using Time = TimeOrigin::time_point;
 [[nodiscard]] constexpr double ToSeconds(Duration duration) noexcept {
   return std::chrono::duration<double>(duration).count();
 }
-[[nodiscard]] constexpr double ToSeconds(Time time) noexcept {
-  return ToSeconds(time.time_since_epoch());
-}
+[[nodiscard]] constexpr double ToSeconds(Time time) noexcept { return ToSeconds(time.time_since_epoch()); }
 /// Times are between -kFarthest and kFarthest, 146 years, so that the difference of two is a Duration.
 constexpr Duration kFarthest{std::int64_t{1} << 62};
 /// Rounds to the nearest nanosecond; what is beyond kFarthest is that, and what is no number is 0.
@@ -57,9 +55,7 @@ class SteadyClock final : public Clock {
 /// Threads: Now() from any thread; Advance() and Set() from one thread at a time.
 class ManualClock final : public Clock {
  public:
-  [[nodiscard]] Time Now() const noexcept override {
-    return Time(Duration(now_.load(std::memory_order_acquire)));
-  }
+  [[nodiscard]] Time Now() const noexcept override { return Time(Duration(now_.load(std::memory_order_acquire))); }
   /// Never moves backwards: an earlier `time` is ignored.
   void Set(Time time) noexcept;
   void Advance(Duration duration) noexcept { Set(Now() + duration); }

@@ -14,7 +14,6 @@ namespace runnel {
 ///
 /// Threads:    any. Allocation: of the text; without memory it is "out of memory".
 /// Errors:     none; outside of a handler it is "no exception".
-[[nodiscard]] std::string DescribeException(
-    std::exception_ptr exception = std::current_exception()) noexcept;
+[[nodiscard]] std::string DescribeException(std::exception_ptr exception = std::current_exception()) noexcept;
 
 }  // namespace runnel

@@ -11,8 +11,7 @@ namespace runnel {
 // a path, and which throws at an entry that cannot be read.
 std::vector<std::string> NamesInFolder(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  const std::unique_ptr<DIR, int (*)(DIR*)> listing(opendir(folder.empty() ? "." : folder.c_str()),
-                                                    closedir);
+  const std::unique_ptr<DIR, int (*)(DIR*)> listing(opendir(folder.empty() ? "." : folder.c_str()), closedir);
   if (!listing) return names;
   while (const dirent* const entry = readdir(listing.get())) {
     std::string name = entry->d_name;

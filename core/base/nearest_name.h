@@ -14,8 +14,7 @@ namespace runnel {
 
 /// The candidate that a user who typed `name` most likely meant, or "" if none is near: more than a
 /// third of the characters would have to change. Of equals, the first wins. Case does not count much.
-[[nodiscard]] std::string NearestName(std::string_view name,
-                                      std::span<const std::string> candidates);
+[[nodiscard]] std::string NearestName(std::string_view name, std::span<const std::string> candidates);
 
 /// The names of things, as `name_of` (a function or a member) gives them.
 template <typename Things, typename NameOf>
@@ -27,7 +26,6 @@ template <typename Things, typename NameOf>
 
 /// A hint for an error message: "did you mean 'scan'?", or "there is 'a', 'b', 'c'" if no candidate
 /// is near, or "there is none" without candidates.
-[[nodiscard]] std::string NearestNameHint(std::string_view name,
-                                          std::span<const std::string> candidates);
+[[nodiscard]] std::string NearestNameHint(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace runnel

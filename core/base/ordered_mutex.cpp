@@ -17,8 +17,7 @@ bool OrderedMutex::HeldByThisThread() const noexcept {
 
 void OrderedMutex::CheckOrder() const {
   if (HeldByThisThread()) return;
-  RUNNEL_CHECK(innermost == nullptr || innermost->level_ < level_,
-               "locks must be taken in the order of their levels");
+  RUNNEL_CHECK(innermost == nullptr || innermost->level_ < level_, "locks must be taken in the order of their levels");
 }
 
 void OrderedMutex::lock() {

@@ -10,9 +10,9 @@ namespace runnel {
 
 /// A program and how it is to run, without input.
 struct ProgramStart {
-  std::vector<std::string> words;  ///< the program, which is looked for in PATH, and its arguments
+  std::vector<std::string> words;     ///< the program, which is looked for in PATH, and its arguments
   std::filesystem::path folder = {};  ///< "": this process's
-  bool keeps_complaints = false;  ///< what it writes to stderr is a part of its output; otherwise it is lost
+  bool keeps_complaints = false;      ///< what it writes to stderr is a part of its output; otherwise it is lost
 };
 
 struct ProgramOutput {

@@ -81,8 +81,8 @@ std::string Prefix(const fs::path& file) { return "." + file.filename().string()
 
 fs::path NewName(const fs::path& file) {
   static std::atomic<unsigned> count{0};
-  return file.parent_path() / (Prefix(file) + std::to_string(getpid()) + "-" +
-                               std::to_string(count.fetch_add(1)) + kSuffix);
+  return file.parent_path() /
+         (Prefix(file) + std::to_string(getpid()) + "-" + std::to_string(count.fetch_add(1)) + kSuffix);
 }
 
 // What a program that was killed in between has left behind.
@@ -112,8 +112,7 @@ Result<fs::path> RealFile(const fs::path& file) {
   fs::path real = fs::weakly_canonical(fs::absolute(file, error), error);
   if (error) return Failure(file, "the folder cannot be reached", error.value());
   if (!fs::is_directory(real.parent_path(), error)) {
-    return Error{.message = "there is no folder " + real.parent_path().string(),
-                 .position = {file.string()}};
+    return Error{.message = "there is no folder " + real.parent_path().string(), .position = {file.string()}};
   }
   if (fs::exists(real, error) && !fs::is_regular_file(real, error)) {
     return Error{.message = "is not a file that could be replaced", .position = {file.string()}};

@@ -33,7 +33,8 @@ TemporaryFolder::~TemporaryFolder() {
 
 Result<TemporaryCopy> TemporaryCopy::Make(const fs::path& file) {
   const auto failed = [&](const std::string& why) {
-    return Error{.message = "cannot copy " + file.string() + ": " + why, .hint = "TMPDIR names the folder for the copy"};
+    return Error{.message = "cannot copy " + file.string() + ": " + why,
+                 .hint = "TMPDIR names the folder for the copy"};
   };
   Result<TemporaryFolder> folder = TemporaryFolder::Make("copy");
   if (!folder) return failed(folder.error().message);

@@ -48,15 +48,15 @@ struct UnitPrefix {
   double denominator;
 };
 constexpr std::array<UnitPrefix, 10> kUnitPrefixes{{{"k", 1e3, 1},
-                                            {"M", 1e6, 1},
-                                            {"G", 1e9, 1},
-                                            {"d", 1, 10},
-                                            {"c", 1, 100},
-                                            {"m", 1, 1e3},
-                                            {"u", 1, 1e6},
-                                            {"µ", 1, 1e6},
-                                            {"μ", 1, 1e6},  // the Greek letter
-                                            {"n", 1, 1e9}}};
+                                                    {"M", 1e6, 1},
+                                                    {"G", 1e9, 1},
+                                                    {"d", 1, 10},
+                                                    {"c", 1, 100},
+                                                    {"m", 1, 1e3},
+                                                    {"u", 1, 1e6},
+                                                    {"µ", 1, 1e6},
+                                                    {"μ", 1, 1e6},  // the Greek letter
+                                                    {"n", 1, 1e9}}};
 
 std::optional<Unit> FindUnit(std::string_view name) {
   for (const NamedUnit& each : kUnits) {
@@ -131,8 +131,7 @@ std::optional<UnitRatio> RatioOfUnits(std::string_view from, std::string_view to
   const auto source = ParseUnit(from);
   const auto target = ParseUnit(to);
   if (!source || !target || source->dimensions != target->dimensions) return std::nullopt;
-  return UnitRatio{source->numerator * target->denominator,
-                   source->denominator * target->numerator};
+  return UnitRatio{source->numerator * target->denominator, source->denominator * target->numerator};
 }
 
 }  // namespace runnel

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/lockfree/event.h"
 #include "core/channel/waker.h"
+#include "core/lockfree/event.h"
 
 namespace runnel {
 

@@ -13,11 +13,8 @@ class BufferReference {
  public:
   BufferReference() = default;
   /// Adds one. Precondition: the caller holds the buffer in some way.
-  explicit BufferReference(BufferBase<>& buffer) noexcept : buffer_(&buffer) {
-    buffer.AddReferences(1);
-  }
-  BufferReference(BufferReference&& other) noexcept
-      : buffer_(std::exchange(other.buffer_, nullptr)) {}
+  explicit BufferReference(BufferBase<>& buffer) noexcept : buffer_(&buffer) { buffer.AddReferences(1); }
+  BufferReference(BufferReference&& other) noexcept : buffer_(std::exchange(other.buffer_, nullptr)) {}
   BufferReference& operator=(BufferReference&&) = delete;
   ~BufferReference() {
     if (buffer_ != nullptr) buffer_->ReleaseReference();

@@ -8,15 +8,15 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/lockfree/latest_buffer.h"
-#include "core/lockfree/latest_value.h"
-#include "core/lockfree/thread_epoch.h"
 #include "core/channel/channel_base.h"
 #include "core/channel/distribution.h"
 #include "core/channel/lease.h"
 #include "core/channel/loan.h"
 #include "core/channel/queued_value.h"
 #include "core/channel/value_times.h"
+#include "core/lockfree/latest_buffer.h"
+#include "core/lockfree/latest_value.h"
+#include "core/lockfree/thread_epoch.h"
 
 namespace runnel {
 
@@ -53,8 +53,7 @@ class Channel final : public ChannelBase {
       return status;
     } else {
       Buffer<T>* const buffer = loan.slot_;
-      RUNNEL_CHECK(&buffer->pool() == storage_.pool.get(),
-                   "a loan can be published only by the output that gave it");
+      RUNNEL_CHECK(&buffer->pool() == storage_.pool.get(), "a loan can be published only by the output that gave it");
       if (HasFlags()) [[unlikely]] {
         const PublishStatus status = PublishOnSlowPath(*buffer, times);
         if (status != PublishStatus::kBusy) loan.slot_ = nullptr;
@@ -86,26 +85,20 @@ class Channel final : public ChannelBase {
   /// Publishes a value that belongs to somebody else.
   PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>>&& owner,
                                ValueTimes times) requires(!kLiesInQueuesAsCopy<T>) {
-    return PublishElsewhere(times,
-                            [&](Buffer<T>& buffer) { buffer.ReferTo(value, std::move(owner)); });
+    return PublishElsewhere(times, [&](Buffer<T>& buffer) { buffer.ReferTo(value, std::move(owner)); });
   }
   /// Gives back what of other outputs and of owners nobody holds by this one any more.
-  void ReleaseUnused() noexcept requires(!kIsInlined<T>) {
-    storage_.newest.ReleaseUnused(Publisher());
-  }
+  void ReleaseUnused() noexcept requires(!kIsInlined<T>) { storage_.newest.ReleaseUnused(Publisher()); }
 
   /// The newest value, or none. Call inside an EpochGuard.
-  [[nodiscard]] internal::HeldValue<T> Read() noexcept {
-    return Read(internal::thread_record->hazards);
-  }
+  [[nodiscard]] internal::HeldValue<T> Read() noexcept { return Read(internal::thread_record->hazards); }
   /// The same outside of guards too, not so fast.
   [[nodiscard, gnu::noinline]] internal::HeldValue<T> ReadForViewer() noexcept {
     const EpochGuard guard;
     return Read();
   }
   /// The same by who has the calling thread's record at hand.
-  [[nodiscard, gnu::always_inline]] internal::HeldValue<T> Read(
-      [[maybe_unused]] HazardRecord<>& record) noexcept {
+  [[nodiscard, gnu::always_inline]] internal::HeldValue<T> Read([[maybe_unused]] HazardRecord<>& record) noexcept {
     if constexpr (kIsInlined<T>) {
       return internal::HeldValue<T>(storage_);
     } else {
@@ -141,16 +134,15 @@ class Channel final : public ChannelBase {
       if (storage_.pool_for_pulls) storage_.pool_for_pulls->Reserve(buffers);
     }
   }
-  bool VisitLatest(
-      const std::function<void(const void* value, ValueTimes times)>& visit) const override {
+  bool VisitLatest(const std::function<void(const void* value, ValueTimes times)>& visit) const override {
     // Reading changes nothing but counts of leases.
     const auto held = const_cast<Channel*>(this)->ReadForViewer();
     if (!held.has_value()) return false;
     visit(&held.value(), ValueTimes::Of(held.publication()));
     return true;
   }
-  std::optional<PublishStatus> PublishFilled(bool (*fill)(void* context, void* value),
-                                             void* context, ValueTimes times) override {
+  std::optional<PublishStatus> PublishFilled(bool (*fill)(void* context, void* value), void* context,
+                                             ValueTimes times) override {
     if constexpr (kCanPull) {
       Loan<T> loan = MakeLoan();
       if (!loan) return PublishStatus::kNoBuffer;
@@ -181,16 +173,13 @@ class Channel final : public ChannelBase {
     }
   }
   /// How many buffers there are for Loan().
-  [[nodiscard]] std::size_t buffers() const noexcept requires(!kIsInlined<T>) {
-    return storage_.pool->capacity();
-  }
+  [[nodiscard]] std::size_t buffers() const noexcept requires(!kIsInlined<T>) { return storage_.pool->capacity(); }
   /// How often the pool had to allocate while running.
   [[nodiscard]] std::uint64_t growths() const noexcept {
     if constexpr (kIsInlined<T>) {
       return 0;
     } else {
-      return storage_.pool->growths() +
-             (storage_.pool_for_pulls ? storage_.pool_for_pulls->growths() : 0);
+      return storage_.pool->growths() + (storage_.pool_for_pulls ? storage_.pool_for_pulls->growths() : 0);
     }
   }
 
@@ -225,9 +214,7 @@ class Channel final : public ChannelBase {
   }
   // By whose own slots the publisher may be spared fences; nullptr if who pulls may look for buffers at the
   // same time, in another thread.
-  [[nodiscard]] HazardRecord<>* Publisher() const noexcept {
-    return Has(kPullable) ? nullptr : &ThisThread().hazards;
-  }
+  [[nodiscard]] HazardRecord<>* Publisher() const noexcept { return Has(kPullable) ? nullptr : &ThisThread().hazards; }
   template <typename Refer>
   PublishStatus PublishElsewhere(ValueTimes times, Refer&& refer) {
     Buffer<T>* const buffer = storage_.newest.LoanAnew(Publisher());
@@ -273,8 +260,7 @@ class Channel final : public ChannelBase {
   }
   // The rest of publishing, by who has the lock, if there is one.
   template <PublishPath kPath>
-  [[gnu::always_inline]] PublishStatus PublishNow(const T& value,
-                                                  ValueTimes times) requires(kIsInlined<T>) {
+  [[gnu::always_inline]] PublishStatus PublishNow(const T& value, ValueTimes times) requires(kIsInlined<T>) {
     const std::int64_t timestamp = times.timestamp.time_since_epoch().count();
     const std::int64_t published = times.publication_time.time_since_epoch().count();
     const std::uint64_t order = kPath == PublishPath::kFast ? 0 : OrderNumber();
@@ -308,8 +294,7 @@ class Channel final : public ChannelBase {
     if constexpr (kLiesInQueuesAsCopy<T>) {
       return Distribution::ToAll(*this, &buffer.value(), timestamp, published, sequence, order);
     } else {
-      return Distribution::ToAll(*this, {&buffer, &buffer.published_value()}, timestamp, published,
-                                 sequence, order);
+      return Distribution::ToAll(*this, {&buffer, &buffer.published_value()}, timestamp, published, sequence, order);
     }
   }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/lockfree/thread_epoch.h"
 #include "core/channel/input_queue_base.h"
+#include "core/lockfree/thread_epoch.h"
 
 namespace runnel {
 
@@ -25,17 +25,15 @@ const std::vector<std::string>& OnFullNames() {
 
 ChannelBase::ChannelBase(bool pullable)
     : number_(NextChannelNumber()),
-      flags_(
-          static_cast<std::uint8_t>((pullable ? kPullable : 0) |
-                                    (Fences<std::atomic>::HeavyIsHeavy() ? 0 : kPassesFullFences))),
+      flags_(static_cast<std::uint8_t>((pullable ? kPullable : 0) |
+                                       (Fences<std::atomic>::HeavyIsHeavy() ? 0 : kPassesFullFences))),
       pull_point_(pullable ? std::make_unique<PullPoint>() : nullptr) {}
 
 ChannelBase::~ChannelBase() { delete subscribers_.load(std::memory_order_relaxed); }
 
 void ChannelBase::SetSubscribers(Subscribers subscribers) {
   const bool has_others = !subscribers.probes.empty() || !subscribers.wakers.empty();
-  subscribers.only_queue =
-      subscribers.queues.size() == 1 && !has_others ? subscribers.queues.front() : nullptr;
+  subscribers.only_queue = subscribers.queues.size() == 1 && !has_others ? subscribers.queues.front() : nullptr;
   const Subscribers* next = subscribers.empty() ? nullptr : new Subscribers(std::move(subscribers));
   // acq_rel: release, pairs with the acquire in subscribers(); acquire for the next line.
   const Subscribers* previous = subscribers_.exchange(next, std::memory_order_acq_rel);

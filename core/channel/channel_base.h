@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "core/base/clock.h"
-#include "core/lockfree/asymmetric_fence.h"
 #include "core/channel/channel_options.h"
 #include "core/channel/pull_point.h"
 #include "core/channel/subscribers.h"
 #include "core/channel/value_times.h"
+#include "core/lockfree/asymmetric_fence.h"
 
 namespace runnel {
 
@@ -50,12 +50,11 @@ class ChannelBase {
   /// channel's type, see InputQueue::PutFirst(). Call inside an EpochGuard.
   virtual void DeliverNewest(QueueSink& sink) = 0;
   /// Shows the newest value; false if there is none. Any thread.
-  virtual bool VisitLatest(
-      const std::function<void(const void* value, ValueTimes times)>& visit) const = 0;
+  virtual bool VisitLatest(const std::function<void(const void* value, ValueTimes times)>& visit) const = 0;
   /// Has `fill(context, value)` write a value into a free buffer, and publishes it; nothing if that says that
   /// there is none. For the publisher. Precondition: can_be_filled().
-  virtual std::optional<PublishStatus> PublishFilled(bool (*fill)(void* context, void* value),
-                                                     void* context, ValueTimes times) = 0;
+  virtual std::optional<PublishStatus> PublishFilled(bool (*fill)(void* context, void* value), void* context,
+                                                     ValueTimes times) = 0;
   /// Whether others than the module that publishes can make values: T{}, or what lies in a buffer.
   [[nodiscard]] virtual bool can_be_filled() const noexcept = 0;
   /// Whether readers can hold a value that lies in no buffer.
@@ -101,15 +100,11 @@ class ChannelBase {
   virtual void PublishPulled(ValueTimes (*times)(const Port& reader), const Port& reader) = 0;
   // relaxed, as all of it: a publisher that sees a change late numbers one value less, which then
   // counts as older than all numbered ones.
-  [[nodiscard]] bool Has(Flag flag) const noexcept {
-    return (flags_.load(std::memory_order_relaxed) & flag) != 0;
-  }
+  [[nodiscard]] bool Has(Flag flag) const noexcept { return (flags_.load(std::memory_order_relaxed) & flag) != 0; }
   [[nodiscard, gnu::always_inline]] bool HasFlags() const noexcept {
     return flags_.load(std::memory_order_relaxed) != 0;
   }
-  [[nodiscard]] std::uint64_t OrderNumber() const noexcept {
-    return Has(kOrdered) ? TakeOrderNumber() : 0;
-  }
+  [[nodiscard]] std::uint64_t OrderNumber() const noexcept { return Has(kOrdered) ? TakeOrderNumber() : 0; }
 
  private:
   template <typename>

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/lockfree/publication.h"
-#include "core/lockfree/thread_epoch.h"
 #include "core/channel/channel_base.h"
-#include "core/channel/input_queue.h"
 #include "core/channel/channel_options.h"
+#include "core/channel/input_queue.h"
 #include "core/channel/probe_queue.h"
 #include "core/channel/subscribers.h"
+#include "core/lockfree/publication.h"
+#include "core/lockfree/thread_epoch.h"
 
 namespace runnel::internal {
 
@@ -25,21 +25,17 @@ class Distribution {
   using Queue = InputQueue<Queued>;
 
   /// That of the channel's type: connecting has checked it.
-  [[nodiscard]] static Queue& QueueOf(QueueSink& sink) noexcept {
-    return static_cast<Queue&>(sink);
-  }
-  [[nodiscard, gnu::noinline]] static std::unique_ptr<InputQueueBase> MakeQueue(
-      std::size_t capacity, OnFull on_full, Writers writers) {
+  [[nodiscard]] static Queue& QueueOf(QueueSink& sink) noexcept { return static_cast<Queue&>(sink); }
+  [[nodiscard, gnu::noinline]] static std::unique_ptr<InputQueueBase> MakeQueue(std::size_t capacity, OnFull on_full,
+                                                                                Writers writers) {
     return std::make_unique<Queue>(capacity, on_full, writers);
   }
 
   /// Gives the value to each queue. Apart, so that publishing to readers of the newest value alone
   /// stays short. What is told about the value comes in registers: to load it in one piece from where
   /// it has just been stored in three would have to wait for all stores before.
-  [[gnu::noinline]] static PublishStatus ToAll(const ChannelBase& channel, Shown shown,
-                                               std::int64_t timestamp,
-                                               std::int64_t publication_time,
-                                               std::uint64_t sequence,
+  [[gnu::noinline]] static PublishStatus ToAll(const ChannelBase& channel, Shown shown, std::int64_t timestamp,
+                                               std::int64_t publication_time, std::uint64_t sequence,
                                                std::uint64_t order) noexcept {
     return Guarded([&]() __attribute__((always_inline)) {
       const Subscribers* const list = channel.subscribers_in_guard();
@@ -61,15 +57,13 @@ class Distribution {
   }
 
  private:
-  [[gnu::always_inline]] static PublishStatus PushTo(QueueSink& sink, Shown shown,
-                                                     const Publication& publication,
+  [[gnu::always_inline]] static PublishStatus PushTo(QueueSink& sink, Shown shown, const Publication& publication,
                                                      std::uint64_t source) noexcept {
     const bool taken = QueueOf(sink).Push(shown, publication, source);
     return taken ? PublishStatus::kPublished : PublishStatus::kRefused;
   }
   // Inside an EpochGuard, by which the list lives.
-  [[gnu::noinline]] static PublishStatus PushToAll(const Subscribers& list, Shown shown,
-                                                   const Publication& publication,
+  [[gnu::noinline]] static PublishStatus PushToAll(const Subscribers& list, Shown shown, const Publication& publication,
                                                    std::uint64_t source) noexcept {
     PublishStatus status = PublishStatus::kPublished;
     for (QueueSink* queue : list.queues) {

@@ -7,12 +7,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/channel/input_queue_base.h"
+#include "core/channel/queued_value.h"
 #include "core/lockfree/bounded_queue.h"
 #include "core/lockfree/overwriting_queue.h"
 #include "core/lockfree/publication.h"
 #include "core/lockfree/stream_queue.h"
-#include "core/channel/input_queue_base.h"
-#include "core/channel/queued_value.h"
 
 namespace runnel {
 
@@ -44,12 +44,10 @@ class InputQueue final : public InputQueueBase {
   }
 
   /// Returns false if the queue was full and refuses.
-  [[gnu::always_inline]] bool Push(Content content, const Publication& publication,
-                                   std::uint64_t source) noexcept {
+  [[gnu::always_inline]] bool Push(Content content, const Publication& publication, std::uint64_t source) noexcept {
     if (IsCrowdedOut()) [[unlikely]]
       return Drop();
-    if (overwriting_ != nullptr && overwriting_->TryEmplace(std::move(content), publication, source))
-      return true;
+    if (overwriting_ != nullptr && overwriting_->TryEmplace(std::move(content), publication, source)) return true;
     if (stream_ == nullptr) return PushMakingRoom(std::move(content), publication, source);
     return stream_->TryEmplace(std::move(content), publication, source) || Drop();
   }
@@ -95,14 +93,13 @@ class InputQueue final : public InputQueueBase {
   }
   [[nodiscard]] std::size_t size() const noexcept override {
     const std::size_t first = first_waits_.load(std::memory_order_relaxed) ? 1 : 0;
-    if (overwriting_ != nullptr)
-      return first + overwriting_->size() + overwriting_->claimed();
+    if (overwriting_ != nullptr) return first + overwriting_->size() + overwriting_->claimed();
     return first + (stream_ != nullptr ? stream_->size() : shared_->size());
   }
   bool DropOldest() noexcept override {
     if (on_full_ != OnFull::kDropOldest) return false;
-    const bool dropped = overwriting_ != nullptr ? overwriting_->DropOldestFromOutside()
-                                                 : shared_->TryConsume([](Queued&) {});
+    const bool dropped =
+        overwriting_ != nullptr ? overwriting_->DropOldestFromOutside() : shared_->TryConsume([](Queued&) {});
     if (dropped) CountDropped();
     return dropped;
   }
@@ -114,15 +111,12 @@ class InputQueue final : public InputQueueBase {
   // Ends after a few attempts in any case: if a reader was stopped while it emptied the very cell
   // that is needed, the new value is dropped, whatever the policy. The publication by value: its publisher
   // has it in registers, and leaves it there as long as nobody asks where it lies.
-  [[gnu::noinline]] bool PushMakingRoom(Passed content, Publication publication,
-                                        std::uint64_t source) noexcept {
-    if (overwriting_ == nullptr)
-      return PushMakingRoomIn(*shared_, std::move(content), publication, source);
+  [[gnu::noinline]] bool PushMakingRoom(Passed content, Publication publication, std::uint64_t source) noexcept {
+    if (overwriting_ == nullptr) return PushMakingRoomIn(*shared_, std::move(content), publication, source);
     return PushMakingRoomIn(*overwriting_, std::move(content), publication, source);
   }
   template <typename Queue>
-  bool PushMakingRoomIn(Queue& queue, Passed content, const Publication& publication,
-                        std::uint64_t source) noexcept {
+  bool PushMakingRoomIn(Queue& queue, Passed content, const Publication& publication, std::uint64_t source) noexcept {
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       if (queue.TryEmplace(std::move(content), publication, source)) return true;
       if (on_full_ != OnFull::kDropOldest) break;

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/lockfree/cache_line.h"
 #include "core/channel/channel_options.h"
 #include "core/channel/subscribers.h"
+#include "core/lockfree/cache_line.h"
 
 namespace runnel {
 
@@ -20,9 +20,7 @@ class InputQueueBase : public QueueSink {
   [[nodiscard]] std::size_t capacity() const noexcept final { return capacity_; }
   [[nodiscard]] OnFull on_full() const noexcept { return on_full_; }
   [[nodiscard]] Writers writers() const noexcept { return writers_; }
-  [[nodiscard]] std::uint64_t dropped() const noexcept {
-    return dropped_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
   [[nodiscard]] virtual std::size_t size() const noexcept = 0;
   /// Whether Pop() would find something. By the reader.
   [[nodiscard]] virtual bool HasNext() const noexcept = 0;

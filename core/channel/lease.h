@@ -10,10 +10,10 @@
 
 #include "core/base/check.h"
 #include "core/base/clock.h"
-#include "core/lockfree/latest_buffer.h"
-#include "core/lockfree/latest_value.h"
 #include "core/channel/channel_options.h"
 #include "core/channel/value_times.h"
+#include "core/lockfree/latest_buffer.h"
+#include "core/lockfree/latest_value.h"
 
 namespace runnel {
 
@@ -21,14 +21,13 @@ namespace runnel {
 /// readers hold instead of copying. A few words are copied sooner than a buffer is held. Specialise
 /// it to false for a type that shall always travel in buffers.
 template <typename T>
-inline constexpr bool kIsInlined =
-    std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 32;
+inline constexpr bool kIsInlined = std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 32;
 
 /// Whether values of T that travel in buffers lie in queues as copies nevertheless: a short copy
 /// costs the taker less than the publisher's buffer, which it would share with the publisher.
 template <typename T>
-inline constexpr bool kIsCopiedInQueues =
-    std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 256;
+inline constexpr bool kIsCopiedInQueues = std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> &&
+                                          sizeof(T) <= 256;
 
 template <typename T>
 class Channel;
@@ -46,21 +45,16 @@ class InlinedValue {
   [[gnu::always_inline]] explicit InlinedValue(const LatestValue<T>& latest) noexcept {
     latest.Read(writable(), publication_);
   }
-  InlinedValue(const T& value, const Publication& publication) noexcept
-      : publication_(publication) {
+  InlinedValue(const T& value, const Publication& publication) noexcept : publication_(publication) {
     new (bytes_.data()) T(value);
   }
 
   [[nodiscard]] bool has_value() const noexcept { return publication_.sequence != 0; }
-  [[nodiscard]] const T& value() const noexcept {
-    return *std::launder(reinterpret_cast<const T*>(bytes_.data()));
-  }
+  [[nodiscard]] const T& value() const noexcept { return *std::launder(reinterpret_cast<const T*>(bytes_.data())); }
   [[nodiscard]] const Publication& publication() const noexcept { return publication_; }
 
  private:
-  [[nodiscard]] T& writable() noexcept {
-    return *std::launder(reinterpret_cast<T*>(bytes_.data()));
-  }
+  [[nodiscard]] T& writable() noexcept { return *std::launder(reinterpret_cast<T*>(bytes_.data())); }
 
   alignas(T) std::array<std::byte, sizeof(T)> bytes_;  // read only if has_value()
   Publication publication_;
@@ -94,9 +88,7 @@ class LeasedValue {
 
   [[nodiscard]] bool has_value() const noexcept { return lease_.get() != nullptr; }
   [[nodiscard]] const T& value() const noexcept { return ValueOf(*lease_.get()); }
-  [[nodiscard]] const Publication& publication() const noexcept {
-    return lease_.get()->publication;
-  }
+  [[nodiscard]] const Publication& publication() const noexcept { return lease_.get()->publication; }
   [[nodiscard]] Buffer<T>* buffer() const noexcept { return lease_.get(); }
 
  private:
@@ -118,8 +110,7 @@ class LeasedOrCopiedValue {
   LeasedOrCopiedValue(const T& value, const Publication& publication) noexcept
       : value_(Copy(value)), publication_(publication) {}
   /// The newest one, or none.
-  [[gnu::always_inline]] LeasedOrCopiedValue(LatestBuffer<T>& latest,
-                                             HazardRecord<>& record) noexcept
+  [[gnu::always_inline]] LeasedOrCopiedValue(LatestBuffer<T>& latest, HazardRecord<>& record) noexcept
       : leased_(latest, record), value_(leased_.has_value() ? &leased_.value() : nullptr) {}
   /// The same as `other`, which is no copy.
   [[gnu::always_inline]] LeasedOrCopiedValue(LeasedOrCopiedValue&& other, NoCopy) noexcept
@@ -157,9 +148,7 @@ class LeasedOrCopiedValue {
 
  private:
   [[nodiscard]] bool is_copy() const noexcept { return has_value() && !leased_.has_value(); }
-  const T* Copy(const T& value) noexcept {
-    return std::construct_at(reinterpret_cast<T*>(bytes_), value);
-  }
+  const T* Copy(const T& value) noexcept { return std::construct_at(reinterpret_cast<T*>(bytes_), value); }
 
   LeasedValue<T> leased_;
   const T* value_ = nullptr;               // in the buffer, or the copy
@@ -168,9 +157,8 @@ class LeasedOrCopiedValue {
 };
 
 template <typename T>
-using HeldValue = std::conditional_t<
-    kIsInlined<T>, InlinedValue<T>,
-    std::conditional_t<kIsCopiedInQueues<T>, LeasedOrCopiedValue<T>, LeasedValue<T>>>;
+using HeldValue = std::conditional_t<kIsInlined<T>, InlinedValue<T>,
+                                     std::conditional_t<kIsCopiedInQueues<T>, LeasedOrCopiedValue<T>, LeasedValue<T>>>;
 
 }  // namespace internal
 
@@ -207,9 +195,7 @@ class Lease {
   /// When the value was measured, if its publisher said so; else when it was published.
   [[nodiscard]] Time timestamp() const { return Time(Duration(Checked().publication().timestamp)); }
   /// The time of the cycle that published the value.
-  [[nodiscard]] Time publication_time() const {
-    return Time(Duration(Checked().publication().publication_time));
-  }
+  [[nodiscard]] Time publication_time() const { return Time(Duration(Checked().publication().publication_time)); }
   [[nodiscard]] ValueTimes times() const { return ValueTimes::Of(Checked().publication()); }
   /// 1 for the first value that the source has published, and so on.
   [[nodiscard]] std::uint64_t sequence() const { return Checked().publication().sequence; }

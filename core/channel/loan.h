@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/lockfree/buffer_pool.h"
 #include "core/channel/lease.h"
+#include "core/lockfree/buffer_pool.h"
 
 namespace runnel {
 
@@ -65,9 +65,7 @@ class Loan {
     }
     slot_ = Slot{};
   }
-  [[gnu::noinline]] static void DropLoan(Buffer& buffer) noexcept requires(!kIsInlined<T>) {
-    buffer.DropLoan();
-  }
+  [[gnu::noinline]] static void DropLoan(Buffer& buffer) noexcept requires(!kIsInlined<T>) { buffer.DropLoan(); }
 
   Slot slot_{};
 };

@@ -9,8 +9,8 @@ void ProbeQueue::PushCopy(const void* value, std::size_t size, const Publication
   dropped_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void ProbeQueue::PushReference(BufferReference reference, const void* value,
-                               const Publication& publication, std::uint64_t source) noexcept {
+void ProbeQueue::PushReference(BufferReference reference, const void* value, const Publication& publication,
+                               std::uint64_t source) noexcept {
   if (values_.TryEmplace(std::move(reference), value, publication, source)) return;
   dropped_.fetch_add(1, std::memory_order_relaxed);
 }

@@ -6,10 +6,10 @@
 #include <cstring>
 #include <utility>
 
-#include "core/lockfree/bounded_queue.h"
-#include "core/lockfree/publication.h"
 #include "core/channel/buffer_reference.h"
 #include "core/channel/subscribers.h"
+#include "core/lockfree/bounded_queue.h"
+#include "core/lockfree/publication.h"
 
 namespace runnel {
 
@@ -24,8 +24,7 @@ class ProbeQueue final : public QueueSink {
   explicit ProbeQueue(std::size_t capacity) : values_(capacity) {}
 
   /// A copy of the `size` bytes at `value`, from the channel with the number `source`.
-  void PushCopy(const void* value, std::size_t size, const Publication& publication,
-                std::uint64_t source) noexcept;
+  void PushCopy(const void* value, std::size_t size, const Publication& publication, std::uint64_t source) noexcept;
   /// `value`, which lies in the buffer.
   void PushReference(BufferReference reference, const void* value, const Publication& publication,
                      std::uint64_t source) noexcept;
@@ -34,29 +33,24 @@ class ProbeQueue final : public QueueSink {
   /// none.
   template <typename Use>
   bool TryTake(Use&& use) noexcept {
-    return values_.TryConsume(
-        [&](const Waiting& oldest) { use(oldest.value(), oldest.publication, oldest.source); });
+    return values_.TryConsume([&](const Waiting& oldest) { use(oldest.value(), oldest.publication, oldest.source); });
   }
 
   [[nodiscard]] std::size_t capacity() const noexcept override { return values_.capacity(); }
   [[nodiscard]] ProbeQueue* probe() noexcept override { return this; }
   [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }
   [[nodiscard]] bool HasNext() const noexcept { return values_.HasOldest(); }
-  [[nodiscard]] std::uint64_t dropped() const noexcept {
-    return dropped_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:
   static constexpr std::size_t kLargestCopy = 256;
 
   struct Waiting {
-    Waiting(const void* copied, std::size_t size, const Publication& of,
-            std::uint64_t from) noexcept
+    Waiting(const void* copied, std::size_t size, const Publication& of, std::uint64_t from) noexcept
         : publication(of), source(from) {
       std::memcpy(copy, copied, size);
     }
-    Waiting(BufferReference&& taken_over, const void* in_buffer, const Publication& of,
-            std::uint64_t from) noexcept
+    Waiting(BufferReference&& taken_over, const void* in_buffer, const Publication& of, std::uint64_t from) noexcept
         : reference(std::move(taken_over)), leased(in_buffer), publication(of), source(from) {}
     [[nodiscard]] const void* value() const noexcept { return leased != nullptr ? leased : copy; }
 

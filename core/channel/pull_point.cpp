@@ -41,8 +41,7 @@ void PullPoint::SetProvider(Provider provider) {
                "a provider cannot replace itself while it runs");
   auto next = provider ? std::make_unique<Provider>(std::move(provider)) : nullptr;
   // acq_rel: release, pairs with the acquire in Run(); acquire for who destroys the old one.
-  const std::unique_ptr<Provider> before(
-      provider_.exchange(next.release(), std::memory_order_acq_rel));
+  const std::unique_ptr<Provider> before(provider_.exchange(next.release(), std::memory_order_acq_rel));
   if (before) WaitForRun();
 }
 

@@ -74,8 +74,7 @@ class PullPoint {
   [[nodiscard]] bool TryTake() noexcept {
     // relaxed look first: who comes while it is taken does not take the line away. acquire: pairs
     // with the release in ~Lock().
-    return !taken_.load(std::memory_order_relaxed) &&
-           !taken_.exchange(true, std::memory_order_acquire);
+    return !taken_.load(std::memory_order_relaxed) && !taken_.exchange(true, std::memory_order_acquire);
   }
   void WaitForRun() const;
 

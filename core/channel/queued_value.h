@@ -8,10 +8,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/lockfree/publication.h"
 #include "core/channel/buffer_reference.h"
 #include "core/channel/lease.h"
 #include "core/channel/probe_queue.h"
+#include "core/lockfree/publication.h"
 
 namespace runnel {
 
@@ -31,17 +31,12 @@ struct QueuedCopy {
   using Content = const void*;
 
   QueuedCopy(Content copied, const Publication& of, std::uint64_t from) noexcept
-      : source(from),
-        timestamp(of.timestamp),
-        publication_time(of.publication_time),
-        own_sequence(of.sequence) {
+      : source(from), timestamp(of.timestamp), publication_time(of.publication_time), own_sequence(of.sequence) {
     std::memcpy(value, copied, kSize);
   }
   [[nodiscard]] std::uint64_t sequence() const noexcept { return own_sequence; }
   // What is in a queue has its order by that.
-  [[nodiscard]] Publication publication() const noexcept {
-    return {timestamp, own_sequence, 0, publication_time};
-  }
+  [[nodiscard]] Publication publication() const noexcept { return {timestamp, own_sequence, 0, publication_time}; }
 
   // Without the order: so a value of 24 bytes lies in one line with all this and its cell's number.
   std::uint64_t source;
@@ -50,8 +45,7 @@ struct QueuedCopy {
   std::uint64_t own_sequence;
   alignas(kAlignment) std::byte value[kSize];
 
-  static void PushTo(ProbeQueue& probe, Shown shown, const Publication& publication,
-                     std::uint64_t source) noexcept {
+  static void PushTo(ProbeQueue& probe, Shown shown, const Publication& publication, std::uint64_t source) noexcept {
     probe.PushCopy(shown, kSize, publication, source);
   }
 };
@@ -67,23 +61,19 @@ struct QueuedReference {
 
   QueuedReference(BufferReference&& taken_over, const Publication&, std::uint64_t from) noexcept
       : source(from), reference(std::move(taken_over)) {}
-  [[nodiscard]] std::uint64_t sequence() const noexcept {
-    return reference.get()->publication.sequence;
-  }
+  [[nodiscard]] std::uint64_t sequence() const noexcept { return reference.get()->publication.sequence; }
 
   std::uint64_t source;
   BufferReference reference;
 
-  static void PushTo(ProbeQueue& probe, Shown shown, const Publication& publication,
-                     std::uint64_t source) noexcept {
+  static void PushTo(ProbeQueue& probe, Shown shown, const Publication& publication, std::uint64_t source) noexcept {
     probe.PushReference(shown, shown.value, publication, source);
   }
 };
 
 /// Types of one size share what follows from this, so that each costs its user less code.
 template <typename T>
-using Queued =
-    std::conditional_t<kLiesInQueuesAsCopy<T>, QueuedCopy<sizeof(T), alignof(T)>, QueuedReference>;
+using Queued = std::conditional_t<kLiesInQueuesAsCopy<T>, QueuedCopy<sizeof(T), alignof(T)>, QueuedReference>;
 
 /// Moves the value out of a queue.
 template <typename T>
@@ -91,8 +81,7 @@ void MoveTo(HeldValue<T>& held, Queued<T>& queued) noexcept {
   if constexpr (kLiesInQueuesAsCopy<T>) {
     // In its place: the value is copied once.
     std::destroy_at(&held);
-    std::construct_at(&held, *std::launder(reinterpret_cast<const T*>(queued.value)),
-                      queued.publication());
+    std::construct_at(&held, *std::launder(reinterpret_cast<const T*>(queued.value)), queued.publication());
   } else {
     held = HeldValue<T>(BufferLease<T>(static_cast<Buffer<T>*>(queued.reference.Take())));
   }

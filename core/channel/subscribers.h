@@ -28,9 +28,7 @@ struct Subscribers {
   /// The only one of them, if that is a queue; set by the channel.
   QueueSink* only_queue = nullptr;
 
-  [[nodiscard]] bool empty() const noexcept {
-    return queues.empty() && probes.empty() && wakers.empty();
-  }
+  [[nodiscard]] bool empty() const noexcept { return queues.empty() && probes.empty() && wakers.empty(); }
 };
 
 }  // namespace runnel

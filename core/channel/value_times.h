@@ -7,7 +7,7 @@ namespace runnel {
 
 /// The two times of a published value, on the application's clock.
 struct ValueTimes {
-  Time timestamp{};  ///< when it was measured, if its publisher said so; else publication_time
+  Time timestamp{};         ///< when it was measured, if its publisher said so; else publication_time
   Time publication_time{};  ///< of the cycle that published it
 
   /// Of a value that its publisher gives no time of its own.

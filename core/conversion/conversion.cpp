@@ -25,8 +25,7 @@ ConversionRegistry& Registered() {
   return registry;
 }
 
-std::optional<RegisteredConversion> FindRegistered(const TypeInfo& from, const TypeInfo& to,
-                                                   const std::string& name) {
+std::optional<RegisteredConversion> FindRegistered(const TypeInfo& from, const TypeInfo& to, const std::string& name) {
   ConversionRegistry& registry = Registered();
   const std::lock_guard lock(registry.mutex);
   const auto found = std::ranges::find_if(registry.all, [&](const RegisteredConversion& each) {
@@ -47,9 +46,7 @@ struct Values {
   const std::string& name;
   const std::string& from_unit;
   const std::string& to_unit;
-  [[nodiscard]] bool have_units() const {
-    return !from_unit.empty() && !to_unit.empty() && from_unit != to_unit;
-  }
+  [[nodiscard]] bool have_units() const { return !from_unit.empty() && !to_unit.empty() && from_unit != to_unit; }
 };
 
 Error Refusal(const Values& values, std::string hint = {}) {
@@ -60,25 +57,22 @@ Error Refusal(const Values& values, std::string hint = {}) {
 
 Result<Step> FindNumberStep(const Values& values) {
   const auto rounding = internal::RoundingCalled(values.name);
-  const auto ratio = values.have_units() ? RatioOfUnits(values.from_unit, values.to_unit)
-                                         : std::optional(UnitRatio{});
+  const auto ratio = values.have_units() ? RatioOfUnits(values.from_unit, values.to_unit) : std::optional(UnitRatio{});
   if (!ratio) {
-    return Error{.message = "what is in " + values.from_unit + " does not become something in " +
-                            values.to_unit};
+    return Error{.message = "what is in " + values.from_unit + " does not become something in " + values.to_unit};
   }
-  const bool is_whole = internal::NothingIsLost(values.to, TypeOf<std::int64_t>()) ||
-                        &values.to == &TypeOf<std::uint64_t>();
-  const bool loses = !internal::NothingIsLost(values.from, values.to) ||
-                     (ratio->numerator != ratio->denominator && is_whole);
+  const bool is_whole =
+      internal::NothingIsLost(values.to, TypeOf<std::int64_t>()) || &values.to == &TypeOf<std::uint64_t>();
+  const bool loses =
+      !internal::NothingIsLost(values.from, values.to) || (ratio->numerator != ratio->denominator && is_whole);
   if (loses && !rounding) {
-    return Error{.message = "a " + values.from.name() + " does not become a " + values.to.name() +
-                            " without losing something",
-                 .hint = "say how, by convert=\"round\" or convert=\"truncate\""};
+    return Error{
+        .message = "a " + values.from.name() + " does not become a " + values.to.name() + " without losing something",
+        .hint = "say how, by convert=\"round\" or convert=\"truncate\""};
   }
   std::string text = values.have_units() ? values.from_unit + " to " + values.to_unit : "";
   if (rounding && loses) text += (text.empty() ? "" : ", ") + values.name;
-  return Step{internal::NumberConversion(values.from, values.to,
-                                         rounding.value_or(internal::Rounding::kNone), *ratio),
+  return Step{internal::NumberConversion(values.from, values.to, rounding.value_or(internal::Rounding::kNone), *ratio),
               text};
 }
 
@@ -102,8 +96,7 @@ Result<Step> FindStep(const Values& values) {
   const bool are_numbers = internal::IsNumber(values.from) && internal::IsNumber(values.to);
   const bool is_plain = values.name.empty() || internal::RoundingCalled(values.name);
   if (are_numbers && is_plain) return FindNumberStep(values);
-  if (values.name == "parse" && &values.from == &TypeOf<std::string>() &&
-      values.to.is_transparent()) {
+  if (values.name == "parse" && &values.from == &TypeOf<std::string>() && values.to.is_transparent()) {
     return Step{[&to = values.to](const void* from, void* value) {
                   return SetFromText(to, *static_cast<const std::string*>(from), value).has_value();
                 },
@@ -175,8 +168,7 @@ void RegisterConversion(RegisteredConversion conversion) {
   std::erase_if(registry.all, [&](const RegisteredConversion& each) {
     return each.name == conversion.name && each.from == conversion.from && each.to == conversion.to;
   });
-  const auto place = std::ranges::upper_bound(registry.all, conversion.name, {},
-                                              &RegisteredConversion::name);
+  const auto place = std::ranges::upper_bound(registry.all, conversion.name, {}, &RegisteredConversion::name);
   registry.all.insert(place, std::move(conversion));
 }
 
@@ -208,8 +200,7 @@ std::vector<ConversionCandidate> ConversionCandidates(const ConversionRequest& r
   }
   for (const std::string& name : names) try_one(request.part, name);
   if (request.part.empty()) {
-    ForEachPart(request.from, [&](const std::string& part, const TypeInfo& type,
-                                  const std::string&) {
+    ForEachPart(request.from, [&](const std::string& part, const TypeInfo& type, const std::string&) {
       // What becomes a text or a signal does so as a whole, too.
       const bool are_numbers = internal::IsNumber(type) && internal::IsNumber(request.to);
       if (&type == &request.to || are_numbers) try_one(part, {});

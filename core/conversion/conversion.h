@@ -39,8 +39,7 @@ class Conversion {
   using Convert = std::function<bool(const void* from, void* to)>;
 
   /// Errors: nothing leads from the one to the other, with what would.
-  [[nodiscard]] static Result<std::shared_ptr<const Conversion>> Find(
-      const ConversionRequest& request);
+  [[nodiscard]] static Result<std::shared_ptr<const Conversion>> Find(const ConversionRequest& request);
 
   /// One of whole values that somebody else knows how to make.
   [[nodiscard]] static std::shared_ptr<const Conversion> Of(const TypeInfo& from, Convert convert);
@@ -71,8 +70,7 @@ void RegisterConversion(RegisteredConversion conversion);
 
 /// The same for a `convert(const From&, To&)` that returns nothing, or whether there is a result.
 template <typename From, typename To, typename Function>
-void RegisterConversion(std::string name, Function convert, std::string summary = {},
-                        bool is_usual = false) {
+void RegisterConversion(std::string name, Function convert, std::string summary = {}, bool is_usual = false) {
   RegisterConversion({.name = std::move(name),
                       .from = &TypeOf<From>(),
                       .to = &TypeOf<To>(),

@@ -56,10 +56,10 @@ NumberType Entry() {
 }
 
 const NumberType* FindNumberType(const TypeInfo& type) {
-  static const std::array<NumberType, 11> types{
-      Entry<bool>(),          Entry<std::int8_t>(),   Entry<std::int16_t>(),  Entry<std::int32_t>(),
-      Entry<std::int64_t>(),  Entry<std::uint8_t>(),  Entry<std::uint16_t>(), Entry<std::uint32_t>(),
-      Entry<std::uint64_t>(), Entry<float>(),         Entry<double>()};
+  static const std::array<NumberType, 11> types{Entry<bool>(),          Entry<std::int8_t>(),   Entry<std::int16_t>(),
+                                                Entry<std::int32_t>(),  Entry<std::int64_t>(),  Entry<std::uint8_t>(),
+                                                Entry<std::uint16_t>(), Entry<std::uint32_t>(), Entry<std::uint64_t>(),
+                                                Entry<float>(),         Entry<double>()};
   const auto found = std::ranges::find(types, &type, &NumberType::type);
   return found == types.end() ? nullptr : &*found;
 }
@@ -90,10 +90,9 @@ std::optional<Rounding> RoundingCalled(std::string_view name) {
   return std::nullopt;
 }
 
-Conversion::Convert NumberConversion(const TypeInfo& from, const TypeInfo& to, Rounding rounding,
-                                     UnitRatio ratio) {
+Conversion::Convert NumberConversion(const TypeInfo& from, const TypeInfo& to, Rounding rounding, UnitRatio ratio) {
   return [get = FindNumberType(from)->get, set = FindNumberType(to)->set, rounding, ratio](const void* value,
-                                                                      void* result) {
+                                                                                           void* result) {
     // In doubles, as a person would: 180 * pi / 180 is pi.
     if (ratio.numerator != ratio.denominator) {
       const double number = static_cast<double>(get(value)) * ratio.numerator / ratio.denominator;

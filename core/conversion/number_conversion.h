@@ -24,7 +24,7 @@ enum class Rounding { kNone, kNearest, kTruncate };
 
 /// From number to number, times `ratio`; what does not fit becomes the nearest that does, and what is no number
 /// (NaN) becomes no whole number. Precondition: both are numbers.
-[[nodiscard]] Conversion::Convert NumberConversion(const TypeInfo& from, const TypeInfo& to,
-                                                   Rounding rounding, UnitRatio ratio);
+[[nodiscard]] Conversion::Convert NumberConversion(const TypeInfo& from, const TypeInfo& to, Rounding rounding,
+                                                   UnitRatio ratio);
 
 }  // namespace runnel::internal

@@ -13,9 +13,7 @@ namespace {
 
 constexpr int kDeepest = 4;  // types may contain lists of themselves
 
-Error NoPart(const TypeInfo& type, const char* what) {
-  return {.message = type.name() + " has no " + what};
-}
+Error NoPart(const TypeInfo& type, const char* what) { return {.message = type.name() + " has no " + what}; }
 
 // "[12]" at the beginning of `name`, which is taken off.
 std::optional<std::size_t> TakeIndex(std::string_view& name) {
@@ -79,8 +77,7 @@ Result<void> ValuePart::TakeElement(std::string_view& name) {
   const auto second = is_matrix && first ? TakeIndex(name) : std::optional<std::size_t>(0);
   if (!first || !second) {
     return Error{.message = "'" + said + "' names no element",
-                 .hint = is_matrix ? "write [ROW][COLUMN], counted from 0"
-                                   : "write [INDEX], counted from 0"};
+                 .hint = is_matrix ? "write [ROW][COLUMN], counted from 0" : "write [INDEX], counted from 0"};
   }
   step.row = is_matrix ? *first : 0;
   step.column = is_matrix ? *second : *first;
@@ -90,8 +87,8 @@ Result<void> ValuePart::TakeElement(std::string_view& name) {
     const std::size_t columns = usual ? step.elements->columns(usual.get()) : step.column + 1;
     if (step.row >= rows || step.column >= columns) {
       return Error{.message = type_->name() + " has no element '" + said + "'",
-                   .hint = "it has " + (is_matrix ? std::to_string(rows) + " rows of " : "") +
-                           std::to_string(columns) + ", counted from 0"};
+                   .hint = "it has " + (is_matrix ? std::to_string(rows) + " rows of " : "") + std::to_string(columns) +
+                           ", counted from 0"};
     }
   }
   steps_.push_back(step);
@@ -107,16 +104,15 @@ const void* ValuePart::Find(const void* value) const {
       continue;
     }
     const std::size_t columns = step.elements->columns(at);
-    if (step.column >= columns || (step.row > 0 && step.row >= step.elements->rows(at)))
-      return nullptr;
+    if (step.column >= columns || (step.row > 0 && step.row >= step.elements->rows(at))) return nullptr;
     at = step.elements->element(at, step.row * columns + step.column);
   }
   return at;
 }
 
-void ForEachPart(const TypeInfo& type,
-                 const std::function<void(const std::string& name, const TypeInfo& type,
-                                          const std::string& unit)>& visit) {
+void ForEachPart(
+    const TypeInfo& type,
+    const std::function<void(const std::string& name, const TypeInfo& type, const std::string& unit)>& visit) {
   VisitParts(type, "", "", 0, visit);
 }
 

@@ -45,8 +45,8 @@ class ValuePart {
 
 /// Calls `visit(name, type, unit)` for each part of values of the type that has a name: fields, and fields of
 /// fields; of lists the first element.
-void ForEachPart(const TypeInfo& type,
-                 const std::function<void(const std::string& name, const TypeInfo& type,
-                                          const std::string& unit)>& visit);
+void ForEachPart(
+    const TypeInfo& type,
+    const std::function<void(const std::string& name, const TypeInfo& type, const std::string& unit)>& visit);
 
 }  // namespace runnel

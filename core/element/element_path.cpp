@@ -30,17 +30,15 @@ Result<void> CheckElementName(std::string_view name) {
   for (std::size_t i = 0; i < name.size(); ++i) {
     const auto byte = static_cast<unsigned char>(name[i]);
     if (byte == '/') {
-      return Error{.message =
-                       "the name " + quoted + " contains a '/', which separates names in paths"};
+      return Error{.message = "the name " + quoted + " contains a '/', which separates names in paths"};
     }
     if (byte == ',' || kWhitespace.find(name[i]) != std::string_view::npos) {
-      return Error{.message = "the name " + quoted + " contains a " +
-                              (byte == ',' ? "comma" : "blank") + ", which separates paths",
+      return Error{.message = "the name " + quoted + " contains a " + (byte == ',' ? "comma" : "blank") +
+                              ", which separates paths",
                    .hint = "write '_' instead"};
     }
     const bool is_late_control = byte == 0xc2 && static_cast<unsigned char>(name[i + 1]) < 0xa0;
-    if (byte == 0x7f || is_late_control)
-      return Error{.message = "a name contains a control character"};
+    if (byte == 0x7f || is_late_control) return Error{.message = "a name contains a control character"};
   }
   return {};
 }

@@ -25,8 +25,6 @@ Result<void> CheckElementName(std::string_view name);
   return path.starts_with(subtree) && (path.size() == subtree.size() || path[subtree.size()] == '/');
 }
 
-[[nodiscard]] inline bool IsAbsolutePath(std::string_view path) {
-  return !path.empty() && path.front() == '/';
-}
+[[nodiscard]] inline bool IsAbsolutePath(std::string_view path) { return !path.empty() && path.front() == '/'; }
 
 }  // namespace runnel

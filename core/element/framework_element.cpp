@@ -10,15 +10,11 @@
 namespace runnel {
 
 namespace internal {
-thread_local std::uint64_t made_by_this_thread =
-    0;  // elements, by which Construct() tells what was made
+thread_local std::uint64_t made_by_this_thread = 0;  // elements, by which Construct() tells what was made
 }
 
 FrameworkElement::FrameworkElement(RootTag, Runtime& runtime)
-    : path_("/"),
-      kind_(ElementKind::kRuntime),
-      life_cycle_(LifeCycle::kReady),
-      runtime_(&runtime) {}
+    : path_("/"), kind_(ElementKind::kRuntime), life_cycle_(LifeCycle::kReady), runtime_(&runtime) {}
 
 FrameworkElement::FrameworkElement(const Placement& placement, ElementKind kind)
     : name_(placement.name),
@@ -38,8 +34,7 @@ FrameworkElement::FrameworkElement(const Placement& placement, ElementKind kind)
 void FrameworkElement::JoinParent(const FrameworkElement* place) {
   if (parent_->life_cycle_ == LifeCycle::kDeleted) {
     throw ElementError(
-        {.message = "cannot create '" + name_ + "' in an element that is being deleted",
-         .path = parent_->path()});
+        {.message = "cannot create '" + name_ + "' in an element that is being deleted", .path = parent_->path()});
   }
   const auto [entry, is_new] = parent_->children_by_name_.try_emplace(name_, this);
   if (!is_new) {

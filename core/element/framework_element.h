@@ -28,16 +28,7 @@ struct Placement {
 };
 
 /// What an element is to a person who looks at the tree.
-enum class ElementKind {
-  kRuntime,
-  kGroup,
-  kModule,
-  kPortGroup,
-  kPort,
-  kParameter,
-  kThread,
-  kOther
-};
+enum class ElementKind { kRuntime, kGroup, kModule, kPortGroup, kPort, kParameter, kThread, kOther };
 
 /// The three stations of an element's life. Only a ready module is executed.
 enum class LifeCycle {
@@ -71,9 +62,7 @@ class FrameworkElement {
   [[nodiscard]] FrameworkElement* parent() const noexcept { return parent_; }
   [[nodiscard]] Runtime& runtime() const noexcept { return *runtime_; }
   /// In the order of their creation.
-  [[nodiscard]] const std::vector<FrameworkElement*>& children() const noexcept {
-    return children_;
-  }
+  [[nodiscard]] const std::vector<FrameworkElement*>& children() const noexcept { return children_; }
   /// The number of elements that the runtime had made before this one: an order that does not
   /// depend on addresses.
   [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
@@ -167,8 +156,7 @@ class FrameworkElement {
 /// Thrown by the constructor of an element that cannot be placed where it was to go.
 class ElementError : public std::runtime_error {
  public:
-  explicit ElementError(Error error)
-      : std::runtime_error(error.ToString()), error_(std::move(error)) {}
+  explicit ElementError(Error error) : std::runtime_error(error.ToString()), error_(std::move(error)) {}
   [[nodiscard]] const Error& error() const noexcept { return error_; }
 
  private:

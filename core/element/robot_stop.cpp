@@ -39,11 +39,10 @@ Result<void> RobotStop::Release(std::string by, const AsOf& as_of) {
     const Time now = runtime_.clock().Now();
     return now == state_.since ? now + Duration(state_.changes) : now;
   };
-  signal_->Release(bar,
-                   [&] {
-                     Note(false, std::move(by));
-                     lock.unlock();
-                   });
+  signal_->Release(bar, [&] {
+    Note(false, std::move(by));
+    lock.unlock();
+  });
   return {};
 }
 

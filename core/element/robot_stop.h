@@ -70,10 +70,9 @@ class RobotStop {
   [[nodiscard]] bool IsKnown(const AsOf& as_of) const;
 
   const Runtime& runtime_;
-  const std::shared_ptr<StopSignal> signal_ =
-      std::make_shared<StopSignal>();  // outlives the runtime at readers
+  const std::shared_ptr<StopSignal> signal_ = std::make_shared<StopSignal>();  // outlives the runtime at readers
   mutable std::mutex mutex_;
-  State state_;  // guarded by mutex_, but for `requests`
+  State state_;                             // guarded by mutex_, but for `requests`
   std::atomic<std::uint64_t> requests_{0};  // written with mutex_; release: pairs with the acquire in requests()
 };
 

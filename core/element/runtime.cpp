@@ -156,8 +156,7 @@ Result<UnlistedElement> Runtime::Unlist(FrameworkElement& element) {
     return std::ranges::find_if(owned, [&](auto& each) { return each.get() == &element; });
   };
   if (place_of(parent->owned_) == parent->owned_.end()) {
-    return Refuse(element, "a part of another element cannot be deleted by itself",
-                  "delete " + parent->path());
+    return Refuse(element, "a part of another element cannot be deleted by itself", "delete " + parent->path());
   }
   element.Visit([](FrameworkElement& each) { each.life_cycle_ = LifeCycle::kDeleted; });
   ForEachListener([&](ElementListener& listener) { listener.OnDeleted(element); });
@@ -171,9 +170,7 @@ Result<UnlistedElement> Runtime::Unlist(FrameworkElement& element) {
 
 void Runtime::Destroy(UnlistedElement element) { DestroyAll(&element, element ? 1 : 0); }
 
-void Runtime::Destroy(std::vector<UnlistedElement> elements) {
-  DestroyAll(elements.data(), elements.size());
-}
+void Runtime::Destroy(std::vector<UnlistedElement> elements) { DestroyAll(elements.data(), elements.size()); }
 
 // Without allocating: what fails between leaving the tree and being destroyed could be told to nobody.
 void Runtime::DestroyAll(UnlistedElement* elements, std::size_t count) {
@@ -207,8 +204,7 @@ void Runtime::DestroyAll(UnlistedElement* elements, std::size_t count) {
 
 Result<void> Runtime::Delete(FrameworkElement& element) {
   if (EpochGuard::HeldByThisThread()) {
-    return Refuse(element, "an element cannot be deleted from within a cycle",
-                  "ask another thread to do it");
+    return Refuse(element, "an element cannot be deleted from within a cycle", "ask another thread to do it");
   }
   if (structure_mutex_.HeldByThisThread()) {
     return Refuse(element, "an element cannot be deleted under the structure lock",

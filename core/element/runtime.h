@@ -44,8 +44,7 @@ class Runtime {
   template <std::derived_from<FrameworkElement> T, typename... Arguments>
   T& Create(FrameworkElement& parent, std::string name, Arguments&&... arguments) {
     const auto lock = LockUnlessBeside(parent);
-    auto element = std::make_unique<T>(Placement{parent, std::move(name)},
-                                       std::forward<Arguments>(arguments)...);
+    auto element = std::make_unique<T>(Placement{parent, std::move(name)}, std::forward<Arguments>(arguments)...);
     T& reference = *element;
     Adopt(std::move(element));
     return reference;
@@ -75,8 +74,7 @@ class Runtime {
   /// If it has been prepared, or has been in the tree before, it is ready then, and the listeners are
   /// told. Errors: its name is taken, its parent is being deleted. The caller keeps the element then, and
   /// also if this throws for lack of memory.
-  Result<FrameworkElement*> List(UnlistedElement&& element,
-                                 const FrameworkElement* place = nullptr);
+  Result<FrameworkElement*> List(UnlistedElement&& element, const FrameworkElement* place = nullptr);
   /// Takes the element and all below it out of the tree as they are, for Destroy() or for List()
   /// again; the listeners are told that it is deleted. Its connections stay: cut them, or have another
   /// element take them over, before. Errors: as Delete(), but for those of waiting.

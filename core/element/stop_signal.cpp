@@ -30,9 +30,7 @@ bool StopSignal::Press(const Listener& note) {
 bool StopSignal::Release(const std::function<Time()>& now, const Listener& note) {
   std::unique_lock releaser(releasers_);
   std::int64_t pressed = kInForce;
-  if (!bar_.compare_exchange_strong(pressed, now().time_since_epoch().count(),
-                                    std::memory_order_acq_rel))
-    return false;
+  if (!bar_.compare_exchange_strong(pressed, now().time_since_epoch().count(), std::memory_order_acq_rel)) return false;
   releaser.unlock();
   Tell(note);
   return true;

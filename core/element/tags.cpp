@@ -13,9 +13,7 @@ namespace {
 
 struct Tags final : Annotation {
   explicit Tags(std::vector<std::string> all) : names(std::move(all)) {}
-  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
-    return std::make_unique<Tags>(names);
-  }
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<Tags>(names); }
   std::vector<std::string> names;
 };
 

@@ -13,7 +13,8 @@ namespace runnel {
 /// is tried for so long. Threads: any that may sleep.
 [[nodiscard]] inline std::unique_lock<OrderedMutex> TryStructureLock(Runtime& runtime, Duration patience) {
   std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
-  for (const Time latest = SteadyClock().Now() + patience; !lock && SteadyClock().Now() < latest; (void)lock.try_lock()) {
+  for (const Time latest = SteadyClock().Now() + patience; !lock && SteadyClock().Now() < latest;
+       (void)lock.try_lock()) {
     std::this_thread::sleep_for(std::min<Duration>(patience / 10, std::chrono::milliseconds(1)));
   }
   return lock;

@@ -16,8 +16,7 @@ namespace runnel {
 class UnlistedElement {
  public:
   UnlistedElement() = default;
-  explicit UnlistedElement(std::unique_ptr<FrameworkElement> element)
-      : element_(std::move(element)) {}
+  explicit UnlistedElement(std::unique_ptr<FrameworkElement> element) : element_(std::move(element)) {}
   ~UnlistedElement() { Reset(); }
   UnlistedElement(UnlistedElement&&) = default;
   UnlistedElement& operator=(UnlistedElement&& other) noexcept {

@@ -9,12 +9,8 @@ namespace runnel {
 
 namespace {
 
-bool Register() noexcept {
-  return syscall(SYS_membarrier, MEMBARRIER_CMD_REGISTER_PRIVATE_EXPEDITED, 0, 0) == 0;
-}
-bool PassFenceEverywhere() noexcept {
-  return syscall(SYS_membarrier, MEMBARRIER_CMD_PRIVATE_EXPEDITED, 0, 0) == 0;
-}
+bool Register() noexcept { return syscall(SYS_membarrier, MEMBARRIER_CMD_REGISTER_PRIVATE_EXPEDITED, 0, 0) == 0; }
+bool PassFenceEverywhere() noexcept { return syscall(SYS_membarrier, MEMBARRIER_CMD_PRIVATE_EXPEDITED, 0, 0) == 0; }
 
 // Runs the calling thread on each processor in turn. Whatever has run there was switched away for it,
 // and that is a full fence. Milliseconds, where the kernel's own way takes microseconds.

@@ -122,8 +122,7 @@ class BoundedQueue {
       const std::uint64_t position = head_.load(std::memory_order_relaxed);
       const std::uint64_t full_sequence = 2 * Lap(position) + 1;
       // acquire: as in TryConsume(), so that a later sequence shows a later head.
-      const std::uint64_t sequence =
-          cells_[Index(position)].sequence.load(std::memory_order_acquire);
+      const std::uint64_t sequence = cells_[Index(position)].sequence.load(std::memory_order_acquire);
       if (sequence <= full_sequence) return sequence == full_sequence;
     }
   }
@@ -153,9 +152,7 @@ class BoundedQueue {
   [[nodiscard]] std::size_t Index(std::uint64_t position) const noexcept {
     return position & ((std::uint64_t{1} << index_bits_) - 1);
   }
-  [[nodiscard]] std::uint64_t Lap(std::uint64_t position) const noexcept {
-    return position >> index_bits_;
-  }
+  [[nodiscard]] std::uint64_t Lap(std::uint64_t position) const noexcept { return position >> index_bits_; }
   [[nodiscard]] std::uint64_t Next(std::uint64_t position) const noexcept {
     return Index(position) + 1 != capacity_ ? position + 1 : (Lap(position) + 1) << index_bits_;
   }

@@ -84,8 +84,7 @@ class BufferBase {
 
   // By loan or count. acquire: pairs with the releases of those who gave it up.
   [[nodiscard]] bool IsHeld() const noexcept {
-    return is_loaned_.load(std::memory_order_acquire) ||
-           count_.load(std::memory_order_acquire) != 0;
+    return is_loaned_.load(std::memory_order_acquire) || count_.load(std::memory_order_acquire) != 0;
   }
 
   Atomic<std::uint64_t> count_{0};  // references
@@ -110,9 +109,7 @@ class alignas(kCacheLineSize) Buffer : public BufferBase<Atomic> {
   Buffer& operator=(const Buffer&) = delete;
 
   [[nodiscard]] T& value() noexcept { return *std::launder(reinterpret_cast<T*>(storage_)); }
-  [[nodiscard]] const T& value() const noexcept {
-    return *std::launder(reinterpret_cast<const T*>(storage_));
-  }
+  [[nodiscard]] const T& value() const noexcept { return *std::launder(reinterpret_cast<const T*>(storage_)); }
 
   /// What readers see: the buffer's own value, or one that lies elsewhere.
   [[nodiscard]] const T& published_value() const noexcept { return *published_value_; }

@@ -32,8 +32,7 @@ class BufferLease {
     if (buffer_ != nullptr) buffer_->AddReferences(1);
   }
   BufferLease(BufferLease&& other) noexcept
-      : buffer_(std::exchange(other.buffer_, nullptr)),
-        slot_(std::exchange(other.slot_, nullptr)) {}
+      : buffer_(std::exchange(other.buffer_, nullptr)), slot_(std::exchange(other.slot_, nullptr)) {}
   BufferLease& operator=(BufferLease other) noexcept {
     std::swap(buffer_, other.buffer_);
     std::swap(slot_, other.slot_);
@@ -53,9 +52,7 @@ class BufferLease {
     // release: pairs with the acquire in BufferPool::FindFree(); this reader's reads are over.
     slot_->held.store(nullptr, std::memory_order_release);
   }
-  [[gnu::noinline]] static void ReleaseCounted(Buffer& buffer) noexcept {
-    buffer.ReleaseReference();
-  }
+  [[gnu::noinline]] static void ReleaseCounted(Buffer& buffer) noexcept { buffer.ReleaseReference(); }
 
   Buffer* buffer_ = nullptr;
   Slot* slot_ = nullptr;

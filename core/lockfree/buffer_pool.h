@@ -84,8 +84,7 @@ class BufferPool final : public Retirable<Atomic> {
   }
   /// A buffer that was free when others were looked for, or nullptr if it is time to look again.
   [[nodiscard, gnu::always_inline]] Buffer* LoanAtOnce() noexcept {
-    if (free_count_ == 0 || (kPrefersWarmBuffers && count_ - free_count_ <= kFewBuffers))
-        [[unlikely]]
+    if (free_count_ == 0 || (kPrefersWarmBuffers && count_ - free_count_ <= kFewBuffers)) [[unlikely]]
       return nullptr;
     return TakeFree();
   }
@@ -113,18 +112,13 @@ class BufferPool final : public Retirable<Atomic> {
     Chunk* const chunk = MakeChunk(buffers - now).release();
     chunk->next = arriving_.load(std::memory_order_relaxed);
     // release: pairs with the acquire in TakeArriving(); the buffers are complete.
-    while (!arriving_.compare_exchange_weak(chunk->next, chunk, std::memory_order_release,
-                                            std::memory_order_relaxed)) {
+    while (!arriving_.compare_exchange_weak(chunk->next, chunk, std::memory_order_release, std::memory_order_relaxed)) {
     }
   }
 
-  [[nodiscard]] std::uint32_t capacity() const noexcept {
-    return capacity_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] std::uint32_t capacity() const noexcept { return capacity_.load(std::memory_order_relaxed); }
   /// How often Loan() had to allocate: 0 in an application that is sized right.
-  [[nodiscard]] std::uint64_t growths() const noexcept {
-    return growths_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] std::uint64_t growths() const noexcept { return growths_.load(std::memory_order_relaxed); }
 
  private:
   // Big values, and those with memory elsewhere, are better written where the last ones have been:

@@ -41,8 +41,8 @@ class EpochDomain {
       participant.next = head;
       // release: pairs with the acquire in first(); the participant is complete. That a writer does
       // not miss it is seen to by the fence in Enter(), as for `entered`.
-    } while (!participants_.compare_exchange_weak(head, &participant, std::memory_order_release,
-                                                  std::memory_order_relaxed));
+    } while (
+        !participants_.compare_exchange_weak(head, &participant, std::memory_order_release, std::memory_order_relaxed));
   }
 
   void Enter(Participant& participant) noexcept {
@@ -67,16 +67,14 @@ class EpochDomain {
   }
 
   /// True once this reader, if it might have seen the state before `epoch`, has left.
-  [[nodiscard]] static bool HasPassed(const Participant& participant,
-                                      std::uint64_t epoch) noexcept {
+  [[nodiscard]] static bool HasPassed(const Participant& participant, std::uint64_t epoch) noexcept {
     // acquire: pairs with the releases in Leave() and Enter().
     const std::uint64_t entered = participant.entered.load(std::memory_order_acquire);
     return entered == kOutside || entered >= epoch;
   }
   /// True once every reader that might have seen the state before `epoch` has left.
   [[nodiscard]] bool HasPassed(std::uint64_t epoch) const noexcept {
-    for (const Participant* participant = first(); participant != nullptr;
-         participant = participant->next) {
+    for (const Participant* participant = first(); participant != nullptr; participant = participant->next) {
       if (!HasPassed(*participant, epoch)) return false;
     }
     return true;

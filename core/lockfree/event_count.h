@@ -83,11 +83,9 @@ class Waiter {
   bool Wait(typename EventCount::Deadline deadline) noexcept {
     std::uint32_t awake = kAwake;
     // relaxed, both: it hands nothing over; who exchanges the word later reads it.
-    if (word_.compare_exchange_strong(awake, kAsleep, std::memory_order_relaxed,
-                                      std::memory_order_relaxed)) {
+    if (word_.compare_exchange_strong(awake, kAsleep, std::memory_order_relaxed, std::memory_order_relaxed)) {
       // relaxed: the count orders.
-      event_count_.SleepWhile(bit_, deadline,
-                              [this] { return word_.load(std::memory_order_relaxed) == kAsleep; });
+      event_count_.SleepWhile(bit_, deadline, [this] { return word_.load(std::memory_order_relaxed) == kAsleep; });
     }
     // acquire: as above.
     return word_.exchange(kAwake, std::memory_order_acquire) == kNotified;

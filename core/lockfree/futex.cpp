@@ -10,8 +10,7 @@
 
 namespace runnel {
 
-bool KernelFutex::SleepOn(const void* word, std::uint32_t expected, Deadline deadline,
-                          Waiters waiter) noexcept {
+bool KernelFutex::SleepOn(const void* word, std::uint32_t expected, Deadline deadline, Waiters waiter) noexcept {
   const auto since_start = deadline.time_since_epoch();
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(since_start);
   const std::chrono::nanoseconds rest = since_start - seconds;
@@ -24,8 +23,7 @@ bool KernelFutex::SleepOn(const void* word, std::uint32_t expected, Deadline dea
 }
 
 void KernelFutex::WakeOn(const void* word, Waiters waiters) noexcept {
-  syscall(SYS_futex, word, FUTEX_WAKE_BITSET | FUTEX_PRIVATE_FLAG, INT_MAX, nullptr, nullptr,
-          waiters);
+  syscall(SYS_futex, word, FUTEX_WAKE_BITSET | FUTEX_PRIVATE_FLAG, INT_MAX, nullptr, nullptr, waiters);
 }
 
 }  // namespace runnel

@@ -18,8 +18,7 @@ struct KernelFutex {
   /// Sleeps as `waiter` if `word` is still `expected`, until it is woken, or until the deadline; may
   /// also return for no reason. False if the deadline has passed.
   template <typename Word>
-  static bool Sleep(Word& word, std::uint32_t expected, Deadline deadline,
-                    Waiters waiter = kAll) noexcept {
+  static bool Sleep(Word& word, std::uint32_t expected, Deadline deadline, Waiters waiter = kAll) noexcept {
     static_assert(sizeof(Word) == sizeof(std::uint32_t));
     return SleepOn(&word, expected, deadline, waiter);
   }
@@ -31,8 +30,7 @@ struct KernelFutex {
   }
 
  private:
-  static bool SleepOn(const void* word, std::uint32_t expected, Deadline deadline,
-                      Waiters waiter) noexcept;
+  static bool SleepOn(const void* word, std::uint32_t expected, Deadline deadline, Waiters waiter) noexcept;
   static void WakeOn(const void* word, Waiters waiters) noexcept;
 };
 

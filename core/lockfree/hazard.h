@@ -86,8 +86,7 @@ class HazardDomain {
     do {
       record.next = head;
       // release: as above.
-    } while (!others_.compare_exchange_weak(head, &record, std::memory_order_release,
-                                            std::memory_order_relaxed));
+    } while (!others_.compare_exchange_weak(head, &record, std::memory_order_release, std::memory_order_relaxed));
   }
 
   /// Calls `visit(record)` for all records of which `bits` has the bit.
@@ -100,8 +99,7 @@ class HazardDomain {
       if (Record* record = records_[i].load(std::memory_order_acquire)) visit(*record);
     }
     if ((bits >> kOwnBits) == 0) return;
-    for (Record* each = others_.load(std::memory_order_acquire); each != nullptr;
-         each = each->next) {
+    for (Record* each = others_.load(std::memory_order_acquire); each != nullptr; each = each->next) {
       visit(*each);
     }
   }

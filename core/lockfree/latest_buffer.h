@@ -77,8 +77,7 @@ class LatestBuffer {
 
  private:
   // The slot holds the buffer, if it still is the newest.
-  [[nodiscard, gnu::always_inline]] BufferLease LeaseFromOthers(Buffer* buffer,
-                                                                HazardSlot<Atomic>& slot,
+  [[nodiscard, gnu::always_inline]] BufferLease LeaseFromOthers(Buffer* buffer, HazardSlot<Atomic>& slot,
                                                                 const Record& record) noexcept {
     // relaxed: an own bit is set by this thread alone; Register() sees to a shared one.
     if ((readers_.load(std::memory_order_relaxed) & record.own_bit) == 0) [[unlikely]]

@@ -29,8 +29,7 @@ class LatestValue {
                 "LatestValue copies words: T must be trivially copyable; use LatestBuffer instead");
 
  public:
-  void Publish(const T& value, std::int64_t timestamp, std::int64_t publication_time,
-               std::uint64_t order) noexcept {
+  void Publish(const T& value, std::int64_t timestamp, std::int64_t publication_time, std::uint64_t order) noexcept {
     Write(value, timestamp, publication_time,
           [order](Cell& cell) { cell.order.store(order, std::memory_order_release); });
   }
@@ -86,8 +85,8 @@ class LatestValue {
   }
   // `also(cell)` stores what else there is, with release.
   template <typename Also>
-  [[gnu::always_inline]] void Write(const T& value, std::int64_t timestamp,
-                                    std::int64_t publication_time, Also&& also) noexcept {
+  [[gnu::always_inline]] void Write(const T& value, std::int64_t timestamp, std::int64_t publication_time,
+                                    Also&& also) noexcept {
     const std::uint64_t sequence = ++published_;
     Cell& cell = cells_[sequence % kCells];
     // relaxed: the release stores of the words below carry it to whoever sees one of them.

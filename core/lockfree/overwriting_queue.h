@@ -122,9 +122,7 @@ class OverwritingQueue {
     }
   }
   /// How many the reader has claimed and not yet let go, 0 or 1. Any thread.
-  [[nodiscard]] std::size_t claimed() const noexcept {
-    return claimed_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] std::size_t claimed() const noexcept { return claimed_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
   /// How many values lie in the queue, without those that the reader has claimed; already outdated when other
   /// threads use it.
@@ -154,9 +152,7 @@ class OverwritingQueue {
     return capacity > kMost ? capacity : capacity + kSpare;
   }
   [[nodiscard]] std::size_t cells() const noexcept { return capacity_ + kSpare; }
-  [[nodiscard]] Cell& CellAt(std::uint64_t position) const noexcept {
-    return cells_[position % cells()];
-  }
+  [[nodiscard]] Cell& CellAt(std::uint64_t position) const noexcept { return cells_[position % cells()]; }
   // Claims the oldest value for the reader, which has none; false if there is none.
   [[gnu::noinline]] bool Claim() noexcept {
     // relaxed: who claims compares it.
@@ -167,13 +163,11 @@ class OverwritingQueue {
         read_index_ = position % cells();
       }
       // acquire: pairs with the release in TryEmplace(), of the value.
-      const std::uint64_t sequence =
-          cells_[read_index_].sequence.load(std::memory_order_acquire);
+      const std::uint64_t sequence = cells_[read_index_].sequence.load(std::memory_order_acquire);
       if (sequence == position + 1) {
         // acquire: pairs with the release in DropOldestFromOutside(): who sees this position released sees those
         // who are still dropping one before it. What lies here has been seen by its sequence.
-        if (head_.compare_exchange_weak(position, position + 1, std::memory_order_acquire,
-                                        std::memory_order_relaxed)) {
+        if (head_.compare_exchange_weak(position, position + 1, std::memory_order_acquire, std::memory_order_relaxed)) {
           claimed_.store(1, std::memory_order_relaxed);
           return true;
         }
@@ -194,8 +188,7 @@ class OverwritingQueue {
       if (sequence < position + 1) return false;
       if (sequence > position + 1) {
         position = head_.load(std::memory_order_relaxed);
-      } else if (head_.compare_exchange_weak(position, position + 1, claiming,
-                                             std::memory_order_relaxed)) {
+      } else if (head_.compare_exchange_weak(position, position + 1, claiming, std::memory_order_relaxed)) {
         std::destroy_at(&cell.value);
         // release: pairs with the acquire in LookForRoom(): who drops is done with the cell.
         cell.dropped.store(position + 1, std::memory_order_release);
@@ -228,14 +221,14 @@ class OverwritingQueue {
   const std::size_t capacity_;
   const std::unique_ptr<Cell[]> cells_;
   alignas(kCacheLineSize) Atomic<std::uint64_t> tail_{0};  // the writer's line
-  Plain<std::uint64_t> writable_;  // positions before it need no look
+  Plain<std::uint64_t> writable_;                          // positions before it need no look
   Plain<std::size_t> write_index_{0};
   alignas(kCacheLineSize) Atomic<std::uint64_t> head_{0};  // who claims, and who looks for room
   Atomic<std::uint64_t> released_{0};
-  Atomic<std::uint32_t> from_outside_{0};  // how many drop who are neither reader nor writer
+  Atomic<std::uint32_t> from_outside_{0};                   // how many drop who are neither reader nor writer
   alignas(kCacheLineSize) Atomic<std::size_t> claimed_{0};  // the reader's line
-  Plain<std::uint64_t> read_position_{0};  // the next one, as far as the reader knows
-  Plain<std::size_t> read_index_{0};       // of its cell
+  Plain<std::uint64_t> read_position_{0};                   // the next one, as far as the reader knows
+  Plain<std::size_t> read_index_{0};                        // of its cell
 };
 
 }  // namespace runnel

@@ -43,8 +43,7 @@ class StreamQueue {
 
  public:
   /// Precondition: capacity > 0.
-  explicit StreamQueue(std::size_t capacity)
-      : capacity_(capacity), cells_(MakeQueueCells<Cell>(capacity)) {
+  explicit StreamQueue(std::size_t capacity) : capacity_(capacity), cells_(MakeQueueCells<Cell>(capacity)) {
     RUNNEL_CHECK(capacity > 0, "a queue needs room for one value at least");
   }
   ~StreamQueue() {
@@ -132,9 +131,7 @@ class StreamQueue {
   };
 
   // A division would cost as much as all the rest.
-  [[nodiscard]] std::size_t Next(std::size_t index) const noexcept {
-    return index + 1 == capacity_ ? 0 : index + 1;
-  }
+  [[nodiscard]] std::size_t Next(std::size_t index) const noexcept { return index + 1 == capacity_ ? 0 : index + 1; }
 
   const std::size_t capacity_;
   const std::unique_ptr<Cell[]> cells_;

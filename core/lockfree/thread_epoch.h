@@ -24,9 +24,7 @@ class EpochGuard {
   EpochGuard& operator=(const EpochGuard&) = delete;
 
   /// True if the calling thread holds a guard.
-  [[nodiscard]] static bool HeldByThisThread() noexcept {
-    return internal::guard_depth > 0;
-  }
+  [[nodiscard]] static bool HeldByThisThread() noexcept { return internal::guard_depth > 0; }
 
   /// By which others can tell what the calling thread has left; registers the thread, if this is
   /// its first. Never freed; the thread's only as long as it lives.
@@ -40,18 +38,14 @@ class EpochGuard {
 /// looks again and again more than all the rest. Precondition: the thread holds none, and IsPossible().
 class BriefEpochGuard {
  public:
-  BriefEpochGuard() : participant_(internal::thread_record->epoch) {
-    ProcessEpochs().Enter(participant_);
-  }
+  BriefEpochGuard() : participant_(internal::thread_record->epoch) { ProcessEpochs().Enter(participant_); }
   ~BriefEpochGuard() { ProcessEpochs().Leave(participant_); }
   BriefEpochGuard(const BriefEpochGuard&) = delete;
   BriefEpochGuard& operator=(const BriefEpochGuard&) = delete;
 
   /// Whether the calling thread is registered. Apart from the constructor, so that a way with a brief guard holds no
   /// call, for which it would have to put its registers aside.
-  [[nodiscard]] static bool IsPossible() noexcept {
-    return internal::thread_record != &internal::no_record;
-  }
+  [[nodiscard]] static bool IsPossible() noexcept { return internal::thread_record != &internal::no_record; }
 
  private:
   EpochDomain<>::Participant& participant_;

@@ -43,11 +43,9 @@ void GiveBackAtTheEnd(ThreadRecord* record) noexcept {
 // Of a thread that has ended, or nullptr.
 ThreadRecord* TakeRecord() noexcept {
   // acquire: pairs with the release in MakeRecord().
-  for (ThreadRecord* record = all_records.load(std::memory_order_acquire); record != nullptr;
-       record = record->next) {
+  for (ThreadRecord* record = all_records.load(std::memory_order_acquire); record != nullptr; record = record->next) {
     bool taken = false;
-    if (record->taken.compare_exchange_strong(taken, true, std::memory_order_acquire,
-                                              std::memory_order_relaxed)) {
+    if (record->taken.compare_exchange_strong(taken, true, std::memory_order_acquire, std::memory_order_relaxed)) {
       return record;
     }
   }
@@ -59,8 +57,8 @@ ThreadRecord* MakeRecord() {
   ProcessEpochs().Add(record->epoch);
   ProcessHazards().Add(record->hazards);
   record->next = all_records.load(std::memory_order_relaxed);
-  while (!all_records.compare_exchange_weak(record->next, record, std::memory_order_release,
-                                            std::memory_order_relaxed)) {
+  while (
+      !all_records.compare_exchange_weak(record->next, record, std::memory_order_release, std::memory_order_relaxed)) {
   }
   return record;
 }

@@ -30,11 +30,9 @@ extern constinit HazardDomain<> process_hazards;
 extern constinit ThreadRecord no_record;
 // initial-exec: one load instead of a call, also from plugins; the variable lives in the core,
 // which is there from the start of the program.
-extern thread_local constinit ThreadRecord* thread_record
-    __attribute__((tls_model("initial-exec")));
+extern thread_local constinit ThreadRecord* thread_record __attribute__((tls_model("initial-exec")));
 // How many guards the thread holds. Apart from the record, so that "is this thread inside a guard?" is one look.
-extern thread_local constinit std::uint32_t guard_depth
-    __attribute__((tls_model("initial-exec")));
+extern thread_local constinit std::uint32_t guard_depth __attribute__((tls_model("initial-exec")));
 ThreadRecord& RegisterThread();
 }  // namespace internal
 

@@ -24,8 +24,8 @@ Waiters TakeWaiterBit(SharedEventCount& event_count) noexcept {
   Waiters taken = event_count.taken.load(std::memory_order_relaxed);
   while (~taken != 0) {
     const Waiters waiter_bit = Waiters{1} << std::countr_one(taken);
-    if (event_count.taken.compare_exchange_weak(
-            taken, taken | waiter_bit, std::memory_order_relaxed, std::memory_order_relaxed)) {
+    if (event_count.taken.compare_exchange_weak(taken, taken | waiter_bit, std::memory_order_relaxed,
+                                                std::memory_order_relaxed)) {
       return waiter_bit;
     }
   }
@@ -34,16 +34,15 @@ Waiters TakeWaiterBit(SharedEventCount& event_count) noexcept {
 
 Waiter<> MakeWaiter() {
   // acquire: pairs with the release below; the event count is complete.
-  for (SharedEventCount* event_count = all_event_counts.load(std::memory_order_acquire);
-       event_count != nullptr; event_count = event_count->next) {
-    if (const Waiters waiter_bit = TakeWaiterBit(*event_count); waiter_bit != 0)
-      return {*event_count, waiter_bit};
+  for (SharedEventCount* event_count = all_event_counts.load(std::memory_order_acquire); event_count != nullptr;
+       event_count = event_count->next) {
+    if (const Waiters waiter_bit = TakeWaiterBit(*event_count); waiter_bit != 0) return {*event_count, waiter_bit};
   }
   auto* const event_count = new SharedEventCount;
   const Waiters waiter_bit = TakeWaiterBit(*event_count);
   event_count->next = all_event_counts.load(std::memory_order_relaxed);
-  while (!all_event_counts.compare_exchange_weak(
-      event_count->next, event_count, std::memory_order_release, std::memory_order_relaxed)) {
+  while (!all_event_counts.compare_exchange_weak(event_count->next, event_count, std::memory_order_release,
+                                                 std::memory_order_relaxed)) {
   }
   return {*event_count, waiter_bit};
 }

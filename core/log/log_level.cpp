@@ -63,16 +63,13 @@ const std::array<std::string, 5>& LogLevelNames() {
   return names;
 }
 
-const std::string& LogLevelName(LogLevel level) {
-  return LogLevelNames().at(static_cast<std::size_t>(level));
-}
+const std::string& LogLevelName(LogLevel level) { return LogLevelNames().at(static_cast<std::size_t>(level)); }
 
 Result<LogLevel> LogLevelOf(std::string_view name) {
   const auto& names = LogLevelNames();
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) {
-    return Error{.message = "there is no log level '" + std::string(name) + "'; " +
-                            NearestNameHint(name, names)};
+    return Error{.message = "there is no log level '" + std::string(name) + "'; " + NearestNameHint(name, names)};
   }
   return static_cast<LogLevel>(found - names.begin());
 }
@@ -84,9 +81,7 @@ void SetLogLevel(Runtime& runtime, std::string path, LogLevel level) {
   internal::LogDispatcher::OfProcess().SetLevel(runtime, std::move(path), level);
 }
 
-LogLevels ReadLogLevels(Runtime& runtime) {
-  return internal::LogDispatcher::OfProcess().Levels(runtime);
-}
+LogLevels ReadLogLevels(Runtime& runtime) { return internal::LogDispatcher::OfProcess().Levels(runtime); }
 
 bool ResetLogLevel(Runtime& runtime, const std::string& path) {
   const std::lock_guard lock(runtime.structure_mutex());

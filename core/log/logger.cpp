@@ -13,9 +13,7 @@
 
 namespace runnel {
 
-Logger::Logger(const FrameworkElement& element) : element_(element) {
-  internal::LogDispatcher::OfProcess().Add(*this);
-}
+Logger::Logger(const FrameworkElement& element) : element_(element) { internal::LogDispatcher::OfProcess().Add(*this); }
 
 Logger::~Logger() {
   // relaxed: whoever has written has ended before the element is destroyed.
@@ -61,9 +59,7 @@ std::string LogMessage::BodyText() const {
   return fmt::format("{}{}{}", path, path.empty() ? "" : ": ", TextWithCount());
 }
 
-std::string LogMessage::ToString() const {
-  return fmt::format("{:<8} {}", LogLevelName(level), BodyText());
-}
+std::string LogMessage::ToString() const { return fmt::format("{:<8} {}", LogLevelName(level), BodyText()); }
 
 LogSink::LogSink(Runtime& runtime, Receive receive) {
   internal::LogDispatcher::OfProcess().Add(*this, runtime, std::move(receive));

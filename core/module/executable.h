@@ -37,8 +37,7 @@ class BoundCall {
   void operator()() const { function_(object_); }
 
  private:
-  BoundCall(void* object, void (*function)(void*)) noexcept
-      : object_(object), function_(function) {}
+  BoundCall(void* object, void (*function)(void*)) noexcept : object_(object), function_(function) {}
 
   void* object_;
   void (*function_)(void*);

@@ -12,8 +12,7 @@ namespace runnel {
 namespace {
 
 // The value, of one type, for a parameter that may be of another.
-Result<std::shared_ptr<const void>> ValueFor(const Configurable& target, const TypeInfo& type,
-                                             const void* value) {
+Result<std::shared_ptr<const void>> ValueFor(const Configurable& target, const TypeInfo& type, const void* value) {
   if (&target.type() != &type) return target.Parse(ToText(type, value));
   if (auto good = target.Check(value); !good) return good.error();
   return std::shared_ptr<const void>(std::shared_ptr<void>(), value);
@@ -21,8 +20,7 @@ Result<std::shared_ptr<const void>> ValueFor(const Configurable& target, const T
 
 }  // namespace
 
-GroupParameter::GroupParameter(const Placement& placement, std::vector<std::string> targets,
-                               std::string description)
+GroupParameter::GroupParameter(const Placement& placement, std::vector<std::string> targets, std::string description)
     : FrameworkElement(placement, ElementKind::kParameter),
       targets_(std::move(targets)),
       type_(&TypeOf<std::string>()),

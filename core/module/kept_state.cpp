@@ -15,23 +15,19 @@ namespace {
 
 using internal::KeptPart;
 
-std::string NameOf(const KeptPart& part) {
-  return Demangled(part.type->name());
-}
+std::string NameOf(const KeptPart& part) { return Demangled(part.type->name()); }
 
 // Why the state cannot go from the one library to the other; nullopt if it can.
 std::optional<Error> Refusal(const KeptPart& from, const KeptPart& to) {
   if (from.library == to.library) return {};
   const auto refused = [&](const std::string& why, const std::string& hint) {
-    return Error{.message = "the kept state '" + NameOf(from) +
-                            "' cannot be handed over to another library: " + why,
+    return Error{.message = "the kept state '" + NameOf(from) + "' cannot be handed over to another library: " + why,
                  .hint = hint};
   };
   if (from.description == nullptr || to.description == nullptr) {
-    return refused(
-        "its type has no description",
-        "write a Describe(runnel::TypeBuilder<…>&) beside the type, or delete the module before "
-        "and create it again after");
+    return refused("its type has no description",
+                   "write a Describe(runnel::TypeBuilder<…>&) beside the type, or delete the module before "
+                   "and create it again after");
   }
   try {
     const TypeInfo& type = from.description();
@@ -40,8 +36,7 @@ std::optional<Error> Refusal(const KeptPart& from, const KeptPart& to) {
     if (type.is_transparent()) return {};
     return refused("something in it is not described", "describe the fields of all that is in it");
   } catch (const ProgrammingError& otherwise) {
-    return refused(otherwise.what(),
-                   "delete the module before and create it again after: what it remembers is lost");
+    return refused(otherwise.what(), "delete the module before and create it again after: what it remembers is lost");
   }
 }
 

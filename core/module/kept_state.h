@@ -56,9 +56,7 @@ class KeptState final : public Annotation {
     const TypeInfo& (*description)() = nullptr;
     if constexpr (internal::kIsDescribed<State>) description = &TypeOf<State>;
     parts_.push_back({&typeid(State), &internal::this_library, &state,
-                      [](void* to, const void* from) {
-                        *static_cast<State*>(to) = *static_cast<const State*>(from);
-                      },
+                      [](void* to, const void* from) { *static_cast<State*>(to) = *static_cast<const State*>(from); },
                       description});
   }
 

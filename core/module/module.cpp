@@ -7,13 +7,12 @@
 
 namespace runnel {
 
-Module::Module(const Placement& placement, NoTasks)
-    : FrameworkElement(placement, ElementKind::kModule) {}
+Module::Module(const Placement& placement, NoTasks) : FrameworkElement(placement, ElementKind::kModule) {}
 
 Module::Module(const Placement& placement) : Module(placement, NoTasks{}) {
   Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
-    const BoundCall run = ListensToParameters() ? BoundCall::To<&Module::TellAndUpdate>(*this)
-                                                : BoundCall::To<&Module::Update>(*this);
+    const BoundCall run =
+        ListensToParameters() ? BoundCall::To<&Module::TellAndUpdate>(*this) : BoundCall::To<&Module::Update>(*this);
     return {{this, Phase::kUpdate, run, AsTaskGroups(input_group_), AsTaskGroups(output_group_)}};
   }));
 }

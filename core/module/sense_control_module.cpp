@@ -9,12 +9,11 @@ namespace runnel {
 
 SenseControlModule::SenseControlModule(const Placement& placement) : Module(placement, NoTasks{}) {
   Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
-    const BoundCall sense = ListensToParameters()
-                                ? BoundCall::To<&SenseControlModule::TellAndSense>(*this)
-                                : BoundCall::To<&SenseControlModule::SenseAndNote>(*this);
+    const BoundCall sense = ListensToParameters() ? BoundCall::To<&SenseControlModule::TellAndSense>(*this)
+                                                  : BoundCall::To<&SenseControlModule::SenseAndNote>(*this);
     return {{this, Phase::kSense, sense, AsTaskGroups(groups_[0]), AsTaskGroups(groups_[1])},
-            {this, Phase::kControl, BoundCall::To<&SenseControlModule::AgeAndControl>(*this),
-             AsTaskGroups(groups_[2]), AsTaskGroups(groups_[3])}};
+            {this, Phase::kControl, BoundCall::To<&SenseControlModule::AgeAndControl>(*this), AsTaskGroups(groups_[2]),
+             AsTaskGroups(groups_[3])}};
   }));
 }
 

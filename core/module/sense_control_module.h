@@ -25,15 +25,9 @@ class SenseControlModule : public Module {
   [[nodiscard]] FrameworkElement& OutputGroup() final;
 
   [[nodiscard]] FrameworkElement& sensor_inputs() { return LazyGroup(groups_[0], "sensor_input"); }
-  [[nodiscard]] FrameworkElement& sensor_outputs() {
-    return LazyGroup(groups_[1], "sensor_output");
-  }
-  [[nodiscard]] FrameworkElement& controller_inputs() {
-    return LazyGroup(groups_[2], "controller_input");
-  }
-  [[nodiscard]] FrameworkElement& controller_outputs() {
-    return LazyGroup(groups_[3], "controller_output");
-  }
+  [[nodiscard]] FrameworkElement& sensor_outputs() { return LazyGroup(groups_[1], "sensor_output"); }
+  [[nodiscard]] FrameworkElement& controller_inputs() { return LazyGroup(groups_[2], "controller_input"); }
+  [[nodiscard]] FrameworkElement& controller_outputs() { return LazyGroup(groups_[3], "controller_output"); }
 
  protected:
   virtual void Sense() = 0;

@@ -3,8 +3,8 @@
 #include <functional>
 #include <utility>
 
-#include "core/element/annotation.h"
 #include "core/channel/waker.h"
+#include "core/element/annotation.h"
 
 namespace runnel {
 

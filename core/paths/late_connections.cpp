@@ -79,14 +79,10 @@ LateConnections& LateConnections::Of(Runtime& runtime) {
   return runtime.root().FindOrAnnotate<LateConnections>(runtime);
 }
 
-LateConnections* LateConnections::FindIn(Runtime& runtime) {
-  return runtime.root().FindAnnotation<LateConnections>();
-}
+LateConnections* LateConnections::FindIn(Runtime& runtime) { return runtime.root().FindAnnotation<LateConnections>(); }
 
 // Lives as long as the root, and so as the runtime.
-LateConnections::LateConnections(Runtime& runtime) : runtime_(runtime) {
-  runtime.AddListener(*this);
-}
+LateConnections::LateConnections(Runtime& runtime) : runtime_(runtime) { runtime.AddListener(*this); }
 
 const LateConnection* LateConnections::Find(std::string_view from, std::string_view to) const {
   return const_cast<LateConnections*>(this)->FindOwn(from, to);
@@ -104,8 +100,7 @@ LateConnection* LateConnections::FindOwn(std::string_view from, std::string_view
 // As much of it as is there, by its whole path.
 std::string LateConnections::WholePath(std::string_view path) const {
   const PathSearch search(runtime_);
-  for (std::size_t end = path.size(); end != std::string_view::npos && end > 0;
-       end = path.rfind('/', end - 1)) {
+  for (std::size_t end = path.size(); end != std::string_view::npos && end > 0; end = path.rfind('/', end - 1)) {
     const auto found = search.Find(path.substr(0, end));
     const bool is_there = found && (*found)->parent() != nullptr;
     if (!is_there) continue;
@@ -122,8 +117,7 @@ bool LateConnections::Awaits(const Port& input) {
          });
 }
 
-Result<void> LateConnections::Add(const std::string& from, const std::string& to,
-                                  ConnectOptions options) {
+Result<void> LateConnections::Add(const std::string& from, const std::string& to, ConnectOptions options) {
   options.when_present = options.when_present || !IsDistantPath(from);
   const Ends ends = FindEnds(runtime_, from, to);
   // Notes itself.
@@ -131,8 +125,11 @@ Result<void> LateConnections::Add(const std::string& from, const std::string& to
   if (Find(from, to) != nullptr) {
     return Error{.message = "is to be connected to " + to + " already", .path = from};
   }
-  const auto path_of = [this](const Port* there, const std::string& path) { return there != nullptr ? there->path() : WholePath(path); };
-  all_.push_back({IsDistantPath(from) ? from : path_of(ends.from, from), path_of(ends.to, to), std::move(options), ends.missing});
+  const auto path_of = [this](const Port* there, const std::string& path) {
+    return there != nullptr ? there->path() : WholePath(path);
+  };
+  all_.push_back(
+      {IsDistantPath(from) ? from : path_of(ends.from, from), path_of(ends.to, to), std::move(options), ends.missing});
   // So that viewers look again.
   runtime_.ForEachListener([](ElementListener&) {});
   return {};
@@ -197,12 +194,9 @@ void LateConnections::LookAgain() {
   must_look_ = false;
   for (const Cut& cut : std::exchange(cuts_, {})) {
     const Ends ends = FindEnds(runtime_, cut.from, cut.to);
-    const bool are_the_same =
-        ends.missing.empty() && ends.from->id() == cut.from_id && ends.to->id() == cut.to_id;
+    const bool are_the_same = ends.missing.empty() && ends.from->id() == cut.from_id && ends.to->id() == cut.to_id;
     if (are_the_same && ends.from->ConnectionTo(*ends.to) == nullptr) {
-      std::erase_if(all_, [&](const LateConnection& each) {
-        return each.from == cut.from && each.to == cut.to;
-      });
+      std::erase_if(all_, [&](const LateConnection& each) { return each.from == cut.from && each.to == cut.to; });
     } else if (LateConnection* const known = FindOwn(cut.from, cut.to)) {
       known->waits_for = ends.missing;
     }
@@ -252,7 +246,9 @@ std::vector<LateConnection> AwaitedWith(const FrameworkElement& element) {
   const std::string path = ShortPath(element.path());
   const auto* const port = dynamic_cast<const Port*>(&element);
   const bool is_input = port != nullptr && port->direction() == Port::Direction::kInput;
-  const auto goes_with_it = [&](const std::string& end) { return IsAtOrBelow(end, element.path()) || (is_input && ShortPath(end) == path); };
+  const auto goes_with_it = [&](const std::string& end) {
+    return IsAtOrBelow(end, element.path()) || (is_input && ShortPath(end) == path);
+  };
   for (const LateConnection* const each : Waiting(element.runtime(), goes_with_it)) {
     if (each->is_of_its_input()) awaited.push_back(*each);
   }

@@ -34,8 +34,7 @@ std::vector<FrameworkElement*> PartsOf(const FrameworkElement& module, PathKind 
     for (FrameworkElement* inner : child->children()) add(*inner);
   }
   const PathKind first = kind == PathKind::kElement ? PathKind::kOutput : kind;
-  std::stable_partition(parts.begin(), parts.end(),
-                        [&](const auto* part) { return Fits(*part, first); });
+  std::stable_partition(parts.begin(), parts.end(), [&](const auto* part) { return Fits(*part, first); });
   return parts;
 }
 
@@ -52,8 +51,8 @@ std::string ElsewhereHint(FrameworkElement& at, std::string_view name, std::stri
   constexpr std::size_t kMost = 3;
   std::vector<std::string> paths;
   at.runtime().root().Visit([&](FrameworkElement& each) {
-    const bool is_part = each.parent() != nullptr && (each.kind() == ElementKind::kModule ||
-                                                      each.kind() == ElementKind::kGroup);
+    const bool is_part =
+        each.parent() != nullptr && (each.kind() == ElementKind::kModule || each.kind() == ElementKind::kGroup);
     if (is_part && each.name() == name) paths.push_back(each.path() + std::string(rest));
   });
   if (paths.empty() || paths.size() > kMost) return {};
@@ -66,20 +65,21 @@ PathEnd Missing(FrameworkElement& at, std::string_view name, std::vector<std::st
                 std::string_view rest = {}) {
   std::string hint = NearestName(name, candidates).empty() ? ElsewhereHint(at, name, rest) : "";
   if (hint.empty()) hint = NearestNameHint(name, candidates);
-  Error error{.message = "there is no '" + std::string(name) + "' in " + at.path(),
-              .path = at.path(),
-              .hint = std::move(hint)};
+  Error error{
+      .message = "there is no '" + std::string(name) + "' in " + at.path(), .path = at.path(), .hint = std::move(hint)};
   return {nullptr, &at, std::string(name), std::move(candidates), std::move(error)};
 }
 
 Error WhyNotThere(const DistantPorts* distant, std::string_view path, PathKind kind) {
   if (distant == nullptr) return {.message = "there is no network"};
   if (kind == PathKind::kInput) {
-    return {.message = "inputs of another application are connected there", .hint = "'runnel connect --app NAME //THIS/PORT /INPUT' where it runs"};
+    return {.message = "inputs of another application are connected there",
+            .hint = "'runnel connect --app NAME //THIS/PORT /INPUT' where it runs"};
   }
   const DistantType type = distant->TypeOf(SplitPortPath(path).path);
   if (type.type == nullptr) return {.message = type.why_not};
-  return {.message = "nothing here is connected to it", .hint = "connect an input to it, or ask the other application: --app NAME where it runs"};
+  return {.message = "nothing here is connected to it",
+          .hint = "connect an input to it, or ask the other application: --app NAME where it runs"};
 }
 
 }  // namespace
@@ -101,8 +101,7 @@ PathEnd PathSearch::Follow(std::string_view path, PathKind kind) const {
   return below.found != nullptr || end.at->parent() == nullptr ? below : end;
 }
 
-PathEnd PathSearch::FollowFrom(FrameworkElement& start, std::string_view path,
-                               PathKind kind) const {
+PathEnd PathSearch::FollowFrom(FrameworkElement& start, std::string_view path, PathKind kind) const {
   FrameworkElement* at = &start;
   const std::vector<std::string_view> names = SplitPath(path);
   for (const std::string_view& name : names) {
@@ -115,8 +114,7 @@ PathEnd PathSearch::FollowFrom(FrameworkElement& start, std::string_view path,
     if (next == nullptr) {
       const bool is_last = &name == &names.back();
       const bool is_of_group = kind == PathKind::kParameter && FindConfigurable(*at, name);
-      if (is_last && (at->kind() == ElementKind::kModule || is_of_group))
-        return FollowShort(*at, name, kind);
+      if (is_last && (at->kind() == ElementKind::kModule || is_of_group)) return FollowShort(*at, name, kind);
       const std::string_view rest = path.substr(static_cast<std::size_t>(name.data() + name.size() - path.data()));
       return Missing(*at, name, NamesOf(Children(*at), PathKind::kElement), rest);
     }
@@ -125,8 +123,7 @@ PathEnd PathSearch::FollowFrom(FrameworkElement& start, std::string_view path,
   return {at, at};
 }
 
-PathEnd PathSearch::FollowShort(FrameworkElement& module, std::string_view name,
-                                PathKind kind) const {
+PathEnd PathSearch::FollowShort(FrameworkElement& module, std::string_view name, PathKind kind) const {
   const std::vector<FrameworkElement*> parts = PartsOf(module, kind);
   std::vector<FrameworkElement*> called = parts;
   std::erase_if(called, [&](const auto* part) { return part->name() != name; });
@@ -134,8 +131,7 @@ PathEnd PathSearch::FollowShort(FrameworkElement& module, std::string_view name,
     if (const auto fed = FindConfigurable(module, name)) return {fed.element, fed.element};
   }
   if (called.empty()) return Missing(module, name, NamesOf(parts, kind));
-  const bool is_ambiguous =
-      kind != PathKind::kElement && called.size() > 1 && Fits(*called[1], kind);
+  const bool is_ambiguous = kind != PathKind::kElement && called.size() > 1 && Fits(*called[1], kind);
   if (!is_ambiguous) return {called[0], called[0]};
   return {nullptr,
           &module,
@@ -159,13 +155,12 @@ Result<Port*> PathSearch::FindPort(std::string_view path, PathKind kind) const {
   auto* const parameter = dynamic_cast<Configurable*>(*found);
   if (parameter != nullptr && kind == PathKind::kInput) {
     if (Port* const feed = parameter->Feed()) return feed;
-    return Error{.message = (*found)->path() + " is a parameter that no output can set",
-                 .path = (*found)->path()};
+    return Error{.message = (*found)->path() + " is a parameter that no output can set", .path = (*found)->path()};
   }
   const std::vector<std::string> ports = NamesOf(PartsOf(**found, kind), kind);
   return Error{.message = (*found)->path() + " is not a port",
                .path = (*found)->path(),
-               .hint = !ports.empty() ? "write one of its ports after it, like '" + ports[0] + "'"
+               .hint = !ports.empty()              ? "write one of its ports after it, like '" + ports[0] + "'"
                        : kind == PathKind::kOutput ? "it has no outputs"
                                                    : "it has no inputs"};
 }
@@ -190,9 +185,7 @@ FrameworkElement* PathSearch::Child(const FrameworkElement& parent, std::string_
   return parent.FindChild(name);
 }
 
-std::vector<FrameworkElement*> PathSearch::Children(const FrameworkElement& parent) const {
-  return parent.children();
-}
+std::vector<FrameworkElement*> PathSearch::Children(const FrameworkElement& parent) const { return parent.children(); }
 
 // Groups at the top are applications, but for the one that holds the threads.
 FrameworkElement* PathSearch::OnlyApplication() const {

@@ -55,8 +55,7 @@ class PathSearch {
   [[nodiscard]] PathEnd Follow(std::string_view path, PathKind kind) const;
 
   /// Errors: which name is not there, and the nearest.
-  [[nodiscard]] Result<FrameworkElement*> Find(std::string_view path,
-                                               PathKind kind = PathKind::kElement) const;
+  [[nodiscard]] Result<FrameworkElement*> Find(std::string_view path, PathKind kind = PathKind::kElement) const;
   /// As an input, a parameter is the input by which it is fed (Configurable::Feed()).
   /// Errors: besides, that it is no port; that two ports fit. If none fits the kind, one that does not is
   /// found: connecting says why not.
@@ -67,18 +66,14 @@ class PathSearch {
 
  protected:
   /// What the search sees of the tree.
-  [[nodiscard]] virtual FrameworkElement* Child(const FrameworkElement& parent,
-                                                std::string_view name) const;
-  [[nodiscard]] virtual std::vector<FrameworkElement*> Children(
-      const FrameworkElement& parent) const;
+  [[nodiscard]] virtual FrameworkElement* Child(const FrameworkElement& parent, std::string_view name) const;
+  [[nodiscard]] virtual std::vector<FrameworkElement*> Children(const FrameworkElement& parent) const;
   /// nullptr if there are none, or several.
   [[nodiscard]] FrameworkElement* OnlyApplication() const;
 
  private:
-  [[nodiscard]] PathEnd FollowFrom(FrameworkElement& start, std::string_view path,
-                                   PathKind kind) const;
-  [[nodiscard]] PathEnd FollowShort(FrameworkElement& module, std::string_view name,
-                                    PathKind kind) const;
+  [[nodiscard]] PathEnd FollowFrom(FrameworkElement& start, std::string_view path, PathKind kind) const;
+  [[nodiscard]] PathEnd FollowShort(FrameworkElement& module, std::string_view name, PathKind kind) const;
 
   FrameworkElement& base_;
   const bool may_leave_out_application_;
@@ -94,8 +89,7 @@ struct ConfigurableElement {
 
 /// What can be set of a module: what is directly below it or in one of its groups.
 [[nodiscard]] std::vector<ConfigurableElement> ConfigurablesOf(const FrameworkElement& module);
-[[nodiscard]] ConfigurableElement FindConfigurable(const FrameworkElement& module,
-                                                   std::string_view name);
+[[nodiscard]] ConfigurableElement FindConfigurable(const FrameworkElement& module, std::string_view name);
 
 /// The ports of a module, or of the interface of a group: directly below it or in one of its groups.
 [[nodiscard]] std::vector<Port*> PortsOf(const FrameworkElement& module);

@@ -39,18 +39,16 @@ constexpr std::array<std::array<Flag, 2>, 3> kKinds{{
 
 const Flag* FlagIn(const std::array<Flag, 2>& kind, std::string_view fingerprint) {
   const std::vector<std::string_view> words = PartsBetween(" ", fingerprint);
-  const auto found = std::ranges::find_if(kind, [&](const Flag& flag) {
-    return !flag.word.empty() && std::ranges::count(words, flag.word) > 0;
-  });
+  const auto found = std::ranges::find_if(
+      kind, [&](const Flag& flag) { return !flag.word.empty() && std::ranges::count(words, flag.word) > 0; });
   return found == kind.end() ? nullptr : &*found;
 }
 
 std::string WithoutFlags(std::string_view fingerprint) {
   std::string rest;
   for (const std::string_view word : PartsBetween(" ", fingerprint)) {
-    const bool is_flag = std::ranges::any_of(kKinds, [&](const auto& kind) {
-      return std::ranges::count(kind, word, &Flag::word) > 0;
-    });
+    const bool is_flag =
+        std::ranges::any_of(kKinds, [&](const auto& kind) { return std::ranges::count(kind, word, &Flag::word) > 0; });
     if (!is_flag) rest += (rest.empty() ? "" : " ") + std::string(word);
   }
   return rest;
@@ -129,8 +127,7 @@ class LibraryFile {
     for (const Segment& segment : std::span(loaded.dlpi_phdr, loaded.dlpi_phnum)) {
       if (segment.p_type != PT_LOAD || (segment.p_flags & PF_W) != 0) continue;
       const auto there = All<char>(segment.p_offset, segment.p_filesz);
-      const auto* const in_memory =
-          reinterpret_cast<const char*>(loaded.dlpi_addr + segment.p_vaddr);
+      const auto* const in_memory = reinterpret_cast<const char*>(loaded.dlpi_addr + segment.p_vaddr);
       if (there.size() != segment.p_filesz || !IsSame(there, in_memory)) return false;
     }
     return true;
@@ -150,8 +147,7 @@ class LibraryFile {
   // In the file, of what is at `address` in memory.
   [[nodiscard]] std::size_t PlaceOf(std::size_t address) const {
     for (const Segment& segment : Segments()) {
-      if (segment.p_type == PT_LOAD && address >= segment.p_vaddr &&
-          address - segment.p_vaddr < segment.p_filesz) {
+      if (segment.p_type == PT_LOAD && address >= segment.p_vaddr && address - segment.p_vaddr < segment.p_filesz) {
         return segment.p_offset + (address - segment.p_vaddr);
       }
     }
@@ -210,13 +206,17 @@ Result<void> CheckIsWhole(const fs::path& path) {
                   .hint = "copy it under another name, and rename it when it is whole, as 'install' does"};
   char begin[SELFMAG] = {};
   file.read(begin, SELFMAG);
-  if (std::memcmp(begin, ELFMAG, static_cast<std::size_t>(file.gcount())) != 0) return Error{.message = "it is no ELF file"};
+  if (std::memcmp(begin, ELFMAG, static_cast<std::size_t>(file.gcount())) != 0)
+    return Error{.message = "it is no ELF file"};
   const auto head = ReadAt<ElfW(Ehdr)>(file, 0, 1);
   if (head.empty()) return cut;
   constexpr unsigned char kOwnClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
-  if (head[0].e_ident[EI_CLASS] != kOwnClass) return {};  // of another kind of machine: the linker looks no further, and says so
+  if (head[0].e_ident[EI_CLASS] != kOwnClass)
+    return {};  // of another kind of machine: the linker looks no further, and says so
   const auto segments = ReadAt<Segment>(file, head[0].e_phoff, head[0].e_phnum);
-  const auto is_there = [size](const auto& each) { return each.p_offset <= size && each.p_filesz <= size - each.p_offset; };
+  const auto is_there = [size](const auto& each) {
+    return each.p_offset <= size && each.p_filesz <= size - each.p_offset;
+  };
   if (segments.empty() || !std::ranges::all_of(segments, is_there)) return cut;
   // Linkers write these last, at the end; a library may do without any.
   const auto sections = ReadAt<ElfW(Shdr)>(file, head[0].e_shoff, head[0].e_shnum);

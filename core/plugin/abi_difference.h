@@ -29,7 +29,6 @@ struct AbiDifference {
 /// library that is there is never loaded a second time. nullopt: all are as they were.
 ///
 /// Effort:  reads all of them from disk.
-[[nodiscard]] std::optional<std::filesystem::path> FindOutdatedDependency(
-    const std::filesystem::path& file);
+[[nodiscard]] std::optional<std::filesystem::path> FindOutdatedDependency(const std::filesystem::path& file);
 
 }  // namespace runnel

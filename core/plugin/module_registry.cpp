@@ -53,8 +53,7 @@ Result<void> ModuleRegistry::Add(ModuleType type) {
     return Error{.message = "'" + type.name + "' cannot be the name of a module type"};
   }
   if (const ModuleType* known = Find(type.name)) {
-    return Error{.message = "module type '" + type.name + "' comes with plugin '" + known->plugin +
-                            "' already"};
+    return Error{.message = "module type '" + type.name + "' comes with plugin '" + known->plugin + "' already"};
   }
   std::string name = type.name;
   types_.emplace(std::move(name), std::move(type));
@@ -96,8 +95,7 @@ std::vector<const ModuleType*> ModuleRegistry::All() const {
   return types;
 }
 
-Result<UnlistedElement> ModuleRegistry::Make(std::string_view type,
-                                             const Placement& placement) const {
+Result<UnlistedElement> ModuleRegistry::Make(std::string_view type, const Placement& placement) const {
   // A copy: the plugin may be loaded anew while its module is made.
   ModuleType known;
   {
@@ -107,9 +105,8 @@ Result<UnlistedElement> ModuleRegistry::Make(std::string_view type,
     known = **found;
   }
   const auto failed = [&](const std::string& why) {
-    return Error{
-        .message = "a module of type '" + std::string(type) + "' could not be made: " + why,
-        .path = placement.parent.path()};
+    return Error{.message = "a module of type '" + std::string(type) + "' could not be made: " + why,
+                 .path = placement.parent.path()};
   };
   std::unique_lock lock(placement.parent.runtime().structure_mutex(), std::defer_lock);
   if (placement.is_listed) lock.lock();
@@ -133,8 +130,7 @@ Result<FrameworkElement*> ModuleRegistry::Create(std::string_view type, Framewor
   return runtime.Adopt(std::move(*made));
 }
 
-Result<FrameworkElement*> ModuleRegistry::CreateSample(std::string_view type,
-                                                       FrameworkElement& parent) const {
+Result<FrameworkElement*> ModuleRegistry::CreateSample(std::string_view type, FrameworkElement& parent) const {
   const std::lock_guard lock(parent.runtime().structure_mutex());
   auto made = Make(type, {parent, "module_" + std::to_string(parent.children().size()), false});
   if (!made) return made.error();

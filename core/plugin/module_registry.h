@@ -16,8 +16,7 @@ namespace runnel {
 
 /// A class that can be made from a Placement, as `using Module::Module;` makes it.
 template <typename M>
-concept PlaceableElement =
-    std::derived_from<M, FrameworkElement> && std::constructible_from<M, const Placement&>;
+concept PlaceableElement = std::derived_from<M, FrameworkElement> && std::constructible_from<M, const Placement&>;
 
 /// One kind of module that applications can contain.
 struct ModuleType {
@@ -49,8 +48,7 @@ class ModuleRegistry {
   /// it is beside the tree.
   Result<UnlistedElement> Make(std::string_view type, const Placement& placement) const;
   /// Makes a module and gives it to `parent`. Errors: as Make().
-  Result<FrameworkElement*> Create(std::string_view type, FrameworkElement& parent,
-                                   std::string name) const;
+  Result<FrameworkElement*> Create(std::string_view type, FrameworkElement& parent, std::string name) const;
 
   /// The same just to look at it, with the ports that it has by default. Errors: besides, that these cannot be made;
   /// nothing is left then.

@@ -31,13 +31,11 @@ inline constexpr const char* kPluginEntrySymbol = "RunnelPluginEntry";
 ///
 /// The function runs once, while the library is being loaded, on the loading thread. Exceptions
 /// that it throws are reported as a failure to load the library, and nothing stays registered.
-#define RUNNEL_PLUGIN(plugin_name, registry)                                                   \
-  static void RunnelRegister_##plugin_name(::runnel::PluginRegistry& registry);                \
-  extern "C" __attribute__((visibility("default"))) const ::runnel::PluginEntry*               \
-  RunnelPluginEntry() {                                                                        \
-    static const ::runnel::PluginEntry entry{                                                  \
-        ::runnel::kPluginAbiVersion, sizeof(::runnel::PluginEntry), ::runnel::kAbiFingerprint, \
-        #plugin_name, &RunnelRegister_##plugin_name};                                          \
-    return &entry;                                                                             \
-  }                                                                                            \
+#define RUNNEL_PLUGIN(plugin_name, registry)                                                                          \
+  static void RunnelRegister_##plugin_name(::runnel::PluginRegistry& registry);                                       \
+  extern "C" __attribute__((visibility("default"))) const ::runnel::PluginEntry* RunnelPluginEntry() {                \
+    static const ::runnel::PluginEntry entry{::runnel::kPluginAbiVersion, sizeof(::runnel::PluginEntry),              \
+                                             ::runnel::kAbiFingerprint, #plugin_name, &RunnelRegister_##plugin_name}; \
+    return &entry;                                                                                                    \
+  }                                                                                                                   \
   static void RunnelRegister_##plugin_name([[maybe_unused]] ::runnel::PluginRegistry& registry)

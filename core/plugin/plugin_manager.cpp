@@ -27,8 +27,7 @@ fs::path CoreFolder() {
 }
 
 Error Refusal(const fs::path& file, std::string why, std::string hint = {}) {
-  return {.message = "the plugin " + file.string() + " is refused: " + std::move(why),
-          .hint = std::move(hint)};
+  return {.message = "the plugin " + file.string() + " is refused: " + std::move(why), .hint = std::move(hint)};
 }
 
 // It is never unmapped: types, vtables and strings of it may live on in objects that nobody can count.
@@ -38,14 +37,13 @@ Result<void*> OpenLibrary(const fs::path& file) {
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (library != nullptr) return library;
   const char* const reason = dlerror();
-  return Error{.message = "cannot load the library " + file.string() + ": " +
-                          (reason != nullptr ? reason : "unknown reason")};
+  return Error{.message =
+                   "cannot load the library " + file.string() + ": " + (reason != nullptr ? reason : "unknown reason")};
 }
 
 // Reads only what never changes its place before it trusts the rest.
 Result<const PluginEntry*> Handshake(void* library, const fs::path& file) {
-  const auto entry_function =
-      reinterpret_cast<const PluginEntry* (*)()>(dlsym(library, kPluginEntrySymbol));
+  const auto entry_function = reinterpret_cast<const PluginEntry* (*)()>(dlsym(library, kPluginEntrySymbol));
   if (entry_function == nullptr) {
     return Refusal(file, std::string("it has no entry ") + kPluginEntrySymbol,
                    "write RUNNEL_PLUGIN(name, registry) { … } in one of its sources");
@@ -54,8 +52,8 @@ Result<const PluginEntry*> Handshake(void* library, const fs::path& file) {
   if (entry == nullptr) return Refusal(file, "its entry is empty");
   if (entry->abi_version != kPluginAbiVersion) {
     return Refusal(file,
-                   "it was built for plugin ABI " + std::to_string(entry->abi_version) +
-                       ", this core has " + std::to_string(kPluginAbiVersion),
+                   "it was built for plugin ABI " + std::to_string(entry->abi_version) + ", this core has " +
+                       std::to_string(kPluginAbiVersion),
                    "rebuild the plugin");
   }
   if (entry->entry_size != sizeof(PluginEntry)) {
@@ -78,16 +76,13 @@ PluginManager::PluginManager() {
   search_path_.push_back(CoreFolder() / RUNNEL_PLUGIN_FOLDER);
 }
 
-void PluginManager::AddSearchFolder(fs::path folder) {
-  search_path_.insert(search_path_.begin(), std::move(folder));
-}
+void PluginManager::AddSearchFolder(fs::path folder) { search_path_.insert(search_path_.begin(), std::move(folder)); }
 
 Result<void> PluginManager::Load(std::string_view name) {
   try {
     return LoadUnlessKnown(name);
   } catch (...) {
-    return Error{.message = "the plugin '" + std::string(name) +
-                            "' cannot be loaded: " + DescribeException()};
+    return Error{.message = "the plugin '" + std::string(name) + "' cannot be loaded: " + DescribeException()};
   }
 }
 
@@ -111,8 +106,7 @@ Result<void> PluginManager::LoadUnlessKnown(std::string_view name) {
     return {};
   }
   if (known->second == canonical) return {};
-  return Refusal(*file,
-                 "a plugin '" + plugin + "' is loaded already from " + known->second.string(),
+  return Refusal(*file, "a plugin '" + plugin + "' is loaded already from " + known->second.string(),
                  "rename one of the two");
 }
 
@@ -165,16 +159,14 @@ Result<PluginReload> PluginManager::Reload(std::string_view name, const Temporar
   try {
     return ReloadKnown(name, copy);
   } catch (...) {
-    return Error{.message = "the plugin '" + std::string(name) +
-                            "' cannot be loaded anew: " + DescribeException()};
+    return Error{.message = "the plugin '" + std::string(name) + "' cannot be loaded anew: " + DescribeException()};
   }
 }
 
 Result<fs::path> PluginManager::FindKnown(std::string_view name) const {
   const auto known = files_.find(name);
   if (known != files_.end()) return known->second;
-  return Error{.message = "no plugin '" + std::string(name) + "' is loaded",
-               .hint = NearestNameHint(name, loaded_)};
+  return Error{.message = "no plugin '" + std::string(name) + "' is loaded", .hint = NearestNameHint(name, loaded_)};
 }
 
 Result<PluginReload> PluginManager::ReloadKnown(std::string_view name, const TemporaryCopy& copy) {
@@ -220,8 +212,7 @@ std::vector<std::string> PluginManager::Available() const {
   std::error_code ignored;
   for (const fs::path& folder : search_path_) {
     for (const fs::path name : NamesInFolder(folder)) {
-      const bool is_library =
-          name.extension() == ".so" && fs::is_regular_file(folder / name, ignored);
+      const bool is_library = name.extension() == ".so" && fs::is_regular_file(folder / name, ignored);
       if (is_library) names.insert(name.stem().string());
     }
   }

@@ -23,9 +23,7 @@ class PluginReload {
       : registry_(&registry), plugin_(std::move(plugin)), back_(std::move(back)) {}
   ~PluginReload() { PutBack(); }
   PluginReload(PluginReload&& other) noexcept
-      : registry_(other.registry_),
-        plugin_(std::move(other.plugin_)),
-        back_(std::exchange(other.back_, nullptr)) {}
+      : registry_(other.registry_), plugin_(std::move(other.plugin_)), back_(std::exchange(other.back_, nullptr)) {}
   PluginReload& operator=(PluginReload&&) = delete;
 
   /// It does: what the library of before had registered is forgotten.
@@ -62,9 +60,7 @@ class PluginManager {
   /// To offer further registries to plugins, before loading any.
   [[nodiscard]] PluginRegistry& registry() noexcept { return registry_; }
 
-  [[nodiscard]] const std::vector<std::filesystem::path>& search_path() const noexcept {
-    return search_path_;
-  }
+  [[nodiscard]] const std::vector<std::filesystem::path>& search_path() const noexcept { return search_path_; }
   /// Looked at before all others.
   void AddSearchFolder(std::filesystem::path folder);
 

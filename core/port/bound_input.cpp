@@ -122,9 +122,8 @@ std::shared_ptr<InputQueueBase> BoundInput::KeepOrMakeQueue(const Binding& befor
   const Writers writers = next.only != nullptr ? Writers::kOne : Writers::kSeveral;
   // A queue for one writer serves the source it was made for: another might begin before that
   // one has ended.
-  if (before.queue && before.queue->capacity() == options.queue &&
-      before.queue->on_full() == options.on_full && before.queue->writers() == writers &&
-      (writers == Writers::kSeveral || before.only == next.only)) {
+  if (before.queue && before.queue->capacity() == options.queue && before.queue->on_full() == options.on_full &&
+      before.queue->writers() == writers && (writers == Writers::kSeveral || before.only == next.only)) {
     return before.queue;
   }
   return MakeQueue(options.queue, options.on_full, writers);

@@ -39,16 +39,14 @@ class BoundInput : public InputBase {
   using Binding = internal::InputBinding;
 
   // By reference, so that typed inputs move nothing themselves.
-  BoundInput(FrameworkElement& group, std::string&& name, const TypeInfo& type,
-             InputOptions&& options);
+  BoundInput(FrameworkElement& group, std::string&& name, const TypeInfo& type, InputOptions&& options);
   ~BoundInput() override;
   /// By the destructor of typed inputs: they make queues while they are
   /// disconnected.
   void DisconnectForEver();
 
   /// An empty queue for values of the input's type.
-  [[nodiscard]] virtual std::unique_ptr<InputQueueBase> MakeQueue(std::size_t capacity,
-                                                                  OnFull on_full,
+  [[nodiscard]] virtual std::unique_ptr<InputQueueBase> MakeQueue(std::size_t capacity, OnFull on_full,
                                                                   Writers writers) const = 0;
   /// acquire: pairs with the release in Replace().
   [[nodiscard, gnu::always_inline]] const Binding* binding() const noexcept {
@@ -66,8 +64,8 @@ class BoundInput : public InputBase {
   void Bound() override;
 
   std::shared_ptr<Link> KeepOrMakeLink(const Binding& before, ChannelBase& channel);
-  [[nodiscard]] std::shared_ptr<InputQueueBase> KeepOrMakeQueue(
-      const Binding& before, const Binding& next, const ConnectOptions& options) const;
+  [[nodiscard]] std::shared_ptr<InputQueueBase> KeepOrMakeQueue(const Binding& before, const Binding& next,
+                                                                const ConnectOptions& options) const;
   static void KeepWaitingValues(const Binding& before, Binding& next);
   void Replace(const Binding* next);
 

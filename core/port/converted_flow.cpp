@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "core/base/retry.h"
+#include "core/channel/channel_base.h"
+#include "core/channel/probe_queue.h"
 #include "core/element/runtime.h"
 #include "core/lockfree/taking_turns.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/channel/channel_base.h"
 #include "core/port/input_base.h"
-#include "core/channel/probe_queue.h"
 #include "core/port/stand_in.h"
 
 namespace runnel::internal {
@@ -36,8 +36,9 @@ class ConvertedFlow::Worker final : public Waker {
 
   void Wake() noexcept override {
     turns_.Do([this]() noexcept {
-      while (queue_.TryTake([this](const void* value, const Publication& publication,
-                                   std::uint64_t source) { Convert(value, publication, source); })) {
+      while (queue_.TryTake([this](const void* value, const Publication& publication, std::uint64_t source) {
+        Convert(value, publication, source);
+      })) {
       }
     });
   }
@@ -78,14 +79,11 @@ class ConvertedFlow::Worker final : public Waker {
 class ConvertedFlow::LinkInput final : public InputBase {
  public:
   LinkInput(const Port& source, Worker& worker)
-      : InputBase({source.runtime().root(), "converted", false}, source.type(), {}),
-        worker_(worker) {
+      : InputBase({source.runtime().root(), "converted", false}, source.type(), {}), worker_(worker) {
     SetWaker(&worker_);
   }
   using InputBase::sources;
-  void Take(Port* source) {
-    Rebind(source != nullptr ? std::vector<Source>{{source, {}}} : std::vector<Source>{});
-  }
+  void Take(Port* source) { Rebind(source != nullptr ? std::vector<Source>{{source, {}}} : std::vector<Source>{}); }
   [[nodiscard]] bool Takes(const Port& source) const noexcept {
     return !sources().empty() && sources().front().output == &source;
   }

@@ -24,8 +24,7 @@ namespace runnel::internal {
 class ConvertedFlow {
  public:
   /// `first`: what readers find until something has come from its source.
-  ConvertedFlow(std::shared_ptr<const Conversion> conversion, const Port& target,
-                AnyValue first = {});
+  ConvertedFlow(std::shared_ptr<const Conversion> conversion, const Port& target, AnyValue first = {});
   ~ConvertedFlow();
   ConvertedFlow(const ConvertedFlow&) = delete;
   ConvertedFlow& operator=(const ConvertedFlow&) = delete;
@@ -58,8 +57,7 @@ class ConvertedFlow {
 };
 
 /// What the values of `from` need on their way to `to`; nullptr if nothing.
-[[nodiscard]] Result<std::shared_ptr<const Conversion>> ConversionBetween(const Port& from,
-                                                                          const Port& to,
+[[nodiscard]] Result<std::shared_ptr<const Conversion>> ConversionBetween(const Port& from, const Port& to,
                                                                           const std::string& part,
                                                                           const std::string& name);
 

@@ -34,8 +34,7 @@ namespace internal {
 extern thread_local constinit Cycle* current_cycle __attribute__((tls_model("initial-exec")));
 }  // namespace internal
 
-inline CycleScope::CycleScope(const Cycle& cycle) noexcept
-    : cycle_(cycle), outer_(internal::current_cycle) {
+inline CycleScope::CycleScope(const Cycle& cycle) noexcept : cycle_(cycle), outer_(internal::current_cycle) {
   internal::current_cycle = &cycle_;
 }
 inline CycleScope::~CycleScope() { internal::current_cycle = outer_; }

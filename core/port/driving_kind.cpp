@@ -23,9 +23,11 @@ Dimensions PerSecond(Dimensions place) {
 }
 
 // Of the type, and of all that it is made of, with their units. Each type once, as one may contain itself.
-void VisitInside(const TypeInfo& type, const std::string& unit, const std::function<void(const TypeInfo&, const std::string&)>& visit) {
+void VisitInside(const TypeInfo& type, const std::string& unit,
+                 const std::function<void(const TypeInfo&, const std::string&)>& visit) {
   std::unordered_set<const TypeInfo*> seen;
-  const std::function<void(const TypeInfo&, const std::string&)> look = [&](const TypeInfo& at, const std::string& its_unit) {
+  const std::function<void(const TypeInfo&, const std::string&)> look = [&](const TypeInfo& at,
+                                                                            const std::string& its_unit) {
     visit(at, its_unit);
     if (!seen.insert(&at).second) return;
     for (const FieldInfo& each : at.fields()) look(*each.type, each.unit);
@@ -51,11 +53,11 @@ std::optional<DrivingKind> DrivingKindCalled(std::string_view name) {
 
 bool IsVelocity(const TypeInfo& type, const std::string& unit) {
   const auto parsed = ParseUnit(unit);
-  const bool is_per_second = parsed && (parsed->dimensions == PerSecond(kLength) || parsed->dimensions == PerSecond(kAngle));
+  const bool is_per_second =
+      parsed && (parsed->dimensions == PerSecond(kLength) || parsed->dimensions == PerSecond(kAngle));
   if (type.semantic_tag() == "twist" || is_per_second) return true;
-  return !type.fields().empty() && std::ranges::all_of(type.fields(), [](const FieldInfo& field) {
-    return IsVelocity(*field.type, field.unit);
-  });
+  return !type.fields().empty() &&
+         std::ranges::all_of(type.fields(), [](const FieldInfo& field) { return IsVelocity(*field.type, field.unit); });
 }
 
 DrivingKind DrivingKindByUnits(const TypeInfo& type, const std::string& unit) {
@@ -89,9 +91,12 @@ bool HasLists(const TypeInfo& type) {
 
 bool IsZero(const AnyValue& value) {
   const std::shared_ptr<const void> zero = value.type().Make();
-  return zero != nullptr && value.type().is_transparent() && ToText(value.type(), value.get()) == ToText(value.type(), zero.get());
+  return zero != nullptr && value.type().is_transparent() &&
+         ToText(value.type(), value.get()) == ToText(value.type(), zero.get());
 }
 
-bool IsSafeInAnyUnit(const AnyValue& safe_value, DrivingKind command) { return IsZero(safe_value) && command != DrivingKind::kPosition; }
+bool IsSafeInAnyUnit(const AnyValue& safe_value, DrivingKind command) {
+  return IsZero(safe_value) && command != DrivingKind::kPosition;
+}
 
 }  // namespace runnel

@@ -37,7 +37,9 @@ void VisitSiblings(const Port& port, Port::Direction direction, const std::funct
 Result<void> internal::CheckHasItsPlace(const Port& port) {
   const auto* const state = port.FindAnnotation<DrivingState>();
   if (state == nullptr || !state->is_replaced || state->is_later) return {};
-  return Error{.message = "nothing reads what it publishes: a recording that is played has its place", .path = port.path(), .hint = "end that first"};
+  return Error{.message = "nothing reads what it publishes: a recording that is played has its place",
+               .path = port.path(),
+               .hint = "end that first"};
 }
 
 std::optional<std::string> FindWhatDrives(Runtime& runtime) {

@@ -45,7 +45,8 @@ struct DrivingState final : Annotation {
 
 /// What stops the velocities by which the robot moves that are made of what the port passes on. `held`: the ports where that
 /// ends, as another value is set by hand there.
-[[nodiscard]] std::vector<std::shared_ptr<const PortStop>> FindStopsOfVelocities(const Port& port, std::vector<const Port*>& held);
+[[nodiscard]] std::vector<std::shared_ptr<const PortStop>> FindStopsOfVelocities(const Port& port,
+                                                                                 std::vector<const Port*>& held);
 }  // namespace internal
 
 /// Kept with an output whose values come from elsewhere: how many write there now. Any thread.

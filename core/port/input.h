@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "core/lockfree/queue_succession.h"
-#include "core/port/bound_input.h"
 #include "core/channel/channel.h"
 #include "core/channel/lease.h"
+#include "core/lockfree/queue_succession.h"
+#include "core/port/bound_input.h"
 #include "core/port/output.h"
 #include "core/port/port.h"
 #include "core/port/port_owner.h"
@@ -77,8 +77,7 @@ class Input final : public BoundInput {
     }
   }
   /// The same with T{} if there is none.
-  [[nodiscard]] T Get() const noexcept
-      requires(std::is_trivially_copyable_v<T>&& std::is_default_constructible_v<T>) {
+  [[nodiscard]] T Get() const noexcept requires(std::is_trivially_copyable_v<T>&& std::is_default_constructible_v<T>) {
     T value;
     if (!CopyNewest(value)) [[unlikely]]
       value = T{};
@@ -181,8 +180,7 @@ class Input final : public BoundInput {
     NotNoted unseen;
     return Lease<T>(Typed(*binding.channel), internal::thread_record->hazards, unseen);
   }
-  [[gnu::noinline]] static Lease<T> NewestOfSeveral(const Binding& binding,
-                                                    const Link*& newest) noexcept {
+  [[gnu::noinline]] static Lease<T> NewestOfSeveral(const Binding& binding, const Link*& newest) noexcept {
     // Each group has an order of its own, and only their last ones are compared with each other:
     // the two comparisons mixed are no order, and the outcome would depend on whom we ask first.
     struct Last {
@@ -200,9 +198,9 @@ class Input final : public BoundInput {
       last.link = link.get();
     }
     const bool other_is_later =
-        others.link != nullptr && (numbered.link == nullptr ||
-                                   internal::IsLater(others.held.publication(), *others.link,
-                                                     numbered.held.publication(), *numbered.link));
+        others.link != nullptr &&
+        (numbered.link == nullptr ||
+         internal::IsLater(others.held.publication(), *others.link, numbered.held.publication(), *numbered.link));
     Last& last = other_is_later ? others : numbered;
     Lease<T> lease;
     lease.held_ = std::move(last.held);
@@ -210,8 +208,7 @@ class Input final : public BoundInput {
     if (!binding.stops.empty()) LookForStop(binding, lease, newest);
     return lease;
   }
-  [[gnu::noinline]] static void LookForStop(const Binding& binding, Lease<T>& lease,
-                                            const Link*& newest) noexcept {
+  [[gnu::noinline]] static void LookForStop(const Binding& binding, Lease<T>& lease, const Link*& newest) noexcept {
     std::optional<ValueTimes> times;
     if (lease) times = lease.times();
     internal::StopLink* const stop = binding.StopBefore(times);
@@ -230,21 +227,17 @@ class Input final : public BoundInput {
     const EpochGuard guard;
     const Binding* const binding = this->binding();
     // Where there is a queue, nobody may ever call Read().
-    return binding->HasNext() ||
-           (binding->queue ? binding->StopToTake() != nullptr : PeekForViewer().is_new());
+    return binding->HasNext() || (binding->queue ? binding->StopToTake() != nullptr : PeekForViewer().is_new());
   }
 
   using Queued = internal::Queued<T>;
-  [[nodiscard, gnu::always_inline]] static bool Pop(const Binding& binding,
-                                                    internal::HeldValue<T>& held,
+  [[nodiscard, gnu::always_inline]] static bool Pop(const Binding& binding, internal::HeldValue<T>& held,
                                                     std::uint64_t& source) noexcept {
     if (!binding.older_queues.empty()) [[unlikely]]
       return PopFromAll(binding, held, source);
-    return binding.queue &&
-           internal::DistributionOf<T>::QueueOf(*binding.queue).Pop(TakeInto(held, source));
+    return binding.queue && internal::DistributionOf<T>::QueueOf(*binding.queue).Pop(TakeInto(held, source));
   }
-  [[nodiscard, gnu::always_inline]] static auto TakeInto(internal::HeldValue<T>& held,
-                                                         std::uint64_t& source) noexcept {
+  [[nodiscard, gnu::always_inline]] static auto TakeInto(internal::HeldValue<T>& held, std::uint64_t& source) noexcept {
     return [&](Queued & queued) __attribute__((always_inline)) {
       source = queued.source;
       internal::MoveTo<T>(held, queued);

@@ -53,7 +53,8 @@ void InputBase::SetWaker(Waker* waker) {
 
 void InputBase::DeclareDriving() {
   const InputOptions& declared = options_;
-  const bool is_velocity = declared.command == DrivingKind::kVelocity || DrivingKindByUnits(type(), unit()) == DrivingKind::kVelocity;
+  const bool is_velocity =
+      declared.command == DrivingKind::kVelocity || DrivingKindByUnits(type(), unit()) == DrivingKind::kVelocity;
   const bool has_own = declared.safe_value || is_velocity;  // whose default may well move
   const auto safe = FindSafeValue(has_own ? declared.safe_value : declared.limits.default_value, declared.command);
   if (!safe) throw ElementError(safe.error());

@@ -16,9 +16,7 @@ namespace runnel::internal {
 
 /// The reader's own notes, relaxed atomics only so that viewers and connecting may look at them.
 struct RelaxedNumber {
-  [[nodiscard]] std::uint64_t load_relaxed() const noexcept {
-    return value.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] std::uint64_t load_relaxed() const noexcept { return value.load(std::memory_order_relaxed); }
   // One thread writes: no read-modify-write is needed.
   std::uint64_t exchange_relaxed(std::uint64_t next) noexcept {
     const std::uint64_t before = load_relaxed();
@@ -33,9 +31,7 @@ struct InputLink {
   explicit InputLink(ChannelBase* source) : channel(source), number(source->number()) {}
 
   // Marks a value as read; returns which was before.
-  [[gnu::always_inline]] std::uint64_t Note(std::uint64_t sequence) noexcept {
-    return read.exchange_relaxed(sequence);
-  }
+  [[gnu::always_inline]] std::uint64_t Note(std::uint64_t sequence) noexcept { return read.exchange_relaxed(sequence); }
 
   ChannelBase* const channel;
   const std::uint64_t number;  // of the channel, also when that is gone
@@ -60,11 +56,10 @@ struct InputBinding {
   ChannelBase* channel = nullptr;
   Link* only = nullptr;  // if there is one source
   bool pulls = false;
-  bool ages = false;  // what is read ages what is published in the same cycle
-  std::vector<std::shared_ptr<StopLink>>
-      stops;                                 // on the way from the sources; shared as `links` are
-  std::vector<std::shared_ptr<Link>> links;  // shared by the binding before and after a change
-  std::shared_ptr<InputQueueBase> queue;     // likewise
+  bool ages = false;                             // what is read ages what is published in the same cycle
+  std::vector<std::shared_ptr<StopLink>> stops;  // on the way from the sources; shared as `links` are
+  std::vector<std::shared_ptr<Link>> links;      // shared by the binding before and after a change
+  std::shared_ptr<InputQueueBase> queue;         // likewise
   // Queues that another one has replaced: what waits in them comes first.
   std::vector<std::shared_ptr<InputQueueBase>> older_queues;
   std::vector<InputQueueBase*> all_queues;  // these and then the present one; if there are any

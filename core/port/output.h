@@ -47,11 +47,9 @@ class Output final : public OutputBase {
   Output(PortOwner* owner, std::string name, OutputOptions options = {}, Factory factory = {})
       : Output(owner->OutputGroup(), std::move(name), std::move(options), std::move(factory)) {}
   /// Into a certain group.
-  Output(FrameworkElement& group, std::string name, OutputOptions options = {},
-         Factory factory = {})
-      : OutputBase(
-            group, std::move(name), TypeOf<T>(), std::move(options),
-            std::make_unique<Channel<T>>(options.pool, std::move(factory), options.pullable)) {
+  Output(FrameworkElement& group, std::string name, OutputOptions options = {}, Factory factory = {})
+      : OutputBase(group, std::move(name), TypeOf<T>(), std::move(options),
+                   std::make_unique<Channel<T>>(options.pool, std::move(factory), options.pullable)) {
     internal::MakeTypedPortsKnown<T>();
   }
 
@@ -75,17 +73,14 @@ class Output final : public OutputBase {
   PublishStatus Publish(const T& value) requires(kIsInlined<T> || std::is_copy_assignable_v<T>) {
     return PublishAt(value, PublicationTimes());
   }
-  PublishStatus Publish(T&& value) requires(!kIsInlined<T>) {
-    return PublishAt(std::move(value), PublicationTimes());
-  }
+  PublishStatus Publish(T&& value) requires(!kIsInlined<T>) { return PublishAt(std::move(value), PublicationTimes()); }
   /// The same with the time at which the value was measured, on the application's clock: what readers
   /// see as timestamp(). Values need not come in the order of their timestamps. A time that is still to come counts as
   /// now, since such a value would not grow old (Port::stamps_ahead()).
   [[gnu::always_inline]] PublishStatus Publish(runnel::Loan<T>&& loan, Time timestamp) {
     return own().Publish(std::move(loan), PublicationTimes(timestamp));
   }
-  PublishStatus Publish(const T& value,
-                        Time timestamp) requires(kIsInlined<T> || std::is_copy_assignable_v<T>) {
+  PublishStatus Publish(const T& value, Time timestamp) requires(kIsInlined<T> || std::is_copy_assignable_v<T>) {
     return PublishAt(value, PublicationTimes(timestamp));
   }
   PublishStatus Publish(T&& value, Time timestamp) requires(!kIsInlined<T>) {
@@ -101,9 +96,7 @@ class Output final : public OutputBase {
   /// Threads:   as Publish(). Progress: wait-free to readers of the newest value, as Loan().
   /// Errors:    an empty lease throws ProgrammingError; kNoBuffer if the own pool is of fixed size and
   ///            exhausted.
-  PublishStatus Forward(const Lease<T>& lease) {
-    return own().Forward(lease, {lease.timestamp(), PublicationTime()});
-  }
+  PublishStatus Forward(const Lease<T>& lease) { return own().Forward(lease, {lease.timestamp(), PublicationTime()}); }
   /// Publishes a value that lies in the user's own memory, as it is: `owner` gets it back
   /// (ValueOwner::TakeBack()) when nobody holds it any more. Who finds that out is this output, when it is given
   /// more to publish in place or to forward, when it looks for a free buffer, or in ReleaseUnused(); after
@@ -113,8 +106,7 @@ class Output final : public OutputBase {
   PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>> owner) {
     return PublishInPlaceAt(value, std::move(owner), PublicationTimes());
   }
-  PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>> owner,
-                               Time timestamp) {
+  PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>> owner, Time timestamp) {
     return PublishInPlaceAt(value, std::move(owner), PublicationTimes(timestamp));
   }
   /// Gives back what has been forwarded or published in place and nobody holds any more. By the publisher.
@@ -148,10 +140,9 @@ class Output final : public OutputBase {
   template <typename TimedProvider>
   requires std::is_invocable_r_v < bool, TimedProvider&, T&, std::optional<Time>
   & > void SetProvider(TimedProvider provider) requires(Channel<T>::kCanPull) {
-    SetPullProvider(
-        [provider = std::move(provider)](void* value, std::optional<Time>& timestamp) mutable {
-          return provider(*static_cast<T*>(value), timestamp);
-        });
+    SetPullProvider([provider = std::move(provider)](void* value, std::optional<Time>& timestamp) mutable {
+      return provider(*static_cast<T*>(value), timestamp);
+    });
   }
   /// How often the pool had to allocate since the start.
   [[nodiscard]] std::uint64_t growths() const noexcept { return own().growths(); }
@@ -168,19 +159,15 @@ class Output final : public OutputBase {
       return own().Publish(std::move(loan), times);
     }
   }
-  PublishStatus PublishInPlaceAt(const T& value, std::shared_ptr<ValueOwner<T>>&& owner,
-                                 ValueTimes times) {
-    static_assert(
-        !kLiesInQueuesAsCopy<T>,
-        "values of this type are copied on their way, so nobody would hold this one: publish it, "
-        "and it is free at once; if it only refers to memory of yours, set kIsInlined and "
-        "kIsCopiedInQueues to false for its type");
+  PublishStatus PublishInPlaceAt(const T& value, std::shared_ptr<ValueOwner<T>>&& owner, ValueTimes times) {
+    static_assert(!kLiesInQueuesAsCopy<T>,
+                  "values of this type are copied on their way, so nobody would hold this one: publish it, "
+                  "and it is free at once; if it only refers to memory of yours, set kIsInlined and "
+                  "kIsCopiedInQueues to false for its type");
     return own().PublishInPlace(value, std::move(owner), times);
   }
   // The channel that the constructor has made, or another output's of this class.
-  [[nodiscard, gnu::always_inline]] Channel<T>& own() const noexcept {
-    return static_cast<Channel<T>&>(own_channel());
-  }
+  [[nodiscard, gnu::always_inline]] Channel<T>& own() const noexcept { return static_cast<Channel<T>&>(own_channel()); }
 };
 
 }  // namespace runnel

@@ -6,8 +6,8 @@
 
 namespace runnel {
 
-OutputBase::OutputBase(FrameworkElement& group, std::string&& name, const TypeInfo& type,
-                       OutputOptions&& options, std::unique_ptr<ChannelBase>&& channel)
+OutputBase::OutputBase(FrameworkElement& group, std::string&& name, const TypeInfo& type, OutputOptions&& options,
+                       std::unique_ptr<ChannelBase>&& channel)
     : Port({group, std::move(name)}, Direction::kOutput, type, std::move(options.description)),
       unit_(std::move(options.unit)),
       channel_(channel.release()) {}

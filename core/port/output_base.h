@@ -26,15 +26,14 @@ class OutputBase : public Port {
   [[nodiscard]] bool is_pullable() const noexcept override;
   [[nodiscard]] const std::string& unit() const noexcept override { return unit_; }
   bool VisitLatest(const Visitor& visit) const override { return own_channel().VisitLatest(visit); }
-  Result<PublishStatus> PublishFilled(const Fill& fill,
-                                      std::optional<Time> timestamp = {}) override {
+  Result<PublishStatus> PublishFilled(const Fill& fill, std::optional<Time> timestamp = {}) override {
     return PublishInto(own_channel(), fill, timestamp);
   }
 
  protected:
   // By reference, so that typed outputs move nothing themselves.
-  OutputBase(FrameworkElement& group, std::string&& name, const TypeInfo& type,
-             OutputOptions&& options, std::unique_ptr<ChannelBase>&& channel);
+  OutputBase(FrameworkElement& group, std::string&& name, const TypeInfo& type, OutputOptions&& options,
+             std::unique_ptr<ChannelBase>&& channel);
 
   // acquire: pairs with the release in TakeOverFlow(), for viewers; publishers are at rest then.
   [[nodiscard, gnu::always_inline]] ChannelBase& own_channel() const noexcept {

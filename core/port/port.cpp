@@ -8,10 +8,10 @@
 
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
-#include "core/element/runtime.h"
 #include "core/channel/channel_base.h"
-#include "core/port/connection_rules.h"
 #include "core/conversion/conversion.h"
+#include "core/element/runtime.h"
+#include "core/port/connection_rules.h"
 #include "core/port/converted_flow.h"
 #include "core/port/port_extras.h"
 #include "core/port/typed_ports.h"
@@ -27,12 +27,8 @@ Error Refusal(const Port& from, std::string message, std::string hint = {}) {
   return {.message = std::move(message), .path = from.path(), .hint = std::move(hint)};
 }
 
-bool CanSend(const Port& port) {
-  return port.is_proxy() || port.direction() == Port::Direction::kOutput;
-}
-bool CanReceive(const Port& port) {
-  return port.is_proxy() || port.direction() == Port::Direction::kInput;
-}
+bool CanSend(const Port& port) { return port.is_proxy() || port.direction() == Port::Direction::kOutput; }
+bool CanReceive(const Port& port) { return port.is_proxy() || port.direction() == Port::Direction::kInput; }
 
 // Looks at the end that has fewer: one output may feed thousands.
 bool IsConnected(const Port& from, const Port& to) {
@@ -66,8 +62,8 @@ Error NoConversion(const Port& from, const Port& to, const ConnectOptions& optio
   const bool is_plain = options.part.empty() && options.convert.empty();
   if (!is_plain || &from.type() == &to.type()) error.message += ": " + why.message;
   error.hint = why.hint;
-  const auto candidates = ConversionCandidates(
-      {from.type(), to.type(), options.part, options.convert, from.unit(), to.unit()});
+  const auto candidates =
+      ConversionCandidates({from.type(), to.type(), options.part, options.convert, from.unit(), to.unit()});
   if (!candidates.empty()) error.hint.clear();
   for (ConversionCandidate each : candidates) {
     if (each.part == options.part) each.part.clear();  // said already
@@ -229,9 +225,8 @@ void Port::Detach() noexcept { DisconnectAll(); }
 
 bool Port::VisitLatest(const Visitor& visit) const {
   const std::lock_guard lock(runtime().structure_mutex());
-  return std::ranges::any_of(ValueSources(), [&](const Port* each) {
-    return each != this && each->VisitLatest(visit);
-  });
+  return std::ranges::any_of(ValueSources(),
+                             [&](const Port* each) { return each != this && each->VisitLatest(visit); });
 }
 
 std::uint64_t Port::publications() const noexcept {
@@ -266,9 +261,7 @@ Result<PublishStatus> Port::PublishInto(ChannelBase& channel, const Fill& fill, 
   return *published;
 }
 
-Error Port::CannotPublish(const char* why) const {
-  return Refusal(*this, std::string("cannot publish: ") + why);
-}
+Error Port::CannotPublish(const char* why) const { return Refusal(*this, std::string("cannot publish: ") + why); }
 
 std::unique_ptr<Port> Port::MakeOutput(FrameworkElement& group, std::string name, OutputOptions options) const {
   const TypedPorts* const ports = FindTypedPorts(type_);
@@ -284,8 +277,6 @@ void Port::Rebind(const std::vector<Source>&) {}
 
 Time Port::TimeOutsideOfCycles() const noexcept { return runtime().clock().Now(); }
 
-Time Port::CoarseTimeOutsideOfCycles(Time timestamp) const noexcept {
-  return runtime().clock().CoarseNow(timestamp);
-}
+Time Port::CoarseTimeOutsideOfCycles(Time timestamp) const noexcept { return runtime().clock().CoarseNow(timestamp); }
 
 }  // namespace runnel

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/channel/value_times.h"
+#include "core/channel/waker.h"
 #include "core/element/framework_element.h"
 #include "core/element/runtime.h"
 #include "core/port/cycle.h"
 #include "core/port/port_options.h"
-#include "core/channel/value_times.h"
-#include "core/channel/waker.h"
 
 namespace runnel {
 
@@ -72,15 +72,16 @@ class Port : public FrameworkElement {
   [[nodiscard]] bool is_watched() noexcept {
     // relaxed, all: it only informs.
     return has_outgoing_.load(std::memory_order_relaxed) ||
-           (is_looked_at_.load(std::memory_order_relaxed) &&
-            is_looked_at_.exchange(false, std::memory_order_relaxed));
+           (is_looked_at_.load(std::memory_order_relaxed) && is_looked_at_.exchange(false, std::memory_order_relaxed));
   }
   /// Outputs: whether a value was published with a time of measurement that was more than 100 ms to come. Any thread.
   [[nodiscard]] bool stamps_ahead() const noexcept { return stamps_ahead_.load(std::memory_order_relaxed); }
   /// Outputs: 0, unless something that moves the robot is made of it, also by modules that pass it on as a velocity. Then what
   /// is ramped has to begin anew after a STOP, and whenever this number is another one: a block or a value by hand has ended.
   /// Stays so when that port goes. Any thread; wait-free.
-  [[nodiscard]] std::uint32_t motion_beginnings() const noexcept { return motion_beginnings_.load(std::memory_order_acquire); }
+  [[nodiscard]] std::uint32_t motion_beginnings() const noexcept {
+    return motion_beginnings_.load(std::memory_order_acquire);
+  }
   /// The same by a module that does so, in each cycle.
   [[nodiscard]] std::uint32_t FollowMotionBeginnings() noexcept {
     follows_motion_.store(true, std::memory_order_relaxed);
@@ -214,7 +215,8 @@ class Port : public FrameworkElement {
   /// Another output for values of the type of this one, which the caller owns; nullptr if only a module
   /// can make such values (no default constructor), and if no module has ports of the type (typed_ports.h).
   /// Throws what the constructor of an element throws.
-  [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name, OutputOptions options) const;
+  [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
+                                                 OutputOptions options) const;
 
  protected:
   Port(const Placement& placement, Direction direction, const TypeInfo& type, std::string description);
@@ -306,9 +308,7 @@ class Port : public FrameworkElement {
   const TypeInfo& type_;
   const std::string description_;
   // After each change of `outgoing_`.
-  void NoteOutgoing() noexcept {
-    has_outgoing_.store(!outgoing_.empty(), std::memory_order_relaxed);
-  }
+  void NoteOutgoing() noexcept { has_outgoing_.store(!outgoing_.empty(), std::memory_order_relaxed); }
 
   std::vector<Connection> outgoing_;
   std::vector<Port*> incoming_;

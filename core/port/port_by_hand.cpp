@@ -26,7 +26,9 @@ bool HasPublishedSince(const Port& port, const Port& held) {
   bool has_published = false;
   held.VisitLatest([&](const void*, ValueTimes times) { set = times.publication_time; });
   for (const Port* source : port.Sources()) {
-    source->VisitLatest([&](const void*, ValueTimes times) { has_published = has_published || (set && times.publication_time > *set); });
+    source->VisitLatest([&](const void*, ValueTimes times) {
+      has_published = has_published || (set && times.publication_time > *set);
+    });
   }
   return has_published;
 }
@@ -43,16 +45,15 @@ Port* Port::by_hand() const noexcept {
   return person ? person.get() : rule.get();
 }
 
-bool Port::is_set_by_hand(Setter setter) const noexcept {
-  return extras_ && extras_->by_hand[SlotOf(setter)];
-}
+bool Port::is_set_by_hand(Setter setter) const noexcept { return extras_ && extras_->by_hand[SlotOf(setter)]; }
 
 std::optional<Port::HandValue> Port::ValueByHand(Setter setter) const {
   if (!is_set_by_hand(setter) || !type_.is_transparent()) return {};
   const std::shared_ptr<void> copy = type_.Make();
   std::optional<HandValue> found;
   extras_->by_hand[SlotOf(setter)]->VisitLatest([&](const void* value, ValueTimes times) {
-    if (copy != nullptr && CopyValue(type_, value, copy.get())) found = HandValue{AnyValue(type_, copy), times.timestamp};
+    if (copy != nullptr && CopyValue(type_, value, copy.get()))
+      found = HandValue{AnyValue(type_, copy), times.timestamp};
   });
   if (const auto slot = setter == Setter::kPerson ? HandSlot::Find(*this) : nullptr; slot && found) {
     // Whoever takes the value elsewhere, an undo, takes no person along who is heard of: it is at rest there.
@@ -135,7 +136,8 @@ bool Port::Release(Setter setter) {
   std::vector<const Port*> held_on;
   const auto stops = internal::FindStopsOfVelocities(*this, held_on);
   if (is_set_by_hand(other)) held_on.push_back(this);
-  const bool bars = life_cycle() != LifeCycle::kDeleted && (is_ramped || setter == Setter::kPerson);  // its clock may be gone
+  const bool bars =
+      life_cycle() != LifeCycle::kDeleted && (is_ramped || setter == Setter::kPerson);  // its clock may be gone
   const std::optional<Time> passed_over = bars ? now() : extras_->passed_over;
   for (const Port* each : held_on) each->extras_->passed_over = std::max(each->extras_->passed_over, passed_over);
   if (is_alone && passed_over) {

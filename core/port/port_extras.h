@@ -56,7 +56,6 @@ struct PortExtras {
 };
 
 /// That the value, one of the port's type, is within the limits.
-[[nodiscard]] Result<void> CheckWithin(const Port& port, const InputLimits& limits,
-                                       const void* value);
+[[nodiscard]] Result<void> CheckWithin(const Port& port, const InputLimits& limits, const void* value);
 
 }  // namespace runnel::internal

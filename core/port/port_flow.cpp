@@ -58,7 +58,8 @@ bool IsPassedOn(const Port& from, const Port& output) {
   const auto* const input = dynamic_cast<const InputBase*>(&from);
   const Ageing ageing = input != nullptr ? input->ageing() : Ageing::kUnspecified;
   if (ageing == Ageing::kSetOnce || ageing == Ageing::kWhileSourceRuns) return false;
-  const DrivingKind read = DrivingKindByUnits(from.type(), from.unit()), made = DrivingKindByUnits(output.type(), output.unit());
+  const DrivingKind read = DrivingKindByUnits(from.type(), from.unit()),
+                    made = DrivingKindByUnits(output.type(), output.unit());
   if (read == DrivingKind::kVelocity && made == DrivingKind::kVelocity) return true;
   return ageing == Ageing::kPassedOn && read != DrivingKind::kPosition && made != DrivingKind::kPosition;
 }
@@ -71,7 +72,9 @@ bool IsUnchanged(const Port& source, const Port& to) {
   });
 }
 
-bool IsNotedVelocity(const Port& output) { return output.motion_beginnings() != 0 && std::isnan(output.motion_begins_at()); }
+bool IsNotedVelocity(const Port& output) {
+  return output.motion_beginnings() != 0 && std::isnan(output.motion_begins_at());
+}
 
 // It moves the robot, and comes to a standstill, which is zero, or its module passes it on to what does.
 bool IsMadeVelocity(const Port& input) {
@@ -155,7 +158,9 @@ std::vector<Port::Source> Port::BoundSources(Links links) const {
 void Port::RebindSinks() {
   // Of what has moved by it before, and does not any more.
   const std::function<void(Port&)> forget = [&](Port& source) {
-    if (!IsNotedVelocity(source) || std::ranges::any_of(source.Sinks(), [](const Port* each) { return IsMadeVelocity(*each); })) return;
+    if (!IsNotedVelocity(source) ||
+        std::ranges::any_of(source.Sinks(), [](const Port* each) { return IsMadeVelocity(*each); }))
+      return;
     source.motion_beginnings_.store(0, std::memory_order_release);
     VisitSiblings(source, Direction::kInput, [&](const Port& input) {
       if (!IsPassedOn(input, source)) return;
@@ -173,7 +178,8 @@ void Port::RebindSinks() {
   }
 }
 
-std::vector<std::shared_ptr<const PortStop>> internal::FindStopsOfVelocities(const Port& port, std::vector<const Port*>& held) {
+std::vector<std::shared_ptr<const PortStop>> internal::FindStopsOfVelocities(const Port& port,
+                                                                             std::vector<const Port*>& held) {
   std::vector<std::shared_ptr<const PortStop>> found;
   std::unordered_set<const Port*> seen;
   const std::function<void(const Port&)> look = [&](const Port& at) {
@@ -200,7 +206,8 @@ bool Port::BeginMotionAnew() {
   for (const Port* sink : Sinks()) {
     const bool is_velocity = IsMadeVelocity(*sink);
     const std::vector<internal::PassedStop> stops = internal::PassedStops(*sink);
-    const bool rests = is_velocity || std::ranges::any_of(stops, [&](const auto& each) { return ComesToRest(*sink, each); });
+    const bool rests =
+        is_velocity || std::ranges::any_of(stops, [&](const auto& each) { return ComesToRest(*sink, each); });
     for (Port* source : rests ? Sources() : std::vector<Port*>()) {
       const auto begins_at = is_velocity ? std::optional<double>(NAN) : FindSafeNumber(*source, *sink);
       if (begins_at) is_followed = source->NoteMotion(beginning, *begins_at) || is_followed;
@@ -216,7 +223,8 @@ bool Port::NoteMotion(std::uint32_t beginning, double begins_at) {
   if (IsNotedVelocity(*this) && (!is_velocity || known == beginning || beginning == kFirstBeginning)) return false;
   motion_begins_at_.store(begins_at, std::memory_order_relaxed);
   // release: pairs with the acquire in motion_beginnings(): who sees that it begins anew sees where.
-  if (known != beginning && (known == 0 || beginning != kFirstBeginning)) motion_beginnings_.store(beginning, std::memory_order_release);
+  if (known != beginning && (known == 0 || beginning != kFirstBeginning))
+    motion_beginnings_.store(beginning, std::memory_order_release);
   bool is_followed = follows_motion_.load(std::memory_order_relaxed);
   if (!is_velocity) return is_followed;
   VisitSiblings(*this, Direction::kInput, [&](const Port& input) {

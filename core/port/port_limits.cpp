@@ -4,8 +4,8 @@
 #include <mutex>
 #include <utility>
 
-#include "core/element/runtime.h"
 #include "core/conversion/number_conversion.h"
+#include "core/element/runtime.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/types/type_info.h"
@@ -17,14 +17,11 @@ namespace runnel {
 namespace {
 bool IsWithin(const InputLimits& limits, double number) {
   // What is no number is in no bounds.
-  return !(limits.minimum && !(number >= *limits.minimum)) &&
-         !(limits.maximum && !(number <= *limits.maximum));
+  return !(limits.minimum && !(number >= *limits.minimum)) && !(limits.maximum && !(number <= *limits.maximum));
 }
 
 Result<void> CheckLimits(const Port& port, const InputLimits& limits) {
-  const auto refuse = [&](std::string message) {
-    return Error{.message = std::move(message), .path = port.path()};
-  };
+  const auto refuse = [&](std::string message) { return Error{.message = std::move(message), .path = port.path()}; };
   const bool is_input = !port.is_proxy() && port.direction() == Port::Direction::kInput;
   if (!is_input) return refuse("only an input of a module has limits");
   if (limits.has_bounds() && !internal::IsNumber(port.type())) {
@@ -51,17 +48,13 @@ Result<void> CheckLimits(const Port& port, const InputLimits& limits) {
 Result<void> internal::CheckWithin(const Port& port, const InputLimits& limits, const void* value) {
   if (!limits.has_bounds()) return {};
   if (IsWithin(limits, NumberIn(port.type(), value))) return {};
-  return Error{.message = "the value is out of the bounds of this input: " + BoundsText(limits),
-               .path = port.path()};
+  return Error{.message = "the value is out of the bounds of this input: " + BoundsText(limits), .path = port.path()};
 }
 
 std::string BoundsText(const InputLimits& limits) {
-  const auto text = [](const std::optional<double>& bound) {
-    return bound ? TextOf(*bound) : std::string();
-  };
+  const auto text = [](const std::optional<double>& bound) { return bound ? TextOf(*bound) : std::string(); };
   if (!limits.has_bounds()) return {};
-  return text(limits.minimum) + (limits.minimum ? " .." : "..") + (limits.maximum ? " " : "") +
-         text(limits.maximum);
+  return text(limits.minimum) + (limits.minimum ? " .." : "..") + (limits.maximum ? " " : "") + text(limits.maximum);
 }
 
 Result<void> Port::SetLimits(InputLimits limits) {
@@ -107,15 +100,12 @@ const InputLimits& Port::limits() const noexcept {
 }
 
 std::uint64_t Port::out_of_bounds() const noexcept {
-  return extras_ && extras_->limits
-             ? extras_->limits->out_of_bounds->load(std::memory_order_relaxed)
-             : 0;
+  return extras_ && extras_->limits ? extras_->limits->out_of_bounds->load(std::memory_order_relaxed) : 0;
 }
 
 Port* Port::TakerOf(const Port& source) const {
   const bool looks = extras_ && extras_->limits && by_hand() != &source &&
-                     extras_->limits->default_value.get() != &source &&
-                     !extras_->limits->flow->Makes(source);
+                     extras_->limits->default_value.get() != &source && !extras_->limits->flow->Makes(source);
   return looks ? extras_->limits->flow->InputFor(source) : const_cast<Port*>(this);
 }
 

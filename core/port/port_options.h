@@ -44,7 +44,7 @@ enum class OutOfBounds {
 
 /// Which values an input takes, and what it reads when there is none.
 struct InputLimits {
-  AnyValue default_value = {};  ///< of the input's type: read while nothing is connected or has come
+  AnyValue default_value = {};         ///< of the input's type: read while nothing is connected or has come
   std::optional<double> minimum = {};  ///< of numbers only
   std::optional<double> maximum = {};
   OutOfBounds out_of_bounds = OutOfBounds::kDiscard;
@@ -59,10 +59,10 @@ struct InputLimits {
 /// Whether what is read at an input grows old.
 enum class Ageing {
   kUnspecified,
-  kTimesOut,  ///< a measurement, or what was made of one: what is published by it is as old as it is
-  kSetOnce,   ///< a goal, a map, a mode: it holds until there is another
+  kTimesOut,         ///< a measurement, or what was made of one: what is published by it is as old as it is
+  kSetOnce,          ///< a goal, a map, a mode: it holds until there is another
   kWhileSourceRuns,  ///< a wish, a stimulation: its last word holds as long as the module runs that has said it
-  kPassedOn,  ///< each value goes on with its own stamp: whoever reads it there sees how old it is
+  kPassedOn,         ///< each value goes on with its own stamp: whoever reads it there sees how old it is
 };
 
 struct InputOptions {

@@ -24,11 +24,10 @@ constexpr Duration kLongestBrake = std::chrono::seconds(10);
 }  // namespace
 
 Result<AnyValue> Port::FindSafeValue(const AnyValue& declared, DrivingKind command) const {
-  const auto refuse = [&](std::string message) {
-    return Error{.message = std::move(message), .path = path()};
-  };
+  const auto refuse = [&](std::string message) { return Error{.message = std::move(message), .path = path()}; };
   // What a velocity is read as while nothing comes may well move.
-  const bool may_move = command == DrivingKind::kVelocity || DrivingKindByUnits(type_, unit()) == DrivingKind::kVelocity;
+  const bool may_move =
+      command == DrivingKind::kVelocity || DrivingKindByUnits(type_, unit()) == DrivingKind::kVelocity;
   const AnyValue given = declared || may_move ? declared : limits().default_value;
   if (given && &given.type() != &type_) {
     return refuse("its safe value is a " + given.type().name() + " and not a " + type_.name());
@@ -51,13 +50,17 @@ Result<DrivingKind> Port::FindDrivingKind(DrivingKind declared, const AnyValue& 
   // A unit of anything else, as the microseconds of a pulse, says little.
   const bool is_said_otherwise = known == DrivingKind::kPosition || known == DrivingKind::kVelocity;
   if (declared != DrivingKind::kUnspecified && is_said_otherwise && declared != known && internal::IsNumber(type_)) {
-    return Error{.message = "is in " + unit() + ", which is that of a " + NameOf(known) + ", and is said to be a " + NameOf(declared), .path = path(),
+    return Error{.message = "is in " + unit() + ", which is that of a " + NameOf(known) + ", and is said to be a " +
+                            NameOf(declared),
+                 .path = path(),
                  .hint = "leave out what it is said to be"};
   }
   if (declared != DrivingKind::kUnspecified) return declared;
   if (known != DrivingKind::kUnspecified) return known;
   if (!HasNumbers(type_)) return IsZero(safe_value) ? DrivingKind::kEffort : DrivingKind::kPosition;
-  return Error{.message = "something moves by it, and neither a unit nor its module says whether it is a position, a velocity or an effort",
+  return Error{.message =
+                   "something moves by it, and neither a unit nor its module says whether it is a position, a velocity "
+                   "or an effort",
                .path = path(),
                .hint = "add command=\"velocity\", say; or its module declares its unit"};
 }
@@ -112,8 +115,8 @@ std::optional<DrivingMark> Port::FindMark() const {
   const PortStop& now = *extras_->stop;
   const auto is_as_now = [&] {
     const auto whole = Complete(mark, nullptr);
-    return whole && ToText(type_, whole->safe_value.get()) == ToText(type_, now.safe_value().get()) && whole->brake == now.brake() &&
-           whole->command == now.command();
+    return whole && ToText(type_, whole->safe_value.get()) == ToText(type_, now.safe_value().get()) &&
+           whole->brake == now.brake() && whole->command == now.command();
   };
   if (said && is_as_now()) return mark;
   return DrivingMark{now.safe_value(), now.brake(), now.command()};
@@ -141,28 +144,26 @@ bool Port::Unblock() {
   return true;
 }
 
-bool Port::is_driving() const noexcept {
-  return extras_ && extras_->stop && extras_->stop->robot();
-}
-bool Port::is_blocked() const noexcept {
-  return extras_ && extras_->stop && extras_->stop->block()->in_force();
-}
+bool Port::is_driving() const noexcept { return extras_ && extras_->stop && extras_->stop->robot(); }
+bool Port::is_blocked() const noexcept { return extras_ && extras_->stop && extras_->stop->block()->in_force(); }
 Time Port::blocked_since() const noexcept { return extras_ ? extras_->blocked_since : Time(); }
-std::shared_ptr<const PortStop> Port::stop() const noexcept {
-  return extras_ ? extras_->stop : nullptr;
-}
+std::shared_ptr<const PortStop> Port::stop() const noexcept { return extras_ ? extras_->stop : nullptr; }
 
-Result<void> Port::SetStop(AnyValue safe_value, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot) {
+Result<void> Port::SetStop(AnyValue safe_value, Duration brake, DrivingKind command,
+                           std::shared_ptr<StopSignal> robot) {
   // Readers must be able to hold a value of the type.
   const auto channel = internal::MakeChannelFor(type_);
   if (!channel) return CannotPublish("only a module can make values of its type");
   if (brake > kLongestBrake) {
-    return Error{.message = "would take longer than 10 s to brake", .path = path(), .hint = "a STOP has to stop; give the time it needs"};
+    return Error{.message = "would take longer than 10 s to brake",
+                 .path = path(),
+                 .hint = "a STOP has to stop; give the time it needs"};
   }
   if (brake > Duration{} && !internal::StopLink::CanBrake(safe_value, *channel)) {
-    return Error{.message = "cannot brake: a " + type_.name() + " is larger than 32 bytes, or a part of it is no number",
-                 .path = path(),
-                 .hint = "leave out how long it brakes; its safe value is in force at once then"};
+    return Error{
+        .message = "cannot brake: a " + type_.name() + " is larger than 32 bytes, or a part of it is no number",
+        .path = path(),
+        .hint = "leave out how long it brakes; its safe value is in force at once then"};
   }
   auto stop = std::make_shared<PortStop>(std::move(safe_value), brake, command, std::move(robot), this->stop().get());
   auto before = std::exchange(Extras().stop, std::move(stop));

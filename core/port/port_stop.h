@@ -24,7 +24,8 @@ class Port;
 class PortStop {
  public:
   /// `robot`: nullptr for a port that does not drive. `before`: whose block it keeps; nullptr: it has a new one.
-  PortStop(AnyValue safe_value, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot, const PortStop* before = nullptr)
+  PortStop(AnyValue safe_value, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot,
+           const PortStop* before = nullptr)
       : safe_value_(std::move(safe_value)),
         brake_(brake),
         command_(command),

@@ -34,16 +34,21 @@ bool IsSame(const PortStop& a, const PortStop& b) {
 
 bool RestsAt(const Port& port, const AnyValue& rest) {
   const auto held = port.ValueByHand(Port::Setter::kRule), driven = port.ValueByHand();
-  return (held && TextOf(held->value) == TextOf(rest)) || (driven && driven->is_at_rest && TextOf(driven->value) == TextOf(rest));
+  return (held && TextOf(held->value) == TextOf(rest)) ||
+         (driven && driven->is_at_rest && TextOf(driven->value) == TextOf(rest));
 }
 
 // A port that is at rest at `before`, and moves something for which `now` is no rest.
-const Port* FindRestOfOthers(const Port& port, const std::vector<Port*>& sinks, const AnyValue& before, const AnyValue& now) {
+const Port* FindRestOfOthers(const Port& port, const std::vector<Port*>& sinks, const AnyValue& before,
+                             const AnyValue& now) {
   for (const Port* from : port.incoming()) {
     if (from->is_driving() || from->ConnectionTo(port)->converted) continue;
     const auto is_other = [&](const Port* sink) {
-      const auto is_held = [&](const internal::PassedStop& each) { return each.stop->robot() && TextOf(each.safe_value) != TextOf(now); };
-      return std::ranges::find(sinks, sink) == sinks.end() && std::ranges::any_of(internal::PassedStops(*sink), is_held);
+      const auto is_held = [&](const internal::PassedStop& each) {
+        return each.stop->robot() && TextOf(each.safe_value) != TextOf(now);
+      };
+      return std::ranges::find(sinks, sink) == sinks.end() &&
+             std::ranges::any_of(internal::PassedStops(*sink), is_held);
     };
     if (RestsAt(*from, before) && std::ranges::any_of(from->Sinks(), is_other)) return from;
     if (const Port* const farther = FindRestOfOthers(*from, sinks, before, now)) return farther;
@@ -70,8 +75,9 @@ Result<void> CheckUnits(const Port& port, const Port& from, bool is_strict) {
     for (const std::string& other : others) {
       if (each == other || (!has_to_be_same && (each.empty() || other.empty()))) continue;
       const auto in = [](const std::string& unit) { return "is in " + (unit.empty() ? "no unit" : unit); };
-      return CannotTakeOver(port, in(each) + " and cannot take over from " + from.path() + ", which " + in(other),
-                            "disconnect it first; where something moves by it, delete the module, and create the other one");
+      return CannotTakeOver(
+          port, in(each) + " and cannot take over from " + from.path() + ", which " + in(other),
+          "disconnect it first; where something moves by it, delete the module, and create the other one");
     }
   }
   return {};
@@ -80,7 +86,8 @@ Result<void> CheckUnits(const Port& port, const Port& from, bool is_strict) {
 }  // namespace
 
 bool IsWithinComposite(const FrameworkElement& module, const Port& from, const Port& to) {
-  const bool leads_round_it = from.parent() == &module && to.parent() == &module && from.direction() == Port::Direction::kOutput;
+  const bool leads_round_it =
+      from.parent() == &module && to.parent() == &module && from.direction() == Port::Direction::kOutput;
   return module.kind() == ElementKind::kGroup && from.IsAtOrBelow(module) && to.IsAtOrBelow(module) && !leads_round_it;
 }
 
@@ -90,11 +97,12 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
            (each.direction() == Direction::kInput ? "an input" : "an output");
   };
   if (kind(port) != kind(from)) {
-    return CannotTakeOver(port, "cannot take over from " + from.path() + ": one is " + kind(port) + ", the other is " + kind(from));
+    return CannotTakeOver(
+        port, "cannot take over from " + from.path() + ": one is " + kind(port) + ", the other is " + kind(from));
   }
   if (&port.type() != &from.type()) {
-    return CannotTakeOver(port, "carries " + port.type().name() + " and cannot take over from " + from.path() + ", which carries " +
-                                    from.type().name());
+    return CannotTakeOver(port, "carries " + port.type().name() + " and cannot take over from " + from.path() +
+                                    ", which carries " + from.type().name());
   }
   // On the way back less is refused; on that of a change that has failed nothing that has been there before.
   const auto* const state = port.FindAnnotation<internal::DrivingState>();
@@ -104,23 +112,28 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from, const Excha
     return CannotTakeOver(port, stop.error().message + "; it cannot take over from " + from.path(), stop.error().hint);
   } else if (may_be_refused) {
     const auto *declared = port.declared_stop(), *other = from.declared_stop();
-    const bool is_alike = port.is_proxy() == from.is_proxy() && port.unit() == from.unit() &&
-                          (declared == nullptr || other == nullptr ? declared == other : IsSame(*declared, *other)) &&
-                          (declared != nullptr || !port.is_driving() || (from.is_driving() && IsSame(*port.stop(), *from.stop())));
+    const bool is_alike =
+        port.is_proxy() == from.is_proxy() && port.unit() == from.unit() &&
+        (declared == nullptr || other == nullptr ? declared == other : IsSame(*declared, *other)) &&
+        (declared != nullptr || !port.is_driving() || (from.is_driving() && IsSame(*port.stop(), *from.stop())));
     if (modules != nullptr && (port.is_driving() || from.is_driving()) && !is_alike) {
-      return CannotTakeOver(port, "moves nothing, or not in the same way as " + from.path(), "delete the module, and create the other one");
+      return CannotTakeOver(port, "moves nothing, or not in the same way as " + from.path(),
+                            "delete the module, and create the other one");
     }
     const AnyValue before = from.FindRest(), now = *stop ? (*stop)->safe_value() : port.FindRest();
     const bool changes = (port.stop() || from.stop()) && before && now && TextOf(before) != TextOf(now);
     if (const Port* const rests = changes ? FindRestOfOthers(from, from.Sinks(), before, now) : nullptr) {
-      const std::string what = "has the safe value " + TextOf(now) + ", and " + rests->path() + " is at rest at " + TextOf(before);
+      const std::string what =
+          "has the safe value " + TextOf(now) + ", and " + rests->path() + " is at rest at " + TextOf(before);
       return CannotTakeOver(port, what + ", by which others move, too", "release it first");
     }
   }
   if (modules == nullptr && (!port.incoming_.empty() || !port.outgoing_.empty())) {
     return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
   }
-  const auto stays = [&](const Connection& each) { return modules != nullptr && IsWithinComposite(modules->before, from, *each.to); };
+  const auto stays = [&](const Connection& each) {
+    return modules != nullptr && IsWithinComposite(modules->before, from, *each.to);
+  };
   const auto pulls = [&](const Connection& each) { return each.options.pull && !stays(each); };
   if (port.is_pullable() || std::ranges::none_of(from.outgoing_, pulls)) return {};
   return CannotTakeOver(port, "cannot be pulled, and is to take over from one that is");
@@ -154,10 +167,12 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
     }
     // What moves by what its module passes on may be something else now.
     const auto has_moved = [](const Port* each) { return each->motion_beginnings() != 0; };
-    const bool is_output = !is_proxy() && direction_ == Direction::kOutput, is_input = !is_proxy() && direction_ == Direction::kInput;
+    const bool is_output = !is_proxy() && direction_ == Direction::kOutput,
+               is_input = !is_proxy() && direction_ == Direction::kInput;
     if (is_output && has_moved(this)) VisitSiblings(*this, Direction::kInput, [](Port& each) { each.RebindSinks(); });
     bool moves = false;
-    if (is_input) VisitSiblings(*this, Direction::kOutput, [&](const Port& each) { moves = moves || has_moved(&each); });
+    if (is_input)
+      VisitSiblings(*this, Direction::kOutput, [&](const Port& each) { moves = moves || has_moved(&each); });
     if (moves) RebindSinks();
     const AnyValue rest = rest_before ? FindRest() : AnyValue();
     if (rest && after != before) MoveToRest(rest_before, rest);
@@ -214,7 +229,9 @@ void Port::ReserveFor(const Port& from) {
 }
 
 void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks, const FrameworkElement* module) noexcept {
-  const auto stays = [&](const Port& source, const Port& to) { return module != nullptr && IsWithinComposite(*module, source, to); };
+  const auto stays = [&](const Port& source, const Port& to) {
+    return module != nullptr && IsWithinComposite(*module, source, to);
+  };
   const auto stays_at_source = [&](const Connection& each) { return stays(from, *each.to); };
   const auto stays_at_end = [&](const Port* each) { return stays(*each, from); };
   const auto first = std::stable_partition(from.outgoing_.begin(), from.outgoing_.end(), stays_at_source);

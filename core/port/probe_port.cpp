@@ -2,15 +2,14 @@
 
 #include <algorithm>
 
-#include "core/lockfree/thread_epoch.h"
 #include "core/channel/channel_base.h"
 #include "core/channel/probe_queue.h"
+#include "core/lockfree/thread_epoch.h"
 
 namespace runnel {
 
 ProbePort::ProbePort(FrameworkElement& group, std::string name, const TypeInfo& type, std::size_t capacity)
-    : InputBase({group, std::move(name)}, type, {}),
-      queue_(std::make_unique<ProbeQueue>(capacity)) {}
+    : InputBase({group, std::move(name)}, type, {}), queue_(std::make_unique<ProbeQueue>(capacity)) {}
 
 ProbePort::~ProbePort() {
   SetWaker(nullptr);
@@ -23,13 +22,13 @@ bool ProbePort::Take(const Visitor& visit) {
   bool is_taken = false;
   while (!is_taken) {
     const bool found = queue_->TryTake([&](const void* value, const Publication& publication, std::uint64_t source) {
-          std::uint64_t& last = taken_[source];
-          if (publication.sequence <= last) return;
-          last = publication.sequence;
-          is_taken = true;
-          last_source_ = source;
-          visit(value, ValueTimes::Of(publication));
-        });
+      std::uint64_t& last = taken_[source];
+      if (publication.sequence <= last) return;
+      last = publication.sequence;
+      is_taken = true;
+      last_source_ = source;
+      visit(value, ValueTimes::Of(publication));
+    });
     if (!found) return false;
   }
   return true;

@@ -26,8 +26,7 @@ class ProbePort final : public InputBase {
   static constexpr std::size_t kCapacity = 128;
 
   /// Precondition: capacity > 0.
-  ProbePort(FrameworkElement& group, std::string name, const TypeInfo& type,
-            std::size_t capacity = kCapacity);
+  ProbePort(FrameworkElement& group, std::string name, const TypeInfo& type, std::size_t capacity = kCapacity);
   ~ProbePort() override;
 
   /// Shows the oldest value that waits to `visit`, and lets it go; false if none does. What `visit` is
@@ -37,7 +36,9 @@ class ProbePort final : public InputBase {
   /// output, and one that takes an output's place has the same. For the same thread.
   [[nodiscard]] std::uint64_t last_source() const noexcept { return last_source_; }
   /// Whether values come from that channel alone now. Under the structure lock.
-  [[nodiscard]] bool IsFedBy(std::uint64_t source) const noexcept { return bound_.size() == 1 && bound_.front() == source; }
+  [[nodiscard]] bool IsFedBy(std::uint64_t source) const noexcept {
+    return bound_.size() == 1 && bound_.front() == source;
+  }
   /// How many values wait, about.
   [[nodiscard]] std::size_t waiting() const noexcept;
   [[nodiscard]] std::size_t capacity() const noexcept;

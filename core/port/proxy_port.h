@@ -10,8 +10,7 @@ namespace runnel {
 /// Threads: see Port.
 class ProxyPort final : public Port {
  public:
-  ProxyPort(const Placement& placement, Direction direction, const TypeInfo& type,
-            std::string description = {});
+  ProxyPort(const Placement& placement, Direction direction, const TypeInfo& type, std::string description = {});
   ~ProxyPort() override { DisconnectAll(); }
 
   [[nodiscard]] bool is_proxy() const noexcept override { return true; }

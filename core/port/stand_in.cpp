@@ -5,9 +5,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/channel/channel.h"
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/channel/channel.h"
 #include "core/port/typed_ports.h"
 #include "core/types/signal.h"
 #include "core/types/type_of.h"
@@ -16,8 +16,7 @@
 namespace runnel::internal {
 
 StandIn::StandIn(const Port& goes_on_at, std::unique_ptr<ChannelBase> channel)
-    : Port({goes_on_at.runtime().root(), "stand_in", false}, Direction::kOutput, goes_on_at.type(),
-           {}),
+    : Port({goes_on_at.runtime().root(), "stand_in", false}, Direction::kOutput, goes_on_at.type(), {}),
       goes_on_at_(&goes_on_at),
       channel_(std::move(channel)) {}
 
@@ -50,11 +49,11 @@ std::unique_ptr<ChannelBase> MakeChannelOf(const TypeInfo& type) {
 
 std::unique_ptr<ChannelBase> MakeChannelFor(const TypeInfo& type) {
   const TypedPorts* const ports = FindTypedPorts(type);
-  auto channel = ports != nullptr
+  auto channel =
+      ports != nullptr
           ? ports->MakeChannel()
-          : MakeChannelOf<bool, std::int8_t, std::int16_t, std::int32_t, std::int64_t, std::uint8_t,
-                          std::uint16_t, std::uint32_t, std::uint64_t, float, double, std::string,
-                          Signal>(type);
+          : MakeChannelOf<bool, std::int8_t, std::int16_t, std::int32_t, std::int64_t, std::uint8_t, std::uint16_t,
+                          std::uint32_t, std::uint64_t, float, double, std::string, Signal>(type);
   if (channel && !channel->can_be_filled()) channel.reset();
   return channel;
 }

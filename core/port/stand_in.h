@@ -22,11 +22,8 @@ class StandIn final : public Port {
   [[nodiscard]] ChannelBase& own_channel() const noexcept { return *channel_; }
 
   bool VisitLatest(const Visitor& visit) const override { return channel_->VisitLatest(visit); }
-  [[nodiscard]] std::uint64_t publications() const noexcept override {
-    return channel_->publications();
-  }
-  Result<PublishStatus> PublishFilled(const Fill& fill,
-                                      std::optional<Time> timestamp = {}) override {
+  [[nodiscard]] std::uint64_t publications() const noexcept override { return channel_->publications(); }
+  Result<PublishStatus> PublishFilled(const Fill& fill, std::optional<Time> timestamp = {}) override {
     return PublishInto(*channel_, fill, timestamp);
   }
 

@@ -30,8 +30,8 @@ bool ForEachNumber(const TypeInfo& type, void* value, const auto& visit) {
       visit(type, value);
       return true;
     case TypeKind::kStructure:
-      return std::ranges::all_of(
-          type.fields(), [&](const FieldInfo& field) { return visit_part(*field.type, field.address(value)); });
+      return std::ranges::all_of(type.fields(),
+                                 [&](const FieldInfo& field) { return visit_part(*field.type, field.address(value)); });
     case TypeKind::kSequence:
     case TypeKind::kMatrix:
       for (std::size_t i = 0; elements.is_fixed && i < elements.rows(value) * elements.columns(value); ++i) {
@@ -90,8 +90,7 @@ bool StopLink::Is(const PassedStop& stop) const {
   const AnyValue& own = stop_.safe_value;
   if (stop_.stop != stop.stop || &own.type() != &stop.safe_value.type()) return false;
   if (own.get() == stop.safe_value.get()) return true;
-  return own.type().is_transparent() &&
-         ToText(own.type(), own.get()) == ToText(own.type(), stop.safe_value.get());
+  return own.type().is_transparent() && ToText(own.type(), own.get()) == ToText(own.type(), stop.safe_value.get());
 }
 
 std::unique_ptr<StopLink::Braking> StopLink::MakeBraking(const AnyValue& safe_value, const ChannelBase& channel) {
@@ -136,8 +135,8 @@ void StopLink::Brake(void* value, Publication& publication) noexcept {
   if (rest == 0) return;
   // What was old when it was read last has not become a fresh command by the STOP.
   const std::int64_t time = now.time_since_epoch().count();
-  publication.timestamp = braking_->last_stamp.load(std::memory_order_relaxed) + time -
-                          braking_->begun.load(std::memory_order_relaxed);
+  publication.timestamp =
+      braking_->last_stamp.load(std::memory_order_relaxed) + time - braking_->begun.load(std::memory_order_relaxed);
   publication.publication_time = time;
   std::size_t i = 0;
   (void)ForEachNumber(stop_.safe_value.type(), value, [&](const TypeInfo& type, void* number) {

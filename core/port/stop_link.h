@@ -63,7 +63,7 @@ class StopLink {
 
   const PassedStop stop_;
   const std::unique_ptr<ChannelBase> channel_;
-  const Runtime& runtime_;  // its clock is another one when an application runs
+  const Runtime& runtime_;                  // its clock is another one when an application runs
   const std::unique_ptr<Braking> braking_;  // nullptr: the safe value is found at once
   InputLink link_{channel_.get()};
   std::mutex publisher_;  // both signals may tell at the same time

@@ -90,9 +90,7 @@ class HeldValuesOf final : public HeldValues {
   [[nodiscard]] const void* Find(std::size_t place) const noexcept override {
     return leases_[place].has_value() ? &*leases_[place] : nullptr;
   }
-  [[nodiscard]] ValueTimes times(std::size_t place) const override {
-    return leases_[place].times();
-  }
+  [[nodiscard]] ValueTimes times(std::size_t place) const override { return leases_[place].times(); }
 
  private:
   std::vector<Lease<T>> leases_;
@@ -113,9 +111,7 @@ class TypedPortsOf final : public TypedPorts {
       return nullptr;
     }
   }
-  [[nodiscard]] std::unique_ptr<ChannelBase> MakeChannel() const override {
-    return Channel<T>::Make();
-  }
+  [[nodiscard]] std::unique_ptr<ChannelBase> MakeChannel() const override { return Channel<T>::Make(); }
   [[nodiscard]] std::unique_ptr<HeldValues> MakeHeldValues(std::size_t places) const override {
     return std::make_unique<HeldValuesOf<T>>(places);
   }

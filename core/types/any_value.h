@@ -17,8 +17,7 @@ class AnyValue {
   template <typename T>
   requires(!std::is_same_v<std::remove_cvref_t<T>, AnyValue>) AnyValue(T value)
       : type_(&TypeOf<T>()), value_(std::make_shared<const T>(std::move(value))) {}
-  AnyValue(const TypeInfo& type, std::shared_ptr<const void> value)
-      : type_(&type), value_(std::move(value)) {}
+  AnyValue(const TypeInfo& type, std::shared_ptr<const void> value) : type_(&type), value_(std::move(value)) {}
 
   explicit operator bool() const noexcept { return value_ != nullptr; }
   /// Precondition: there is a value.

@@ -36,8 +36,7 @@ Result<void> NumberFromText(std::string_view text, void* value) {
   const std::string& name = TypeOf<N>().name();
   if (read.ec == std::errc::result_out_of_range) return OutOfRange<N>(text, name);
   if (read.ec != std::errc() || read.ptr != digits.data() + digits.size()) {
-    return Error{.message = "'" + std::string(text) + "' is no " +
-                            (std::is_integral_v<N> ? "whole number" : "number")};
+    return Error{.message = "'" + std::string(text) + "' is no " + (std::is_integral_v<N> ? "whole number" : "number")};
   }
   *static_cast<N*>(value) = number;
   return {};
@@ -48,9 +47,7 @@ void DescribeNumber(TypeBuilder<N>& type, const char* name) {
   type.Name(name).Leaf({NumberText<N>, NumberFromText<N>, /*needs_quotes=*/false});
 }
 
-std::string BoolText(const void* value) {
-  return *static_cast<const bool*>(value) ? "true" : "false";
-}
+std::string BoolText(const void* value) { return *static_cast<const bool*>(value) ? "true" : "false"; }
 Result<void> BoolFromText(std::string_view text, void* value) {
   if (text != "true" && text != "false") {
     return Error{.message = "'" + std::string(text) + "' is neither true nor false"};
@@ -65,9 +62,7 @@ Result<void> StringFromText(std::string_view text, void* value) {
   return {};
 }
 
-std::string DurationToText(const void* value) {
-  return DurationText(*static_cast<const Duration*>(value));
-}
+std::string DurationToText(const void* value) { return DurationText(*static_cast<const Duration*>(value)); }
 Result<void> DurationFromText(std::string_view text, void* value) {
   auto duration = ParseDuration(text);
   if (!duration) return duration.error();
@@ -80,9 +75,7 @@ constexpr LeafOperations kDurationOperations{DurationToText, DurationFromText,
 
 }  // namespace
 
-void Describe(TypeBuilder<bool>& type) {
-  type.Name("bool").Leaf({BoolText, BoolFromText, /*needs_quotes=*/false});
-}
+void Describe(TypeBuilder<bool>& type) { type.Name("bool").Leaf({BoolText, BoolFromText, /*needs_quotes=*/false}); }
 void Describe(TypeBuilder<std::int8_t>& type) { DescribeNumber(type, "int8"); }
 void Describe(TypeBuilder<std::int16_t>& type) { DescribeNumber(type, "int16"); }
 void Describe(TypeBuilder<std::int32_t>& type) { DescribeNumber(type, "int32"); }
@@ -104,8 +97,7 @@ void Describe(TypeBuilder<Signal>& type) {
   type.Name("signal").Leaf({.to_text = [](const void*) { return std::string("now"); },
                             .from_text = [](std::string_view text, void*) -> Result<void> {
                               if (text.empty() || text == "now" || text == "{}") return {};
-                              return Error{.message = "'" + std::string(text) +
-                                                      "' is no signal, which has no content",
+                              return Error{.message = "'" + std::string(text) + "' is no signal, which has no content",
                                            .hint = "write 'now'"};
                             },
                             .needs_quotes = false});

@@ -52,9 +52,7 @@ requires(!std::same_as<E, bool>) void Describe(TypeBuilder<std::vector<E>>& type
                          return columns == static_cast<List*>(at)->size();
                        }
                      },
-                 .element = [](void* at, std::size_t index) -> void* {
-                   return &(*static_cast<List*>(at))[index];
-                 },
+                 .element = [](void* at, std::size_t index) -> void* { return &(*static_cast<List*>(at))[index]; },
                  .are_plain_numbers = kIsPlainNumber<E>});
 }
 
@@ -67,9 +65,7 @@ void Describe(TypeBuilder<std::array<E, count>>& type) {
                  .is_fixed = true,
                  .columns = [](const void*) { return count; },
                  .resize = [](void*, std::size_t, std::size_t columns) { return columns == count; },
-                 .element = [](void* at, std::size_t index) -> void* {
-                   return &(*static_cast<List*>(at))[index];
-                 },
+                 .element = [](void* at, std::size_t index) -> void* { return &(*static_cast<List*>(at))[index]; },
                  .are_plain_numbers = kIsPlainNumber<E>});
 }
 
@@ -78,21 +74,19 @@ template <typename E>
 void Describe(TypeBuilder<std::optional<E>>& type) {
   using Optional = std::optional<E>;
   type.Name(TypeOf<E>().name() + "?")
-      .Elements(TypeKind::kSequence, {.type = &TypeOf<E>(),
-                                      .columns = [](const void* at) -> std::size_t {
-                                        return static_cast<const Optional*>(at)->has_value() ? 1
-                                                                                             : 0;
-                                      },
-                                      .resize =
-                                          [](void* at, std::size_t, std::size_t columns) {
-                                            auto& optional = *static_cast<Optional*>(at);
-                                            if (columns == 0) optional.reset();
-                                            if (columns == 1 && !optional) optional.emplace();
-                                            return columns <= 1;
-                                          },
-                                      .element = [](void* at, std::size_t) -> void* {
-                                        return &**static_cast<Optional*>(at);
-                                      }});
+      .Elements(TypeKind::kSequence,
+                {.type = &TypeOf<E>(),
+                 .columns = [](const void* at) -> std::size_t {
+                   return static_cast<const Optional*>(at)->has_value() ? 1 : 0;
+                 },
+                 .resize =
+                     [](void* at, std::size_t, std::size_t columns) {
+                       auto& optional = *static_cast<Optional*>(at);
+                       if (columns == 0) optional.reset();
+                       if (columns == 1 && !optional) optional.emplace();
+                       return columns <= 1;
+                     },
+                 .element = [](void* at, std::size_t) -> void* { return &**static_cast<Optional*>(at); }});
 }
 
 }  // namespace runnel

@@ -34,8 +34,7 @@ std::string Fraction(std::uint64_t rest, std::uint64_t of) {
 std::string DurationText(Duration duration) {
   const std::int64_t count = duration.count();
   // Through unsigned numbers, in which the most negative duration has a positive twin.
-  const std::uint64_t size =
-      count < 0 ? 0 - static_cast<std::uint64_t>(count) : static_cast<std::uint64_t>(count);
+  const std::uint64_t size = count < 0 ? 0 - static_cast<std::uint64_t>(count) : static_cast<std::uint64_t>(count);
   if (size == 0) return "0s";
   std::size_t unit = kLargestWritten;
   while (size < static_cast<std::uint64_t>(kUnits[unit].nanoseconds)) ++unit;

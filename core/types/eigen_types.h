@@ -20,9 +20,7 @@ constexpr bool kIsEigenVector = M::RowsAtCompileTime == 1 || M::ColsAtCompileTim
 
 template <typename M>
 std::string EigenName() {
-  const auto extent = [](int size) {
-    return size == Eigen::Dynamic ? std::string() : std::to_string(size);
-  };
+  const auto extent = [](int size) { return size == Eigen::Dynamic ? std::string() : std::to_string(size); };
   const std::string& scalar = TypeOf<typename M::Scalar>().name();
   if constexpr (M::ColsAtCompileTime == 1) {
     return "vector " + scalar + "[" + extent(M::RowsAtCompileTime) + "]";
@@ -30,10 +28,8 @@ std::string EigenName() {
     return "row " + scalar + "[" + extent(M::ColsAtCompileTime) + "]";
   } else {
     const std::string times =
-        M::RowsAtCompileTime == Eigen::Dynamic && M::ColsAtCompileTime == Eigen::Dynamic ? ","
-                                                                                         : "x";
-    return "matrix " + scalar + "[" + extent(M::RowsAtCompileTime) + times +
-           extent(M::ColsAtCompileTime) + "]";
+        M::RowsAtCompileTime == Eigen::Dynamic && M::ColsAtCompileTime == Eigen::Dynamic ? "," : "x";
+    return "matrix " + scalar + "[" + extent(M::RowsAtCompileTime) + times + extent(M::ColsAtCompileTime) + "]";
   }
 }
 
@@ -48,8 +44,7 @@ bool ResizeEigen(M& matrix, std::size_t rows, std::size_t columns) {
     to_columns = 1;
   }
   const auto possible = [](int fixed, int maximum, Eigen::Index wanted) {
-    return (fixed == Eigen::Dynamic || fixed == wanted) &&
-           (maximum == Eigen::Dynamic || wanted <= maximum);
+    return (fixed == Eigen::Dynamic || fixed == wanted) && (maximum == Eigen::Dynamic || wanted <= maximum);
   };
   if (!possible(M::RowsAtCompileTime, M::MaxRowsAtCompileTime, to_rows) ||
       !possible(M::ColsAtCompileTime, M::MaxColsAtCompileTime, to_columns)) {
@@ -72,8 +67,7 @@ void Describe(TypeBuilder<Eigen::Matrix<S, rows, columns, options, max_rows, max
                 {.type = &TypeOf<S>(),
                  .is_fixed = rows != Eigen::Dynamic && columns != Eigen::Dynamic,
                  .rows = [](const void* at) -> std::size_t {
-                   return is_vector ? 1
-                                    : static_cast<std::size_t>(static_cast<const M*>(at)->rows());
+                   return is_vector ? 1 : static_cast<std::size_t>(static_cast<const M*>(at)->rows());
                  },
                  .columns = [](const void* at) -> std::size_t {
                    const M& matrix = *static_cast<const M*>(at);

@@ -28,9 +28,8 @@ auto WithOneOf(const TypeInfo& type, const Use& use) {
 template <typename Use>
 auto WithLeafType(const TypeInfo& type, const Use& use) {
   // What lists are made of comes first.
-  return internal::WithOneOf<float, double, std::uint8_t, std::uint16_t, std::int32_t,
-                             std::uint32_t, bool, std::string, std::int64_t, std::uint64_t,
-                             Duration, Time, std::int8_t, std::int16_t>(type, use);
+  return internal::WithOneOf<float, double, std::uint8_t, std::uint16_t, std::int32_t, std::uint32_t, bool, std::string,
+                             std::int64_t, std::uint64_t, Duration, Time, std::int8_t, std::int16_t>(type, use);
 }
 
 }  // namespace runnel

@@ -16,18 +16,17 @@ template <typename E>
 void Describe(TypeBuilder<SharedVector<E>>& type) {
   using List = SharedVector<E>;
   type.Name("shared " + TypeOf<E>().name() + "[]")
-      .Elements(TypeKind::kSequence,
-                {.type = &TypeOf<E>(),
-                 .columns = [](const void* at) { return static_cast<const List*>(at)->size(); },
-                 .resize =
-                     [](void* at, std::size_t, std::size_t columns) {
-                       static_cast<List*>(at)->resize(columns);
-                       return true;
-                     },
-                 .element = [](void* at, std::size_t index) -> void* {
-                   return ForLooking(std::as_const(*static_cast<List*>(at)).data() + index);
-                 },
-                 .are_plain_numbers = true});
+      .Elements(TypeKind::kSequence, {.type = &TypeOf<E>(),
+                                      .columns = [](const void* at) { return static_cast<const List*>(at)->size(); },
+                                      .resize =
+                                          [](void* at, std::size_t, std::size_t columns) {
+                                            static_cast<List*>(at)->resize(columns);
+                                            return true;
+                                          },
+                                      .element = [](void* at, std::size_t index) -> void* {
+                                        return ForLooking(std::as_const(*static_cast<List*>(at)).data() + index);
+                                      },
+                                      .are_plain_numbers = true});
 }
 
 /// Has `list`, if it is a SharedVector, look at `count` numbers of its kind from `first` on, which stay as they are as long

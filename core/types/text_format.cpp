@@ -38,8 +38,7 @@ class TextWriter {
       case TypeKind::kSequence:
         return WriteRow(type, value, 0);
       case TypeKind::kMatrix:
-        return WriteList(type.elements().rows(value),
-                         [&](std::size_t row) { WriteRow(type, value, row); });
+        return WriteList(type.elements().rows(value), [&](std::size_t row) { WriteRow(type, value, row); });
     }
   }
   [[nodiscard]] std::string Take() { return std::move(text_); }
@@ -137,9 +136,8 @@ class TextParser {
 
   // Letters, digits and underscores, and the colon.
   Result<void> TakeName() {
-    const auto end = std::ranges::find_if_not(Rest(), [](unsigned char character) {
-      return std::isalnum(character) != 0 || character == '_';
-    });
+    const auto end = std::ranges::find_if_not(
+        Rest(), [](unsigned char character) { return std::isalnum(character) != 0 || character == '_'; });
     const std::string name(rest_.begin(), end);
     rest_.remove_prefix(name.size());
     tokens_.Add(Kind::kText, name);
@@ -187,8 +185,8 @@ class TextParser {
 Result<void> SetLeafFromText(const TypeInfo& type, const ValueToken& token, void* value) {
   const LeafOperations& leaf = type.leaf();
   // A text of one word may come without quotation marks, as people write it: {file: map.pgm}.
-  const bool is_meant = token.kind == ValueToken::Kind::kWord ||
-                        (leaf.needs_quotes && token.kind == ValueToken::Kind::kText);
+  const bool is_meant =
+      token.kind == ValueToken::Kind::kWord || (leaf.needs_quotes && token.kind == ValueToken::Kind::kText);
   if (is_meant) return leaf.from_text(token.text, value);
   return Expected(leaf.needs_quotes ? "a text in quotation marks" : "a " + type.name(), token);
 }

@@ -35,8 +35,7 @@ struct TextLimits {
 };
 
 /// Opaque parts read "?".
-[[nodiscard]] std::string ToText(const TypeInfo& type, const void* value,
-                                 const TextLimits& limits = {});
+[[nodiscard]] std::string ToText(const TypeInfo& type, const void* value, const TextLimits& limits = {});
 
 /// Sets what the text names; elements of lists begin as their type makes them. Errors: say what is wrong,
 /// and where in the text or of which field ("points[2].x"); the value may then be half set, so work on a copy.

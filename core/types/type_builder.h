@@ -63,9 +63,8 @@ class TypeBuilder {
 
   TypeBuilder& Value(std::string name, T value) requires std::is_enum_v<T> {
     type_.kind_ = TypeKind::kEnumeration;
-    type_.enumeration_ = {
-        [](const void* at) { return static_cast<std::int64_t>(*static_cast<const T*>(at)); },
-        [](void* at, std::int64_t number) { *static_cast<T*>(at) = static_cast<T>(number); }};
+    type_.enumeration_ = {[](const void* at) { return static_cast<std::int64_t>(*static_cast<const T*>(at)); },
+                          [](void* at, std::int64_t number) { *static_cast<T*>(at) = static_cast<T>(number); }};
     type_.enumerators_.push_back({std::move(name), static_cast<std::int64_t>(value)});
     return *this;
   }
@@ -74,9 +73,7 @@ class TypeBuilder {
   TypeBuilder& Leaf(const LeafOperations& operations) {
     type_.kind_ = TypeKind::kLeaf;
     type_.leaf_ = operations;
-    type_.leaf_.copy = [](void* to, const void* from) {
-      *static_cast<T*>(to) = *static_cast<const T*>(from);
-    };
+    type_.leaf_.copy = [](void* to, const void* from) { *static_cast<T*>(to) = *static_cast<const T*>(from); };
     return *this;
   }
   /// For containers. `kind` is kSequence or kMatrix.

@@ -10,16 +10,14 @@ namespace runnel {
 namespace {
 
 // Types may contain themselves (a tree has a list of trees), so those that have been looked at are kept.
-bool IsAnyPart(const TypeInfo& type, bool (*is_meant)(const TypeInfo& part),
-               std::vector<const TypeInfo*>& known) {
+bool IsAnyPart(const TypeInfo& type, bool (*is_meant)(const TypeInfo& part), std::vector<const TypeInfo*>& known) {
   if (std::ranges::find(known, &type) != known.end()) return false;
   known.push_back(&type);
   if (is_meant(type)) return true;
   const TypeInfo* const element = type.elements().type;
   return (element != nullptr && IsAnyPart(*element, is_meant, known)) ||
-         std::ranges::any_of(type.fields(), [&](const FieldInfo& field) {
-           return IsAnyPart(*field.type, is_meant, known);
-         });
+         std::ranges::any_of(type.fields(),
+                             [&](const FieldInfo& field) { return IsAnyPart(*field.type, is_meant, known); });
 }
 
 }  // namespace
@@ -43,11 +41,9 @@ std::shared_ptr<void> TypeInfo::Make() const {
   return {make_(), delete_};
 }
 
-void TypeInfo::AddField(std::string&& name, const TypeInfo& type, FieldOptions&& options,
-                        const FieldAddress& address) {
+void TypeInfo::AddField(std::string&& name, const TypeInfo& type, FieldOptions&& options, const FieldAddress& address) {
   kind_ = TypeKind::kStructure;
-  fields_.push_back(
-      {std::move(name), &type, std::move(options.unit), std::move(options.description), address});
+  fields_.push_back({std::move(name), &type, std::move(options.unit), std::move(options.description), address});
 }
 
 }  // namespace runnel

@@ -72,7 +72,7 @@ struct EnumeratorInfo {
 struct LeafOperations {
   std::string (*to_text)(const void* value);
   Result<void> (*from_text)(std::string_view text, void* value);
-  bool needs_quotes;  ///< within structures the text stands in quotation marks
+  bool needs_quotes;                                   ///< within structures the text stands in quotation marks
   void (*copy)(void* to, const void* from) = nullptr;  ///< set by TypeBuilder::Leaf()
 };
 
@@ -125,9 +125,7 @@ class TypeInfo {
   [[nodiscard]] std::span<const FieldInfo> fields() const noexcept { return fields_; }
   [[nodiscard]] const FieldInfo* FindField(std::string_view name) const;
   /// Of an enumeration.
-  [[nodiscard]] std::span<const EnumeratorInfo> enumerators() const noexcept {
-    return enumerators_;
-  }
+  [[nodiscard]] std::span<const EnumeratorInfo> enumerators() const noexcept { return enumerators_; }
   [[nodiscard]] const LeafOperations& leaf() const noexcept { return leaf_; }
   [[nodiscard]] const EnumerationOperations& enumeration() const noexcept { return enumeration_; }
   [[nodiscard]] const ElementOperations& elements() const noexcept { return elements_; }
@@ -143,8 +141,7 @@ class TypeInfo {
   friend class TypeBuilder;
   friend class TypeRegistry;
 
-  void AddField(std::string&& name, const TypeInfo& type, FieldOptions&& options,
-                const FieldAddress& address);
+  void AddField(std::string&& name, const TypeInfo& type, FieldOptions&& options, const FieldAddress& address);
 
   const std::type_index cpp_type_;
   std::size_t size_ = 0;  // of a value, and how it is aligned, where it was described first

@@ -24,8 +24,7 @@ struct TypeLayout {
 };
 
 /// TypeRegistry::Get(), without its header.
-const TypeInfo& GetType(std::type_index cpp_type, const TypeLayout& layout,
-                        void (*describe)(TypeInfo&));
+const TypeInfo& GetType(std::type_index cpp_type, const TypeLayout& layout, void (*describe)(TypeInfo&));
 
 }  // namespace internal
 

@@ -53,9 +53,9 @@ void TypeRegistry::CheckName(const TypeInfo& type) const {
   RUNNEL_CHECK(!type.name().empty(), "the description of a type gives it a name");
   const auto taken = by_name_.find(type.name());
   if (taken == by_name_.end()) return;
-  ThrowProgrammingError("two types cannot have one name", "'" + type.name() + "' is " +
-                                                              taken->second->cpp_type().name() +
-                                                              " and " + type.cpp_type().name());
+  ThrowProgrammingError(
+      "two types cannot have one name",
+      "'" + type.name() + "' is " + taken->second->cpp_type().name() + " and " + type.cpp_type().name());
 }
 
 // Descriptions of types that contain each other come round to the first.
@@ -67,8 +67,8 @@ void TypeRegistry::CheckSame(const TypeInfo& known, const internal::TypeLayout& 
                           what + "; build it and what it is used with from the same source");
   };
   if (layout.size != known.size_ || layout.alignment != known.alignment_) {
-    refuse("its values have " + std::to_string(layout.size) + " bytes there, and " +
-           std::to_string(known.size_) + " elsewhere");
+    refuse("its values have " + std::to_string(layout.size) + " bytes there, and " + std::to_string(known.size_) +
+           " elsewhere");
   }
   TypeInfo here(known.cpp_type());
   being_compared_.push_back(&known);
@@ -135,8 +135,7 @@ std::vector<const TypeInfo*> TypeRegistry::All() const {
 
 namespace internal {
 
-const TypeInfo& GetType(std::type_index cpp_type, const TypeLayout& layout,
-                        void (*describe)(TypeInfo&)) {
+const TypeInfo& GetType(std::type_index cpp_type, const TypeLayout& layout, void (*describe)(TypeInfo&)) {
   return TypeRegistry::Instance().Get(cpp_type, layout, describe);
 }
 

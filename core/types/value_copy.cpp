@@ -17,8 +17,7 @@ bool CopyElements(const ElementOperations& elements, const void* from, void* to)
   const std::size_t count = rows * columns;
   if (elements.are_plain_numbers) {
     if (count == 0) return true;
-    std::memcpy(elements.element(to, 0), elements.element(ForLooking(from), 0),
-                count * elements.type->size());
+    std::memcpy(elements.element(to, 0), elements.element(ForLooking(from), 0), count * elements.type->size());
     return true;
   }
   for (std::size_t i = 0; i < count; ++i) {

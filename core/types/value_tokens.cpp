@@ -53,12 +53,10 @@ class ValueReader {
       case TypeKind::kMatrix:
         return ReadMatrix(type, token, value);
     }
-    return Error{.message =
-                     "a " + type.name() + " has no text format: its inside is not described"};
+    return Error{.message = "a " + type.name() + " has no text format: its inside is not described"};
   }
 
-  Result<void> ReadAt(const Step& step, const TypeInfo& type, const ValueToken& token,
-                      void* value) {
+  Result<void> ReadAt(const Step& step, const TypeInfo& type, const ValueToken& token, void* value) {
     steps_.push_back(step);
     auto read = Read(type, token, value);
     if (read) steps_.pop_back();
@@ -75,9 +73,8 @@ class ValueReader {
       type.enumeration().set(value, each.value);
       return {};
     }
-    return Error{
-        .message = "there is no " + type.name() + " '" + token.text + "'",
-        .hint = NearestNameHint(token.text, NamesOf(type.enumerators(), &EnumeratorInfo::name))};
+    return Error{.message = "there is no " + type.name() + " '" + token.text + "'",
+                 .hint = NearestNameHint(token.text, NamesOf(type.enumerators(), &EnumeratorInfo::name))};
   }
 
   Result<void> ReadStructure(const TypeInfo& type, const ValueToken& token, void* value) {
@@ -108,14 +105,13 @@ class ValueReader {
     if (!elements.is_fixed) elements.resize(value, 1, 0);
     if (!elements.resize(value, 1, token.count)) {
       const bool are_few = elements.is_fixed && token.count < elements.columns(value);
-      return Error{.message = std::to_string(token.count) + " elements are too " +
-                              (are_few ? "few" : "many") + " for a " + type.name()};
+      return Error{.message = std::to_string(token.count) + " elements are too " + (are_few ? "few" : "many") +
+                              " for a " + type.name()};
     }
     return ReadRow(type, token, value, 0);
   }
 
-  Result<void> ReadRow(const TypeInfo& type, const ValueToken& row, void* value,
-                       std::size_t first) {
+  Result<void> ReadRow(const TypeInfo& type, const ValueToken& row, void* value, std::size_t first) {
     const ElementOperations& elements = type.elements();
     const ValueToken* token = row.First();
     for (std::size_t i = 0; i < row.count; ++i, token = token->Next()) {
@@ -134,15 +130,13 @@ class ValueReader {
     for (std::size_t i = 0; i < rows; ++i, row = row->Next()) {
       if (row->kind != Kind::kList) return Expected("'[' before a row of a " + type.name(), *row);
       if (row->count == columns) continue;
-      return Error{.message = "the rows differ in length: " + std::to_string(columns) + " and " +
-                              std::to_string(row->count)};
+      return Error{.message =
+                       "the rows differ in length: " + std::to_string(columns) + " and " + std::to_string(row->count)};
     }
     if (auto room = TakeRoom(rows * columns, type); !room) return room;
     // Without rows nothing tells how many columns there are.
-    if (!elements.resize(value, rows, columns) &&
-        (rows > 0 || !elements.resize(value, 0, elements.columns(value)))) {
-      return Error{.message = std::to_string(rows) + " rows of " + std::to_string(columns) +
-                              " are no " + type.name()};
+    if (!elements.resize(value, rows, columns) && (rows > 0 || !elements.resize(value, 0, elements.columns(value)))) {
+      return Error{.message = std::to_string(rows) + " rows of " + std::to_string(columns) + " are no " + type.name()};
     }
     row = token.First();
     for (std::size_t i = 0; i < rows; ++i, row = row->Next()) {
@@ -156,8 +150,7 @@ class ValueReader {
   Result<void> TakeRoom(std::size_t count, const TypeInfo& type) {
     const std::size_t size = type.elements().type->size();
     if (size > 0 && count > (kMostBytes - bytes_) / size) {
-      return Error{.message = "a " + type.name() +
-                              " has too many elements: together with what it is part of, " +
+      return Error{.message = "a " + type.name() + " has too many elements: together with what it is part of, " +
                               "they take more than " + std::to_string(kMostBytes >> 20) + " MiB"};
     }
     bytes_ += count * size;
@@ -190,8 +183,7 @@ void ValueTokens::End() {
   open_.pop_back();
 }
 
-Result<void> SetFromTokens(const TypeInfo& type, const ValueToken& token, LeafReader read_leaf,
-                           void* value) {
+Result<void> SetFromTokens(const TypeInfo& type, const ValueToken& token, LeafReader read_leaf, void* value) {
   return ValueReader(read_leaf).ReadAll(type, token, value);
 }
 

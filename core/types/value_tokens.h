@@ -21,8 +21,7 @@ struct ValueToken {
   enum class Kind { kWord, kText, kList, kStructure };
 
   Kind kind;
-  std::string
-      text;  ///< a word as it stands: true, 3.5, left; what a text in quotation marks stands for
+  std::string text;        ///< a word as it stands: true, 3.5, left; what a text in quotation marks stands for
   std::size_t count = 0;   ///< of elements, or of names and values together
   std::size_t extent = 1;  ///< how many tokens these are, with itself
 
@@ -65,8 +64,8 @@ using LeafReader = Result<void> (*)(const TypeInfo& type, const ValueToken& toke
 /// Errors: what is wrong and of which field ("points[2].x"), with the nearest name that would have been
 /// right. The value may then be half set. A list that takes more than 256 MiB is refused, as a few bytes of text
 /// can promise much.
-[[nodiscard]] Result<void> SetFromTokens(const TypeInfo& type, const ValueToken& token,
-                                         LeafReader read_leaf, void* value);
+[[nodiscard]] Result<void> SetFromTokens(const TypeInfo& type, const ValueToken& token, LeafReader read_leaf,
+                                         void* value);
 
 /// "expected a number, found 'a'".
 [[nodiscard]] Error Expected(std::string_view what, const ValueToken& found);

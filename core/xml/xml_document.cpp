@@ -51,8 +51,7 @@ Error CannotRead(const std::filesystem::path& path, std::string why, std::string
 }
 
 std::string NearestFileHint(const std::filesystem::path& path) {
-  const std::string nearest =
-      NearestName(path.filename().string(), NamesInFolder(path.parent_path()));
+  const std::string nearest = NearestName(path.filename().string(), NamesInFolder(path.parent_path()));
   return nearest.empty() ? "" : "did you mean '" + nearest + "'?";
 }
 
@@ -60,9 +59,7 @@ std::string NearestFileHint(const std::filesystem::path& path) {
 
 const std::string& XmlElement::name() const noexcept { return node_->name; }
 
-SourcePosition XmlElement::position() const {
-  return {*node_->file_name, node_->place.line, node_->place.column};
-}
+SourcePosition XmlElement::position() const { return {*node_->file_name, node_->place.line, node_->place.column}; }
 
 const ElementSpans& XmlElement::spans() const noexcept { return node_->spans; }
 
@@ -106,8 +103,7 @@ Result<std::string> XmlDocument::ReadText(const std::filesystem::path& path) {
   if (!stream) return CannotRead(path, "cannot be opened", "may you read it?");
   std::string text;
   std::vector<char> block(std::size_t{1} << 16U);
-  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())),
-         stream.gcount() > 0) {
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())), stream.gcount() > 0) {
     text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
     if (text.size() > kLargestFile) return CannotRead(path, "is larger than 64 MiB");
   }
@@ -123,8 +119,7 @@ Result<XmlDocument> XmlDocument::Load(const std::filesystem::path& path) {
 
 Result<XmlDocument> XmlDocument::Parse(std::string_view text, std::string file_name) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    return Error{
-        .message = "the file is UTF-16", .position = {file_name, 1, 1}, .hint = "save it as UTF-8"};
+    return Error{.message = "the file is UTF-16", .position = {file_name, 1, 1}, .hint = "save it as UTF-8"};
   }
   const std::size_t shift = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   text.remove_prefix(shift);

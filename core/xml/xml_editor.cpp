@@ -39,9 +39,8 @@ void XmlEditor::SetAttribute(XmlElement element, std::string_view name, std::str
     Replace(known->value_span, EscapedAttribute(value, quote));
     return;
   }
-  const std::size_t place = element.attributes().empty()
-                                ? element.spans().start_tag.begin + 1 + element.name().size()
-                                : element.attributes().back().span.end;
+  const std::size_t place = element.attributes().empty() ? element.spans().start_tag.begin + 1 + element.name().size()
+                                                         : element.attributes().back().span.end;
   Insert(place, " " + std::string(name) + "=\"" + EscapedAttribute(value) + "\"");
 }
 
@@ -149,9 +148,8 @@ std::string XmlEditor::Finish() {
   std::vector<const Edit*> sorted;
   for (const Edit& edit : edits_) sorted.push_back(&edit);
   // What is put in before what is taken away from the same place on.
-  std::ranges::stable_sort(sorted, {}, [](const Edit* edit) {
-    return std::tuple(edit->span.begin, edit->span.size() > 0);
-  });
+  std::ranges::stable_sort(sorted, {},
+                           [](const Edit* edit) { return std::tuple(edit->span.begin, edit->span.size() > 0); });
   std::string result;
   std::size_t done = 0;
   for (const Edit* edit : sorted) {
@@ -175,8 +173,7 @@ void XmlEditor::WriteAppended(XmlElement parent, const std::vector<NewElement>& 
   if (spans.end_tag.size() == 0) {
     std::size_t begin = spans.start_tag.end - 2;
     while (internal::IsXmlSpace(text_[begin - 1])) --begin;
-    Replace({begin, spans.start_tag.end},
-            ">" + layout_.line_end + text + outer + "</" + parent.name() + ">");
+    Replace({begin, spans.start_tag.end}, ">" + layout_.line_end + text + outer + "</" + parent.name() + ">");
   } else if (BeginsLine(spans.end_tag.begin)) {
     Insert(SkipWhitespaceBack(spans.end_tag.begin), std::move(text));
   } else {

@@ -47,8 +47,7 @@ std::optional<double> ParseNumber(std::string_view text) {
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
-std::optional<double> ReadNumber(XmlElement element, std::string_view attribute,
-                                 Diagnostics& diagnostics) {
+std::optional<double> ReadNumber(XmlElement element, std::string_view attribute, Diagnostics& diagnostics) {
   if (const XmlAttribute* found = element.Attribute(attribute)) {
     return NumberOf(*found, diagnostics);
   }
@@ -56,26 +55,22 @@ std::optional<double> ReadNumber(XmlElement element, std::string_view attribute,
   return std::nullopt;
 }
 
-double ReadNumberOr(XmlElement element, std::string_view attribute, double fallback,
-                    Diagnostics& diagnostics) {
+double ReadNumberOr(XmlElement element, std::string_view attribute, double fallback, Diagnostics& diagnostics) {
   const XmlAttribute* const found = element.Attribute(attribute);
   return found == nullptr ? fallback : NumberOf(*found, diagnostics).value_or(fallback);
 }
 
-const std::string* ReadText(XmlElement element, std::string_view attribute,
-                            Diagnostics& diagnostics) {
+const std::string* ReadText(XmlElement element, std::string_view attribute, Diagnostics& diagnostics) {
   if (const XmlAttribute* found = element.Attribute(attribute)) return &found->value;
   ReportMissing(element, attribute, diagnostics);
   return nullptr;
 }
 
-Error UnknownAttribute(XmlElement element, const XmlAttribute& attribute,
-                       std::span<const std::string> known) {
+Error UnknownAttribute(XmlElement element, const XmlAttribute& attribute, std::span<const std::string> known) {
   const std::vector<std::string> candidates = NotYetGiven(element, known);
-  return {
-      .message = "<" + element.name() + "> knows no '" + attribute.name + "'",
-      .position = attribute.position,
-      .hint = candidates.empty() ? "leave it out" : NearestNameHint(attribute.name, candidates)};
+  return {.message = "<" + element.name() + "> knows no '" + attribute.name + "'",
+          .position = attribute.position,
+          .hint = candidates.empty() ? "leave it out" : NearestNameHint(attribute.name, candidates)};
 }
 
 std::optional<Error> TextWithin(XmlElement element) {
@@ -86,22 +81,19 @@ std::optional<Error> TextWithin(XmlElement element) {
                .hint = "leave out '" + text.substr(0, WholeCharacters(text, 40)) + "'"};
 }
 
-void CheckAttributes(XmlElement element, std::span<const std::string> known,
-                     Diagnostics& diagnostics) {
+void CheckAttributes(XmlElement element, std::span<const std::string> known, Diagnostics& diagnostics) {
   for (const XmlAttribute& attribute : element.attributes()) {
     if (std::ranges::count(known, attribute.name) > 0) continue;
     diagnostics.Add(UnknownAttribute(element, attribute, known));
   }
 }
 
-void CheckChildren(XmlElement element, std::span<const std::string> known,
-                   Diagnostics& diagnostics) {
+void CheckChildren(XmlElement element, std::span<const std::string> known, Diagnostics& diagnostics) {
   for (const XmlElement child : element.children()) {
     if (std::ranges::count(known, child.name()) > 0) continue;
-    diagnostics.Add(
-        {.message = "no <" + child.name() + "> may stand in <" + element.name() + ">",
-         .position = child.position(),
-         .hint = known.empty() ? "leave it out" : NearestNameHint(child.name(), known)});
+    diagnostics.Add({.message = "no <" + child.name() + "> may stand in <" + element.name() + ">",
+                     .position = child.position(),
+                     .hint = known.empty() ? "leave it out" : NearestNameHint(child.name(), known)});
   }
   if (auto text = TextWithin(element)) diagnostics.Add(std::move(*text));
 }

@@ -18,15 +18,12 @@ namespace runnel {
 [[nodiscard]] std::optional<double> ParseNumber(std::string_view text);
 
 /// Of an attribute that must be there; nothing (and an error) if it is missing or no number.
-std::optional<double> ReadNumber(XmlElement element, std::string_view attribute,
-                                 Diagnostics& diagnostics);
+std::optional<double> ReadNumber(XmlElement element, std::string_view attribute, Diagnostics& diagnostics);
 /// Of an attribute that may be missing. `fallback` also stands in for what is no number.
-double ReadNumberOr(XmlElement element, std::string_view attribute, double fallback,
-                    Diagnostics& diagnostics);
+double ReadNumberOr(XmlElement element, std::string_view attribute, double fallback, Diagnostics& diagnostics);
 
 /// Of an attribute that must be there; nullptr (and an error) if it is missing. It may be empty.
-const std::string* ReadText(XmlElement element, std::string_view attribute,
-                            Diagnostics& diagnostics);
+const std::string* ReadText(XmlElement element, std::string_view attribute, Diagnostics& diagnostics);
 
 /// What is wrong with an attribute whose name is not among `known`.
 [[nodiscard]] Error UnknownAttribute(XmlElement element, const XmlAttribute& attribute,
@@ -35,10 +32,8 @@ const std::string* ReadText(XmlElement element, std::string_view attribute,
 [[nodiscard]] std::optional<Error> TextWithin(XmlElement element);
 
 /// Complains about each attribute whose name is not among `known`.
-void CheckAttributes(XmlElement element, std::span<const std::string> known,
-                     Diagnostics& diagnostics);
+void CheckAttributes(XmlElement element, std::span<const std::string> known, Diagnostics& diagnostics);
 /// Complains about each child whose name is not among `known`, and about text between the tags.
-void CheckChildren(XmlElement element, std::span<const std::string> known,
-                   Diagnostics& diagnostics);
+void CheckChildren(XmlElement element, std::span<const std::string> known, Diagnostics& diagnostics);
 
 }  // namespace runnel

@@ -6,8 +6,7 @@ namespace runnel {
 
 namespace {
 
-void Write(const NewElement& element, const std::string& margin, const XmlLayout& layout,
-           std::string& text) {
+void Write(const NewElement& element, const std::string& margin, const XmlLayout& layout, std::string& text) {
   if (element.after_blank_line) text += layout.line_end;
   text += margin + "<" + element.name;
   for (const auto& [name, value] : element.attributes) {
@@ -47,8 +46,7 @@ std::string EscapedAttribute(std::string_view value, char quote) {
   return text;
 }
 
-std::string ElementText(const NewElement& element, std::string_view margin,
-                        const XmlLayout& layout) {
+std::string ElementText(const NewElement& element, std::string_view margin, const XmlLayout& layout) {
   std::string text;
   Write(element, std::string(margin), layout, text);
   return text;

@@ -3,10 +3,9 @@
 
 RUNNEL_PLUGIN(adaptors, registry) {
   using namespace runnel;
-  registry.Add<BumperToSurroundings>(
-      "adaptors/bumper", "what a bumper touches becomes what planners are told of the obstacles");
-  registry.Add<LaserToSurroundings>("adaptors/laser",
-                                    "laser scans become what planners are told of the obstacles");
-  registry.Add<InfraredToSurroundings>(
-      "adaptors/infrared", "three infrared ranges become what planners are told of the obstacles");
+  registry.Add<BumperToSurroundings>("adaptors/bumper",
+                                     "what a bumper touches becomes what planners are told of the obstacles");
+  registry.Add<LaserToSurroundings>("adaptors/laser", "laser scans become what planners are told of the obstacles");
+  registry.Add<InfraredToSurroundings>("adaptors/infrared",
+                                       "three infrared ranges become what planners are told of the obstacles");
 }

@@ -27,20 +27,18 @@ class SensorToSurroundings : public Module, public PreparesAnywhere {
  public:
   /// `port`: the name of the input for what is measured.
   SensorToSurroundings(const Placement& placement, std::string port, std::string description)
-      : Module(placement),
-        measurement(this, std::move(port), Measured(std::move(description))) {}
+      : Module(placement), measurement(this, std::move(port), Measured(std::move(description))) {}
 
   Input<Measurement> measurement;
   Input<Pose2> pose{this, "pose", Measured("where it was measured")};
   Output<Surroundings> surroundings{this, "surroundings", {.description = "in the robot's frame"}};
 
-  StaticParameter<double> safe_distance{
-      this,
-      "safe_distance",
-      {.default_value = Configuration{}.safe_distance,
-       .bounds = {0.05, 10.0},
-       .unit = "m",
-       .description = "how near the robot's centre may come to a boundary"}};
+  StaticParameter<double> safe_distance{this,
+                                        "safe_distance",
+                                        {.default_value = Configuration{}.safe_distance,
+                                         .bounds = {0.05, 10.0},
+                                         .unit = "m",
+                                         .description = "how near the robot's centre may come to a boundary"}};
   InputTimeout measurement_timeout{this, measurement, {.log = &log()}};
   InputTimeout pose_timeout{this, pose, {.log = &log()}};
 
@@ -65,8 +63,7 @@ class SensorToSurroundings : public Module, public PreparesAnywhere {
   std::optional<Adaptor> adaptor_;
 };
 
-class LaserToSurroundings final
-    : public SensorToSurroundings<RangeScan, LaserAdaptor, LaserAdaptorConfiguration> {
+class LaserToSurroundings final : public SensorToSurroundings<RangeScan, LaserAdaptor, LaserAdaptorConfiguration> {
  public:
   explicit LaserToSurroundings(const Placement& placement)
       : SensorToSurroundings(placement, "scan", "from the robot's centre") {}
@@ -81,30 +78,27 @@ class InfraredToSurroundings final
 
 /// One view for each message of the bumper, touched or not. Source: also the tactile sensor of the first
 /// Bug algorithms.
-class BumperToSurroundings final
-    : public SensorToSurroundings<Contact, BumperAdaptor, BumperAdaptorConfiguration> {
+class BumperToSurroundings final : public SensorToSurroundings<Contact, BumperAdaptor, BumperAdaptorConfiguration> {
  public:
   explicit BumperToSurroundings(const Placement& placement)
       : SensorToSurroundings(placement, "contact", "what the bumper says") {}
 
-  StaticParameter<double> body_radius{
-      this,
-      "body_radius",
-      {.default_value = BumperAdaptorConfiguration{}.body_radius,
-       .bounds = {0.01, 10.0},
-       .unit = "m",
-       .description = "how far from the robot's centre is what it touches"}};
+  StaticParameter<double> body_radius{this,
+                                      "body_radius",
+                                      {.default_value = BumperAdaptorConfiguration{}.body_radius,
+                                       .bounds = {0.01, 10.0},
+                                       .unit = "m",
+                                       .description = "how far from the robot's centre is what it touches"}};
 
  private:
   [[nodiscard]] Result<BumperAdaptorConfiguration> Configure() const override {
     if (safe_distance.Get() <= body_radius.Get()) {
-      return Error{.message = "the safe distance, " + safe_distance.ToText() +
-                              " m, is not above the body's radius, " + body_radius.ToText() + " m",
+      return Error{.message = "the safe distance, " + safe_distance.ToText() + " m, is not above the body's radius, " +
+                              body_radius.ToText() + " m",
                    .path = path(),
                    .hint = "a planner keeps off by a few centimetres what it has touched"};
     }
-    return BumperAdaptorConfiguration{.body_radius = body_radius.Get(),
-                                      .safe_distance = safe_distance.Get()};
+    return BumperAdaptorConfiguration{.body_radius = body_radius.Get(), .safe_distance = safe_distance.Get()};
   }
 };
 

@@ -29,16 +29,18 @@ Result<void> ConditionalStimulator::Construct() {
 // `goes_round`: it comes of what this one stimulates.
 void ConditionalStimulator::Add(const std::string& name, Conditions& conditions, bool goes_round) {
   const Ageing ageing = goes_round ? Ageing::kSetOnce : Ageing::kTimesOut;
-  conditions.ports.emplace_back(this, name, InputOptions{.description = "what is compared", .required = true, .ageing = ageing});
-  conditions.timeouts.emplace_back(this, conditions.ports.back(), InputTimeout::Options{.counts_from_publication = goes_round});
+  conditions.ports.emplace_back(this, name,
+                                InputOptions{.description = "what is compared", .required = true, .ageing = ageing});
+  conditions.timeouts.emplace_back(this, conditions.ports.back(),
+                                   InputTimeout::Options{.counts_from_publication = goes_round});
   conditions.kinds.emplace_back(
       this, name + "_kind",
       ParameterOptions<ConditionKind>{.default_value = Condition{}.kind,
                                       .description = "permanent: holds now; ordering: has held; enabling: has "
                                                      "held while all others did"});
-  conditions.relations.emplace_back(
-      this, name + "_relation",
-      ParameterOptions<Relation>{.default_value = Condition{}.relation, .description = "of the value to the threshold"});
+  conditions.relations.emplace_back(this, name + "_relation",
+                                    ParameterOptions<Relation>{.default_value = Condition{}.relation,
+                                                               .description = "of the value to the threshold"});
   conditions.thresholds.emplace_back(
       this, name + "_threshold",
       ParameterOptions<double>{.default_value = Condition{}.threshold, .description = "what it is compared with"});
@@ -63,8 +65,8 @@ ActivityNeeds ConditionalStimulator::Needs() const {
     const bool is_permanent = inputs_.kinds[i].Get() == ConditionKind::kPermanent;
     const Relation relation = inputs_.relations[i].Get();
     const double threshold = inputs_.thresholds[i].Get();
-    const bool is_something = (relation == Relation::kGreater && threshold >= 0.0) ||
-                              (relation == Relation::kAtLeast && threshold > 0.0);
+    const bool is_something =
+        (relation == Relation::kGreater && threshold >= 0.0) || (relation == Relation::kAtLeast && threshold > 0.0);
     if (is_permanent && is_something && IsFedByActivity(inputs_.ports[i])) needs.all_of.push_back(&inputs_.ports[i]);
   }
   return needs;

@@ -19,7 +19,8 @@ bool IsBroken(const TypeInfo& type) { return &type == &TypeOf<double>() || &type
 
 Result<ValueFusion> ValueFusion::Make(const TypeInfo& type, const std::string& unit, std::size_t values) {
   const std::shared_ptr<void> value = type.Make();
-  if (value == nullptr) return Error{.message = "values of type " + type.name() + " can be made by their own module only"};
+  if (value == nullptr)
+    return Error{.message = "values of type " + type.name() + " can be made by their own module only"};
   ValueFusion fusion(type);
   if (auto added = fusion.AddNumbers(type, unit, value.get(), value.get()); !added) return added.error();
   fusion.found_.resize(values);
@@ -61,8 +62,8 @@ Result<void> ValueFusion::AddNumbers(const TypeInfo& type, const std::string& un
                .hint = "the method winner_takes_all takes values of any type"};
 }
 
-void ValueFusion::Fuse(std::span<const double> weights, std::span<const void* const> values,
-                       std::size_t winner, void* fused) {
+void ValueFusion::Fuse(std::span<const double> weights, std::span<const void* const> values, std::size_t winner,
+                       void* fused) {
   (void)CopyValue(*type_, values[winner], fused);
   for (const Number& number : numbers_) {
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -89,8 +90,7 @@ Result<void> FusionBehaviour::Construct() {
     wanted.unit = unit.Get();
     inputs_.push_back((*ports)->MakeInput(InputGroup(), "in" + number, wanted));
   }
-  output_ = (*ports)->MakeOutput(OutputGroup(), "out",
-                                 {.description = "what all of them come to", .unit = unit.Get()});
+  output_ = (*ports)->MakeOutput(OutputGroup(), "out", {.description = "what all of them come to", .unit = unit.Get()});
   if (output_ == nullptr) {
     return Error{.message = "values of type '" + type.Get() + "' can be made by their own module only",
                  .path = type.path()};
@@ -127,9 +127,8 @@ ActivityNeeds FusionBehaviour::Needs() const {
 
 Result<void> FusionBehaviour::Prepare() {
   if (!value_fusion_ && method.Get() != FusionMethod::kWinnerTakesAll) {
-    return Error{.message = no_fusion_,
-                 .path = method.path(),
-                 .hint = "the method winner_takes_all takes values of any type"};
+    return Error{
+        .message = no_fusion_, .path = method.path(), .hint = "the method winner_takes_all takes values of any type"};
   }
   return Behaviour::Prepare();
 }

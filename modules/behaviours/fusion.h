@@ -30,8 +30,7 @@ class ValueFusion {
   static Result<ValueFusion> Make(const TypeInfo& type, const std::string& unit, std::size_t values);
 
   /// `values`: one for each weight; nullptr where the weight is 0. That of the winner is there.
-  void Fuse(std::span<const double> weights, std::span<const void* const> values, std::size_t winner,
-            void* fused);
+  void Fuse(std::span<const double> weights, std::span<const void* const> values, std::size_t winner, void* fused);
 
  private:
   /// A number somewhere in the values, so many bytes behind their beginning: they have no parts elsewhere.
@@ -77,9 +76,7 @@ class FusionBehaviour final : public Behaviour, public PreparesAnywhere {
   StaticParameter<std::string> unit{
       this, "unit", {.default_value = "", .description = "of numbers (type double …): rad makes them angles"}};
   Parameter<FusionMethod> method{
-      this,
-      "method",
-      {.default_value = FusionMethod::kWeightedAverage, .description = "how they are made one"}};
+      this, "method", {.default_value = FusionMethod::kWeightedAverage, .description = "how they are made one"}};
   InputTimeout activity_timeout{this, "activity", {}};
   InputTimeout target_rating_timeout{this, "target_rating", {}};
   InputTimeout in_timeout{this, "in", {}};

@@ -28,7 +28,9 @@ class PlannerStatusTeller final : public Module {
   InputTimeout detour_timeout{this, detour, {.log = &log()}};
   Output<PlannerStatus> status{this, "status", {.description = "as planners say it"}};
   Output<HitAndLeavePoints> points{
-      this, "points", {.description = "where detours began and ended, the last of them, whenever there is another one"}};
+      this,
+      "points",
+      {.description = "where detours began and ended, the last of them, whenever there is another one"}};
 
  private:
   static constexpr std::size_t kMostPoints = 256;

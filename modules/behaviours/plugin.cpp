@@ -29,18 +29,14 @@ class Navigator final : public Group {
   ProxyPort goal{{*this, "goal"}, Port::Direction::kInput, TypeOf<Point2>(), "world's frame"};
   ProxyPort twist{{*this, "twist"}, Port::Direction::kOutput, TypeOf<Twist2>(), "how the robot shall move"};
   ProxyPort status{{*this, "status"}, Port::Direction::kOutput, TypeOf<PlannerStatus>(), "mode, distance …"};
-  ProxyPort points{{*this, "points"},
-                   Port::Direction::kOutput,
-                   TypeOf<HitAndLeavePoints>(),
-                   "where detours began and ended"};
+  ProxyPort points{
+      {*this, "points"}, Port::Direction::kOutput, TypeOf<HitAndLeavePoints>(), "where detours began and ended"};
 
-  GroupParameter first_direction{{*this, "first_direction"},
-                                 {"follow_wall/first_direction"},
-                                 "which way it turns in a dead end"};
-  GroupParameter cruise_speed{{*this, "cruise_speed"},
-                              {"drive/speed", "avoid/speed", "follow_wall/speed"},
-                              "at most"};
-  GroupParameter goal_tolerance{{*this, "goal_tolerance"}, {"drive/goal_tolerance", "escape/goal_tolerance"}, "nearer than this is there"};
+  GroupParameter first_direction{
+      {*this, "first_direction"}, {"follow_wall/first_direction"}, "which way it turns in a dead end"};
+  GroupParameter cruise_speed{{*this, "cruise_speed"}, {"drive/speed", "avoid/speed", "follow_wall/speed"}, "at most"};
+  GroupParameter goal_tolerance{
+      {*this, "goal_tolerance"}, {"drive/goal_tolerance", "escape/goal_tolerance"}, "nearer than this is there"};
 
   DriveToGoalBehaviour drive{{*this, "drive"}};
   AvoidObstaclesBehaviour avoid{{*this, "avoid"}};
@@ -67,7 +63,8 @@ Result<void> ConnectAll(std::initializer_list<std::pair<Port*, Port*>> connectio
 }  // namespace
 
 Result<void> Navigator::Construct() {
-  for (Behaviour* const each : std::initializer_list<Behaviour*>{&drive, &escape, &motion, &emergency_stop, &safe_motion}) {
+  for (Behaviour* const each :
+       std::initializer_list<Behaviour*>{&drive, &escape, &motion, &emergency_stop, &safe_motion}) {
     if (auto set = each->stimulation_mode.Set(StimulationMode::kEnabled); !set) return set;
   }
   for (FusionBehaviour* const each : {&motion, &safe_motion}) {
@@ -75,8 +72,8 @@ Result<void> Navigator::Construct() {
   }
   if (auto set = motion.channels.Set(3); !set) return set;
   if (auto set = safe_motion.method.Set(FusionMethod::kWinnerTakesAll); !set) return set;
-  for (Behaviour* const each :
-       std::initializer_list<Behaviour*>{&drive, &avoid, &escape, &follow_wall, &motion, &emergency_stop, &safe_motion}) {
+  for (Behaviour* const each : std::initializer_list<Behaviour*>{&drive, &avoid, &escape, &follow_wall, &motion,
+                                                                 &emergency_stop, &safe_motion}) {
     if (auto constructed = Runtime::Construct(*each); !constructed) return constructed;
   }
   for (auto attached : {motion.Attach(1, drive, drive.twist.port), motion.Attach(2, avoid, avoid.twist.port),
@@ -113,13 +110,15 @@ RUNNEL_PLUGIN(behaviours, registry) {
   RegisterMetaSignals();
   AddBehaviourWords(registry);
   registry.Add<FusionBehaviour>("behaviours/fusion", "makes what several behaviours want one");
-  registry.Add<ConditionalStimulator>("behaviours/conditional_stimulator", "stimulates when conditions are met, for sequences");
+  registry.Add<ConditionalStimulator>("behaviours/conditional_stimulator",
+                                      "stimulates when conditions are met, for sequences");
   registry.Add<NumberToActivity>("behaviours/number_to_activity", "makes an activity of a number, by a curve");
   registry.Add<DriveToGoalBehaviour>("behaviours/drive_to_goal", "drives straight to a goal");
   registry.Add<AvoidObstaclesBehaviour>("behaviours/avoid_obstacles", "turns away from obstacles");
   registry.Add<FollowWallBehaviour>("behaviours/follow_wall", "drives along a wall");
   registry.Add<EscapeBehaviour>("behaviours/escape", "notices dead ends");
   registry.Add<EmergencyStopBehaviour>("behaviours/emergency_stop", "stops where the way ahead ends");
-  registry.Add<Navigator>("behaviours/navigator", "the network of these that drives to a goal, in the place of a planner");
+  registry.Add<Navigator>("behaviours/navigator",
+                          "the network of these that drives to a goal, in the place of a planner");
   registry.Add<PlannerStatusTeller>("behaviours/planner_status", "says how a network gets on, as planners do");
 }

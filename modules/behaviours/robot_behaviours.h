@@ -37,9 +37,7 @@ struct SteeringParameters {
   Parameter<double> speed;
   Parameter<double> turn_limit;
 
-  [[nodiscard]] SteeringConfiguration Get() const {
-    return {.speed = speed.Get(), .turn_limit = turn_limit.Get()};
-  }
+  [[nodiscard]] SteeringConfiguration Get() const { return {.speed = speed.Get(), .turn_limit = turn_limit.Get()}; }
 };
 
 inline void Describe(TypeBuilder<FirstTurn>& type) {
@@ -67,8 +65,7 @@ class DriveToGoalBehaviour final : public Behaviour {
 
   SteeringParameters steering{this};
   Parameter<double> goal_tolerance{
-      this,
-      "goal_tolerance",
+      this, "goal_tolerance",
       internal::GoalTolerance(DriveToGoalConfiguration{}.tolerance, "nearer than this is there")};
   InputTimeout pose_timeout{this, pose, {}};
 
@@ -139,8 +136,7 @@ class EscapeBehaviour final : public Behaviour {
                                   .unit = "m",
                                   .description = "by which it ends nearer to the goal than it began"}};
   Parameter<double> goal_tolerance{
-      this,
-      "goal_tolerance",
+      this, "goal_tolerance",
       internal::GoalTolerance(EscapeConfiguration{}.tolerance, "nearer than this is there, as drive_to_goal has it")};
   InputTimeout pose_timeout{this, pose, {}};
   InputTimeout surroundings_timeout{this, surroundings, {}};

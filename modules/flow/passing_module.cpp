@@ -38,9 +38,8 @@ Result<void> PassingModule::MakePorts(std::size_t inputs, std::size_t places) {
   }
   output_ = (*ports)->MakeOutput(OutputGroup(), "out");
   if (output_ == nullptr) {
-    return Error{
-        .message = "values of type '" + type.Get() + "' can be made by their own module only",
-        .path = type.path()};
+    return Error{.message = "values of type '" + type.Get() + "' can be made by their own module only",
+                 .path = type.path()};
   }
   values_ = (*ports)->MakeHeldValues(places);
   return {};

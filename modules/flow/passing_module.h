@@ -35,9 +35,7 @@ class PassingModule : public Module {
   /// In Construct(): inputs called in1, in2 …, or in if there is but one, the output out, and places for values.
   Result<void> MakePorts(std::size_t inputs, std::size_t places);
 
-  [[nodiscard]] const std::vector<std::unique_ptr<Port>>& inputs() const noexcept {
-    return inputs_;
-  }
+  [[nodiscard]] const std::vector<std::unique_ptr<Port>>& inputs() const noexcept { return inputs_; }
   [[nodiscard]] Port& input() const noexcept { return *inputs_.front(); }
   [[nodiscard]] HeldValues& values() const noexcept { return *values_; }
   /// While a stop of the only input is in force: has the safe value pass in each cycle, and what waits at the input go.
@@ -64,15 +62,11 @@ class Mux final : public PassingModule {
   static constexpr std::uint32_t kMostInputs = 64;
 
   StaticParameter<std::uint32_t> input_count{
-      this,
-      "inputs",
-      {.default_value = 2, .bounds = {2, kMostInputs}, .description = "how many: in1, in2 …"}};
+      this, "inputs", {.default_value = 2, .bounds = {2, kMostInputs}, .description = "how many: in1, in2 …"}};
   Parameter<std::uint32_t> selected{
       this,
       "selected",
-      {.default_value = 1,
-       .bounds = {0, kMostInputs},
-       .description = "the number of the input that passes; 0: none"}};
+      {.default_value = 1, .bounds = {0, kMostInputs}, .description = "the number of the input that passes; 0: none"}};
 
  private:
   Result<void> Construct() override { return MakePorts(input_count.Get(), 1); }
@@ -80,8 +74,7 @@ class Mux final : public PassingModule {
   void OnParametersChanged() override {
     has_switched_ = true;
     if (selected.Get() > inputs().size()) {
-      log().Warn("input {} is selected, and there are {}: nothing passes", selected.Get(),
-                 inputs().size());
+      log().Warn("input {} is selected, and there are {}: nothing passes", selected.Get(), inputs().size());
     }
   }
 
@@ -104,9 +97,7 @@ class Merge final : public PassingModule {
   using PassingModule::PassingModule;
 
   StaticParameter<std::uint32_t> input_count{
-      this,
-      "inputs",
-      {.default_value = 2, .bounds = {2, 64}, .description = "how many: in1, in2 …"}};
+      this, "inputs", {.default_value = 2, .bounds = {2, 64}, .description = "how many: in1, in2 …"}};
 
  private:
   Result<void> Construct() override { return MakePorts(input_count.Get(), 1); }
@@ -154,8 +145,7 @@ class Sample final : public PassingModule {
                               .bounds = {0, 1e6},
                               .unit = "s",
                               .description = "from one value to the next at least; 0: each cycle"}};
-  Parameter<bool> repeats{
-      this, "repeats", {.description = "passes the newest value again where none has come"}};
+  Parameter<bool> repeats{this, "repeats", {.description = "passes the newest value again where none has come"}};
 
  private:
   void Update() override {
@@ -180,9 +170,7 @@ class Delay final : public PassingModule {
   using PassingModule::PassingModule;
 
   StaticParameter<std::uint32_t> capacity{
-      this,
-      "capacity",
-      {.default_value = 100, .bounds = {1, 10'000}, .description = "how many values may wait"}};
+      this, "capacity", {.default_value = 100, .bounds = {1, 10'000}, .description = "how many values may wait"}};
   Parameter<double> delay{
       this,
       "delay",

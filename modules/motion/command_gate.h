@@ -49,8 +49,7 @@ class CommandGate final : public Module {
   /// A bumper that is connected has to speak, and has to go on speaking, also if it is disconnected or another gate takes the
   /// place of this one. A bumper that says only what has changed needs a longer time-out.
   InputTimeout contact_timeout{this, contact, {.log = &log()}};
-  Parameter<bool> stop{
-      this, "stop", {.default_value = false, .description = "holds the robot whatever comes"}};
+  Parameter<bool> stop{this, "stop", {.default_value = false, .description = "holds the robot whatever comes"}};
 
  private:
   // One that is disconnected before the first cycle counts, too.

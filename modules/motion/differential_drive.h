@@ -25,8 +25,7 @@ class DifferentialDriveModule final : public Module {
   Input<Twist2> twist{this, "twist", Driving("how the body shall move")};
   Output<WheelSpeeds> wheels{this, "wheels", {.description = "what the wheels shall do"}};
 
-  Parameter<double> wheel_radius{
-      this, "wheel_radius", {.default_value = 0.05, .bounds = {0.001, 2.0}, .unit = "m"}};
+  Parameter<double> wheel_radius{this, "wheel_radius", {.default_value = 0.05, .bounds = {0.001, 2.0}, .unit = "m"}};
   Parameter<double> track{
       this,
       "track",
@@ -62,7 +61,8 @@ class DifferentialDriveModule final : public Module {
     last_ = now();
     // Stopped, here or behind it, or paused for so long that the wheels have come to rest: from a standstill.
     const std::uint32_t beginning = wheels.FollowMotionBeginnings();
-    const std::int64_t bar = runtime().robot_stop().signal()->bar();  // also of a STOP that was released before this cycle
+    const std::int64_t bar =
+        runtime().robot_stop().signal()->bar();  // also of a STOP that was released before this cycle
     const bool is_released = std::exchange(beginning_, beginning) != beginning || std::exchange(bar_, bar) != bar;
     const bool begins = is_released || twist.is_stopped() || time_step > twist_timeout.limit.Get();
     current_ = begins ? Twist2{} : Approach(limit, current_, wanted, time_step);

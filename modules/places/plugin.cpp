@@ -27,17 +27,14 @@ class PlaceBook final : public Module {
   Input<Pose2> pose{this, "pose", {.description = "where the robot is", .required = true}};
   Blackboard<std::vector<Place>, NotedPlace> places{
       this, "places", {}, {.description = "all places, in the order in which they were noted"}};
-  Service<Pose2(std::string)> remember{this,
-                                       "remember",
-                                       &PlaceBook::Remember,
-                                       {.description = "that a place of this name is where the robot is now",
-                                        .arguments = {"name"}}};
-  Service<Pose2(std::string)> where{this,
-                                    "where",
-                                    &PlaceBook::Where,
-                                    {.description = "the place is", .arguments = {"name"}}};
-  Service<std::vector<std::string>()> names{
-      this, "names", &PlaceBook::Names, {.description = "of all places"}};
+  Service<Pose2(std::string)> remember{
+      this,
+      "remember",
+      &PlaceBook::Remember,
+      {.description = "that a place of this name is where the robot is now", .arguments = {"name"}}};
+  Service<Pose2(std::string)> where{
+      this, "where", &PlaceBook::Where, {.description = "the place is", .arguments = {"name"}}};
+  Service<std::vector<std::string>()> names{this, "names", &PlaceBook::Names, {.description = "of all places"}};
 
  private:
   Result<Pose2> Remember(const std::string& name) {
@@ -105,14 +102,13 @@ class PlaceDriver final : public Module {
 
   Input<Pose2> pose{this, "pose", {.description = "where the robot is", .required = true}};
   Output<Point2> goal{this, "goal", {.description = "where it shall be"}};
-  Parameter<double> tolerance{
-      this, "tolerance", {.default_value = 0.3, .bounds = {0.01, 10.0}, .unit = "m"}};
+  Parameter<double> tolerance{this, "tolerance", {.default_value = 0.3, .bounds = {0.01, 10.0}, .unit = "m"}};
   Client<Pose2(std::string)> where{this, "where", {.required = true}};
-  Service<double(std::string)> go{this,
-                                  "go",
-                                  &PlaceDriver::Go,
-                                  {.description = "drives to a place, and says how far from it the robot is then",
-                                   .arguments = {"name"}}};
+  Service<double(std::string)> go{
+      this,
+      "go",
+      &PlaceDriver::Go,
+      {.description = "drives to a place, and says how far from it the robot is then", .arguments = {"name"}}};
 
  private:
   // The thread of the service. It alone publishes goals and reads poses.

@@ -13,9 +13,7 @@
 namespace runnel {
 
 inline void Describe(TypeBuilder<BoundaryDirection>& type) {
-  type.Name("BoundaryDirection")
-      .Value("left", BoundaryDirection::kLeft)
-      .Value("right", BoundaryDirection::kRight);
+  type.Name("BoundaryDirection").Value("left", BoundaryDirection::kLeft).Value("right", BoundaryDirection::kRight);
 }
 
 /// The values of `Kind` bear the names of the components, which are in the same order.
@@ -27,18 +25,10 @@ void DescribeKinds(TypeBuilder<Kind>& type, const char* name, const Components& 
   }
 }
 
-inline void Describe(TypeBuilder<MotionKind>& type) {
-  DescribeKinds(type, "MotionKind", AllMotions());
-}
-inline void Describe(TypeBuilder<DirectionKind>& type) {
-  DescribeKinds(type, "DirectionKind", AllDirections());
-}
-inline void Describe(TypeBuilder<LeaveKind>& type) {
-  DescribeKinds(type, "LeaveKind", AllLeaveConditions());
-}
-inline void Describe(TypeBuilder<RevisitKind>& type) {
-  DescribeKinds(type, "RevisitKind", AllRevisits());
-}
+inline void Describe(TypeBuilder<MotionKind>& type) { DescribeKinds(type, "MotionKind", AllMotions()); }
+inline void Describe(TypeBuilder<DirectionKind>& type) { DescribeKinds(type, "DirectionKind", AllDirections()); }
+inline void Describe(TypeBuilder<LeaveKind>& type) { DescribeKinds(type, "LeaveKind", AllLeaveConditions()); }
+inline void Describe(TypeBuilder<RevisitKind>& type) { DescribeKinds(type, "RevisitKind", AllRevisits()); }
 
 // What a planner remembers, field by field, so that it can go on in a library that was built anew. A field that is
 // missing here is lost then.
@@ -73,10 +63,7 @@ struct KeptFields {
   }
   using Gate = Lap::Gate;
   static void Describe(TypeBuilder<Gate>& type) {
-    type.Name("Lap::Gate")
-        .Field("pose", &Gate::pose)
-        .Field("length", &Gate::length)
-        .Field("turned", &Gate::turned);
+    type.Name("Lap::Gate").Field("pose", &Gate::pose).Field("length", &Gate::length).Field("turned", &Gate::turned);
   }
   static void Describe(TypeBuilder<Lap>& type) {
     type.Name("Lap")

@@ -58,11 +58,10 @@ void CopyPoints(const PointHistory& history, std::vector<Point2>& list) {
 
 void BugPlanner::AddStep() {
   step_.emplace(this, "step",
-                ParameterOptions<double>{
-                    .default_value = kDefaults.step,
-                    .bounds = {0.01, 10.0},
-                    .unit = "m",
-                    .description = "by which free_range_step must see that it gets nearer"});
+                ParameterOptions<double>{.default_value = kDefaults.step,
+                                         .bounds = {0.01, 10.0},
+                                         .unit = "m",
+                                         .description = "by which free_range_step must see that it gets nearer"});
 }
 
 BugConfiguration BugPlanner::Configuration(double time_step) const {
@@ -76,8 +75,7 @@ BugConfiguration BugPlanner::Configuration(double time_step) const {
   configuration.driving.turn_limit = turn_limit.Get();
   // A bearing is turned away in one period at most, or the robot would swing to and fro.
   if (time_step > 0.0) {
-    configuration.driving.turn_gain =
-        std::min(configuration.driving.turn_gain, kTurnInAPeriod / time_step);
+    configuration.driving.turn_gain = std::min(configuration.driving.turn_gain, kTurnInAPeriod / time_step);
   }
   return configuration;
 }
@@ -111,8 +109,7 @@ void BugPlanner::Update() {
                        .start = is_same_task ? state_.start : Position(*here),
                        .goal = *there};
   last_ = now();
-  const BugOutput output =
-      BugAlgorithm(Configuration(input.time_step), Components()).Update(state_, input);
+  const BugOutput output = BugAlgorithm(Configuration(input.time_step), Components()).Update(state_, input);
   twist.Publish(output.twist);
   status.Publish(output.status);
   PublishPoints();

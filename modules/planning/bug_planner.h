@@ -39,16 +39,12 @@ class BugPlanner : public Module, public PreparesAnywhere {
 
   Input<Surroundings> surroundings{this, "surroundings", Measured("what a sensor adaptor knows of the obstacles")};
   Input<Pose2> pose{this, "pose", Measured("of the robot, world's frame")};
-  Input<Point2> goal{
-      this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
+  Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true, .ageing = Ageing::kSetOnce}};
   Output<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
   Output<PlannerStatus> status{this, "status", {.description = "mode, distance, hit points …"}};
   Output<HitAndLeavePoints> points{
-      this,
-      "points",
-      {.description = "all hit and leave points so far, whenever there is another one"}};
-  Output<Drawing> drawing{
-      this, "drawing", {.description = "what it has in mind, while somebody looks"}};
+      this, "points", {.description = "all hit and leave points so far, whenever there is another one"}};
+  Output<Drawing> drawing{this, "drawing", {.description = "what it has in mind, while somebody looks"}};
 
   Parameter<BoundaryDirection> first_direction{
       this,
@@ -129,8 +125,7 @@ class BugPlannerOf final : public BugPlanner {
 
   [[nodiscard]] BugComponents Components() const override {
     BugComposition composition = kRow.composition;
-    if (composition.direction == DirectionKind::kLeft &&
-        first_direction.Get() == BoundaryDirection::kRight) {
+    if (composition.direction == DirectionKind::kLeft && first_direction.Get() == BoundaryDirection::kRight) {
       composition.direction = DirectionKind::kRight;
     }
     return Assemble(composition);
@@ -145,17 +140,11 @@ class ComposedBugPlanner final : public BugPlanner {
   StaticParameter<MotionKind> motion{
       this, "motion", {.default_value = MotionKind::kStraight, .description = "how it drives while nothing is near"}};
   StaticParameter<DirectionKind> direction{
-      this,
-      "direction",
-      {.default_value = DirectionKind::kLeft, .description = "which way it turns at an obstacle"}};
+      this, "direction", {.default_value = DirectionKind::kLeft, .description = "which way it turns at an obstacle"}};
   StaticParameter<LeaveKind> leave{
-      this,
-      "leave",
-      {.default_value = LeaveKind::kBestAfterLap, .description = "where it leaves an obstacle"}};
+      this, "leave", {.default_value = LeaveKind::kBestAfterLap, .description = "where it leaves an obstacle"}};
   StaticParameter<RevisitKind> revisit{
-      this,
-      "revisit",
-      {.default_value = RevisitKind::kNone, .description = "what it does where it was before"}};
+      this, "revisit", {.default_value = RevisitKind::kNone, .description = "what it does where it was before"}};
 
  private:
   [[nodiscard]] BugComponents Components() const override {

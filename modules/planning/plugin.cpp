@@ -9,7 +9,7 @@ RUNNEL_PLUGIN(planning, registry) {
     (registry.Add<BugPlannerOf<variants>>("planning/" + std::string(kBugVariants[variants].name),
                                           std::string(kBugVariants[variants].description)),
      ...);
-  }(std::make_index_sequence<kBugVariants.size()>());
-  registry.Add<ComposedBugPlanner>("planning/bug",
-                                   "a variant of its own, composed of the components named");
+  }
+  (std::make_index_sequence<kBugVariants.size()>());
+  registry.Add<ComposedBugPlanner>("planning/bug", "a variant of its own, composed of the components named");
 }

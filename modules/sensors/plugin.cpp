@@ -2,6 +2,5 @@
 #include "modules/sensors/scan_filter.h"
 
 RUNNEL_PLUGIN(sensors, registry) {
-  registry.Add<runnel::ScanFilter>("sensors/scan_filter",
-                                   "takes single wrong rays out of laser scans");
+  registry.Add<runnel::ScanFilter>("sensors/scan_filter", "takes single wrong rays out of laser scans");
 }

@@ -18,11 +18,10 @@ class ScanFilter final : public Module {
       this, "raw", {.description = "scans as measured", .required = true, .ageing = Ageing::kPassedOn}};
   Output<RangeScan> filtered{this, "filtered", {.description = "the same without single outliers"}};
 
-  Parameter<std::uint32_t> reach{this,
-                                 "reach",
-                                 {.default_value = 1,
-                                  .bounds = {0, kLargestReach},
-                                  .description = "how many rays on either side are looked at"}};
+  Parameter<std::uint32_t> reach{
+      this,
+      "reach",
+      {.default_value = 1, .bounds = {0, kLargestReach}, .description = "how many rays on either side are looked at"}};
 
  private:
   /// Allocates when the first scan comes, and whenever one is larger than all before.

@@ -122,10 +122,8 @@ class LowPassFilter final : public Filter {
 class RateLimiterFilter final : public Filter {
  public:
   explicit RateLimiterFilter(const Placement& placement) : Filter(placement) { KeepCourse(state_); }
-  Parameter<double> rise{
-      this, "rise", {.default_value = 1, .bounds = {0, {}}, .description = "per second at most"}};
-  Parameter<double> fall{
-      this, "fall", {.default_value = 1, .bounds = {0, {}}, .description = "per second at most"}};
+  Parameter<double> rise{this, "rise", {.default_value = 1, .bounds = {0, {}}, .description = "per second at most"}};
+  Parameter<double> fall{this, "fall", {.default_value = 1, .bounds = {0, {}}, .description = "per second at most"}};
 
  private:
   double Next(double value, double seconds) noexcept override {

@@ -58,8 +58,7 @@ Result<std::string> WriteTo(const StaticParameter<FilePath>& parameter, const st
   file << content;
   file.close();
   if (file) return told + parameter.Get().text;
-  return Error{.message = what + " '" + parameter.Get().text + "' could not be written",
-               .path = parameter.path()};
+  return Error{.message = what + " '" + parameter.Get().text + "' could not be written", .path = parameter.path()};
 }
 
 void AppendNumber(double number, std::string& json) {
@@ -94,10 +93,9 @@ class Referee::Monitor final : public RunMonitor {
   std::optional<RunOutcome> Outcome() const override {
     const Standing end = referee_.LastStanding();
     if (end.verdict == Verdict::kRunning) return std::nullopt;
-    return RunOutcome{
-        .verdict = std::string(Words(end.verdict)),
-        .summary = fmt::format("path {:.2f} m, time {:.2f} s", end.path_length, end.elapsed),
-        .success = referee_.IsSuccess(end.verdict)};
+    return RunOutcome{.verdict = std::string(Words(end.verdict)),
+                      .summary = fmt::format("path {:.2f} m, time {:.2f} s", end.path_length, end.elapsed),
+                      .success = referee_.IsSuccess(end.verdict)};
   }
   Result<std::string> Finish() override { return referee_.Finish(); }
 
@@ -105,8 +103,7 @@ class Referee::Monitor final : public RunMonitor {
   Referee& referee_;
 };
 
-Referee::Referee(const Placement& placement)
-    : Module(placement), shown_path_(kMostShown, kShownSpacing) {
+Referee::Referee(const Placement& placement) : Module(placement), shown_path_(kMostShown, kShownSpacing) {
   Annotate<RunMonitor>(std::make_unique<Monitor>(*this));
   hit_points_.reserve(kMostPoints);
   leave_points_.reserve(kMostPoints);
@@ -118,8 +115,7 @@ Result<void> Referee::Prepare() {
   return CheckFolder(result, "the result");
 }
 
-Result<void> Referee::CheckFolder(const StaticParameter<FilePath>& file,
-                                  std::string_view what) const {
+Result<void> Referee::CheckFolder(const StaticParameter<FilePath>& file, std::string_view what) const {
   if (file.Get().empty()) return {};
   const auto folder = std::filesystem::absolute(file.Get().path()).parent_path();
   if (!std::filesystem::is_directory(folder)) {
@@ -158,8 +154,7 @@ void Referee::CheckTimeLimit() {
 bool Referee::IsTimeUp() const { return now() - *begin_ >= FromSeconds(time_limit.Get()); }
 
 void Referee::Record(const Pose2& at) {
-  const PathSample sample{Position(at), LookOf(planner_.mode), at.heading,
-                          ToSeconds(now() - *begin_)};
+  const PathSample sample{Position(at), LookOf(planner_.mode), at.heading, ToSeconds(now() - *begin_)};
   path_.Add(sample);
   ShowPath(sample);
   end_ = at;
@@ -233,10 +228,9 @@ Result<std::string> Referee::DrawPicture() const {
                               .end = end_,
                               .robot_radius = seen->robot_radius,
                               .verdict = std::string(Words(standing_.verdict)),
-                              .tone = is_good ? VerdictTone::kGood
-                                      : standing_.verdict == Verdict::kRunning
-                                          ? VerdictTone::kNeutral
-                                          : VerdictTone::kBad,
+                              .tone = is_good                                  ? VerdictTone::kGood
+                                      : standing_.verdict == Verdict::kRunning ? VerdictTone::kNeutral
+                                                                               : VerdictTone::kBad,
                               .duration = standing_.elapsed,
                               .length = path_.length()};
   World world = *seen->world;

@@ -55,12 +55,9 @@ class Referee final : public Module, public PreparesAnywhere {
   Input<Pose2> pose{this, "pose", {.description = "where the robot really is", .required = true}};
   Input<Point2> goal{this, "goal", {.description = "where it is to go", .required = true}};
   Input<Contact> contact{this, "contact", {.description = "what it touches", .required = true}};
-  Input<PlannerStatus> status{
-      this, "status", {.description = "what the planner says", .required = true}};
+  Input<PlannerStatus> status{this, "status", {.description = "what the planner says", .required = true}};
   Input<HitAndLeavePoints> points{
-      this,
-      "points",
-      {.description = "all hit and leave points; unconnected, those that the status has had"}};
+      this, "points", {.description = "all hit and leave points; unconnected, those that the status has had"}};
 
   Output<Path2> driven_path{this,
                             "path",
@@ -76,26 +73,22 @@ class Referee final : public Module, public PreparesAnywhere {
       "goal_tolerance",
       {.default_value = 0.15, .bounds = {0.0, 10.0}, .unit = "m", .description = "how near is near enough, really"}};
   StaticParameter<Expectation> expected{
-      this,
-      "expected",
-      {.default_value = Expectation::kEither, .description = "which verdicts count as a success"}};
+      this, "expected", {.default_value = Expectation::kEither, .description = "which verdicts count as a success"}};
   StaticParameter<bool> touch_is_collision{
       this,
       "touch_is_collision",
       {.default_value = true,
-       .description =
-           "whether touching something ends the run; not so for a robot that feels its way"}};
+       .description = "whether touching something ends the run; not so for a robot that feels its way"}};
   StaticParameter<FilePath> picture{
       this, "picture", {.description = "the SVG file to draw the path into; empty for none"}};
   StaticParameter<FilePath> result{
       this, "result", {.description = "the JSON file to write the result into; empty for none"}};
-  StaticParameter<double> path_step{
-      this,
-      "path_step",
-      {.default_value = 0.1,
-       .bounds = {0.0, 1000.0},
-       .unit = "m",
-       .description = "from one point to the next of the path in the result"}};
+  StaticParameter<double> path_step{this,
+                                    "path_step",
+                                    {.default_value = 0.1,
+                                     .bounds = {0.0, 1000.0},
+                                     .unit = "m",
+                                     .description = "from one point to the next of the path in the result"}};
 
  private:
   class Monitor;
@@ -120,8 +113,7 @@ class Referee final : public Module, public PreparesAnywhere {
   [[nodiscard]] Verdict VerdictAt(const Pose2& at, const Point2& there) const;
   [[nodiscard]] Standing LastStanding() const;
   [[nodiscard]] bool IsSuccess(Verdict verdict) const;
-  [[nodiscard]] Result<void> CheckFolder(const StaticParameter<FilePath>& file,
-                                         std::string_view what) const;
+  [[nodiscard]] Result<void> CheckFolder(const StaticParameter<FilePath>& file, std::string_view what) const;
   [[nodiscard]] Result<std::string> Finish() const;
   [[nodiscard]] Result<std::string> DrawPicture() const;
   [[nodiscard]] Result<std::string> WriteResult() const;

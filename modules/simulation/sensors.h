@@ -55,21 +55,17 @@ class Laser final : public Module, public PreparesAnywhere {
   StaticParameter<double> range_maximum{
       this, "range_maximum", {.default_value = 4.0, .bounds = {0.1, 1000.0}, .unit = "m"}};
   StaticParameter<double> noise{this, "noise", internal::Deviation("every range", "m", 10.0)};
-  StaticParameter<std::uint64_t> seed{
-      this, "seed", {.default_value = 1, .description = "of the noise"}};
+  StaticParameter<std::uint64_t> seed{this, "seed", {.default_value = 1, .description = "of the noise"}};
   StaticParameter<double> fails_at{this, "fails_at", internal::SinceStart("it does not fail")};
   StaticParameter<double> works_again_at{this, "works_again_at", internal::SinceStart("never")};
   StaticParameter<bool> fails_loudly{
-      this,
-      "fails_loudly",
-      {.default_value = false, .description = "by an exception; else it only falls silent"}};
+      this, "fails_loudly", {.default_value = false, .description = "by an exception; else it only falls silent"}};
 
  private:
   Result<void> Prepare() override {
     if (range_minimum.Get() >= range_maximum.Get()) {
       return Error{.message = "the laser sees nothing: " + range_minimum.ToText() +
-                              " m, its least range, is not below " + range_maximum.ToText() +
-                              " m, its greatest",
+                              " m, its least range, is not below " + range_maximum.ToText() + " m, its greatest",
                    .path = path()};
     }
     scan.PrepareBuffers([this](RangeScan& buffer) { buffer.ranges.reserve(rays.Get()); });
@@ -126,8 +122,7 @@ class Infrared final : public Module {
   StaticParameter<double> range_maximum{
       this, "range_maximum", {.default_value = 2.0, .bounds = {0.1, 100.0}, .unit = "m"}};
   StaticParameter<double> noise{this, "noise", internal::Deviation("every range", "m", 10.0)};
-  StaticParameter<std::uint64_t> seed{
-      this, "seed", {.default_value = 1, .description = "of the noise"}};
+  StaticParameter<std::uint64_t> seed{this, "seed", {.default_value = 1, .description = "of the noise"}};
 
  private:
   Result<void> Prepare() override {
@@ -172,10 +167,8 @@ class Camera final : public Module {
 
  private:
   Result<void> Prepare() override {
-    options_ = {.width = width.Get(),
-                .height = height.Get(),
-                .field_of_view = field_of_view.Get(),
-                .range = range.Get()};
+    options_ = {
+        .width = width.Get(), .height = height.Get(), .field_of_view = field_of_view.Get(), .range = range.Get()};
     image.PrepareBuffers([this](Image& buffer) {
       buffer.encoding = "rgb8";
       buffer.data.reserve(std::size_t{3} * options_.width * options_.height);
@@ -239,8 +232,7 @@ class Localisation final : public Module {
 
   StaticParameter<double> position_noise{this, "position_noise", internal::Deviation("x and y", "m", 10.0)};
   StaticParameter<double> heading_noise{this, "heading_noise", internal::Deviation("the heading", "rad", 3.0)};
-  StaticParameter<std::uint64_t> seed{
-      this, "seed", {.default_value = 1, .description = "of the noise"}};
+  StaticParameter<std::uint64_t> seed{this, "seed", {.default_value = 1, .description = "of the noise"}};
 
  private:
   Result<void> Prepare() override {

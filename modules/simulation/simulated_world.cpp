@@ -10,18 +10,16 @@
 
 namespace runnel {
 
-const ParameterOptions<double> SimulatedWorld::kGoalOfFile{
-    .default_value = std::numeric_limits<double>::quiet_NaN(),
-    .unit = "m",
-    .description = "of the goal; nan: as the world file has it"};
+const ParameterOptions<double> SimulatedWorld::kGoalOfFile{.default_value = std::numeric_limits<double>::quiet_NaN(),
+                                                           .unit = "m",
+                                                           .description = "of the goal; nan: as the world file has it"};
 
 SimulatedWorld::SimulatedWorld(const Placement& placement) : SenseControlModule(placement) {}
 SimulatedWorld::~SimulatedWorld() = default;
 
 Result<void> SimulatedWorld::Prepare() {
   if (world.Get().empty()) {
-    return Error{
-        .message = "no world file is named", .path = path(), .hint = "set the parameter 'world'"};
+    return Error{.message = "no world file is named", .path = path(), .hint = "set the parameter 'world'"};
   }
   const auto file = FindWorldFile(world.Get().text);
   if (!file) return file.error().WithPath(path());
@@ -33,8 +31,7 @@ Result<void> SimulatedWorld::Prepare() {
   const double room = ClearanceAt(*description, Position(description->start));
   if (room < robot_radius.Get()) {
     return Error{.message = "the robot does not fit where it starts: it is " + TextOf(room) +
-                            " m from an obstacle, and its radius is " + robot_radius.ToText() +
-                            " m",
+                            " m from an obstacle, and its radius is " + robot_radius.ToText() + " m",
                  .path = path(),
                  .position = {world.Get().text},
                  .hint = "move <start> or the obstacle"};
@@ -63,7 +60,8 @@ void SimulatedWorld::Sense() {
 
 // A base that has not run for some time has not driven on all the while: its own time-out counts, and a STOP.
 void SimulatedWorld::AdvanceTo(Time end) {
-  const Time stands = wheels.is_stopped() ? *last_ : std::max(*last_, commanded_ + FromSeconds(wheels_timeout.limit.Get()));
+  const Time stands =
+      wheels.is_stopped() ? *last_ : std::max(*last_, commanded_ + FromSeconds(wheels_timeout.limit.Get()));
   if (end > stands) {
     physics_->Advance(ToSeconds(stands - *last_));
     physics_->SetWheelSpeeds({});
@@ -90,8 +88,7 @@ void SimulatedWorld::PublishTruth() {
   twist.Publish(physics_->twist());
   contact.Publish(physics_->contact());
   const double x = goal_x.Get(), y = goal_y.Get();
-  const Point2 goal_now{std::isnan(x) ? description_->goal.x : x,
-                        std::isnan(y) ? description_->goal.y : y};
+  const Point2 goal_now{std::isnan(x) ? description_->goal.x : x, std::isnan(y) ? description_->goal.y : y};
   goal.Publish(goal_now);
   if (goal_on_map_ != goal_now) PublishMap(goal_now);
 }

@@ -36,23 +36,21 @@ class SimulatedWorld final : public SenseControlModule, public PreparesAnywhere 
   Output<Scene> scene{sensor_outputs(), "scene", {.description = "what stands still"}};
   Output<Pose2> pose{sensor_outputs(), "pose", {.description = "where the robot really is"}};
   Output<Twist2> twist{sensor_outputs(), "twist", {.description = "how it really moves"}};
-  Output<Contact> contact{
-      sensor_outputs(), "contact", {.description = "whether it touches anything, and where"}};
+  Output<Contact> contact{sensor_outputs(), "contact", {.description = "whether it touches anything, and where"}};
   Output<Point2> goal{sensor_outputs(), "goal", {.description = "where it is to go"}};
-  Output<WorldMap> map{sensor_outputs(),
-                       "map",
-                       {.description = "start, goal and obstacles, for those who draw",
-                        .pool = {.buffers = 4, .may_grow = false}}};
+  Output<WorldMap> map{
+      sensor_outputs(),
+      "map",
+      {.description = "start, goal and obstacles, for those who draw", .pool = {.buffers = 4, .may_grow = false}}};
 
-  StaticParameter<FilePath> world{this, "world", {.description = "the world file, or the name of one that comes with Runnel"}};
+  StaticParameter<FilePath> world{
+      this, "world", {.description = "the world file, or the name of one that comes with Runnel"}};
   Parameter<double> goal_x{this, "goal_x", kGoalOfFile};
   Parameter<double> goal_y{this, "goal_y", kGoalOfFile};
   /// Without newer wheel speeds for so long, the wheels come to rest.
   InputTimeout wheels_timeout{this, wheels, {.former_name = "timeout", .log = &log()}};
   StaticParameter<double> robot_radius{
-      this,
-      "robot_radius",
-      {.default_value = 0.15, .bounds = {0.02, 2.0}, .unit = "m", .description = "of its body"}};
+      this, "robot_radius", {.default_value = 0.15, .bounds = {0.02, 2.0}, .unit = "m", .description = "of its body"}};
   StaticParameter<double> maximum_speed{
       this, "maximum_speed", {.default_value = 0.5, .bounds = {0.01, 10.0}, .unit = "m/s"}};
   StaticParameter<double> maximum_turn_rate{

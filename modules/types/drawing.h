@@ -40,10 +40,7 @@ inline void Describe(TypeBuilder<DrawnItem>& type) {
 ///       drawing.Publish(std::move(seen));
 ///     }
 inline void Describe(TypeBuilder<Drawing>& type) {
-  type.Name("Drawing")
-      .SemanticTag("drawing")
-      .Field("frame", &Drawing::frame)
-      .Field("items", &Drawing::items);
+  type.Name("Drawing").SemanticTag("drawing").Field("frame", &Drawing::frame).Field("items", &Drawing::items);
 }
 
 }  // namespace runnel

@@ -6,10 +6,7 @@
 namespace runnel {
 
 inline void Describe(TypeBuilder<Point2>& type) {
-  type.Name("Point2")
-      .SemanticTag("point")
-      .Field("x", &Point2::x, {.unit = "m"})
-      .Field("y", &Point2::y, {.unit = "m"});
+  type.Name("Point2").SemanticTag("point").Field("x", &Point2::x, {.unit = "m"}).Field("y", &Point2::y, {.unit = "m"});
 }
 
 inline void Describe(TypeBuilder<Pose2>& type) {

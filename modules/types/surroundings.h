@@ -11,8 +11,7 @@ inline void Describe(TypeBuilder<Surroundings>& type) {
       .Field("safe_distance", &Surroundings::safe_distance, {.unit = "m"})
       .Field("is_vague", &Surroundings::is_vague,
              {.description = "whether the sensor cannot tell where in a cone an echo came from"})
-      .Field("is_measured", &Surroundings::is_measured,
-             {.description = "false as long as the sensor has said nothing"})
+      .Field("is_measured", &Surroundings::is_measured, {.description = "false as long as the sensor has said nothing"})
       .Field("contour", &Surroundings::contour,
              {.unit = "mm/4", .description = "nearest boundary in each sector, 65535 for none"});
 }

@@ -11,8 +11,7 @@ inline void Describe(TypeBuilder<MapOutline>& type) {
   type.Name("MapOutline")
       .Field("points", &MapOutline::points, {.unit = "m"})
       .Field("height", &MapOutline::height, {.unit = "m"})
-      .Field("is_hole", &MapOutline::is_hole,
-             {.description = "within the outlines that come before it"});
+      .Field("is_hole", &MapOutline::is_hole, {.description = "within the outlines that come before it"});
 }
 
 inline void Describe(TypeBuilder<WorldMap>& type) {

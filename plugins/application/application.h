@@ -97,16 +97,13 @@ struct RunOptions {
 class Application {
  public:
   /// Loads an application file and makes it ready to run. Nothing runs yet.
-  [[nodiscard]] static LoadedApplication Load(const std::filesystem::path& file,
-                                              ApplicationOptions options = {});
+  [[nodiscard]] static LoadedApplication Load(const std::filesystem::path& file, ApplicationOptions options = {});
   /// The same for a text; errors call it `name`. Relative file names in it start in `folder`.
-  [[nodiscard]] static LoadedApplication LoadText(std::string_view text,
-                                                  ApplicationOptions options = {},
+  [[nodiscard]] static LoadedApplication LoadText(std::string_view text, ApplicationOptions options = {},
                                                   const std::filesystem::path& folder = {},
                                                   const std::string& name = "application");
   /// An empty one, to be composed in code: see Create(). Made ready by MakeReady() or by what runs it.
-  [[nodiscard]] static LoadedApplication Compose(const std::string& name,
-                                                 ApplicationOptions options = {});
+  [[nodiscard]] static LoadedApplication Compose(const std::string& name, ApplicationOptions options = {});
   /// What `describe` constructs, in whichever way.
   [[nodiscard]] static LoadedApplication LoadFrom(const ApplicationDescription::Describe& describe,
                                                   ApplicationOptions options = {});
@@ -132,13 +129,11 @@ class Application {
   /// A module of a registered type; loads the plugin that the type's name begins with. Errors: no such type,
   /// with the nearest; a bad or taken name.
   Result<FrameworkElement*> CreateModule(std::string_view type, const std::string& name);
-  Result<FrameworkElement*> CreateModule(std::string_view type, FrameworkElement& parent,
-                                         const std::string& name);
+  Result<FrameworkElement*> CreateModule(std::string_view type, FrameworkElement& parent, const std::string& name);
   /// A thread; the one made first runs all that is assigned to none.
   Result<void> AddThread(const std::string& name, const ThreadOptions& options);
   Result<void> Assign(std::string_view path, const std::string& thread);
-  Result<void> Connect(std::string_view from, std::string_view to,
-                       const ConnectOptions& options = {});
+  Result<void> Connect(std::string_view from, std::string_view to, const ConnectOptions& options = {});
   /// What is not ready yet becomes so. Errors: what an element says that could not be prepared.
   Result<void> MakeReady();
 
@@ -197,8 +192,7 @@ class Application {
   /// The same from text, see change_text.h: "replace /robot/planner with planning/bug1".
   ChangeOutcome Apply(std::string_view text);
   /// Puts a module of `type` in the place of another one.
-  ChangeOutcome Swap(const std::string& path, const std::string& type,
-                     std::vector<Setting> settings = {});
+  ChangeOutcome Swap(const std::string& path, const std::string& type, std::vector<Setting> settings = {});
   ChangeOutcome Undo();
   ChangeOutcome Redo();
   /// Parameters in text format. Errors: no such parameter, with the nearest; not a value of it.
@@ -238,24 +232,21 @@ class Application {
   template <typename T>
   [[nodiscard]] Result<std::optional<T>> Read(std::string_view path) {
     std::optional<T> value;
-    const auto looked = LookAt(path, TypeOf<T>(), [&](const void* newest, Time) {
-      value = *static_cast<const T*>(newest);
-    });
+    const auto looked =
+        LookAt(path, TypeOf<T>(), [&](const void* newest, Time) { value = *static_cast<const T*>(newest); });
     if (!looked) return looked.error();
     return value;
   }
   /// An input beside the application that reads what the port at `path` publishes, also after swaps; with a queue,
   /// each value of it. It is the application's; one thread at a time uses it.
   template <typename T>
-  [[nodiscard]] Result<Input<T>*> InputFrom(std::string_view path,
-                                            const ConnectOptions& options = {}) {
+  [[nodiscard]] Result<Input<T>*> InputFrom(std::string_view path, const ConnectOptions& options = {}) {
     return TieTo<Input<T>>(path, PathKind::kOutput, options, "in");
   }
   /// An output beside the application that is connected to the input at `path`, also after swaps. One thread at a
   /// time publishes to it, outside of cycles.
   template <typename T>
-  [[nodiscard]] Result<Output<T>*> OutputTo(std::string_view path,
-                                            const ConnectOptions& options = {}) {
+  [[nodiscard]] Result<Output<T>*> OutputTo(std::string_view path, const ConnectOptions& options = {}) {
     return TieTo<Output<T>>(path, PathKind::kInput, options, "out");
   }
 
@@ -280,8 +271,7 @@ class Application {
  private:
   struct Parts;
   explicit Application(ApplicationOptions options);
-  static LoadedApplication Make(const std::function<bool(Parts&)>& describe,
-                                ApplicationOptions options);
+  static LoadedApplication Make(const std::function<bool(Parts&)>& describe, ApplicationOptions options);
 
   Result<FrameworkElement*> FindElement(std::string_view path, PathKind kind);
   static Error IsAnother(const FrameworkElement& found, const std::string& wanted);
@@ -290,8 +280,7 @@ class Application {
   Result<void> Tie(std::string_view path, PathKind kind, const ConnectOptions& options,
                    const std::function<std::unique_ptr<Port>(FrameworkElement& group)>& make);
   template <typename Made>
-  Result<Made*> TieTo(std::string_view path, PathKind kind, const ConnectOptions& options,
-                      const char* name) {
+  Result<Made*> TieTo(std::string_view path, PathKind kind, const ConnectOptions& options, const char* name) {
     Made* made = nullptr;
     const auto tied = Tie(path, kind, options, [&](FrameworkElement& group) {
       auto port = std::make_unique<Made>(group, name);

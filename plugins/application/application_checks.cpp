@@ -52,8 +52,8 @@ void WarnOfSharedThreads(const ApplicationCheckUse& use) {
     const std::size_t count = std::max<std::size_t>(modules[id], 1) - 1;
     const std::string name = threads.contains(id) ? threads[id]->name() : "main";
     if (count == 0) continue;
-    use.diagnostics.AddWarning({.message = "something moves by it, and the thread '" + name + "' runs " + std::to_string(count) +
-                                           (count == 1 ? " other module" : " other modules") +
+    use.diagnostics.AddWarning({.message = "something moves by it, and the thread '" + name + "' runs " +
+                                           std::to_string(count) + (count == 1 ? " other module" : " other modules") +
                                            ": while one of them does not return, a STOP does not reach it",
                                 .path = module->path(),
                                 .position = FindSourcePlace(*module),
@@ -67,11 +67,13 @@ void WarnOfMarksBefore(const Port& marked, const ApplicationCheckUse& use) {
   if (!marked.is_proxy() && marked.direction() == Port::Direction::kInput) return;
   for (const Port* sink : marked.Sinks()) {
     if (sink->is_driving() || dynamic_cast<const ProbePort*>(sink) != nullptr) continue;
-    use.diagnostics.AddWarning({.message = "is marked as driving, and not what moves by it: a STOP does not hold what another source "
-                                           "sends to " + sink->path(),
-                                .path = marked.path(),
-                                .position = FindSourcePlace(marked),
-                                .hint = "mark that: <driving port=\"" + sink->path() + "\"/>"});
+    use.diagnostics.AddWarning(
+        {.message = "is marked as driving, and not what moves by it: a STOP does not hold what another source "
+                    "sends to " +
+                    sink->path(),
+         .path = marked.path(),
+         .position = FindSourcePlace(marked),
+         .hint = "mark that: <driving port=\"" + sink->path() + "\"/>"});
   }
 }
 
@@ -82,12 +84,15 @@ void WarnOfRampsBefore(const Port& driving, const ApplicationCheckUse& use) {
   for (const Port* source : driving.Sources()) {
     VisitSiblings(*source, Port::Direction::kInput, [&](const Port& each) {
       const auto* const input = dynamic_cast<const InputBase*>(&each);
-      if (input == nullptr || input->ageing() != Ageing::kPassedOn || each.incoming().empty() || each.is_driving()) return;
-      use.diagnostics.AddWarning({.message = "is passed on to " + driving.path() + ", whose safe value is not zero: what is ramped before it does not "
-                                             "begin anew after a STOP",
-                                  .path = each.path(),
-                                  .position = FindSourcePlace(driving),
-                                  .hint = "mark it, with the value at which that stands still: <driving port=\"" + each.path() + "\"/>"});
+      if (input == nullptr || input->ageing() != Ageing::kPassedOn || each.incoming().empty() || each.is_driving())
+        return;
+      use.diagnostics.AddWarning(
+          {.message = "is passed on to " + driving.path() +
+                      ", whose safe value is not zero: what is ramped before it does not "
+                      "begin anew after a STOP",
+           .path = each.path(),
+           .position = FindSourcePlace(driving),
+           .hint = "mark it, with the value at which that stands still: <driving port=\"" + each.path() + "\"/>"});
     });
   }
 }
@@ -109,10 +114,11 @@ void CheckMotion(const ApplicationCheckUse& use) {
   const bool is_real = SchedulerOptionsOf(use.application).clock == SchedulerOptions::ClockKind::kReal;
   if (is_marked && is_real) WarnOfSharedThreads(use);
   if (moves == nullptr || is_marked) return;
-  use.diagnostics.AddWarning({.message = "takes velocities, and no port of the application is marked as driving: a STOP stops nothing",
-                              .path = moves->path(),
-                              .position = FindSourcePlace(*moves),
-                              .hint = "mark the port that moves something: <driving port=\"…\"/>"});
+  use.diagnostics.AddWarning(
+      {.message = "takes velocities, and no port of the application is marked as driving: a STOP stops nothing",
+       .path = moves->path(),
+       .position = FindSourcePlace(*moves),
+       .hint = "mark the port that moves something: <driving port=\"…\"/>"});
 }
 
 }  // namespace
@@ -133,7 +139,8 @@ void ApplicationChecks::Run(const ApplicationCheckUse& use) const {
     try {
       each.check(use);
     } catch (...) {
-      use.diagnostics.Add({.message = "a check of the plugin '" + each.plugin + "' has failed: " + DescribeException()});
+      use.diagnostics.Add(
+          {.message = "a check of the plugin '" + each.plugin + "' has failed: " + DescribeException()});
     }
   }
 }

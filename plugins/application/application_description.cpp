@@ -22,8 +22,7 @@ BuildOutcome Failed(Error error) {
   return outcome;
 }
 
-Result<void> CheckOptions(const ExtensionDescription& extension,
-                          const ExtensionArguments& arguments) {
+Result<void> CheckOptions(const ExtensionDescription& extension, const ExtensionArguments& arguments) {
   const std::vector<std::string> known = NamesOf(extension.options, &ExtensionOption::name);
   for (const auto& [name, value] : arguments.values) {
     if (std::ranges::find(known, name) != known.end()) continue;
@@ -50,8 +49,7 @@ std::function<void()> ExtensionRegistry::SetAside(std::string_view plugin) {
   return back;
 }
 
-Result<Extensions> ExtensionRegistry::Make(const std::string& plugin,
-                                           const ExtensionArguments& arguments) const {
+Result<Extensions> ExtensionRegistry::Make(const std::string& plugin, const ExtensionArguments& arguments) const {
   const auto found = factories_.find(plugin);
   if (found == factories_.end()) {
     return Error{.message = "the plugin '" + plugin + "' is no extension of applications"};
@@ -59,8 +57,7 @@ Result<Extensions> ExtensionRegistry::Make(const std::string& plugin,
   try {
     return found->second(arguments);
   } catch (...) {
-    return Error{.message =
-                     "the extension '" + plugin + "' cannot be made: " + DescribeException()};
+    return Error{.message = "the extension '" + plugin + "' cannot be made: " + DescribeException()};
   }
 }
 
@@ -79,16 +76,14 @@ Result<Extensions> ApplicationDescription::MakeExtensions(const ExtensionDescrip
   if (auto known = CheckOptions(extension, arguments); !known) return known.error();
   const std::vector<std::string> there = plugins_.Available();
   if (std::ranges::find(there, extension.name) == there.end()) {
-    return Error{
-        .message = need + " needs the extension '" + extension.name + "', which is not installed",
-        .hint = "it " + extension.summary};
+    return Error{.message = need + " needs the extension '" + extension.name + "', which is not installed",
+                 .hint = "it " + extension.summary};
   }
   if (auto loaded = plugins_.Load(extension.name); !loaded) return loaded.error();
   return extension_registry_.Make(extension.name, arguments);
 }
 
-Result<void> ApplicationDescription::Attach(const ExtensionDescription& extension,
-                                            const std::string& need,
+Result<void> ApplicationDescription::Attach(const ExtensionDescription& extension, const std::string& need,
                                             const ExtensionArguments& arguments) {
   auto made = MakeExtensions(extension, need, arguments);
   if (!made) return made.error();

@@ -40,8 +40,7 @@ class ApplicationDescription {
   /// "": what an extension describes without a file.
   bool Read(const std::filesystem::path& file);
   /// Errors call the text `name`; relative file names in it start in `folder`.
-  bool ReadText(std::string_view text, const std::filesystem::path& folder,
-                const std::string& name);
+  bool ReadText(std::string_view text, const std::filesystem::path& folder, const std::string& name);
   /// An empty group of this name.
   bool MakeEmpty(const std::string& name);
   /// What `describe` constructs, in whichever way.
@@ -104,8 +103,8 @@ class ApplicationDescription {
   Configuration configuration_;
   Extensions extensions_;
   std::set<std::string> attached_;  // their names
-  ManualClock beginning_;  // of simulated time, until the scheduler brings its clock
-  Runtime runtime_;  // last, for modules may still use what plugins gave them
+  ManualClock beginning_;           // of simulated time, until the scheduler brings its clock
+  Runtime runtime_;                 // last, for modules may still use what plugins gave them
 };
 
 }  // namespace runnel

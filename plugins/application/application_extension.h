@@ -28,20 +28,15 @@ class ApplicationExtension {
 
   /// A file of another form than Runnel's, or an application without a file (nullptr): builds it with kConstruct.
   /// nullopt: of a form that it does not know.
-  virtual std::optional<BuildOutcome> Build(const ApplicationFile* /*file*/,
-                                            const BuildTools& /*tools*/) {
+  virtual std::optional<BuildOutcome> Build(const ApplicationFile* /*file*/, const BuildTools& /*tools*/) {
     return std::nullopt;
   }
   /// The application is described, and nothing of it is ready. `options` make the scheduler next.
-  virtual Result<void> Prepare(FrameworkElement& /*application*/, SchedulerOptions& /*options*/) {
-    return {};
-  }
+  virtual Result<void> Prepare(FrameworkElement& /*application*/, SchedulerOptions& /*options*/) { return {}; }
   /// What clients of the control socket and viewers may do besides.
   virtual void AddHooks(Application& /*application*/, ServiceHooks& /*hooks*/) {}
   /// All is ready, and nothing runs yet. Warnings go to `diagnostics`.
-  virtual Result<void> Begin(Application& /*application*/, Diagnostics& /*diagnostics*/) {
-    return {};
-  }
+  virtual Result<void> Begin(Application& /*application*/, Diagnostics& /*diagnostics*/) { return {}; }
 
   /// What people are told once all has begun: where to look at it, for one. Whole lines.
   [[nodiscard]] virtual std::string StartText() const { return {}; }

@@ -30,7 +30,8 @@ namespace {
 void AwaitProof(StructureEditor& editor, Pace& pace) {
   constexpr auto kLongest = std::chrono::seconds(3);
   const auto until = std::chrono::steady_clock::now() + kLongest;
-  for (auto look = std::chrono::milliseconds(1); editor.on_probation() > 0; look = std::min(2 * look, std::chrono::milliseconds(50))) {
+  for (auto look = std::chrono::milliseconds(1); editor.on_probation() > 0;
+       look = std::min(2 * look, std::chrono::milliseconds(50))) {
     if (pace.is_paused() || std::chrono::steady_clock::now() > until) return;
     std::this_thread::sleep_for(look);
     editor.Tend();
@@ -82,8 +83,7 @@ void Application::Parts::LoadPluginsOf(const ChangeSet& changes) {
   }
 }
 
-Result<FrameworkElement*> Application::CreateModule(std::string_view type,
-                                                    const std::string& name) {
+Result<FrameworkElement*> Application::CreateModule(std::string_view type, const std::string& name) {
   return CreateModule(type, element(), name);
 }
 
@@ -106,8 +106,7 @@ Result<void> Application::Assign(std::string_view path, const std::string& threa
   return ResultOf(Apply({AssignToThread{std::string(path), thread}}));
 }
 
-Result<void> Application::Connect(std::string_view from, std::string_view to,
-                                  const ConnectOptions& options) {
+Result<void> Application::Connect(std::string_view from, std::string_view to, const ConnectOptions& options) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   const PathSearch structure(parts_->runtime());
   if (options.when_present) {
@@ -157,8 +156,7 @@ ChangeOutcome Application::Apply(std::string_view text) {
   return outcome;
 }
 
-ChangeOutcome Application::Swap(const std::string& path, const std::string& type,
-                                std::vector<Setting> settings) {
+ChangeOutcome Application::Swap(const std::string& path, const std::string& type, std::vector<Setting> settings) {
   return Apply({ReplaceModule{.path = path, .type = type, .settings = std::move(settings)}});
 }
 
@@ -282,9 +280,7 @@ CommandService& Application::service() {
     return internal::WhatIsLost(request.file);
   };
   hooks.save_configuration = [this](const std::string& file) { return SaveConfiguration(file); };
-  hooks.set_paused = [this](const std::string& path, bool is_paused) {
-    return is_paused ? Pause(path) : Resume(path);
-  };
+  hooks.set_paused = [this](const std::string& path, bool is_paused) { return is_paused ? Pause(path) : Resume(path); };
   if (!hooks.quit) {
     hooks.quit = [this]() -> Result<std::string> {
       RequestStop();
@@ -316,9 +312,9 @@ CommandService& Application::service() {
     AwaitProof(*parts_->editor, parts_->scheduler->pace());
     return done;
   };
-  return parts_->service.emplace(ServedApplication{
-      parts_->runtime(), parts_->plugins().modules(), *parts_->editor, *parts_->log,
-      std::move(hooks), &*parts_->history, &parts_->scheduler->pace(), &*parts_->scheduler});
+  return parts_->service.emplace(ServedApplication{parts_->runtime(), parts_->plugins().modules(), *parts_->editor,
+                                                   *parts_->log, std::move(hooks), &*parts_->history,
+                                                   &parts_->scheduler->pace(), &*parts_->scheduler});
 }
 
 }  // namespace runnel

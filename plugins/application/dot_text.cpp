@@ -32,15 +32,14 @@ class DotWriter {
     application_.Visit([this](FrameworkElement& element) {
       if (element.kind() == ElementKind::kThread) NoteThread(element);
     });
-    text_ =
-        "digraph " + Quoted(application_.name()) +
-        " {\n"
-        "  graph [rankdir=LR, fontname=\"Helvetica\", fontsize=13, nodesep=0.28, ranksep=0.75,\n"
-        "         labeljust=l, style=rounded, color=\"#8a8a8a\", bgcolor=white]\n"
-        "  node [fontname=\"Helvetica\", fontsize=11, shape=plain]\n"
-        "  edge [fontname=\"Helvetica\", fontsize=9, color=\"#404040\", arrowsize=0.7]\n"
-        "  label=" +
-        Quoted(application_.name()) + "\n  labelloc=t\n";
+    text_ = "digraph " + Quoted(application_.name()) +
+            " {\n"
+            "  graph [rankdir=LR, fontname=\"Helvetica\", fontsize=13, nodesep=0.28, ranksep=0.75,\n"
+            "         labeljust=l, style=rounded, color=\"#8a8a8a\", bgcolor=white]\n"
+            "  node [fontname=\"Helvetica\", fontsize=11, shape=plain]\n"
+            "  edge [fontname=\"Helvetica\", fontsize=9, color=\"#404040\", arrowsize=0.7]\n"
+            "  label=" +
+            Quoted(application_.name()) + "\n  labelloc=t\n";
     WriteContents(application_, 1);
     application_.VisitAll<const Port>([this](const Port& port) { WriteEdges(port); });
     WriteKey();
@@ -92,10 +91,9 @@ class DotWriter {
 
   void WriteInterface(const Port& port, int depth) {
     const bool is_input = port.direction() == Port::Direction::kInput;
-    Line(depth,
-         Quoted(port.path()) + " [shape=cds, margin=\"0.08,0.03\", fontsize=10, label=" +
-             Quoted(port.name()) + ", tooltip=" + Quoted(port.path() + ": " + port.type().name()) +
-             ", style=filled, fillcolor=" + (is_input ? "\"#ffffff\"" : "\"#e9e9e9\"") + "]");
+    Line(depth, Quoted(port.path()) + " [shape=cds, margin=\"0.08,0.03\", fontsize=10, label=" + Quoted(port.name()) +
+                    ", tooltip=" + Quoted(port.path() + ": " + port.type().name()) +
+                    ", style=filled, fillcolor=" + (is_input ? "\"#ffffff\"" : "\"#e9e9e9\"") + "]");
   }
 
   // Those that are connected; both columns from the top.
@@ -109,8 +107,7 @@ class DotWriter {
     });
     std::string label =
         R"(<table border="1" cellborder="0" cellspacing="0" cellpadding="3" color="#606060" bgcolor=")" +
-        ColourOf(module) + R"(" style="rounded"><tr><td colspan="2"><b>)" +
-        EscapedMarkup(module.name()) + "</b>";
+        ColourOf(module) + R"(" style="rounded"><tr><td colspan="2"><b>)" + EscapedMarkup(module.name()) + "</b>";
     const std::string type = FindModuleType(module);
     if (!type.empty()) label += R"(<br/><font point-size="9">)" + EscapedMarkup(type) + "</font>";
     label += "</td></tr>";
@@ -118,16 +115,14 @@ class DotWriter {
       label += "<tr>" + Cell(inputs, i, "left") + Cell(outputs, i, "right") + "</tr>";
     }
     label += "</table>";
-    Line(depth,
-         Quoted(module.path()) + " [tooltip=" + Quoted(module.path()) + ", label=<" + label + ">]");
+    Line(depth, Quoted(module.path()) + " [tooltip=" + Quoted(module.path()) + ", label=<" + label + ">]");
   }
 
-  static std::string Cell(const std::vector<const Port*>& ports, std::size_t place,
-                          const std::string& side) {
+  static std::string Cell(const std::vector<const Port*>& ports, std::size_t place, const std::string& side) {
     if (place >= ports.size()) return "<td></td>";
     const Port& port = *ports[place];
-    return "<td port=\"p" + std::to_string(port.id()) + "\" align=\"" + side +
-           "\"><font point-size=\"10\">" + EscapedMarkup(port.name()) + "</font></td>";
+    return "<td port=\"p" + std::to_string(port.id()) + "\" align=\"" + side + "\"><font point-size=\"10\">" +
+           EscapedMarkup(port.name()) + "</font></td>";
   }
 
   std::string End(const Port& port, bool is_source) {
@@ -139,11 +134,9 @@ class DotWriter {
   void WriteEdges(const Port& port) {
     for (const Connection& connection : port.outgoing()) {
       if (!connection.to->IsAtOrBelow(application_)) continue;
-      std::string extra = "tooltip=" + Quoted(port.path() + " → " + connection.to->path() + ": " +
-                                              port.type().name());
+      std::string extra = "tooltip=" + Quoted(port.path() + " → " + connection.to->path() + ": " + port.type().name());
       if (connection.options.queue > 0) {
-        extra +=
-            ", style=bold, label=" + Quoted("queue " + std::to_string(connection.options.queue));
+        extra += ", style=bold, label=" + Quoted("queue " + std::to_string(connection.options.queue));
       }
       if (connection.options.pull) extra += ", style=dashed, label=pull";
       Line(1, End(port, true) + " -> " + End(*connection.to, false) + " [" + extra + "]");
@@ -160,8 +153,8 @@ class DotWriter {
     std::string rows;
     for (const auto& [id, colour] : colours_) {
       if (!colour.is_used) continue;
-      rows += "<tr><td bgcolor=\"" + colour.colour + "\" border=\"1\" width=\"22\"></td>" +
-              "<td align=\"left\">" + EscapedMarkup(ThreadText(*colour.thread)) + "</td></tr>";
+      rows += "<tr><td bgcolor=\"" + colour.colour + "\" border=\"1\" width=\"22\"></td>" + "<td align=\"left\">" +
+              EscapedMarkup(ThreadText(*colour.thread)) + "</td></tr>";
     }
     if (rows.empty()) return;
     Line(1,

@@ -25,8 +25,7 @@ std::string PathFrom(const fs::path& file, const std::string& text) {
   return text.empty() ? "" : fs::absolute(file.parent_path() / text).lexically_normal().string();
 }
 
-ExtensionOption ReadOption(XmlElement element, const std::string& name, const fs::path& file,
-                           Diagnostics& problems) {
+ExtensionOption ReadOption(XmlElement element, const std::string& name, const fs::path& file, Diagnostics& problems) {
   const std::string kind = element.TextOr("kind", kKinds.front());
   const auto known = std::ranges::find(kKinds, kind);
   if (known == kKinds.end()) {
@@ -43,14 +42,13 @@ ExtensionOption ReadOption(XmlElement element, const std::string& name, const fs
           .is_output = element.TextOr("writes", "false") == "true"};
 }
 
-void ReadPart(XmlElement element, const fs::path& file, ExtensionDescription& extension,
-              Diagnostics& problems) {
+void ReadPart(XmlElement element, const fs::path& file, ExtensionDescription& extension, Diagnostics& problems) {
   const bool is_option = element.name() == "option";
-  CheckAttributes(
-      element,
-      is_option ? std::vector<std::string>{"command", "kind", "name", "preload", "summary", "value", "writes"}
-                : std::vector<std::string>{"name"},
-      problems);
+  CheckAttributes(element,
+                  is_option
+                      ? std::vector<std::string>{"command", "kind", "name", "preload", "summary", "value", "writes"}
+                      : std::vector<std::string>{"name"},
+                  problems);
   const std::string* const name = ReadText(element, "name", problems);
   if (name == nullptr) return;
   if (is_option) extension.options.push_back(ReadOption(element, *name, file, problems));
@@ -71,16 +69,14 @@ Result<ExtensionDescription> ReadDescription(const fs::path& file, std::string n
   Diagnostics problems;
   CheckAttributes(root, std::array<std::string, 1>{"summary"}, problems);
   CheckChildren(root, kParts, problems);
-  if (const std::string* const text = ReadText(root, "summary", problems))
-    extension.summary = *text;
+  if (const std::string* const text = ReadText(root, "summary", problems)) extension.summary = *text;
   for (const XmlElement child : root.children()) ReadPart(child, file, extension, problems);
   if (!problems.ok()) return problems.errors().front();
   return extension;
 }
 
 const ExtensionDescription* FindIn(const std::vector<ExtensionDescription>& all,
-                                   std::vector<std::string> ExtensionDescription::*words,
-                                   std::string_view word) {
+                                   std::vector<std::string> ExtensionDescription::*words, std::string_view word) {
   const auto found = std::ranges::find_if(all, [&](const ExtensionDescription& each) {
     return std::ranges::find(each.*words, word) != (each.*words).end();
   });
@@ -124,8 +120,7 @@ std::string FileOfNextRun(const std::string& file) {
   fs::path next;
   std::error_code ignored;
   for (int run = 2; next.empty() || fs::exists(next, ignored); ++run) {
-    next = first.parent_path() /
-           (first.stem().string() + "_" + std::to_string(run) + first.extension().string());
+    next = first.parent_path() / (first.stem().string() + "_" + std::to_string(run) + first.extension().string());
   }
   return next.string();
 }

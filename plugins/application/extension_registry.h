@@ -35,8 +35,7 @@ class ExtensionRegistry final : public OfferedRegistry {
   void set_plugin(const std::string& plugin) override { plugin_ = plugin; }
 
   /// Errors: the plugin is loaded, and has none; what the factory says, or throws.
-  [[nodiscard]] Result<Extensions> Make(const std::string& plugin,
-                                        const ExtensionArguments& arguments) const;
+  [[nodiscard]] Result<Extensions> Make(const std::string& plugin, const ExtensionArguments& arguments) const;
 
  private:
   std::map<std::string, ExtensionFactory, std::less<>> factories_;

@@ -20,8 +20,7 @@ constexpr Duration kStuckAfter = std::chrono::seconds(1);
 
 Error Refusal(const char* message, const char* option) {
   return {.message = message,
-          .hint = std::string("leave out ") + option +
-                  ", or add <clock type=\"simulated\"/> to the application"};
+          .hint = std::string("leave out ") + option + ", or add <clock type=\"simulated\"/> to the application"};
 }
 
 Result<void> Choose(const ApplicationOptions& chosen, SchedulerOptions& options) {
@@ -79,8 +78,7 @@ Result<void> Application::Parts::Schedule() {
 
 // What clients want to be recorded is, though nobody has said so at the start.
 RecordingHook Application::Parts::RecordingOnDemand(Application& application) {
-  return [this,
-          &application](const RecordingRequest& wish) -> Result<std::unique_ptr<ClientRecording>> {
+  return [this, &application](const RecordingRequest& wish) -> Result<std::unique_ptr<ClientRecording>> {
     ServiceHooks found;
     {
       const std::lock_guard no_save(reloading);
@@ -115,8 +113,7 @@ Result<void> Application::Parts::Begin(Application& application, Diagnostics& di
     if (stop_file) hooks.is_stop_kept = [file = stop_file.get()] { return file->IsKept(); };
   }
   if (options().has_control) {
-    auto server =
-        ControlServer::Start(application.service(), {.application = name(), .file = file()});
+    auto server = ControlServer::Start(application.service(), {.application = name(), .file = file()});
     if (server) {
       control = std::move(*server);
     } else {
@@ -136,13 +133,11 @@ LoadedApplication Application::Load(const std::filesystem::path& file, Applicati
 }
 
 LoadedApplication Application::LoadText(std::string_view text, ApplicationOptions options,
-                                        const std::filesystem::path& folder,
-                                        const std::string& name) {
+                                        const std::filesystem::path& folder, const std::string& name) {
   return Make([&](Parts& parts) { return parts.ReadText(text, folder, name); }, std::move(options));
 }
 
-LoadedApplication Application::LoadFrom(const ApplicationDescription::Describe& describe,
-                                        ApplicationOptions options) {
+LoadedApplication Application::LoadFrom(const ApplicationDescription::Describe& describe, ApplicationOptions options) {
   return Make([&](Parts& parts) { return parts.ReadFrom(describe); }, std::move(options));
 }
 
@@ -155,8 +150,7 @@ LoadedApplication Application::Compose(const std::string& name, ApplicationOptio
       std::move(options));
 }
 
-LoadedApplication Application::Make(const std::function<bool(Parts&)>& describe,
-                                    ApplicationOptions options) {
+LoadedApplication Application::Make(const std::function<bool(Parts&)>& describe, ApplicationOptions options) {
   LoadedApplication loaded;
   Diagnostics& diagnostics = loaded.diagnostics_;
   try {
@@ -184,8 +178,7 @@ LoadedApplication Application::Make(const std::function<bool(Parts&)>& describe,
   return loaded;
 }
 
-Application::Application(ApplicationOptions options)
-    : parts_(std::make_unique<Parts>(std::move(options))) {}
+Application::Application(ApplicationOptions options) : parts_(std::make_unique<Parts>(std::move(options))) {}
 
 Application::~Application() { Stop(); }
 

@@ -37,8 +37,8 @@ std::string KindText(const FrameworkElement& element) {
            " of type " + port->type().name();
   }
   if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
-    return std::string(parameter->info().is_static ? "a static parameter" : "a parameter") +
-           " of type " + parameter->type().name();
+    return std::string(parameter->info().is_static ? "a static parameter" : "a parameter") + " of type " +
+           parameter->type().name();
   }
   if (element.kind() == ElementKind::kModule) return "a module";
   return element.kind() == ElementKind::kGroup ? "a group" : "another element";
@@ -55,8 +55,7 @@ Error Application::IsAnother(const FrameworkElement& found, const std::string& w
   return {.message = "this is " + KindText(found) + ", not " + wanted, .path = found.path()};
 }
 
-Result<void> Application::LookAt(std::string_view path, const TypeInfo& type,
-                                 const Port::Visitor& look) {
+Result<void> Application::LookAt(std::string_view path, const TypeInfo& type, const Port::Visitor& look) {
   const EpochGuard guard;  // what is found stays in memory so long
   std::unique_lock lock(parts_->runtime().structure_mutex());
   const auto found = PathSearch(parts_->runtime()).FindPort(path, PathKind::kOutput);
@@ -70,9 +69,8 @@ Result<void> Application::LookAt(std::string_view path, const TypeInfo& type,
   return {};
 }
 
-Result<void> Application::Tie(
-    std::string_view path, PathKind kind, const ConnectOptions& options,
-    const std::function<std::unique_ptr<Port>(FrameworkElement& group)>& make) {
+Result<void> Application::Tie(std::string_view path, PathKind kind, const ConnectOptions& options,
+                              const std::function<std::unique_ptr<Port>(FrameworkElement& group)>& make) {
   Runtime& runtime = parts_->runtime();
   OutsidePort* place = nullptr;
   Result<void> tied;
@@ -81,14 +79,12 @@ Result<void> Application::Tie(
     const auto found = FindAs(runtime, path, kind);
     if (!found) return found.error();
     auto& port = dynamic_cast<Port&>(**found);
-    place =
-        &runtime.Create<OutsidePort>(runtime.root(), "outside_" + std::to_string(++parts_->ties));
+    place = &runtime.Create<OutsidePort>(runtime.root(), "outside_" + std::to_string(++parts_->ties));
     place->port = make(*place);
     tied = runtime.MakeReady(*place);
     const bool reads = kind == PathKind::kOutput;
     if (tied) {
-      tied = reads ? Port::Connect(port, *place->port, options)
-                   : Port::Connect(*place->port, port, options);
+      tied = reads ? Port::Connect(port, *place->port, options) : Port::Connect(*place->port, port, options);
     }
   } catch (const ElementError& error) {
     tied = error.error();

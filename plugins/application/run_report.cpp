@@ -47,8 +47,7 @@ void RunReport::OnDeleted(FrameworkElement& element) {
 }
 
 template <typename Use>
-auto RunReport::Attempt(Source& source, const Use& use)
-    -> std::optional<decltype(use(*source.monitor))> {
+auto RunReport::Attempt(Source& source, const Use& use) -> std::optional<decltype(use(*source.monitor))> {
   try {
     return use(*source.monitor);
   } catch (...) {
@@ -59,9 +58,8 @@ auto RunReport::Attempt(Source& source, const Use& use)
 
 void RunReport::Fail(Source& source, const std::string& why) {
   source.has_failed = true;
-  failures_.push_back({.message = "its run monitor has failed: " + why,
-                       .path = source.path,
-                       .position = source.position});
+  failures_.push_back(
+      {.message = "its run monitor has failed: " + why, .path = source.path, .position = source.position});
 }
 
 std::optional<RunOutcome> RunReport::OutcomeOf(Source& source) {
@@ -133,9 +131,9 @@ std::string RunReport::Finish(Diagnostics& diagnostics) {
 }
 
 std::string FaultText(const Fault& fault, Time start, FrameworkElement& root) {
-  return EventText({.message = (fault.kind == Fault::Kind::kThrown ? "has failed: " : "") + fault.message,
-                    .path = fault.path},
-                   fault.time, start, fault.is_mended, root);
+  return EventText(
+      {.message = (fault.kind == Fault::Kind::kThrown ? "has failed: " : "") + fault.message, .path = fault.path},
+      fault.time, start, fault.is_mended, root);
 }
 
 std::string MessageText(const LogMessage& message, Time start) {
@@ -143,8 +141,7 @@ std::string MessageText(const LogMessage& message, Time start) {
 }
 
 std::string NoticeText(const Notice& notice, Time start, FrameworkElement& root) {
-  return EventText({.message = notice.message, .path = notice.path}, notice.time, start,
-                   !notice.is_failure, root);
+  return EventText({.message = notice.message, .path = notice.path}, notice.time, start, !notice.is_failure, root);
 }
 
 }  // namespace runnel

@@ -132,10 +132,9 @@ void Application::Attend() {
   for (const Fault& fault : parts.scheduler->TakeFaults()) {
     parts.report->Hear(fault);
     std::string text = FaultText(fault, parts.start, root);
-    const bool is_fault =
-        fault.kind == Fault::Kind::kThrown || fault.kind == Fault::Kind::kStuck;
-    parts.log->Add(is_fault ? ApplicationLog::Kind::kFault : ApplicationLog::Kind::kWarning, text,
-                   fault.path, fault.is_mended ? "" : fault.message);
+    const bool is_fault = fault.kind == Fault::Kind::kThrown || fault.kind == Fault::Kind::kStuck;
+    parts.log->Add(is_fault ? ApplicationLog::Kind::kFault : ApplicationLog::Kind::kWarning, text, fault.path,
+                   fault.is_mended ? "" : fault.message);
     parts.Add({Kind::kFault, std::move(text), fault});
   }
   for (const auto& extension : parts.extensions()) {
@@ -176,9 +175,8 @@ Result<void> Application::MakeReady() {
   const auto found = parts_->FindAgain();
   if (!found) return found.error();
   bool is_ready = true;
-  (*found)->Visit([&](const FrameworkElement& each) {
-    is_ready = is_ready && each.life_cycle() != LifeCycle::kConstructed;
-  });
+  (*found)->Visit(
+      [&](const FrameworkElement& each) { is_ready = is_ready && each.life_cycle() != LifeCycle::kConstructed; });
   return is_ready ? Result<void>() : MakeApplicationReady(**found);
 }
 
@@ -218,8 +216,7 @@ Result<void> Application::Start() {
       Attend();
       LogProfile();
     } catch (...) {
-      parts_->Add({ApplicationEvent::Kind::kFailure,
-                   "error: the run has ended: " + DescribeException() + "\n"});
+      parts_->Add({ApplicationEvent::Kind::kFailure, "error: the run has ended: " + DescribeException() + "\n"});
     }
     parts_->is_running = false;
   });
@@ -303,18 +300,10 @@ Result<void> Application::RunCycles(std::uint64_t count) {
 Result<void> Application::Pause() { return parts_->scheduler->pace().Pause(); }
 Result<void> Application::Resume() { return parts_->scheduler->pace().Resume(); }
 Result<void> Application::SetTime(Time time) { return parts_->scheduler->pace().SetTime(time); }
-Result<void> Application::Pause(std::string_view path) {
-  return parts_->supervisor->SetPaused(path, true);
-}
-Result<void> Application::Resume(std::string_view path) {
-  return parts_->supervisor->SetPaused(path, false);
-}
-Result<void> Application::Step(std::uint64_t cycles) {
-  return parts_->scheduler->pace().StepCycles(cycles);
-}
-Result<void> Application::SetSpeed(double speed) {
-  return parts_->scheduler->pace().SetSpeed(speed);
-}
+Result<void> Application::Pause(std::string_view path) { return parts_->supervisor->SetPaused(path, true); }
+Result<void> Application::Resume(std::string_view path) { return parts_->supervisor->SetPaused(path, false); }
+Result<void> Application::Step(std::uint64_t cycles) { return parts_->scheduler->pace().StepCycles(cycles); }
+Result<void> Application::SetSpeed(double speed) { return parts_->scheduler->pace().SetSpeed(speed); }
 void Application::RequestStop() noexcept { parts_->scheduler->RequestStop(); }
 
 std::vector<ApplicationEvent> Application::TakeEvents() {

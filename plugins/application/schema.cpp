@@ -57,9 +57,7 @@ NewElement Documentation(const std::string& text) {
 
 NewElement Restriction(const std::string& base, std::vector<NewElement> facets) {
   return {.name = "xs:simpleType",
-          .children = {{.name = "xs:restriction",
-                        .attributes = {{"base", base}},
-                        .children = std::move(facets)}}};
+          .children = {{.name = "xs:restriction", .attributes = {{"base", base}}, .children = std::move(facets)}}};
 }
 
 NewElement Pattern(const std::string& expression) {
@@ -98,8 +96,9 @@ std::vector<NewElement> SimpleTypes(const Known& known) {
 }
 
 // By AttributeKind.
-constexpr std::array kAttributeTypes{"xs:string", "name", "name", "path", "path_list", "xs:nonNegativeInteger", "number",
-                                     "duration", "xs:string", "module_type", "port_type"};
+constexpr std::array kAttributeTypes{
+    "xs:string", "name",     "name",      "path",        "path_list", "xs:nonNegativeInteger",
+    "number",    "duration", "xs:string", "module_type", "port_type"};
 
 /// Writes the schema of one set of words.
 class SchemaWriter {
@@ -107,13 +106,11 @@ class SchemaWriter {
   SchemaWriter(const XmlTagRegistry& tags, const Known& known) : tags_(tags), known_(known) {}
 
   std::string Write() {
-    NewElement schema{.name = "xs:schema",
-                      .attributes = {{"xmlns:xs", "http://www.w3.org/2001/XMLSchema"}}};
+    NewElement schema{.name = "xs:schema", .attributes = {{"xmlns:xs", "http://www.w3.org/2001/XMLSchema"}}};
     for (const XmlTag* tag : AllTags()) {
       if (!tag->parents.empty()) continue;
       schema.children.push_back(
-          {.name = "xs:element",
-           .attributes = {{"name", tag->name}, {"type", TypeName("", tag->name)}}});
+          {.name = "xs:element", .attributes = {{"name", tag->name}, {"type", TypeName("", tag->name)}}});
     }
     for (const XmlTag* tag : AllTags()) {
       std::set<std::string> written;
@@ -154,12 +151,10 @@ class SchemaWriter {
   NewElement TagType(const XmlTag& tag, const std::string& parent) {
     NewElement type{.name = "xs:complexType"};
     if (!tag.summary.empty()) type.children.push_back(Documentation(tag.summary));
-    NewElement choice{.name = "xs:choice",
-                      .attributes = {{"minOccurs", "0"}, {"maxOccurs", "unbounded"}}};
+    NewElement choice{.name = "xs:choice", .attributes = {{"minOccurs", "0"}, {"maxOccurs", "unbounded"}}};
     for (const std::string& inner : tags_.TagsIn(tag.name)) {
       choice.children.push_back(
-          {.name = "xs:element",
-           .attributes = {{"name", inner}, {"type", TypeName(tag.name, inner)}}});
+          {.name = "xs:element", .attributes = {{"name", inner}, {"type", TypeName(tag.name, inner)}}});
     }
     if (!choice.children.empty()) type.children.push_back(std::move(choice));
     for (const AttributeRule& rule : tags_.Rules(tag)) {
@@ -168,8 +163,7 @@ class SchemaWriter {
     return type;
   }
 
-  static NewElement Attribute(const XmlTag& tag, const std::string& parent,
-                              const AttributeRule& rule) {
+  static NewElement Attribute(const XmlTag& tag, const std::string& parent, const AttributeRule& rule) {
     NewElement attribute{.name = "xs:attribute", .attributes = {{"name", rule.name}}};
     std::string type = kAttributeTypes[static_cast<std::size_t>(rule.kind)];
     if (parent == "module" && tag.name == "parameter" && rule.name == "name") {
@@ -193,8 +187,7 @@ class SchemaWriter {
 
 }  // namespace
 
-std::string SchemaText(const XmlTagRegistry& tags, const ModuleRegistry& modules,
-                       Diagnostics& diagnostics) {
+std::string SchemaText(const XmlTagRegistry& tags, const ModuleRegistry& modules, Diagnostics& diagnostics) {
   const Known known = LookAtAll(modules, diagnostics);
   return SchemaWriter(tags, known).Write();
 }

@@ -13,7 +13,9 @@ namespace runnel::internal {
 
 namespace {
 // A pipe that nobody writes into would keep whoever reads it.
-Error IsNoFile(const std::filesystem::path& file) { return {.message = "is there already, and is no file", .position = {file.string()}, .hint = "choose another name"}; }
+Error IsNoFile(const std::filesystem::path& file) {
+  return {.message = "is there already, and is no file", .position = {file.string()}, .hint = "choose another name"};
+}
 }  // namespace
 
 std::optional<Error> WhatIsLost(const std::filesystem::path& file) {

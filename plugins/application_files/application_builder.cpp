@@ -18,16 +18,15 @@ namespace runnel {
 
 namespace {
 
-void CollectValues(XmlElement element, std::string_view attribute,
-                   std::vector<std::string>& values) {
+void CollectValues(XmlElement element, std::string_view attribute, std::vector<std::string>& values) {
   if (const XmlAttribute* found = element.Attribute(attribute)) values.push_back(found->value);
   for (const XmlElement child : element.children()) CollectValues(child, attribute, values);
 }
 
 // Names on the command line that nothing in the file knows. What stands in the file counts even if
 // its parameter could not be made, for that has been reported.
-void ReportUnknownArguments(XmlElement root, const PartFiles& parts,
-                            const Configuration& configuration, Diagnostics& diagnostics) {
+void ReportUnknownArguments(XmlElement root, const PartFiles& parts, const Configuration& configuration,
+                            Diagnostics& diagnostics) {
   std::vector<std::string> known;
   CollectValues(root, "command_line", known);
   for (const XmlElement part : parts.Roots()) CollectValues(part, "command_line", known);
@@ -39,8 +38,7 @@ void ReportUnknownArguments(XmlElement root, const PartFiles& parts,
   }
 }
 
-FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& context,
-                        Diagnostics& diagnostics) {
+FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& context, Diagnostics& diagnostics) {
   FrameworkElement* const application = ReadApplication(root, context);
   context.RunDeferred();
   if (application != nullptr) CheckRequiredInputs(*application, context);
@@ -56,8 +54,8 @@ void KeepSource(FrameworkElement& application, const ApplicationFile& file, Buil
   application.Annotate(std::move(source));
 }
 
-BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path& folder,
-                       const ApplicationFile* file, const BuildTools& tools, BuildMode mode) {
+BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path& folder, const ApplicationFile* file,
+                       const BuildTools& tools, BuildMode mode) {
   BuildOutcome outcome;
   BuildContext context(tools, folder, outcome.diagnostics);
   {
@@ -119,18 +117,16 @@ void FinishBuild(BuildOutcome& outcome, BuildMode mode) {
   if (!deleted) outcome.diagnostics.Add(deleted.error());
 }
 
-BuildOutcome BuildApplication(const XmlDocument& document, const std::filesystem::path& folder,
-                              const BuildTools& tools, BuildMode mode) {
+BuildOutcome BuildApplication(const XmlDocument& document, const std::filesystem::path& folder, const BuildTools& tools,
+                              BuildMode mode) {
   return BuildFrom(document, folder, nullptr, tools, mode);
 }
 
-BuildOutcome BuildApplication(const ApplicationFile& file, const BuildTools& tools,
-                              BuildMode mode) {
+BuildOutcome BuildApplication(const ApplicationFile& file, const BuildTools& tools, BuildMode mode) {
   return BuildFrom(file.document, file.file.parent_path(), &file, tools, mode);
 }
 
-BuildOutcome BuildApplication(const std::filesystem::path& file, const BuildTools& tools,
-                              BuildMode mode) {
+BuildOutcome BuildApplication(const std::filesystem::path& file, const BuildTools& tools, BuildMode mode) {
   auto read = ApplicationFile::Read(file);
   if (read) return BuildApplication(*read, tools, mode);
   BuildOutcome failed;
@@ -145,9 +141,9 @@ void CheckRequiredInputs(FrameworkElement& application, BuildContext& context) {
     if (context.IsUnfedUnnoticed(port)) unconnected.push_back(&port);
   });
   for (Port* port : unconnected) {
-    context.Report({.message = "nothing is connected to this input, which its module requires",
-                    .hint = Hint(*port, application)},
-                   FindSourcePlace(*port), *port);
+    context.Report(
+        {.message = "nothing is connected to this input, which its module requires", .hint = Hint(*port, application)},
+        FindSourcePlace(*port), *port);
   }
 }
 

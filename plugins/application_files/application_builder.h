@@ -40,15 +40,12 @@ struct BuildOutcome {
 /// Threads:  any that is not in a cycle; holds the structure lock while it builds, so that nobody
 ///           sees half an application.
 /// Errors:   all of the file at once, with place, path and cure.
-[[nodiscard]] BuildOutcome BuildApplication(const std::filesystem::path& file,
-                                            const BuildTools& tools, BuildMode mode);
+[[nodiscard]] BuildOutcome BuildApplication(const std::filesystem::path& file, const BuildTools& tools, BuildMode mode);
 
-[[nodiscard]] BuildOutcome BuildApplication(const ApplicationFile& file, const BuildTools& tools,
-                                            BuildMode mode);
+[[nodiscard]] BuildOutcome BuildApplication(const ApplicationFile& file, const BuildTools& tools, BuildMode mode);
 
 /// The same for a document that has been read already. Relative file names in it start in `folder`.
-[[nodiscard]] BuildOutcome BuildApplication(const XmlDocument& document,
-                                            const std::filesystem::path& folder,
+[[nodiscard]] BuildOutcome BuildApplication(const XmlDocument& document, const std::filesystem::path& folder,
                                             const BuildTools& tools, BuildMode mode);
 
 /// Makes an application ready that was built with kConstruct, as kRun does at once: a program that
@@ -77,7 +74,7 @@ void CheckRequiredInputs(FrameworkElement& application, BuildContext& context);
 [[nodiscard]] FrameworkElement* ReadApplication(XmlElement root, BuildContext& context);
 
 /// Makes in `group` what the file says that `tag` names as its type. Errors: it cannot be read.
-[[nodiscard]] Result<void> ReadGroupType(const XmlAttribute& type, XmlElement tag,
-                                         FrameworkElement& group, BuildContext& context);
+[[nodiscard]] Result<void> ReadGroupType(const XmlAttribute& type, XmlElement tag, FrameworkElement& group,
+                                         BuildContext& context);
 
 }  // namespace runnel

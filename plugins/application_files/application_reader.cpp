@@ -1,5 +1,3 @@
-#include "plugins/application_files/application_builder.h"
-
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -7,6 +5,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/source_place.h"
 #include "core/xml/xml_reading.h"
+#include "plugins/application_files/application_builder.h"
 
 namespace runnel {
 
@@ -15,8 +14,8 @@ namespace {
 /// Which of the tags within another are read: those that bring words come first.
 enum class Round { kWords, kRest };
 
-void ReadChildren(std::string_view tag, XmlElement element, FrameworkElement* parent,
-                  FrameworkElement& around, Round round, BuildContext& context);
+void ReadChildren(std::string_view tag, XmlElement element, FrameworkElement* parent, FrameworkElement& around,
+                  Round round, BuildContext& context);
 
 // What tells editors where the schema is.
 bool IsForEditors(const std::string& attribute) {
@@ -42,11 +41,9 @@ std::optional<Error> WrongAttribute(const std::vector<AttributeRule>& rules, con
     if (attribute == nullptr && rule.required) {
       return Error{.message = "<" + use.xml.name() + "> has no '" + rule.name + "'",
                    .position = use.xml.position(),
-                   .hint = "add " + rule.name + "=\"…\"" +
-                           (rule.summary.empty() ? "" : ": " + rule.summary)};
+                   .hint = "add " + rule.name + "=\"…\"" + (rule.summary.empty() ? "" : ": " + rule.summary)};
     }
-    const auto good =
-        attribute != nullptr ? use.context.CheckValue(rule, attribute->value) : Result<void>();
+    const auto good = attribute != nullptr ? use.context.CheckValue(rule, attribute->value) : Result<void>();
     if (!good) return good.error().WithPosition(attribute->value_position);
   }
   return std::nullopt;
@@ -74,16 +71,15 @@ FrameworkElement* Handle(const XmlTag& tag, const TagUse& use) {
   for (const AddedAttribute* added : use.context.tags().AddedAttributes(tag.name)) {
     const XmlAttribute* const attribute = use.Find(added->rule.name);
     if (attribute == nullptr) continue;
-    use.context.Attempt(
-        {attribute->name + "=\"" + attribute->value + "\"", attribute->position, made},
-        [&] { added->handle(*attribute, *made, use.context); });
+    use.context.Attempt({attribute->name + "=\"" + attribute->value + "\"", attribute->position, made},
+                        [&] { added->handle(*attribute, *made, use.context); });
   }
   return made;
 }
 
 // `parent`: nullptr if there is none, and the tag is checked only; `around` is the nearest that is there.
-void ReadTag(const XmlTag& tag, XmlElement element, FrameworkElement* parent,
-             FrameworkElement& around, BuildContext& context) {
+void ReadTag(const XmlTag& tag, XmlElement element, FrameworkElement* parent, FrameworkElement& around,
+             BuildContext& context) {
   const TagUse use{element, around, context};
   const bool is_right = CheckTag(tag, use);
   if (!is_right && tag.comes_first) context.MarkPluginMissing();
@@ -102,19 +98,18 @@ std::string PlaceHint(const XmlTag& tag) {
   return tag.summary.empty() ? places : places + ": " + tag.summary;
 }
 
-void ReadMisplacedTag(XmlElement element, const std::vector<std::string>& known,
-                      FrameworkElement& around, BuildContext& context) {
+void ReadMisplacedTag(XmlElement element, const std::vector<std::string>& known, FrameworkElement& around,
+                      BuildContext& context) {
   const XmlTag* tag = context.tags().FindTag(element.name());
   const std::string hint = tag != nullptr             ? PlaceHint(*tag)
                            : known.empty()            ? "leave it out"
                            : element.name() == "stop" ? "what ends the run is called <quit/> now"
                                                       : NearestNameHint(element.name(), known);
   if (tag != nullptr || context.IsWorthReporting(element.name(), known)) {
-    context.Report(
-        {.message = "no <" + element.name() + "> may stand in <" + element.parent()->name() + ">",
-         .position = element.position(),
-         .hint = hint},
-        element.position(), around);
+    context.Report({.message = "no <" + element.name() + "> may stand in <" + element.parent()->name() + ">",
+                    .position = element.position(),
+                    .hint = hint},
+                   element.position(), around);
   }
   // Also further up: a known tag in a wrong place is missing where it would be right.
   const XmlAttribute* const name = element.Attribute("name");
@@ -128,8 +123,8 @@ void ReadMisplacedTag(XmlElement element, const std::vector<std::string>& known,
   }
 }
 
-void ReadChildren(std::string_view tag, XmlElement element, FrameworkElement* parent,
-                  FrameworkElement& around, Round round, BuildContext& context) {
+void ReadChildren(std::string_view tag, XmlElement element, FrameworkElement* parent, FrameworkElement& around,
+                  Round round, BuildContext& context) {
   const std::vector<std::string> known = context.tags().TagsIn(tag);
   for (const XmlElement child : element.children()) {
     if (std::ranges::count(known, child.name()) == 0) {
@@ -149,8 +144,7 @@ void NoteMisplacedLoads(XmlElement element, BuildContext& context) {
   for (const XmlElement child : element.children()) {
     const XmlTag* tag = context.tags().FindTag(child.name());
     if (tag == nullptr) tag = context.tags().FindTag(NearestName(child.name(), known));
-    const bool is_lost =
-        tag != nullptr && tag->comes_first && std::ranges::count(known, child.name()) == 0;
+    const bool is_lost = tag != nullptr && tag->comes_first && std::ranges::count(known, child.name()) == 0;
     if (is_lost) context.MarkPluginMissing();
     NoteMisplacedLoads(child, context);
   }
@@ -175,13 +169,12 @@ void ReadWords(XmlElement root, FrameworkElement& around, BuildContext& context)
 
 void CheckParameters(PartUse& part, BuildContext& context) {
   for (const auto& [name, declared] : part.declared) {
-    const bool has_value =
-        declared.Find("value") || declared.Find("config") || declared.Find("command_line");
+    const bool has_value = declared.Find("value") || declared.Find("config") || declared.Find("command_line");
     if (has_value || part.given.contains(name)) continue;
     const SourcePosition at = declared.xml.position();
     context.Report({.message = "the parameter '" + name + "' of " + at.file + " has no value",
-                    .hint = "add <parameter name=\"" + name + "\" value=\"…\"/>; " + at.file +
-                            " declares it in line " + std::to_string(at.line)},
+                    .hint = "add <parameter name=\"" + name + "\" value=\"…\"/>; " + at.file + " declares it in line " +
+                            std::to_string(at.line)},
                    part.tag.position(), part.group);
   }
   context.Defer(BuildStage::kChecks, [&part, &context] {
@@ -216,8 +209,7 @@ FrameworkElement* ReadApplication(XmlElement root, BuildContext& context) {
   return made;
 }
 
-Result<void> ReadGroupType(const XmlAttribute& type, XmlElement tag, FrameworkElement& group,
-                           BuildContext& context) {
+Result<void> ReadGroupType(const XmlAttribute& type, XmlElement tag, FrameworkElement& group, BuildContext& context) {
   const auto opened = context.parts().Open(type, tag, group);
   if (!opened) return opened.error();
   PartUse& part = **opened;

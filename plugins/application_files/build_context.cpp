@@ -21,8 +21,7 @@ std::string WithoutPath(std::string text, const std::string& path) {
 
 }  // namespace
 
-bool BuildContext::Place(Error& error, const SourcePosition& position,
-                         const FrameworkElement& element) {
+bool BuildContext::Place(Error& error, const SourcePosition& position, const FrameworkElement& element) {
   if (error.position.file.empty()) error.position = position;
   if (error.path.empty()) error.path = element.path();
   const std::string chain = UseChain(error.position.file, element);
@@ -33,21 +32,17 @@ bool BuildContext::Place(Error& error, const SourcePosition& position,
   return told_.insert(what).second;
 }
 
-void BuildContext::Report(Error error, const SourcePosition& position,
-                          const FrameworkElement& element) {
+void BuildContext::Report(Error error, const SourcePosition& position, const FrameworkElement& element) {
   if (Place(error, position, element)) diagnostics_.Add(std::move(error));
 }
 
-void BuildContext::Warn(Error warning, const SourcePosition& position,
-                        const FrameworkElement& element) {
+void BuildContext::Warn(Error warning, const SourcePosition& position, const FrameworkElement& element) {
   if (Place(warning, position, element)) diagnostics_.AddWarning(std::move(warning));
 }
 
 void BuildContext::Attempt(const Cause& cause, const std::function<void()>& action) {
   const Cause outer = std::exchange(cause_, cause);
-  const auto report = [&](Error error) {
-    Report(std::move(error), cause.position, *cause.element);
-  };
+  const auto report = [&](Error error) { Report(std::move(error), cause.position, *cause.element); };
   try {
     action();
   } catch (const ElementError& error) {
@@ -78,8 +73,7 @@ Result<void> BuildContext::CheckValue(const AttributeRule& rule, std::string_vie
     return CheckAttributeValue(rule, value);
   }
   auto good = is_module_type ? CheckModuleType(value, plugins()) : CheckPortType(value, plugins());
-  const bool is_told = good || IsWorthReporting(value, is_module_type ? ModuleTypeNames(plugins())
-                                                                      : PortTypeNames());
+  const bool is_told = good || IsWorthReporting(value, is_module_type ? ModuleTypeNames(plugins()) : PortTypeNames());
   return is_told ? good : Error{};
 }
 
@@ -116,8 +110,7 @@ bool BuildContext::IsUnfedUnnoticed(const Port& input) const {
   });
 }
 
-bool BuildContext::IsWorthReporting(std::string_view unknown,
-                                    const std::vector<std::string>& known) const {
+bool BuildContext::IsWorthReporting(std::string_view unknown, const std::vector<std::string>& known) const {
   return !plugin_is_missing_ || !NearestName(unknown, known).empty();
 }
 

@@ -106,9 +106,7 @@ class BuildContext {
   [[nodiscard]] bool IsUnfedUnnoticed(const Port& input) const;
 
   /// True the first time: a fault of an element that shows in many places is told once.
-  [[nodiscard]] bool IsFirstFaultOf(const FrameworkElement& element) {
-    return faulty_.insert(&element).second;
-  }
+  [[nodiscard]] bool IsFirstFaultOf(const FrameworkElement& element) { return faulty_.insert(&element).second; }
 
   /// The command line has set the parameter, which beats all else.
   void NoteCommandLine(const FrameworkElement& parameter) { from_command_line_.insert(&parameter); }
@@ -119,8 +117,7 @@ class BuildContext {
   /// A plugin could not be loaded: what is unknown may come with it.
   void MarkPluginMissing() noexcept { plugin_is_missing_ = true; }
   /// Whether to complain about an unknown name of a kind that plugins bring.
-  [[nodiscard]] bool IsWorthReporting(std::string_view unknown,
-                                      const std::vector<std::string>& known) const;
+  [[nodiscard]] bool IsWorthReporting(std::string_view unknown, const std::vector<std::string>& known) const;
 
  private:
   struct Deferred {
@@ -139,8 +136,7 @@ class BuildContext {
   std::map<BuildStage, std::vector<Deferred>> deferred_;
   Cause cause_;
   std::set<std::pair<const FrameworkElement*, std::string>> missing_;
-  std::set<const FrameworkElement*>
-      incomplete_;  // in which something is missing, whatever its name
+  std::set<const FrameworkElement*> incomplete_;  // in which something is missing, whatever its name
   std::set<const FrameworkElement*> unbuilt_;
   std::set<const FrameworkElement*> unfed_;
   std::set<const FrameworkElement*> faulty_;

@@ -29,8 +29,7 @@ std::string UseChain(const std::string& file, const FrameworkElement& element) {
   for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
     const auto* const part = at->FindAnnotation<PartInstance>();
     if (part == nullptr || (chain.empty() && part->file != file)) continue;
-    chain += (chain.empty() ? "instantiated at " : ", which is instantiated at ") +
-             PlaceText(FindSourcePlace(*at));
+    chain += (chain.empty() ? "instantiated at " : ", which is instantiated at ") + PlaceText(FindSourcePlace(*at));
   }
   return chain;
 }
@@ -54,27 +53,22 @@ Result<const ApplicationFile*> PartFiles::Read(const std::string& name) {
   return &files_.emplace(name, std::move(*file)).first->second;
 }
 
-std::optional<Error> PartFiles::FindCircle(const std::string& name,
-                                           const SourcePosition& position) const {
-  const auto same =
-      std::ranges::find_if(open_, [&](const Opened& each) { return IsSameFile(each.name, name); });
+std::optional<Error> PartFiles::FindCircle(const std::string& name, const SourcePosition& position) const {
+  const auto same = std::ranges::find_if(open_, [&](const Opened& each) { return IsSameFile(each.name, name); });
   if (same == open_.end()) return std::nullopt;
   std::string chain = PlaceText(same->used_at);
   for (auto each = same + 1; each != open_.end(); ++each) chain += ", " + PlaceText(each->used_at);
-  return Error{.message = name + " contains itself",
-               .position = position,
-               .hint = "through " + chain + " and here"};
+  return Error{.message = name + " contains itself", .position = position, .hint = "through " + chain + " and here"};
 }
 
-Result<PartUse*> PartFiles::Open(const XmlAttribute& type, XmlElement tag,
-                                 FrameworkElement& group) {
+Result<PartUse*> PartFiles::Open(const XmlAttribute& type, XmlElement tag, FrameworkElement& group) {
   const SourcePosition& place = type.value_position;
   const std::string name = (FolderOf(place.file) / type.value).lexically_normal().string();
   if (auto circle = FindCircle(name, place)) return std::move(*circle);
   if (uses_.size() >= kMostUses) {
-    return Error{.message = "the application has more than " + std::to_string(kMostUses) +
-                            " groups that other files describe",
-                 .position = place};
+    return Error{
+        .message = "the application has more than " + std::to_string(kMostUses) + " groups that other files describe",
+        .position = place};
   }
   const auto file = Read(name);
   if (!file) {

@@ -80,8 +80,7 @@ class PartFiles {
     SourcePosition used_at;
   };
   Result<const ApplicationFile*> Read(const std::string& name);
-  [[nodiscard]] std::optional<Error> FindCircle(const std::string& name,
-                                                const SourcePosition& position) const;
+  [[nodiscard]] std::optional<Error> FindCircle(const std::string& name, const SourcePosition& position) const;
 
   const std::filesystem::path folder_;
   std::map<std::string, ApplicationFile> files_;  // by canonical names as errors have them

@@ -66,8 +66,8 @@ Port* SearchPort(const PathUse& use, PathKind kind, BuildContext& context) {
   return nullptr;
 }
 
-FrameworkElement* SearchSettable(const XmlAttribute& path, const XmlAttribute& value,
-                                 FrameworkElement& base, BuildContext& context) {
+FrameworkElement* SearchSettable(const XmlAttribute& path, const XmlAttribute& value, FrameworkElement& base,
+                                 BuildContext& context) {
   const PathUse use = PathIn(path, base);
   FrameworkElement* const found = SearchElement(use, context, PathKind::kParameter);
   if (found == nullptr) return nullptr;
@@ -78,13 +78,11 @@ FrameworkElement* SearchSettable(const XmlAttribute& path, const XmlAttribute& v
   }
   const auto good = parameter->CheckText(value.value);
   if (good && !parameter->info().is_static) return found;
-  Error error =
-      !parameter->info().is_static
-          ? good.error()
-          : Error{.message = "the parameter is static: it cannot be set while its module runs"};
+  Error error = !parameter->info().is_static
+                    ? good.error()
+                    : Error{.message = "the parameter is static: it cannot be set while its module runs"};
   error.path = found->path();
-  context.Report(std::move(error),
-                 parameter->info().is_static ? path.value_position : value.value_position, base);
+  context.Report(std::move(error), parameter->info().is_static ? path.value_position : value.value_position, base);
   return nullptr;
 }
 

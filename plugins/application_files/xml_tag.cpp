@@ -27,8 +27,7 @@ Result<void> CheckNotEmpty(std::string_view value) {
 
 Result<void> CheckSinglePath(std::string_view value) {
   if (auto filled = CheckNotEmpty(value); !filled) return filled;
-  if (kBlanks.find(value.front()) != std::string_view::npos ||
-      kBlanks.find(value.back()) != std::string_view::npos) {
+  if (kBlanks.find(value.front()) != std::string_view::npos || kBlanks.find(value.back()) != std::string_view::npos) {
     return Error{.message = "the path " + InApostrophes(value) + " begins or ends with a blank"};
   }
   return {};
@@ -114,11 +113,10 @@ bool TagUse::HasFreeName(const FrameworkElement& where) const {
   const FrameworkElement* const known = where.FindChild(name.value);
   if (known == nullptr) return true;
   const auto* const place = known->FindAnnotation<SourcePlace>();
-  Report(
-      {.message = "there is already an element called '" + name.value + "' in " + where.path(),
-       .hint = place == nullptr ? "choose another name"
-                                : "the first is in line " + std::to_string(place->position.line)},
-      name.value_position);
+  Report({.message = "there is already an element called '" + name.value + "' in " + where.path(),
+          .hint = place == nullptr ? "choose another name"
+                                   : "the first is in line " + std::to_string(place->position.line)},
+         name.value_position);
   // Whoever names it may mean the other one, or calls that by another name.
   context.MarkMissing(*known, nullptr);
   context.MarkMissing(where, nullptr);
@@ -127,9 +125,8 @@ bool TagUse::HasFreeName(const FrameworkElement& where) const {
 
 void XmlTagRegistry::AddTag(XmlTag tag) {
   if (const XmlTag* known = FindTag(tag.name)) {
-    throw ElementError(
-        {.message = "there is already a tag <" + tag.name + ">" +
-                    (known->plugin.empty() ? "" : " of plugin '" + known->plugin + "'")});
+    throw ElementError({.message = "there is already a tag <" + tag.name + ">" +
+                                   (known->plugin.empty() ? "" : " of plugin '" + known->plugin + "'")});
   }
   tag.plugin = plugin_;
   std::string name = tag.name;
@@ -140,12 +137,11 @@ void XmlTagRegistry::AddAttribute(AddedAttribute attribute) {
   const auto same = [&](const AttributeRule& rule) { return rule.name == attribute.rule.name; };
   const XmlTag* const tag = FindTag(attribute.tag);
   if (tag == nullptr) {
-    throw ElementError({.message = "there is no tag <" + attribute.tag + "> that could have '" +
-                                   attribute.rule.name + "'"});
+    throw ElementError(
+        {.message = "there is no tag <" + attribute.tag + "> that could have '" + attribute.rule.name + "'"});
   }
   if (std::ranges::any_of(Rules(*tag), same)) {
-    throw ElementError(
-        {.message = "<" + tag->name + "> already has '" + attribute.rule.name + "'"});
+    throw ElementError({.message = "<" + tag->name + "> already has '" + attribute.rule.name + "'"});
   }
   attribute.plugin = plugin_;
   added_attributes_.push_back(std::move(attribute));
@@ -162,8 +158,7 @@ std::function<void()> XmlTagRegistry::SetAside(std::string_view plugin) {
   std::ranges::copy_if(added_attributes_, std::back_inserter(aside->attributes), is_of_it);
   std::function<void()> back = [this, aside] {
     tags_.merge(aside->tags);
-    added_attributes_.insert(added_attributes_.end(), aside->attributes.begin(),
-                             aside->attributes.end());
+    added_attributes_.insert(added_attributes_.end(), aside->attributes.begin(), aside->attributes.end());
     aside->attributes.clear();
   };
   for (auto each = tags_.begin(); each != tags_.end();) {

@@ -76,9 +76,7 @@ struct TagUse {
   BuildContext& context;
 
   /// nullptr if it is not there.
-  [[nodiscard]] const XmlAttribute* Find(std::string_view attribute) const {
-    return xml.Attribute(attribute);
-  }
+  [[nodiscard]] const XmlAttribute* Find(std::string_view attribute) const { return xml.Attribute(attribute); }
   /// Precondition: the rules require the attribute.
   [[nodiscard]] const XmlAttribute& Get(std::string_view attribute) const;
   /// Of what the tag makes, whether it has been made or not: the parent's, and the name, if any.
@@ -101,8 +99,7 @@ struct SavedAttribute {
 /// that is their name.
 struct SavedTag {
   std::vector<SavedAttribute> attributes = {};
-  FrameworkElement* element =
-      nullptr;  ///< that it and the tags within it are about, if there is one
+  FrameworkElement* element = nullptr;  ///< that it and the tags within it are about, if there is one
 };
 
 /// A word of the language of application files. Plugins add their own:
@@ -132,11 +129,10 @@ struct XmlTag {
   std::function<std::vector<SavedTag>(FrameworkElement& parent)> saved = {};
   /// Instead, for those that cannot be compared one by one: brings a tag that the file has in `parent` up
   /// to date …
-  std::function<void(XmlElement tag, FrameworkElement& parent, internal::FileUpdate& update)>
-      update = {};
+  std::function<void(XmlElement tag, FrameworkElement& parent, internal::FileUpdate& update)> update = {};
   /// … and says which it lacks. `tag`: of `parent`; nullptr, as `update`, in a new file.
-  std::function<std::vector<NewElement>(const XmlElement* tag, FrameworkElement& parent,
-                                        internal::Saving& saving, internal::FileUpdate* update)>
+  std::function<std::vector<NewElement>(const XmlElement* tag, FrameworkElement& parent, internal::Saving& saving,
+                                        internal::FileUpdate* update)>
       missing = {};
   int place = 0;            ///< in files that are written anew, from the first to the last
   std::string plugin = {};  ///< that added it; filled in by the registry
@@ -147,9 +143,7 @@ struct AddedAttribute {
   std::string tag;
   AttributeRule rule;
   /// Called after the tag has made `element`, for each use of the attribute.
-  std::function<void(const XmlAttribute& attribute, FrameworkElement& element,
-                     BuildContext& context)>
-      handle;
+  std::function<void(const XmlAttribute& attribute, FrameworkElement& element, BuildContext& context)> handle;
   /// The value that a saved file needs to get what `element` has now; "" if none.
   std::function<std::string(FrameworkElement& element)> saved = {};
   std::string plugin = {};

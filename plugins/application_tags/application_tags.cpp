@@ -8,8 +8,8 @@ namespace runnel {
 
 XmlTagRegistry ApplicationTags() {
   XmlTagRegistry tags;
-  for (const auto& make : {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag,
-                           ModuleTag, ParameterTag, InputTag, DrivingTag, GroupTag, ConnectTag, LogTag}) {
+  for (const auto& make : {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag, ModuleTag, ParameterTag,
+                           InputTag, DrivingTag, GroupTag, ConnectTag, LogTag}) {
     tags.AddTag(make());
   }
   for (const auto& make : {internal::WatchingTags, internal::ReactionTags}) {
@@ -26,8 +26,7 @@ XmlTagRegistry ApplicationTags() {
 
 AddedAttribute TagsAttribute(std::string tag) {
   return {.tag = std::move(tag),
-          .rule = {.name = "tags",
-                   .summary = "words for viewers and plugins, separated by blanks: \"safety\""},
+          .rule = {.name = "tags", .summary = "words for viewers and plugins, separated by blanks: \"safety\""},
           .handle =
               [](const XmlAttribute& words, FrameworkElement& element, BuildContext& context) {
                 const auto set = SetTags(element, TagsInText(words.value));

@@ -20,9 +20,9 @@ struct ClockChoice final : Annotation {
 void RefuseInRealTime(const XmlAttribute& attribute, std::string message, const TagUse& use,
                       const ClockChoice& choice) {
   if (choice.options.clock != SchedulerOptions::ClockKind::kReal) return;
-  use.context.Report({.message = std::move(message),
-                      .hint = "leave out " + attribute.name + ", or write type=\"simulated\""},
-                     attribute.position, use.parent);
+  use.context.Report(
+      {.message = std::move(message), .hint = "leave out " + attribute.name + ", or write type=\"simulated\""},
+      attribute.position, use.parent);
 }
 
 void ReadSpeed(const TagUse& use, ClockChoice& choice) {
@@ -30,9 +30,8 @@ void ReadSpeed(const TagUse& use, ClockChoice& choice) {
   if (speed == nullptr) return;
   choice.options.speed = ParseNumber(speed->value).value();
   if (choice.options.speed < 0) {
-    use.context.Report(
-        {.message = "time cannot run backwards", .hint = "1 is real time, 0 as fast as it can"},
-        speed->value_position, use.parent);
+    use.context.Report({.message = "time cannot run backwards", .hint = "1 is real time, 0 as fast as it can"},
+                       speed->value_position, use.parent);
   } else if (!Pacing::Takes(choice.options.speed)) {
     use.context.Report({.message = "speed " + speed->value + " is out of bounds",
                         .hint = "allowed is 0 (as fast as it can), or 1e-6 .. 1e6"},
@@ -61,9 +60,9 @@ void ReadPort(const TagUse& use, ClockChoice& choice) {
     if (port == nullptr) return;
     use.context.Defer(BuildStage::kChecks, [use, &choice] { CheckPort(use, choice); });
   } else if (port != nullptr) {
-    use.context.Report({.message = "only a clock from outside is said by a port",
-                        .hint = "leave out port, or write type=\"outside\""},
-                       port->position, use.parent);
+    use.context.Report(
+        {.message = "only a clock from outside is said by a port", .hint = "leave out port, or write type=\"outside\""},
+        port->position, use.parent);
   }
 }
 
@@ -76,17 +75,16 @@ void ReadPaused(const TagUse& use, ClockChoice& choice) {
 
 FrameworkElement* ChooseClock(const TagUse& use) {
   if (const auto* first = use.parent.FindAnnotation<ClockChoice>()) {
-    use.context.Report({.message = "the clock is chosen twice",
-                        .hint = "the first is in line " + std::to_string(first->line)},
-                       use.xml.position(), use.parent);
+    use.context.Report(
+        {.message = "the clock is chosen twice", .hint = "the first is in line " + std::to_string(first->line)},
+        use.xml.position(), use.parent);
     return &use.parent;
   }
   auto& choice = use.parent.Annotate(std::make_unique<ClockChoice>());
   choice.line = use.xml.position().line;
   const bool is_outside = use.Get("type").value == "outside";
   const bool is_simulated = is_outside || use.Get("type").value == "simulated";
-  choice.options.clock =
-      is_simulated ? SchedulerOptions::ClockKind::kSimulated : SchedulerOptions::ClockKind::kReal;
+  choice.options.clock = is_simulated ? SchedulerOptions::ClockKind::kSimulated : SchedulerOptions::ClockKind::kReal;
   choice.options.follows_outside_clock = is_outside;
   if (is_simulated && !is_outside) choice.options.speed = 1;
   ReadSpeed(use, choice);
@@ -100,15 +98,13 @@ std::vector<SavedTag> SavedClock(const FrameworkElement& application) {
   if (choice == nullptr) return {};
   const bool is_simulated = choice->options.clock == SchedulerOptions::ClockKind::kSimulated;
   const bool is_outside = choice->options.follows_outside_clock;
-  std::vector<SavedAttribute> tag{
-      {"type", is_outside ? "outside" : (is_simulated ? "simulated" : "real")}};
+  std::vector<SavedAttribute> tag{{"type", is_outside ? "outside" : (is_simulated ? "simulated" : "real")}};
   if (is_outside) tag.push_back({.name = "port", .value = "", .is_default = true, .is_kept = true});
   if (is_simulated && !is_outside) {
     tag.push_back({"speed", TextOf(choice->options.speed), choice->options.speed == 1});
   }
   if (is_simulated) {
-    tag.push_back(
-        {"paused", choice->options.is_paused ? "true" : "false", !choice->options.is_paused});
+    tag.push_back({"paused", choice->options.is_paused ? "true" : "false", !choice->options.is_paused});
   }
   return {SavedTag{std::move(tag)}};
 }
@@ -133,14 +129,16 @@ XmlTag ClockTag() {
           .parents = {"application"},
           .attributes = {WordRule("type", {"real", "simulated", "outside"},
                                   "outside: simulated time that another simulator's or ROS's clock says", true),
-                         PathRule("port", false, "of a clock from outside: the output that says it, in seconds "
-                                     "(double) or nanoseconds (int64); without, the program does"),
+                         PathRule("port", false,
+                                  "of a clock from outside: the output that says it, in seconds "
+                                  "(double) or nanoseconds (int64); without, the program does"),
                          {.name = "speed",
                           .kind = AttributeKind::kNumber,
                           .summary = "of simulated time, at most; 1 (which it is by default) is "
                                      "real time, 0 as fast as it can"},
-                         YesNoRule("paused", "whether simulated time stands still until somebody lets it go on; "
-                                             "false by default")},
+                         YesNoRule("paused",
+                                   "whether simulated time stands still until somebody lets it go on; "
+                                   "false by default")},
           .handle = ChooseClock,
           .saved = SavedClock};
 }

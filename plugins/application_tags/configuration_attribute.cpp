@@ -48,38 +48,33 @@ void TakeEntries(FrameworkElement& top, BuildContext& context) {
 }  // namespace
 
 AddedAttribute ConfigurationAttribute(std::string tag) {
-  return {
-      .tag = std::move(tag),
-      .rule = {.name = "config",
-               .kind = AttributeKind::kPath,
-               .summary =
-                   "the section of the configuration that has values for the parameters within, by "
-                   "their paths; one without a '/' in front lies in that of the group around"},
-      .handle =
-          [](const XmlAttribute& attribute, FrameworkElement& element, BuildContext& context) {
-            std::string path = attribute.value;
-            if (path.front() != '/') {
-              const FrameworkElement* const around =
-                  element.parent() != nullptr ? ConfigurationSection::FindAround(*element.parent()) : nullptr;
-              path =
-                  (around != nullptr ? around->FindAnnotation<ConfigurationSection>()->path : "") +
-                  "/" + path;
-            }
-            while (path.ends_with('/')) path.pop_back();
-            element.Annotate(
-                std::make_unique<ConfigurationSection>(std::move(path), attribute.value));
-            // Behind all that is said of single parameters; once more for those that modules make by others.
-            context.Defer(BuildStage::kParameters, [&element, &context] {
-              context.Defer(BuildStage::kParameters, [&element, &context] {
-                TakeEntries(element, context);
-                context.Defer(BuildStage::kConstruction, [&element, &context] { TakeEntries(element, context); });
-              });
-            });
-          },
-      .saved = [](FrameworkElement& element) -> std::string {
-        const auto* const section = element.FindAnnotation<ConfigurationSection>();
-        return section != nullptr ? section->said : "";
-      }};
+  return {.tag = std::move(tag),
+          .rule = {.name = "config",
+                   .kind = AttributeKind::kPath,
+                   .summary = "the section of the configuration that has values for the parameters within, by "
+                              "their paths; one without a '/' in front lies in that of the group around"},
+          .handle =
+              [](const XmlAttribute& attribute, FrameworkElement& element, BuildContext& context) {
+                std::string path = attribute.value;
+                if (path.front() != '/') {
+                  const FrameworkElement* const around =
+                      element.parent() != nullptr ? ConfigurationSection::FindAround(*element.parent()) : nullptr;
+                  path = (around != nullptr ? around->FindAnnotation<ConfigurationSection>()->path : "") + "/" + path;
+                }
+                while (path.ends_with('/')) path.pop_back();
+                element.Annotate(std::make_unique<ConfigurationSection>(std::move(path), attribute.value));
+                // Behind all that is said of single parameters; once more for those that modules make by others.
+                context.Defer(BuildStage::kParameters, [&element, &context] {
+                  context.Defer(BuildStage::kParameters, [&element, &context] {
+                    TakeEntries(element, context);
+                    context.Defer(BuildStage::kConstruction, [&element, &context] { TakeEntries(element, context); });
+                  });
+                });
+              },
+          .saved = [](FrameworkElement& element) -> std::string {
+            const auto* const section = element.FindAnnotation<ConfigurationSection>();
+            return section != nullptr ? section->said : "";
+          }};
 }
 
 }  // namespace runnel

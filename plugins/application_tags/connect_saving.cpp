@@ -69,13 +69,12 @@ struct OptionText {
 // What a file says of a connection; it need not say what is usual.
 std::array<OptionText, 6> TextsOf(const ConnectOptions& options) {
   const OnFull on_full = options.queue > 0 ? options.on_full : OnFull::kDropOldest;
-  return {
-      {{{.name = "queue", .kind = AttributeKind::kCount}, "0", std::to_string(options.queue)},
-       {{.name = "on_full"}, OnFullNames()[0], OnFullNames()[static_cast<std::size_t>(on_full)]},
-       {{.name = "pull"}, "false", options.pull ? "true" : "false"},
-       {{.name = "convert"}, "", options.convert},
-       {{.name = "when"}, "", options.when_present ? "present" : ""},
-       {{.name = "late"}, "false", options.late ? "true" : "false"}}};
+  return {{{{.name = "queue", .kind = AttributeKind::kCount}, "0", std::to_string(options.queue)},
+           {{.name = "on_full"}, OnFullNames()[0], OnFullNames()[static_cast<std::size_t>(on_full)]},
+           {{.name = "pull"}, "false", options.pull ? "true" : "false"},
+           {{.name = "convert"}, "", options.convert},
+           {{.name = "when"}, "", options.when_present ? "present" : ""},
+           {{.name = "late"}, "false", options.late ? "true" : "false"}}};
 }
 
 bool SaysOptions(XmlElement tag, const ConnectOptions& options) {
@@ -85,14 +84,13 @@ bool SaysOptions(XmlElement tag, const ConnectOptions& options) {
 }
 
 // Whether a tag says it already; if not, and the tag may be changed, the tag says it from now on.
-bool SaysConnection(XmlElement tag, const PathUse& from_use, const std::string& part,
-                    const PathUse& to_use, bool is_only_one, FileUpdate& update) {
+bool SaysConnection(XmlElement tag, const PathUse& from_use, const std::string& part, const PathUse& to_use,
+                    bool is_only_one, FileUpdate& update) {
   Port* const from = FindPort(from_use, PathKind::kOutput);
   Port* const to = FindPort(to_use, PathKind::kInput);
   const bool is_there = from != nullptr && to != nullptr;
   std::vector<SavedEdge>& edges = update.saving().edges;
-  const LateConnections* const late =
-      is_there ? nullptr : LateConnections::FindIn(from_use.base.runtime());
+  const LateConnections* const late = is_there ? nullptr : LateConnections::FindIn(from_use.base.runtime());
   const LateConnection* const awaited =
       late != nullptr ? late->Find(AbsolutePath(from_use), AbsolutePath(to_use)) : nullptr;
   const auto edge = std::ranges::find_if(edges, [&](const SavedEdge& each) {
@@ -146,23 +144,19 @@ std::vector<NewElement> MissingConnections(const XmlElement*, FrameworkElement& 
   for (SavedEdge& edge : saving.edges) {
     if (edge.is_saved || edge.home != &home) continue;
     edge.is_saved = true;
-    const std::string to = edge.to != nullptr ? PathFrom(home, *edge.to, PathKind::kInput)
-                                              : RelativePath(home, edge.to_path);
-    const std::string from = edge.from != nullptr
-                                 ? PathFrom(home, *edge.from, PathKind::kOutput)
-                                 : RelativePath(home, edge.from_path);
-    const bool goes_on = last != nullptr && last->from == edge.from &&
-                         last->from_path == edge.from_path &&
-                         last->options.part == edge.options.part &&
-                         TextsOf(last->options) == TextsOf(edge.options);
+    const std::string to =
+        edge.to != nullptr ? PathFrom(home, *edge.to, PathKind::kInput) : RelativePath(home, edge.to_path);
+    const std::string from =
+        edge.from != nullptr ? PathFrom(home, *edge.from, PathKind::kOutput) : RelativePath(home, edge.from_path);
+    const bool goes_on = last != nullptr && last->from == edge.from && last->from_path == edge.from_path &&
+                         last->options.part == edge.options.part && TextsOf(last->options) == TextsOf(edge.options);
     last = &edge;
     if (goes_on) {
       elements.back().attributes[1].second += " " + to;
       continue;
     }
-    NewElement& made = elements.emplace_back(NewElement{
-        .name = "connect",
-        .attributes = {{"from", from + PartText(edge.options)}, {"to", to}}});
+    NewElement& made = elements.emplace_back(
+        NewElement{.name = "connect", .attributes = {{"from", from + PartText(edge.options)}, {"to", to}}});
     for (const auto& [rule, usual, value] : TextsOf(edge.options)) {
       if (value != usual) made.attributes.emplace_back(rule.name, value);
     }

@@ -2,9 +2,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/plugin/module_type_name.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
+#include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
@@ -23,8 +23,7 @@ ConnectOptions ReadOptions(const TagUse& use) {
     options.queue = ParseCount(queue->value).value();
     if (options.queue > kLongestQueue) {
       use.Report({.message = "a queue of " + queue->value + " values is too long",
-                  .hint = "its memory is taken at once; at most " + std::to_string(kLongestQueue) +
-                          " values may wait"},
+                  .hint = "its memory is taken at once; at most " + std::to_string(kLongestQueue) + " values may wait"},
                  queue->value_position);
       options.queue = 0;
       return options;
@@ -69,8 +68,8 @@ void MarkUnfed(const Port& port, BuildContext& context) {
   context.MarkUnfed(module != nullptr ? *module : port);
 }
 
-void Connect(Port& from, const PathUse& from_use, Port& to, const PathUse& to_use,
-             const ConnectOptions& options, BuildContext& context) {
+void Connect(Port& from, const PathUse& from_use, Port& to, const PathUse& to_use, const ConnectOptions& options,
+             BuildContext& context) {
   CheckInterfaceDirection(from, from_use, PathKind::kOutput, to, context);
   CheckInterfaceDirection(to, to_use, PathKind::kInput, from, context);
   if (options.when_present) (void)LateConnections::Of(from.runtime());
@@ -91,14 +90,13 @@ void Connect(Port& from, const PathUse& from_use, Port& to, const PathUse& to_us
 }
 
 // Of a connection that is to be when its ends are there, one that is not.
-bool AwaitsEnd(const TagUse& use, const PathUse& from, const PathUse& to,
-               const ConnectOptions& options) {
+bool AwaitsEnd(const TagUse& use, const PathUse& from, const PathUse& to, const ConnectOptions& options) {
   Port* const target = FindPort(to, PathKind::kInput);
   const bool may_wait = options.when_present || (target != nullptr && IsDistantPath(from.path));
   if (!may_wait || (target != nullptr && FindPort(from, PathKind::kOutput) != nullptr)) return false;
   if (target != nullptr) use.context.MarkUnfed(*target);
-  const auto added = LateConnections::Of(use.context.runtime())
-                         .Add(internal::AbsolutePath(from), internal::AbsolutePath(to), options);
+  const auto added =
+      LateConnections::Of(use.context.runtime()).Add(internal::AbsolutePath(from), internal::AbsolutePath(to), options);
   if (!added) use.context.Report(added.error(), to.position, to.base);
   return true;
 }
@@ -108,9 +106,8 @@ void ConnectAll(const TagUse& use) {
   ConnectOptions options = ReadOptions(use);
   std::vector<PathUse> sources = PathsIn(use.Get("from"), use.parent);
   if (sources.size() > 1) {
-    use.Report(
-        {.message = "a connection comes from one port", .hint = "write a <connect> for each"},
-        sources[1].position);
+    use.Report({.message = "a connection comes from one port", .hint = "write a <connect> for each"},
+               sources[1].position);
   }
   options.part = internal::TakePart(sources[0]);
   std::vector<PathUse> targets;
@@ -139,38 +136,39 @@ void ConnectAll(const TagUse& use) {
 }  // namespace
 
 XmlTag ConnectTag() {
-  return {
-      .name = "connect",
-      .summary = "lets data flow from one port to others",
-      .parents = {"application", "group"},
-      .attributes = {{.name = "from",
-                      .kind = AttributeKind::kPath,
-                      .required = true,
-                      .summary = "an output, or an interface port"},
-                     {.name = "to",
-                      .kind = AttributeKind::kPathList,
-                      .required = true,
-                      .summary = "inputs or interface ports, separated by blanks"},
-                     {.name = "queue",
-                      .kind = AttributeKind::kCount,
-                      .summary = "how many values may wait at the input; 0: the latest counts"},
-                     WordRule("on_full", OnFullNames(), "what a full queue does with one more value"),
-                     YesNoRule("pull", "whether reading the input first has its sources make a value; "
-                                       "false by default, and not with a queue"),
-                     {.name = "convert",
-                      .summary = "by which conversion values become those of the input: round, "
-                                 "truncate, parse, or what a plugin has registered; needed only "
-                                 "where something is lost, or several lead there"},
-                     WordRule("when", {"present"},
-                              "present: made as soon as both ends are there, and again after "
-                              "one went; without, they must be there from the start"),
-                     YesNoRule("late", "true: in a loop of modules, the connection by which values come "
-                                       "one cycle late")},
-      .is_structure = true,
-      .handle = internal::ReadAt<BuildStage::kConnections, ConnectAll>,
-      .update = internal::UpdateConnect,
-      .missing = internal::MissingConnections,
-      .place = 4};
+  return {.name = "connect",
+          .summary = "lets data flow from one port to others",
+          .parents = {"application", "group"},
+          .attributes = {{.name = "from",
+                          .kind = AttributeKind::kPath,
+                          .required = true,
+                          .summary = "an output, or an interface port"},
+                         {.name = "to",
+                          .kind = AttributeKind::kPathList,
+                          .required = true,
+                          .summary = "inputs or interface ports, separated by blanks"},
+                         {.name = "queue",
+                          .kind = AttributeKind::kCount,
+                          .summary = "how many values may wait at the input; 0: the latest counts"},
+                         WordRule("on_full", OnFullNames(), "what a full queue does with one more value"),
+                         YesNoRule("pull",
+                                   "whether reading the input first has its sources make a value; "
+                                   "false by default, and not with a queue"),
+                         {.name = "convert",
+                          .summary = "by which conversion values become those of the input: round, "
+                                     "truncate, parse, or what a plugin has registered; needed only "
+                                     "where something is lost, or several lead there"},
+                         WordRule("when", {"present"},
+                                  "present: made as soon as both ends are there, and again after "
+                                  "one went; without, they must be there from the start"),
+                         YesNoRule("late",
+                                   "true: in a loop of modules, the connection by which values come "
+                                   "one cycle late")},
+          .is_structure = true,
+          .handle = internal::ReadAt<BuildStage::kConnections, ConnectAll>,
+          .update = internal::UpdateConnect,
+          .missing = internal::MissingConnections,
+          .place = 4};
 }
 
 }  // namespace runnel

@@ -66,7 +66,9 @@ void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update)
   const auto mark = port != nullptr ? port->FindMark() : std::nullopt;
   // For the time being: by a rule, or as a replay has the place.
   const auto* const driving = port != nullptr ? port->FindAnnotation<internal::DrivingState>() : nullptr;
-  if (internal::IsByRule(*PathSearch(use.base).Follow(use.path, PathKind::kInput).at) || (driving != nullptr && driving->is_replaced)) return;
+  if (internal::IsByRule(*PathSearch(use.base).Follow(use.path, PathKind::kInput).at) ||
+      (driving != nullptr && driving->is_replaced))
+    return;
   if (!mark) return update.editor().Remove(tag);
   // A module in the place of another one may not say what that one has said.
   for (const auto& [name, value] : AttributesOf(*port, *mark)) {
@@ -93,22 +95,25 @@ std::vector<NewElement> MissingMarks(const XmlElement*, FrameworkElement& home, 
 }  // namespace
 
 XmlTag DrivingTag() {
-  return {.name = "driving",
-          .summary = "something moves by what is read behind this port: the STOP of the robot holds it at its safe value",
-          .parents = {"application", "group"},
-          .attributes = {PathRule("port", true, "an input of a module, or a port of a group; an output: all that read from it"),
-                         {.name = "safe",
-                          .summary = "the value at which it stands still; if left out, zero of a velocity, or the input's default"},
-                         {.name = "brake",
-                          .kind = AttributeKind::kDuration,
-                          .summary = "how long the way there takes from the value read last, 10 s at most; if left out, no time"},
-                         WordRule("command", DrivingKindNames(),
-                                  "what the value says; if left out, what its module or its unit says: m, rad a position; m/s, rad/s a "
-                                  "velocity, which begins from 0 when a STOP or a value by hand ends; other units an effort")},
-          .handle = internal::ReadAt<BuildStage::kChecks, MarkDriving>,
-          .update = UpdateDriving,
-          .missing = MissingMarks,
-          .place = 5};
+  return {
+      .name = "driving",
+      .summary = "something moves by what is read behind this port: the STOP of the robot holds it at its safe value",
+      .parents = {"application", "group"},
+      .attributes =
+          {PathRule("port", true, "an input of a module, or a port of a group; an output: all that read from it"),
+           {.name = "safe",
+            .summary = "the value at which it stands still; if left out, zero of a velocity, or the input's default"},
+           {.name = "brake",
+            .kind = AttributeKind::kDuration,
+            .summary = "how long the way there takes from the value read last, 10 s at most; if left out, no time"},
+           WordRule(
+               "command", DrivingKindNames(),
+               "what the value says; if left out, what its module or its unit says: m, rad a position; m/s, rad/s a "
+               "velocity, which begins from 0 when a STOP or a value by hand ends; other units an effort")},
+      .handle = internal::ReadAt<BuildStage::kChecks, MarkDriving>,
+      .update = UpdateDriving,
+      .missing = MissingMarks,
+      .place = 5};
 }
 
 }  // namespace runnel

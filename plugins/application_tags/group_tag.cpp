@@ -53,8 +53,7 @@ std::vector<SavedTag> SavedGroups(FrameworkElement& parent) {
 
 FrameworkElement* MakeModule(const TagUse& use) {
   if (!use.HasFreeName(use.parent)) return nullptr;
-  const auto made = use.context.plugins().modules().Create(use.Get("type").value, use.parent,
-                                                           use.Get("name").value);
+  const auto made = use.context.plugins().modules().Create(use.Get("type").value, use.parent, use.Get("name").value);
   if (made) {
     use.context.Defer(BuildStage::kConstruction, [use, module = *made] {
       const auto constructed = Runtime::Construct(*module);

@@ -33,8 +33,7 @@ AnyValue internal::ReadValue(const TagUse& use, const XmlAttribute& text, const 
 namespace {
 
 void SetInputLimits(const TagUse& use) {
-  Port* const input =
-      SearchPort(PathIn(use.Get("name"), use.parent), PathKind::kInput, use.context);
+  Port* const input = SearchPort(PathIn(use.Get("name"), use.parent), PathKind::kInput, use.context);
   if (input == nullptr) return;
   InputLimits limits;
   const auto number = [&](const char* name) -> std::optional<double> {
@@ -49,9 +48,9 @@ void SetInputLimits(const TagUse& use) {
   }
   limits.out_of_bounds = internal::Chosen<OutOfBounds>(use, "out_of_bounds", OutOfBoundsNames());
   if (!limits.has_some()) {
-    use.Report({.message = "<input> says nothing of its values",
-                .hint = "add default=\"…\", minimum=\"…\" or maximum=\"…\""},
-               use.xml.position());
+    use.Report(
+        {.message = "<input> says nothing of its values", .hint = "add default=\"…\", minimum=\"…\" or maximum=\"…\""},
+        use.xml.position());
     return;
   }
   if (auto set = input->SetLimits(limits); !set) {
@@ -67,11 +66,8 @@ std::vector<SavedTag> SavedLimits(FrameworkElement& module) {
     const auto* const given = port.FindAnnotation<GivenLimits>();
     if (given == nullptr || !given->limits.has_some()) return;
     const InputLimits& limits = given->limits;
-    const auto bound = [](const std::optional<double>& value) {
-      return value ? TextOf(*value) : std::string();
-    };
-    const std::string text = limits.default_value ? ToText(port.type(), limits.default_value.get())
-                                                  : std::string();
+    const auto bound = [](const std::optional<double>& value) { return value ? TextOf(*value) : std::string(); };
+    const std::string text = limits.default_value ? ToText(port.type(), limits.default_value.get()) : std::string();
     const auto out = static_cast<std::size_t>(limits.out_of_bounds);
     tags.push_back({{{"name", port.name()},
                      {"default", text, !limits.default_value},
@@ -90,8 +86,7 @@ XmlTag InputTag() {
           .summary = "which values an input of the module takes, and what it reads while there is none",
           .parents = {"module"},
           .attributes = {{.name = "name", .kind = AttributeKind::kPath, .required = true},
-                         {.name = "default",
-                          .summary = "read while nothing is connected, or nothing has come"},
+                         {.name = "default", .summary = "read while nothing is connected, or nothing has come"},
                          {.name = "minimum", .kind = AttributeKind::kNumber},
                          {.name = "maximum", .kind = AttributeKind::kNumber},
                          WordRule("out_of_bounds", OutOfBoundsNames(),

@@ -1,9 +1,8 @@
-#include "core/log/log_level.h"
-
 #include <map>
 #include <string>
 
 #include "core/element/not_saved.h"
+#include "core/log/log_level.h"
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/application_files/build_context.h"
@@ -65,8 +64,8 @@ void UpdateLog(XmlElement tag, FrameworkElement& parent, FileUpdate& update) {
 FrameworkElement& HomeOf(FrameworkElement& element, FrameworkElement& application) {
   FrameworkElement* home = &element;
   for (FrameworkElement* at = &element; at != &application; at = at->parent()) {
-    const bool is_own = at->kind() == ElementKind::kGroup && !IsModule(*at) &&
-                        at->FindAnnotation<PartInstance>() == nullptr;
+    const bool is_own =
+        at->kind() == ElementKind::kGroup && !IsModule(*at) && at->FindAnnotation<PartInstance>() == nullptr;
     if (!is_own) home = at->parent();
   }
   return *home;

@@ -45,8 +45,7 @@ bool IsFirstOfItsName(const TagUse& use) {
 }
 
 void CheckSources(const TagUse& use) {
-  const bool sets_something =
-      use.Find("value") || use.Find("config") || use.Find("command_line") || use.Find("from");
+  const bool sets_something = use.Find("value") || use.Find("config") || use.Find("command_line") || use.Find("from");
   if (!sets_something) {
     use.context.Report({.message = "<parameter> does not say where the value comes from",
                         .hint = "add value=\"…\", config=\"…\" or command_line=\"…\""},
@@ -54,18 +53,17 @@ void CheckSources(const TagUse& use) {
   }
   const XmlAttribute* const from = use.Find("from");
   if (from != nullptr && use.Find("value")) {
-    use.context.Report({.message = "a value and a parameter that it comes from",
-                        .hint = "leave out one of value and from"},
-                       from->position, use.parent);
+    use.context.Report(
+        {.message = "a value and a parameter that it comes from", .hint = "leave out one of value and from"},
+        from->position, use.parent);
   }
 }
 
 void RefuseAttribute(std::string_view name, std::string hint, const TagUse& use) {
   const XmlAttribute* const attribute = use.xml.Attribute(name);
   if (attribute == nullptr) return;
-  use.context.Report(
-      {.message = "'" + std::string(name) + "' has no meaning here", .hint = std::move(hint)},
-      attribute->position, use.parent);
+  use.context.Report({.message = "'" + std::string(name) + "' has no meaning here", .hint = std::move(hint)},
+                     attribute->position, use.parent);
 }
 
 // In a <group_type>: without a value it has to be given where the file is used.
@@ -100,10 +98,9 @@ void Give(const TagUse& use, PartUse& part) {
     part.given.emplace(name.value, use);
     return;
   }
-  use.context.Report(
-      {.message = part.root.position().file + " has no parameter '" + name.value + "'",
-       .hint = NearestNameHint(name.value, NamesOf(part.declared, kNameOfDeclared))},
-      name.value_position, use.parent);
+  use.context.Report({.message = part.root.position().file + " has no parameter '" + name.value + "'",
+                      .hint = NearestNameHint(name.value, NamesOf(part.declared, kNameOfDeclared))},
+                     name.value_position, use.parent);
 }
 
 // In any other group: stands for parameters of what is within, and may have a value for them. `may_wait`: modules may
@@ -123,14 +120,12 @@ void MakeGroupParameter(const TagUse& use, const XmlAttribute& to, bool may_wait
     FrameworkElement* const element = SearchElement(target, use.context, PathKind::kParameter);
     if (element == nullptr) return;
     if (dynamic_cast<const Configurable*>(element) == nullptr) {
-      return use.context.Report({.message = element->path() + " is not a parameter"},
-                                target.position, use.parent);
+      return use.context.Report({.message = element->path() + " is not a parameter"}, target.position, use.parent);
     }
     targets.push_back(target.path);
     found.push_back(element);
   }
-  auto& made = use.context.runtime().Create<GroupParameter>(use.parent, use.Get("name").value,
-                                                            std::move(targets));
+  auto& made = use.context.runtime().Create<GroupParameter>(use.parent, use.Get("name").value, std::move(targets));
   made.Annotate(std::make_unique<SourcePlace>(use.xml.position()));
   const bool has_value = use.Find("value") || use.Find("config") || use.Find("command_line");
   if (!has_value) return;
@@ -164,8 +159,7 @@ FrameworkElement* HandleParameter(const TagUse& use) {
   RefuseAttribute("to", "leave it out: it belongs to the module round it", use);
   RefuseAttribute("of", "leave it out: the module round it is meant", use);
   if (IsFirstOfItsName(use)) {
-    use.context.Defer(BuildStage::kParameters,
-                      [use] { internal::SetValue(use, use.parent, use.parent); });
+    use.context.Defer(BuildStage::kParameters, [use] { internal::SetValue(use, use.parent, use.parent); });
   }
   return &use.parent;
 }
@@ -214,10 +208,8 @@ std::vector<NewElement> MissingGroupParameters(const XmlElement* tag, FrameworkE
     if (parameter == nullptr) continue;
     if (tag != nullptr && HasTag(*tag, group, *parameter)) continue;
     std::string targets;
-    for (const std::string& each : parameter->targets())
-      targets += (targets.empty() ? "" : " ") + each;
-    missing.push_back(
-        {.name = "parameter", .attributes = {{"name", child->name()}, {"to", targets}}});
+    for (const std::string& each : parameter->targets()) targets += (targets.empty() ? "" : " ") + each;
+    missing.push_back({.name = "parameter", .attributes = {{"name", child->name()}, {"to", targets}}});
   }
   return missing;
 }
@@ -246,15 +238,16 @@ void UpdateParameter(XmlElement tag, FrameworkElement& module, internal::FileUpd
   if (moved != value->value) update.editor().SetAttribute(tag, "value", moved);
 }
 
-std::vector<NewElement> MissingParameters(const XmlElement* tag, FrameworkElement& module,
-                                          internal::Saving& saving, internal::FileUpdate* update) {
+std::vector<NewElement> MissingParameters(const XmlElement* tag, FrameworkElement& module, internal::Saving& saving,
+                                          internal::FileUpdate* update) {
   if (!IsModule(module)) return MissingGroupParameters(tag, module);
   std::vector<NewElement> missing;
   for (const ConfigurableElement& each : ConfigurablesOf(module)) {
     if (tag != nullptr && HasTag(*tag, module, *each.element)) continue;
     // It may have been set from outside of the part that the module is in.
     const std::string* const loaded = update != nullptr ? LoadedValue::Of(*each.element) : nullptr;
-    if (loaded == nullptr && internal::IsByRule(module) && each.element->FindAnnotation<MadeByRule>() == nullptr) continue;
+    if (loaded == nullptr && internal::IsByRule(module) && each.element->FindAnnotation<MadeByRule>() == nullptr)
+      continue;
     const bool is_as_loaded = IsAsLoaded(each, loaded);
     if (loaded != nullptr || !is_as_loaded) saving.values[each.element] = TextToSave(*each.element, *each.configurable);
     const std::string* const entry = is_as_loaded && loaded != nullptr ? LostEntry(*each.element) : nullptr;
@@ -270,10 +263,13 @@ std::vector<NewElement> MissingParameters(const XmlElement* tag, FrameworkElemen
   const auto tags = tag != nullptr ? tag->children() : decltype(tag->children())();
   for (const auto& [name, value] : made != nullptr ? made->lacking : MadeByRule::Lacking()) {
     if (value.first == value.second || FindConfigurable(module, name)) continue;
-    const auto is_it = [&name = name](XmlElement each) { return each.name() == "parameter" && internal::NameOf(each) == name; };
+    const auto is_it = [&name = name](XmlElement each) {
+      return each.name() == "parameter" && internal::NameOf(each) == name;
+    };
     const auto said = std::ranges::find_if(tags, is_it);
-    said != tags.end() ? update->editor().SetAttribute(*said, "value", value.first)
-                       : missing.push_back({.name = "parameter", .attributes = {{"name", name}, {"value", value.first}}});
+    said != tags.end()
+        ? update->editor().SetAttribute(*said, "value", value.first)
+        : missing.push_back({.name = "parameter", .attributes = {{"name", name}, {"value", value.first}}});
   }
   return missing;
 }
@@ -281,33 +277,31 @@ std::vector<NewElement> MissingParameters(const XmlElement* tag, FrameworkElemen
 }  // namespace
 
 XmlTag ParameterTag() {
-  return {
-      .name = "parameter",
-      .summary = "sets a parameter of its module or group",
-      .parents = {"module", "group", "group_type"},
-      .attributes = {{.name = "name", .kind = AttributeKind::kName, .required = true},
-                     {.name = "of",
-                      .kind = AttributeKind::kPath,
-                      .summary = "in a group whose type is a file: the module in it"},
-                     {.name = "to",
-                      .kind = AttributeKind::kPathList,
-                      .summary =
-                          "in a group without a type: the parameters within that it stands for"},
-                     {.name = "from",
-                      .kind = AttributeKind::kName,
-                      .summary = "the parameter of the <group_type> whose value it takes"},
-                     {.name = "value",
-                      .summary = "in text format; a number may have another unit of the same "
-                                 "kind, as in 15 cm"},
-                     {.name = "config",
-                      .kind = AttributeKind::kPath,
-                      .summary = "the entry of the configuration file that beats the value"},
-                     {.name = "command_line",
-                      .kind = AttributeKind::kName,
-                      .summary = "the name on the command line that beats both"}},
-      .handle = HandleParameter,
-      .update = UpdateParameter,
-      .missing = MissingParameters};
+  return {.name = "parameter",
+          .summary = "sets a parameter of its module or group",
+          .parents = {"module", "group", "group_type"},
+          .attributes = {{.name = "name", .kind = AttributeKind::kName, .required = true},
+                         {.name = "of",
+                          .kind = AttributeKind::kPath,
+                          .summary = "in a group whose type is a file: the module in it"},
+                         {.name = "to",
+                          .kind = AttributeKind::kPathList,
+                          .summary = "in a group without a type: the parameters within that it stands for"},
+                         {.name = "from",
+                          .kind = AttributeKind::kName,
+                          .summary = "the parameter of the <group_type> whose value it takes"},
+                         {.name = "value",
+                          .summary = "in text format; a number may have another unit of the same "
+                                     "kind, as in 15 cm"},
+                         {.name = "config",
+                          .kind = AttributeKind::kPath,
+                          .summary = "the entry of the configuration file that beats the value"},
+                         {.name = "command_line",
+                          .kind = AttributeKind::kName,
+                          .summary = "the name on the command line that beats both"}},
+          .handle = HandleParameter,
+          .update = UpdateParameter,
+          .missing = MissingParameters};
 }
 
 }  // namespace runnel

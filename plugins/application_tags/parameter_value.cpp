@@ -1,7 +1,5 @@
 // Where the value of a parameter comes from, and which of several wins.
 
-#include "plugins/application_tags/tag_list.h"
-
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -12,6 +10,7 @@
 #include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/application_files/build_context.h"
+#include "plugins/application_tags/tag_list.h"
 #include "plugins/parameters/configuration.h"
 #include "plugins/parameters/configuration_saver.h"
 #include "plugins/parameters/file_path.h"
@@ -35,9 +34,9 @@ void CheckName(const TagUse& use, const FrameworkElement& module, const Configur
   }
   const auto names = NamesOf(ConfigurablesOf(module), [](const auto& each) { return each.element->name(); });
   if (!use.context.IsNews(module, name.value, names)) return;
-  use.context.Report({.message = "there is no parameter '" + name.value + "'",
-                      .hint = NearestNameHint(name.value, names)},
-                     name.value_position, module);
+  use.context.Report(
+      {.message = "there is no parameter '" + name.value + "'", .hint = NearestNameHint(name.value, names)},
+      name.value_position, module);
 }
 
 // A text that wants to become the value, and where relative file names in it start.
@@ -51,29 +50,27 @@ void WarnOfUnknownEntry(const XmlAttribute& path, const TagUse& use) {
   const std::vector<std::string> known = use.context.configuration().EntryPaths();
   const std::string nearest = NearestName(path.value, known);
   if (nearest.empty()) return;  // files for several applications need not have everything
-  use.context.Warn({.message = "the configuration has no '" + path.value + "'",
-                    .hint = "did you mean '" + nearest + "'?"},
-                   path.value_position, use.parent);
+  use.context.Warn(
+      {.message = "the configuration has no '" + path.value + "'", .hint = "did you mean '" + nearest + "'?"},
+      path.value_position, use.parent);
 }
 
 std::vector<Candidate> Candidates(const TagUse& use, const FrameworkElement& scope);
 
 // What the <group_type> round `scope` says of its parameter, and what the group says that uses it.
-std::vector<Candidate> CandidatesOfPart(const XmlAttribute& from, const TagUse& use,
-                                        const FrameworkElement& scope) {
+std::vector<Candidate> CandidatesOfPart(const XmlAttribute& from, const TagUse& use, const FrameworkElement& scope) {
   PartUse* const part = use.context.parts().FindAround(&scope);
   if (part == nullptr) {
-    use.context.Report({.message = "there is no <group_type> here whose parameters could be used",
-                        .hint = "write value=\"…\""},
-                       from.position, use.parent);
+    use.context.Report(
+        {.message = "there is no <group_type> here whose parameters could be used", .hint = "write value=\"…\""},
+        from.position, use.parent);
     return {};
   }
   const auto declared = part->declared.find(from.value);
   if (declared == part->declared.end()) {
-    use.context.Report(
-        {.message = "<group_type> has no parameter '" + from.value + "'",
-         .hint = NearestNameHint(from.value, NamesOf(part->declared, kNameOfDeclared))},
-        from.value_position, use.parent);
+    use.context.Report({.message = "<group_type> has no parameter '" + from.value + "'",
+                        .hint = NearestNameHint(from.value, NamesOf(part->declared, kNameOfDeclared))},
+                       from.value_position, use.parent);
     return {};
   }
   part->used.insert(from.value);
@@ -100,8 +97,7 @@ std::vector<Candidate> Candidates(const TagUse& use, const FrameworkElement& sco
   if (const XmlAttribute* path = use.Find("config")) {
     const Configuration::Entry* const entry = context.configuration().FindEntry(path->value);
     if (entry != nullptr) {
-      candidates.push_back(
-          {entry->text, entry->position, fs::path(entry->position.file).parent_path()});
+      candidates.push_back({entry->text, entry->position, fs::path(entry->position.file).parent_path()});
     } else {
       WarnOfUnknownEntry(*path, use);
     }
@@ -141,8 +137,7 @@ GroupParameter* ParameterOf(PartUse& part, const std::string& name, const TagUse
 }
 
 // All groups by whose parameters the value has come can set it while the application runs.
-void TieToGroups(const TagUse& first, const FrameworkElement& parameter,
-                 const FrameworkElement& first_scope) {
+void TieToGroups(const TagUse& first, const FrameworkElement& parameter, const FrameworkElement& first_scope) {
   const TagUse* use = &first;
   const FrameworkElement* scope = &first_scope;
   while (const XmlAttribute* from = use->Find("from")) {
@@ -164,8 +159,7 @@ std::string Text(const Candidate& candidate, const Configurable& configurable) {
 
 }  // namespace
 
-void SetValue(const TagUse& use, const FrameworkElement& module, const FrameworkElement& scope,
-              bool may_wait) {
+void SetValue(const TagUse& use, const FrameworkElement& module, const FrameworkElement& scope, bool may_wait) {
   const ConfigurableElement found = FindConfigurable(module, use.Get("name").value);
   Configurable* const configurable = found.configurable;
   // It, or what it stands for, may be made only when all other parameters are set.

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "core/conversion/value_part.h"
 #include "core/element/source_place.h"
 #include "core/port/proxy_port.h"
-#include "core/conversion/value_part.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
@@ -16,8 +16,7 @@ namespace runnel {
 namespace {
 
 // The far end of `connect`, if it is a connection of the port called `own` seen from `base`.
-std::optional<std::pair<PathUse, PathKind>> FarEnd(XmlElement connect, FrameworkElement& base,
-                                                   const std::string& own) {
+std::optional<std::pair<PathUse, PathKind>> FarEnd(XmlElement connect, FrameworkElement& base, const std::string& own) {
   const XmlAttribute* const from = connect.Attribute("from");
   const XmlAttribute* const to = connect.Attribute("to");
   if (connect.name() != "connect" || from == nullptr || to == nullptr) return std::nullopt;
@@ -64,8 +63,7 @@ const TypeInfo* ConnectedType(const TagUse& use) {
   if (around.type != nullptr) return around.type;
   // The error that has been told already is why; without one, nobody else would tell that the port is missing.
   if (!use.context.ok() && (inside.misses_end || around.misses_end)) return nullptr;
-  use.Report({.message = "the type of this port cannot be told from its connections",
-              .hint = "add type=\"…\""},
+  use.Report({.message = "the type of this port cannot be told from its connections", .hint = "add type=\"…\""},
              use.xml.position());
   return nullptr;
 }
@@ -76,10 +74,9 @@ void MakePort(const TagUse& use) {
   const XmlAttribute* const named = use.Find("type");
   const TypeInfo* const type = named != nullptr ? FindType(named->value) : ConnectedType(use);
   if (type == nullptr) return use.context.MarkMissing(use.parent, &name);
-  const auto direction =
-      use.Get("direction").value == "input" ? Port::Direction::kInput : Port::Direction::kOutput;
-  auto& port = use.context.runtime().Create<ProxyPort>(
-      use.parent, name.value, direction, *type, use.xml.TextOr("description"));
+  const auto direction = use.Get("direction").value == "input" ? Port::Direction::kInput : Port::Direction::kOutput;
+  auto& port =
+      use.context.runtime().Create<ProxyPort>(use.parent, name.value, direction, *type, use.xml.TextOr("description"));
   port.Annotate(std::make_unique<SourcePlace>(use.xml.position()));
 }
 

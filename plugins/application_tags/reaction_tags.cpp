@@ -60,8 +60,7 @@ void ReadSwitch(const ReactionUse& use) {
     }
     use.reaction.changes.push_back(ConnectPorts{to->path(), input->path(), options});
   }
-  use.Describe("switched " + input->path() + (from ? " from " + from->path() : "") +
-               (to ? " to " + to->path() : ""));
+  use.Describe("switched " + input->path() + (from ? " from " + from->path() : "") + (to ? " to " + to->path() : ""));
 }
 
 void ReadSet(const ReactionUse& use) {
@@ -94,30 +93,30 @@ void ReadPublish(const ReactionUse& use) {
 
 std::vector<XmlTag> ReactionTags() {
   const std::vector<std::string> parents{"on_stale", "on_stuck", "on_pause", "on_fault", "otherwise"};
-  return {{.name = "switch",
-           .summary = "feeds an input from another source",
-           .parents = parents,
-           .attributes = {PathRule("input", true),
-                          PathRule("from", false, "the source that is left; without it, none is"),
-                          PathRule("to", false, "the source that comes; without it, none does")}},
-          {.name = "publish",
-           .summary = "has a port's readers find a value until all is well again, instead of what is published",
-           .parents = parents,
-           .attributes = {PathRule("port", true),
-                          {.name = "value", .summary = "without it, the port's default, or its type's"}}},
-          {.name = "set",
-           .summary = "sets a parameter",
-           .parents = parents,
-           .attributes = {PathRule("parameter", true), {.name = "value", .required = true}}},
-          {.name = "replace",
-           .summary = "puts a new module in the place of another",
-           .parents = parents,
-           .attributes = {PathRule("module", true),
-                          {.name = "by",
-                           .kind = AttributeKind::kModuleType,
-                           .required = true,
-                           .summary = "a type, as `runnel modules` lists them"}}},
-          {.name = "quit", .summary = "ends the run", .parents = parents}};
+  return {
+      {.name = "switch",
+       .summary = "feeds an input from another source",
+       .parents = parents,
+       .attributes = {PathRule("input", true), PathRule("from", false, "the source that is left; without it, none is"),
+                      PathRule("to", false, "the source that comes; without it, none does")}},
+      {.name = "publish",
+       .summary = "has a port's readers find a value until all is well again, instead of what is published",
+       .parents = parents,
+       .attributes = {PathRule("port", true),
+                      {.name = "value", .summary = "without it, the port's default, or its type's"}}},
+      {.name = "set",
+       .summary = "sets a parameter",
+       .parents = parents,
+       .attributes = {PathRule("parameter", true), {.name = "value", .required = true}}},
+      {.name = "replace",
+       .summary = "puts a new module in the place of another",
+       .parents = parents,
+       .attributes = {PathRule("module", true),
+                      {.name = "by",
+                       .kind = AttributeKind::kModuleType,
+                       .required = true,
+                       .summary = "a type, as `runnel modules` lists them"}}},
+      {.name = "quit", .summary = "ends the run", .parents = parents}};
 }
 
 Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& context) {
@@ -125,7 +124,9 @@ Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& cont
   Reaction reaction;
   for (const XmlElement child : xml.children()) {
     const auto tag = std::ranges::find(tags, child.name(), &XmlTag::name);
-    const auto lacks = [&](const AttributeRule& rule) { return rule.required && child.Attribute(rule.name) == nullptr; };
+    const auto lacks = [&](const AttributeRule& rule) {
+      return rule.required && child.Attribute(rule.name) == nullptr;
+    };
     if (tag == tags.end() || std::ranges::any_of(tag->attributes, lacks)) continue;  // which has been said
     const ReactionUse use{{child, base, context}, reaction};
     if (child.name() == "switch") ReadSwitch(use);

@@ -35,8 +35,7 @@ struct RunRules final : Annotation {
 [[nodiscard]] bool LivesInSimulatedTime(XmlElement application);
 
 /// Hands over the application's rules. The error, of a rule of silence, has the place.
-Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler,
-                      Supervisor& supervisor);
+Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler, Supervisor& supervisor);
 
 namespace internal {
 

@@ -77,8 +77,7 @@ Kind Chosen(const TagUse& use, const char* attribute, const std::vector<std::str
 /// Sets the parameter that a <parameter> names, of `module`, to the strongest of what the tag says. `scope`: what `from`
 /// is looked up from, upwards. All that it says is checked, so that a mistake shows even when it is overridden.
 /// `may_wait`: a parameter that stands for what is not there yet may be set once it is.
-void SetValue(const TagUse& use, const FrameworkElement& module, const FrameworkElement& scope,
-              bool may_wait = true);
+void SetValue(const TagUse& use, const FrameworkElement& module, const FrameworkElement& scope, bool may_wait = true);
 
 /// That is what the files and the command line have said of it.
 void NoteLoaded(const ConfigurableElement& parameter);

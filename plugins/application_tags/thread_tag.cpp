@@ -32,9 +32,9 @@ void ReadPeriod(const TagUse& use, ThreadOptions& options) {
                use.xml.position());
   }
   if (options.activation == Activation::kTrigger && period != nullptr) {
-    use.Report({.message = "a thread that waits for data has no period",
-                .hint = "leave out either period or activation"},
-               period->position);
+    use.Report(
+        {.message = "a thread that waits for data has no period", .hint = "leave out either period or activation"},
+        period->position);
   }
 }
 
@@ -83,8 +83,7 @@ void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& c
   }
   if (!context.IsNews(application, name.value, known)) return;
   context.Report({.message = "there is no thread '" + name.value + "'",
-                  .hint = known.empty() ? "add <thread name=\"" + name.value +
-                                              "\" period=\"50ms\"/> to the application"
+                  .hint = known.empty() ? "add <thread name=\"" + name.value + "\" period=\"50ms\"/> to the application"
                                         : NearestNameHint(name.value, known)},
                  name.value_position, element);
 }
@@ -95,8 +94,7 @@ SavedTag SavedThread(const ThreadContainer& thread) {
   std::vector<SavedAttribute> tag{{"name", thread.name()}};
   if (has_period) {
     tag.push_back({"period", DurationText(options.period),
-                   options.activation == Activation::kFreeRunning &&
-                       options.period == ThreadOptions{}.period});
+                   options.activation == Activation::kFreeRunning && options.period == ThreadOptions{}.period});
   }
   tag.push_back({"activation", ActivationNames()[static_cast<std::size_t>(options.activation)],
                  options.activation == Activation::kPeriod});
@@ -148,19 +146,18 @@ XmlTag ThreadTag() {
   return {.name = "thread",
           .summary = "a thread that runs modules, in the order of the data flow",
           .parents = {"application"},
-          .attributes =
-              {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
-               {.name = "period",
-                .kind = AttributeKind::kDuration,
-                .summary = "from cycle to cycle; of a free-running thread, what a cycle takes in "
-                           "simulated time"},
-               WordRule("activation", ActivationNames(),
-                        "when a cycle begins: every period, at the end of the last one, or when data comes"),
-               {.name = "priority",
-                .kind = AttributeKind::kCount,
-                .summary = "0: ordinary; 1 .. 99: real-time, SCHED_FIFO"},
-               WordRule("on_overrun", OverrunNames(),
-                        "what happens to cycles that were missed: left out (by default), or run at once")},
+          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
+                         {.name = "period",
+                          .kind = AttributeKind::kDuration,
+                          .summary = "from cycle to cycle; of a free-running thread, what a cycle takes in "
+                                     "simulated time"},
+                         WordRule("activation", ActivationNames(),
+                                  "when a cycle begins: every period, at the end of the last one, or when data comes"),
+                         {.name = "priority",
+                          .kind = AttributeKind::kCount,
+                          .summary = "0: ordinary; 1 .. 99: real-time, SCHED_FIFO"},
+                         WordRule("on_overrun", OverrunNames(),
+                                  "what happens to cycles that were missed: left out (by default), or run at once")},
           .is_structure = true,
           .handle = MakeThread,
           .saved = SavedThreads};

@@ -87,10 +87,9 @@ FrameworkElement* HandleOnFault(const TagUse& use) {
                use.xml.position());
   }
   if (sets != has_value) {
-    use.Report(
-        {.message = sets ? "<on_fault> does not say to which value" : "'value' needs a 'set'",
-         .hint = sets ? "add value=\"…\"" : "add set=\"…\", or leave out value"},
-        use.xml.position());
+    use.Report({.message = sets ? "<on_fault> does not say to which value" : "'value' needs a 'set'",
+                .hint = sets ? "add value=\"…\"" : "add set=\"…\", or leave out value"},
+               use.xml.position());
   }
   return InTheEnd<AddRule<When::kFault>>(use);
 }
@@ -109,7 +108,8 @@ void AddStopButton(const TagUse& use) {
   const Port* const port = SearchPort(PathIn(use.Get("port"), use.parent), PathKind::kOutput, use.context);
   if (port == nullptr) return;
   const StopButtonRule rule{port->path(), use.xml.TextOr("releases") == "true"};
-  if (auto good = CheckStopButton(*port, rule.releases); !good) return use.Report(good.error(), use.Get("port").value_position);
+  if (auto good = CheckStopButton(*port, rule.releases); !good)
+    return use.Report(good.error(), use.Get("port").value_position);
   internal::RunRulesAround(use.parent).stop_buttons.push_back(rule);
 }
 
@@ -139,8 +139,7 @@ void LimitStuck(const XmlAttribute& after, FrameworkElement& element, BuildConte
 
 }  // namespace
 
-Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler,
-                      Supervisor& supervisor) {
+Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler, Supervisor& supervisor) {
   const auto* const rules = application.FindAnnotation<RunRules>();
   if (rules == nullptr) return {};
   for (const auto& [of, after] : rules->stuck_limits) (void)scheduler.SetStuckLimit(of, after);
@@ -178,71 +177,73 @@ AddedAttribute StuckAfterAttribute(std::string tag) {
 }
 
 std::vector<XmlTag> internal::WatchingTags() {
-  return {{.name = "on_fault",
-           .summary = "what happens when a module has thrown, and so has failed",
-           .parents = {"application", "group"},
-           .attributes = {PathRule("of", true, "a module, or a group of which any module may fail"),
-                          WordRule("action", {"quit"}),
-                          PathRule("set", false, "a parameter that may be set at run time"),
-                          {.name = "value", .summary = "what it is set to"}},
-           .handle = HandleOnFault},
-          {.name = "on_stale",
-           .summary = "what happens when an input brings nothing new for too long",
-           .parents = {"application", "group"},
-           .attributes = {PathRule("input", true, "what feeds it when the run begins is watched"),
-                          {.name = "after",
-                           .kind = AttributeKind::kDuration,
-                           .required = true,
-                           .summary = "the longest time without anything new, by the application's "
-                                      "clock"},
-                          {.name = "fresh_after",
-                           .kind = AttributeKind::kDuration,
-                           .summary = "how long values must come again before <otherwise> is done; "
-                                      "twice 'after' if left out"}},
-           .handle = HandleOnStale},
-          {.name = "on_stuck",
-           .summary = "what happens when a module does not return from its cycle; it is told of in any case",
-           .parents = {"application", "group"},
-           .attributes = {PathRule("of", true, "a module, or a group of which any module may be stuck"),
-                          {.name = "after",
-                           .kind = AttributeKind::kDuration,
-                           .required = true,
-                           .summary = "the longest time in one cycle, by the machine's clock"}},
-           .handle = InTheEnd<AddRule<When::kStuck>>},
-          {.name = "on_pause",
-           .summary = "what happens when somebody pauses modules, once they stand still",
-           .parents = {"application", "group"},
-           .attributes = {PathRule("of", true, "a module, or a group of which any module may be paused")},
-           .handle = InTheEnd<AddRule<When::kPaused>>},
-          {.name = "stop_button",
-           .summary = "a port by which somebody presses the STOP of the robot: true, or a number that is not 0",
-           .parents = {"application", "group"},
-           .attributes = {PathRule("port", true, "what publishes the state of the button"),
-                          YesNoRule("releases", "whether letting go of the button releases the STOP, if the port is the output of "
-                                                "its own driver; else somebody has to do so")},
-           .handle = InTheEnd<AddStopButton>},
-          {.name = "operators",
-           .summary = "an operator must be heard: else the STOP of the robot is pressed; operators are pages, terminals "
-                      "and Python that may drive",
-           .parents = {"application"},
-           .attributes = {{.name = "timeout",
-                           .kind = AttributeKind::kDuration,
-                           .required = true,
-                           .summary = "so long all of them may be silent, from the start on; by the machine's clock"}},
-           .handle = WatchOperators},
-          {.name = "latency",
-           .summary = "measures how old what a command goes back to is, along the modules in between",
-           .parents = {"application", "group"},
-           .attributes = {PathRule("from", true, "a sensor's output; its values say when they were measured"),
-                          PathRule("to", true, "a command's output")},
-           .handle = InTheEnd<AddLatency>},
-          {.name = "profile",
-           .summary = "measures from the start how long each module takes",
-           .parents = {"application"},
-           .handle = InTheEnd<BeginProfile>},
-          {.name = "otherwise",
-           .summary = "what happens when the input is fresh again, the module has returned or goes on",
-           .parents = {"on_stale", "on_stuck", "on_pause"}}};
+  return {
+      {.name = "on_fault",
+       .summary = "what happens when a module has thrown, and so has failed",
+       .parents = {"application", "group"},
+       .attributes = {PathRule("of", true, "a module, or a group of which any module may fail"),
+                      WordRule("action", {"quit"}),
+                      PathRule("set", false, "a parameter that may be set at run time"),
+                      {.name = "value", .summary = "what it is set to"}},
+       .handle = HandleOnFault},
+      {.name = "on_stale",
+       .summary = "what happens when an input brings nothing new for too long",
+       .parents = {"application", "group"},
+       .attributes = {PathRule("input", true, "what feeds it when the run begins is watched"),
+                      {.name = "after",
+                       .kind = AttributeKind::kDuration,
+                       .required = true,
+                       .summary = "the longest time without anything new, by the application's "
+                                  "clock"},
+                      {.name = "fresh_after",
+                       .kind = AttributeKind::kDuration,
+                       .summary = "how long values must come again before <otherwise> is done; "
+                                  "twice 'after' if left out"}},
+       .handle = HandleOnStale},
+      {.name = "on_stuck",
+       .summary = "what happens when a module does not return from its cycle; it is told of in any case",
+       .parents = {"application", "group"},
+       .attributes = {PathRule("of", true, "a module, or a group of which any module may be stuck"),
+                      {.name = "after",
+                       .kind = AttributeKind::kDuration,
+                       .required = true,
+                       .summary = "the longest time in one cycle, by the machine's clock"}},
+       .handle = InTheEnd<AddRule<When::kStuck>>},
+      {.name = "on_pause",
+       .summary = "what happens when somebody pauses modules, once they stand still",
+       .parents = {"application", "group"},
+       .attributes = {PathRule("of", true, "a module, or a group of which any module may be paused")},
+       .handle = InTheEnd<AddRule<When::kPaused>>},
+      {.name = "stop_button",
+       .summary = "a port by which somebody presses the STOP of the robot: true, or a number that is not 0",
+       .parents = {"application", "group"},
+       .attributes = {PathRule("port", true, "what publishes the state of the button"),
+                      YesNoRule("releases",
+                                "whether letting go of the button releases the STOP, if the port is the output of "
+                                "its own driver; else somebody has to do so")},
+       .handle = InTheEnd<AddStopButton>},
+      {.name = "operators",
+       .summary = "an operator must be heard: else the STOP of the robot is pressed; operators are pages, terminals "
+                  "and Python that may drive",
+       .parents = {"application"},
+       .attributes = {{.name = "timeout",
+                       .kind = AttributeKind::kDuration,
+                       .required = true,
+                       .summary = "so long all of them may be silent, from the start on; by the machine's clock"}},
+       .handle = WatchOperators},
+      {.name = "latency",
+       .summary = "measures how old what a command goes back to is, along the modules in between",
+       .parents = {"application", "group"},
+       .attributes = {PathRule("from", true, "a sensor's output; its values say when they were measured"),
+                      PathRule("to", true, "a command's output")},
+       .handle = InTheEnd<AddLatency>},
+      {.name = "profile",
+       .summary = "measures from the start how long each module takes",
+       .parents = {"application"},
+       .handle = InTheEnd<BeginProfile>},
+      {.name = "otherwise",
+       .summary = "what happens when the input is fresh again, the module has returned or goes on",
+       .parents = {"on_stale", "on_stuck", "on_pause"}}};
 }
 
 }  // namespace runnel

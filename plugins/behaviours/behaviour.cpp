@@ -21,9 +21,9 @@ Behaviour::Behaviour(const Placement& placement) : Module(placement) { RegisterM
 
 Result<void> Behaviour::Construct() {
   for (std::uint32_t i = 1; i <= inhibitions.Get(); ++i) {
-    inhibition_ports_.emplace_back(this, "inhibition" + std::to_string(i),
-                                   InputOptions{.description = "how much it is held back; the greatest counts",
-                                                .ageing = Ageing::kSetOnce});
+    inhibition_ports_.emplace_back(
+        this, "inhibition" + std::to_string(i),
+        InputOptions{.description = "how much it is held back; the greatest counts", .ageing = Ageing::kSetOnce});
   }
   inhibition_values_.assign(inhibition_ports_.size(), 0.0);
   return {};

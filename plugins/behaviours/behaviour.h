@@ -170,10 +170,11 @@ class Behaviour : public Module {
   Output<BehaviourState> state{this, "behaviour", {.description = "all of it at once, for viewers"}};
 
   static constexpr std::uint32_t kMostInhibitions = 64;
-  StaticParameter<std::uint32_t> inhibitions{
-      this,
-      "inhibitions",
-      {.default_value = 1, .bounds = {0, kMostInhibitions}, .description = "how many ports: inhibition1, inhibition2 …"}};
+  StaticParameter<std::uint32_t> inhibitions{this,
+                                             "inhibitions",
+                                             {.default_value = 1,
+                                              .bounds = {0, kMostInhibitions},
+                                              .description = "how many ports: inhibition1, inhibition2 …"}};
   /// It counts from when it was said: signals may go round, and what they were measured by never renews then.
   InputTimeout inhibition_timeout{this, "inhibition", {.counts_from_publication = true}};
   Parameter<StimulationMode> stimulation_mode{
@@ -236,7 +237,7 @@ class Behaviour : public Module {
   std::vector<double> last_activities_;  // of those; -1: there is none
   std::vector<double> derived_;
   std::vector<HeldBack*> held_back_;
-  std::optional<MetaSignals> before_;  // if it could tell
+  std::optional<MetaSignals> before_;       // if it could tell
   MetaSignals last_{.target_rating = 1.0};  // who never could tell is not content
   bool has_new_parameters_ = false;
   const char* missed_ = nullptr;

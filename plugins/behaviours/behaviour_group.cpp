@@ -17,7 +17,8 @@ std::vector<Port*> SignalsOf(Behaviour& behaviour) {
 Result<void> CheckSignal(const FrameworkElement& group, const Port& signal) {
   const auto* const port = dynamic_cast<const Port*>(group.FindChild(signal.name()));
   const bool is_input = signal.direction() == Port::Direction::kInput;
-  const std::string tag = "<port name=\"" + signal.name() + "\" direction=\"" + (is_input ? "input" : "output") + "\"/>";
+  const std::string tag =
+      "<port name=\"" + signal.name() + "\" direction=\"" + (is_input ? "input" : "output") + "\"/>";
   if (port == nullptr || !port->is_proxy() || port->direction() != signal.direction()) {
     return Error{.message = "has no interface port '" + signal.name() + "' for its characteristic behaviour",
                  .path = group.path(),
@@ -47,9 +48,10 @@ Result<void> CheckBehaviourGroup(const FrameworkElement& group, const std::strin
   auto* const behaviour = dynamic_cast<Behaviour*>(group.FindChild(characteristic));
   if (behaviour == nullptr) {
     const bool is_there = group.FindChild(characteristic) != nullptr;
-    return Error{.message = "its characteristic behaviour '" + characteristic + (is_there ? "' is none" : "' is not there"),
-                 .path = group.path(),
-                 .hint = "it is a module that is a behaviour, directly in the group"};
+    return Error{
+        .message = "its characteristic behaviour '" + characteristic + (is_there ? "' is none" : "' is not there"),
+        .path = group.path(),
+        .hint = "it is a module that is a behaviour, directly in the group"};
   }
   for (const Port* const signal : SignalsOf(*behaviour)) {
     if (auto checked = CheckSignal(group, *signal); !checked) return checked;

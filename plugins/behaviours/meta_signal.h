@@ -29,7 +29,9 @@ class MetaSignal {
 
   friend constexpr bool operator==(const MetaSignal&, const MetaSignal&) = default;
   friend void Describe(TypeBuilder<MetaSignal>& type) {
-    type.Name(kTypeNames[kPlace]).SemanticTag(kMeanings[kPlace]).Field("value", &MetaSignal::value_, {.description = "0 .. 1"});
+    type.Name(kTypeNames[kPlace])
+        .SemanticTag(kMeanings[kPlace])
+        .Field("value", &MetaSignal::value_, {.description = "0 .. 1"});
   }
 
  private:

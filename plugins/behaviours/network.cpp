@@ -40,7 +40,9 @@ bool IsFedBy(const Port& port, const Port& source) {
 bool IsLate(const Port& port, const Port& source) {
   for (const Port* const from : port.incoming()) {
     const bool is_late = from->IsLateTo(port);
-    if ((from == &source && is_late) || (from->is_proxy() && IsFedBy(*from, source) && (is_late || IsLate(*from, source)))) return true;
+    if ((from == &source && is_late) ||
+        (from->is_proxy() && IsFedBy(*from, source) && (is_late || IsLate(*from, source))))
+      return true;
   }
   return false;
 }
@@ -86,9 +88,8 @@ std::vector<std::size_t> SourcesOfAll(const std::vector<const Port*>& ports, con
 }
 
 NetworkNode ReadNode(Behaviour& behaviour, const FrameworkElement& application, const Places& places) {
-  NetworkNode node{.behaviour = &behaviour,
-                   .name = NameOf(behaviour, application),
-                   .mode = behaviour.stimulation_mode.Get()};
+  NetworkNode node{
+      .behaviour = &behaviour, .name = NameOf(behaviour, application), .mode = behaviour.stimulation_mode.Get()};
   if (node.mode == StimulationMode::kAuto) {
     node.has_foreign_stimulation = AddSources(behaviour.stimulation, places, node.stimulators);
   }

@@ -11,7 +11,7 @@ namespace runnel {
 /// One behaviour of a network, with those that it depends on by their places in the list of all.
 struct NetworkNode {
   const Behaviour* behaviour = nullptr;
-  std::string name;               ///< its path, seen from the application
+  std::string name;  ///< its path, seen from the application
   StimulationMode mode = StimulationMode::kAuto;
   bool has_foreign_stimulation = false;  ///< by what is no behaviour, so at any time
   std::vector<std::size_t> stimulators = {};
@@ -31,7 +31,8 @@ struct SharedActuator {
 /// The behaviours of an application and what connects them, through groups, composites and conversions: what is thought
 /// about, without what they compute. An activity counts as all or nothing, and derived ones as the activity.
 struct BehaviourNetwork {
-  std::vector<NetworkNode> nodes;  ///< in the order in which they may run: after those that they depend on, if there is one
+  std::vector<NetworkNode>
+      nodes;  ///< in the order in which they may run: after those that they depend on, if there is one
   std::vector<SharedActuator> shared;
 };
 

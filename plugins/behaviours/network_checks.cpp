@@ -50,12 +50,11 @@ std::vector<bool> CanBeStimulated(const BehaviourNetwork& network) {
     has_changed = false;
     for (std::size_t i = 0; i < network.nodes.size(); ++i) {
       const NetworkNode& node = network.nodes[i];
-      const bool is_stimulated = node.mode == StimulationMode::kEnabled ||
-                                 (node.mode == StimulationMode::kAuto &&
-                                  (node.has_foreign_stimulation || IsAnyOf(node.stimulators, can_be)));
+      const bool is_stimulated =
+          node.mode == StimulationMode::kEnabled ||
+          (node.mode == StimulationMode::kAuto && (node.has_foreign_stimulation || IsAnyOf(node.stimulators, can_be)));
       const bool has_any = node.needs_any.empty() || IsAnyOf(node.needs_any, can_be);
-      const bool has_all =
-          std::ranges::all_of(node.needs_all, [&](std::size_t each) { return can_be[each]; });
+      const bool has_all = std::ranges::all_of(node.needs_all, [&](std::size_t each) { return can_be[each]; });
       if (can_be[i] || !is_stimulated || !has_any || !has_all) continue;
       can_be[i] = has_changed = true;
     }
@@ -190,7 +189,8 @@ std::vector<NetworkFlaw> FindUnreachable(const BehaviourNetwork& network) {
     if (!inhibition) continue;
     const auto& [by, who] = *inhibition;
     flaws.push_back({node.behaviour->path(),
-                     "can never be fully active: " + network.nodes[by].name + ", without which it is not active, inhibits " +
+                     "can never be fully active: " + network.nodes[by].name +
+                         ", without which it is not active, inhibits " +
                          (who == i ? "it" : network.nodes[who].name + ", without which it is not, either"),
                      "take one of the two connections away"});
   }

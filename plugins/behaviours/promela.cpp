@@ -14,7 +14,8 @@ namespace {
 constexpr int kPatience = 3;  // cycles
 
 using PlaceName = std::function<std::string(std::size_t place)>;
-std::string Joined(const std::vector<std::size_t>& places, const PlaceName& name, const char* separator, const char* none) {
+std::string Joined(const std::vector<std::size_t>& places, const PlaceName& name, const char* separator,
+                   const char* none) {
   std::string text;
   for (const std::size_t each : places) text += (text.empty() ? "" : separator) + name(each);
   return text.empty() ? none : "(" + text + ")";
@@ -23,12 +24,14 @@ std::string Joined(const std::vector<std::size_t>& places, const PlaceName& name
 std::string Active(std::size_t place) { return fmt::format("active_{}", place); }
 std::string NotActive(std::size_t place) { return "!" + Active(place); }
 
-bool Has(const std::vector<std::size_t>& places, std::size_t place) { return std::ranges::find(places, place) != places.end(); }
+bool Has(const std::vector<std::size_t>& places, std::size_t place) {
+  return std::ranges::find(places, place) != places.end();
+}
 
 // Of the behaviours at `places`, as the one at `at` sees them: late ones as they were in the cycle before, those of other threads
 // as they were or are.
-std::string Seen(const BehaviourNetwork& network, std::size_t at, const std::vector<std::size_t>& places, const char* before,
-                 const char* separator, const char* none) {
+std::string Seen(const BehaviourNetwork& network, std::size_t at, const std::vector<std::size_t>& places,
+                 const char* before, const char* separator, const char* none) {
   const NetworkNode& node = network.nodes[at];
   const auto name = [&](std::size_t each) {
     if (Has(node.elsewhere, each)) return fmt::format("{}seen_{}_{}", before, at, each);
@@ -39,7 +42,8 @@ std::string Seen(const BehaviourNetwork& network, std::size_t at, const std::vec
 
 // Whether somebody sees what it was before.
 bool IsSeenLate(const BehaviourNetwork& network, std::size_t place) {
-  return std::ranges::any_of(network.nodes, [&](const NetworkNode& node) { return Has(node.late, place) || Has(node.elsewhere, place); });
+  return std::ranges::any_of(
+      network.nodes, [&](const NetworkNode& node) { return Has(node.late, place) || Has(node.elsewhere, place); });
 }
 
 bool HasWill(const NetworkNode& node) { return node.needs_any.empty(); }
@@ -87,9 +91,10 @@ std::string OneCycle(const BehaviourNetwork& network, bool is_fair) {
     for (const std::size_t each : node.elsewhere) {
       text += fmt::format("      if :: seen_{0}_{1} = before_{1} :: seen_{0}_{1} = active_{1} fi;\n", i, each);
     }
-    text += fmt::format("      active_{} = {} && {} && {} && {};\n", i, Stimulated(network, i),
-                        Seen(network, i, node.inhibitors, "!", " && ", "true"), Seen(network, i, node.needs_all, "", " && ", "true"),
-                        HasWill(node) ? fmt::format("wants_{}", i) : Seen(network, i, node.needs_any, "", " || ", "false"));
+    text += fmt::format(
+        "      active_{} = {} && {} && {} && {};\n", i, Stimulated(network, i),
+        Seen(network, i, node.inhibitors, "!", " && ", "true"), Seen(network, i, node.needs_all, "", " && ", "true"),
+        HasWill(node) ? fmt::format("wants_{}", i) : Seen(network, i, node.needs_any, "", " || ", "false"));
     format += "%d";
     arguments += fmt::format(", active_{}", i);
   }

@@ -81,33 +81,32 @@ void AddTags(XmlTagRegistry& tags) {
                                .summary = "each time after these were active; without, once",
                                .names_element = true}},
                .handle = NoteProperty<NetworkProperty::Kind::kEventually>});
-  tags.AddAttribute(
-      {.tag = "group",
-       .rule = {.name = "characteristic",
-                .kind = AttributeKind::kName,
-                .summary = "the behaviour within that speaks for the group: to others the group is one"},
-       .handle =
-           [](const XmlAttribute& attribute, FrameworkElement& element, BuildContext& context) {
-             element.Annotate(std::make_unique<CharacteristicBehaviour>(attribute.value));
-             context.Defer(BuildStage::kChecks, [&element, &context, attribute] {
-               if (!context.IsWhole(element)) return;
-               auto checked = CheckBehaviourGroup(element, attribute.value);
-               if (!checked) context.Report(checked.error(), attribute.value_position, element);
-             });
-           },
-       .saved = [](FrameworkElement& element) -> std::string {
-         if (const Behaviour* const behaviour = CharacteristicOf(element)) return behaviour->name();
-         const auto* const said = element.FindAnnotation<CharacteristicBehaviour>();
-         return said != nullptr ? said->name : "";
-       }});
+  tags.AddAttribute({.tag = "group",
+                     .rule = {.name = "characteristic",
+                              .kind = AttributeKind::kName,
+                              .summary = "the behaviour within that speaks for the group: to others the group is one"},
+                     .handle =
+                         [](const XmlAttribute& attribute, FrameworkElement& element, BuildContext& context) {
+                           element.Annotate(std::make_unique<CharacteristicBehaviour>(attribute.value));
+                           context.Defer(BuildStage::kChecks, [&element, &context, attribute] {
+                             if (!context.IsWhole(element)) return;
+                             auto checked = CheckBehaviourGroup(element, attribute.value);
+                             if (!checked) context.Report(checked.error(), attribute.value_position, element);
+                           });
+                         },
+                     .saved = [](FrameworkElement& element) -> std::string {
+                       if (const Behaviour* const behaviour = CharacteristicOf(element)) return behaviour->name();
+                       const auto* const said = element.FindAnnotation<CharacteristicBehaviour>();
+                       return said != nullptr ? said->name : "";
+                     }});
 }
 
-std::optional<std::vector<std::size_t>> PlacesOf(const BehaviourNetwork& network, const std::vector<std::string>& paths) {
+std::optional<std::vector<std::size_t>> PlacesOf(const BehaviourNetwork& network,
+                                                 const std::vector<std::string>& paths) {
   std::vector<std::size_t> places;
   for (const std::string& path : paths) {
-    const auto found = std::ranges::find(network.nodes, path, [](const NetworkNode& node) -> const std::string& {
-      return node.behaviour->path();
-    });
+    const auto found = std::ranges::find(
+        network.nodes, path, [](const NetworkNode& node) -> const std::string& { return node.behaviour->path(); });
     if (found == network.nodes.end()) return std::nullopt;
     places.push_back(static_cast<std::size_t>(found - network.nodes.begin()));
   }

@@ -179,9 +179,9 @@ class Blackboard final {
 
   Output<T> value_;
   Service<CommitReply(CommitRequest<Change>)> changes_;
-  std::vector<Change> journal_;       // what led to a revision, at its place modulo the size
-  std::uint64_t journal_begin_ = 2;   // the first revision in it
-  std::vector<Known> known_;          // the revisions that buffers have
+  std::vector<Change> journal_;      // what led to a revision, at its place modulo the size
+  std::uint64_t journal_begin_ = 2;  // the first revision in it
+  std::vector<Known> known_;         // the revisions that buffers have
   const T* newest_ = nullptr;
   std::uint64_t published_ = 0;
 };

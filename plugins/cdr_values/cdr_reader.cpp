@@ -11,8 +11,7 @@ namespace runnel {
 Result<CdrReader> CdrReader::Begin(std::span<const std::byte> octets, std::shared_ptr<const void> holder) {
   constexpr std::size_t kHeader = CdrWriter::kHeader;
   if (octets.size() < kHeader) {
-    return Error{.message = "a value in CDR begins with 4 octets, and here are " +
-                            std::to_string(octets.size())};
+    return Error{.message = "a value in CDR begins with 4 octets, and here are " + std::to_string(octets.size())};
   }
   const auto kind = std::to_integer<unsigned>(octets[0]) << 8 | std::to_integer<unsigned>(octets[1]);
   if (kind > 1) {

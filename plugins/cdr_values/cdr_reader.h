@@ -27,7 +27,8 @@ class CdrReader {
 
   /// False if there is nothing left to get; what it was to be put into may then be half set.
   template <typename T>
-  requires std::is_arithmetic_v<T> [[nodiscard]] bool Get(T& value) {
+  requires std::is_arithmetic_v<T>
+  [[nodiscard]] bool Get(T& value) {
     if constexpr (std::is_same_v<T, bool>) {  // of which C++ knows two values only
       std::uint8_t octet = 0;
       const bool is_there = Get(octet);

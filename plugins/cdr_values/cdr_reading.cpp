@@ -35,8 +35,7 @@ class ValueReader : public CdrWalk {
       case TypeKind::kEnumeration:
         return ReadEnumeration(type, value);
       case TypeKind::kStructure:
-        return std::ranges::all_of(
-            type.fields(), [&](const FieldInfo& field) { return ReadField(field, value); });
+        return std::ranges::all_of(type.fields(), [&](const FieldInfo& field) { return ReadField(field, value); });
       case TypeKind::kSequence:
       case TypeKind::kMatrix:
         return ReadElements(type, value);
@@ -125,7 +124,8 @@ class ValueReader : public CdrWalk {
     if (!read) return false;
     count = *read;
     if (!is_matrix) columns = static_cast<std::uint32_t>(count);
-    if (std::uint64_t{rows} * columns != count) return Fail(std::to_string(count) + " elements are too many or too few");
+    if (std::uint64_t{rows} * columns != count)
+      return Fail(std::to_string(count) + " elements are too many or too few");
     return true;
   }
 

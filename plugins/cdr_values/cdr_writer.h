@@ -26,7 +26,8 @@ class CdrWriter {
   }
 
   template <typename T>
-  requires std::is_arithmetic_v<T> void Put(T value) { PutPlain(&value, sizeof value, 1); }
+  requires std::is_arithmetic_v<T>
+  void Put(T value) { PutPlain(&value, sizeof value, 1); }
 
   /// Of a list whose length is not part of its type; its elements follow. Precondition: less than 2^32.
   void PutCount(std::size_t count) { Put(static_cast<std::uint32_t>(count)); }

@@ -69,9 +69,8 @@ void WriteCdr(const TypeInfo& type, const void* value, CdrWriter& writer) {
     case TypeKind::kLeaf:
       return WriteLeaf(type, value, writer);
     case TypeKind::kEnumeration:
-      return internal::WithEnumerationType(type, [&]<typename N>(std::type_identity<N>) {
-        writer.Put(static_cast<N>(type.enumeration().get(value)));
-      });
+      return internal::WithEnumerationType(
+          type, [&]<typename N>(std::type_identity<N>) { writer.Put(static_cast<N>(type.enumeration().get(value))); });
     case TypeKind::kStructure:
       for (const FieldInfo& field : type.fields()) {
         WriteCdr(*field.type, field.address(ForLooking(value)), writer);
@@ -91,8 +90,9 @@ void WriteCdr(const TypeInfo& type, const void* value, std::vector<std::byte>& o
 
 Result<void> CheckCdr(const TypeInfo& type) {
   if (type.is_transparent()) return {};
-  return Error{.message = "a " + type.name() + " cannot go over the network: its inside, or a part of it, is not described",
-               .hint = "Describe() of the type is to name its fields"};
+  return Error{
+      .message = "a " + type.name() + " cannot go over the network: its inside, or a part of it, is not described",
+      .hint = "Describe() of the type is to name its fields"};
 }
 
 }  // namespace runnel

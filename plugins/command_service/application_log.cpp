@@ -17,7 +17,8 @@ namespace {
 using EntryKind = ApplicationLog::Kind;
 
 // In the order of their levels.
-constexpr std::array kKindsByLevel{EntryKind::kDebug, EntryKind::kInfo, EntryKind::kWarning, EntryKind::kError, EntryKind::kError};
+constexpr std::array kKindsByLevel{EntryKind::kDebug, EntryKind::kInfo, EntryKind::kWarning, EntryKind::kError,
+                                   EntryKind::kError};
 
 struct KindInfo {
   const char* name;
@@ -36,12 +37,11 @@ const KindInfo& InfoOf(EntryKind kind) { return kKinds[static_cast<std::size_t>(
 }  // namespace
 
 // What has been done must be told as done, whatever the log does.
-void ApplicationLog::Add(Kind kind, std::string text, std::string module,
-                         std::string cause) noexcept {
+void ApplicationLog::Add(Kind kind, std::string text, std::string module, std::string cause) noexcept {
   try {
     while (!text.empty() && text.back() == '\n') text.pop_back();
-    Keep({0, std::chrono::system_clock::now(), clock_.Now() - start_, kind,
-          Shortened(std::move(text), kLongestText), std::move(module), std::move(cause)});
+    Keep({0, std::chrono::system_clock::now(), clock_.Now() - start_, kind, Shortened(std::move(text), kLongestText),
+          std::move(module), std::move(cause)});
   } catch (const std::bad_alloc&) {
   }
 }
@@ -49,8 +49,13 @@ void ApplicationLog::Add(Kind kind, std::string text, std::string module,
 void ApplicationLog::Add(const LogMessage& message) noexcept {
   try {
     const Kind kind = kKindsByLevel[static_cast<std::size_t>(message.level)];
-    Keep({0, std::chrono::system_clock::now(), message.time - start_, kind,
-          Shortened(message.BodyText(), kLongestText), message.path, {}});
+    Keep({0,
+          std::chrono::system_clock::now(),
+          message.time - start_,
+          kind,
+          Shortened(message.BodyText(), kLongestText),
+          message.path,
+          {}});
   } catch (const std::bad_alloc&) {
   }
 }
@@ -101,8 +106,8 @@ LogMessage ApplicationLog::MessageOf(const Entry& entry) const {
 
 std::string ApplicationLog::LineOf(const Entry& entry) {
   const std::tm wall = fmt::localtime(std::chrono::system_clock::to_time_t(entry.wall));
-  std::string line = fmt::format("{:%H:%M:%S} {:10.3f} s  {:<7}  {}", wall, ToSeconds(entry.time),
-                                 KindName(entry.kind), entry.text);
+  std::string line =
+      fmt::format("{:%H:%M:%S} {:10.3f} s  {:<7}  {}", wall, ToSeconds(entry.time), KindName(entry.kind), entry.text);
   // What has more than one line goes on below its beginning.
   for (std::size_t at = line.find('\n'); at != std::string::npos; at = line.find('\n', at + 1)) {
     line.insert(at + 1, "    ");

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "core/paths/path_search.h"
-#include "plugins/command_service/caught_error.h"
 #include "core/plugin/module_type_name.h"
+#include "plugins/command_service/caught_error.h"
 #include "plugins/scheduling/pace.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"
@@ -56,8 +56,7 @@ std::string DeletedApplication(Runtime& runtime, const ChangeSet& changes) {
 constexpr std::size_t kRoomForText = 160;
 std::string DoneText(Duration hold_time, std::string room) {
   const auto text =
-      fmt::format_to_n(room.data(), room.size(), "done; threads stood still for {:.3f} ms",
-                       ToSeconds(hold_time) * 1e3);
+      fmt::format_to_n(room.data(), room.size(), "done; threads stood still for {:.3f} ms", ToSeconds(hold_time) * 1e3);
   room.resize(text.size);
   return room;
 }
@@ -92,18 +91,15 @@ Result<ChangeSet> MadeAnew(const ServedApplication& application, const std::stri
     if (!found) return found.error();
     is_module = IsModule(**found);
     if (!is_module && (*found)->kind() != ElementKind::kGroup) {
-      return Error{.message = "is neither a module nor a group, and cannot be restarted",
-                   .path = (*found)->path()};
+      return Error{.message = "is neither a module nor a group, and cannot be restarted", .path = (*found)->path()};
     }
     (*found)->Visit([&](FrameworkElement& each) {
-      if (IsModule(each) && (!is_module || &each == *found))
-        modules.emplace_back(each.path(), FindModuleType(each));
+      if (IsModule(each) && (!is_module || &each == *found)) modules.emplace_back(each.path(), FindModuleType(each));
     });
   }
   ChangeSet changes;
   for (const auto& [module, type] : modules) {
-    const auto progress = application.scheduler != nullptr ? application.scheduler->ProgressOf(module)
-                                                           : std::nullopt;
+    const auto progress = application.scheduler != nullptr ? application.scheduler->ProgressOf(module) : std::nullopt;
     const bool is_wanted = is_module || (progress && progress->has_failed);
     if (is_wanted) changes.push_back(ReplaceModule{module, type});
   }
@@ -153,8 +149,7 @@ std::optional<Duration> ChangeTask::Step() {
   has_proved = !is_on_probation;
   try {
     LookAfterProbation();
-  } catch (const std::
-               bad_alloc&) {  // it has been done all the same; there may be memory at the next look
+  } catch (const std::bad_alloc&) {  // it has been done all the same; there may be memory at the next look
     has_proved = false;
   }
   if (!IsOver()) {
@@ -208,8 +203,7 @@ void ChangeTask::Apply() {
   }
   is_on_probation = *answer && !swaps.empty();
   if (*answer) answer->text = meaning.empty() ? DoneText(outcome.hold_time, std::move(text)) : std::move(meaning);
-  application.log.Add(ApplicationLog::Kind::kChange,
-                      *answer ? std::move(entry) : "refused: " + entry);
+  application.log.Add(ApplicationLog::Kind::kChange, *answer ? std::move(entry) : "refused: " + entry);
 }
 
 void ChangeTask::FindSwaps() {
@@ -240,10 +234,9 @@ void ChangeTask::Conclude() {
   for (const Swap& swap : swaps) {
     if (!swap.is_back) continue;
     answer->outcome = CommandAnswer::Outcome::kFailed;
-    answer->diagnostics.Add(
-        {.message = "the new module failed in one of its first cycles; the old one is back",
-         .path = swap.path,
-         .hint = "'runnel log' tells what it threw"});
+    answer->diagnostics.Add({.message = "the new module failed in one of its first cycles; the old one is back",
+                             .path = swap.path,
+                             .hint = "'runnel log' tells what it threw"});
   }
   if (*answer && is_on_probation) {
     answer->text += "\nthe new module has not run all the cycles of its probation yet";
@@ -252,8 +245,8 @@ void ChangeTask::Conclude() {
 
 }  // namespace
 
-TaskStep ChangeSteps(ChangeRequest request, const ServedApplication& application,
-                     std::shared_ptr<CommandAnswer> answer, const RobotStop::AsOf& as_of, std::string made_anew) {
+TaskStep ChangeSteps(ChangeRequest request, const ServedApplication& application, std::shared_ptr<CommandAnswer> answer,
+                     const RobotStop::AsOf& as_of, std::string made_anew) {
   const auto task = std::make_shared<ChangeTask>(
       ChangeTask{std::move(request), application, std::move(answer), as_of, std::move(made_anew)});
   return [task] { return task->Step(); };

@@ -21,7 +21,7 @@ struct ChangeRequest {
   static constexpr std::size_t kMostChanges = 20'000;
 
   PlacedChanges placed;
-  std::string label = {};  ///< for the history; "": the changes in their text format
+  std::string label = {};   ///< for the history; "": the changes in their text format
   std::string client = {};  ///< who wants it, for people: "a terminal", "viewer 2"
   /// Whether the whole application may be deleted, which ends its run and cannot be undone.
   bool may_end_application = false;
@@ -95,10 +95,9 @@ struct RestartRequest {
 struct QuitRequest {};
 
 /// What a client may ask a CommandService for.
-using CommandRequest = std::variant<ChangeRequest, UndoRequest, RedoRequest, SaveRequest,
-                                    ReloadRequest, PauseRequest, PublishRequest,
-                                    BlockRequest, ReleaseRequest, RobotStopRequest, RestartRequest,
-                                    QuitRequest>;
+using CommandRequest =
+    std::variant<ChangeRequest, UndoRequest, RedoRequest, SaveRequest, ReloadRequest, PauseRequest, PublishRequest,
+                 BlockRequest, ReleaseRequest, RobotStopRequest, RestartRequest, QuitRequest>;
 
 /// What has come of a request.
 struct CommandAnswer {
@@ -126,9 +125,7 @@ struct CommandAnswer {
     answer.diagnostics.Add(std::move(error));
     return answer;
   }
-  [[nodiscard]] static CommandAnswer Refused(Error error) {
-    return Failed(std::move(error), Outcome::kRefused);
-  }
+  [[nodiscard]] static CommandAnswer Refused(Error error) { return Failed(std::move(error), Outcome::kRefused); }
   /// Not done until somebody says that it is meant.
   [[nodiscard]] static CommandAnswer Asks(Error error, std::string needs) {
     CommandAnswer answer = Refused(std::move(error));

@@ -188,7 +188,8 @@ CommandAnswer CommandService::Do(const ReloadRequest& request) const {
   return Call(application_.hooks.reload, request.plugin, "load plugins anew");
 }
 
-CommandAnswer CommandService::End(const char* name, const char* what, const std::function<Result<std::string>()>& end) const {
+CommandAnswer CommandService::End(const char* name, const char* what,
+                                  const std::function<Result<std::string>()>& end) const {
   if (!end) return Call({}, {}, what);
   application_.log.Add(ApplicationLog::Kind::kChange, name);
   return AnswerOf(end());
@@ -210,7 +211,10 @@ std::optional<StopReach> FindStopReach(Runtime& runtime, const Scheduler* schedu
 
 Result<void> CheckThatAllStops(Runtime& runtime, const Scheduler* scheduler) {
   const auto reach = FindStopReach(runtime, scheduler);
-  if (!reach) return Error{.message = "STOP is in force, but nobody can tell whether it reaches all of it while the structure is being changed"};
+  if (!reach)
+    return Error{
+        .message =
+            "STOP is in force, but nobody can tell whether it reaches all of it while the structure is being changed"};
   std::string left;
   for (const auto& each : reach->unreached) left += (left.empty() ? "" : "; ") + UnreachedError(each).ToString();
   if (reach->drives.empty()) left = NothingDrives().ToString();
@@ -234,7 +238,8 @@ CommandAnswer CommandService::Do(const RobotStopRequest& request, const RobotSto
   }
   const auto reach = FindStopReach(application_.runtime, application_.scheduler);
   if (!reach) {
-    answer.text += "; what drives cannot be told while the structure is being changed, nor whether STOP reaches all of it";
+    answer.text +=
+        "; what drives cannot be told while the structure is being changed, nor whether STOP reaches all of it";
     return answer;
   }
   if (!reach->drives.empty()) answer.text += "; what drives: " + reach->drives;
@@ -250,7 +255,8 @@ CommandAnswer CommandService::Do(const BlockRequest& request) {
   const auto blocked = hand_settings_.Block(request);
   if (!blocked) return CommandAnswer::Refused(blocked.error());
   application_.log.Add(ApplicationLog::Kind::kChange, "block " + *blocked);
-  return CommandAnswer::Done(*blocked + " is blocked: it has its safe value; 'runnel release " + *blocked + "' ends that");
+  return CommandAnswer::Done(*blocked + " is blocked: it has its safe value; 'runnel release " + *blocked +
+                             "' ends that");
 }
 
 CommandAnswer CommandService::Do(const PauseRequest& request) const {
@@ -280,8 +286,8 @@ CommandAnswer CommandService::Do(const PublishRequest& request, const RobotStop:
   }
   const std::string ends = "'runnel release " + port + "' ends that";
   if (request.deadline) {
-    return CommandAnswer::Done(port + " is set by hand for " + DurationText(*request.deadline) +
-                               ", then at rest; " + ends);
+    return CommandAnswer::Done(port + " is set by hand for " + DurationText(*request.deadline) + ", then at rest; " +
+                               ends);
   }
   return CommandAnswer::Done(port + " is set by hand; " + ends);
 }
@@ -306,8 +312,7 @@ CommandAnswer CommandService::TakeHistoryStep(bool goes_back, const RobotStop::A
   answer.diagnostics = std::move(outcome.diagnostics);
   if (!outcome) answer.outcome = CommandAnswer::Outcome::kRefused;
   if (!label) return answer;
-  application_.log.Add(ApplicationLog::Kind::kChange,
-                       answer ? std::move(entry) : "could not be " + what);
+  application_.log.Add(ApplicationLog::Kind::kChange, answer ? std::move(entry) : "could not be " + what);
   if (!answer) return answer;
   answer.text = std::move(what);
   answer.client = std::move(client);

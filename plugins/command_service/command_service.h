@@ -82,8 +82,7 @@ class ClientRecording {
 };
 
 /// Begins one. May take a while. Errors: of the file, of the ports; nothing is recorded then.
-using RecordingHook =
-    std::function<Result<std::unique_ptr<ClientRecording>>(const RecordingRequest&)>;
+using RecordingHook = std::function<Result<std::unique_ptr<ClientRecording>>(const RecordingRequest&)>;
 
 /// What a program may give to clients besides looking at the structure and changing it. All optional;
 /// called by the worker.
@@ -136,8 +135,8 @@ struct ServedApplication {
 struct StopReach {
   std::string drives;                                          ///< as FindWhatDrives() says it
   std::vector<std::pair<std::string, std::string>> unreached;  ///< ports, and why
-  std::string at_rest = {};  ///< with the safe value of supervision, as `drives`
-  Duration brake{};          ///< the longest of all ports (PortStop::brake())
+  std::string at_rest = {};                                    ///< with the safe value of supervision, as `drives`
+  Duration brake{};                                            ///< the longest of all ports (PortStop::brake())
 };
 /// Nothing while somebody else has the structure lock, which is waited for some ms at most. `scheduler`: that of the
 /// application; optional, here and below.
@@ -204,13 +203,22 @@ class CommandService {
   [[nodiscard]] CommandAnswer Do(const ReloadRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const PublishRequest& request, const RobotStop::AsOf& as_of);
   [[nodiscard]] CommandAnswer Do(const ReleaseRequest& request, const RobotStop::AsOf& as_of);
-  [[nodiscard]] CommandAnswer Do(const RestartRequest&) const { return End("restart", "run it again", application_.hooks.restart); }
-  [[nodiscard]] CommandAnswer Do(const QuitRequest&) const { return End("quit", "end its run", application_.hooks.quit); }
-  [[nodiscard]] CommandAnswer End(const char* name, const char* what, const std::function<Result<std::string>()>& end) const;
+  [[nodiscard]] CommandAnswer Do(const RestartRequest&) const {
+    return End("restart", "run it again", application_.hooks.restart);
+  }
+  [[nodiscard]] CommandAnswer Do(const QuitRequest&) const {
+    return End("quit", "end its run", application_.hooks.quit);
+  }
+  [[nodiscard]] CommandAnswer End(const char* name, const char* what,
+                                  const std::function<Result<std::string>()>& end) const;
   [[nodiscard]] CommandAnswer Do(const BlockRequest& request);
   [[nodiscard]] CommandAnswer Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of) const;
-  [[nodiscard]] CommandAnswer Do(const UndoRequest&, const RobotStop::AsOf& as_of) const { return TakeHistoryStep(true, as_of); }
-  [[nodiscard]] CommandAnswer Do(const RedoRequest&, const RobotStop::AsOf& as_of) const { return TakeHistoryStep(false, as_of); }
+  [[nodiscard]] CommandAnswer Do(const UndoRequest&, const RobotStop::AsOf& as_of) const {
+    return TakeHistoryStep(true, as_of);
+  }
+  [[nodiscard]] CommandAnswer Do(const RedoRequest&, const RobotStop::AsOf& as_of) const {
+    return TakeHistoryStep(false, as_of);
+  }
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back, const RobotStop::AsOf& as_of) const;
 
   const ServedApplication application_;

@@ -29,8 +29,8 @@ void CommandWorker::Work() {
   Tasks running;  // one at most; a list, so that handing it over allocates nothing
   std::unique_lock lock(mutex_);
   while (!ends_) {
-    const auto next = std::ranges::min_element(
-        waiting_, {}, [](const std::shared_ptr<WorkerTask>& task) { return task->due_; });
+    const auto next =
+        std::ranges::min_element(waiting_, {}, [](const std::shared_ptr<WorkerTask>& task) { return task->due_; });
     if (next == waiting_.end()) {
       has_changed_.wait(lock);
       continue;
@@ -121,8 +121,7 @@ std::shared_ptr<WorkerTask> TaskGroup::Done(std::function<void()> on_done) {
   return task;
 }
 
-std::shared_ptr<WorkerTask> TaskGroup::Post(std::function<void()> work,
-                                            std::function<void()> on_done) {
+std::shared_ptr<WorkerTask> TaskGroup::Post(std::function<void()> work, std::function<void()> on_done) {
   return PostSteps(
       [work = std::move(work)]() -> std::optional<Duration> {
         work();

@@ -20,7 +20,8 @@ struct ExtensionTexts final : Annotation {
   /// For an argument, "" for none. Called under the structure lock, and must not wait: nothing means that it is not there
   /// yet, and may be asked for again in a while. `asking` is the asker's, at first nullptr: what the text remembers of it. Whoever
   /// asks no more lets it go, by any thread, and the text then takes back what it has begun.
-  using Text = std::function<Result<std::optional<std::string>>(const std::string& argument, std::shared_ptr<void>& asking)>;
+  using Text =
+      std::function<Result<std::optional<std::string>>(const std::string& argument, std::shared_ptr<void>& asking)>;
   std::map<std::string, Text> texts;
   /// Whoever asks for "command" is told after so long that it has failed, not sooner.
   static constexpr Duration kFarPatience = std::chrono::seconds(10);

@@ -1,9 +1,8 @@
-#include "plugins/command_service/hand_settings.h"
-
 #include <algorithm>
 #include <array>
 
 #include "core/types/duration_text.h"
+#include "plugins/command_service/hand_settings.h"
 
 namespace runnel {
 
@@ -42,16 +41,15 @@ Result<void> HandHold::Check(const Request& request, Time now) const {
     }
   }
   if (request.deadline && now - request.received > *request.deadline) {
-    return Error{.message = "the value has waited for longer than its deadline of " +
-                            DurationText(*request.deadline),
+    return Error{.message = "the value has waited for longer than its deadline of " + DurationText(*request.deadline),
                  .hint = kTakeHoldAgain};
   }
   return {};
 }
 
 bool HandHold::Note(const Request& request) {
-  const bool goes_on = state_ == HandState::kDriven && request.deadline && !request.lease.empty() &&
-                       lease_ == request.lease;
+  const bool goes_on =
+      state_ == HandState::kDriven && request.deadline && !request.lease.empty() && lease_ == request.lease;
   if (!goes_on) EndLease();
   if (!goes_on) began_ = SteadyClock().Now();
   stops_ = request.stops;

@@ -22,9 +22,7 @@ namespace {
 constexpr Duration kShortestLook = std::chrono::milliseconds(1);
 constexpr Duration kLongestLook = std::chrono::milliseconds(10);
 
-Error At(const Port& port, std::string message) {
-  return {.message = std::move(message), .path = port.path()};
-}
+Error At(const Port& port, std::string message) { return {.message = std::move(message), .path = port.path()}; }
 
 // What a person has set there, what a rule has, and a block.
 bool Free(Port& port) {
@@ -62,14 +60,13 @@ Result<AnyValue> SafeAnyValueOf(const Port& port) {
 
 Result<void> CheckRequest(const PublishRequest& request) {
   // Written so that NaN is refused, too.
-  if (request.rate && !(*request.rate >= PublishRequest::kSlowestRate &&
-                        *request.rate <= PublishRequest::kFastestRate)) {
+  if (request.rate &&
+      !(*request.rate >= PublishRequest::kSlowestRate && *request.rate <= PublishRequest::kFastestRate)) {
     return Error{.message = "the rate must be from 0.001 to 1000 Hz"};
   }
-  if (request.deadline && (*request.deadline < PublishRequest::kShortestDeadline ||
-                           *request.deadline > PublishRequest::kLongestDeadline)) {
-    return Error{.message = "the deadline must be from " +
-                            DurationText(PublishRequest::kShortestDeadline) + " to " +
+  if (request.deadline &&
+      (*request.deadline < PublishRequest::kShortestDeadline || *request.deadline > PublishRequest::kLongestDeadline)) {
+    return Error{.message = "the deadline must be from " + DurationText(PublishRequest::kShortestDeadline) + " to " +
                             DurationText(PublishRequest::kLongestDeadline)};
   }
   if (request.lease.size() > PublishRequest::kLongestLease) {
@@ -80,8 +77,7 @@ Result<void> CheckRequest(const PublishRequest& request) {
 
 }  // namespace
 
-Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
-                                  const std::string& value) {
+Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path, const std::string& value) {
   const RobotStop::AsOf as_of = runtime.robot_stop().AsOfNow();
   const std::lock_guard lock(runtime.structure_mutex());
   if (auto known = runtime.robot_stop().CheckIsKnown(as_of); !known) return known.error();
@@ -107,8 +103,7 @@ Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, Robot
   return At(**found, "is not set by hand");
 }
 
-HandSettings::HandSettings(Runtime& runtime, CommandWorker& worker, ApplicationLog& log,
-                           const Clock* watched_clock)
+HandSettings::HandSettings(Runtime& runtime, CommandWorker& worker, ApplicationLog& log, const Clock* watched_clock)
     : runtime_(runtime),
       log_(log),
       clock_(watched_clock != nullptr ? *watched_clock : machine_clock_),
@@ -196,8 +191,7 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
 void HandSettings::PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t number, double rate,
                                         RobotStop::AsOf as_of) {
   const Duration period = FromSeconds(1 / rate);
-  tasks_.PostSteps([this, slot = std::move(slot), value = std::move(value), number, period,
-                    as_of = std::move(as_of),
+  tasks_.PostSteps([this, slot = std::move(slot), value = std::move(value), number, period, as_of = std::move(as_of),
                     due = runtime_.clock().Now() + period]() mutable -> std::optional<Duration> {
     const Time now = runtime_.clock().Now();
     const std::lock_guard lock(slot->mutex);
@@ -257,8 +251,8 @@ std::optional<Time> HandSettings::LookAt(const Slot& slot) {
   // Whatever is thrown, the other slots' deadlines are looked at, and this one is tried again.
   try {
     if (const auto at_rest = slot->Publish(hold->safe_value); at_rest) {
-      const std::string why = hold->has_left() ? "who drove it has left"
-                                               : "nobody has been heard of for " + DurationText(hold->deadline());
+      const std::string why =
+          hold->has_left() ? "who drove it has left" : "nobody has been heard of for " + DurationText(hold->deadline());
       hold->NoteLost();
       log_.Add(ApplicationLog::Kind::kWarning, hold->path + ": " + why + "; it is at rest until it is released");
     } else {
@@ -274,7 +268,8 @@ std::optional<Time> HandSettings::LookAt(const Slot& slot) {
 void HandSettings::TellFailure(HandHold& hold, const Error& error) {
   if (std::exchange(hold.has_failed, true)) return;
   try {
-    log_.Add(ApplicationLog::Kind::kWarning, hold.path + ": nobody has been heard of, and it cannot be given its safe value (" +
+    log_.Add(ApplicationLog::Kind::kWarning, hold.path +
+                                                 ": nobody has been heard of, and it cannot be given its safe value (" +
                                                  error.message + "); this is tried again");
   } catch (...) {
     hold.has_failed = false;  // told at the next try

@@ -101,8 +101,7 @@ class HandHold final : public HandSlot::Hold {
 /// Sets the value at a port by hand, from its text format (Port::PublishByHand()); fields that the text leaves
 /// out have their usual values. Which port it was. Locks. Errors: no such port, with the nearest; no value of
 /// its type; a type without a text format; STOP was pressed or released meanwhile.
-Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
-                                  const std::string& value);
+Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path, const std::string& value);
 /// Gives it back to its publishers, ends its block, too. Which port it was. Errors: no such port; nothing is set by hand there;
 /// it was blocked or set, or STOP was pressed or released, after this was asked for.
 Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, RobotStop::AsOf as_of = {});
@@ -120,8 +119,7 @@ Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, Robot
 class HandSettings {
  public:
   /// `watched_clock`: for tests, of a machine whose deadlines only LookAtDeadlines() looks at.
-  HandSettings(Runtime& runtime, CommandWorker& worker, ApplicationLog& log,
-               const Clock* watched_clock = nullptr);
+  HandSettings(Runtime& runtime, CommandWorker& worker, ApplicationLog& log, const Clock* watched_clock = nullptr);
 
   struct Published {
     std::string port;
@@ -155,7 +153,7 @@ class HandSettings {
   const bool watches_;
   const std::shared_ptr<EndedLeases> ended_ = std::make_shared<EndedLeases>();
   mutable std::mutex mutex_;  // comes after the structure lock and after a slot's mutex
-  std::vector<Slot> driven_;                                     // guarded by mutex_: those with a deadline
+  std::vector<Slot> driven_;  // guarded by mutex_: those with a deadline
   mutable std::vector<std::pair<std::string, HandState>> told_;  // so: by All()
   std::atomic<std::uint64_t> count_{0};
   Lookout lookout_;

@@ -28,15 +28,13 @@ constexpr std::array kPublishFields{
 constexpr std::array kReleaseFields{
     RequestField{"path", Kind::kText, true, "the port; or the word 'stop', for the STOP of the robot"}};
 constexpr std::array kBlockFields{RequestField{"path", Kind::kText, true, "the port"}};
-constexpr std::array kPauseFields{
-    RequestField{"path", Kind::kText, true, "a module, a group or a thread"}};
-constexpr std::array kSetFields{
-    RequestField{"path", Kind::kText, true, "the parameter"},
-    RequestField{"value", Kind::kValue, true, "in the text format of its type"}};
+constexpr std::array kPauseFields{RequestField{"path", Kind::kText, true, "a module, a group or a thread"}};
+constexpr std::array kSetFields{RequestField{"path", Kind::kText, true, "the parameter"},
+                                RequestField{"value", Kind::kValue, true, "in the text format of its type"}};
 
 constexpr std::array kReloadFields{RequestField{"plugin", Kind::kText, true, "its name"}};
-constexpr std::array kRestartFields{
-    RequestField{"path", Kind::kText, false, "a module, or a group of which all that have failed; none: the whole application"}};
+constexpr std::array kRestartFields{RequestField{
+    "path", Kind::kText, false, "a module, or a group of which all that have failed; none: the whole application"}};
 
 constexpr std::array kLogFields{
     RequestField{"path", Kind::kText, false, "a module or a group; none: all"},
@@ -45,25 +43,29 @@ constexpr std::array kLogFields{
 constexpr bool kMoves = true, kMovesNothing = false;
 
 constexpr std::array kTable{
-    DescribedRequest{"stop", {}, "look", kMovesNothing, "every port that drives has its safe value, until release", "stop"},
+    DescribedRequest{
+        "stop", {}, "look", kMovesNothing, "every port that drives has its safe value, until release", "stop"},
     DescribedRequest{"release", kReleaseFields, "drive", kMoves,
-                     "ends the STOP of the robot; or the block and the value by hand of one port",
-                     "release stop"},
+                     "ends the STOP of the robot; or the block and the value by hand of one port", "release stop"},
     DescribedRequest{"publish", kPublishFields, "drive", kMoves,
                      "sets by hand the value that readers of a port see, until release",
                      "publish gate/wanted '{forward: 0.2}' --deadline 300ms"},
     DescribedRequest{"block", kBlockFields, "drive", kMovesNothing,
-                     "one port has its safe value, whatever anybody sends, until release",
-                     "block gate/wanted"},
-    DescribedRequest{"pause", kPauseFields, "change", kMovesNothing, "leaves modules out of cycles", "pause planner", "drive"},
-    DescribedRequest{"resume", kPauseFields, "change", kMoves, "has paused modules run again", "resume planner", "drive"},
+                     "one port has its safe value, whatever anybody sends, until release", "block gate/wanted"},
+    DescribedRequest{"pause", kPauseFields, "change", kMovesNothing, "leaves modules out of cycles", "pause planner",
+                     "drive"},
+    DescribedRequest{"resume", kPauseFields, "change", kMoves, "has paused modules run again", "resume planner",
+                     "drive"},
     DescribedRequest{"set", kSetFields, "change", kMoves, "sets a parameter", "set planner/cruise_speed 0.3"},
     DescribedRequest{"undo", {}, "change", kMoves, "takes back what was changed last", "undo"},
     DescribedRequest{"redo", {}, "change", kMoves, "does again what was taken back last", "redo"},
-    DescribedRequest{"reload", kReloadFields, "change", kMoves, "loads a plugin anew, and makes its modules anew", "reload planning"},
-    DescribedRequest{"restart", kRestartFields, "change", kMoves, "makes modules, or the whole application, anew", "restart planner"},
+    DescribedRequest{"reload", kReloadFields, "change", kMoves, "loads a plugin anew, and makes its modules anew",
+                     "reload planning"},
+    DescribedRequest{"restart", kRestartFields, "change", kMoves, "makes modules, or the whole application, anew",
+                     "restart planner"},
     DescribedRequest{"quit", {}, "change", kMovesNothing, "ends the run", "quit"},
-    DescribedRequest{"log", kLogFields, "change", kMovesNothing, "from which level on modules are logged", "log --level planner=debug"},
+    DescribedRequest{"log", kLogFields, "change", kMovesNothing, "from which level on modules are logged",
+                     "log --level planner=debug"},
     // Made by clients.
     DescribedRequest{"change", {}, "change", kMoves, "changes the structure, all of it or nothing", "change"},
     DescribedRequest{"save", {}, "change", kMovesNothing, "writes the structure into a file", "save robot.xml"},
@@ -93,8 +95,7 @@ Error WrongField(std::string_view request, const RequestField& field, const std:
 // The fields of one request, which are known to be good as far as their names go.
 class Reading {
  public:
-  Reading(const DescribedRequest& request, const RequestFields& fields)
-      : request_(request), fields_(fields) {}
+  Reading(const DescribedRequest& request, const RequestFields& fields) : request_(request), fields_(fields) {}
 
   Result<void> Check() {
     for (const auto& [name, value] : fields_) {
@@ -158,7 +159,8 @@ bool LetsMove(std::string_view name) {
 
 bool LetsMove(const CommandRequest& request) {
   const auto* const change = std::get_if<ChangeRequest>(&request);
-  return change != nullptr ? LetsMove(change->placed.changes) : LetsMove(std::visit([](const auto& each) { return NameOf(each); }, request));
+  return change != nullptr ? LetsMove(change->placed.changes)
+                           : LetsMove(std::visit([](const auto& each) { return NameOf(each); }, request));
 }
 
 // Also by what is taken away: a module that has kept another one from driving, or the connection by which it did so.
@@ -176,8 +178,7 @@ Result<const DescribedRequest*> FindRequest(std::string_view name) {
                .hint = NearestNameHint(name, NamesOf(kTable, &DescribedRequest::name))};
 }
 
-Result<CommandRequest> MakeRequest(std::string_view name, const RequestFields& fields,
-                                   const std::string& client) {
+Result<CommandRequest> MakeRequest(std::string_view name, const RequestFields& fields, const std::string& client) {
   const auto found = FindRequest(name);
   if (!found) return found.error();
   Reading reading(**found, fields);
@@ -191,8 +192,8 @@ Result<CommandRequest> MakeRequest(std::string_view name, const RequestFields& f
     return CommandRequest(PauseRequest{std::move(path), name == "pause"});
   }
   if (name == "publish") {
-    return CommandRequest(PublishRequest{std::move(path), reading.Text("value"), reading.rate,
-                                         reading.deadline, reading.Text("lease")});
+    return CommandRequest(
+        PublishRequest{std::move(path), reading.Text("value"), reading.rate, reading.deadline, reading.Text("lease")});
   }
   if (name == "undo") return CommandRequest(UndoRequest{});
   if (name == "redo") return CommandRequest(RedoRequest{});

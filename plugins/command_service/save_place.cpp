@@ -20,13 +20,11 @@ bool IsAtOrBelow(const fs::path& path, const fs::path& folder) {
 Result<std::string> SavePlace(const std::string& application_file, const std::string& wanted) {
   const fs::path asked(wanted);
   if (asked.extension() != ".xml") {
-    return Error{.message = "'" + wanted + "' is not the name of an XML file",
-                 .hint = "end it in .xml"};
+    return Error{.message = "'" + wanted + "' is not the name of an XML file", .hint = "end it in .xml"};
   }
   if (application_file.empty()) {
     if (!asked.has_parent_path()) return wanted;
-    return Error{.message = "viewers cannot save to '" + wanted + "'",
-                 .hint = "give a name without a folder"};
+    return Error{.message = "viewers cannot save to '" + wanted + "'", .hint = "give a name without a folder"};
   }
   std::error_code error;
   // Whole first: the folder of a mere name is "", and everything is below that.

@@ -14,8 +14,7 @@ constexpr std::size_t kStride = 64;
 
 }  // namespace
 
-StructureWalk::Outcome StructureWalk::Continue(const std::function<void()>& begin,
-                                               const Visitor& visit) {
+StructureWalk::Outcome StructureWalk::Continue(const std::function<void()>& begin, const Visitor& visit) {
   if (is_current()) return Outcome::kUnchanged;
   const auto until = std::chrono::steady_clock::now() + kHold;
   const std::uint64_t revision = runtime_.revision();

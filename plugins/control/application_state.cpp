@@ -20,7 +20,8 @@ std::string StopText(Runtime& runtime) {
   const RobotStop::State stop = runtime.robot_stop().state();
   if (!stop.in_force) return {};
   const char* const but = FindWhatDrives(runtime) == "" ? ", but NO PORT DRIVES" : "";
-  return fmt::format("STOP in force for {:.0f} s, by {}{}", ToSeconds(runtime.clock().Now() - stop.since), stop.by, but);
+  return fmt::format("STOP in force for {:.0f} s, by {}{}", ToSeconds(runtime.clock().Now() - stop.since), stop.by,
+                     but);
 }
 
 std::string StateText(const ServedApplication& application) {
@@ -55,7 +56,8 @@ std::string StateText(const ServedApplication& application) {
   };
   add(FailedModules(root, *application.scheduler, nullptr).size(), " module FAILED", " modules FAILED");
   for (const StuckModule& each : application.scheduler->StuckModules()) text += ", STUCK: " + each.path;
-  add(FindStopReach(application.runtime, application.scheduler).value().unreached.size(), " driving port CANNOT BE REACHED", " driving ports CANNOT BE REACHED");
+  add(FindStopReach(application.runtime, application.scheduler).value().unreached.size(),
+      " driving port CANNOT BE REACHED", " driving ports CANNOT BE REACHED");
   add(paused, " module PAUSED", " modules PAUSED");
   add(blocked, " port BLOCKED", " ports BLOCKED");
   add(by_hand, " port set by hand", " ports set by hand");
@@ -82,12 +84,11 @@ std::optional<Duration> SilentFor(const Port& port, Time began, Time now) {
 }
 
 bool LacksSource(const Port& port) {
-  return port.is_required() && port.Sources().empty() && !port.is_set_by_hand() &&
-         !LateConnections::Awaits(port);
+  return port.is_required() && port.Sources().empty() && !port.is_set_by_hand() && !LateConnections::Awaits(port);
 }
 
 std::map<std::string, std::string> FailedModules(FrameworkElement& start, Scheduler& scheduler,
-                                                  const ApplicationLog* log) {
+                                                 const ApplicationLog* log) {
   std::map<std::string, std::string> failed;
   try {
     start.Visit([&](FrameworkElement& each) {

@@ -28,6 +28,6 @@ class Port;
 
 /// Modules that have failed, by path, with what they have thrown. Under the structure lock.
 [[nodiscard]] std::map<std::string, std::string> FailedModules(FrameworkElement& start, Scheduler& scheduler,
-                                                                const ApplicationLog* log);
+                                                               const ApplicationLog* log);
 
 }  // namespace runnel

@@ -26,7 +26,8 @@ std::string StatusText(CallStatus status) {
 /// One call on behalf of a client, who sees how far it is. When the client goes, it is given up.
 class CallCommand {
  public:
-  CallCommand(Runtime& runtime, std::optional<Time> asked, std::string path, std::optional<std::string> arguments, Duration timeout)
+  CallCommand(Runtime& runtime, std::optional<Time> asked, std::string path, std::optional<std::string> arguments,
+              Duration timeout)
       : runtime_(runtime),
         as_of_(runtime.robot_stop().AsOfNow(asked)),
         path_(std::move(path)),
@@ -46,18 +47,21 @@ class CallCommand {
       return Say(answer, (reply_ != nullptr ? ToText(*reply_, call_->reply()) : "done") + "\n");
     }
     const std::string why = call_->error();
-    return Fail(answer, {.message = "the call has " + Verb(status) + (why.empty() ? "" : ": " + why),
-                         .path = path_});
+    return Fail(answer, {.message = "the call has " + Verb(status) + (why.empty() ? "" : ": " + why), .path = path_});
   }
 
  private:
   static std::string Verb(CallStatus status) {
     switch (status) {
       case CallStatus::kFailed:
-      case CallStatus::kTimedOut: return StatusText(status);
-      case CallStatus::kFaulted: return "ended, as the module has failed";
-      case CallStatus::kBusy: return "not begun, as too many wait";
-      default: return "ended: " + StatusText(status);
+      case CallStatus::kTimedOut:
+        return StatusText(status);
+      case CallStatus::kFaulted:
+        return "ended, as the module has failed";
+      case CallStatus::kBusy:
+        return "not begun, as too many wait";
+      default:
+        return "ended: " + StatusText(status);
     }
   }
 
@@ -67,8 +71,7 @@ class CallCommand {
     const TypeInfo* const type = (*callable)->arguments();
     auto call = (*callable)->NewCall();
     if (type == nullptr) {
-      if (arguments_ && *arguments_ != "{}")
-        return Error{.message = "takes no arguments", .path = path_};
+      if (arguments_ && *arguments_ != "{}") return Error{.message = "takes no arguments", .path = path_};
     } else {
       const std::string shape = ToText(*type, call->arguments());
       if (!arguments_ && !(*callable)->are_arguments_optional()) {

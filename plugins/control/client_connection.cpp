@@ -35,8 +35,7 @@ short ClientConnection::events() const noexcept {
   // Requests are taken one by one: what comes meanwhile stays where it is.
   const bool reads = !has_ended_ && !is_refused_ && !command_ && backlog() < kBacklog;
   const bool may_end = command_ && !has_enough_;
-  return static_cast<short>((reads ? POLLIN : 0) | (may_end ? POLLRDHUP : 0) |
-                            (backlog() > 0 ? POLLOUT : 0));
+  return static_cast<short>((reads ? POLLIN : 0) | (may_end ? POLLRDHUP : 0) | (backlog() > 0 ? POLLOUT : 0));
 }
 
 bool ClientConnection::is_over() const noexcept {
@@ -51,13 +50,9 @@ std::optional<Command::SteadyTime> ClientConnection::due() const noexcept {
   return may_have_request_ ? std::optional(SteadyTime{}) : std::nullopt;
 }
 
-void ClientConnection::Send(std::string_view kind, std::string_view payload) {
-  out_ += FrameBytes(kind, payload);
-}
+void ClientConnection::Send(std::string_view kind, std::string_view payload) { out_ += FrameBytes(kind, payload); }
 
-void ClientConnection::SendEnd(ControlCode code) {
-  Send("end", std::to_string(static_cast<int>(code)));
-}
+void ClientConnection::SendEnd(ControlCode code) { Send("end", std::to_string(static_cast<int>(code))); }
 
 void ClientConnection::Refuse(const Error& error) {
   WriteError(ErrorLine(error));
@@ -147,10 +142,14 @@ void ClientConnection::Work(CommandService& service, TaskGroup& tasks) {
 void ClientConnection::Finish() {
   try {
     // What has been done is done, though it is what has ended the application; and may be about to say so.
-    const auto is_under_way = [this] { return command_ && command_->waits_for_task() && command_->due() != SteadyTime::min(); };
+    const auto is_under_way = [this] {
+      return command_ && command_->waits_for_task() && command_->due() != SteadyTime::min();
+    };
     const auto last = std::chrono::steady_clock::now() + kAwaitsTask;
-    while (is_under_way() && std::chrono::steady_clock::now() < last) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    const auto code = command_ && command_->waits_for_task() && !is_under_way() ? command_->Continue(*this) : std::nullopt;
+    while (is_under_way() && std::chrono::steady_clock::now() < last)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const auto code =
+        command_ && command_->waits_for_task() && !is_under_way() ? command_->Continue(*this) : std::nullopt;
     if (code) {
       command_.reset();
       SendEnd(*code);

@@ -69,7 +69,7 @@ class ClientConnection final : private Answer {
   bool is_broken_ = false;   // the client has gone
   bool is_refused_ = false;
   bool may_have_request_ = false;  // among what has been read
-  std::optional<Time> asked_;  // when the next request was asked for, if its client says so
+  std::optional<Time> asked_;      // when the next request was asked for, if its client says so
   std::optional<Error> why_only_stop_;
   SteadyTime quiet_since_ = std::chrono::steady_clock::now();
 };

@@ -77,8 +77,8 @@ Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
     return Error{.message = "'" + kind.name + "' wants " + (lacks_value ? "a value" : "a path")};
   }
   if (request.arguments.size() > kind.most_arguments) {
-    return Error{.message = "'" + request.arguments[kind.most_arguments] +
-                            "' is one word too many for '" + kind.name + "'"};
+    return Error{.message =
+                     "'" + request.arguments[kind.most_arguments] + "' is one word too many for '" + kind.name + "'"};
   }
   // Only values may be empty texts.
   const std::size_t words = kind.name == "publish" || kind.name == "call" ? 1 : request.arguments.size();
@@ -87,7 +87,8 @@ Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
   }
   for (const auto& [name, value] : request.options) {
     if (std::ranges::count(kind.options, name) == 0) {
-      return Error{.message = "'" + kind.name + "' has no option '" + name + "'", .hint = NearestNameHint(name, kind.options)};
+      return Error{.message = "'" + kind.name + "' has no option '" + name + "'",
+                   .hint = NearestNameHint(name, kind.options)};
     }
     if (value != "yes" && std::ranges::find(kFlags, name) != kFlags.end()) {
       return Error{.message = "'" + kind.name + "': " + name + " is 'yes' or left out, not '" + value + "'"};
@@ -99,7 +100,8 @@ Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
 
 }  // namespace
 
-CommandResult MakeCommand(const std::string& text, CommandService& service, TaskGroup& tasks, std::optional<Time> asked) {
+CommandResult MakeCommand(const std::string& text, CommandService& service, TaskGroup& tasks,
+                          std::optional<Time> asked) {
   const auto request = Request::Parse(text);
   if (!request) return request.error();
   const auto kind = std::ranges::find(Kinds(), request->command, &CommandKind::name);
@@ -111,11 +113,9 @@ CommandResult MakeCommand(const std::string& text, CommandService& service, Task
   const ServedApplication& application = service.application();
   if ((kind->needs == Needs::kPace && application.pace == nullptr) ||
       (kind->needs == Needs::kScheduler && application.scheduler == nullptr)) {
-    return Error{
-        .message =
-            kind->needs == Needs::kPace
-                ? "the program that runs this application cannot pause it or change its speed"
-                : "the program that runs this application does not say how it does so"};
+    return Error{.message = kind->needs == Needs::kPace
+                                ? "the program that runs this application cannot pause it or change its speed"
+                                : "the program that runs this application does not say how it does so"};
   }
   // The service looks by itself, and knows what a change is of.
   if (kind->make != MakeServiceCommand && LetsMove(kind->name)) {

@@ -77,9 +77,9 @@ struct CommandContext {
 using CommandResult = Result<Command>;
 using CommandMaker = CommandResult(const Request& request, const CommandContext& context);
 CommandMaker MakeGetCommand, MakeListCommand, MakePathsCommand, MakeTypesCommand, MakeEchoCommand, MakeRateCommand,
-    MakeLogCommand, MakePauseCommand, MakeResumeCommand, MakeStepCommand, MakeSpeedCommand,
-    MakeRecordCommand, MakeDeadlineCommand, MakeTopCommand,
-    MakeProfileCommand, MakeLatencyCommand, MakeCallCommand, MakeActivitiesCommand, MakeNetworkCommand;
+    MakeLogCommand, MakePauseCommand, MakeResumeCommand, MakeStepCommand, MakeSpeedCommand, MakeRecordCommand,
+    MakeDeadlineCommand, MakeTopCommand, MakeProfileCommand, MakeLatencyCommand, MakeCallCommand, MakeActivitiesCommand,
+    MakeNetworkCommand;
 /// What an extension shows under a name (plugins/command_service/extension_texts.h).
 [[nodiscard]] Command ShowExtensionText(Runtime& runtime, const std::string& name, const std::string& argument,
                                         Duration patience = std::chrono::seconds(3));

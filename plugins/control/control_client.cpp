@@ -20,9 +20,7 @@ namespace {
 
 constexpr std::size_t kLongestAnswer = std::size_t{1} << 30;
 
-Error Lost(const std::string& why) {
-  return {.message = "the connection to the application is lost: " + why};
-}
+Error Lost(const std::string& why) { return {.message = "the connection to the application is lost: " + why}; }
 
 std::string Described(const RunningApplication& application) {
   return application.hello.application + " (" + std::to_string(application.hello.process) + ")";
@@ -41,8 +39,7 @@ ControlClient::~ControlClient() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-Result<ControlClient> ControlClient::Connect(const std::filesystem::path& socket,
-                                             Duration timeout) {
+Result<ControlClient> ControlClient::Connect(const std::filesystem::path& socket, Duration timeout) {
   const auto descriptor = ConnectToSocket(socket);
   if (!descriptor) return descriptor.error();
   ControlClient client(*descriptor);
@@ -89,7 +86,10 @@ Result<Frame> ControlClient::Receive() {
 }
 
 Result<int> ControlClient::Ask(const std::string& request, const Use& output, const Use& errors) {
-  const std::string at = hello_.is_asking_when ? FrameBytes("at", std::to_string(asked_.value_or(SteadyClock().Now()).time_since_epoch().count())) : "";
+  const std::string at =
+      hello_.is_asking_when
+          ? FrameBytes("at", std::to_string(asked_.value_or(SteadyClock().Now()).time_since_epoch().count()))
+          : "";
   if (auto sent = Send(at + FrameBytes("request", request)); !sent) return sent.error();
   for (;;) {
     const auto frame = Receive();
@@ -141,17 +141,19 @@ Result<RunningApplication> ChooseApplication(const std::vector<RunningApplicatio
   });
   if (meant.size() == 1) return meant.front();
   if (applications.empty()) {
-    return Error{.message = "no application is running that could be reached",
-                 .hint = "start one with 'runnel run'"};
+    return Error{.message = "no application is running that could be reached", .hint = "start one with 'runnel run'"};
   }
   if (meant.empty()) {
     return Error{.message = "no running application is called '" + wanted + "'",
-                 .hint = NearestNameHint(wanted, NamesOf(applications, [](const auto& each) { return each.hello.application; }))};
+                 .hint = NearestNameHint(
+                     wanted, NamesOf(applications, [](const auto& each) { return each.hello.application; }))};
   }
   const std::string called = wanted.empty() ? "" : " called '" + wanted + "'";
-  return Error{.message = fmt::format("{} applications{} are running: {}", meant.size(), called, fmt::join(NamesOf(meant, Described), ", ")),
-               .hint = wanted.empty() ? "choose one by --app NAME or --app PROCESS, or by a path that begins with its name"
-                                      : "choose one by --app PROCESS"};
+  return Error{.message = fmt::format("{} applications{} are running: {}", meant.size(), called,
+                                      fmt::join(NamesOf(meant, Described), ", ")),
+               .hint = wanted.empty()
+                           ? "choose one by --app NAME or --app PROCESS, or by a path that begins with its name"
+                           : "choose one by --app PROCESS"};
 }
 
 }  // namespace runnel

@@ -18,8 +18,7 @@ namespace runnel {
 class ControlClient {
  public:
   /// Errors: nobody there, no answer within `timeout`, another protocol.
-  static Result<ControlClient> Connect(const std::filesystem::path& socket,
-                                       Duration timeout = std::chrono::seconds(5));
+  static Result<ControlClient> Connect(const std::filesystem::path& socket, Duration timeout = std::chrono::seconds(5));
   ~ControlClient();
   ControlClient(ControlClient&& other) noexcept;
   ControlClient& operator=(ControlClient&&) = delete;
@@ -58,12 +57,12 @@ struct RunningApplication {
   std::filesystem::path socket;
   Hello hello;
 };
-[[nodiscard]] Result<std::vector<RunningApplication>> FindRunningApplications(
-    const std::filesystem::path& folder, std::vector<Error>* silent = nullptr);
+[[nodiscard]] Result<std::vector<RunningApplication>> FindRunningApplications(const std::filesystem::path& folder,
+                                                                              std::vector<Error>* silent = nullptr);
 
 /// The one that is meant by `wanted`, a name or the number of a process; "": the only one. Errors: none,
 /// or several; the hint lists them.
-[[nodiscard]] Result<RunningApplication> ChooseApplication(
-    const std::vector<RunningApplication>& applications, const std::string& wanted);
+[[nodiscard]] Result<RunningApplication> ChooseApplication(const std::vector<RunningApplication>& applications,
+                                                           const std::string& wanted);
 
 }  // namespace runnel

@@ -47,18 +47,16 @@ Result<sockaddr_un> AddressOf(const fs::path& path) {
   address.sun_family = AF_UNIX;
   const std::string text = path.string();
   if (text.size() >= sizeof address.sun_path) {
-    return Error{.message = "the path of a socket may have " +
-                            std::to_string(sizeof address.sun_path - 1) + " bytes at most",
-                 .position = {text},
-                 .hint = "set XDG_RUNTIME_DIR to a shorter one"};
+    return Error{
+        .message = "the path of a socket may have " + std::to_string(sizeof address.sun_path - 1) + " bytes at most",
+        .position = {text},
+        .hint = "set XDG_RUNTIME_DIR to a shorter one"};
   }
   std::memcpy(address.sun_path, text.c_str(), text.size());
   return address;
 }
 
-int OpenSocket(int more = SOCK_NONBLOCK) {
-  return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | more, 0);
-}
+int OpenSocket(int more = SOCK_NONBLOCK) { return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | more, 0); }
 
 // How long connecting and sending wait; 0: for ever.
 void SetPatience(int descriptor, time_t seconds) {
@@ -166,8 +164,9 @@ Result<int> ConnectToSocket(const fs::path& path) {
   if (descriptor < 0) return SystemError("no socket can be made", path);
   SetPatience(descriptor, kPatience);  // many may be waiting there already
   if (Connect(descriptor, *address) != 0) {
-    Error error = errno == EAGAIN ? Error{.message = "it does not answer: too many wait there already", .position = {path.string()}}
-                                  : SystemError("cannot be reached", path);
+    Error error = errno == EAGAIN
+                      ? Error{.message = "it does not answer: too many wait there already", .position = {path.string()}}
+                      : SystemError("cannot be reached", path);
     close(descriptor);
     return error;
   }
@@ -183,8 +182,7 @@ Result<ListeningSocket> ListenInFolder(const fs::path& folder) {
     const fs::path path = folder / (process + more + kEnding);
     struct stat status {};
     // A process that had the same number may have left one.
-    if (lstat(path.c_str(), &status) == 0 && (!IsStale(path) || unlink(path.c_str()) != 0))
-      continue;
+    if (lstat(path.c_str(), &status) == 0 && (!IsStale(path) || unlink(path.c_str()) != 0)) continue;
     const int descriptor = OpenSocket();
     if (descriptor < 0) return SystemError("no socket can be made", path);
     const fs::path starting = StartingPath(folder);
@@ -202,8 +200,7 @@ Result<ListeningSocket> ListenInFolder(const fs::path& folder) {
     close(descriptor);
     if (!is_taken) return error;
   }
-  return Error{.message = "this process has too many sockets there already",
-               .position = {folder.string()}};
+  return Error{.message = "this process has too many sockets there already", .position = {folder.string()}};
 }
 
 }  // namespace runnel

@@ -22,8 +22,7 @@ Result<void> CheckControlFolder(const std::filesystem::path& folder);
 
 /// The sockets in the folder that somebody listens to, by process and then by name. Those that a dead
 /// process has left are removed. Errors: those of CheckControlFolder().
-[[nodiscard]] Result<std::vector<std::filesystem::path>> FindControlSockets(
-    const std::filesystem::path& folder);
+[[nodiscard]] Result<std::vector<std::filesystem::path>> FindControlSockets(const std::filesystem::path& folder);
 
 /// A socket connected to `path`, whose reading and writing waits. Errors: nobody listens there, or the path is too long.
 [[nodiscard]] Result<int> ConnectToSocket(const std::filesystem::path& path);

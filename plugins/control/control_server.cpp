@@ -82,8 +82,7 @@ class ControlServer::Loop {
   void WaitForEvents() {
     polled_.assign({{wake_, POLLIN, 0}, {listening_.descriptor, POLLIN, 0}});
     if (must_pause_) polled_[1].fd = -1;
-    for (const auto& client : clients_)
-      polled_.push_back({client->descriptor(), client->events(), 0});
+    for (const auto& client : clients_) polled_.push_back({client->descriptor(), client->events(), 0});
     const std::size_t count = clients_.size();
     if (poll(polled_.data(), polled_.size(), Timeout()) < 0) return;
     if (polled_[0].revents != 0) {
@@ -115,8 +114,7 @@ class ControlServer::Loop {
   }
 
   void Accept() {
-    const int descriptor =
-        accept4(listening_.descriptor, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    const int descriptor = accept4(listening_.descriptor, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (descriptor < 0) {
       must_pause_ = errno != EAGAIN && errno != EINTR && errno != ECONNABORTED;
       return;
@@ -124,8 +122,8 @@ class ControlServer::Loop {
     auto client = std::make_unique<ClientConnection>(descriptor, options_.longest_request);
     if (!IsOwner(descriptor)) return;
     if (clients_.size() >= options_.most_clients && !EvictQuietClient()) {
-      const Error full{.message = "there are " + std::to_string(options_.most_clients) +
-                                  " clients already, and all are busy"};
+      const Error full{.message =
+                           "there are " + std::to_string(options_.most_clients) + " clients already, and all are busy"};
       if (clients_.size() >= options_.most_clients + kKeptForStop) {
         client->Refuse(full);
         return client->Finish();
@@ -137,8 +135,8 @@ class ControlServer::Loop {
   }
 
   bool EvictQuietClient() {
-    const auto quietest = std::ranges::min_element(
-        clients_, {}, [](const auto& client) { return client->quiet_since(); });
+    const auto quietest =
+        std::ranges::min_element(clients_, {}, [](const auto& client) { return client->quiet_since(); });
     if (quietest == clients_.end()) return false;
     const auto quiet_for = std::chrono::steady_clock::now() - (*quietest)->quiet_since();
     if (quiet_for < kQuiet) return false;
@@ -172,8 +170,7 @@ class ControlServer::Loop {
   std::thread thread_;
 };
 
-Result<std::unique_ptr<ControlServer>> ControlServer::Start(CommandService& service,
-                                                            ControlOptions options) {
+Result<std::unique_ptr<ControlServer>> ControlServer::Start(CommandService& service, ControlOptions options) {
   if (options.folder.empty()) options.folder = ControlFolder();
   auto listening = ListenInFolder(options.folder);
   if (!listening) return listening.error();
@@ -183,8 +180,8 @@ Result<std::unique_ptr<ControlServer>> ControlServer::Start(CommandService& serv
     unlink(listening->path.c_str());
     return SystemError("no event can be made");
   }
-  return std::unique_ptr<ControlServer>(new ControlServer(
-      std::make_unique<Loop>(service, std::move(options), std::move(*listening), wake)));
+  return std::unique_ptr<ControlServer>(
+      new ControlServer(std::make_unique<Loop>(service, std::move(options), std::move(*listening), wake)));
 }
 
 ControlServer::ControlServer(std::unique_ptr<Loop> loop) : loop_(std::move(loop)) {}

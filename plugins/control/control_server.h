@@ -26,8 +26,7 @@ struct ControlOptions {
 /// Errors:     no folder, no socket. Clients' mistakes are answered, and never reach the application.
 class ControlServer {
  public:
-  static Result<std::unique_ptr<ControlServer>> Start(CommandService& service,
-                                                      ControlOptions options);
+  static Result<std::unique_ptr<ControlServer>> Start(CommandService& service, ControlOptions options);
   /// Ends all connections, removes the socket, and waits for a change that is being carried out.
   ~ControlServer();
 

@@ -11,9 +11,9 @@
 #include "core/element/element_path.h"
 #include "core/element/runtime.h"
 #include "core/element/tags.h"
+#include "core/paths/late_connections.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/converted_flow.h"
-#include "core/paths/late_connections.h"
 #include "core/port/port.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
@@ -42,9 +42,7 @@ const char* KindName(const FrameworkElement& element) {
   return kKindNames[static_cast<std::size_t>(element.kind())];
 }
 
-std::string Milliseconds(Duration duration) {
-  return fmt::format("{:.3f}", ToSeconds(duration) * 1e3);
-}
+std::string Milliseconds(Duration duration) { return fmt::format("{:.3f}", ToSeconds(duration) * 1e3); }
 
 std::string ParameterLine(const Configurable& parameter) {
   const ConfigurableInfo& info = parameter.info();
@@ -66,11 +64,10 @@ std::string ThreadText(const ThreadContainer& thread, bool is_long) {
   if (thread.statistics().is_late) text += ", OVERRUNS";
   if (!is_long) return text;
   const CycleStatistics all = thread.statistics();
-  return text + ", " + std::to_string(all.cycles) + " cycles, " + std::to_string(all.overruns) +
-         " overruns, period " + Milliseconds(all.period_mean) + " ms (" +
-         Milliseconds(all.period_min) + " .. " + Milliseconds(all.period_max) + "), jitter " +
-         Milliseconds(all.jitter_mean) + " ms (max " + Milliseconds(all.jitter_max) +
-         "), execution " + Milliseconds(all.execution_mean) + " ms (max " +
+  return text + ", " + std::to_string(all.cycles) + " cycles, " + std::to_string(all.overruns) + " overruns, period " +
+         Milliseconds(all.period_mean) + " ms (" + Milliseconds(all.period_min) + " .. " +
+         Milliseconds(all.period_max) + "), jitter " + Milliseconds(all.jitter_mean) + " ms (max " +
+         Milliseconds(all.jitter_max) + "), execution " + Milliseconds(all.execution_mean) + " ms (max " +
          Milliseconds(all.execution_max) + ")";
 }
 
@@ -101,8 +98,7 @@ std::string LimitsText(const Port& port) {
   const InputLimits& limits = port.limits();
   std::string text;
   if (limits.default_value) {
-    text += ", default " + ToText(limits.default_value.type(), limits.default_value.get(),
-                                  {.all = kLongestValue});
+    text += ", default " + ToText(limits.default_value.type(), limits.default_value.get(), {.all = kLongestValue});
   }
   if (!limits.has_bounds()) return text;
   text += ", in " + BoundsText(limits);
@@ -212,9 +208,8 @@ void AddRows(FrameworkElement& element, std::size_t depth, const ListingOptions&
   const bool is_shown = element.kind() != ElementKind::kPortGroup || depth == 0;
   if (is_shown) {
     const std::string name = depth == 0 ? element.path() : element.name();
-    rows.push_back(
-        {std::string(2 * depth, ' ') + name, KindName(element),
-         About(element, options) + StateText(element, options, failed) + TagMarks(element)});
+    rows.push_back({std::string(2 * depth, ' ') + name, KindName(element),
+                    About(element, options) + StateText(element, options, failed) + TagMarks(element)});
   }
   for (FrameworkElement* child : element.children()) {
     AddRows(*child, is_shown ? depth + 1 : depth, options, failed, rows);
@@ -229,24 +224,22 @@ std::string RateText(double hertz) {
 
 PublicationRates LookAtRates(FrameworkElement& start) {
   PublicationRates rates;
-  start.VisitAll<const Port>([&](const Port& port) {
-    rates[port.path()].Look(Publications::Of(port), port.runtime().clock().Now());
-  });
+  start.VisitAll<const Port>(
+      [&](const Port& port) { rates[port.path()].Look(Publications::Of(port), port.runtime().clock().Now()); });
   return rates;
 }
 
 std::string ListElements(FrameworkElement& start, const ListingOptions& options) {
   std::vector<Row> rows;
   const auto failed = options.scheduler != nullptr ? FailedModules(start, *options.scheduler, options.log)
-                                                    : std::map<std::string, std::string>();
+                                                   : std::map<std::string, std::string>();
   if (start.kind() == ElementKind::kRuntime) {
     for (FrameworkElement* child : start.children()) AddRows(*child, 0, options, failed, rows);
   } else {
     AddRows(start, 0, options, failed, rows);
   }
   for (const LateConnection* each : AwaitedBelow(start)) {
-    rows.push_back({each->SourceText() + " -> " + each->to, "connection",
-                    "waits: " + *each->waits_for});
+    rows.push_back({each->SourceText() + " -> " + each->to, "connection", "waits: " + *each->waits_for});
   }
   std::size_t name_width = 0;
   std::size_t kind_width = 0;

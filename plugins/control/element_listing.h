@@ -22,7 +22,7 @@ struct ListingOptions {
   const ApplicationLog* log = nullptr;  ///< and why; optional
   Time now{};                           ///< by the application's clock, for how old values are
   Time began{};                         ///< when it began, for outputs that have fallen silent
-  bool is_long = false;  ///< connections, threads, counts, rates, statistics
+  bool is_long = false;                 ///< connections, threads, counts, rates, statistics
   /// As of a moment ago; empty: no rates.
   PublicationRates rates = {};
 };

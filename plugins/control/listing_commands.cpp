@@ -23,29 +23,32 @@ constexpr Duration kLookForNew = std::chrono::milliseconds(100);
 
 // Says what `text` makes under the lock.
 Command Told(Runtime& runtime, std::function<std::string()> text) {
-  return Command(
-      UnderLock(runtime, [text = std::move(text)](Answer& answer) { return Say(answer, text()); }));
+  return Command(UnderLock(runtime, [text = std::move(text)](Answer& answer) { return Say(answer, text()); }));
 }
 
 }  // namespace
 
 Command ShowExtensionText(Runtime& runtime, const std::string& name, const std::string& argument, Duration patience) {
-  return Command(UnderLock(runtime, [&runtime, name, argument, patience, latest = std::optional<Command::SteadyTime>(),
-                                     asking = std::shared_ptr<void>()](Answer& answer) mutable -> CommandStep {
-    const ExtensionTexts::Text* const text = ExtensionTexts::Find(runtime, name);
-    if (text == nullptr) {
-      return Refuse(answer, {.message = "the application has no network", .hint = "add <network/> to its file"});
-    }
-    if (!latest) latest = std::chrono::steady_clock::now() + patience;  // the lock may have come late
-    const auto told = (*text)(argument, asking);
-    if (!told) return Refuse(answer, told.error());
-    if (*told) return Say(answer, **told);
-    if (std::chrono::steady_clock::now() < *latest) return kLookAgain;
-    asking.reset();  // whoever is told that it has failed does not find it done later
-    return Fail(answer, {.message = "nobody in the network has answered",
-                         .path = argument,
-                         .hint = "who is listed by 'runnel network' all the same is held up, or cannot reach this application"});
-  }));
+  return Command(UnderLock(
+      runtime,
+      [&runtime, name, argument, patience, latest = std::optional<Command::SteadyTime>(),
+       asking = std::shared_ptr<void>()](Answer& answer) mutable -> CommandStep {
+        const ExtensionTexts::Text* const text = ExtensionTexts::Find(runtime, name);
+        if (text == nullptr) {
+          return Refuse(answer, {.message = "the application has no network", .hint = "add <network/> to its file"});
+        }
+        if (!latest) latest = std::chrono::steady_clock::now() + patience;  // the lock may have come late
+        const auto told = (*text)(argument, asking);
+        if (!told) return Refuse(answer, told.error());
+        if (*told) return Say(answer, **told);
+        if (std::chrono::steady_clock::now() < *latest) return kLookAgain;
+        asking.reset();  // whoever is told that it has failed does not find it done later
+        return Fail(
+            answer,
+            {.message = "nobody in the network has answered",
+             .path = argument,
+             .hint = "who is listed by 'runnel network' all the same is held up, or cannot reach this application"});
+      }));
 }
 
 CommandResult MakeNetworkCommand(const Request&, const CommandContext& context) {
@@ -58,8 +61,7 @@ CommandResult MakeListCommand(const Request& request, const CommandContext& cont
   }
   return Command(
       UnderLock(context.application.runtime,
-                [&runtime = context.application.runtime,
-                 path = request.arguments.empty() ? "" : request.arguments[0],
+                [&runtime = context.application.runtime, path = request.arguments.empty() ? "" : request.arguments[0],
                  options = ListingOptions{.scheduler = context.application.scheduler,
                                           .log = &context.application.log,
                                           .began = context.application.log.start(),

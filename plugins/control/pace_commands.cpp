@@ -28,8 +28,7 @@ CommandResult SayAtOnce(std::string text) {
 }
 
 // What it wants, done and logged. Errors: of the pace.
-CommandResult Do(const ServedApplication& application, const Result<void>& done,
-                 const std::string& what) {
+CommandResult Do(const ServedApplication& application, const Result<void>& done, const std::string& what) {
   if (!done) return done.error();
   application.log.Add(ApplicationLog::Kind::kChange, what);
   return SayAtOnce(what + " at " + TimeText(application));
@@ -56,15 +55,15 @@ CommandResult MakeStepCommand(const Request& request, const CommandContext& cont
   }
   if (auto stepped = context.application.pace->StepCycles(*count); !stepped) return stepped.error();
   // Waits until the cycles have run.
-  return Command([&application = context.application,
-                  &pace = *context.application.pace](Answer& answer) -> CommandStep {
-    if (!pace.is_paused()) {
-      answer.WriteError("somebody else has let it go on meanwhile\n");
-      return ControlCode::kFailed;
-    }
-    if (pace.cycles_to_step() > 0) return kLookWhetherDone;
-    return Say(answer, "stands at " + TimeText(application) + "\n");
-  });
+  return Command(
+      [&application = context.application, &pace = *context.application.pace](Answer& answer) -> CommandStep {
+        if (!pace.is_paused()) {
+          answer.WriteError("somebody else has let it go on meanwhile\n");
+          return ControlCode::kFailed;
+        }
+        if (pace.cycles_to_step() > 0) return kLookWhetherDone;
+        return Say(answer, "stands at " + TimeText(application) + "\n");
+      });
 }
 
 CommandResult MakeSpeedCommand(const Request& request, const CommandContext& context) {

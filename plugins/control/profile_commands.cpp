@@ -26,8 +26,7 @@ struct Top {
 };
 
 std::string LimitText(Duration after) {
-  return after > Duration{} ? ": at most " + DurationText(after) + " in a cycle\n"
-                            : ": no deadline\n";
+  return after > Duration{} ? ": at most " + DurationText(after) + " in a cycle\n" : ": no deadline\n";
 }
 
 std::string StuckText(const Scheduler& scheduler) {
@@ -37,8 +36,7 @@ std::string StuckText(const Scheduler& scheduler) {
   }
   if (text.empty()) text = "no module has a deadline\n";
   for (const StuckModule& stuck : scheduler.StuckModules()) {
-    text += stuck.path + " has not returned for " + DurationText(stuck.since) + "; " +
-            stuck.thread + " waits for it\n";
+    text += stuck.path + " has not returned for " + DurationText(stuck.since) + "; " + stuck.thread + " waits for it\n";
   }
   return text;
 }
@@ -51,29 +49,30 @@ CommandResult MakeTopCommand(const Request& request, const CommandContext& conte
   if (!count) return count.error();
   if (request.Has("once")) *count = 1;
   auto& runtime = context.application.runtime;
-  return Command(UnderLock(runtime, [&runtime, zero = context.application.log.start(), left = *count,
-                            &scheduler = *context.application.scheduler,
-                            top = std::shared_ptr<Top>()](Answer& answer) mutable -> CommandStep {
-    if (!top) top = std::make_shared<Top>(scheduler);
-    const Time now = SteadyClock().Now();
-    Profile profile = top->scheduler.ReadProfile();
-    if (std::exchange(top->has_begun, true)) {
-      answer.Write(fmt::format("{:.3f} s; measured for {:.1f} s\n",
-                               ToSeconds(runtime.clock().Now() - zero),
-                               ToSeconds(top->scheduler.profiled_for().value_or(Duration{}))) +
-                   ProfileText(profile, now - top->taken, top->before));
-      if (left && --*left == 0) return ControlCode::kDone;
-    }
-    top->before = std::move(profile);
-    top->taken = now;
-    return kFrame;
-  }));
+  return Command(UnderLock(
+      runtime,
+      [&runtime, zero = context.application.log.start(), left = *count, &scheduler = *context.application.scheduler,
+       top = std::shared_ptr<Top>()](Answer& answer) mutable -> CommandStep {
+        if (!top) top = std::make_shared<Top>(scheduler);
+        const Time now = SteadyClock().Now();
+        Profile profile = top->scheduler.ReadProfile();
+        if (std::exchange(top->has_begun, true)) {
+          answer.Write(fmt::format("{:.3f} s; measured for {:.1f} s\n", ToSeconds(runtime.clock().Now() - zero),
+                                   ToSeconds(top->scheduler.profiled_for().value_or(Duration{}))) +
+                       ProfileText(profile, now - top->taken, top->before));
+          if (left && --*left == 0) return ControlCode::kDone;
+        }
+        top->before = std::move(profile);
+        top->taken = now;
+        return kFrame;
+      }));
 }
 
 CommandResult MakeProfileCommand(const Request& request, const CommandContext& context) {
   Scheduler& scheduler = *context.application.scheduler;
   const std::string word = request.arguments.empty() ? "" : request.arguments[0];
-  if (!word.empty() && word != "on" && word != "off") return Error{.message = "'" + word + "' is neither 'on' nor 'off'"};
+  if (!word.empty() && word != "on" && word != "off")
+    return Error{.message = "'" + word + "' is neither 'on' nor 'off'"};
   return Command(UnderLock(context.application.runtime, [&scheduler, word](Answer& answer) -> CommandStep {
     if (!word.empty()) {
       scheduler.SetProfiled(word == "on");
@@ -99,8 +98,7 @@ CommandResult MakeLatencyCommand(const Request& request, const CommandContext& c
       const std::string text = ProfileText({.tasks = {}, .latencies = scheduler.ReadLatencies()}, {});
       return Say(answer, text.empty() ? "no latency is measured\n" : text);
     }
-    const auto done = ends ? scheduler.RemoveLatency({words[0], words[1]})
-                           : scheduler.AddLatency({words[0], words[1]});
+    const auto done = ends ? scheduler.RemoveLatency({words[0], words[1]}) : scheduler.AddLatency({words[0], words[1]});
     if (!done) return Refuse(answer, done.error());
     return Say(answer, ends ? "measured no more\n"
                             : ProfileText({.tasks = {}, .latencies = {scheduler.ReadLatencies().back()}}, {}));

@@ -15,8 +15,7 @@ constexpr std::size_t kLongestHeader = FrameReader::kLongestKind + 1 + 20;
 
 bool IsKind(std::string_view text) {
   return !text.empty() && text.size() <= FrameReader::kLongestKind &&
-         std::ranges::all_of(text,
-                             [](char character) { return character >= 'a' && character <= 'z'; });
+         std::ranges::all_of(text, [](char character) { return character >= 'a' && character <= 'z'; });
 }
 
 Error NoFrame(std::string what) {
@@ -50,12 +49,11 @@ Result<std::optional<Frame>> FrameReader::Take() {
   const auto length = NumberIn<std::size_t>(header.substr(std::min(blank + 1, header.size())));
   if (!IsKind(header.substr(0, blank)) || !length) return NoFrame("what came has no good header");
   if (*length > longest_) {
-    return NoFrame("a frame of " + std::to_string(*length) + " bytes is too long; " +
-                   std::to_string(longest_) + " are taken");
+    return NoFrame("a frame of " + std::to_string(*length) + " bytes is too long; " + std::to_string(longest_) +
+                   " are taken");
   }
   if (rest.size() < end + *length + 2) return std::optional<Frame>();
-  if (rest[end + 1 + *length] != '\n')
-    return NoFrame("a frame does not end where it said it would");
+  if (rest[end + 1 + *length] != '\n') return NoFrame("a frame does not end where it said it would");
   Frame frame{std::string(header.substr(0, blank)), std::string(rest.substr(end + 1, *length))};
   at_ += end + *length + 2;
   if (at_ == bytes_.size() || at_ > longest_) {
@@ -125,8 +123,8 @@ Result<Hello> Hello::Parse(std::string_view text) {
   Hello hello;
   hello.protocol = NumberIn<int>(arguments->Option("protocol")).value_or(0);
   if (hello.protocol != kControlProtocol) {
-    return Error{.message = "the application speaks protocol " + arguments->Option("protocol") +
-                            ", this program " + std::to_string(kControlProtocol),
+    return Error{.message = "the application speaks protocol " + arguments->Option("protocol") + ", this program " +
+                            std::to_string(kControlProtocol),
                  .hint = "use the program that started it"};
   }
   hello.process = NumberIn<pid_t>(arguments->Option("process")).value_or(0);

@@ -71,10 +71,10 @@ struct Hello {
   pid_t process = 0;
   std::string application = {};
   std::string file = {};
-  Duration time{};  ///< that the application has been running, on its own clock
-  Duration real{};  ///< the same on the machine's
+  Duration time{};              ///< that the application has been running, on its own clock
+  Duration real{};              ///< the same on the machine's
   bool is_asking_when = false;  ///< operators must be heard: each request is to have an "at" before it
-  std::string state = {};  ///< "running", "paused", "ended", "running, 2 modules FAILED"; "": not known
+  std::string state = {};       ///< "running", "paused", "ended", "running, 2 modules FAILED"; "": not known
 
   [[nodiscard]] std::string ToText() const;
   /// Errors: another protocol, or no hello at all.

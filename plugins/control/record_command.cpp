@@ -16,8 +16,8 @@ constexpr Duration kTellProgress = std::chrono::milliseconds(250);
 /// does so in the worker's thread.
 class RecordCommand {
  public:
-  RecordCommand(const RecordingHook& hook, RecordingRequest recording,
-                std::optional<std::uint64_t> seconds, TaskGroup& tasks)
+  RecordCommand(const RecordingHook& hook, RecordingRequest recording, std::optional<std::uint64_t> seconds,
+                TaskGroup& tasks)
       : tasks_(tasks), seconds_(seconds), shared_(std::make_shared<Shared>()) {
     task_ = tasks_.Post([hook, recording = std::move(recording), shared = shared_] {
       shared->Do([&]() -> Result<std::string> {
@@ -108,8 +108,9 @@ CommandResult MakeRecordCommand(const Request& request, const CommandContext& co
   auto recording = std::make_shared<std::unique_ptr<RecordCommand>>();
   const RecordingRequest wanted{request.Option("file"), request.arguments, request.Option("compression")};
   Runtime& runtime = context.application.runtime;
-  const Command::Step begin =
-      UnderLock(runtime, [&runtime, &tasks = context.tasks, record, wanted, seconds = *seconds, recording](Answer& answer) -> CommandStep {
+  const Command::Step begin = UnderLock(
+      runtime,
+      [&runtime, &tasks = context.tasks, record, wanted, seconds = *seconds, recording](Answer& answer) -> CommandStep {
         RecordingRequest here = wanted;
         for (std::string& each : here.ports) {
           if (!IsDistantPath(each)) continue;
@@ -120,7 +121,8 @@ CommandResult MakeRecordCommand(const Request& request, const CommandContext& co
         *recording = std::make_unique<RecordCommand>(record, std::move(here), seconds, tasks);
         return (*recording)->Continue(answer);
       });
-  return Command([recording, begin](Answer& answer) { return *recording ? (*recording)->Continue(answer) : begin(answer); });
+  return Command(
+      [recording, begin](Answer& answer) { return *recording ? (*recording)->Continue(answer) : begin(answer); });
 }
 
 }  // namespace runnel

@@ -28,9 +28,8 @@ PlacedChanges ReadChanges(const Request& request, Diagnostics& diagnostics) {
     diagnostics.Add({.message = "there are no changes in it", .position = begins});
   }
   if (placed.changes.size() > ChangeRequest::kMostChanges) {
-    diagnostics.Add(
-        {.message = "more than " + std::to_string(ChangeRequest::kMostChanges) + " changes at once",
-         .position = begins});
+    diagnostics.Add({.message = "more than " + std::to_string(ChangeRequest::kMostChanges) + " changes at once",
+                     .position = begins});
   }
   return placed;
 }
@@ -61,9 +60,8 @@ Result<CommandRequest> RequestOf(const Request& request, PlacedChanges placed) {
   }
   if (request.command == "log") return MakeRequest("log", LevelOf(request.Option("level")), kClient);
   if (request.command == "change") {
-    return CommandRequest(ChangeRequest{.placed = std::move(placed),
-                                        .client = kClient,
-                                        .may_end_application = request.Option("yes") == "yes"});
+    return CommandRequest(ChangeRequest{
+        .placed = std::move(placed), .client = kClient, .may_end_application = request.Option("yes") == "yes"});
   }
   const auto described = FindRequest(request.command);
   return described ? DescribedRequestOf(**described, request) : described.error();

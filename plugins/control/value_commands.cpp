@@ -70,8 +70,7 @@ constexpr TextLimits kFull{.text = 4'000'000, .all = 4'000'000};
 /// kLookAgain. Publishers do not notice: values are leased, and made text here.
 class Echo {
  public:
-  Echo(const ServedApplication& application, std::string path, std::optional<std::uint64_t> count,
-       bool is_full)
+  Echo(const ServedApplication& application, std::string path, std::optional<std::uint64_t> count, bool is_full)
       : runtime_(application.runtime),
         zero_(application.log.start()),
         path_(std::move(path)),
@@ -123,8 +122,8 @@ class Echo {
     if (!count) return;
     const std::uint64_t left_out = shown_ && *count > *shown_ ? *count - *shown_ - 1 : 0;
     const std::string more = left_out > 0 && !is_full_ ? fmt::format("  ({} not shown)", left_out) : "";
-    answer.Write(fmt::format("{:.3f} s  {}{}{}\n", ToSeconds(measured.publication_time - zero_), Measured(measured, left_out),
-                             is_full_ ? text : ReadableNumbers(text), more));
+    answer.Write(fmt::format("{:.3f} s  {}{}{}\n", ToSeconds(measured.publication_time - zero_),
+                             Measured(measured, left_out), is_full_ ? text : ReadableNumbers(text), more));
     shown_ = count;
     if (left_) --*left_;
   }
@@ -229,21 +228,22 @@ std::string ReadableNumbers(std::string_view text) {
 
 CommandResult MakeGetCommand(const Request& request, const CommandContext& context) {
   Runtime& runtime = context.application.runtime;
-  return Command(UnderLock(runtime, [&runtime, path = request.arguments[0], is_full = request.Has("full"),
-                                     until = std::chrono::steady_clock::now() + kWaitsForValue](Answer& answer) -> CommandStep {
-    const auto value = ValueOf(runtime, path);
-    if (!value) return Refuse(answer, value.error());
-    if (!*value && std::chrono::steady_clock::now() < until) return kLookAgain;
-    if (!*value) return Refuse(answer, {.message = "nothing has been published there yet", .path = path});
-    return Say(answer, (is_full ? **value : ReadableNumbers(**value)) + "\n");
-  }));
+  return Command(UnderLock(runtime,
+                           [&runtime, path = request.arguments[0], is_full = request.Has("full"),
+                            until = std::chrono::steady_clock::now() + kWaitsForValue](Answer& answer) -> CommandStep {
+                             const auto value = ValueOf(runtime, path);
+                             if (!value) return Refuse(answer, value.error());
+                             if (!*value && std::chrono::steady_clock::now() < until) return kLookAgain;
+                             if (!*value)
+                               return Refuse(answer, {.message = "nothing has been published there yet", .path = path});
+                             return Say(answer, (is_full ? **value : ReadableNumbers(**value)) + "\n");
+                           }));
 }
 
 CommandResult MakeEchoCommand(const Request& request, const CommandContext& context) {
   const auto count = ReadCountOption(request);
   if (!count) return count.error();
-  return Command(
-      Echo(context.application, request.arguments[0], *count, request.Has("full")));
+  return Command(Echo(context.application, request.arguments[0], *count, request.Has("full")));
 }
 
 // Looks at the publisher: nothing is subscribed or copied. Intervals are those of values that are seen one by one, up to
@@ -251,22 +251,23 @@ CommandResult MakeEchoCommand(const Request& request, const CommandContext& cont
 CommandResult MakeRateCommand(const Request& request, const CommandContext& context) {
   const auto count = ReadCountOption(request);
   if (!count) return count.error();
-  return Command(UnderLock(
-      context.application.runtime,
-      [&runtime = context.application.runtime, path = request.arguments[0], left = *count,
-       last = std::optional<Sample>(), rate = PublicationRate(), intervals = Intervals()](Answer& answer) mutable -> CommandStep {
-        const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
-        if (!found) return last ? Fail(answer, found.error()) : Refuse(answer, found.error());
-        const Sample now{Publications::Of(**found), runtime.clock().Now(), SteadyClock().Now()};
-        if (now.publications.newest) intervals.Add(now.publications.count, *now.publications.newest);
-        if (last && now.machine - last->machine < kWindow) return kLookAgain;
-        const double hertz = rate.Look(now.publications, now.time);
-        const auto before = std::exchange(last, now);
-        if (!before) return kLookAgain;
-        answer.Write(LineOf(*before, now, hertz, intervals.Take()));
-        if (left && --*left == 0) return ControlCode::kDone;
-        return kLookAgain;
-      }));
+  return Command(UnderLock(context.application.runtime,
+                           [&runtime = context.application.runtime, path = request.arguments[0], left = *count,
+                            last = std::optional<Sample>(), rate = PublicationRate(),
+                            intervals = Intervals()](Answer& answer) mutable -> CommandStep {
+                             const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
+                             if (!found) return last ? Fail(answer, found.error()) : Refuse(answer, found.error());
+                             const Sample now{Publications::Of(**found), runtime.clock().Now(), SteadyClock().Now()};
+                             if (now.publications.newest)
+                               intervals.Add(now.publications.count, *now.publications.newest);
+                             if (last && now.machine - last->machine < kWindow) return kLookAgain;
+                             const double hertz = rate.Look(now.publications, now.time);
+                             const auto before = std::exchange(last, now);
+                             if (!before) return kLookAgain;
+                             answer.Write(LineOf(*before, now, hertz, intervals.Take()));
+                             if (left && --*left == 0) return ControlCode::kDone;
+                             return kLookAgain;
+                           }));
 }
 
 }  // namespace runnel

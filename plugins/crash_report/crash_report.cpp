@@ -160,8 +160,8 @@ class CrashReport::Installed {
       file_ = open(options_.file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
     }
     CrashText text;
-    text << "\ncrash: " << (module_ != nullptr ? module_ : "no module, a thread outside of cycles")
-         << ": " << SignalName(signal);
+    text << "\ncrash: " << (module_ != nullptr ? module_ : "no module, a thread outside of cycles") << ": "
+         << SignalName(signal);
     if (signal != SIGABRT) {
       (text << " at address ").Hexadecimal(reinterpret_cast<std::uintptr_t>(info.si_addr));
     }
@@ -217,8 +217,7 @@ class CrashReport::Installed {
 std::atomic<CrashReport::Installed*> CrashReport::Installed::current{nullptr};
 
 CrashReport::CrashReport(CrashReportOptions options)
-    : installed_(RUNNEL_CRASHES_ARE_REPORTED ? nullptr
-                                             : std::make_unique<Installed>(std::move(options))) {}
+    : installed_(RUNNEL_CRASHES_ARE_REPORTED ? nullptr : std::make_unique<Installed>(std::move(options))) {}
 CrashReport::~CrashReport() = default;
 
 }  // namespace runnel

@@ -13,8 +13,8 @@ namespace runnel {
 namespace {
 
 // What would have fed them may have had no counterpart, which has been told; the rest is built.
-void WarnOfRequiredInputs(FrameworkElement& application, const BuildTools& tools,
-                          const std::filesystem::path& file, BuildContext& context) {
+void WarnOfRequiredInputs(FrameworkElement& application, const BuildTools& tools, const std::filesystem::path& file,
+                          BuildContext& context) {
   Diagnostics missing;
   BuildContext check(tools, file.parent_path(), missing);
   CheckRequiredInputs(application, check);
@@ -34,18 +34,15 @@ FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, cons
   if (application == nullptr) return nullptr;
   WarnOfRequiredInputs(*application, tools, file, context);
   for (const std::string& name : tools.configuration.UnusedArguments()) {
-    context.Report({.message = "the application knows no '" + name + "'",
-                    .position = {"command line"}},
-                   {}, *application);
+    context.Report({.message = "the application knows no '" + name + "'", .position = {"command line"}}, {},
+                   *application);
   }
   return application;
 }
 
 }  // namespace
 
-bool IsFinrocFile(XmlElement root) {
-  return root.name() == "Finstructable" || root.name() == "FinstructableGroup";
-}
+bool IsFinrocFile(XmlElement root) { return root.name() == "Finstructable" || root.name() == "FinstructableGroup"; }
 
 BuildOutcome BuildFinrocApplication(const XmlDocument& document, const std::filesystem::path& file,
                                     const BuildTools& tools, BuildMode mode) {

@@ -27,8 +27,7 @@ namespace runnel {
 /// Without a thread container all modules are run by one thread, every 40 ms as FINROC's are.
 ///
 /// Threads, errors: as BuildApplication().
-[[nodiscard]] BuildOutcome BuildFinrocApplication(const XmlDocument& document,
-                                                  const std::filesystem::path& file,
+[[nodiscard]] BuildOutcome BuildFinrocApplication(const XmlDocument& document, const std::filesystem::path& file,
                                                   const BuildTools& tools, BuildMode mode);
 
 }  // namespace runnel

@@ -18,8 +18,7 @@ std::string Decoded(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     int code = 0;
     const bool may_be_code = text[i] == '%' && i + 2 < text.size();
-    if (may_be_code && std::from_chars(text.data() + i + 1, text.data() + i + 3, code, 16).ptr ==
-                           text.data() + i + 3) {
+    if (may_be_code && std::from_chars(text.data() + i + 1, text.data() + i + 3, code, 16).ptr == text.data() + i + 3) {
       decoded += static_cast<char>(code);
       i += 2;
     } else {
@@ -37,8 +36,8 @@ std::string SnakeCase(std::string_view name) {
     const char character = name[i];
     if (IsUpper(character)) {
       const bool follows_small = i > 0 && IsLowerOrDigit(name[i - 1]);
-      const bool ends_capitals = i > 0 && IsUpper(name[i - 1]) && i + 1 < name.size() &&
-                                 name[i + 1] >= 'a' && name[i + 1] <= 'z';
+      const bool ends_capitals =
+          i > 0 && IsUpper(name[i - 1]) && i + 1 < name.size() && name[i + 1] >= 'a' && name[i + 1] <= 'z';
       if (follows_small || ends_capitals) snake += '_';
       snake += static_cast<char>(character - 'A' + 'a');
     } else if (IsLowerOrDigit(character)) {
@@ -74,8 +73,8 @@ std::string WithoutLast(const std::string& path, int count) {
 std::string LastName(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 std::string LibraryName(std::string_view library) {
-  constexpr std::array<std::string_view, 5> kPrefixes{"finroc_projects_", "finroc_plugins_",
-                                                      "finroc_libraries_", "finroc_", "rrlib_"};
+  constexpr std::array<std::string_view, 5> kPrefixes{"finroc_projects_", "finroc_plugins_", "finroc_libraries_",
+                                                      "finroc_", "rrlib_"};
   for (const std::string_view prefix : kPrefixes) {
     if (library.starts_with(prefix)) return SnakeCase(library.substr(prefix.size()));
   }

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
+#include "core/conversion/conversion.h"
 #include "core/element/source_place.h"
 #include "core/module/group.h"
-#include "core/conversion/conversion.h"
 #include "core/paths/late_connections.h"
 #include "core/port/proxy_port.h"
 #include "core/types/duration_text.h"
@@ -40,8 +40,8 @@ std::string StaticParameter(XmlElement element, std::string_view name) {
 // Whether a path is a URI, "tcp:host/path": names of elements may hold a ':' further on.
 bool HasScheme(std::string_view path) {
   const auto is_of_scheme = [](char character) {
-    return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9') ||
-           character == '+' || character == '-' || character == '.';
+    return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9') || character == '+' ||
+           character == '-' || character == '.';
   };
   const auto end = std::ranges::find_if_not(path, is_of_scheme);
   return end != path.begin() && end != path.end() && *end == ':';
@@ -58,8 +58,8 @@ void FinrocReader::Read(XmlElement root, const fs::path& file) {
   ReadContents(root, application_, file);
   if (has_thread_) return;
   FrameworkElement& threads = context_.runtime().Create<Group>(application_, "threads");
-  AssignThread(application_, context_.runtime().Create<ThreadContainer>(
-                                 threads, "main", ThreadOptions{.period = kUsualPeriod}));
+  AssignThread(application_,
+               context_.runtime().Create<ThreadContainer>(threads, "main", ThreadOptions{.period = kUsualPeriod}));
 }
 
 void FinrocReader::ReadContents(XmlElement root, FrameworkElement& group, const fs::path& file) {
@@ -92,16 +92,13 @@ void FinrocReader::LoadLibraries(XmlElement root) {
     const std::string plugin = LibraryName(word);
     const bool is_ours = plugin == "structure" || plugin == "scheduling";
     if (is_ours || LoadLibrary(plugin)) continue;
-    Warn("there is no plugin '" + plugin + "' for " + word,
-         NearestNameHint(plugin, context_.plugins().Available()), dependencies->value_position,
-         application_);
+    Warn("there is no plugin '" + plugin + "' for " + word, NearestNameHint(plugin, context_.plugins().Available()),
+         dependencies->value_position, application_);
   }
 }
 
 bool FinrocReader::LoadLibrary(const std::string& plugin) {
-  const auto is_of_plugin = [&](const ModuleType* type) {
-    return type->name.starts_with(plugin + "/");
-  };
+  const auto is_of_plugin = [&](const ModuleType* type) { return type->name.starts_with(plugin + "/"); };
   if (std::ranges::any_of(context_.plugins().modules().All(), is_of_plugin)) return true;
   const std::vector<std::string> known = context_.plugins().Available();
   return std::ranges::count(known, plugin) > 0 && context_.plugins().Load(plugin);
@@ -144,9 +141,9 @@ void FinrocReader::ReadGroup(XmlElement element, const std::string& type, Framew
   }
   if (documents_.size() >= kMostFiles) {
     if (std::exchange(is_too_large_, true)) return;
-    return context_.Report({.message = "the application has more than " +
-                                       std::to_string(kMostFiles) + " groups with a file"},
-                           element.position(), group);
+    return context_.Report(
+        {.message = "the application has more than " + std::to_string(kMostFiles) + " groups with a file"},
+        element.position(), group);
   }
   auto document = XmlDocument::Load(found);
   if (!document) return context_.Report(document.error(), element.position(), group);
@@ -160,13 +157,11 @@ void FinrocReader::MakeThread(XmlElement element, FrameworkElement& group) {
   if (const auto duration = ParseDuration(period); duration && *duration > Duration::zero()) {
     options.period = *duration;
   } else if (!period.empty()) {
-    Warn("the cycle time '" + period + "' is no duration", "it is 40ms now", element.position(),
-         group);
+    Warn("the cycle time '" + period + "' is no duration", "it is 40ms now", element.position(), group);
   }
   FrameworkElement* threads = application_.FindChild("threads");
   if (threads == nullptr) threads = &context_.runtime().Create<Group>(application_, "threads");
-  AssignThread(group, context_.runtime().Create<ThreadContainer>(
-                          *threads, FreeName(*threads, group.name()), options));
+  AssignThread(group, context_.runtime().Create<ThreadContainer>(*threads, FreeName(*threads, group.name()), options));
   has_thread_ = true;
 }
 
@@ -178,9 +173,8 @@ void FinrocReader::ReadModule(XmlElement element, FrameworkElement& parent) {
   LoadLibrary(library);
   if (modules.Find(type) == nullptr) {
     const auto missing = modules.Get(type);
-    return Warn(
-        "there is no module type '" + type + "' for '" + element.TextOr("name") + "'",
-        missing.error().hint, element.position(), parent);
+    return Warn("there is no module type '" + type + "' for '" + element.TextOr("name") + "'", missing.error().hint,
+                element.position(), parent);
   }
   const auto made = modules.Create(type, parent, name);
   if (!made) return context_.Report(made.error(), element.position(), parent);
@@ -201,8 +195,7 @@ void FinrocReader::MakeInterfacePorts(XmlElement root, FrameworkElement& group) 
 
 void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) {
   if (&group == &application_) {
-    return Warn("an application has no interface", "put what is in it into a group",
-                interface.position(), group);
+    return Warn("an application has no interface", "put what is in it into a group", interface.position(), group);
   }
   const bool is_output = SnakeCase(interface.TextOr("name")).ends_with("output");
   for (const XmlElement port : interface.children()) {
@@ -213,21 +206,18 @@ void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) 
       if (type != nullptr || edge.name() != "edge") continue;
       const XmlAttribute* const inner = edge.Attribute(is_output ? "src" : "dest");
       const XmlAttribute* const own = edge.Attribute(is_output ? "dest" : "src");
-      if (inner == nullptr || own == nullptr || LastName(SnakeCasePath(own->value)) != name)
-        continue;
-      const Port* const end =
-          FindEnd(*inner, group, is_output ? PathKind::kOutput : PathKind::kInput);
+      if (inner == nullptr || own == nullptr || LastName(SnakeCasePath(own->value)) != name) continue;
+      const Port* const end = FindEnd(*inner, group, is_output ? PathKind::kOutput : PathKind::kInput);
       if (end != nullptr) type = &end->type();
     }
     if (type == nullptr || group.FindChild(name) != nullptr) {
-      Warn(type == nullptr ? "the type '" + port.TextOr("type") +
-                                 "' is not known, and no connection within tells it"
+      Warn(type == nullptr ? "the type '" + port.TextOr("type") + "' is not known, and no connection within tells it"
                            : "there is already an element called '" + name + "'",
            "", port.position(), group);
       continue;
     }
-    context_.runtime().Create<ProxyPort>(
-        group, name, is_output ? Port::Direction::kOutput : Port::Direction::kInput, *type);
+    context_.runtime().Create<ProxyPort>(group, name, is_output ? Port::Direction::kOutput : Port::Direction::kInput,
+                                         *type);
   }
 }
 
@@ -249,8 +239,7 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
   for (const XmlAttribute* end : {source, target}) {
     if (!HasScheme(end->value)) continue;
     return Warn("'" + end->value + "' is a port of another process: the connection is left out",
-                "record there and play here, or run both in one application", end->value_position,
-                group);
+                "record there and play here, or run both in one application", end->value_position, group);
   }
   ConnectOptions options = ReadFlags(edge, group);
   Port* const from = FindEnd(*source, group, PathKind::kOutput);
@@ -268,8 +257,7 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
     const std::string path = SnakeCasePath(lost.value);
     return Warn("there is no port '" + path + "'", "", lost.value_position, group);
   }
-  if (!IsRightWay(*from, PathKind::kOutput, *to) ||
-      !IsRightWay(*to, PathKind::kInput, *from)) {
+  if (!IsRightWay(*from, PathKind::kOutput, *to) || !IsRightWay(*to, PathKind::kInput, *from)) {
     return Warn("goes against the direction of an interface port", "", edge.position(), group);
   }
   if (options.when_present) (void)LateConnections::Of(context_.runtime());
@@ -284,11 +272,10 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
 }
 
 // <conversion operation="[]" parameter="2"/>, or with operation1, parameter1, operation2 and parameter2.
-void FinrocReader::ReadConversion(XmlElement conversion, FrameworkElement& group,
-                                  ConnectOptions& options) {
+void FinrocReader::ReadConversion(XmlElement conversion, FrameworkElement& group, ConnectOptions& options) {
   if (conversion.name() != "conversion") {
-    return Warn("<" + conversion.name() + "> of an edge has no counterpart",
-                "put a module between the two", conversion.position(), group);
+    return Warn("<" + conversion.name() + "> of an edge has no counterpart", "put a module between the two",
+                conversion.position(), group);
   }
   for (const char* number : {"", "1", "2"}) {
     const std::string operation = conversion.TextOr(std::string("operation") + number);
@@ -323,8 +310,8 @@ ConnectOptions FinrocReader::ReadFlags(XmlElement edge, FrameworkElement& group)
     options.when_present |= is_present;
     options.late |= is_late;
     if (is_present || is_late) continue;
-    Warn("'" + each.name + "' of an edge has no counterpart: '" + each.value + "' is left out", "",
-         each.position, group);
+    Warn("'" + each.name + "' of an edge has no counterpart: '" + each.value + "' is left out", "", each.position,
+         group);
   }
   return options;
 }

@@ -16,8 +16,7 @@ namespace runnel::internal {
 /// Threads: under the structure lock.
 class FinrocReader {
  public:
-  FinrocReader(FrameworkElement& application, BuildContext& context)
-      : application_(application), context_(context) {}
+  FinrocReader(FrameworkElement& application, BuildContext& context) : application_(application), context_(context) {}
 
   void Read(XmlElement root, const std::filesystem::path& file);
 
@@ -40,11 +39,9 @@ class FinrocReader {
   ConnectOptions ReadFlags(XmlElement edge, FrameworkElement& group);
   void ReadParameterLinks(XmlElement links, const std::string& path, FrameworkElement& group);
   // `module` and `name` seen from the group.
-  void ReadParameter(XmlElement parameter, const std::string& module, const std::string& name,
-                     FrameworkElement& group);
+  void ReadParameter(XmlElement parameter, const std::string& module, const std::string& name, FrameworkElement& group);
 
-  void Warn(std::string message, std::string hint, const SourcePosition& position,
-            const FrameworkElement& element);
+  void Warn(std::string message, std::string hint, const SourcePosition& position, const FrameworkElement& element);
 
   FrameworkElement& application_;
   BuildContext& context_;

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 const std::string& ParameterName(const ConfigurableElement& each) { return each.element->name(); }
 
 // As everywhere, names of files start in the folder of the file that they stand in.
-std::string TextFor(const Configurable& configurable, const std::string& text,
-                    const fs::path& folder) {
+std::string TextFor(const Configurable& configurable, const std::string& text, const fs::path& folder) {
   return &configurable.type() == &TypeOf<FilePath>() ? ResolvedAgainst(folder, {text}).text : text;
 }
 
@@ -34,19 +33,17 @@ void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& mo
     for (const XmlElement each : list.children()) {
       const std::string name = SnakeCase(each.TextOr("name"));
       const ConfigurableElement parameter = FindConfigurable(module, name);
-      const auto set =
-          parameter ? parameter.configurable->SetFromText(
-                          TextFor(*parameter.configurable, each.text(), open_.back().parent_path()))
-                    : Result<void>(Error{.message = "there is no parameter '" + name + "'",
-                                         .hint = NearestNameHint(name, NamesOf(all, ParameterName))});
+      const auto set = parameter ? parameter.configurable->SetFromText(
+                                       TextFor(*parameter.configurable, each.text(), open_.back().parent_path()))
+                                 : Result<void>(Error{.message = "there is no parameter '" + name + "'",
+                                                      .hint = NearestNameHint(name, NamesOf(all, ParameterName))});
       if (!set) Warn(set.error().message, set.error().hint, each.position(), module);
     }
   }
 }
 
 // As newer versions write them: nested like the elements, without the group "Parameters".
-void FinrocReader::ReadParameterLinks(XmlElement links, const std::string& path,
-                                      FrameworkElement& group) {
+void FinrocReader::ReadParameterLinks(XmlElement links, const std::string& path, FrameworkElement& group) {
   for (const XmlElement child : links.children()) {
     const std::string name = SnakeCase(child.TextOr("name"));
     if (child.name() == "element") {
@@ -59,13 +56,11 @@ void FinrocReader::ReadParameterLinks(XmlElement links, const std::string& path,
   }
 }
 
-void FinrocReader::ReadParameter(XmlElement parameter, const std::string& path,
-                                 const std::string& name, FrameworkElement& group) {
+void FinrocReader::ReadParameter(XmlElement parameter, const std::string& path, const std::string& name,
+                                 FrameworkElement& group) {
   const auto module = group.Find(path);
-  const std::vector<ConfigurableElement> all =
-      module ? ConfigurablesOf(**module) : std::vector<ConfigurableElement>();
-  const ConfigurableElement found =
-      module ? FindConfigurable(**module, name) : ConfigurableElement();
+  const std::vector<ConfigurableElement> all = module ? ConfigurablesOf(**module) : std::vector<ConfigurableElement>();
+  const ConfigurableElement found = module ? FindConfigurable(**module, name) : ConfigurableElement();
   const auto from_file = [&](const std::string& text, const fs::path& file) {
     return found ? TextFor(*found.configurable, text, file.parent_path()) : text;
   };
@@ -73,12 +68,10 @@ void FinrocReader::ReadParameter(XmlElement parameter, const std::string& path,
   if (const XmlAttribute* value = parameter.Attribute("default")) {
     candidates.emplace_back(from_file(value->value, open_.back()), value->value_position);
   }
-  if (const auto* entry =
-          context_.configuration().FindEntry(parameter.TextOr("config"))) {
+  if (const auto* entry = context_.configuration().FindEntry(parameter.TextOr("config"))) {
     candidates.emplace_back(from_file(entry->text, entry->position.file), entry->position);
   }
-  if (const auto* entry =
-          context_.configuration().FindArgument(parameter.TextOr("cmdline"))) {
+  if (const auto* entry = context_.configuration().FindArgument(parameter.TextOr("cmdline"))) {
     candidates.emplace_back(entry->text, entry->position);
   }
   if (!found) {

@@ -31,10 +31,8 @@ internal::FoxgloveShared::~FoxgloveShared() {
 
 WebProtocol FoxgloveProtocol(FoxgloveApplication application) {
   return {.names = {"foxglove.websocket.v1", "foxglove.sdk.v1"},
-          .start = [shared = std::make_shared<internal::FoxgloveShared>(std::move(application))](
-                       WebClient& client) -> std::unique_ptr<WebSession> {
-            return std::make_unique<internal::FoxgloveSession>(shared, client);
-          }};
+          .start = [shared = std::make_shared<internal::FoxgloveShared>(std::move(application))](WebClient& client)
+              -> std::unique_ptr<WebSession> { return std::make_unique<internal::FoxgloveSession>(shared, client); }};
 }
 
 }  // namespace runnel

@@ -58,7 +58,8 @@ void CheckStateMachine(const States& states, bool needs_start, Place place, Prob
   }
   if (start != states.end()) Reach(states, start->second, &Codel::is_reached_from_start);
   if (stop != states.end() && !Reach(states, stop->second, &Codel::is_reached_from_stop)) {
-    problems.Add(stop->second->place, "from state 'stop' nothing leads to 'ether', so an interrupted activity never ends",
+    problems.Add(stop->second->place,
+                 "from state 'stop' nothing leads to 'ether', so an interrupted activity never ends",
                  "let it, or what follows it, yield ether");
   }
   std::set<const Codel*> seen;
@@ -89,7 +90,8 @@ void CheckDelay(const Task& task, Problems& problems) {
   if (delay == nullptr) return;
   const Property* period = Find(task.properties, PropertyKind::kPeriod);
   if (period == nullptr) {
-    problems.Add(delay->place, "task '" + task.name + "' has a delay and no period", "say its period, or leave the delay out");
+    problems.Add(delay->place, "task '" + task.name + "' has a delay and no period",
+                 "say its period, or leave the delay out");
   } else if (delay->number >= period->number) {
     problems.Add(delay->place, "the delay of task '" + task.name + "' is not less than its period",
                  problems.DeclaredAt(period->place));
@@ -110,8 +112,9 @@ void CheckTimes(Component& component, Problems& problems) {
       divisor = std::gcd(divisor, value);
       const std::int64_t tick = rate == nullptr ? 0 : Microseconds(rate->number);
       if (tick == 0 || value % tick == 0) continue;
-      problems.Add(time->place, "the " + std::string(NameOf(kind)) + " of task '" + task->name +
-                                    "' is no multiple of the clock rate of '" + component.name + "'",
+      problems.Add(time->place,
+                   "the " + std::string(NameOf(kind)) + " of task '" + task->name +
+                       "' is no multiple of the clock rate of '" + component.name + "'",
                    "leave the clock rate out, or: " + problems.DeclaredAt(rate->place));
     }
   }
@@ -189,8 +192,8 @@ bool Conflict(const std::vector<Parameter>& a, const std::vector<Parameter>& b, 
 // Codels of one task never overlap; nor do those of the control task, which have none.
 bool CanOverlap(const Codel& codel, const Codel& other) {
   if (codel.task == other.task) return false;
-  const bool are_activities = codel.task != nullptr && codel.service != nullptr && other.task != nullptr &&
-                              other.service != nullptr;
+  const bool are_activities =
+      codel.task != nullptr && codel.service != nullptr && other.task != nullptr && other.service != nullptr;
   // A service starts when what it interrupts has ended.
   return !are_activities || !Interrupts(*other.service, *codel.service);
 }
@@ -221,7 +224,9 @@ void WarnOfServicesThatNeverStart(const Component& component, Problems& problems
   }
   for (const Service* each : component.services) {
     if (starting.contains(each)) continue;
-    problems.Warn(each->place, std::string(NameOf(each->kind)) + " '" + each->name + "' can never start: it is after what cannot come before it",
+    problems.Warn(each->place,
+                  std::string(NameOf(each->kind)) + " '" + each->name +
+                      "' can never start: it is after what cannot come before it",
                   "look at its 'after', and at that of the services there");
   }
 }
@@ -266,7 +271,8 @@ void CheckAsyncCodels(const Component& component, Problems& problems) {
       problems.Add(codel->place, "async codel '" + codel->name + "' uses what codel '" + other->name + "' uses", hint);
     }
     for (const Service* other : ConflictingServices(*codel)) {
-      problems.Add(codel->place, "async codel '" + codel->name + "' uses what attribute '" + other->name + "' uses", hint);
+      problems.Add(codel->place, "async codel '" + codel->name + "' uses what attribute '" + other->name + "' uses",
+                   hint);
     }
   }
 }

@@ -66,10 +66,11 @@ bool ComponentRules::Resolve(Parameter& parameter, const std::vector<Parameter>&
   if (parameter.source == Source::kNone) {
     const int candidates = (ids_member != nullptr) + (local != nullptr) + (port != nullptr) + (remote != nullptr);
     if (candidates > 1) {
-      problems_.Add(parameter.place, "'" + first + "' is in more than one place: it can be " +
-                                         std::string(ids_member != nullptr ? "ids, " : "") +
-                                         (local != nullptr ? "local, " : "") + (port != nullptr ? "port, " : "") +
-                                         (remote != nullptr ? "remote, " : "") + "and nothing says which",
+      problems_.Add(parameter.place,
+                    "'" + first + "' is in more than one place: it can be " +
+                        std::string(ids_member != nullptr ? "ids, " : "") + (local != nullptr ? "local, " : "") +
+                        (port != nullptr ? "port, " : "") + (remote != nullptr ? "remote, " : "") +
+                        "and nothing says which",
                     "say from where it is: ids, local, port or remote before its direction");
       return false;
     }
@@ -80,12 +81,12 @@ bool ComponentRules::Resolve(Parameter& parameter, const std::vector<Parameter>&
                                                                        : Source::kNone;
   }
   const auto tell_unknown = [&]() {
-    problems_.Add(parameter.place, "there is no '" + first + "' " +
-                                       (parameter.source == Source::kNone
-                                            ? "in the ids, and no parameter, variable, port or remote of that name"
-                                            : "among what is " + std::string(NameOf(parameter.source))),
-                  "it must be declared before; " +
-                      NearestNameHint(first, NamesIn(component, parameter.source, locals)));
+    problems_.Add(
+        parameter.place,
+        "there is no '" + first + "' " +
+            (parameter.source == Source::kNone ? "in the ids, and no parameter, variable, port or remote of that name"
+                                               : "among what is " + std::string(NameOf(parameter.source))),
+        "it must be declared before; " + NearestNameHint(first, NamesIn(component, parameter.source, locals)));
     return false;
   };
   if (parameter.source != Source::kIds && parameter.source != Source::kNone && parameter.path.empty()) {
@@ -115,7 +116,8 @@ bool ComponentRules::Resolve(Parameter& parameter, const std::vector<Parameter>&
     return false;
   }
   if (is_port && port->is_input && parameter.direction != Direction::kIn) {
-    problems_.Add(parameter.place, "'" + first + "' is an input: nothing can be written to it", "take it as: in " + first);
+    problems_.Add(parameter.place, "'" + first + "' is an input: nothing can be written to it",
+                  "take it as: in " + first);
     return false;
   }
   if (!is_port && parameter.direction != Direction::kIn) {
@@ -132,14 +134,13 @@ Codel* ComponentRules::MakeCodel(Codel codel) {
   const auto before = codels_.find(codel.name);
   if (before != codels_.end()) {
     const Codel& other = *before->second;
-    const bool is_same = std::ranges::equal(codel.parameters, other.parameters,
-                                            [](const Parameter& a, const Parameter& b) {
-                                              if (a.port != nullptr || b.port != nullptr || a.remote || b.remote) {
-                                                return a.direction == b.direction &&
-                                                       a.type->full_name == b.type->full_name;
-                                              }
-                                              return a.direction == b.direction && AreSame(a.type, b.type);
-                                            });
+    const bool is_same =
+        std::ranges::equal(codel.parameters, other.parameters, [](const Parameter& a, const Parameter& b) {
+          if (a.port != nullptr || b.port != nullptr || a.remote || b.remote) {
+            return a.direction == b.direction && a.type->full_name == b.type->full_name;
+          }
+          return a.direction == b.direction && AreSame(a.type, b.type);
+        });
     if (!is_same) {
       problems_.Add(codel.place, "codel '" + codel.name + "' has other parameters elsewhere",
                     "a function has one signature; " + problems_.DeclaredAt(other.place));

@@ -8,8 +8,9 @@ namespace runnel::genom {
 namespace {
 
 constexpr std::array<std::string_view, 21> kPropertyNames = {
-    "doc", "version", "lang", "email", "require", "codels-require", "clock-rate", "provides", "uses", "extends", "throw",
-    "period", "delay", "priority", "scheduling", "stack", "task", "interrupts", "before", "after", "codel"};
+    "doc",        "version", "lang",    "email",      "require", "codels-require", "clock-rate",
+    "provides",   "uses",    "extends", "throw",      "period",  "delay",          "priority",
+    "scheduling", "stack",   "task",    "interrupts", "before",  "after",          "codel"};
 constexpr std::array<std::string_view, 3> kServiceNames = {"attribute", "function", "activity"};
 constexpr std::array<std::string_view, 3> kDirectionNames = {"in", "out", "inout"};
 constexpr std::array<std::string_view, 3> kCodelNames = {"validate", "simple", "state machine"};

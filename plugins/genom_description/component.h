@@ -22,11 +22,11 @@ enum class ParameterSource { kNone, kIds, kLocal, kPort, kRemote };
 /// A value that is the default of a parameter, of a member of one, of an element; or only its documentation.
 struct Initializer {
   Place place = {};
-  std::string member = {};               ///< for which member, "" if not said
+  std::string member = {};                  ///< for which member, "" if not said
   std::optional<std::uint64_t> index = {};  ///< for which element
   std::string doc = {};
   bool has_doc = false;
-  Constant value = {};                   ///< kNone: none, or the parts
+  Constant value = {};  ///< kNone: none, or the parts
   bool is_compound = false;
   std::vector<Initializer> parts = {};
 };
@@ -96,18 +96,37 @@ struct Codel {
 };
 
 enum class PropertyKind {
-  kDoc, kVersion, kLanguage, kEmail, kRequire, kCodelsRequire, kClockRate, kProvides, kUses, kExtends, kThrow,
-  kPeriod, kDelay, kPriority, kScheduling, kStack, kTask, kInterrupts, kBefore, kAfter, kCodel
+  kDoc,
+  kVersion,
+  kLanguage,
+  kEmail,
+  kRequire,
+  kCodelsRequire,
+  kClockRate,
+  kProvides,
+  kUses,
+  kExtends,
+  kThrow,
+  kPeriod,
+  kDelay,
+  kPriority,
+  kScheduling,
+  kStack,
+  kTask,
+  kInterrupts,
+  kBefore,
+  kAfter,
+  kCodel
 };
 
 /// What is said of a component, task, service or port.
 struct Property {
   PropertyKind kind = PropertyKind::kDoc;
   Place place = {};
-  std::string text = {};                 ///< doc, version, …
-  double number = 0;                     ///< s, or bytes
-  std::vector<std::string> texts = {};   ///< of lists of texts and names
-  std::vector<Place> places = {};        ///< of these
+  std::string text = {};                ///< doc, version, …
+  double number = 0;                    ///< s, or bytes
+  std::vector<std::string> texts = {};  ///< of lists of texts and names
+  std::vector<Place> places = {};       ///< of these
   std::vector<Type*> exceptions = {};
   std::vector<Component*> interfaces = {};
   Task* task = nullptr;

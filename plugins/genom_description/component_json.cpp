@@ -45,7 +45,8 @@ Json Number(const Properties& properties, PropertyKind kind) {
 }
 
 Json EventNames(const std::vector<Type*>& events) {
-  return ListOf(events, [](const Type* each) { return (each->Is(TypeKind::kPauseEvent) ? "pause::" : "") + each->name; });
+  return ListOf(events,
+                [](const Type* each) { return (each->Is(TypeKind::kPauseEvent) ? "pause::" : "") + each->name; });
 }
 
 }  // namespace
@@ -58,8 +59,13 @@ Json JsonWriter::PlaceJson(Place place) const {
 bool JsonWriter::IsDeclared(const Type& type) {
   if (type.name.empty() || type.full_name.empty()) return false;
   switch (type.kind) {
-    case TypeKind::kEnum: case TypeKind::kStruct: case TypeKind::kUnion: case TypeKind::kException:
-    case TypeKind::kTypedef: case TypeKind::kConstant: case TypeKind::kNative:
+    case TypeKind::kEnum:
+    case TypeKind::kStruct:
+    case TypeKind::kUnion:
+    case TypeKind::kException:
+    case TypeKind::kTypedef:
+    case TypeKind::kConstant:
+    case TypeKind::kNative:
       return true;
     default:
       return false;
@@ -68,15 +74,22 @@ bool JsonWriter::IsDeclared(const Type& type) {
 
 Json JsonWriter::ConstantJson(const Constant& value) const {
   switch (value.kind) {
-    case Constant::Kind::kBoolean: return value.boolean;
-    case Constant::Kind::kUnsigned: return value.whole;
-    case Constant::Kind::kSigned: return static_cast<std::int64_t>(value.whole);
+    case Constant::Kind::kBoolean:
+      return value.boolean;
+    case Constant::Kind::kUnsigned:
+      return value.whole;
+    case Constant::Kind::kSigned:
+      return static_cast<std::int64_t>(value.whole);
     case Constant::Kind::kReal:
       if (!std::isfinite(value.real)) return value.ToText();  // JSON has no such number
       return value.real;
-    case Constant::Kind::kString: case Constant::Kind::kCharacter: return value.text;
-    case Constant::Kind::kEnumerator: return value.ToText();
-    case Constant::Kind::kNone: break;
+    case Constant::Kind::kString:
+    case Constant::Kind::kCharacter:
+      return value.text;
+    case Constant::Kind::kEnumerator:
+      return value.ToText();
+    case Constant::Kind::kNone:
+      break;
   }
   return nullptr;
 }
@@ -109,8 +122,10 @@ Json JsonWriter::Members(const Type& type) const {
       member["labels"] = Json::array();
       member["is_default"] = false;
       for (const Constant& label : each.labels) {
-        if (label.kind == Constant::Kind::kNone) member["is_default"] = true;
-        else member["labels"].push_back(ConstantJson(label));
+        if (label.kind == Constant::Kind::kNone)
+          member["is_default"] = true;
+        else
+          member["labels"].push_back(ConstantJson(label));
       }
     }
     members.push_back(std::move(member));
@@ -155,7 +170,8 @@ Json JsonWriter::ParameterJson(const Parameter& parameter) const {
   Json json{{"name", parameter.name}, {"direction", NameOf(parameter.direction)}, {"source", NameOf(parameter.source)}};
   if (parameter.is_variable) json.erase("direction");
   json["place"] = PlaceJson(parameter.place);
-  json["path"] = ListOf(parameter.path, [](const PathStep& each) { return each.member.empty() ? Json(each.index) : Json(each.member); });
+  json["path"] = ListOf(
+      parameter.path, [](const PathStep& each) { return each.member.empty() ? Json(each.index) : Json(each.member); });
   if (parameter.port != nullptr) {
     json["port"] = parameter.port->name;
     json["type"] = Reference(parameter.port->type);
@@ -190,7 +206,8 @@ Json JsonWriter::Exceptions(std::initializer_list<const Properties*> all) const 
 }
 
 Json JsonWriter::TaskJson(const Task& task) const {
-  Json json{{"name", task.name}, {"place", PlaceJson(task.place)}, {"doc", TextOf(task.properties, PropertyKind::kDoc)}};
+  Json json{
+      {"name", task.name}, {"place", PlaceJson(task.place)}, {"doc", TextOf(task.properties, PropertyKind::kDoc)}};
   json["period"] = Number(task.properties, PropertyKind::kPeriod);
   json["delay"] = Number(task.properties, PropertyKind::kDelay);
   json["priority"] = Number(task.properties, PropertyKind::kPriority);
@@ -204,19 +221,27 @@ Json JsonWriter::TaskJson(const Task& task) const {
 }
 
 Json JsonWriter::PortJson(const Port& port) const {
-  return {{"name", port.name}, {"place", PlaceJson(port.place)}, {"doc", port.doc},
-          {"interface", port.interface}, {"direction", port.is_input ? "in" : "out"}, {"is_multiple", port.is_multiple}, {"type", Reference(port.type)}};
+  return {{"name", port.name},
+          {"place", PlaceJson(port.place)},
+          {"doc", port.doc},
+          {"interface", port.interface},
+          {"direction", port.is_input ? "in" : "out"},
+          {"is_multiple", port.is_multiple},
+          {"type", Reference(port.type)}};
 }
 
 Json JsonWriter::ServiceJson(const Service& service) const {
-  Json json{{"name", service.name}, {"kind", NameOf(service.kind)}, {"place", PlaceJson(service.place)},
+  Json json{{"name", service.name},
+            {"kind", NameOf(service.kind)},
+            {"place", PlaceJson(service.place)},
             {"doc", TextOf(service.properties, PropertyKind::kDoc)}};
   const Task* task = service.task();
   json["task"] = kNameOf(task);
   json["parameters"] = Parameters(service.parameters, false);
   json["variables"] = Parameters(service.parameters, true);
-  json["throws"] = task == nullptr ? Exceptions({&service.properties, &service.component->properties})
-                                   : Exceptions({&service.properties, &task->properties, &service.component->properties});
+  json["throws"] = task == nullptr
+                       ? Exceptions({&service.properties, &service.component->properties})
+                       : Exceptions({&service.properties, &task->properties, &service.component->properties});
   json["interrupts"] = Named(PropertyKind::kInterrupts, service);
   json["before"] = Named(PropertyKind::kBefore, service);
   json["after"] = Named(PropertyKind::kAfter, service);
@@ -228,7 +253,9 @@ Json JsonWriter::ServiceJson(const Service& service) const {
 }
 
 Json JsonWriter::CodelJson(const Codel& codel) const {
-  Json json{{"name", codel.name}, {"kind", NameOf(codel.kind)}, {"place", PlaceJson(codel.place)},
+  Json json{{"name", codel.name},
+            {"kind", NameOf(codel.kind)},
+            {"place", PlaceJson(codel.place)},
             {"is_async", codel.is_async}};
   json["task"] = kNameOf(codel.task);
   json["parameters"] = Parameters(codel.parameters, false);
@@ -243,10 +270,13 @@ Json JsonWriter::CodelJson(const Codel& codel) const {
 
 Json JsonWriter::ComponentJson(const Component& component) const {
   const Properties& properties = component.properties;
-  Json json{{"name", component.name}, {"place", PlaceJson(component.place)}, {"doc", TextOf(properties, PropertyKind::kDoc)},
+  Json json{{"name", component.name},
+            {"place", PlaceJson(component.place)},
+            {"doc", TextOf(properties, PropertyKind::kDoc)},
             {"version", TextOf(properties, PropertyKind::kVersion, "0")},
             {"lang", TextOf(properties, PropertyKind::kLanguage, "c")},
-            {"email", TextOf(properties, PropertyKind::kEmail)}, {"require", Texts(properties, PropertyKind::kRequire)},
+            {"email", TextOf(properties, PropertyKind::kEmail)},
+            {"require", Texts(properties, PropertyKind::kRequire)},
             {"codels_require", Texts(properties, PropertyKind::kCodelsRequire)}};
   json["clock_rate"] = component.clock_rate;
   json["provides"] = Interfaces(properties, PropertyKind::kProvides);
@@ -258,7 +288,9 @@ Json JsonWriter::ComponentJson(const Component& component) const {
   json["ports"] = ListOf(component.ports, [this](const Port* each) { return PortJson(*each); });
   json["services"] = ListOf(component.services, [this](const Service* each) { return ServiceJson(*each); });
   json["remotes"] = ListOf(component.remotes, [this](const Remote* each) {
-    return Json{{"name", each->name}, {"kind", NameOf(each->kind)}, {"place", PlaceJson(each->place)},
+    return Json{{"name", each->name},
+                {"kind", NameOf(each->kind)},
+                {"place", PlaceJson(each->place)},
                 {"parameters", Parameters(each->parameters, false)}};
   });
   json["digest"] = DigestOf(component);

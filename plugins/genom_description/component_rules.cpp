@@ -177,8 +177,10 @@ bool ComponentRules::Agree(const Service& draft, const Service& before) {
     return false;
   }
   if (now.size() == then.size()) return true;
-  problems_.Add(draft.place, name + " has been declared with " + std::to_string(then.size()) + " parameters, not " +
-                                 std::to_string(now.size()), where);
+  problems_.Add(draft.place,
+                name + " has been declared with " + std::to_string(then.size()) + " parameters, not " +
+                    std::to_string(now.size()),
+                where);
   return false;
 }
 
@@ -188,8 +190,9 @@ bool ComponentRules::CheckServiceCodels(const Service& service) {
     if (codel->kind == CodelKind::kStateMachine) continue;
     for (const Parameter& each : codel->parameters) {
       if (each.source != ParameterSource::kPort && each.source != ParameterSource::kRemote) continue;
-      problems_.Add(each.place, std::string(NameOf(each.source)) + " '" + each.name + "' is nothing for a " +
-                                    std::string(NameOf(codel->kind)) + " codel",
+      problems_.Add(each.place,
+                    std::string(NameOf(each.source)) + " '" + each.name + "' is nothing for a " +
+                        std::string(NameOf(codel->kind)) + " codel",
                     "only codels with states use ports and remotes");
       is_right = false;
     }
@@ -199,7 +202,8 @@ bool ComponentRules::CheckServiceCodels(const Service& service) {
 
 void ComponentRules::AddService(Service draft) {
   if (draft.name == "all") {
-    problems_.Add(draft.place, "no service can be called 'all'", "'all' means every service, in interrupts, before, after");
+    problems_.Add(draft.place, "no service can be called 'all'",
+                  "'all' means every service, in interrupts, before, after");
     return;
   }
   if (IsNameUsed(draft.name, draft.place, true) || !CheckServiceCodels(draft)) return;

@@ -32,7 +32,9 @@ class ComponentRules {
   void Close();
 
   /// From #pragma: what all components that are opened later require and provide.
-  void RequireForAll(const Property& property) { AddProperty(for_all_, property, PropertyOwner::kInterface, problems_); }
+  void RequireForAll(const Property& property) {
+    AddProperty(for_all_, property, PropertyOwner::kInterface, problems_);
+  }
   void ProvideForAll(Component& component) { provided_by_all_.push_back(&component); }
 
   bool AddComponentProperty(Property property);

@@ -1,8 +1,8 @@
-#include "plugins/genom_description/type.h"
-
 #include <cmath>
 
 #include <fmt/format.h>
+
+#include "plugins/genom_description/type.h"
 
 namespace runnel::genom {
 
@@ -14,7 +14,8 @@ __extension__ using WideInteger = __int128;  // holds what any two whole numbers
 std::int64_t Signed(const Constant& value) { return static_cast<std::int64_t>(value.whole); }
 
 WideInteger Wide(const Constant& value) {
-  return value.kind == Kind::kUnsigned ? static_cast<WideInteger>(value.whole) : static_cast<WideInteger>(Signed(value));
+  return value.kind == Kind::kUnsigned ? static_cast<WideInteger>(value.whole)
+                                       : static_cast<WideInteger>(Signed(value));
 }
 
 Constant OfReal(double value) { return {.kind = Kind::kReal, .real = value}; }
@@ -34,14 +35,24 @@ Computed ComputeWholes(const Constant& a, char operation, const Constant& b) {
   const WideInteger y = Wide(b);
   WideInteger result = 0;
   switch (operation) {
-    case '+': result = x + y; break;
-    case '-': result = x - y; break;
+    case '+':
+      result = x + y;
+      break;
+    case '-':
+      result = x - y;
+      break;
     case '*':
       if (__builtin_mul_overflow(x, y, &result)) return {.error = "the result has more than 64 bits"};
       break;
-    case '|': result = x | y; break;
-    case '&': result = x & y; break;
-    case '^': result = x ^ y; break;
+    case '|':
+      result = x | y;
+      break;
+    case '&':
+      result = x & y;
+      break;
+    case '^':
+      result = x ^ y;
+      break;
     default:
       if (y == 0) return {.error = "this divides by zero"};
       result = operation == '/' ? x / y : x % y;
@@ -63,8 +74,8 @@ Computed Shifted(const Constant& a, char operation, const Constant& b) {
   } else if (operation == '<') {
     result.whole = a.whole << by->whole;
   } else {
-    result.whole = a.kind == Kind::kUnsigned ? a.whole >> by->whole
-                                             : static_cast<std::uint64_t>(Signed(a) >> by->whole);
+    result.whole =
+        a.kind == Kind::kUnsigned ? a.whole >> by->whole : static_cast<std::uint64_t>(Signed(a) >> by->whole);
   }
   return {result};
 }
@@ -79,14 +90,22 @@ double Constant::AsReal() const {
 
 std::string Constant::ToText() const {
   switch (kind) {
-    case Kind::kNone: return "";
-    case Kind::kBoolean: return boolean ? "TRUE" : "FALSE";
-    case Kind::kUnsigned: return std::to_string(whole);
-    case Kind::kSigned: return std::to_string(Signed(*this));
-    case Kind::kReal: return fmt::format("{}", real);
-    case Kind::kString: return "\"" + text + "\"";
-    case Kind::kCharacter: return "'" + text + "'";
-    case Kind::kEnumerator: return enumerator == nullptr ? "" : enumerator->ShownName();
+    case Kind::kNone:
+      return "";
+    case Kind::kBoolean:
+      return boolean ? "TRUE" : "FALSE";
+    case Kind::kUnsigned:
+      return std::to_string(whole);
+    case Kind::kSigned:
+      return std::to_string(Signed(*this));
+    case Kind::kReal:
+      return fmt::format("{}", real);
+    case Kind::kString:
+      return "\"" + text + "\"";
+    case Kind::kCharacter:
+      return "'" + text + "'";
+    case Kind::kEnumerator:
+      return enumerator == nullptr ? "" : enumerator->ShownName();
   }
   return "";
 }
@@ -120,9 +139,12 @@ bool AreEqual(const Constant& a, const Constant& b) {
   }
   if (a.kind != b.kind) return false;
   switch (a.kind) {
-    case Kind::kBoolean: return a.boolean == b.boolean;
-    case Kind::kEnumerator: return a.enumerator == b.enumerator;
-    default: return a.text == b.text;
+    case Kind::kBoolean:
+      return a.boolean == b.boolean;
+    case Kind::kEnumerator:
+      return a.enumerator == b.enumerator;
+    default:
+      return a.text == b.text;
   }
 }
 

@@ -1,6 +1,5 @@
-#include "plugins/genom_description/component.h"
-
 #include "core/base/nearest_name.h"
+#include "plugins/genom_description/component.h"
 
 namespace runnel::genom {
 
@@ -11,20 +10,27 @@ using Kind = Constant::Kind;
 // kNone: nothing can be a constant of that type.
 Kind KindFor(TypeKind type) {
   switch (type) {
-    case TypeKind::kBoolean: return Kind::kBoolean;
+    case TypeKind::kBoolean:
+      return Kind::kBoolean;
     case TypeKind::kOctet:
     case TypeKind::kUnsignedShort:
     case TypeKind::kUnsignedLong:
-    case TypeKind::kUnsignedLongLong: return Kind::kUnsigned;
+    case TypeKind::kUnsignedLongLong:
+      return Kind::kUnsigned;
     case TypeKind::kShort:
     case TypeKind::kLong:
-    case TypeKind::kLongLong: return Kind::kSigned;
+    case TypeKind::kLongLong:
+      return Kind::kSigned;
     case TypeKind::kFloat:
-    case TypeKind::kDouble: return Kind::kReal;
+    case TypeKind::kDouble:
+      return Kind::kReal;
     case TypeKind::kCharacter:
-    case TypeKind::kString: return Kind::kString;
-    case TypeKind::kEnum: return Kind::kEnumerator;
-    default: return Kind::kNone;
+    case TypeKind::kString:
+      return Kind::kString;
+    case TypeKind::kEnum:
+      return Kind::kEnumerator;
+    default:
+      return Kind::kNone;
   }
 }
 
@@ -32,17 +38,28 @@ void WarnOfRange(const Constant& value, const Type& type, Place place, Problems&
   std::int64_t lowest = 0;
   std::int64_t highest = 0;
   switch (type.kind) {
-    case TypeKind::kOctet: highest = 255; break;
-    case TypeKind::kUnsignedShort: highest = 65535; break;
-    case TypeKind::kShort: lowest = -32768, highest = 32767; break;
-    case TypeKind::kUnsignedLong: highest = 4294967295; break;
-    case TypeKind::kLong: lowest = -2147483648LL, highest = 2147483647; break;
+    case TypeKind::kOctet:
+      highest = 255;
+      break;
+    case TypeKind::kUnsignedShort:
+      highest = 65535;
+      break;
+    case TypeKind::kShort:
+      lowest = -32768, highest = 32767;
+      break;
+    case TypeKind::kUnsignedLong:
+      highest = 4294967295;
+      break;
+    case TypeKind::kLong:
+      lowest = -2147483648LL, highest = 2147483647;
+      break;
     case TypeKind::kString:
       if (type.length != Type::kUnbounded && value.text.size() > type.length) {
         problems.Warn(place, "this text is longer than " + type.ShownName() + " holds");
       }
       return;
-    default: return;
+    default:
+      return;
   }
   const auto whole = static_cast<std::int64_t>(value.whole);
   const bool is_huge = value.kind == Kind::kUnsigned && whole < 0;

@@ -74,7 +74,7 @@ class Description {
   std::deque<Remote> remotes = {};
   std::deque<Codel> codels = {};
   std::map<std::string, std::map<const Type*, std::string>> masquerades = {};  ///< by template
-  std::string notice = {};  ///< for the top of what is made from it
+  std::string notice = {};                                                     ///< for the top of what is made from it
 
   [[nodiscard]] Component* FindComponent(std::string_view name);
 };

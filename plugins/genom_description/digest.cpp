@@ -1,8 +1,8 @@
-#include "plugins/genom_description/component.h"
-
 #include <set>
 
 #include <fmt/format.h>
+
+#include "plugins/genom_description/component.h"
 
 namespace runnel::genom {
 

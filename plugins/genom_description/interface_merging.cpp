@@ -11,8 +11,8 @@ void ComponentRules::Merge(Component& interface, PropertyKind how) {
   }
   const PropertyOwner owner = current_->is_interface ? PropertyOwner::kInterface : PropertyOwner::kComponent;
   for (const Property& each : interface.properties) {
-    const bool is_merging = each.kind == PropertyKind::kProvides || each.kind == PropertyKind::kUses ||
-                            each.kind == PropertyKind::kExtends;
+    const bool is_merging =
+        each.kind == PropertyKind::kProvides || each.kind == PropertyKind::kUses || each.kind == PropertyKind::kExtends;
     if (!is_merging) AddProperty(current_->properties, each, owner, problems_);
   }
   const bool is_used = how == PropertyKind::kUses;

@@ -1,7 +1,7 @@
-#include "plugins/genom_description/component_json.h"
-
 #include <algorithm>
 #include <limits>
+
+#include "plugins/genom_description/component_json.h"
 
 namespace runnel::genom {
 
@@ -59,13 +59,21 @@ Layout Layouts::Of(const Type& type) {
 
 Layout Layouts::Compute(const Type& type) {
   switch (type.kind) {
-    case TypeKind::kBoolean: case TypeKind::kOctet: case TypeKind::kCharacter:
+    case TypeKind::kBoolean:
+    case TypeKind::kOctet:
+    case TypeKind::kCharacter:
       return {1, 1};
-    case TypeKind::kShort: case TypeKind::kUnsignedShort:
+    case TypeKind::kShort:
+    case TypeKind::kUnsignedShort:
       return {2, 2};
-    case TypeKind::kLong: case TypeKind::kUnsignedLong: case TypeKind::kFloat: case TypeKind::kEnum:
+    case TypeKind::kLong:
+    case TypeKind::kUnsignedLong:
+    case TypeKind::kFloat:
+    case TypeKind::kEnum:
       return {4, 4};
-    case TypeKind::kLongLong: case TypeKind::kUnsignedLongLong: case TypeKind::kDouble:
+    case TypeKind::kLongLong:
+    case TypeKind::kUnsignedLongLong:
+    case TypeKind::kDouble:
       return {8, 8};
     case TypeKind::kNative:
       return kPointer;
@@ -105,7 +113,8 @@ Layout Layouts::Compute(const Type& type) {
       row.Add(largest);
       return row.layout();
     }
-    case TypeKind::kStruct: case TypeKind::kException:
+    case TypeKind::kStruct:
+    case TypeKind::kException:
       return OfMembers(type.members);
     default:
       return {0, 1};

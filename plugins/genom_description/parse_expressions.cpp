@@ -11,9 +11,16 @@ struct BinaryOperator {
   char operation;
   int binding;  // the higher, the tighter
 };
-constexpr std::array<BinaryOperator, 10> kOperators = {{{"|", '|', 1}, {"^", '^', 2}, {"&", '&', 3}, {"<<", '<', 4},
-                                                        {">>", '>', 4}, {"+", '+', 5}, {"-", '-', 5}, {"*", '*', 6},
-                                                        {"/", '/', 6}, {"%", '%', 6}}};
+constexpr std::array<BinaryOperator, 10> kOperators = {{{"|", '|', 1},
+                                                        {"^", '^', 2},
+                                                        {"&", '&', 3},
+                                                        {"<<", '<', 4},
+                                                        {">>", '>', 4},
+                                                        {"+", '+', 5},
+                                                        {"-", '-', 5},
+                                                        {"*", '*', 6},
+                                                        {"/", '/', 6},
+                                                        {"%", '%', 6}}};
 
 }  // namespace
 

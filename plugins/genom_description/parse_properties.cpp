@@ -16,16 +16,37 @@ struct PropertyWord {
   Kind kind;
 };
 // What "local" says is no property.
-constexpr std::array<PropertyWord, 31> kWords = {{
-    {"doc", Kind::kDoc}, {"version", Kind::kVersion}, {"lang", Kind::kLanguage}, {"email", Kind::kEmail},
-    {"require", Kind::kRequire}, {"requires", Kind::kRequire}, {"codels-require", Kind::kCodelsRequire},
-    {"codels-requires", Kind::kCodelsRequire}, {"clock-rate", Kind::kClockRate}, {"provide", Kind::kProvides},
-    {"provides", Kind::kProvides}, {"use", Kind::kUses}, {"uses", Kind::kUses}, {"extend", Kind::kExtends},
-    {"extends", Kind::kExtends}, {"throw", Kind::kThrow}, {"throws", Kind::kThrow}, {"period", Kind::kPeriod},
-    {"delay", Kind::kDelay}, {"priority", Kind::kPriority}, {"scheduling", Kind::kScheduling},
-    {"stack", Kind::kStack}, {"task", Kind::kTask}, {"interrupt", Kind::kInterrupts},
-    {"interrupts", Kind::kInterrupts}, {"before", Kind::kBefore}, {"after", Kind::kAfter}, {"local", Kind::kCodel},
-    {"validate", Kind::kCodel}, {"async", Kind::kCodel}, {"codel", Kind::kCodel}}};
+constexpr std::array<PropertyWord, 31> kWords = {{{"doc", Kind::kDoc},
+                                                  {"version", Kind::kVersion},
+                                                  {"lang", Kind::kLanguage},
+                                                  {"email", Kind::kEmail},
+                                                  {"require", Kind::kRequire},
+                                                  {"requires", Kind::kRequire},
+                                                  {"codels-require", Kind::kCodelsRequire},
+                                                  {"codels-requires", Kind::kCodelsRequire},
+                                                  {"clock-rate", Kind::kClockRate},
+                                                  {"provide", Kind::kProvides},
+                                                  {"provides", Kind::kProvides},
+                                                  {"use", Kind::kUses},
+                                                  {"uses", Kind::kUses},
+                                                  {"extend", Kind::kExtends},
+                                                  {"extends", Kind::kExtends},
+                                                  {"throw", Kind::kThrow},
+                                                  {"throws", Kind::kThrow},
+                                                  {"period", Kind::kPeriod},
+                                                  {"delay", Kind::kDelay},
+                                                  {"priority", Kind::kPriority},
+                                                  {"scheduling", Kind::kScheduling},
+                                                  {"stack", Kind::kStack},
+                                                  {"task", Kind::kTask},
+                                                  {"interrupt", Kind::kInterrupts},
+                                                  {"interrupts", Kind::kInterrupts},
+                                                  {"before", Kind::kBefore},
+                                                  {"after", Kind::kAfter},
+                                                  {"local", Kind::kCodel},
+                                                  {"validate", Kind::kCodel},
+                                                  {"async", Kind::kCodel},
+                                                  {"codel", Kind::kCodel}}};
 
 }  // namespace
 
@@ -66,24 +87,48 @@ bool Parser::ReadProperty(Property& property, Service* draft) {
   reader_.Take();
   property.kind = std::ranges::find(kWords, word.text, &PropertyWord::text)->kind;
   switch (property.kind) {
-    case Kind::kDoc: case Kind::kVersion: case Kind::kLanguage: case Kind::kEmail: property.text = Text(); break;
+    case Kind::kDoc:
+    case Kind::kVersion:
+    case Kind::kLanguage:
+    case Kind::kEmail:
+      property.text = Text();
+      break;
     case Kind::kScheduling:
       if (!reader_.AcceptWord("real-time")) reader_.Fail("'real-time'");
       property.text = "real-time";
       break;
-    case Kind::kRequire: case Kind::kCodelsRequire: property.texts = TextList(&property.places); break;
-    case Kind::kPriority: case Kind::kStack: {
+    case Kind::kRequire:
+    case Kind::kCodelsRequire:
+      property.texts = TextList(&property.places);
+      break;
+    case Kind::kPriority:
+    case Kind::kStack: {
       property.number = static_cast<double>(Size());
       const bool is_stack = property.kind == Kind::kStack;
-      if (is_stack && reader_.AcceptWord("k")) property.number *= 1024;
-      else if (is_stack && reader_.AcceptWord("M")) property.number *= 1024.0 * 1024;
+      if (is_stack && reader_.AcceptWord("k"))
+        property.number *= 1024;
+      else if (is_stack && reader_.AcceptWord("M"))
+        property.number *= 1024.0 * 1024;
       break;
     }
-    case Kind::kInterrupts: case Kind::kBefore: case Kind::kAfter: NamesProperty(property); break;
-    case Kind::kProvides: case Kind::kUses: case Kind::kExtends: InterfacesProperty(property); break;
-    case Kind::kClockRate: case Kind::kPeriod: case Kind::kDelay: return TimeProperty(property);
-    case Kind::kThrow: return ThrowProperty(property);
-    case Kind::kTask: return TaskProperty(property);
+    case Kind::kInterrupts:
+    case Kind::kBefore:
+    case Kind::kAfter:
+      NamesProperty(property);
+      break;
+    case Kind::kProvides:
+    case Kind::kUses:
+    case Kind::kExtends:
+      InterfacesProperty(property);
+      break;
+    case Kind::kClockRate:
+    case Kind::kPeriod:
+    case Kind::kDelay:
+      return TimeProperty(property);
+    case Kind::kThrow:
+      return ThrowProperty(property);
+    case Kind::kTask:
+      return TaskProperty(property);
     case Kind::kCodel:
       if (word.text == "async" && !reader_.AcceptWord("codel")) reader_.Fail("'codel' behind 'async'");
       return CodelProperty(property, word.text == "async", word.text == "validate", draft);
@@ -149,9 +194,11 @@ void Parser::InterfacesProperty(Property& property) {
       for (const Component& each : description_.components) {
         if (each.is_interface) names.push_back(each.name);
       }
-      problems_.Add(name.place, "there is no interface '" + name.text + "' until here", NearestNameHint(name.text, names));
+      problems_.Add(name.place, "there is no interface '" + name.text + "' until here",
+                    NearestNameHint(name.text, names));
     } else if (!component->is_interface) {
-      problems_.Add(name.place, "'" + name.text + "' is a component, no interface", problems_.DeclaredAt(component->place));
+      problems_.Add(name.place, "'" + name.text + "' is a component, no interface",
+                    problems_.DeclaredAt(component->place));
     } else if (std::ranges::find(property.interfaces, component) != property.interfaces.end()) {
       problems_.Add(name.place, "interface '" + name.text + "' stands here twice");
     } else {
@@ -235,10 +282,14 @@ bool Parser::Events(std::vector<Type*>& events, bool are_states) {
 
 bool Parser::CodelParameter(Codel& codel, const Service* of) {
   Parameter parameter;
-  if (reader_.AcceptWord("ids")) parameter.source = ParameterSource::kIds;
-  else if (reader_.AcceptWord("local")) parameter.source = ParameterSource::kLocal;
-  else if (reader_.AcceptWord("port")) parameter.source = ParameterSource::kPort;
-  else if (reader_.AcceptWord("remote")) parameter.source = ParameterSource::kRemote;
+  if (reader_.AcceptWord("ids"))
+    parameter.source = ParameterSource::kIds;
+  else if (reader_.AcceptWord("local"))
+    parameter.source = ParameterSource::kLocal;
+  else if (reader_.AcceptWord("port"))
+    parameter.source = ParameterSource::kPort;
+  else if (reader_.AcceptWord("remote"))
+    parameter.source = ParameterSource::kRemote;
   parameter.direction = ReadDirection();
   parameter.place = reader_.Peek().place;
   if (!reader_.IsMark("::")) {

@@ -305,7 +305,8 @@ Type* Parser::Enum() {
       enumerator->type = scopes_.Make(TypeKind::kInvalid, each.place);  // should the enum never be finished
       enumerators.push_back(enumerator);
     }
-    if (reader_.IsMark("=")) reader_.Fail("',' or '}'", "enumerators are numbered from 0, and have no values of their own");
+    if (reader_.IsMark("="))
+      reader_.Fail("',' or '}'", "enumerators are numbered from 0, and have no values of their own");
   } while (reader_.AcceptMark(","));
   reader_.ExpectMark("}");
   Type* type = scopes_.Declare(TypeKind::kEnum, name.text, name.place);

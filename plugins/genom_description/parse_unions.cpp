@@ -9,9 +9,16 @@ namespace {
 
 bool CanSwitch(TypeKind kind) {
   switch (kind) {
-    case TypeKind::kInvalid: case TypeKind::kBoolean: case TypeKind::kCharacter: case TypeKind::kEnum:
-    case TypeKind::kShort: case TypeKind::kUnsignedShort: case TypeKind::kLong: case TypeKind::kUnsignedLong:
-    case TypeKind::kLongLong: case TypeKind::kUnsignedLongLong:
+    case TypeKind::kInvalid:
+    case TypeKind::kBoolean:
+    case TypeKind::kCharacter:
+    case TypeKind::kEnum:
+    case TypeKind::kShort:
+    case TypeKind::kUnsignedShort:
+    case TypeKind::kLong:
+    case TypeKind::kUnsignedLong:
+    case TypeKind::kLongLong:
+    case TypeKind::kUnsignedLongLong:
       return true;
     default:
       return false;
@@ -31,7 +38,8 @@ Type* Parser::SwitchType() {
     type = SimpleType();
   }
   if (type == nullptr || CanSwitch(FinalType(type)->kind)) return type;
-  problems_.Add(begin.place, "a union is switched by a whole number, char, boolean or enum, not by " + KindAndName(*type));
+  problems_.Add(begin.place,
+                "a union is switched by a whole number, char, boolean or enum, not by " + KindAndName(*type));
   return nullptr;
 }
 
@@ -103,10 +111,12 @@ void Parser::UnionCase(std::vector<Type*>& cases) {
   reader_.Semicolon();
   for (const Type* before : cases) {
     for (const Constant& label : labels) {
-      const auto same = std::ranges::find_if(before->labels, [&](const Constant& each) { return AreEqual(each, label); });
+      const auto same =
+          std::ranges::find_if(before->labels, [&](const Constant& each) { return AreEqual(each, label); });
       if (same == before->labels.end()) continue;
-      problems_.Add(place, label.kind == Constant::Kind::kNone ? "this union has a default already"
-                                                               : "this union has a case " + label.ToText() + " already",
+      problems_.Add(place,
+                    label.kind == Constant::Kind::kNone ? "this union has a default already"
+                                                        : "this union has a case " + label.ToText() + " already",
                     problems_.DeclaredAt(before->place));
     }
   }

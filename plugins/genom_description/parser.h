@@ -82,10 +82,10 @@ class Parser {
   void TypedefDeclaration();
   void NativeDeclaration();
   void ExceptionDeclaration();
-  Type* TypeSpecification();                     // nullptr: told
+  Type* TypeSpecification();  // nullptr: told
   Type* ConstructedType();
   Type* SimpleType(bool may_be_forward = false);
-  Type* BaseType();                              // nullptr: the next token begins none
+  Type* BaseType();  // nullptr: the next token begins none
   Type* Sequence();
   Type* Optional();
   Type* String();

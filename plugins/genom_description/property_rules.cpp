@@ -1,7 +1,7 @@
-#include "plugins/genom_description/component_rules.h"
-
 #include <algorithm>
 #include <array>
+
+#include "plugins/genom_description/component_rules.h"
 
 namespace runnel::genom {
 
@@ -10,32 +10,47 @@ namespace {
 using Kind = PropertyKind;
 using Owner = PropertyOwner;
 
-constexpr std::array<std::string_view, 7> kOwners = {"components", "interfaces", "ports", "tasks",
-                                                     "attributes", "functions", "activities"};
+constexpr std::array<std::string_view, 7> kOwners = {"components", "interfaces", "ports",     "tasks",
+                                                     "attributes", "functions",  "activities"};
 
 bool IsAllowed(const Property& property, Owner owner) {
   const bool is_service = owner == Owner::kAttribute || owner == Owner::kFunction || owner == Owner::kActivity;
   switch (property.kind) {
     case Kind::kDoc:
       return true;
-    case Kind::kVersion: case Kind::kLanguage: case Kind::kEmail: case Kind::kRequire: case Kind::kCodelsRequire:
-    case Kind::kClockRate: case Kind::kProvides: case Kind::kUses: case Kind::kExtends:
+    case Kind::kVersion:
+    case Kind::kLanguage:
+    case Kind::kEmail:
+    case Kind::kRequire:
+    case Kind::kCodelsRequire:
+    case Kind::kClockRate:
+    case Kind::kProvides:
+    case Kind::kUses:
+    case Kind::kExtends:
       return owner == Owner::kComponent || owner == Owner::kInterface;
     case Kind::kThrow:
       return owner != Owner::kPort;
-    case Kind::kPeriod: case Kind::kDelay: case Kind::kPriority: case Kind::kScheduling:
+    case Kind::kPeriod:
+    case Kind::kDelay:
+    case Kind::kPriority:
+    case Kind::kScheduling:
       return owner == Owner::kTask;
     case Kind::kStack:
       return owner == Owner::kTask || owner == Owner::kComponent || owner == Owner::kInterface;
     case Kind::kTask:
       return owner == Owner::kActivity;
-    case Kind::kInterrupts: case Kind::kBefore: case Kind::kAfter:
+    case Kind::kInterrupts:
+    case Kind::kBefore:
+    case Kind::kAfter:
       return is_service;
     case Kind::kCodel:
       switch (property.codel->kind) {
-        case CodelKind::kValidate: return is_service;
-        case CodelKind::kSimple: return owner == Owner::kAttribute || owner == Owner::kFunction;
-        case CodelKind::kStateMachine: return owner == Owner::kActivity || owner == Owner::kTask;
+        case CodelKind::kValidate:
+          return is_service;
+        case CodelKind::kSimple:
+          return owner == Owner::kAttribute || owner == Owner::kFunction;
+        case CodelKind::kStateMachine:
+          return owner == Owner::kActivity || owner == Owner::kTask;
       }
   }
   return false;
@@ -65,8 +80,8 @@ void AddNew(std::vector<Thing>& into, const std::vector<Thing>& from) {
 }
 
 bool TellRepeated(const Property& property, const Property& before, Problems& problems) {
-  const std::string what = property.kind == Kind::kCodel ? "codel '" + property.codel->name + "'"
-                                                         : WhatIsSaid(property);
+  const std::string what =
+      property.kind == Kind::kCodel ? "codel '" + property.codel->name + "'" : WhatIsSaid(property);
   problems.Add(property.place, what + " is declared twice", problems.DeclaredAt(before.place));
   return false;
 }
@@ -77,7 +92,8 @@ bool Merge(Property& into, const Property& from, Problems& problems) {
     case Kind::kDoc:
       into.text += "\n" + from.text;
       return true;
-    case Kind::kRequire: case Kind::kCodelsRequire:
+    case Kind::kRequire:
+    case Kind::kCodelsRequire:
       AddNew(into.texts, from.texts);
       return true;
     case Kind::kInterrupts:
@@ -87,10 +103,14 @@ bool Merge(Property& into, const Property& from, Problems& problems) {
     case Kind::kThrow:
       AddNew(into.exceptions, from.exceptions);
       return true;
-    case Kind::kProvides: case Kind::kUses: case Kind::kExtends:
+    case Kind::kProvides:
+    case Kind::kUses:
+    case Kind::kExtends:
       AddNew(into.interfaces, from.interfaces);
       return true;
-    case Kind::kVersion: case Kind::kEmail: case Kind::kTask:
+    case Kind::kVersion:
+    case Kind::kEmail:
+    case Kind::kTask:
       if (into.text != from.text || into.task != from.task) {
         problems.Warn(from.place, WhatIsSaid(from) + " has been said before, which holds",
                       problems.DeclaredAt(into.place));
@@ -106,13 +126,15 @@ bool Merge(Property& into, const Property& from, Problems& problems) {
 }  // namespace
 
 Owner OwnerOf(ServiceKind kind) {
-  return kind == ServiceKind::kAttribute ? Owner::kAttribute
-         : kind == ServiceKind::kFunction ? Owner::kFunction : Owner::kActivity;
+  return kind == ServiceKind::kAttribute  ? Owner::kAttribute
+         : kind == ServiceKind::kFunction ? Owner::kFunction
+                                          : Owner::kActivity;
 }
 
 bool AddProperty(Properties& properties, Property property, Owner owner, Problems& problems) {
   if (!IsAllowed(property, owner)) {
-    problems.Add(property.place, WhatIsSaid(property) + " is nothing for " + std::string(kOwners.at(static_cast<std::size_t>(owner))),
+    problems.Add(property.place,
+                 WhatIsSaid(property) + " is nothing for " + std::string(kOwners.at(static_cast<std::size_t>(owner))),
                  Cure(property, owner));
     return false;
   }

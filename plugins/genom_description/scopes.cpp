@@ -1,13 +1,12 @@
-#include "plugins/genom_description/description.h"
-
 #include "core/base/nearest_name.h"
+#include "plugins/genom_description/description.h"
 
 namespace runnel::genom {
 
 namespace {
 
 constexpr auto kOfModule = TypeKind::kInvalid;  // a module is opened again
-constexpr std::size_t kLongestGuess = 100;  // guessing what was meant is not cheap
+constexpr std::size_t kLongestGuess = 100;      // guessing what was meant is not cheap
 
 bool IsForwardOf(TypeKind forward, TypeKind kind) {
   return (forward == TypeKind::kForwardStruct && kind == TypeKind::kStruct) ||

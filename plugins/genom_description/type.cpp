@@ -9,10 +9,13 @@ namespace runnel::genom {
 namespace {
 
 constexpr std::array<std::string_view, 32> kNames = {
-    "unknown type", "boolean", "octet", "char", "short", "unsigned short", "long", "unsigned long", "long long",
-    "unsigned long long", "float", "double", "string", "sequence", "optional", "array", "enum", "enumerator",
-    "struct", "union", "exception", "member", "union member", "typedef", "constant", "forward struct",
-    "forward union", "native type", "event", "pause event", "port", "remote"};
+    "unknown type",   "boolean",       "octet",         "char",      "short",
+    "unsigned short", "long",          "unsigned long", "long long", "unsigned long long",
+    "float",          "double",        "string",        "sequence",  "optional",
+    "array",          "enum",          "enumerator",    "struct",    "union",
+    "exception",      "member",        "union member",  "typedef",   "constant",
+    "forward struct", "forward union", "native type",   "event",     "pause event",
+    "port",           "remote"};
 
 bool IsCompound(TypeKind kind) {
   return kind == TypeKind::kStruct || kind == TypeKind::kUnion || kind == TypeKind::kException;
@@ -50,12 +53,16 @@ std::string Type::ShownName() const {
   if (!full_name.empty()) return full_name.substr(2);
   const std::string length_text = length == kUnbounded ? "" : std::to_string(length);
   switch (kind) {
-    case TypeKind::kString: return length_text.empty() ? "string" : "string<" + length_text + ">";
+    case TypeKind::kString:
+      return length_text.empty() ? "string" : "string<" + length_text + ">";
     case TypeKind::kSequence:
       return "sequence<" + type->ShownName() + (length_text.empty() ? "" : ", " + length_text) + ">";
-    case TypeKind::kOptional: return "optional<" + type->ShownName() + ">";
-    case TypeKind::kArray: return type->ShownName() + "[" + length_text + "]";
-    default: return std::string(NameOf(kind));
+    case TypeKind::kOptional:
+      return "optional<" + type->ShownName() + ">";
+    case TypeKind::kArray:
+      return type->ShownName() + "[" + length_text + "]";
+    default:
+      return std::string(NameOf(kind));
   }
 }
 

@@ -47,13 +47,37 @@ struct Computed {
 
 enum class TypeKind {
   kInvalid,  ///< stands for one whose declaration was wrong, so that its users are not told again
-  kBoolean, kOctet, kCharacter,
-  kShort, kUnsignedShort, kLong, kUnsignedLong, kLongLong, kUnsignedLongLong,
-  kFloat, kDouble,
-  kString, kSequence, kOptional, kArray,
-  kEnum, kEnumerator, kStruct, kUnion, kException, kMember, kCase,
-  kTypedef, kConstant, kForwardStruct, kForwardUnion, kNative,
-  kEvent, kPauseEvent, kPort, kRemote
+  kBoolean,
+  kOctet,
+  kCharacter,
+  kShort,
+  kUnsignedShort,
+  kLong,
+  kUnsignedLong,
+  kLongLong,
+  kUnsignedLongLong,
+  kFloat,
+  kDouble,
+  kString,
+  kSequence,
+  kOptional,
+  kArray,
+  kEnum,
+  kEnumerator,
+  kStruct,
+  kUnion,
+  kException,
+  kMember,
+  kCase,
+  kTypedef,
+  kConstant,
+  kForwardStruct,
+  kForwardUnion,
+  kNative,
+  kEvent,
+  kPauseEvent,
+  kPort,
+  kRemote
 };
 
 struct Scope;
@@ -66,8 +90,9 @@ struct Type {
   std::string name = {};       ///< "" without one
   std::string full_name = {};  ///< "::nav::pose"
   Place place = {};
-  Type* type = nullptr;  ///< of elements, members, aliases, constants; of a union its switch; of an enumerator its enum;
-                         ///< of a forward declaration what it became
+  Type* type =
+      nullptr;  ///< of elements, members, aliases, constants; of a union its switch; of an enumerator its enum;
+                ///< of a forward declaration what it became
   std::uint64_t length = kUnbounded;  ///< of strings, sequences, arrays
   std::vector<Type*> members = {};    ///< members, cases, enumerators
   Constant value = {};                ///< of a constant

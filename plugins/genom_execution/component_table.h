@@ -12,8 +12,8 @@ namespace runnel::genom_execution {
 
 /// What a codel is called with.
 struct Invocation {
-  void* ids;                    ///< of the component
-  void* data;                   ///< parameters and locals of the service; nullptr for permanent activities
+  void* ids;   ///< of the component
+  void* data;  ///< parameters and locals of the service; nullptr for permanent activities
   const CodelContext* context;
 };
 
@@ -63,8 +63,8 @@ enum class ServiceKind : std::uint8_t { kAttribute, kFunction, kActivity, kAbort
 struct ServiceTable {
   const char* name;
   ServiceKind kind;
-  std::uint16_t number = 0;  ///< in ComponentTable::services
-  std::uint16_t task = 0;    ///< of an activity
+  std::uint16_t number = 0;                       ///< in ComponentTable::services
+  std::uint16_t task = 0;                         ///< of an activity
   std::span<const std::uint16_t> validates = {};  ///< codels
   std::span<const std::uint16_t> codels = {};     ///< simple ones
   MachineTable machine = {};
@@ -83,7 +83,7 @@ struct ServiceTable {
 
 struct ExceptionTable {
   Event exception;
-  const char* name;  ///< "nav::bad_speed"
+  const char* name;                                          ///< "nav::bad_speed"
   std::string (*detail_text)(const void* detail) = nullptr;  ///< nullptr: has none
 };
 

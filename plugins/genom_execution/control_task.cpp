@@ -1,6 +1,6 @@
-#include "plugins/genom_execution/engine.h"
-
 #include <algorithm>
+
+#include "plugins/genom_execution/engine.h"
 
 namespace runnel::genom_execution {
 

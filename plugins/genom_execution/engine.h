@@ -53,15 +53,15 @@ class ControlTask {
   Request* request_ = nullptr;
   ActivitySlot* slot_ = nullptr;  // of an activity
   Step step_ = Step::kValidate;
-  std::size_t position_ = 0;  // among the codels of the step
+  std::size_t position_ = 0;   // among the codels of the step
   std::size_t shut_down_ = 0;  // tasks, from the last, whose permanent activity has been told to end
 };
 
 struct EngineOptions {
-  void* ids = nullptr;           ///< of this instance; what a codel's Invocation has
-  void* glue = nullptr;          ///< CodelContext::data, and the first argument of the functions below
-  std::size_t activities = 32;   ///< of each task at once
-  std::size_t requests = 64;     ///< that wait for the control task
+  void* ids = nullptr;          ///< of this instance; what a codel's Invocation has
+  void* glue = nullptr;         ///< CodelContext::data, and the first argument of the functions below
+  std::size_t activities = 32;  ///< of each task at once
+  std::size_t requests = 64;    ///< that wait for the control task
   /// How long RunControl() and RunTask() may sleep until a codel may run: tasks with threads of their own. Then, and if
   /// it conflicts with one that another thread runs for them, they return kWaiting.
   Duration patience{};

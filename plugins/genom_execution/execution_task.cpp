@@ -47,7 +47,8 @@ Pass ExecutionTask::Run(Time now, bool is_forced) {
     if (!goes_on_ && !may_begin) return Pass::kIdle;
     if (is_tick) {
       cycles_.store(cycles_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-      if (engine_.clock() != nullptr) measured_.store(measured_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      if (engine_.clock() != nullptr)
+        measured_.store(measured_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     }
     if (!Begin(is_tick)) {
       goes_on_ = false;
@@ -169,8 +170,9 @@ void ExecutionTask::End(ActivitySlot& slot) noexcept {
 }
 
 TaskFigures ExecutionTask::figures() const noexcept {
-  return {cycles_.load(std::memory_order_relaxed), measured_.load(std::memory_order_relaxed), Duration(last_.load(std::memory_order_relaxed)),
-          Duration(longest_.load(std::memory_order_relaxed)), Duration(total_.load(std::memory_order_relaxed))};
+  return {cycles_.load(std::memory_order_relaxed), measured_.load(std::memory_order_relaxed),
+          Duration(last_.load(std::memory_order_relaxed)), Duration(longest_.load(std::memory_order_relaxed)),
+          Duration(total_.load(std::memory_order_relaxed))};
 }
 
 }  // namespace runnel::genom_execution

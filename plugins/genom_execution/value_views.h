@@ -50,7 +50,9 @@ struct OwnedText {
     return *this;
   }
   ~OwnedText() { std::free(text); }
-  [[nodiscard]] std::string_view view() const noexcept { return text != nullptr ? std::string_view(text) : std::string_view(); }
+  [[nodiscard]] std::string_view view() const noexcept {
+    return text != nullptr ? std::string_view(text) : std::string_view();
+  }
   void Set(std::string_view from) noexcept {
     char* const old = text;
     text = strndup(from.data(), from.size());

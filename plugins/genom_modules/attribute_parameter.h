@@ -56,7 +56,7 @@ class FollowingParameter final : public ParameterBase {
   }
 
   mutable std::atomic_flag is_held_ = ATOMIC_FLAG_INIT;
-  T value_;                                // by who holds it
+  T value_;                               // by who holds it
   std::atomic<bool> has_changed_{false};  // changed by who holds it
 };
 

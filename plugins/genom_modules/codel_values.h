@@ -31,7 +31,8 @@ inline constexpr bool kIsPresence<Presence<E>> = true;
 
 template <typename View, typename Value>
 void CheckThatTheyAreAlike() {
-  static_assert(sizeof(View) == sizeof(Value) && std::is_trivially_copyable_v<View> && std::is_trivially_copyable_v<Value>);
+  static_assert(sizeof(View) == sizeof(Value) && std::is_trivially_copyable_v<View> &&
+                std::is_trivially_copyable_v<Value>);
 }
 
 }  // namespace internal

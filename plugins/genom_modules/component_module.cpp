@@ -27,7 +27,9 @@ constexpr Duration kPatience = std::chrono::milliseconds(20);
 // For those that another component is to take the place of: cycles are held meanwhile.
 constexpr Duration kToSettle = std::chrono::seconds(1);
 
-bool IsUnderWay(const Request* activity) { return activity != nullptr && activity->state() == Request::State::kAccepted; }
+bool IsUnderWay(const Request* activity) {
+  return activity != nullptr && activity->state() == Request::State::kAccepted;
+}
 
 // Threads are children of a group "threads", of the application or of the root; the nearest of that name.
 Result<ThreadContainer*> FindThread(const FrameworkElement& from, const std::string& name) {
@@ -69,8 +71,10 @@ ComponentModule::ComponentModule(const Placement& placement, const genom_executi
     return nullptr;
   }));
   for (const auto& task : component.tasks) {
-    thread_names_.emplace_back(this, std::string("thread_of_") + task.name, ParameterOptions<std::string>{
-        .description = std::string("name of the thread that runs task '") + task.name + "'; empty: the module's own"});
+    thread_names_.emplace_back(
+        this, std::string("thread_of_") + task.name,
+        ParameterOptions<std::string>{.description = std::string("name of the thread that runs task '") + task.name +
+                                                     "'; empty: the module's own"});
   }
 }
 
@@ -117,8 +121,8 @@ void ComponentModule::MakeTasks() {
     const std::string& thread = thread_names_[i].Get();
     if (thread.empty()) continue;
     own_tasks_[i] = std::make_unique<WakeTarget>();
-    runtime().Adopt(std::make_unique<TaskModule>(Placement{*this, std::string("task_") + component_.tasks[i].name}, *this,
-                                                 i, thread, *own_tasks_[i]));
+    runtime().Adopt(std::make_unique<TaskModule>(Placement{*this, std::string("task_") + component_.tasks[i].name},
+                                                 *this, i, thread, *own_tasks_[i]));
   }
 }
 
@@ -128,7 +132,8 @@ void ComponentModule::CheckPeriods() const {
   for (std::size_t i = 0; i < own_tasks_.size(); ++i) {
     if (own_tasks_[i] != nullptr) continue;
     const std::string missed = MissedTicks(component_.tasks[i], cycle);
-    if (!missed.empty()) throw std::runtime_error(missed + "; give the module's thread one that does, or the task a thread");
+    if (!missed.empty())
+      throw std::runtime_error(missed + "; give the module's thread one that does, or the task a thread");
   }
 }
 
@@ -305,9 +310,9 @@ Result<void> TaskModule::Check(const ThreadContainer& thread) const {
   const genom_execution::TaskTable& task = component_.table().tasks[number_];
   if (task.period == Duration::zero()) return {};
   if (thread.options().activation == ThreadOptions::Activation::kTrigger) {
-    return Error{.message = std::string("task '") + task.name + "' has a period, and thread '" + thread_ +
-                            "' waits for data",
-                 .hint = "give it a thread with a period"};
+    return Error{
+        .message = std::string("task '") + task.name + "' has a period, and thread '" + thread_ + "' waits for data",
+        .hint = "give it a thread with a period"};
   }
   if (thread.options().activation == ThreadOptions::Activation::kFreeRunning) return {};
   const std::string missed = MissedTicks(task, thread.options().period);

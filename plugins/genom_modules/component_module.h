@@ -207,7 +207,7 @@ class ComponentModule : public Module {
   // A codel has thrown, and no other may run.
   std::atomic<bool> is_broken_{false};
   std::atomic_flag is_fault_taken_ = ATOMIC_FLAG_INIT;  // by the first of other threads, which writes it
-  std::atomic<bool> has_fault_{false};  // release, acquire: it is written
+  std::atomic<bool> has_fault_{false};                  // release, acquire: it is written
   std::string fault_;
 
  public:

@@ -109,7 +109,7 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
   using Answered = typename runnel::internal::ReplyOf<Reply>::Type;
   struct Options {
     ServiceOptions service = {};
-    const char* defaults = "";  ///< of its arguments, in the text format
+    const char* defaults = "";               ///< of its arguments, in the text format
     std::vector<std::string> required = {};  ///< names of those that have none
     void (*fill)(genom_execution::Request& request, Pack& arguments) = nullptr;
     void (*take)(genom_execution::Request& request, Answered& reply) = nullptr;

@@ -39,11 +39,12 @@ namespace internal {
 
 template <typename List, typename E>
 void DescribeList(TypeBuilder<List>& type) {
-  type.Elements(TypeKind::kSequence,
-                {.type = &TypeOf<E>(),
-                 .columns = [](const void* at) -> std::size_t { return static_cast<const List*>(at)->length; },
-                 .resize = [](void* at, std::size_t, std::size_t columns) { return static_cast<List*>(at)->Resize(columns); },
-                 .element = [](void* at, std::size_t index) -> void* { return &static_cast<List*>(at)->buffer[index]; }});
+  type.Elements(
+      TypeKind::kSequence,
+      {.type = &TypeOf<E>(),
+       .columns = [](const void* at) -> std::size_t { return static_cast<const List*>(at)->length; },
+       .resize = [](void* at, std::size_t, std::size_t columns) { return static_cast<List*>(at)->Resize(columns); },
+       .element = [](void* at, std::size_t index) -> void* { return &static_cast<List*>(at)->buffer[index]; }});
 }
 
 }  // namespace internal
@@ -64,16 +65,17 @@ void Describe(TypeBuilder<OwnedList<E>>& type) {
 template <typename E>
 void Describe(TypeBuilder<Presence<E>>& type) {
   type.Name("genom " + TypeOf<E>().name() + "?")
-      .Elements(TypeKind::kSequence,
-                {.type = &TypeOf<E>(),
-                 .columns = [](const void* at) -> std::size_t { return static_cast<const Presence<E>*>(at)->is_present; },
-                 .resize =
-                     [](void* at, std::size_t, std::size_t columns) {
-                       if (columns > 1) return false;
-                       static_cast<Presence<E>*>(at)->is_present = columns == 1;
-                       return true;
-                     },
-                 .element = [](void* at, std::size_t) -> void* { return &static_cast<Presence<E>*>(at)->value; }});
+      .Elements(
+          TypeKind::kSequence,
+          {.type = &TypeOf<E>(),
+           .columns = [](const void* at) -> std::size_t { return static_cast<const Presence<E>*>(at)->is_present; },
+           .resize =
+               [](void* at, std::size_t, std::size_t columns) {
+                 if (columns > 1) return false;
+                 static_cast<Presence<E>*>(at)->is_present = columns == 1;
+                 return true;
+               },
+           .element = [](void* at, std::size_t) -> void* { return &static_cast<Presence<E>*>(at)->value; }});
 }
 
 }  // namespace runnel::genom_execution

@@ -1,5 +1,3 @@
-#include "plugins/genom_standalone/request_server.h"
-
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -13,6 +11,8 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
+
+#include "plugins/genom_standalone/request_server.h"
 
 namespace runnel::genom_standalone {
 

@@ -40,7 +40,8 @@ const ValueType* DetailType(const StandaloneComponent& component, genom_executio
     if (each.exception == exception) return each.type;
   }
   if (exception == std::string_view("::genom::syserr")) return &kSystemError;
-  const bool has_words = exception == std::string_view("::genom::unkex") || exception == genom_execution::kMiddlewareError;
+  const bool has_words =
+      exception == std::string_view("::genom::unkex") || exception == genom_execution::kMiddlewareError;
   return has_words ? &kUnknown : nullptr;
 }
 
@@ -58,7 +59,8 @@ void RequestServer::Take(LineServer::Client client, const std::string& line) {
   Json answer = Json::object();
   if (json.is_object() && json.contains("as")) answer["as"] = json["as"];
   if (!json.is_object() || is_too_deep) {
-    answer["error"] = is_too_deep ? "is nested deeper than " + std::to_string(kDeepest) + " levels" : "is no object in JSON";
+    answer["error"] =
+        is_too_deep ? "is nested deeper than " + std::to_string(kDeepest) + " levels" : "is no object in JSON";
     return lines_.Send(client, answer.dump());
   }
   const auto done = Do(client, json);
@@ -84,12 +86,15 @@ Result<Json> RequestServer::Do(LineServer::Client client, const Json& line) {
     return Json::object();
   }
   if (line.contains("step")) {
-    if (step_ == nullptr) return Error{.message = "the component has a clock of its own", .hint = "start it with --stepped"};
-    if (!line["step"].is_number() || line["step"].get<double>() < 0) return Error{.message = "'step' is a number of seconds"};
+    if (step_ == nullptr)
+      return Error{.message = "the component has a clock of its own", .hint = "start it with --stepped"};
+    if (!line["step"].is_number() || line["step"].get<double>() < 0)
+      return Error{.message = "'step' is a number of seconds"};
     const double seconds = line["step"].get<double>();
     if (!line.contains("every")) return Json{{"time", step_(seconds)}};
     const Json& every = line["every"];
-    if (!every.is_number() || every.get<double>() <= 0) return Error{.message = "'every' is a number of seconds, and not 0"};
+    if (!every.is_number() || every.get<double>() <= 0)
+      return Error{.message = "'every' is a number of seconds, and not 0"};
     double time = step_(0);
     for (auto left = std::llround(seconds / every.get<double>()); left > 0; --left) time = step_(every.get<double>());
     return Json{{"time", time}};
@@ -102,13 +107,18 @@ Result<std::size_t> RequestServer::FindService(const std::string& name) const {
   const auto& services = component_.table.services;
   const auto found = std::ranges::find_if(services, [&](const ServiceTable& each) { return each.name == name; });
   if (found != services.end()) return static_cast<std::size_t>(found - services.begin());
-  return Error{.message = "there is no service '" + name + "'", .hint = NearestNameHint(name, NamesOf(services, &ServiceTable::name))};
+  return Error{.message = "there is no service '" + name + "'",
+               .hint = NearestNameHint(name, NamesOf(services, &ServiceTable::name))};
 }
 
 Result<Json> RequestServer::Begin(LineServer::Client client, const Json& line) {
-  Call call{.client = client, .as = line.contains("as") ? line["as"] : Json(), .service = component_.table.services.size(), .request = nullptr};
+  Call call{.client = client,
+            .as = line.contains("as") ? line["as"] : Json(),
+            .service = component_.table.services.size(),
+            .request = nullptr};
   if (line.contains("abort")) {
-    if (!line["abort"].is_number_unsigned() || line["abort"].get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
+    if (!line["abort"].is_number_unsigned() ||
+        line["abort"].get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
       return Error{.message = "'abort' is the id of an activity"};
     }
     call.request = std::make_unique<Request>(component_.table, Engine::AbortService());
@@ -133,7 +143,8 @@ Result<Json> RequestServer::Begin(LineServer::Client client, const Json& line) {
 Result<void> RequestServer::Fill(const StandaloneService& service, void* data, const Json& with) {
   if (!with.is_object()) return Error{.message = "'with' is an object of parameters"};
   for (const auto& [name, value] : with.items()) {
-    const bool is_one = std::ranges::any_of(service.parameters, [&](const auto& each) { return each.is_input && each.name == name; });
+    const bool is_one =
+        std::ranges::any_of(service.parameters, [&](const auto& each) { return each.is_input && each.name == name; });
     if (!is_one) {
       return Error{.message = "there is no input '" + name + "'",
                    .hint = NearestNameHint(name, NamesOf(service.parameters, &StandaloneParameter::name))};
@@ -161,9 +172,11 @@ Result<std::shared_ptr<StandalonePort>> RequestServer::FindPort(const std::strin
     return Error{.message = "there is no port '" + first + "'",
                  .hint = NearestNameHint(first, NamesOf(component_.ports, &StandalonePortEntry::name))};
   }
-  if (found->port != nullptr && first == name) return std::shared_ptr<StandalonePort>(std::shared_ptr<void>(), found->port);
+  if (found->port != nullptr && first == name)
+    return std::shared_ptr<StandalonePort>(std::shared_ptr<void>(), found->port);
   if (found->port != nullptr || first == name) {
-    return Error{.message = found->port != nullptr ? "is no multiple port" : "is a multiple port", .path = first,
+    return Error{.message = found->port != nullptr ? "is no multiple port" : "is a multiple port",
+                 .path = first,
                  .hint = found->port != nullptr ? "leave out what is behind the /" : "say which: " + first + "/NAME"};
   }
   const std::string element = name.substr(first.size() + 1);
@@ -189,21 +202,26 @@ Result<Json> RequestServer::Get(const Json& name) {
   if (!name.is_string()) return Error{.message = "'get' is the name of a port"};
   const auto port = FindPort(name.get<std::string>(), false);
   if (!port) return port.error();
-  return (*port)->WithNewest([&](const void* value) { return value != nullptr ? ToJson((*port)->type(), value) : Json(nullptr); });
+  return (*port)->WithNewest(
+      [&](const void* value) { return value != nullptr ? ToJson((*port)->type(), value) : Json(nullptr); });
 }
 
 Json RequestServer::State() {
   Json activities = Json::array(), tasks = Json::array();
   for (const Call& each : calls_) {
     const std::string state = each.request->doing();
-    if (each.request->id() != 0) activities.push_back({{"id", each.request->id()}, {"service", each.request->service().name}, {"state", state}});
+    if (each.request->id() != 0)
+      activities.push_back({{"id", each.request->id()}, {"service", each.request->service().name}, {"state", state}});
   }
   for (auto& each : engine_.tasks()) {
     const auto figures = each.figures();
     tasks.push_back({{"name", each.table().name}, {"cycles", figures.cycles}, {"longest", ToSeconds(figures.longest)}});
   }
-  return {{"component", component_.table.name}, {"version", component_.table.version}, {"digest", component_.table.digest},
-          {"activities", activities}, {"tasks", tasks}};
+  return {{"component", component_.table.name},
+          {"version", component_.table.version},
+          {"digest", component_.table.digest},
+          {"activities", activities},
+          {"tasks", tasks}};
 }
 
 Json RequestServer::Description() const {
@@ -218,7 +236,8 @@ Json RequestServer::Description() const {
   }
   for (const StandalonePortEntry& each : component_.ports) {
     const bool is_input = each.port != nullptr ? each.port->is_input() : each.ports->is_input();
-    ports.push_back({{"name", each.name}, {"direction", is_input ? "in" : "out"}, {"is_multiple", each.port == nullptr}});
+    ports.push_back(
+        {{"name", each.name}, {"direction", is_input ? "in" : "out"}, {"is_multiple", each.port == nullptr}});
   }
   return {{"services", services}, {"ports", ports}};
 }
@@ -231,13 +250,15 @@ Json RequestServer::Ending(const Call& call) const {
     std::string name = outcome.exception();
     answer["failed"] = name.starts_with("::") ? name.substr(2) : name;
     const ValueType* const type = DetailType(component_, outcome.exception());
-    answer["detail"] = type != nullptr && outcome.detail() != nullptr ? ToJson(*type, outcome.detail()) : Words(outcome);
+    answer["detail"] =
+        type != nullptr && outcome.detail() != nullptr ? ToJson(*type, outcome.detail()) : Words(outcome);
     return answer;
   }
   answer["done"] = Json::object();
   if (call.service == component_.services.size()) return answer;
   for (const StandaloneParameter& each : component_.services[call.service].parameters) {
-    if (each.is_output) answer["done"][each.name] = ToJson(*each.type, static_cast<std::byte*>(call.request->data()) + each.offset);
+    if (each.is_output)
+      answer["done"][each.name] = ToJson(*each.type, static_cast<std::byte*>(call.request->data()) + each.offset);
   }
   return answer;
 }
@@ -245,7 +266,8 @@ Json RequestServer::Ending(const Call& call) const {
 void RequestServer::Answer() {
   for (auto call = calls_.begin(); call != calls_.end();) {
     const Request::State state = call->request->state();
-    if (!call->is_accepted && call->request->id() != 0 && (state == Request::State::kAccepted || state == Request::State::kDone)) {
+    if (!call->is_accepted && call->request->id() != 0 &&
+        (state == Request::State::kAccepted || state == Request::State::kDone)) {
       call->is_accepted = true;
       Json answer = Json::object();
       if (!call->as.is_null()) answer["as"] = call->as;

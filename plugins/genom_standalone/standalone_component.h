@@ -117,7 +117,7 @@ struct StandaloneService {
 
 struct StandalonePortEntry {
   const char* name;
-  StandalonePort* port;               ///< or
+  StandalonePort* port;  ///< or
   StandaloneMultiplePort* ports = nullptr;
 };
 
@@ -129,7 +129,7 @@ struct StandaloneDetail {
 /// A component as a process: what a template makes, for RunStandalone().
 struct StandaloneComponent {
   const genom_execution::ComponentTable& table;
-  void* ids;  ///< made; nullptr: it has none
+  void* ids;                                         ///< made; nullptr: it has none
   std::span<const StandaloneService> services = {};  ///< as in the table
   std::span<const StandalonePortEntry> ports = {};
   std::span<const StandaloneDetail> details = {};

@@ -123,7 +123,8 @@ void RunAll(Engine& engine, Time time, bool is_forced) {
     const std::uint64_t changes = engine.changes();
     (void)engine.RunControl();
     bool goes_on = false;
-    for (std::size_t i = 0; i < engine.tasks().size(); ++i) goes_on |= engine.RunTask(i, time, is_forced) == Pass::kAgain;
+    for (std::size_t i = 0; i < engine.tasks().size(); ++i)
+      goes_on |= engine.RunTask(i, time, is_forced) == Pass::kAgain;
     if ((!goes_on && engine.changes() == changes) || engine.is_ended()) return;
   }
 }
@@ -212,7 +213,8 @@ int RunStandalone(const StandaloneComponent& component, int count, char** words)
   Arguments arguments{.socket = std::string(component.table.name) + ".socket"};
   if (!Parse(count, words, arguments)) return kBadArguments;
   if (arguments.wants_help) {
-    std::cout << "Component " << component.table.name << " as a process. Requests are JSON, one a line, over a Unix socket.\n"
+    std::cout << "Component " << component.table.name
+              << " as a process. Requests are JSON, one a line, over a Unix socket.\n"
               << "  --socket PATH  where (otherwise " << arguments.socket << ")\n"
               << "  --stepped      time passes only by requests: {\"step\": SECONDS}\n";
     return kDone;

@@ -1,11 +1,10 @@
-#include "plugins/genom_standalone/request_server.h"
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
 #include <utility>
 
 #include "core/base/nearest_name.h"
+#include "plugins/genom_standalone/request_server.h"
 
 namespace runnel::genom_standalone {
 
@@ -22,23 +21,35 @@ template <typename Use>
 auto WithNumber(ValueKind kind, void* value, Use use) {
   const auto as = [&]<typename Number>(std::type_identity<Number>) { return use(*static_cast<Number*>(value)); };
   switch (kind) {
-    case ValueKind::kBoolean: return as(std::type_identity<bool>());
-    case ValueKind::kOctet: return as(std::type_identity<std::uint8_t>());
-    case ValueKind::kCharacter: return as(std::type_identity<char>());
-    case ValueKind::kShort: return as(std::type_identity<std::int16_t>());
-    case ValueKind::kUnsignedShort: return as(std::type_identity<std::uint16_t>());
-    case ValueKind::kLong: return as(std::type_identity<std::int32_t>());
-    case ValueKind::kLongLong: return as(std::type_identity<std::int64_t>());
-    case ValueKind::kUnsignedLongLong: return as(std::type_identity<std::uint64_t>());
-    case ValueKind::kFloat: return as(std::type_identity<float>());
-    case ValueKind::kDouble: return as(std::type_identity<double>());
-    default: return as(std::type_identity<std::uint32_t>());  // enumerators, too
+    case ValueKind::kBoolean:
+      return as(std::type_identity<bool>());
+    case ValueKind::kOctet:
+      return as(std::type_identity<std::uint8_t>());
+    case ValueKind::kCharacter:
+      return as(std::type_identity<char>());
+    case ValueKind::kShort:
+      return as(std::type_identity<std::int16_t>());
+    case ValueKind::kUnsignedShort:
+      return as(std::type_identity<std::uint16_t>());
+    case ValueKind::kLong:
+      return as(std::type_identity<std::int32_t>());
+    case ValueKind::kLongLong:
+      return as(std::type_identity<std::int64_t>());
+    case ValueKind::kUnsignedLongLong:
+      return as(std::type_identity<std::uint64_t>());
+    case ValueKind::kFloat:
+      return as(std::type_identity<float>());
+    case ValueKind::kDouble:
+      return as(std::type_identity<double>());
+    default:
+      return as(std::type_identity<std::uint32_t>());  // enumerators, too
   }
 }
 
 // Of a union: which member is set, nullptr if none.
 const ValueMember* ChosenMember(const ValueType& type, void* value) {
-  const auto chosen = WithNumber(type.element->kind, value, [](auto number) { return static_cast<std::int64_t>(number); });
+  const auto chosen =
+      WithNumber(type.element->kind, value, [](auto number) { return static_cast<std::int64_t>(number); });
   const ValueMember* otherwise = nullptr;
   for (const ValueMember& each : type.members) {
     if (std::ranges::find(each.labels, chosen) != each.labels.end()) return &each;
@@ -81,7 +92,8 @@ Result<void> EnumFromJson(const ValueType& type, const Json& json, void* value, 
   const auto& name = json.get_ref<const std::string&>();
   const auto found = std::ranges::find(type.names, name);
   if (found == type.names.end()) {
-    return Wrong(path, "there is no '" + name + "'", NearestNameHint(name, std::vector<std::string>(type.names.begin(), type.names.end())));
+    return Wrong(path, "there is no '" + name + "'",
+                 NearestNameHint(name, std::vector<std::string>(type.names.begin(), type.names.end())));
   }
   *static_cast<std::uint32_t*>(value) = static_cast<std::uint32_t>(found - type.names.begin());
   return {};
@@ -126,7 +138,8 @@ Result<void> MembersFromJson(const ValueType& type, const Json& json, void* valu
   for (const auto& [name, part] : json.items()) {
     const auto found = std::ranges::find_if(type.members, [&](const ValueMember& each) { return each.name == name; });
     if (found == type.members.end()) {
-      return Wrong(path, "there is no '" + name + "'", NearestNameHint(name, NamesOf(type.members, &ValueMember::name)));
+      return Wrong(path, "there is no '" + name + "'",
+                   NearestNameHint(name, NamesOf(type.members, &ValueMember::name)));
     }
     if (type.kind == ValueKind::kUnion) Choose(type, *found, value);
     auto read = FromJson(*found->type, part, At(value, found->offset), path.empty() ? name : path + "." + name);
@@ -148,8 +161,10 @@ Json ToJson(const ValueType& type, const void* from) {
       const auto* const text = static_cast<const char*>(value);
       return std::string(text, strnlen(text, type.length));
     }
-    case ValueKind::kOwnedText: return static_cast<genom_execution::OwnedText*>(value)->view();
-    case ValueKind::kString: return *static_cast<std::string*>(value);
+    case ValueKind::kOwnedText:
+      return static_cast<genom_execution::OwnedText*>(value)->view();
+    case ValueKind::kString:
+      return *static_cast<std::string*>(value);
     case ValueKind::kList: {
       Json list = Json::array();
       type.list->for_each(value, [&](void* element) {
@@ -167,26 +182,38 @@ Json ToJson(const ValueType& type, const void* from) {
     }
     case ValueKind::kUnion: {
       const ValueMember* const chosen = ChosenMember(type, value);
-      return chosen != nullptr ? Json{{chosen->name, ToJson(*chosen->type, At(value, chosen->offset))}} : Json::object();
+      return chosen != nullptr ? Json{{chosen->name, ToJson(*chosen->type, At(value, chosen->offset))}}
+                               : Json::object();
     }
-    case ValueKind::kNative: return nullptr;
-    default: return WithNumber(type.kind, value, [](auto number) -> Json { return number; });
+    case ValueKind::kNative:
+      return nullptr;
+    default:
+      return WithNumber(type.kind, value, [](auto number) -> Json { return number; });
   }
 }
 
 Result<void> FromJson(const ValueType& type, const Json& json, void* value, const std::string& path) {
   switch (type.kind) {
-    case ValueKind::kEnum: return EnumFromJson(type, json, value, path);
-    case ValueKind::kText: case ValueKind::kOwnedText: case ValueKind::kString: return TextFromJson(type, json, value, path);
-    case ValueKind::kList: return ListFromJson(type, json, value, path);
+    case ValueKind::kEnum:
+      return EnumFromJson(type, json, value, path);
+    case ValueKind::kText:
+    case ValueKind::kOwnedText:
+    case ValueKind::kString:
+      return TextFromJson(type, json, value, path);
+    case ValueKind::kList:
+      return ListFromJson(type, json, value, path);
     case ValueKind::kOptional: {
       const bool is_present = !json.is_null();
       *static_cast<bool*>(value) = is_present;
       return is_present ? FromJson(*type.element, json, At(value, type.element_offset), path) : Result<void>();
     }
-    case ValueKind::kStruct: case ValueKind::kUnion: return MembersFromJson(type, json, value, path);
-    case ValueKind::kNative: return Wrong(path, "is of the component alone");
-    default: return WithNumber(type.kind, value, [&](auto& number) { return NumberFromJson(json, number, path); });
+    case ValueKind::kStruct:
+    case ValueKind::kUnion:
+      return MembersFromJson(type, json, value, path);
+    case ValueKind::kNative:
+      return Wrong(path, "is of the component alone");
+    default:
+      return WithNumber(type.kind, value, [&](auto& number) { return NumberFromJson(json, number, path); });
   }
 }
 

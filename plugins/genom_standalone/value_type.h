@@ -13,7 +13,17 @@
 namespace runnel::genom_standalone {
 
 enum class ValueKind : std::uint8_t {
-  kBoolean, kOctet, kCharacter, kShort, kUnsignedShort, kLong, kUnsignedLong, kLongLong, kUnsignedLongLong, kFloat, kDouble,
+  kBoolean,
+  kOctet,
+  kCharacter,
+  kShort,
+  kUnsignedShort,
+  kLong,
+  kUnsignedLong,
+  kLongLong,
+  kUnsignedLongLong,
+  kFloat,
+  kDouble,
   kEnum,       ///< a number of 32 bits; `names`
   kText,       ///< char[length]
   kOwnedText,  ///< an OwnedText
@@ -21,8 +31,8 @@ enum class ValueKind : std::uint8_t {
   kList,       ///< an array or a sequence: `list`; of `length` at most, 0: any
   kOptional,   ///< {_present, _value}
   kStruct,
-  kUnion,      ///< {_d, _u}: `element` is the type of _d
-  kNative      ///< the user's, never looked at
+  kUnion,  ///< {_d, _u}: `element` is the type of _d
+  kNative  ///< the user's, never looked at
 };
 
 struct ValueType;
@@ -54,11 +64,14 @@ struct Held {
 }  // namespace internal
 
 template <typename T>
-inline constexpr ValueMemory kMemory{
-    .size = sizeof(T),
-    .make = [](void* at) { ::new (at) internal::Held<T>(); },
-    .destroy = [](void* at) { static_cast<internal::Held<T>*>(at)->~Held(); },
-    .copy = [](void* to, const void* from) { *static_cast<internal::Held<T>*>(to) = *static_cast<const internal::Held<T>*>(from); }};
+inline constexpr ValueMemory kMemory{.size = sizeof(T),
+                                     .make = [](void* at) { ::new (at) internal::Held<T>(); },
+                                     .destroy = [](void* at) { static_cast<internal::Held<T>*>(at)->~Held(); },
+                                     .copy =
+                                         [](void* to, const void* from) {
+                                           *static_cast<internal::Held<T>*>(to) =
+                                               *static_cast<const internal::Held<T>*>(from);
+                                         }};
 
 /// What is done with lists: arrays, classes of C++, views of those in C.
 struct ListOperations {

@@ -27,7 +27,8 @@ Plan PlanFor(const fs::path& folder, const GeneratedFile& file, WhatIsThere what
   Plan plan{{.path = file.path}, file.text};
   const fs::path path = fs::path(file.path).lexically_normal();
   if (path.empty() || path.is_absolute() || *path.begin() == ".." || *path.begin() == kKeptFolder) {
-    diagnostics.Add({.message = "a template cannot make '" + file.path + "'", .hint = "its files are within one folder"});
+    diagnostics.Add(
+        {.message = "a template cannot make '" + file.path + "'", .hint = "its files are within one folder"});
     return plan;
   }
   const auto before = TextOf(folder / file.path);
@@ -84,9 +85,8 @@ std::vector<std::size_t> Matches(const Lines& base, const Lines& other) {
   std::vector<std::uint32_t> longest((base.size() + 1) * width, 0);
   for (std::size_t i = base.size(); i-- > 0;) {
     for (std::size_t j = other.size(); j-- > 0;) {
-      longest[i * width + j] = base[i] == other[j]
-                                   ? longest[(i + 1) * width + j + 1] + 1
-                                   : std::max(longest[(i + 1) * width + j], longest[i * width + j + 1]);
+      longest[i * width + j] = base[i] == other[j] ? longest[(i + 1) * width + j + 1] + 1
+                                                   : std::max(longest[(i + 1) * width + j], longest[i * width + j + 1]);
     }
   }
   std::vector<std::size_t> matches(base.size(), kNone);

@@ -24,8 +24,8 @@ struct WrittenFile {
 
 /// What becomes of files that belong to the user.
 enum class WhatIsThere {
-  kIsMerged,       ///< with what the template makes now
-  kIsAdopted,      ///< the same; what was not made here stays as it is, and counts as a change of what the template makes now
+  kIsMerged,  ///< with what the template makes now
+  kIsAdopted,  ///< the same; what was not made here stays as it is, and counts as a change of what the template makes now
   kIsOverwritten
 };
 

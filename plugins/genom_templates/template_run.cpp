@@ -57,11 +57,18 @@ void Push(lua_State* lua, const Json& json) {
       lua_pushlstring(lua, text.data(), text.size());
       break;
     }
-    case Json::value_t::boolean: lua_pushboolean(lua, json.get<bool>() ? 1 : 0); break;
+    case Json::value_t::boolean:
+      lua_pushboolean(lua, json.get<bool>() ? 1 : 0);
+      break;
     case Json::value_t::number_integer:
-    case Json::value_t::number_unsigned: lua_pushinteger(lua, json.get<lua_Integer>()); break;
-    case Json::value_t::number_float: lua_pushnumber(lua, json.get<lua_Number>()); break;
-    default: lua_pushboolean(lua, 0);
+    case Json::value_t::number_unsigned:
+      lua_pushinteger(lua, json.get<lua_Integer>());
+      break;
+    case Json::value_t::number_float:
+      lua_pushnumber(lua, json.get<lua_Number>());
+      break;
+    default:
+      lua_pushboolean(lua, 0);
   }
 }
 
@@ -168,7 +175,8 @@ class Run {
   static constexpr std::uint64_t kMostOften = 64;  // so many times the memory in all
 
   [[nodiscard]] Error TooMuch(const std::string& what) const {
-    return {.message = "the template needs too much " + what, .position = {output_.sources.empty() ? "" : output_.sources.back(), 0}};
+    return {.message = "the template needs too much " + what,
+            .position = {output_.sources.empty() ? "" : output_.sources.back(), 0}};
   }
 
   static void* Allocate(void* context, void* before, std::size_t size_before, std::size_t size) {

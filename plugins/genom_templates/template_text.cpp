@@ -1,5 +1,3 @@
-#include "plugins/genom_templates/template_run.h"
-
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
@@ -8,6 +6,7 @@
 #include "core/base/characters.h"
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
+#include "plugins/genom_templates/template_run.h"
 
 namespace runnel::genom {
 
@@ -70,15 +69,15 @@ void JoinLonelyScripts(std::vector<Piece>& pieces) {
     }
     std::string* before = i == 0 ? nullptr : &pieces[i - 1].text;
     const std::size_t line_start = before == nullptr ? 0 : before->find_last_of('\n') + 1;  // npos + 1 is 0
-    const bool begins_line =
-        before == nullptr || (pieces[i - 1].kind == Piece::Kind::kText && (pieces[i - 1].begins_line || line_start > 0) &&
-                              IsBlank(*before, line_start, before->size()));
+    const bool begins_line = before == nullptr || (pieces[i - 1].kind == Piece::Kind::kText &&
+                                                   (pieces[i - 1].begins_line || line_start > 0) &&
+                                                   IsBlank(*before, line_start, before->size()));
     std::string* after = last + 1 < pieces.size() ? &pieces[last + 1].text : nullptr;
     const bool is_text = after != nullptr && pieces[last + 1].kind == Piece::Kind::kText;
     const std::size_t line_end = is_text ? after->find('\n') : std::string::npos;
-    const bool ends_line = after == nullptr || (is_text && line_end != std::string::npos && IsBlank(*after, 0, line_end)) ||
-                           (is_text && last + 2 == pieces.size() && line_end == std::string::npos &&
-                            IsBlank(*after, 0, after->size()));
+    const bool ends_line =
+        after == nullptr || (is_text && line_end != std::string::npos && IsBlank(*after, 0, line_end)) ||
+        (is_text && last + 2 == pieces.size() && line_end == std::string::npos && IsBlank(*after, 0, after->size()));
     if (begins_line && ends_line) {
       if (before != nullptr) before->erase(line_start);
       if (after != nullptr) {
@@ -132,9 +131,15 @@ Result<std::string> ProgramOf(const std::string& text) {
   std::string program;
   for (const Piece& each : *pieces) {
     switch (each.kind) {
-      case Piece::Kind::kText: AppendText(program, each.text); break;
-      case Piece::Kind::kScript: program += " " + each.text + " "; break;
-      case Piece::Kind::kValue: program += " write_value(" + each.text + ")"; break;
+      case Piece::Kind::kText:
+        AppendText(program, each.text);
+        break;
+      case Piece::Kind::kScript:
+        program += " " + each.text + " ";
+        break;
+      case Piece::Kind::kValue:
+        program += " write_value(" + each.text + ")";
+        break;
     }
   }
   return program;
@@ -160,7 +165,8 @@ std::vector<std::string> TemplateNames() {
 Result<fs::path> FindTemplate(const std::string& name) {
   if (name.find('/') != std::string::npos) {
     if (IsTemplate(name)) return fs::path(name);
-    return Error{.message = "there is no template in '" + name + "'", .hint = "a template is a folder with a file template.lua"};
+    return Error{.message = "there is no template in '" + name + "'",
+                 .hint = "a template is a folder with a file template.lua"};
   }
   for (const fs::path& folder : Folders()) {
     if (IsTemplate(folder / name)) return folder / name;

@@ -165,8 +165,7 @@ class ConditionReader {
 
 }  // namespace
 
-std::optional<bool> ConditionValue(const std::vector<TextToken>& tokens, Place place,
-                                   Problems& problems) {
+std::optional<bool> ConditionValue(const std::vector<TextToken>& tokens, Place place, Problems& problems) {
   return ConditionReader(tokens, place, problems).Value();
 }
 

@@ -84,9 +84,8 @@ bool MacroTable::Has(const std::string& name) const {
 
 void MacroTable::DefineByText(const std::string& text) {
   const std::size_t equals = text.find('=');
-  const std::string line = equals == std::string::npos
-                               ? text + " 1"
-                               : text.substr(0, equals) + " " + text.substr(equals + 1);
+  const std::string line =
+      equals == std::string::npos ? text + " 1" : text.substr(0, equals) + " " + text.substr(equals + 1);
   Define(TextLexer(line, -1, problems_).LineTokens(), {});  // in no file
 }
 
@@ -150,8 +149,7 @@ std::optional<TextToken> MacroTable::Special(const TextToken& word) const {
   return std::nullopt;
 }
 
-std::optional<MacroTable::Arguments> MacroTable::ReadArguments(const Macro& macro, Stream& stream,
-                                                               Place place) {
+std::optional<MacroTable::Arguments> MacroTable::ReadArguments(const Macro& macro, Stream& stream, Place place) {
   Arguments arguments(1);
   int depth = 0;
   for (TextToken next = stream.Next();; next = stream.Next()) {
@@ -173,16 +171,16 @@ std::optional<MacroTable::Arguments> MacroTable::ReadArguments(const Macro& macr
   if (macro.parameters.empty() && arguments.size() == 1 && arguments[0].empty()) arguments.clear();
   if (macro.is_variadic && arguments.size() + 1 == macro.parameters.size()) arguments.emplace_back();
   if (arguments.size() != macro.parameters.size()) {
-    problems_.Add(place, "macro '" + macro.name + "' takes " + std::to_string(macro.parameters.size()) +
-                             " arguments, not " + std::to_string(arguments.size()),
+    problems_.Add(place,
+                  "macro '" + macro.name + "' takes " + std::to_string(macro.parameters.size()) + " arguments, not " +
+                      std::to_string(arguments.size()),
                   problems_.DeclaredAt(macro.place));
     return std::nullopt;
   }
   return arguments;
 }
 
-std::vector<TextToken> MacroTable::Substitute(const Macro& macro, const Arguments& arguments,
-                                              Place place) {
+std::vector<TextToken> MacroTable::Substitute(const Macro& macro, const Arguments& arguments, Place place) {
   const auto argument_of = [&](const TextToken& token) -> const Tokens* {
     if (token.kind != Kind::kWord) return nullptr;
     const auto found = std::ranges::find(macro.parameters, token.text);
@@ -190,9 +188,7 @@ std::vector<TextToken> MacroTable::Substitute(const Macro& macro, const Argument
     return &arguments[static_cast<std::size_t>(found - macro.parameters.begin())];
   };
   Tokens result;
-  const auto append = [&](const Tokens& tokens) {
-    result.insert(result.end(), tokens.begin(), tokens.end());
-  };
+  const auto append = [&](const Tokens& tokens) { result.insert(result.end(), tokens.begin(), tokens.end()); };
   for (std::size_t i = 0; i < macro.body.size(); ++i) {
     if ((steps_ += 1 + result.size() / 1000) > kMostSteps) break;
     const TextToken& token = macro.body[i];
@@ -210,8 +206,10 @@ std::vector<TextToken> MacroTable::Substitute(const Macro& macro, const Argument
       append(rest);
     } else if (macro.has_parameters && token.IsMark("#") && i + 1 < macro.body.size() &&
                argument_of(macro.body[i + 1]) != nullptr) {
-      result.push_back({.kind = Kind::kString, .text = Stringified(*argument_of(macro.body[++i])),
-                        .place = place, .has_space_before = true});
+      result.push_back({.kind = Kind::kString,
+                        .text = Stringified(*argument_of(macro.body[++i])),
+                        .place = place,
+                        .has_space_before = true});
     } else if (const Tokens* argument = argument_of(token); argument != nullptr) {
       append(is_pasted ? *argument : ExpandAll(*argument));
     } else {

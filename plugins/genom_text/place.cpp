@@ -23,8 +23,7 @@ void Problems::Add(Place place, std::string message, std::string hint) {
 
 void Problems::Warn(Place place, std::string message, std::string hint) {
   if (diagnostics_.warnings().size() >= kMost) return;
-  diagnostics_.AddWarning(
-      {.message = std::move(message), .position = PositionOf(place), .hint = std::move(hint)});
+  diagnostics_.AddWarning({.message = std::move(message), .position = PositionOf(place), .hint = std::move(hint)});
 }
 
 std::string Problems::DeclaredAt(Place place) const {

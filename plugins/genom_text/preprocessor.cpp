@@ -11,9 +11,7 @@ namespace {
 
 using Kind = TextToken::Kind;
 
-std::string FolderOf(const std::string& file) {
-  return std::filesystem::path(file).parent_path().string();
-}
+std::string FolderOf(const std::string& file) { return std::filesystem::path(file).parent_path().string(); }
 
 }  // namespace
 
@@ -32,9 +30,7 @@ void Preprocessor::Read(const std::string& file) {
   ReadToEnd(FolderOf(file), *text, file);
 }
 
-void Preprocessor::ReadText(const std::string& text, const std::string& name) {
-  ReadToEnd(FolderOf(name), text, name);
-}
+void Preprocessor::ReadText(const std::string& text, const std::string& name) { ReadToEnd(FolderOf(name), text, name); }
 
 void Preprocessor::GiveUp(Place place, std::string message, std::string hint) {
   if (!is_given_up_) problems_.Add(place, std::move(message), std::move(hint));
@@ -42,8 +38,8 @@ void Preprocessor::GiveUp(Place place, std::string message, std::string hint) {
 }
 
 void Preprocessor::ReadToEnd(std::string folder, const std::string& text, const std::string& name) {
-  files_.push_back({.folder = std::move(folder),
-                    .lexer = std::make_unique<TextLexer>(text, problems_.FileIndex(name), problems_)});
+  files_.push_back(
+      {.folder = std::move(folder), .lexer = std::make_unique<TextLexer>(text, problems_.FileIndex(name), problems_)});
   is_at_line_start_ = true;
   ReadLines();
   for (const Condition& each : files_.back().conditions) {
@@ -132,8 +128,7 @@ bool Preprocessor::IsTrue(Place place) {
       problems_.Add(line[i].place, "'defined' needs the name of a macro", "write defined(NAME)");
       return false;
     }
-    tokens.push_back({.kind = Kind::kNumber, .text = macros_.Has(line[at].text) ? "1" : "0",
-                      .place = line[i].place});
+    tokens.push_back({.kind = Kind::kNumber, .text = macros_.Has(line[at].text) ? "1" : "0", .place = line[i].place});
     i = at + (has_parenthesis ? 1 : 0);
   }
   return ConditionValue(macros_.ExpandAll(tokens), place, problems_).value_or(false);

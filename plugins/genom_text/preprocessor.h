@@ -60,8 +60,7 @@ class MacroTable {
 
 /// The value of an expression behind #if, macros expanded and `defined` answered; nullopt if it is wrong, which has then
 /// been told.
-[[nodiscard]] std::optional<bool> ConditionValue(const std::vector<TextToken>& tokens, Place place,
-                                                 Problems& problems);
+[[nodiscard]] std::optional<bool> ConditionValue(const std::vector<TextToken>& tokens, Place place, Problems& problems);
 
 /// Cuts the text of one file into tokens. Lines that end with a backslash go on in the next one; comments are
 /// blanks; strings may span lines but in directives.
@@ -148,7 +147,7 @@ class Preprocessor {
   // A file, or a part of one between #if and #endif.
   struct Condition {
     Place place;
-    bool was_true;   // one of its branches so far
+    bool was_true;  // one of its branches so far
     bool has_else = false;
   };
   struct OpenFile {

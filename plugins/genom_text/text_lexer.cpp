@@ -1,10 +1,9 @@
-#include "plugins/genom_text/preprocessor.h"
-
 #include <algorithm>
 #include <array>
 #include <string_view>
 
 #include "core/base/characters.h"
+#include "plugins/genom_text/preprocessor.h"
 
 namespace runnel::genom {
 
@@ -17,10 +16,8 @@ bool IsNumeral(char c) { return c >= '0' && c <= '9'; }
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v' || c == '\r'; }
 
 // The words of the language that have a hyphen.
-constexpr std::array<std::string_view, 4> kHyphened = {"codels-requires", "codels-require",
-                                                       "clock-rate", "real-time"};
-constexpr std::array<std::string_view, 10> kLongMarks = {"...", "::", "<<", ">>", "<%",
-                                                         "%>",  "<:", ":>", "##", "%:"};
+constexpr std::array<std::string_view, 4> kHyphened = {"codels-requires", "codels-require", "clock-rate", "real-time"};
+constexpr std::array<std::string_view, 10> kLongMarks = {"...", "::", "<<", ">>", "<%", "%>", "<:", ":>", "##", "%:"};
 constexpr std::string_view kMarks = "{}[]();:?.+-*/%^&|~!=<>,#";
 
 // The text of "/*/ … */": the stars at the beginnings of lines are decoration.
@@ -40,8 +37,7 @@ std::string NoticeText(std::string_view comment) {
 
 }  // namespace
 
-TextLexer::TextLexer(const std::string& text, int file, Problems& problems)
-    : file_(file), problems_(problems) {
+TextLexer::TextLexer(const std::string& text, int file, Problems& problems) : file_(file), problems_(problems) {
   text_.reserve(text.size() + 1);
   int line = 1;
   lines_.push_back({0, 1, 1});
@@ -63,8 +59,7 @@ TextLexer::TextLexer(const std::string& text, int file, Problems& problems)
 Place TextLexer::here() const {
   auto after = std::ranges::upper_bound(lines_, position_, {}, &LineStart::offset);
   const LineStart& start = *(after - 1);
-  return {file_, start.line + line_change_,
-          start.column + static_cast<int>(position_ - start.offset)};
+  return {file_, start.line + line_change_, start.column + static_cast<int>(position_ - start.offset)};
 }
 
 void TextLexer::Renumber(int line, int file) {
@@ -120,8 +115,8 @@ std::size_t TextLexer::NumberLength() const {
   std::size_t length = 0;
   while (true) {
     const char c = At(length);
-    const bool is_sign = (c == '+' || c == '-') && length > 0 &&
-                         (At(length - 1) == 'e' || At(length - 1) == 'E') && At(1) != 'x' && At(1) != 'X';
+    const bool is_sign = (c == '+' || c == '-') && length > 0 && (At(length - 1) == 'e' || At(length - 1) == 'E') &&
+                         At(1) != 'x' && At(1) != 'X';
     if (!IsLetter(c) && !IsNumeral(c) && c != '.' && !is_sign) return length;
     ++length;
   }
@@ -169,8 +164,7 @@ TextToken TextLexer::Next(bool is_directive) {
     token = Quoted(c, is_directive, place);
   } else {
     const std::string_view rest = std::string_view(text_).substr(position_);
-    const auto mark = std::ranges::find_if(
-        kLongMarks, [&](std::string_view each) { return rest.starts_with(each); });
+    const auto mark = std::ranges::find_if(kLongMarks, [&](std::string_view each) { return rest.starts_with(each); });
     if (mark != kLongMarks.end()) {
       token = Take(Kind::kMark, mark->size(), place);
     } else {

@@ -13,24 +13,27 @@ namespace {
 using Kind = Token::Kind;
 
 constexpr std::array<std::string_view, 32> kReserved = {
-    "module", "FALSE",  "TRUE",   "unsigned", "short",  "long",  "fixed",  "float",
-    "double", "char",   "wchar",  "string",   "wstring", "boolean", "octet", "object",
-    "any",    "const",  "enum",   "union",    "switch", "case",  "default", "struct",
-    "sequence", "optional", "typedef", "xor", "bitand", "bitor", "compl", "not"};
+    "module",  "FALSE",   "TRUE",     "unsigned", "short",   "long", "fixed",  "float", "double", "char",   "wchar",
+    "string",  "wstring", "boolean",  "octet",    "object",  "any",  "const",  "enum",  "union",  "switch", "case",
+    "default", "struct",  "sequence", "optional", "typedef", "xor",  "bitand", "bitor", "compl",  "not"};
 
 struct OtherSpelling {
   std::string_view from;
   std::string_view to;
 };
-constexpr std::array<OtherSpelling, 9> kOtherSpellings = {{{"<%", "{"}, {"%>", "}"}, {"<:", "["},
-                                                           {":>", "]"}, {"xor", "^"}, {"bitand", "&"},
-                                                           {"bitor", "|"}, {"compl", "~"}, {"not", "!"}}};
+constexpr std::array<OtherSpelling, 9> kOtherSpellings = {{{"<%", "{"},
+                                                           {"%>", "}"},
+                                                           {"<:", "["},
+                                                           {":>", "]"},
+                                                           {"xor", "^"},
+                                                           {"bitand", "&"},
+                                                           {"bitor", "|"},
+                                                           {"compl", "~"},
+                                                           {"not", "!"}}};
 
 bool IsNumeral(char c) { return c >= '0' && c <= '9'; }
 bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool IsHexadecimal(char c) {
-  return IsNumeral(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-}
+bool IsHexadecimal(char c) { return IsNumeral(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
 
 // Numbers and what sticks to them: "64k" is 64 and k.
 class NumberCutter {
@@ -54,9 +57,7 @@ class NumberCutter {
   }
 
  private:
-  [[nodiscard]] char At(std::size_t ahead) const {
-    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
-  }
+  [[nodiscard]] char At(std::size_t ahead) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
 
   void CutNumber(Place place) {
     if (At(0) == '0' && (At(1) == 'x' || At(1) == 'X') && IsHexadecimal(At(2))) {
@@ -88,7 +89,8 @@ class NumberCutter {
     const char* const past = token.text.data() + length;
     const auto [end, error] = std::from_chars(token.text.data() + skip, past, token.integer, base);
     if (end != past) {
-      problems_.Warn(place, "'" + token.text + "' is no octal number: what stands behind the 0 ends before its " + *end);
+      problems_.Warn(place,
+                     "'" + token.text + "' is no octal number: what stands behind the 0 ends before its " + *end);
     }
     if (error == std::errc::result_out_of_range) problems_.Add(place, "'" + token.text + "' is too large for 64 bits");
     at_ += length;
@@ -164,8 +166,8 @@ std::vector<Token> TokensOf(std::vector<TextToken> texts, Problems& problems) {
         tokens.push_back({.kind = Kind::kString, .text = Unquoted(each.text), .place = each.place});
         break;
       case TextToken::Kind::kCharacter:
-        tokens.push_back({.kind = Kind::kCharacter,
-                          .text = each.text.substr(1, each.text.size() - 2), .place = each.place});
+        tokens.push_back(
+            {.kind = Kind::kCharacter, .text = each.text.substr(1, each.text.size() - 2), .place = each.place});
         break;
       case TextToken::Kind::kPragma:
         tokens.push_back({.kind = Kind::kPragma, .text = std::move(each.text), .place = each.place});

@@ -14,7 +14,7 @@ struct Token {
   enum class Kind { kEnd, kWord, kInteger, kReal, kFixed, kString, kCharacter, kMark, kPragma };
 
   Kind kind = Kind::kEnd;
-  std::string text = {};        ///< a word or mark as written; what a string holds
+  std::string text = {};  ///< a word or mark as written; what a string holds
   std::uint64_t integer = 0;
   double real = 0;
   Place place = {};

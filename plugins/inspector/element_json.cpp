@@ -1,18 +1,17 @@
-#include "plugins/inspector/structure_mirror.h"
-
 #include <algorithm>
 #include <functional>
 
 #include "core/element/configurable.h"
 #include "core/element/element_path.h"
 #include "core/element/tags.h"
+#include "core/paths/late_connections.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/converted_flow.h"
 #include "core/port/port_stop.h"
-#include "core/paths/late_connections.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
+#include "plugins/inspector/structure_mirror.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/services/callable.h"
 #include "plugins/structure/value_by_hand.h"
@@ -37,8 +36,7 @@ std::string_view FailureOf(const FrameworkElement& element, const ElementSurroun
 bool IsPaused(const FrameworkElement& element, const ElementSurroundings& around) {
   if (around.paused.empty()) return false;
   const std::string path = element.path();
-  return std::ranges::any_of(around.paused,
-                             [&](const std::string& each) { return IsAtOrBelow(path, each); });
+  return std::ranges::any_of(around.paused, [&](const std::string& each) { return IsAtOrBelow(path, each); });
 }
 
 void AddThread(const ThreadContainer& thread, const ElementSurroundings& around, JsonObject& json) {
@@ -76,9 +74,8 @@ void AddService(Callable& callable, JsonObject& json) {
   if (type == nullptr) return;
   const auto call = callable.NewCall();
   if (type->kind() == TypeKind::kStructure) {
-    AppendList(type->fields(), service.Key("fields"), [&](const FieldInfo& field, std::string& text) {
-      AddArgument(field, call->arguments(), text);
-    });
+    AppendList(type->fields(), service.Key("fields"),
+               [&](const FieldInfo& field, std::string& text) { AddArgument(field, call->arguments(), text); });
   } else {
     service.Add("value", ToText(*type, call->arguments()));
   }
@@ -99,16 +96,14 @@ void AddPort(const Port& port, JsonObject& json) {
   if (safe && &safe.type() == &port.type()) json.Add("safe", ToText(safe.type(), safe.get()));
   const InputLimits& limits = port.limits();
   json.Add("bounds", BoundsText(limits));
-  json.AddTextOrNull("default", limits.default_value ? ToText(limits.default_value.type(),
-                                                              limits.default_value.get())
+  json.AddTextOrNull("default", limits.default_value ? ToText(limits.default_value.type(), limits.default_value.get())
                                                      : std::string());
   AddAwaited(AwaitedBy(port), json);
   if (auto* const callable = port.FindAnnotation<Callable>()) AddService(*callable, json);
   json.Add("owner", owner != nullptr ? owner->path() : "");
 }
 
-void AddParameter(const FrameworkElement& element, const Configurable& parameter,
-                  JsonObject& json) {
+void AddParameter(const FrameworkElement& element, const Configurable& parameter, JsonObject& json) {
   const ConfigurableInfo& info = parameter.info();
   const FrameworkElement* const owner = FindOwner(element);
   json.Add("kind", "parameter").Add("name", element.name());
@@ -122,8 +117,7 @@ void AddParameter(const FrameworkElement& element, const Configurable& parameter
   json.Add("owner", owner != nullptr ? owner->path() : "");
 }
 
-void AddOther(const FrameworkElement& element, const ElementSurroundings& around,
-              JsonObject& json) {
+void AddOther(const FrameworkElement& element, const ElementSurroundings& around, JsonObject& json) {
   if (IsModule(element)) {
     json.Add("kind", "module").Add("name", element.name());
     const std::string name = FindModuleType(element);
@@ -153,9 +147,7 @@ void Mix(std::uint64_t more, std::uint64_t& hash) {
   hash = (hash ^ more) * 0x9e3779b97f4a7c15U;
   hash ^= hash >> 29U;
 }
-void Mix(std::string_view text, std::uint64_t& hash) {
-  Mix(std::hash<std::string_view>{}(text), hash);
-}
+void Mix(std::string_view text, std::uint64_t& hash) { Mix(std::hash<std::string_view>{}(text), hash); }
 
 void MixAwaited(const std::vector<const LateConnection*>& awaited, std::uint64_t& hash) {
   for (const LateConnection* each : awaited) {
@@ -184,8 +176,7 @@ std::string ElementJson(const FrameworkElement& element, const ElementSurroundin
   });
 }
 
-std::uint64_t ElementFingerprint(const FrameworkElement& element,
-                                 const ElementSurroundings& around) {
+std::uint64_t ElementFingerprint(const FrameworkElement& element, const ElementSurroundings& around) {
   std::uint64_t hash = element.id();
   if (element.kind() == ElementKind::kPort) {
     const auto* const port = dynamic_cast<const Port*>(&element);
@@ -213,8 +204,8 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
   Mix(TagsText(element), hash);
   Mix(ThreadName(element, around), hash);
   Mix(FailureOf(element, around), hash);
-  const bool is_application = element.kind() == ElementKind::kGroup &&
-                              element.parent() != nullptr && element.parent()->parent() == nullptr;
+  const bool is_application =
+      element.kind() == ElementKind::kGroup && element.parent() != nullptr && element.parent()->parent() == nullptr;
   if (is_application) MixAwaited(AwaitedBelow(element), hash);
   const ThreadContainer* const own = OwnThread(element);
   Mix(own != nullptr ? own->id() : 0, hash);

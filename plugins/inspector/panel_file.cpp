@@ -25,9 +25,8 @@ constexpr std::uint64_t kMostRows = 1000;
 constexpr int kDeepest = 6;
 
 const std::vector<std::string>& Kinds() {
-  static const std::vector<std::string> kinds{"joystick", "keys",  "gamepad", "slider", "button",
-                                              "switch",   "gauge", "plot",    "map",
-                                              "image",    "value", "text",  "stop"};
+  static const std::vector<std::string> kinds{"joystick", "keys", "gamepad", "slider", "button", "switch", "gauge",
+                                              "plot",     "map",  "image",   "value",  "text",   "stop"};
   return kinds;
 }
 
@@ -35,14 +34,12 @@ enum class Kind { kText, kNumber, kFlag, kCurves };
 
 // What widgets say of themselves; which of them have what, the page knows.
 constexpr std::array kSettings{
-    std::pair("title", Kind::kText),     std::pair("target", Kind::kText),
-    std::pair("field", Kind::kText),     std::pair("text", Kind::kText),
-    std::pair("pressed", Kind::kText),   std::pair("on", Kind::kText),
-    std::pair("off", Kind::kText),       std::pair("unit", Kind::kText),
-    std::pair("forward", Kind::kNumber), std::pair("turn", Kind::kNumber),
-    std::pair("minimum", Kind::kNumber), std::pair("maximum", Kind::kNumber),
-    std::pair("step", Kind::kNumber),    std::pair("seconds", Kind::kNumber),
-    std::pair("held", Kind::kFlag),      std::pair("curves", Kind::kCurves)};
+    std::pair("title", Kind::kText),   std::pair("target", Kind::kText),    std::pair("field", Kind::kText),
+    std::pair("text", Kind::kText),    std::pair("pressed", Kind::kText),   std::pair("on", Kind::kText),
+    std::pair("off", Kind::kText),     std::pair("unit", Kind::kText),      std::pair("forward", Kind::kNumber),
+    std::pair("turn", Kind::kNumber),  std::pair("minimum", Kind::kNumber), std::pair("maximum", Kind::kNumber),
+    std::pair("step", Kind::kNumber),  std::pair("seconds", Kind::kNumber), std::pair("held", Kind::kFlag),
+    std::pair("curves", Kind::kCurves)};
 
 void CheckCurves(JsonMembers& members, const std::string& name) {
   for (const JsonPart& each : members.List(name).value_or(std::vector<JsonPart>())) {
@@ -50,8 +47,7 @@ void CheckCurves(JsonMembers& members, const std::string& name) {
     curve.NeedText("target");
     curve.Text("field");
     curve.RefuseOthers();
-    if (curve.error())
-      members.Complain("\"" + name + "\" must be a list of {\"target\", \"field\"}");
+    if (curve.error()) members.Complain("\"" + name + "\" must be a list of {\"target\", \"field\"}");
   }
 }
 
@@ -62,8 +58,7 @@ void CheckSetting(JsonMembers& members, const std::string& name, Kind kind) {
   if (found == nullptr || found->is_null()) return;
   const auto number = found->number();
   if (kind == Kind::kText && !found->text()) members.Complain("\"" + name + "\" must be a text");
-  if (kind == Kind::kFlag && !found->boolean())
-    members.Complain("\"" + name + "\" must be true or false");
+  if (kind == Kind::kFlag && !found->boolean()) members.Complain("\"" + name + "\" must be true or false");
   if (kind == Kind::kNumber && !(number && std::isfinite(*number)))
     members.Complain("\"" + name + "\" must be a number");
 }
@@ -115,9 +110,8 @@ Result<void> CheckPanel(std::string_view text) {
 }
 
 PanelFile::PanelFile(const std::string& application_file)
-    : file_(application_file.empty()
-                ? std::filesystem::path()
-                : std::filesystem::path(application_file).replace_extension(".panel.json")) {}
+    : file_(application_file.empty() ? std::filesystem::path()
+                                     : std::filesystem::path(application_file).replace_extension(".panel.json")) {}
 
 Result<std::string> PanelFile::Read() const {
   if (file_.empty()) {

@@ -38,8 +38,8 @@ bool IsObserver(const Port& port) { return dynamic_cast<const ProbePort*>(&port)
 
 }  // namespace
 
-StructureMirror::StructureMirror(Runtime& runtime, const ModuleRegistry& modules,
-                                 const Scheduler& scheduler, const ApplicationLog& log)
+StructureMirror::StructureMirror(Runtime& runtime, const ModuleRegistry& modules, const Scheduler& scheduler,
+                                 const ApplicationLog& log)
     : runtime_(runtime), log_(log), walk_(runtime) {
   around_.modules = &modules;
   around_.scheduler = &scheduler;
@@ -95,7 +95,7 @@ void StructureMirror::NoteFaults() {
   for (const ApplicationLog::Entry& entry : news.entries) {
     if (entry.module.empty()) continue;
     const auto found = runtime_.root().Find(entry.module);
-    if (!found) continue;  // it has been deleted since
+    if (!found) continue;       // it has been deleted since
     if (entry.cause.empty()) {  // it goes on
       if (around_.failed.erase((*found)->id()) == 0) continue;
     } else {
@@ -164,8 +164,7 @@ std::uint64_t StructureMirror::Fingerprint(const FrameworkElement& element) cons
   for (const Connection& each : dynamic_cast<const Port&>(element).outgoing()) {
     if (IsObserver(*each.to)) continue;
     hash = hash * 31 + each.to->id();
-    hash = hash * 31 + each.options.queue * 8 +
-           static_cast<std::uint64_t>(each.options.on_full) * 2 +
+    hash = hash * 31 + each.options.queue * 8 + static_cast<std::uint64_t>(each.options.on_full) * 2 +
            static_cast<std::uint64_t>(each.options.pull);
     hash = hash * 31 + std::hash<std::string>{}(each.options.part + ' ' + each.options.convert) +
            (each.options.when_present ? 2U : 0U) + (each.options.late ? 1U : 0U);
@@ -173,8 +172,7 @@ std::uint64_t StructureMirror::Fingerprint(const FrameworkElement& element) cons
   return hash;
 }
 
-StructureMirror::Entry StructureMirror::Describe(const FrameworkElement& element,
-                                                 std::uint64_t fingerprint) const {
+StructureMirror::Entry StructureMirror::Describe(const FrameworkElement& element, std::uint64_t fingerprint) const {
   Entry entry{.path = element.path(),
               .json = ElementJson(element, around_),
               .connections = {},
@@ -250,8 +248,8 @@ void StructureMirror::SweepParameters() {
 }
 
 void StructureMirror::Tell(Difference difference) {
-  const bool is_same = difference.gone.empty() && difference.elements.empty() &&
-                       difference.connected.empty() && difference.disconnected.empty();
+  const bool is_same = difference.gone.empty() && difference.elements.empty() && difference.connected.empty() &&
+                       difference.disconnected.empty();
   if (is_same && revision_ > 0) return;
   ++revision_;
   std::string message;
@@ -270,8 +268,7 @@ void StructureMirror::Tell(Difference difference) {
 std::string StructureMirror::Whole() const {
   return JsonObjectText([this](JsonObject& json) {
     json.Add("op", "structure").Add("revision", revision_);
-    AppendList(order_, json.Key("elements"),
-               [](const Entry* entry, std::string& text) { text += entry->json; });
+    AppendList(order_, json.Key("elements"), [](const Entry* entry, std::string& text) { text += entry->json; });
     JsonArray connections(json.Key("connections"));
     for (const Entry* entry : order_) {
       for (const std::string& each : entry->connections) connections.Next() += each;
@@ -287,8 +284,7 @@ const std::string* StructureMirror::ChangeTo(std::uint64_t revision) const {
 std::optional<CountSample> StructureMirror::Count() const {
   const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
   if (!lock || !walk_.is_current()) return {};
-  CountSample sample{
-      .of = metered_, .publications = {}, .threads = {}, .time = runtime_.clock().Now()};
+  CountSample sample{.of = metered_, .publications = {}, .threads = {}, .time = runtime_.clock().Now()};
   sample.publications.reserve(seen_.ports.size());
   for (const Port* port : seen_.ports) sample.publications.push_back(Publications::Of(*port));
   for (const ThreadContainer* thread : seen_.threads) sample.threads.push_back(thread->statistics());

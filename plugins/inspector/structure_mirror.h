@@ -23,21 +23,19 @@ namespace runnel::internal {
 
 /// What there is to know of elements besides themselves.
 struct ElementSurroundings {
-  const ModuleRegistry* modules = nullptr;                 ///< their summaries
-  const Scheduler* scheduler = nullptr;                    ///< who says which modules are stuck
-  std::map<std::uint64_t, std::string> thread_names;       ///< by id
-  std::uint64_t default_thread = 0;                        ///< for what is assigned to none
+  const ModuleRegistry* modules = nullptr;                ///< their summaries
+  const Scheduler* scheduler = nullptr;                   ///< who says which modules are stuck
+  std::map<std::uint64_t, std::string> thread_names;      ///< by id
+  std::uint64_t default_thread = 0;                       ///< for what is assigned to none
   std::unordered_map<std::uint64_t, std::string> failed;  ///< modules, and what they threw
-  std::vector<std::string> paused;                         ///< paths of elements, of threads
+  std::vector<std::string> paused;                        ///< paths of elements, of threads
 };
 
 /// The element as the protocol has it: {"path":…,"kind":…,…}. Under the structure lock.
-[[nodiscard]] std::string ElementJson(const FrameworkElement& element,
-                                      const ElementSurroundings& around);
+[[nodiscard]] std::string ElementJson(const FrameworkElement& element, const ElementSurroundings& around);
 /// A number that is another one if ElementJson() of the same element would be (or most probably so):
 /// quicker. Under the structure lock.
-[[nodiscard]] std::uint64_t ElementFingerprint(const FrameworkElement& element,
-                                               const ElementSurroundings& around);
+[[nodiscard]] std::uint64_t ElementFingerprint(const FrameworkElement& element, const ElementSurroundings& around);
 
 /// {"from":…,"to":…,…}. Under the structure lock.
 [[nodiscard]] std::string ConnectionJson(const Connection& connection);
@@ -63,8 +61,8 @@ struct ToldRate {
   PublicationRate rate = {};
   double told = kNever;
 };
-[[nodiscard]] std::string RateMessage(const CountSample& before, const CountSample& now,
-                                      double time, std::vector<ToldRate>& told);
+[[nodiscard]] std::string RateMessage(const CountSample& before, const CountSample& now, double time,
+                                      std::vector<ToldRate>& told);
 
 /// What has been measured of modules, as the protocol has it; `measured`: for how long, if it is.
 [[nodiscard]] std::string ProfileMessage(const Profile& profile, std::optional<Duration> measured);
@@ -147,7 +145,7 @@ class StructureMirror {
   std::uint64_t walks_ = 0;
   Findings found_;  // valid while the walk is under way
 
-  Findings seen_;   // of the walk before it; valid while that is current
+  Findings seen_;  // of the walk before it; valid while that is current
   std::size_t next_parameter_ = 0;
   std::shared_ptr<const MeteredElements> metered_;
 };

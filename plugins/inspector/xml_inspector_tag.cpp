@@ -34,8 +34,7 @@ Result<InspectorPlace> ParseInspectorPlace(std::string_view text) {
   InspectorPlace place;
   // The last one: addresses of IPv6 have colons of their own, and stand in brackets.
   const std::size_t colon = text.rfind(':');
-  const auto port =
-      ParseNetworkPort(colon == std::string_view::npos ? text : text.substr(colon + 1));
+  const auto port = ParseNetworkPort(colon == std::string_view::npos ? text : text.substr(colon + 1));
   if (!port) return port.error();
   place.port = *port;
   if (colon == std::string_view::npos) return place;
@@ -58,8 +57,8 @@ struct InspectorChoice final : Annotation {
 template <typename T>
 void Check(const Result<T>& read, const TagUse& use, const XmlAttribute& attribute) {
   if (read) return;
-  use.context.Report({.message = read.error().message, .hint = read.error().hint},
-                     attribute.value_position, use.parent);
+  use.context.Report({.message = read.error().message, .hint = read.error().hint}, attribute.value_position,
+                     use.parent);
 }
 
 void ReadPlace(const TagUse& use, InspectorPlace& place) {
@@ -86,9 +85,9 @@ void ReadPlace(const TagUse& use, InspectorPlace& place) {
 
 FrameworkElement* ChooseInspector(const TagUse& use) {
   if (const auto* first = use.parent.FindAnnotation<InspectorChoice>()) {
-    use.context.Report({.message = "there is an inspector already",
-                        .hint = "the first is in line " + std::to_string(first->line)},
-                       use.xml.position(), use.parent);
+    use.context.Report(
+        {.message = "there is an inspector already", .hint = "the first is in line " + std::to_string(first->line)},
+        use.xml.position(), use.parent);
     return &use.parent;
   }
   auto& choice = use.parent.Annotate(std::make_unique<InspectorChoice>());
@@ -107,8 +106,7 @@ std::vector<SavedTag> SavedInspector(const FrameworkElement& application) {
                     {"read_only", place.is_read_only ? "true" : "false", !place.is_read_only},
                     {"token", place.token, place.token.empty()},
                     {"token_file", place.token_file, place.token_file.empty()},
-                    {"all_users", place.is_for_all_users ? "true" : "false",
-                     !place.is_for_all_users},
+                    {"all_users", place.is_for_all_users ? "true" : "false", !place.is_for_all_users},
                     {"certificate", place.certificate, place.certificate.empty()},
                     {"key", place.key, place.key.empty()},
                     {"insecure", place.is_insecure ? "true" : "false", !place.is_insecure}}}};
@@ -136,15 +134,12 @@ void AddInspectorTag(XmlTagRegistry& tags) {
                                .summary = "what viewers must show; without, one is made if the "
                                           "address is reached by others; ROLE:TOKEN for more than "
                                           "one: look, drive (publish, pause), change"},
-                              {.name = "token_file",
-                               .summary = "with more of them, which not everybody may read"},
+                              {.name = "token_file", .summary = "with more of them, which not everybody may read"},
                               WordRule("all_users", {"true", "false"},
                                        "true: every user of this machine may, without a token, and "
                                        "not only who has started the program"),
-                              {.name = "certificate",
-                               .summary = "file (PEM) by which it encrypts: https, wss"},
-                              {.name = "key",
-                               .summary = "file (PEM) with its key, if that is in another one"},
+                              {.name = "certificate", .summary = "file (PEM) by which it encrypts: https, wss"},
+                              {.name = "key", .summary = "file (PEM) with its key, if that is in another one"},
                               WordRule("insecure", {"true", "false"},
                                        "true: other addresses are served without a certificate, "
                                        "where nobody else listens or a proxy encrypts")},

@@ -15,7 +15,7 @@ namespace runnel {
 /// Where an inspector is reached, and by whom, as files and command lines say it.
 struct InspectorPlace {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 8765;  ///< 0: any that is free
+  std::uint16_t port = 8765;    ///< 0: any that is free
   std::string token = {};       ///< one or more, as ParseAccessTokens() has them; "": see WebServerOptions
   std::string token_file = {};  ///< that has more of them; "": none
   bool is_for_all_users = false;

@@ -75,8 +75,7 @@ std::string ModuleDescription::Port::PathInModule() const {
 }
 
 ModuleDescription DescribeModule(const ModuleType& type, const FrameworkElement& module) {
-  ModuleDescription description{
-      .type = type.name, .summary = type.summary, .plugin = type.plugin};
+  ModuleDescription description{.type = type.name, .summary = type.summary, .plugin = type.plugin};
   for (const Port* port : PortsOf(module)) description.ports.push_back(Describe(*port));
   for (const ConfigurableElement& each : ConfigurablesOf(module)) {
     description.parameters.push_back(Describe(each));
@@ -97,10 +96,8 @@ std::optional<ModuleDescription> DescribeByMaking(Runtime& runtime, const Module
       if (auto whole = Runtime::Construct(**module); !whole) module = whole.error();
     }
     if (!module) {
-      return ModuleDescription{.type = type->name,
-                               .summary = type->summary,
-                               .plugin = type->plugin,
-                               .problem = module.error().ToString()};
+      return ModuleDescription{
+          .type = type->name, .summary = type->summary, .plugin = type->plugin, .problem = module.error().ToString()};
     }
     description = DescribeModule(*type, **module);
     made = std::move(*module);

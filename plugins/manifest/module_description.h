@@ -44,15 +44,13 @@ struct ModuleDescription {
 };
 
 /// What a module looks like, its ports and parameters.
-[[nodiscard]] ModuleDescription DescribeModule(const ModuleType& type,
-                                               const FrameworkElement& module);
+[[nodiscard]] ModuleDescription DescribeModule(const ModuleType& type, const FrameworkElement& module);
 
 /// The same by making a module beside the tree of `runtime`, under the structure lock, and destroying it: for
 /// types whose plugin has no manifest. nullopt if there is no such type (any more).
 /// Errors:   why none can be made is in ModuleDescription::problem.
 /// Threads:  one that may wait.
-[[nodiscard]] std::optional<ModuleDescription> DescribeByMaking(Runtime& runtime,
-                                                                const ModuleRegistry& modules,
+[[nodiscard]] std::optional<ModuleDescription> DescribeByMaking(Runtime& runtime, const ModuleRegistry& modules,
                                                                 const std::string& type);
 
 /// Module types as JSON, for programs: a list of {"type", "summary", "plugin", "problem", "ports": [{"name", "group",

@@ -90,8 +90,7 @@ ModuleDescription::Parameter ReadParameter(XmlElement element) {
           .description = element.TextOr("description")};
 }
 
-ModuleDescription ReadModule(XmlElement element, const std::string& plugin,
-                             Diagnostics& problems) {
+ModuleDescription ReadModule(XmlElement element, const std::string& plugin, Diagnostics& problems) {
   CheckChildren(element, std::vector<std::string>{"parameter", "port"}, problems);
   ModuleDescription module{.type = element.TextOr("type"),
                            .summary = element.TextOr("summary"),
@@ -183,8 +182,7 @@ Result<PluginManifest> ReadManifest(const std::filesystem::path& library) {
   const auto document = XmlDocument::Load(ManifestFileOf(library));
   if (!document) return document.error();
   const XmlElement root = document->root();
-  PluginManifest manifest{
-      .plugin = root.TextOr("name"), .build_id = root.TextOr("build_id"), .modules = {}};
+  PluginManifest manifest{.plugin = root.TextOr("name"), .build_id = root.TextOr("build_id"), .modules = {}};
   const auto build_id = BuildIdOf(library);
   if (!build_id) return build_id.error();
   if (*build_id != manifest.build_id) {
@@ -240,8 +238,7 @@ Result<std::string> BuildIdOf(const std::filesystem::path& library) {
     std::string id = BuildIdIn(reader.Bytes(segment.p_offset, segment.p_filesz));
     if (!id.empty()) return id;
   }
-  return Error{.message = library.string() + " has no build id",
-               .hint = "link it with -Wl,--build-id"};
+  return Error{.message = library.string() + " has no build id", .hint = "link it with -Wl,--build-id"};
 }
 
 }  // namespace runnel

@@ -18,12 +18,11 @@ namespace runnel {
 [[nodiscard]] Result<void> CheckCompression(const std::string& compression);
 
 /// Replaces `compressed`. Precondition: CheckCompression().
-Result<void> Compress(const std::string& compression, std::string_view bytes,
-                      std::string& compressed);
+Result<void> Compress(const std::string& compression, std::string_view bytes, std::string& compressed);
 
 /// Replaces `bytes` by `size` bytes. Errors: what is compressed is broken, or of another size.
 /// Precondition: CheckCompression().
-Result<void> Decompress(const std::string& compression, std::string_view compressed,
-                        std::uint64_t size, std::string& bytes);
+Result<void> Decompress(const std::string& compression, std::string_view compressed, std::uint64_t size,
+                        std::string& bytes);
 
 }  // namespace runnel

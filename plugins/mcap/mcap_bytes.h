@@ -41,9 +41,7 @@ class McapBytesWriter {
     return *this;
   }
   /// With its length, 32 bits, before it.
-  McapBytesWriter& Text(std::string_view text) {
-    return Number(static_cast<std::uint32_t>(text.size())).Bytes(text);
-  }
+  McapBytesWriter& Text(std::string_view text) { return Number(static_cast<std::uint32_t>(text.size())).Bytes(text); }
   McapBytesWriter& Bytes(std::string_view bytes) {
     bytes_.append(bytes);
     return *this;

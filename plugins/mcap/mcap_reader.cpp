@@ -25,8 +25,7 @@ Result<std::unique_ptr<McapFile>> McapFile::Open(const std::string& file) {
   struct stat state {};
   const int seen = fstat(descriptor, &state);
   const int number = errno;
-  std::unique_ptr<McapFile> opened(
-      new McapFile(file, descriptor, static_cast<std::uint64_t>(state.st_size)));
+  std::unique_ptr<McapFile> opened(new McapFile(file, descriptor, static_cast<std::uint64_t>(state.st_size)));
   if (seen != 0) return failure(std::strerror(number));
   if (!S_ISREG(state.st_mode)) return failure("it is no file");
   return opened;
@@ -38,19 +37,17 @@ McapFile::McapFile(std::string name, int descriptor, std::uint64_t size)
 McapFile::~McapFile() { close(descriptor_); }
 
 Error McapFile::ErrorAt(std::uint64_t offset, const std::string& message) const {
-  return {.message = "at byte " + std::to_string(offset) + ": " + message,
-          .position = {name_}};
+  return {.message = "at byte " + std::to_string(offset) + ": " + message, .position = {name_}};
 }
 
 Result<void> McapFile::Read(std::uint64_t offset, std::uint64_t count, std::string& bytes) {
   if (offset > size_ || count > size_ - offset) {
-    return ErrorAt(offset, "expected " + std::to_string(count) +
-                               " bytes, but the file ends at byte " + std::to_string(size_));
+    return ErrorAt(offset,
+                   "expected " + std::to_string(count) + " bytes, but the file ends at byte " + std::to_string(size_));
   }
   bytes.resize(count);
   for (std::uint64_t done = 0; done < count;) {
-    const ssize_t read =
-        pread(descriptor_, bytes.data() + done, count - done, static_cast<off_t>(offset + done));
+    const ssize_t read = pread(descriptor_, bytes.data() + done, count - done, static_cast<off_t>(offset + done));
     if (read < 0 && errno == EINTR) continue;
     if (read < 0) return ErrorAt(offset + done, std::strerror(errno));
     if (read == 0) return ErrorAt(offset + done, "the file has become shorter");
@@ -77,8 +74,7 @@ namespace {
 
 // "7f 45 4c 46 …", as a person compares it with what a file should begin with.
 std::string Hexadecimal(std::string_view bytes) {
-  return fmt::format("{:02x}",
-                     fmt::join(std::vector<unsigned char>(bytes.begin(), bytes.end()), " "));
+  return fmt::format("{:02x}", fmt::join(std::vector<unsigned char>(bytes.begin(), bytes.end()), " "));
 }
 
 }  // namespace
@@ -90,10 +86,9 @@ Result<std::unique_ptr<McapReader>> McapReader::Open(const std::string& file) {
   const auto magic = reader->file_->Look(0, kMcapMagic.size());
   if (!magic) return magic.error();
   if (*magic != kMcapMagic) {
-    return Error{.message = magic->empty()
-                                ? "this is no MCAP file: it is empty"
-                                : "this is no MCAP file: it begins with " + Hexadecimal(*magic) +
-                                      ", expected " + Hexadecimal(kMcapMagic),
+    return Error{.message = magic->empty() ? "this is no MCAP file: it is empty"
+                                           : "this is no MCAP file: it begins with " + Hexadecimal(*magic) +
+                                                 ", expected " + Hexadecimal(kMcapMagic),
                  .position = {file}};
   }
   reader->Scan();
@@ -105,11 +100,9 @@ const McapMetadata* McapReader::FindMetadata(std::string_view name) const {
   return found == contents_.metadata.end() ? nullptr : &*found;
 }
 
-Error McapReader::ErrorIn(const McapChunk& chunk, std::uint64_t at,
-                          const std::string& message) const {
+Error McapReader::ErrorIn(const McapChunk& chunk, std::uint64_t at, const std::string& message) const {
   if (chunk.is_loose) return file_->ErrorAt(chunk.offset + at, message);
-  return file_->ErrorAt(
-      chunk.offset, "in this chunk, uncompressed, at byte " + std::to_string(at) + ": " + message);
+  return file_->ErrorAt(chunk.offset, "in this chunk, uncompressed, at byte " + std::to_string(at) + ": " + message);
 }
 
 Result<std::string_view> McapReader::DecompressChunk(const McapChunk& chunk) {
@@ -117,35 +110,32 @@ Result<std::string_view> McapReader::DecompressChunk(const McapChunk& chunk) {
     return read.error();
   }
   if (chunk.is_loose) return std::string_view(compressed_);
-  if (auto uncompressed = Decompress(chunk.compression, compressed_, chunk.size, uncompressed_);
-      !uncompressed) {
+  if (auto uncompressed = Decompress(chunk.compression, compressed_, chunk.size, uncompressed_); !uncompressed) {
     Error error = file_->ErrorAt(chunk.offset, "in this chunk, " + uncompressed.error().message);
     error.hint = uncompressed.error().hint;
     return error;
   }
   const std::uint32_t checksum = chunk.checksum == 0 ? 0 : ChecksumOf(uncompressed_);
   if (checksum != chunk.checksum) {
-    return file_->ErrorAt(chunk.offset, "the content of this chunk has the checksum " +
-                                            std::to_string(checksum) + ", expected " +
-                                            std::to_string(chunk.checksum));
+    return file_->ErrorAt(chunk.offset, "the content of this chunk has the checksum " + std::to_string(checksum) +
+                                            ", expected " + std::to_string(chunk.checksum));
   }
   return std::string_view(uncompressed_);
 }
 
-Result<void> McapReader::UseMessage(const McapChunk& chunk, std::string_view content,
-                                    std::uint64_t at, const Use& use) {
+Result<void> McapReader::UseMessage(const McapChunk& chunk, std::string_view content, std::uint64_t at,
+                                    const Use& use) {
   McapMessage message;
   McapBytesReader bytes(content);
   MessageHead(bytes, message);
   if (bytes.has_failed()) {
     return ErrorIn(chunk, at,
-                   "expected a message, but this record has only " +
-                       std::to_string(content.size()) + " bytes");
+                   "expected a message, but this record has only " + std::to_string(content.size()) + " bytes");
   }
   if (!contents_.channels.contains(message.channel)) {
-    return ErrorIn(chunk, at,
-                   "this message is of channel " + std::to_string(message.channel) +
-                       ", which the file does not have before it");
+    return ErrorIn(
+        chunk, at,
+        "this message is of channel " + std::to_string(message.channel) + ", which the file does not have before it");
   }
   message.data = bytes.rest();
   return use(message);

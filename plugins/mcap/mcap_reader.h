@@ -134,11 +134,9 @@ class McapReader {
   void CountMessages();
 
   // Where an error was: in the file, or in the uncompressed content of a chunk.
-  [[nodiscard]] Error ErrorIn(const McapChunk& chunk, std::uint64_t at,
-                              const std::string& message) const;
+  [[nodiscard]] Error ErrorIn(const McapChunk& chunk, std::uint64_t at, const std::string& message) const;
   Result<std::string_view> DecompressChunk(const McapChunk& chunk);
-  Result<void> UseMessage(const McapChunk& chunk, std::string_view content, std::uint64_t at,
-                          const Use& use);
+  Result<void> UseMessage(const McapChunk& chunk, std::string_view content, std::uint64_t at, const Use& use);
 
   const std::unique_ptr<McapFile> file_;
   McapContents contents_;

@@ -54,8 +54,7 @@ Result<McapReader::Head> McapReader::ReadHead(std::uint64_t offset) {
   if (opcode == 0) return file_->ErrorAt(offset, "expected a record, found the opcode 0");
   const std::uint64_t content = offset + kMcapRecordHead;
   if (length > file_->size() - content) {
-    return file_->ErrorAt(offset, "this record has " + Number(length) +
-                                      " bytes, but the file ends " +
+    return file_->ErrorAt(offset, "this record has " + Number(length) + " bytes, but the file ends " +
                                       Number(file_->size() - content) + " bytes after its head");
   }
   return Head{static_cast<McapOpcode>(opcode), content, length};
@@ -63,16 +62,14 @@ Result<McapReader::Head> McapReader::ReadHead(std::uint64_t offset) {
 
 Result<void> McapReader::CheckHeader(const Head& head) {
   if (head.opcode == McapOpcode::kHeader) return Take(head);
-  return file_->ErrorAt(head.offset - kMcapRecordHead,
-                        "expected the header (opcode 1), found opcode " +
-                            Number(static_cast<std::uint8_t>(head.opcode)));
+  return file_->ErrorAt(head.offset - kMcapRecordHead, "expected the header (opcode 1), found opcode " +
+                                                           Number(static_cast<std::uint8_t>(head.opcode)));
 }
 
 Result<std::string_view> McapReader::ReadContent(const Head& head, const char* what) {
   if (head.length > kLargest) {
-    return file_->ErrorAt(head.offset - kMcapRecordHead,
-                          std::string(what) + " of " + Number(head.length) +
-                              " bytes is larger than can be read, " + Number(kLargest));
+    return file_->ErrorAt(head.offset - kMcapRecordHead, std::string(what) + " of " + Number(head.length) +
+                                                             " bytes is larger than can be read, " + Number(kLargest));
   }
   if (head.length <= McapFile::kWindow) return file_->Look(head.offset, head.length);
   if (auto read = file_->Read(head.offset, head.length, buffer_); !read) return read.error();
@@ -112,13 +109,12 @@ Result<void> McapReader::Take(const Head& head) {
   return {};  // of a later version, or private: to be passed over
 }
 
-Result<void> McapReader::TakeSmall(McapOpcode opcode, std::string_view content,
-                                   std::uint64_t offset) {
+Result<void> McapReader::TakeSmall(McapOpcode opcode, std::string_view content, std::uint64_t offset) {
   McapBytesReader bytes(content);
   const auto check = [&](const char* what) -> Result<void> {
     if (!bytes.has_failed()) return {};
-    return file_->ErrorAt(offset, std::string("expected ") + what +
-                                      ", but what is in this record is longer than the record");
+    return file_->ErrorAt(offset,
+                          std::string("expected ") + what + ", but what is in this record is longer than the record");
   };
   if (opcode == McapOpcode::kHeader) {
     bytes.Text(contents_.header.profile).Text(contents_.header.library);
@@ -140,8 +136,7 @@ Result<void> McapReader::TakeSmall(McapOpcode opcode, std::string_view content,
         .Texts(channel.metadata);
     if (auto good = check("a channel"); !good) return good;
     if (channel.schema != 0 && !contents_.schemas.contains(channel.schema)) {
-      return file_->ErrorAt(offset, "the channel " + channel.topic + " has the schema " +
-                                        Number(channel.schema) +
+      return file_->ErrorAt(offset, "the channel " + channel.topic + " has the schema " + Number(channel.schema) +
                                         ", which the file does not have before it");
     }
     contents_.channels.try_emplace(channel.id, std::move(channel));
@@ -183,13 +178,11 @@ Result<void> McapReader::TakeChunk(const Head& head) {
       .Number(chunk.compressed_size);
   const std::uint64_t before = start->size() - bytes.rest().size();
   if (bytes.has_failed() || chunk.compressed_size > head.length - before) {
-    return file_->ErrorAt(chunk.offset,
-                          "expected a chunk, but what is in this record is longer than the record");
+    return file_->ErrorAt(chunk.offset, "expected a chunk, but what is in this record is longer than the record");
   }
   if (chunk.size > kLargest || chunk.compressed_size > kLargest) {
-    return file_->ErrorAt(chunk.offset,
-                          "a chunk of " + Number(std::max(chunk.size, chunk.compressed_size)) +
-                              " bytes is larger than can be read, " + Number(kLargest));
+    return file_->ErrorAt(chunk.offset, "a chunk of " + Number(std::max(chunk.size, chunk.compressed_size)) +
+                                            " bytes is larger than can be read, " + Number(kLargest));
   }
   chunk.compressed_offset = head.offset + before;
   contents_.chunks.push_back(std::move(chunk));
@@ -208,9 +201,8 @@ Result<void> McapReader::TakeAttachment(const Head& head) {
       .Number(place.data_size);
   const std::uint64_t before = start->size() - bytes.rest().size();
   if (bytes.has_failed() || place.data_size > head.length - before) {
-    return file_->ErrorAt(
-        head.offset - kMcapRecordHead,
-        "expected an attachment, but what is in this record is longer than the record");
+    return file_->ErrorAt(head.offset - kMcapRecordHead,
+                          "expected an attachment, but what is in this record is longer than the record");
   }
   place.data_offset = head.offset + before;
   contents_.attachments.push_back(std::move(place));
@@ -221,12 +213,10 @@ Result<void> McapReader::TakeLooseMessage(const Head& head) {
   const std::uint64_t offset = head.offset - kMcapRecordHead;
   const std::uint64_t length = head.length + kMcapRecordHead;
   if (length > kLargest) {
-    return file_->ErrorAt(
-        offset, "a message of " + Number(head.length) + " bytes is larger than can be read");
+    return file_->ErrorAt(offset, "a message of " + Number(head.length) + " bytes is larger than can be read");
   }
   auto& chunks = contents_.chunks;
-  if (!chunks.empty() && chunks.back().is_loose &&
-      chunks.back().offset + chunks.back().size == offset &&
+  if (!chunks.empty() && chunks.back().is_loose && chunks.back().offset + chunks.back().size == offset &&
       chunks.back().size + length <= kStretch) {
     chunks.back().size += length;
     chunks.back().compressed_size += length;
@@ -245,8 +235,8 @@ Result<void> McapReader::TakeFooter(const Head& head) {
   const std::uint64_t end = head.offset + head.length;
   const std::uint64_t at = head.offset - kMcapRecordHead;
   if (head.length < kFooterLength) {
-    return file_->ErrorAt(at, "expected a footer of " + Number(kFooterLength) +
-                                  " bytes, but it has " + Number(head.length));
+    return file_->ErrorAt(
+        at, "expected a footer of " + Number(kFooterLength) + " bytes, but it has " + Number(head.length));
   }
   if (!has_data_end_) return file_->ErrorAt(at, "expected the end of the data before the footer");
   const auto magic = file_->Look(end, kMcapMagic.size());
@@ -267,15 +257,13 @@ void McapReader::CountMessages() {
   McapStatistics counted;
   for (std::size_t i = 0; i < contents_.chunks.size(); ++i) {
     const McapStatistics before = counted;
-    const auto read =
-        ReadMessages(contents_.chunks[i], [&](const McapMessage& message) -> Result<void> {
-          counted.start =
-              counted.messages == 0 ? message.log_time : std::min(counted.start, message.log_time);
-          counted.end = std::max(counted.end, message.log_time);
-          ++counted.messages;
-          ++counted.messages_of[message.channel];
-          return {};
-        });
+    const auto read = ReadMessages(contents_.chunks[i], [&](const McapMessage& message) -> Result<void> {
+      counted.start = counted.messages == 0 ? message.log_time : std::min(counted.start, message.log_time);
+      counted.end = std::max(counted.end, message.log_time);
+      ++counted.messages;
+      ++counted.messages_of[message.channel];
+      return {};
+    });
     if (read) continue;
     if (!contents_.damage) contents_.damage = read.error();
     contents_.chunks.resize(i);

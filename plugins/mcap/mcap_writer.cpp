@@ -19,8 +19,7 @@ constexpr std::size_t kMostIds = 65535;
 
 }  // namespace
 
-Result<std::unique_ptr<McapWriter>> McapWriter::Create(const std::string& file,
-                                                       McapWriterOptions options) {
+Result<std::unique_ptr<McapWriter>> McapWriter::Create(const std::string& file, McapWriterOptions options) {
   if (auto known = CheckCompression(options.compression); !known) return known.error();
   std::unique_ptr<McapWriter> writer(new McapWriter(file, std::move(options)));
   std::string start(kMcapMagic);
@@ -52,10 +51,9 @@ McapWriter::~McapWriter() {
 }
 
 Error McapWriter::Failure(const std::string& what, int number) {
-  failure_ = {
-      {.message = what + ": " + std::strerror(number),
-       .position = {file_},
-       .hint = "what was recorded until then, " + std::to_string(offset_) + " bytes, can be read"}};
+  failure_ = {{.message = what + ": " + std::strerror(number),
+               .position = {file_},
+               .hint = "what was recorded until then, " + std::to_string(offset_) + " bytes, can be read"}};
   return failure_.front();
 }
 
@@ -93,9 +91,8 @@ Result<std::uint16_t> McapWriter::AddSchema(const std::string& name, const std::
     return Error{.message = "a file cannot have more than 65535 schemas", .position = {file_}};
   }
   const auto id = static_cast<std::uint16_t>(statistics_.schemas + 1);
-  const auto written = WriteRecord(McapOpcode::kSchema, [&](McapBytesWriter& bytes) {
-    bytes.Number(id).Text(name).Text(encoding).Text(data);
-  });
+  const auto written = WriteRecord(
+      McapOpcode::kSchema, [&](McapBytesWriter& bytes) { bytes.Number(id).Text(name).Text(encoding).Text(data); });
   if (!written) return written.error();
   schemas_ += record_;
   ++statistics_.schemas;
@@ -103,12 +100,10 @@ Result<std::uint16_t> McapWriter::AddSchema(const std::string& name, const std::
 }
 
 Result<std::uint16_t> McapWriter::AddChannel(std::uint16_t schema, const std::string& topic,
-                                             const std::string& message_encoding,
-                                             const McapTexts& metadata) {
+                                             const std::string& message_encoding, const McapTexts& metadata) {
   if (statistics_.channels == kMostIds) {
-    return Error{.message = "a file cannot have more than 65535 channels",
-                 .position = {file_},
-                 .hint = "record fewer ports"};
+    return Error{
+        .message = "a file cannot have more than 65535 channels", .position = {file_}, .hint = "record fewer ports"};
   }
   const auto id = static_cast<std::uint16_t>(statistics_.channels);
   const auto written = WriteRecord(McapOpcode::kChannel, [&](McapBytesWriter& bytes) {
@@ -165,13 +160,11 @@ Result<void> McapWriter::AddAttachment(const McapAttachment& attachment) {
 
 Result<void> McapWriter::AddMetadata(const McapMetadata& metadata) {
   const std::uint64_t offset = offset_;
-  const auto written = WriteRecord(McapOpcode::kMetadata, [&](McapBytesWriter& bytes) {
-    bytes.Text(metadata.name).Texts(metadata.texts);
-  });
+  const auto written = WriteRecord(McapOpcode::kMetadata,
+                                   [&](McapBytesWriter& bytes) { bytes.Text(metadata.name).Texts(metadata.texts); });
   if (!written) return written;
-  AppendMcapRecord(McapOpcode::kMetadataIndex, metadata_indexes_, [&](McapBytesWriter& bytes) {
-    bytes.Number(offset).Number(offset_ - offset).Text(metadata.name);
-  });
+  AppendMcapRecord(McapOpcode::kMetadataIndex, metadata_indexes_,
+                   [&](McapBytesWriter& bytes) { bytes.Number(offset).Number(offset_ - offset).Text(metadata.name); });
   ++statistics_.metadata;
   return {};
 }
@@ -182,12 +175,10 @@ void McapWriter::AppendMessageIndexes(std::string& bytes, std::string& offsets) 
   McapBytesWriter offsets_writer(offsets);
   for (const auto& [channel, entries] : index_) {
     offsets_writer.Number(channel).Number(offset_ + bytes.size());
-    AppendMcapRecord(McapOpcode::kMessageIndex, bytes,
-                     [&, id = channel, &all = entries](McapBytesWriter& writer) {
-                       writer.Number(id).Number(static_cast<std::uint32_t>(all.size() * 16));
-                       for (const IndexEntry& entry : all)
-                         writer.Number(entry.time).Number(entry.offset);
-                     });
+    AppendMcapRecord(McapOpcode::kMessageIndex, bytes, [&, id = channel, &all = entries](McapBytesWriter& writer) {
+      writer.Number(id).Number(static_cast<std::uint32_t>(all.size() * 16));
+      for (const IndexEntry& entry : all) writer.Number(entry.time).Number(entry.offset);
+    });
   }
 }
 
@@ -234,21 +225,17 @@ std::string McapWriter::StatisticsRecord() const {
   std::string counts, record;
   McapBytesWriter counts_writer(counts);
   for (const auto& [id, count] : statistics_.messages_of) counts_writer.Number(id).Number(count);
-  AppendMcapRecord(McapOpcode::kStatistics, record, [&](McapBytesWriter& bytes) {
-    StatisticsHead(bytes, statistics_).Text(counts);
-  });
+  AppendMcapRecord(McapOpcode::kStatistics, record,
+                   [&](McapBytesWriter& bytes) { StatisticsHead(bytes, statistics_).Text(counts); });
   return record;
 }
 
-void McapWriter::AppendSummaryGroup(McapOpcode opcode, const std::string& records,
-                                    std::string& summary) {
+void McapWriter::AppendSummaryGroup(McapOpcode opcode, const std::string& records, std::string& summary) {
   if (records.empty()) return;
   const std::uint64_t start = summary_start_ + summary.size();
   summary += records;
   AppendMcapRecord(McapOpcode::kSummaryOffset, summary_offsets_, [&](McapBytesWriter& bytes) {
-    bytes.Number(static_cast<std::uint8_t>(opcode))
-        .Number(start)
-        .Number(static_cast<std::uint64_t>(records.size()));
+    bytes.Number(static_cast<std::uint8_t>(opcode)).Number(start).Number(static_cast<std::uint64_t>(records.size()));
   });
 }
 
@@ -256,8 +243,7 @@ Result<void> McapWriter::Finish() {
   if (is_finished_) return {};
   if (auto flushed = Flush(); !flushed) return flushed;
   std::string end;
-  AppendMcapRecord(McapOpcode::kDataEnd, end,
-                   [&](McapBytesWriter& bytes) { bytes.Number(checksum_.value()); });
+  AppendMcapRecord(McapOpcode::kDataEnd, end, [&](McapBytesWriter& bytes) { bytes.Number(checksum_.value()); });
   summary_start_ = offset_ + end.size();
   std::string summary;
   AppendSummaryGroup(McapOpcode::kSchema, schemas_, summary);

@@ -15,9 +15,8 @@ namespace runnel {
 
 struct McapWriterOptions {
   McapHeader header = {};
-  std::string compression = {};  ///< see compression.h
-  std::size_t chunk_bytes =
-      1 << 20;  ///< a chunk is written as soon as it has so many, uncompressed
+  std::string compression = {};       ///< see compression.h
+  std::size_t chunk_bytes = 1 << 20;  ///< a chunk is written as soon as it has so many, uncompressed
 };
 
 /// Writes one MCAP file: chunks with their message indexes, and at the end a summary by which readers
@@ -31,17 +30,15 @@ struct McapWriterOptions {
 class McapWriter {
  public:
   /// Makes a new file. Errors: one is there already, its folder is not, no right to.
-  static Result<std::unique_ptr<McapWriter>> Create(const std::string& file,
-                                                    McapWriterOptions options);
+  static Result<std::unique_ptr<McapWriter>> Create(const std::string& file, McapWriterOptions options);
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
   /// The id, given out in turn from 1 for schemas and from 0 for channels. Errors: 65535 are there.
-  Result<std::uint16_t> AddSchema(const std::string& name, const std::string& encoding,
-                                  const std::string& data);
-  Result<std::uint16_t> AddChannel(std::uint16_t schema, const std::string& topic,
-                                   const std::string& message_encoding, const McapTexts& metadata);
+  Result<std::uint16_t> AddSchema(const std::string& name, const std::string& encoding, const std::string& data);
+  Result<std::uint16_t> AddChannel(std::uint16_t schema, const std::string& topic, const std::string& message_encoding,
+                                   const McapTexts& metadata);
   /// Precondition: the message's channel is one of AddChannel().
   Result<void> AddMessage(const McapMessage& message);
   Result<void> AddAttachment(const McapAttachment& attachment);

@@ -16,11 +16,11 @@ constexpr int kNoSuchProgram = 127;
 
 // `timeout`, of Debian's coreutils, ends all that Spin has started. If this process is ended meanwhile, by Ctrl-C or whatever
 // else, `setpriv`, of util-linux, has the shell told, which ends that and takes the folder away.
-constexpr const char* kWatched =
-    R"(timeout "$@" & trap 'kill $!; wait; rm -rf "$PWD"; exit 1' HUP INT TERM; wait $!)";
+constexpr const char* kWatched = R"(timeout "$@" & trap 'kill $!; wait; rm -rf "$PWD"; exit 1' HUP INT TERM; wait $!)";
 
 ProgramOutput Run(const TemporaryFolder& folder, int limit, const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{"setpriv", "--pdeathsig", "TERM", "sh", "-c", kWatched, "sh", std::to_string(limit), "spin"};
+  std::vector<std::string> words{"setpriv", "--pdeathsig",         "TERM", "sh", "-c", kWatched,
+                                 "sh",      std::to_string(limit), "spin"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   auto output = OutputOf({.words = words, .folder = folder.path(), .keeps_complaints = true});
   return output ? *std::move(output) : ProgramOutput{.exit_code = kNoSuchProgram};
@@ -59,7 +59,8 @@ Result<SpinAnswer> RunSpin(const std::string& model, const SpinSearch& search) {
   arguments.emplace_back(kModel);
   const ProgramOutput checked = Run(*folder, search.limit, arguments);
   if (checked.exit_code == kNoSuchProgram) {
-    return Error{.message = "is not checked, for the model checker spin is not here", .hint = "install the package spin"};
+    return Error{.message = "is not checked, for the model checker spin is not here",
+                 .hint = "install the package spin"};
   }
   if (checked.exit_code == kTimeUp) {
     return Error{.message = "is not decided: the model checker took more than " + std::to_string(search.limit) + " s"};

@@ -76,7 +76,8 @@ ApplicationCommands::~ApplicationCommands() {
 }
 
 // Both ends hear what was said before they had found each other, so nothing is said twice.
-Result<std::unique_ptr<ServiceEndpoints>> ApplicationCommands::Open(ServiceEndpoints::Side side, const std::string& name,
+Result<std::unique_ptr<ServiceEndpoints>> ApplicationCommands::Open(ServiceEndpoints::Side side,
+                                                                    const std::string& name,
                                                                     std::function<void()> on_news) {
   return ServiceEndpoints::Start(side,
                                  {.service = NearestRosName("/" + name + "/runnel_commands"),
@@ -95,7 +96,8 @@ Result<std::optional<std::string>> ApplicationCommands::Ask(const std::string& t
   if (!diagnostics.ok()) return diagnostics.errors().front();
   std::string* const path = placed.changes.size() == 1 ? PathOf(placed.changes.front()) : nullptr;
   if (path == nullptr || !IsDistantPath(*path)) {
-    return Error{.message = "others in the network can be told to set a parameter, and to swap a module, one at a time"};
+    return Error{.message =
+                     "others in the network can be told to set a parameter, and to swap a module, one at a time"};
   }
   const std::string whole = *path;
   const std::size_t slash = whole.find('/', 2);
@@ -124,7 +126,8 @@ Result<std::optional<std::string>> ApplicationCommands::Ask(const std::string& t
   }
   if (!token.empty()) {
     if (std::exchange(question.has_token, true)) return std::optional<std::string>();  // there are two of this name
-    if (SteadyClock().Now() - question.begun > kTokenLife) return Error{.message = name + " has answered too late: nothing has been done"};
+    if (SteadyClock().Now() - question.begun > kTokenLife)
+      return Error{.message = name + " has answered too late: nothing has been done"};
     if (const auto sent = Send(question, token); !sent) return sent.error();
     return std::optional<std::string>();
   }
@@ -133,13 +136,15 @@ Result<std::optional<std::string>> ApplicationCommands::Ask(const std::string& t
   return Error{.message = name + " says: " + said};
 }
 
-Result<std::unique_ptr<ApplicationCommands::Question>> ApplicationCommands::Begin(const std::string& name, const std::string& path,
+Result<std::unique_ptr<ApplicationCommands::Question>> ApplicationCommands::Begin(const std::string& name,
+                                                                                  const std::string& path,
                                                                                   const Change& change) {
   const auto members = link_.table().members();
   const auto found = std::ranges::find(members, name, &WireMember::name);
   if (found == members.end()) {
     const auto names = NamesOf(members, [](const WireMember& each) { return "//" + each.name; });
-    return Error{.message = "no //" + name + " is in the network", .path = path, .hint = NearestNameHint("//" + name, names)};
+    return Error{
+        .message = "no //" + name + " is in the network", .path = path, .hint = NearestNameHint("//" + name, names)};
   }
   const std::string command = CommandOf(change);
   if (!Allows(found->user_data, command)) {
@@ -227,15 +232,16 @@ void ApplicationCommands::Begin(const ServiceMessage& request) {
     if (std::string* const path = PathOf(each)) *path = application_ + *path;
   }
   if (!diagnostics.ok() || placed.changes.size() != 1) {
-    return Reply(request.id, {.outcome = CommandAnswer::Outcome::kRefused, .text = {}, .diagnostics = diagnostics, .needs = {}});
+    return Reply(request.id,
+                 {.outcome = CommandAnswer::Outcome::kRefused, .text = {}, .diagnostics = diagnostics, .needs = {}});
   }
   if (errands_.size() >= kMostErrands) {
     return Reply(request.id, CommandAnswer::Failed({.message = "too much has been asked for already"}));
   }
   std::string text = ChangeText(placed.changes.front());
   errands_.push_back({request.id, who + " has it done: " + text,
-                      service_.Begin(ChangeRequest{.placed = std::move(placed), .client = who}, tasks_, [this] { Serve(); },
-                                     {.asked = Time(given), .requests = {}})});
+                      service_.Begin(ChangeRequest{.placed = std::move(placed), .client = who}, tasks_,
+                                     [this] { Serve(); }, {.asked = Time(given), .requests = {}})});
 }
 
 void ApplicationCommands::Reply(const CallId& id, const CommandAnswer& answer, const std::string& token) {

@@ -27,7 +27,8 @@ namespace runnel {
 class ApplicationCommands {
  public:
   /// `service` and `link` must outlive it. What the engine refuses is told by the log of `element`; nobody is served then.
-  static std::unique_ptr<ApplicationCommands> Start(NetworkLink& link, NetworkElement& element, CommandService& service);
+  static std::unique_ptr<ApplicationCommands> Start(NetworkLink& link, NetworkElement& element,
+                                                    CommandService& service);
   ~ApplicationCommands();
 
   /// "set //robot/planner/cruise_speed 0.3": has robot set it. Nothing: it has not answered yet, and is to be asked again,
@@ -54,8 +55,13 @@ class ApplicationCommands {
   };
 
   ApplicationCommands(NetworkLink& link, NetworkElement& element, CommandService& service)
-      : link_(link), element_(element), application_(element.parent()->path()), service_(service), tasks_(service.worker()) {}
-  Result<std::unique_ptr<ServiceEndpoints>> Open(ServiceEndpoints::Side side, const std::string& name, std::function<void()> on_news);
+      : link_(link),
+        element_(element),
+        application_(element.parent()->path()),
+        service_(service),
+        tasks_(service.worker()) {}
+  Result<std::unique_ptr<ServiceEndpoints>> Open(ServiceEndpoints::Side side, const std::string& name,
+                                                 std::function<void()> on_news);
   Result<std::unique_ptr<Question>> Begin(const std::string& name, const std::string& path, const Change& change);
   Result<std::int64_t> Send(const Question& question, const std::string& whom);
   void Serve();

@@ -118,8 +118,8 @@ class ApplicationHealth {
   Application* application_;
   std::uint64_t next_in_log_ = 0;
   std::map<std::string, std::string> failed_;  // modules, and why
-  std::map<std::string, std::string> silent_;   // inputs, and what was said
-  std::map<std::string, Overruns> overruns_;    // by thread
+  std::map<std::string, std::string> silent_;  // inputs, and what was said
+  std::map<std::string, Overruns> overruns_;   // by thread
 };
 
 class ApplicationNetwork final : public ApplicationExtension {
@@ -169,25 +169,33 @@ class ApplicationNetwork final : public ApplicationExtension {
                    .hint = "replay it with <clock type=\"simulated\" speed=\"1\"/>, and without clock=\"follow\""};
     }
     engine_ = FindEngine(application, *element);
-    if (engine_ == nullptr) return Error{.message = "the network has no engine", .position = element->options().position};
+    if (engine_ == nullptr)
+      return Error{.message = "the network has no engine", .position = element->options().position};
     FrameworkElement& group = application.element();
-    RosHooks hooks{.set_parameters = [&application](const auto& changes) { return SetParameters(application, changes); },
-                   .health = ApplicationHealth(application),
-                   .set_time = [&application](Time time) { return application.SetTime(time); },
-                   .clock_lead = [&application] { return application.scheduler().pace().outside_lead(); },
-                   .is_stop_kept = application.service().application().hooks.is_stop_kept,
-                   .check_stop = [&application] { return CheckThatAllStops(application.runtime(), &application.scheduler()); }};
-    auto link = NetworkLink::Start(group, *element, *engine_, is_simulated_, [&group] { return ListElements(group, {}); },
-                                   std::move(hooks));
+    RosHooks hooks{
+        .set_parameters = [&application](const auto& changes) { return SetParameters(application, changes); },
+        .health = ApplicationHealth(application),
+        .set_time = [&application](Time time) { return application.SetTime(time); },
+        .clock_lead = [&application] { return application.scheduler().pace().outside_lead(); },
+        .is_stop_kept = application.service().application().hooks.is_stop_kept,
+        .check_stop = [&application] { return CheckThatAllStops(application.runtime(), &application.scheduler()); }};
+    auto link = NetworkLink::Start(
+        group, *element, *engine_, is_simulated_, [&group] { return ListElements(group, {}); }, std::move(hooks));
     if (!link) return link.error();
     link_ = std::move(*link);
     commands_ = ApplicationCommands::Start(*link_, *element, application.service());
     application_ = &application;
     const std::lock_guard lock(application.runtime().structure_mutex());
     auto texts = std::make_unique<ExtensionTexts>();
-    texts->texts["network"] = [this](const std::string&, auto&) -> Result<std::optional<std::string>> { return std::optional(link_->Text()); };
-    texts->texts["network_picture"] = [this](const std::string&, auto&) -> Result<std::optional<std::string>> { return std::optional(link_->Picture()); };
-    texts->texts["command"] = [this](const std::string& change, auto& asking) { return commands_->Ask(change, asking); };
+    texts->texts["network"] = [this](const std::string&, auto&) -> Result<std::optional<std::string>> {
+      return std::optional(link_->Text());
+    };
+    texts->texts["network_picture"] = [this](const std::string&, auto&) -> Result<std::optional<std::string>> {
+      return std::optional(link_->Picture());
+    };
+    texts->texts["command"] = [this](const std::string& change, auto& asking) {
+      return commands_->Ask(change, asking);
+    };
     texts->texts["structure"] = [this](const std::string& path, auto&) { return link_->StructureOf(path); };
     group.Annotate(std::move(texts));
     return {};

@@ -79,7 +79,8 @@ Result<void> NetworkElement::CheckIsOwn(const Port& port) const {
                .hint = "to pass it on, offer an output of a module or an interface port of a group that it goes to"};
 }
 
-Result<std::shared_ptr<const ValueForm>> NetworkElement::ValueFormOf(const TakeOptions& take, const TypeInfo& type) const {
+Result<std::shared_ptr<const ValueForm>> NetworkElement::ValueFormOf(const TakeOptions& take,
+                                                                     const TypeInfo& type) const {
   auto form = ValueForm::Make(type, take.as, {}, {}, options_.messages.get(), take.field);
   if (!form) return form.error();
   if (const std::string why = (*form)->codec->why_no_decoding(); !why.empty()) return Error{.message = why};
@@ -152,7 +153,8 @@ Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo
                  .hint = others.empty() ? "name one of its ports" : "there are " + others};
   }
   auto output = typed == nullptr ? nullptr
-                                 : typed->MakeOutput(*group, std::string(words.back()), {.description = "from the network: " + name, .unit = unit});
+                                 : typed->MakeOutput(*group, std::string(words.back()),
+                                                     {.description = "from the network: " + name, .unit = unit});
   if (output == nullptr) return Error{.message = "values of type " + type.name() + " can be made by a module only"};
   Port* const made = output.get();
   runtime().Adopt(std::move(output));
@@ -163,7 +165,8 @@ Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo
 }
 
 void NetworkElement::GiveUp(const Port& output) {
-  const auto known = std::ranges::find(takes_, &output, [](const Take& each) { return static_cast<const Port*>(each.output); });
+  const auto known =
+      std::ranges::find(takes_, &output, [](const Take& each) { return static_cast<const Port*>(each.output); });
   if (known == takes_.end()) return;
   known->is_over = true;
   if (on_change_) on_change_();
@@ -187,13 +190,15 @@ Result<Port*> NetworkElement::AddServiceTake(const ServiceTakeOptions& take, con
       std::ranges::find(service_takes_, take.service, [](const ServiceTake& each) { return each.options.service; });
   if (known != service_takes_.end()) {
     if (&known->output->type() == &client.type()) return known->output;
-    return Error{.message = "'" + take.service + "' is taken as " + known->output->type().name() + " already, and cannot be " +
-                            client.type().name() + " as well",
+    return Error{.message = "'" + take.service + "' is taken as " + known->output->type().name() +
+                            " already, and cannot be " + client.type().name() + " as well",
                  .path = known->path};
   }
   auto calls = FormOf(client);
   if (calls == nullptr) {
-    return Error{.message = "calls no service", .path = client.path(), .hint = "values of a topic: <take topic=\"…\" to=\"…\"/>"};
+    return Error{.message = "calls no service",
+                 .path = client.path(),
+                 .hint = "values of a topic: <take topic=\"…\" to=\"…\"/>"};
   }
   const MessageLibrary& messages = options_.messages != nullptr ? *options_.messages : MessageLibrary::Standard();
   auto form = ServiceForm::Make(calls->arguments(), calls->reply(), take.as, messages);

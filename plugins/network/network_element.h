@@ -81,7 +81,8 @@ class NetworkElement final : public FrameworkElement {
  private:
   /// An output of this type below the groups that the name says.
   Result<Port*> MakeOutput(const std::string& name, const TypeInfo& type, const std::string& unit = {});
-  [[nodiscard]] Result<std::shared_ptr<const ValueForm>> ValueFormOf(const TakeOptions& take, const TypeInfo& type) const;
+  [[nodiscard]] Result<std::shared_ptr<const ValueForm>> ValueFormOf(const TakeOptions& take,
+                                                                     const TypeInfo& type) const;
   Result<void> TakeOtherwise(Take& known, const TakeOptions& take);
 
   NetworkOptions options_;

@@ -4,8 +4,8 @@
 #include <mutex>
 #include <utility>
 
-#include "core/element/runtime.h"
 #include "core/base/erase_where.h"
+#include "core/element/runtime.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
@@ -69,13 +69,15 @@ std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
     found.options.position = {};
     found.options.unit = port.unit();
     if (offer.topic.empty()) found.options.topic = TopicOfPort(element_.options().member.name, port.path());
-    const auto same = std::ranges::find(wanted, found.options.topic, [](const Wanted& each) { return each.options.topic; });
+    const auto same =
+        std::ranges::find(wanted, found.options.topic, [](const Wanted& each) { return each.options.topic; });
     const bool is_meant = same != wanted.end() && !offer.topic.empty() && same->path != found.path;  // /tf, for one
     if (same == wanted.end() || is_meant) {
       wanted.push_back(std::move(found));
     } else if (same->path != found.path) {
-      Trouble(found.path, {.message = "is not offered, as " + same->path + " is the topic " + found.options.topic + " already",
-                           .hint = "offer it by another topic: <offer port=\"…\" topic=\"…\"/>"});
+      Trouble(found.path,
+              {.message = "is not offered, as " + same->path + " is the topic " + found.options.topic + " already",
+               .hint = "offer it by another topic: <offer port=\"…\" topic=\"…\"/>"});
     }
   };
   for (const OfferOptions& offer : element_.options().offers) {
@@ -135,9 +137,9 @@ void NetworkLink::TellStructure() {
 // What nodes of ROS 2 say of themselves.
 void NetworkLink::FollowNodes() {
   if (nodes_ != nullptr || table_.Partners(kNodesTopic, true).empty()) return;
-  auto reader = participant_->MakeReader(
-      {.topic = kNodesTopic, .type = kNodesType, .qos = {.is_latched = true, .depth = 1000}},
-      [this](const WireSample& sample) { table_.OnNodes(sample.octets); }, {});
+  auto reader =
+      participant_->MakeReader({.topic = kNodesTopic, .type = kNodesType, .qos = {.is_latched = true, .depth = 1000}},
+                               [this](const WireSample& sample) { table_.OnNodes(sample.octets); }, {});
   if (!reader) return Trouble("nodes", reader.error());
   nodes_ = std::move(*reader);
 }
@@ -163,13 +165,15 @@ void NetworkLink::FollowTakes() {
     takes = element_.takes();
     for (const auto& each : takes) {
       const auto is_it = [&](const auto& one) { return &one->output() == each.output; };
-      const auto other = std::ranges::find_if(taken_, [&](const auto& one) { return is_it(one) && one->options() != each.options; });
+      const auto other =
+          std::ranges::find_if(taken_, [&](const auto& one) { return is_it(one) && one->options() != each.options; });
       if (other != taken_.end()) {
         before.push_back(std::move(*other));
         taken_.erase(other);
       }
       const bool is_there = std::ranges::any_of(taken_, is_it);
-      if (!is_there) taken_.push_back(std::make_unique<TakenPort>(*each.output, each.options, each.form, clock_, table_));
+      if (!is_there)
+        taken_.push_back(std::make_unique<TakenPort>(*each.output, each.options, each.form, clock_, table_));
     }
     for (const auto& each : taken_) each->NoteConnections();
   }
@@ -248,11 +252,13 @@ void NetworkLink::FollowDistantPorts() {
     if (LateConnections* const late = LateConnections::FindIn(runtime_)) late->LookAgain();
   }
   const std::lock_guard lock(runtime_.structure_mutex());
-  for (const LateConnection& each : Awaited(runtime_)) Trouble(each.to, {.message = "waits for " + each.SourceText() + ": " + *each.waits_for});
+  for (const LateConnection& each : Awaited(runtime_))
+    Trouble(each.to, {.message = "waits for " + each.SourceText() + ": " + *each.waits_for});
 }
 
 void NetworkLink::TellAwaited(std::string& text) const {
-  for (const LateConnection& each : Awaited(runtime_)) text += "waits for " + each.SourceText() + " to " + each.to + ": " + *each.waits_for + "\n";
+  for (const LateConnection& each : Awaited(runtime_))
+    text += "waits for " + each.SourceText() + " to " + each.to + ": " + *each.waits_for + "\n";
 }
 
 }  // namespace runnel

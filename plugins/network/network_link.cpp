@@ -64,12 +64,13 @@ void NetworkServices::AddNew() {
   std::vector<std::unique_ptr<OfferedService>> offered;
   std::vector<std::unique_ptr<TakenService>> taken;
   for (std::size_t i = offered_.size(); i < offers.size(); ++i) {
-    offered.push_back(std::make_unique<OfferedService>(runtime, offers[i], messages, dialect_, ++made_, wake_, &table_));
+    offered.push_back(
+        std::make_unique<OfferedService>(runtime, offers[i], messages, dialect_, ++made_, wake_, &table_));
   }
   for (std::size_t i = taken_.size(); i < takes.size(); ++i) {
     const auto& take = takes[i];
-    taken.push_back(std::make_unique<TakenService>(runtime, take.path, take.options, take.service, dialect_, ++made_,
-                                                   wake_));
+    taken.push_back(
+        std::make_unique<TakenService>(runtime, take.path, take.options, take.service, dialect_, ++made_, wake_));
   }
   const std::lock_guard lock(runtime.structure_mutex());
   std::ranges::move(offered, std::back_inserter(offered_));
@@ -138,10 +139,12 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
   if (!joined) return joined.error().WithPosition(element.options().position);
   link->participant_ = std::move(*joined);
   if (member.reach == WireReach::kNetwork && !IsInNetwork()) {
-    element.log().Warn("this machine is in no network, so nobody else is reached, nor when it comes into one later: start the "
-                       "application again then");
+    element.log().Warn(
+        "this machine is in no network, so nobody else is reached, nor when it comes into one later: start the "
+        "application again then");
   }
-  link->structure_topic_ = StructureTopic::Start(*link->participant_, member.name, [raw = link.get()] { raw->LookAgain(); });
+  link->structure_topic_ =
+      StructureTopic::Start(*link->participant_, member.name, [raw = link.get()] { raw->LookAgain(); });
   link->structure_ = std::move(structure);
   hooks.dialect = engine.has_identities() ? ServiceDialect::kBeside : ServiceDialect::kInFront;
   hooks.table = &link->table_;
@@ -232,7 +235,8 @@ void NetworkLink::SendAll() {
     TellClocks();
     const auto has_error = [](const auto& each) { return each->has_error(); };
     const auto has_news = [](const auto& each) { return each->has_news(); };
-    if (!strangers_.empty() || is_missing_young_ || std::ranges::any_of(taken_, has_news) || std::ranges::any_of(offered_, has_error)) {
+    if (!strangers_.empty() || is_missing_young_ || std::ranges::any_of(taken_, has_news) ||
+        std::ranges::any_of(offered_, has_error)) {
       return LookAgain();
     }
   }
@@ -246,7 +250,8 @@ bool NetworkLink::HasValue() const noexcept {
 
 // Asleep until a value is likely to come, and awake as long as it is: so the publisher need not wake this thread.
 void NetworkLink::WaitForValues(Time deadline) {
-  static const bool is_alone = std::thread::hardware_concurrency() < 2;  // awake, it would only be in the publisher's way
+  static const bool is_alone =
+      std::thread::hardware_concurrency() < 2;  // awake, it would only be in the publisher's way
   const Time now = SteadyClock().Now();
   std::optional<ValueForecast::Window> next;
   for (const auto& each : offered_) {

@@ -39,7 +39,8 @@ class NetworkServices {
   void Follow(WireParticipant& participant, const Trouble& trouble) {
     AddNew();
     for (const auto& each : offered_) {
-      const auto followed = each->Follow(participant, [this](std::uint64_t writer) { return table_.FindWriter(writer).has_value(); });
+      const auto followed =
+          each->Follow(participant, [this](std::uint64_t writer) { return table_.FindWriter(writer).has_value(); });
       if (!followed) trouble(each->options().port, followed.error());
       if (const auto error = each->TakeError()) trouble(each->options().port, *error);
     }
@@ -81,8 +82,7 @@ class NetworkLink final : private ElementListener {
   /// `structure` says what others are told of the application, under the structure lock; optional.
   static Result<std::unique_ptr<NetworkLink>> Start(FrameworkElement& application, NetworkElement& element,
                                                     WireEngine& engine, bool is_simulated,
-                                                    std::function<std::string()> structure = {},
-                                                    RosHooks hooks = {});
+                                                    std::function<std::string()> structure = {}, RosHooks hooks = {});
   ~NetworkLink() override;
 
   // For what else goes on in the network.
@@ -151,7 +151,7 @@ class NetworkLink final : private ElementListener {
   std::unique_ptr<WireParticipant> participant_;
   std::function<std::string()> structure_;
   std::unique_ptr<StructureTopic> structure_topic_;
-  std::unique_ptr<RosNode> node_;  // nullptr: none is wanted
+  std::unique_ptr<RosNode> node_;      // nullptr: none is wanted
   std::unique_ptr<WireReader> nodes_;  // of others, as they say; nullptr until one is there
   NetworkServices services_{element_, table_, wake_};
   // Changed by the thread, under the structure lock.
@@ -159,19 +159,19 @@ class NetworkLink final : private ElementListener {
   std::vector<std::unique_ptr<TakenPort>> taken_;
   // The thread's own.
   std::uint64_t made_ = 0;
-  Duration waking_{};   // mean: what it takes from a timer to this thread
-  bool is_late_ = false;  // by that, since it slept when a value came
+  Duration waking_{};      // mean: what it takes from a timer to this thread
+  bool is_late_ = false;   // by that, since it slept when a value came
   bool is_early_ = false;  // woken by somebody, and not by the time
   Time awake_{};           // when as much time has passed as makes up for what has been spent awake
   const Time began_ = SteadyClock().Now();
-  Time next_look_{};    // for what has gone wrong
+  Time next_look_{};                                 // for what has gone wrong
   std::map<std::string, std::string> troubles_;      // by whom they are, as they have been told
   std::map<std::string, std::string> new_troubles_;  // as they are now
   std::map<WireId, std::string> members_;
-  std::map<WireId, Time> strangers_;  // since when they are there
-  std::map<std::string, Time> missing_;  // topics that who should write them does not: since when
-  bool is_missing_young_ = false;        // some of them are to be looked at again soon
-  std::set<WireId> other_clocks_;              // of members whose clock is another one, as has been told
+  std::map<WireId, Time> strangers_;                         // since when they are there
+  std::map<std::string, Time> missing_;                      // topics that who should write them does not: since when
+  bool is_missing_young_ = false;                            // some of them are to be looked at again soon
+  std::set<WireId> other_clocks_;                            // of members whose clock is another one, as has been told
   std::map<std::string, TakenPort::WriterInCharge> owners_;  // of outputs that listen to one writer only
   std::thread thread_;
 };

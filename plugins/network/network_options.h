@@ -25,8 +25,7 @@ enum class ValueQuality {
 
 [[nodiscard]] inline WireQos QosOf(ValueQuality quality) {
   // By ValueQuality.
-  constexpr std::array<WireQos, 4> kQos{
-      {{}, {.depth = 128}, {.is_reliable = false, .depth = 5}, {.is_latched = true}}};
+  constexpr std::array<WireQos, 4> kQos{{{}, {.depth = 128}, {.is_reliable = false, .depth = 5}, {.is_latched = true}}};
   return kQos[static_cast<std::size_t>(quality)];
 }
 
@@ -42,11 +41,11 @@ struct OfferOptions {
   std::string port = {};                   ///< one, by its path from the root
   std::string topic = {};                  ///< "/scan"; "": follows from the path
   std::string as = {};                     ///< type of the messages; "": by the description of the port's type
-  std::string frame = {};        ///< of coordinates, for headers
-  std::string child_frame = {};  ///< what moves, of transforms and odometry
+  std::string frame = {};                  ///< of coordinates, for headers
+  std::string child_frame = {};            ///< what moves, of transforms and odometry
   ValueQuality quality = ValueQuality::kNewest;
   ValueSending sending = ValueSending::kNetwork;
-  double rate = 0;                           ///< most values a second; 0: no bound
+  double rate = 0;                            ///< most values a second; 0: no bound
   std::string unit = {};                      ///< of the port, told to others
   std::optional<std::int32_t> strength = {};  ///< the only one that counts, if no stronger one is there
   bool is_measured = false;                   ///< a velocity that is no command: it goes on in STOP
@@ -59,12 +58,12 @@ struct OfferOptions {
 struct TakeOptions {
   std::string topic = {};
   std::string as = {};
-  std::string field = {};                       ///< of the message, of which alone the values are made: "ranges[0]"
-  std::optional<ValueQuality> quality = {};     ///< nothing: as much as all writers offer
-  bool is_exclusive = false;                    ///< of several writers only the strongest counts
-  bool keeps_stamps = false;                    ///< values are as old as their writer says, by synchronised clocks
-  bool is_distant = false;                      ///< comes of a connection from "//…"
-  bool is_live = false;                         ///< also with simulated time, whose runs then are not repeatable
+  std::string field = {};                    ///< of the message, of which alone the values are made: "ranges[0]"
+  std::optional<ValueQuality> quality = {};  ///< nothing: as much as all writers offer
+  bool is_exclusive = false;                 ///< of several writers only the strongest counts
+  bool keeps_stamps = false;                 ///< values are as old as their writer says, by synchronised clocks
+  bool is_distant = false;                   ///< comes of a connection from "//…"
+  bool is_live = false;                      ///< also with simulated time, whose runs then are not repeatable
   SourcePosition position = {};
 
   bool operator==(const TakeOptions&) const = default;
@@ -77,7 +76,7 @@ struct NetworkOptions {
   bool is_live = false;  ///< TakeOptions::is_live of all
   std::vector<OfferOptions> offers = {};
   std::vector<ServiceOfferOptions> services = {};
-  std::vector<std::string> commands = {};  ///< set, swap: that others may ask for
+  std::vector<std::string> commands = {};               ///< set, swap: that others may ask for
   std::shared_ptr<const MessageLibrary> messages = {};  ///< nullptr: those of ROS 2
   std::optional<RosOptions> ros = {};
   SourcePosition position = {};

@@ -42,8 +42,12 @@ std::string NetworkLink::Picture() {
     AppendList(offered_, json.Key("offers"), [&](const auto& each, std::string& text) {
       const Partner readers = PartnerOf(each->endpoint(), true);
       JsonObject object(text);
-      object.Add("port", each->path()).Add("topic", each->options().topic).AddTextOrNull("misfit", readers.misfit).Add("is_stopped", each->is_stopped());
-      AppendList(readers.names, object.Key("readers"), [](const std::string& name, std::string& to) { AppendJsonString(name, to); });
+      object.Add("port", each->path())
+          .Add("topic", each->options().topic)
+          .AddTextOrNull("misfit", readers.misfit)
+          .Add("is_stopped", each->is_stopped());
+      AppendList(readers.names, object.Key("readers"),
+                 [](const std::string& name, std::string& to) { AppendJsonString(name, to); });
     });
     AppendList(taken_, json.Key("takes"), [&](const auto& each, std::string& text) {
       const Partner writers = PartnerOf(each->endpoint(), false);
@@ -54,9 +58,12 @@ std::string NetworkLink::Picture() {
         if (!is_new) known->second = std::min(known->second, *delay);
       }
       JsonObject object(text);
-      object.Add("port", each->output().path()).Add("topic", each->options().topic).AddTextOrNull("misfit", writers.misfit.empty() ? Masters(*each) : writers.misfit);
+      object.Add("port", each->output().path())
+          .Add("topic", each->options().topic)
+          .AddTextOrNull("misfit", writers.misfit.empty() ? Masters(*each) : writers.misfit);
       object.Add("is_wanted", !each->output().outgoing().empty());
-      AppendList(writers.names, object.Key("writers"), [](const std::string& name, std::string& to) { AppendJsonString(name, to); });
+      AppendList(writers.names, object.Key("writers"),
+                 [](const std::string& name, std::string& to) { AppendJsonString(name, to); });
       object.AddTextOrNull("owner", each->Owner().name);
     });
     std::vector<WireMember> others = table_.members();
@@ -73,7 +80,8 @@ std::string NetworkLink::Picture() {
       object.Add("is_simulated", table_.HasSimulatedTime(member.id));
       std::vector<WireEndpoint> offers = endpoints;
       std::erase_if(offers, [&](const WireEndpoint& each) {
-        const bool is_topic = ReadableTopic(each.options.topic).starts_with('/') && !IsInternalTopic(each.options.topic);
+        const bool is_topic =
+            ReadableTopic(each.options.topic).starts_with('/') && !IsInternalTopic(each.options.topic);
         return each.participant != member.id || !each.is_writer || !is_topic;
       });
       object.AddTextOrNull("structure", is_application ? structure_topic_->Find(member.name).value_or("") : "");

@@ -14,13 +14,16 @@ namespace runnel {
 namespace {
 
 // Of its type nothing can be said of what is to become it.
-bool TakesAnything(const TypeInfo& type) { return &type == &runnel::TypeOf<Signal>() || &type == &runnel::TypeOf<std::string>(); }
+bool TakesAnything(const TypeInfo& type) {
+  return &type == &runnel::TypeOf<Signal>() || &type == &runnel::TypeOf<std::string>();
+}
 
 Result<void> CheckEdge(const DistantType& from, const Connection& edge) {
   const Port& to = *edge.to;
   if (dynamic_cast<const ProbePort*>(&to) != nullptr) return {};
   if (from.type == &to.type() && edge.options.part.empty() && edge.options.convert.empty()) return {};
-  const auto found = Conversion::Find({*from.type, to.type(), edge.options.part, edge.options.convert, from.unit, to.unit()});
+  const auto found =
+      Conversion::Find({*from.type, to.type(), edge.options.part, edge.options.convert, from.unit, to.unit()});
   return found ? Result<void>() : found.error();
 }
 
@@ -34,7 +37,8 @@ NetworkPorts* NetworkPorts::Of(const NetworkElement& network) {
 const NetworkElement::Take* NetworkPorts::FindTake(std::string_view path) const {
   if (network_ == nullptr || !SplitPortPath(path).part.empty()) return nullptr;
   const auto& takes = network_->takes();
-  const auto found = std::ranges::find(takes, TopicOfDistantPath(path), [](const auto& each) { return each.options.topic; });
+  const auto found =
+      std::ranges::find(takes, TopicOfDistantPath(path), [](const auto& each) { return each.options.topic; });
   return found == takes.end() ? nullptr : &*found;
 }
 
@@ -81,7 +85,8 @@ Result<Port*> NetworkPorts::Make(std::string_view path, const Port& to, const Co
   if (known != nullptr && !makes_room) return known;
   const std::string whole(path);
   // Of a unit nothing may be guessed: numbers of another one would be taken for it until that is told.
-  const bool is_plain = options.part.empty() && options.convert.empty() && to.unit().empty() && !TakesAnything(to.type());
+  const bool is_plain =
+      options.part.empty() && options.convert.empty() && to.unit().empty() && !TakesAnything(to.type());
   OfferedType offered = Ask(whole, &to.type());
   if (!offered.message.empty() && !is_plain) offered.type.type = nullptr;
   if (known != nullptr) {
@@ -115,7 +120,8 @@ std::optional<OfferedType> NetworkPorts::OtherType(const NetworkElement::Take& t
   for (const Connection& each : output.outgoing()) {
     const auto possible = CheckEdge(told.type, each);
     if (possible) continue;
-    why_not = each.to->path() + ": " + possible.error().message + (possible.error().hint.empty() ? "" : "; " + possible.error().hint);
+    why_not = each.to->path() + ": " + possible.error().message +
+              (possible.error().hint.empty() ? "" : "; " + possible.error().hint);
     return {};
   }
   return told;

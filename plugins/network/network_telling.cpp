@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t kRoomForImages = 4'194'304;
 
 std::string Doubt(const WireEndpointOptions& own, const WireEndpointOptions& other, bool is_writer) {
-  const std::string doubt = is_writer ? TypeDoubt(own.user_data, other.user_data) : TypeDoubt(other.user_data, own.user_data);
+  const std::string doubt =
+      is_writer ? TypeDoubt(own.user_data, other.user_data) : TypeDoubt(other.user_data, own.user_data);
   return doubt.empty() ? "" : "is of another version: " + doubt;
 }
 
@@ -56,7 +57,8 @@ void NetworkLink::TellTroubles() {
   for (const std::string& why : table_.refusals()) new_troubles_["keys " + why] = "not let in, " + why;
   for (const auto& [of, text] : new_troubles_) {
     const auto told = troubles_.find(of);
-    if (told == troubles_.end() || told->second != text) element_.log().Warn("{}: {}", of.substr(0, of.find(' ')), text);
+    if (told == troubles_.end() || told->second != text)
+      element_.log().Warn("{}: {}", of.substr(0, of.find(' ')), text);
   }
   troubles_ = new_troubles_;
 }
@@ -69,7 +71,9 @@ void NetworkLink::TellMissing() {
   is_missing_young_ = false;
   for (const auto& each : taken_) {
     const std::string topic = each->endpoint().topic;
-    if (!each->options().is_distant || !each->is_connected() || each->matched() > 0 || !table_.Partners(topic, true).empty()) continue;
+    if (!each->options().is_distant || !each->is_connected() || each->matched() > 0 ||
+        !table_.Partners(topic, true).empty())
+      continue;
     const std::string path = "/" + each->options().topic;
     const auto member = MemberOfPath(table_, path);
     if (!member) continue;
@@ -79,7 +83,8 @@ void NetworkLink::TellMissing() {
     if (now - since < kPatience) {
       is_missing_young_ = true;
     } else {
-      Trouble(each->output().path(), {.message = member->name + " offers no " + path, .hint = NearestNameHint(path, OfferedBeside(table_, path))});
+      Trouble(each->output().path(), {.message = member->name + " offers no " + path,
+                                      .hint = NearestNameHint(path, OfferedBeside(table_, path))});
     }
   }
   missing_ = std::move(missing);
@@ -88,7 +93,8 @@ void NetworkLink::TellMissing() {
 // Of those without keys that are trusted here nothing is known but that they are there.
 bool NetworkLink::IsStranger(const WireMember& member) const {
   if (!element_.options().member.security || member.id == participant_->id()) return false;
-  return std::ranges::none_of(table_.endpoints(), [&](const WireEndpoint& each) { return each.participant == member.id; });
+  return std::ranges::none_of(table_.endpoints(),
+                              [&](const WireEndpoint& each) { return each.participant == member.id; });
 }
 
 void NetworkLink::TellMembers() {
@@ -106,7 +112,8 @@ void NetworkLink::TellMembers() {
     const Time since = known != strangers_.end() ? known->second : SteadyClock().Now();
     strangers[each.id] = since;
     if (SteadyClock().Now() - since > kPatience) {
-      Trouble("keys " + name, {.message = name + " is there, but shows no keys that are trusted here, or does not trust these"});
+      Trouble("keys " + name,
+              {.message = name + " is there, but shows no keys that are trusted here, or does not trust these"});
     }
   }
   strangers_ = std::move(strangers);
@@ -128,12 +135,15 @@ void NetworkLink::TellMembers() {
 
 Result<std::optional<std::string>> NetworkLink::StructureOf(const std::string& path) {
   const auto words = SplitPath(path);
-  if (words.empty()) return Error{.message = "'" + path + "' names no application", .hint = "//NAME, as runnel network lists them"};
+  if (words.empty())
+    return Error{.message = "'" + path + "' names no application", .hint = "//NAME, as runnel network lists them"};
   const std::string name(words.front());
   const auto names = NamesOf(table_.members(), &WireMember::name);
   const bool is_there = std::ranges::find(names, name) != names.end();
-  if (!is_there && SteadyClock().Now() - began_ > std::chrono::seconds(1)) {  // until then others may not have been found yet
-    return Error{.message = "there is no '" + name + "' in the network", .path = path, .hint = NearestNameHint(name, names)};
+  if (!is_there &&
+      SteadyClock().Now() - began_ > std::chrono::seconds(1)) {  // until then others may not have been found yet
+    return Error{
+        .message = "there is no '" + name + "' in the network", .path = path, .hint = NearestNameHint(name, names)};
   }
   const auto text = is_there ? structure_topic_->Find(name) : std::nullopt;
   if (!text) return std::optional<std::string>();
@@ -146,13 +156,14 @@ std::string NetworkLink::Text() const {
   std::size_t room = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> room;
   if (room > 0 && room < kRoomForImages) {
-    text += "sockets have room for " + std::to_string(room / 1024) + " KiB: for images, sysctl net.core.rmem_max=" +
-            std::to_string(kRoomForImages) + "\n";
+    text += "sockets have room for " + std::to_string(room / 1024) +
+            " KiB: for images, sysctl net.core.rmem_max=" + std::to_string(kRoomForImages) + "\n";
   }
   for (const WireMember& each : table_.members()) {
     if (each.id == participant_->id()) continue;
     text += "member " + table_.NameOf(each.id) +
-            (IsStranger(each) ? ": NOT LET IN, as it shows no keys that are trusted here, or does not trust these\n" : "\n");
+            (IsStranger(each) ? ": NOT LET IN, as it shows no keys that are trusted here, or does not trust these\n"
+                              : "\n");
   }
   for (const std::string& why : table_.refusals()) text += "NOT LET IN " + why + "\n";
   const std::lock_guard lock(runtime_.structure_mutex());
@@ -163,7 +174,8 @@ std::string NetworkLink::Text() const {
       const std::string misfit = is_writer ? Misfit(mine, other.options) : Misfit(other.options, mine);
       text += std::string(is_writer ? "    read by " : "    written by ") + table_.NameOf(other.participant) + " (" +
               QosText(other.options.qos) + ")" + (misfit.empty() ? "" : ": NOT MATCHED, " + misfit);
-      if (misfit.empty() && is_writer && !offered->HasReader(other.handle)) text += ": not matched (yet), for a reason that it does not say";
+      if (misfit.empty() && is_writer && !offered->HasReader(other.handle))
+        text += ": not matched (yet), for a reason that it does not say";
       const std::string doubt = misfit.empty() ? Doubt(mine, other.options, is_writer) : "";
       const auto delay = taken != nullptr ? taken->least_delay(other.handle) : std::nullopt;
       if (delay) text += ", " + DurationText(*delay) + " on its way by both clocks";
@@ -186,7 +198,8 @@ std::string NetworkLink::Text() const {
     if (!each->is_connected()) continue;
     const std::string field = each->options().field.empty() ? "" : "." + each->options().field;
     add(each->endpoint(), "takes " + each->options().topic + field + " to " + each->output().path(),
-        ", " + std::to_string(each->taken()) + " came" + (each->Owner().name.empty() ? "" : ", " + each->Owner().name + " has it") +
+        ", " + std::to_string(each->taken()) + " came" +
+            (each->Owner().name.empty() ? "" : ", " + each->Owner().name + " has it") +
             (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));
     add_partners(each->endpoint(), nullptr, each.get());
     if (const std::string masters = Masters(*each); !masters.empty()) text += "    TWO MASTERS: " + masters + "\n";
@@ -196,8 +209,8 @@ std::string NetworkLink::Text() const {
   std::set<std::string> others;
   for (const WireEndpoint& each : table_.endpoints()) {
     if (each.is_own || IsInternalTopic(each.options.topic)) continue;
-    others.insert((each.is_writer ? "written " : "read ") + ReadableTopic(each.options.topic) + "  " + each.options.type +
-                  " by " + table_.NameOf(each.participant));
+    others.insert((each.is_writer ? "written " : "read ") + ReadableTopic(each.options.topic) + "  " +
+                  each.options.type + " by " + table_.NameOf(each.participant));
   }
   for (const std::string& each : others) text += each + "\n";
   return text;
@@ -224,7 +237,8 @@ void NetworkLink::TellMasters() {
     const std::string masters = Masters(*each);
     if (masters.empty()) continue;
     const char* const exclusive = "say <take … exclusive=\"true\"/> if one is enough";
-    Trouble(each->output().path(), {.message = masters, .hint = each->options().is_distant ? "end one of them" : exclusive});
+    Trouble(each->output().path(),
+            {.message = masters, .hint = each->options().is_distant ? "end one of them" : exclusive});
   }
 }
 
@@ -240,11 +254,15 @@ void NetworkLink::TellClocks() {
       const std::string name = table_.NameOf(other.participant);
       const double seconds = ToSeconds(std::chrono::abs(delay));
       if (is_old) {
-        element_.log().Warn("values of {} are {:.3f} s old when they come, by both clocks: if nothing holds them up, its clock is "
-                            "behind this one's; synchronise the clocks (chrony, ptp4l)", name, seconds);
+        element_.log().Warn(
+            "values of {} are {:.3f} s old when they come, by both clocks: if nothing holds them up, its clock is "
+            "behind this one's; synchronise the clocks (chrony, ptp4l)",
+            name, seconds);
       } else {
-        element_.log().Warn("the clock of {} is {:.3f} s ahead of this one's: ages of its values are counted from when the soonest "
-                            "came; synchronise the clocks (chrony, ptp4l)", name, seconds);
+        element_.log().Warn(
+            "the clock of {} is {:.3f} s ahead of this one's: ages of its values are counted from when the soonest "
+            "came; synchronise the clocks (chrony, ptp4l)",
+            name, seconds);
       }
     }
   }
@@ -258,7 +276,8 @@ void NetworkLink::TellOwners() {
     if (owner.name.empty()) {
       element_.log().Warn("{}: {} has it no more", each->output().path(), told.name);
     } else {
-      element_.log().Info("{}: {} has it now{}", each->output().path(), owner.name, told.name.empty() ? "" : " instead of " + told.name);
+      element_.log().Info("{}: {} has it now{}", each->output().path(), owner.name,
+                          told.name.empty() ? "" : " instead of " + told.name);
     }
     told = std::move(owner);
   }

@@ -30,7 +30,9 @@ void LeaveOut(const std::string& path, OfferOptions& offer) {
   if (IsMeantBy(offer, path)) offer.patterns.push_back("!" + ShortPortPath(path));
 }
 
-bool IsEmpty(const OfferOptions& offer) { return offer.port.empty() && std::ranges::all_of(offer.patterns, IsExclusion); }
+bool IsEmpty(const OfferOptions& offer) {
+  return offer.port.empty() && std::ranges::all_of(offer.patterns, IsExclusion);
+}
 
 }  // namespace
 
@@ -41,12 +43,15 @@ Result<void> OfferList::Add(const std::string& path, OfferOptions wanted) {
   const std::string topic = topic_of(wanted);
   for (const OfferOptions& each : offers) {
     if (!IsMeantBy(each, path) || topic_of(each) != topic) continue;
-    return Error{.message = "is offered as " + topic + " already", .path = path, .hint = "remove that first, or say another topic"};
+    return Error{.message = "is offered as " + topic + " already",
+                 .path = path,
+                 .hint = "remove that first, or say another topic"};
   }
   // One that a pattern has offered before.
   for (OfferOptions& each : offers) {
     OfferOptions with = each;
-    std::erase_if(with.patterns, [&](const std::string& one) { return IsExclusion(one) && Names(one.substr(1), path); });
+    std::erase_if(with.patterns,
+                  [&](const std::string& one) { return IsExclusion(one) && Names(one.substr(1), path); });
     if (!each.port.empty() || with.patterns == each.patterns || !IsMeantBy(with, path)) continue;
     OfferOptions rest = each;
     rest.patterns = wanted.patterns;
@@ -77,7 +82,9 @@ Result<void> OfferList::Remove(const std::string& path, const std::string& topic
   }
   std::erase_if(offers, IsEmpty);
   if (is_found) return {};
-  return Error{.message = "is not offered" + (topic.empty() ? "" : " as " + topic), .path = path, .hint = "runnel network shows what is"};
+  return Error{.message = "is not offered" + (topic.empty() ? "" : " as " + topic),
+               .path = path,
+               .hint = "runnel network shows what is"};
 }
 
 void OfferList::Rename(const std::string& from, const std::string& to) {

@@ -62,9 +62,8 @@ class OfferedPort::Reader final : public InputBase {
   OfferedPort& offered_;
 };
 
-OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, const TypeInfo& type,
-                         std::string path, OfferOptions options,
-                         std::shared_ptr<const ValueForm> form, ClockOffset clock,
+OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, const TypeInfo& type, std::string path,
+                         OfferOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock,
                          std::shared_ptr<WakeEvent> wake)
     : path_(std::move(path)),
       options_(std::move(options)),
@@ -113,7 +112,9 @@ Result<void> OfferedPort::Begin(WireParticipant& participant) {
   // Of a list nobody knows here how long it has to be: who marks it says so.
   if (options_.is_measured || !IsVelocity(type(), options_.unit) || HasLists(type())) return {};
   const std::shared_ptr<const void> zero = type().Make();
-  if (auto set = reader_->SetDriving(true, zero ? AnyValue(type(), zero) : AnyValue(), {}, DrivingKind::kVelocity); !set) return set;
+  if (auto set = reader_->SetDriving(true, zero ? AnyValue(type(), zero) : AnyValue(), {}, DrivingKind::kVelocity);
+      !set)
+    return set;
   AddWhatDrives(reader_->runtime(), topic_ + " (in the network)", reader_->stop());
   return {};
 }
@@ -161,7 +162,8 @@ const TypeInfo& OfferedPort::type() const noexcept { return reader_->type(); }
 bool OfferedPort::is_stopped() const noexcept {
   const EpochGuard guard;
   const Binding* const binding = binding_.load(std::memory_order_acquire);
-  return binding != nullptr && std::ranges::any_of(binding->stops, [](const auto& each) { return each.stop->in_force(); });
+  return binding != nullptr &&
+         std::ranges::any_of(binding->stops, [](const auto& each) { return each.stop->in_force(); });
 }
 
 std::optional<Time> OfferedPort::Send(Time now) {

@@ -139,7 +139,9 @@ class OfferedPort {
   [[nodiscard]] std::uint64_t sent() const noexcept { return sent_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t dropped() const noexcept { return each_ ? each_->dropped() : 0; }
   /// Of those sent: how many by threads of cycles.
-  [[nodiscard]] std::uint64_t sent_after_cycles() const noexcept { return sent_after_cycles_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t sent_after_cycles() const noexcept {
+    return sent_after_cycles_.load(std::memory_order_relaxed);
+  }
   [[nodiscard]] bool has_error() const;
   /// What went wrong since the last call.
   [[nodiscard]] std::optional<Error> TakeError();
@@ -181,8 +183,8 @@ class OfferedPort {
     std::uint64_t count;  // how many the source had published
     bool operator==(const Shown&) const = default;
   };
-  std::optional<Shown> shown_;  // by who has the turn
-  bool is_large_ = false;       // by who has the turn
+  std::optional<Shown> shown_;             // by who has the turn
+  bool is_large_ = false;                  // by who has the turn
   std::int64_t bar_ = StopSignal::kNever;  // of the stops, as it was seen last; by who has the turn
   Time again_{};                           // not before; by who has the turn
   std::atomic<std::uint64_t> sent_{0};

@@ -37,8 +37,8 @@ WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
   const auto fits = [&](const WireEndpoint& each) { return each.options.type == endpoint_.type; };
   // Readers have writers with a strength, or those without, as ROS 2's are: who has said one counts more.
   qos.is_exclusive = options_.is_exclusive && std::ranges::any_of(writers, [&](const WireEndpoint& each) {
-    return fits(each) && each.options.qos.is_exclusive;
-  });
+                       return fits(each) && each.options.qos.is_exclusive;
+                     });
   if (options_.quality) return qos;
   bool all_are_exclusive = true;
   bool is_latched = false;
@@ -136,7 +136,9 @@ bool TakenPort::HasComeBefore(Writer& writer, const WireSample& sample) {
 }
 
 void TakenPort::ForgetGone(const std::vector<WireEndpoint>& writers) {
-  const auto is_gone = [&](std::uint64_t handle) { return std::ranges::find(writers, handle, &WireEndpoint::handle) == writers.end(); };
+  const auto is_gone = [&](std::uint64_t handle) {
+    return std::ranges::find(writers, handle, &WireEndpoint::handle) == writers.end();
+  };
   if (is_gone(chosen_)) chosen_ = 0;
   const auto has_gone = [&](const Writer& each) { return is_gone(each.handle); };
   std::ranges::copy_if(writers_, std::front_inserter(gone_), has_gone);
@@ -199,7 +201,8 @@ void TakenPort::Take(const WireSample& sample) noexcept {
         const Duration longest = writer.kept > 0 ? kFarthest : WriterClock::kLongestDelay;
         held_up = writer.clock.HeldUp(on_its_way, machine, longest);
         if (!output_.runtime().robot_stop().CheckIsKnown({.asked = writer.clock.sent(), .requests = {}})) {
-          held_up = clock_.is_simulated ? now.time_since_epoch() : machine - writer.clock.sent();  // simulated time may be faster
+          held_up = clock_.is_simulated ? now.time_since_epoch()
+                                        : machine - writer.clock.sent();  // simulated time may be faster
         }
       }
       if (is_comparable) writer.clock.Note(now - sent, now);
@@ -243,7 +246,8 @@ TakenPort::WriterInCharge TakenPort::Owner() const {
   const auto writer = owner != 0 ? table_.FindWriter(owner) : std::nullopt;
   if (!writer) return {};
   const WireQos& qos = writer->options.qos;
-  return {owner, table_.NameOf(writer->participant) + (qos.is_exclusive ? " (strength " + std::to_string(qos.strength) + ")" : "")};
+  return {owner, table_.NameOf(writer->participant) +
+                     (qos.is_exclusive ? " (strength " + std::to_string(qos.strength) + ")" : "")};
 }
 
 std::optional<Duration> TakenPort::least_delay(std::uint64_t writer) const {

@@ -90,8 +90,8 @@ class TakenPort {
     bool has_simulated_time = false;  // which says nothing here
     std::string application = {};     // of Runnel that has it; else ""
     WriterClock clock = {};
-    bool is_looked_up = true;         // since Follow()
-    std::size_t kept = 0;             // values that it delivers again; 0: it is not latched
+    bool is_looked_up = true;              // since Follow()
+    std::size_t kept = 0;                  // values that it delivers again; 0: it is not latched
     std::deque<Delivered> delivered = {};  // the last of them, in their order
     std::deque<Delivered> before = {};     // of those, by the reader of before, or before the link was lost
   };

@@ -1,5 +1,3 @@
-#include "plugins/network/xml_network_words.h"
-
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -7,6 +5,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
 #include "plugins/network/offer_list.h"
+#include "plugins/network/xml_network_words.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/structure/extension_changes.h"
 
@@ -30,7 +29,8 @@ NetworkElement* FindNetwork(Runtime& runtime) {
 }
 
 bool Removes(const ExtensionChange& change) {
-  return std::ranges::any_of(change.settings, [](const Setting& each) { return each.parameter == "remove" && each.value == "true"; });
+  return std::ranges::any_of(change.settings,
+                             [](const Setting& each) { return each.parameter == "remove" && each.value == "true"; });
 }
 
 std::string SaidIn(const ExtensionChange& change, std::string_view name) {
@@ -39,7 +39,8 @@ std::string SaidIn(const ExtensionChange& change, std::string_view name) {
 }
 
 // `ports`: the attributes that are no options, but words of the change.
-Result<void> CheckWords(const ExtensionChange& change, std::vector<AttributeRule> rules, const std::vector<std::string>& ports) {
+Result<void> CheckWords(const ExtensionChange& change, std::vector<AttributeRule> rules,
+                        const std::vector<std::string>& ports) {
   std::erase_if(rules, [&](const AttributeRule& each) { return std::ranges::count(ports, each.name) > 0; });
   rules.push_back({.name = "remove", .kind = AttributeKind::kChoice, .choices = {"false", "true"}});
   for (const Setting& each : change.settings) {
@@ -59,7 +60,8 @@ Result<void> CheckWords(const ExtensionChange& change, std::vector<AttributeRule
 }
 
 // Sets what is offered to what `next` makes of it.
-ExtensionStep StepOf(NetworkElement& network, const ExtensionChange& change, std::function<Result<Offers>(const Offers&)> next) {
+ExtensionStep StepOf(NetworkElement& network, const ExtensionChange& change,
+                     std::function<Result<Offers>(const Offers&)> next) {
   auto before = std::make_shared<std::optional<Offers>>();
   ExtensionStep step;
   step.apply = [&network, next, before]() -> Result<void> {
@@ -77,7 +79,8 @@ ExtensionStep StepOf(NetworkElement& network, const ExtensionChange& change, std
     const Offers& now = network.options().offers;
     const auto then = next(now);
     if (!then) return {};  // the step is not applied
-    ExtensionChange back{change.verb, change.words, change.settings, std::make_shared<OffersBefore>(OffersBefore{*then, now})};
+    ExtensionChange back{change.verb, change.words, change.settings,
+                         std::make_shared<OffersBefore>(OffersBefore{*then, now})};
     const bool removes = Removes(change);
     std::erase_if(back.settings, [](const Setting& each) { return each.parameter == "remove"; });
     if (!removes) back.settings.push_back({"remove", "true"});
@@ -94,7 +97,8 @@ Result<ExtensionStep> Back(NetworkElement& network, const ExtensionChange& chang
   });
 }
 
-Result<ExtensionStep> CheckOffer(NetworkElement& network, const ExtensionChange& change, const ExtensionChanges::Find& find) {
+Result<ExtensionStep> CheckOffer(NetworkElement& network, const ExtensionChange& change,
+                                 const ExtensionChanges::Find& find) {
   if (change.state) return Back(network, change);
   if (change.words.size() != 1) return Error{.message = "'offer' names one port"};
   if (auto checked = CheckWords(change, OfferRules(), {"ports", "port", "service"}); !checked) return checked.error();
@@ -108,7 +112,8 @@ Result<ExtensionStep> CheckOffer(NetworkElement& network, const ExtensionChange&
   const bool removes = Removes(change);
   if (!removes) {
     if (const auto is_own = network.CheckIsOwn(**port); !is_own) return is_own.error();
-    const auto form = ValueForm::Make((*port)->type(), offer.as, offer.frame, offer.child_frame, network.options().messages.get());
+    const auto form =
+        ValueForm::Make((*port)->type(), offer.as, offer.frame, offer.child_frame, network.options().messages.get());
     if (!form) return form.error();
     if (const auto fits = CheckTopicType(network, **port, offer, **form); !fits) return fits.error();
     if (const auto wrong = WhatIsWrong(offer)) return *wrong;
@@ -120,7 +125,8 @@ Result<ExtensionStep> CheckOffer(NetworkElement& network, const ExtensionChange&
   });
 }
 
-Result<ExtensionStep> CheckTake(NetworkElement& network, const ExtensionChange& change, const ExtensionChanges::Find& find) {
+Result<ExtensionStep> CheckTake(NetworkElement& network, const ExtensionChange& change,
+                                const ExtensionChanges::Find& find) {
   if (change.words.size() != 2) return Error{.message = "'take' names a topic and an input"};
   if (auto checked = CheckWords(change, TakeRules(), {"topic", "to", "service"}); !checked) return checked.error();
   const std::string& topic = change.words[0];
@@ -162,7 +168,8 @@ ExtensionStep StepOfRenaming(NetworkElement& network, const std::string& from, c
 void AddNetworkChanges(Runtime& runtime) {
   auto changes = std::make_unique<ExtensionChanges>();
   const auto add = [&](const char* verb, auto check) {
-    changes->verbs[verb] = [&runtime, check](const ExtensionChange& change, const ExtensionChanges::Find& find) -> Result<ExtensionStep> {
+    changes->verbs[verb] = [&runtime, check](const ExtensionChange& change,
+                                             const ExtensionChanges::Find& find) -> Result<ExtensionStep> {
       NetworkElement* const network = FindNetwork(runtime);
       if (network == nullptr) return Error{.message = "the application with the network has gone"};
       return check(*network, change, find);

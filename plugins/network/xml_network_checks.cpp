@@ -1,5 +1,3 @@
-#include "plugins/network/xml_network_words.h"
-
 #include <algorithm>
 
 #include <arpa/inet.h>
@@ -9,6 +7,7 @@
 #include "core/element/runtime.h"
 #include "core/paths/path_search.h"
 #include "plugins/application_files/build_context.h"
+#include "plugins/network/xml_network_words.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/values/port_patterns.h"
 
@@ -56,12 +55,16 @@ void CheckPeers(const TagUse& use, const WireMemberOptions& member) {
     const bool is_number = host.find_first_not_of("0123456789.") == std::string::npos;
     const bool is_here = host.starts_with("127.") || host == "localhost";
     if (is_number && !IsAddress(host)) {
-      use.Report({.message = "'" + peer + "' is no address", .hint = "four numbers from 0 to 255, 10.0.0.2, or the name of a machine"}, said->value_position);
+      use.Report({.message = "'" + peer + "' is no address",
+                  .hint = "four numbers from 0 to 255, 10.0.0.2, or the name of a machine"},
+                 said->value_position);
     } else if (member.reach == WireReach::kLoopback && !is_here) {
-      use.context.Warn({.message = "'" + peer + "' is not asked, as no other machine is reached by reach=\"loopback\"", .hint = "say reach=\"network\""},
+      use.context.Warn({.message = "'" + peer + "' is not asked, as no other machine is reached by reach=\"loopback\"",
+                        .hint = "say reach=\"network\""},
                        said->value_position, use.parent);
     } else if (!is_number && !IsKnownName(host)) {
-      use.context.Warn({.message = "no machine is known here by the name '" + host + "', so nobody is asked there", .hint = "write its address, or look after /etc/hosts"},
+      use.context.Warn({.message = "no machine is known here by the name '" + host + "', so nobody is asked there",
+                        .hint = "write its address, or look after /etc/hosts"},
                        said->value_position, use.parent);
     }
   }
@@ -69,9 +72,11 @@ void CheckPeers(const TagUse& use, const WireMemberOptions& member) {
 
 void CheckReachOfNodes(const TagUse& use, const WireMemberOptions& member) {
   if (member.reach != WireReach::kLoopback) return;
-  use.context.Warn({.message = "nodes of ROS 2 are not met by reach=\"loopback\", unless they have ROS_LOCALHOST_ONLY=1 (up to Humble)",
-                    .hint = "<network reach=\"machine\"> for those of this machine, reach=\"network\" for all"},
-                   use.xml.position(), use.parent);
+  use.context.Warn(
+      {.message =
+           "nodes of ROS 2 are not met by reach=\"loopback\", unless they have ROS_LOCALHOST_ONLY=1 (up to Humble)",
+       .hint = "<network reach=\"machine\"> for those of this machine, reach=\"network\" for all"},
+      use.xml.position(), use.parent);
 }
 
 void CheckPatterns(const TagUse& use, const OfferOptions& offer) {
@@ -83,18 +88,22 @@ void CheckPatterns(const TagUse& use, const OfferOptions& offer) {
   for (const std::string& pattern : offer.patterns) {
     const auto alone = PortPatterns::Make({pattern});
     const bool is_exclusion = pattern.starts_with('!');
-    if (!alone || is_exclusion || std::ranges::any_of(paths, [&](const std::string& path) { return alone->Fit(path); })) continue;
+    if (!alone || is_exclusion || std::ranges::any_of(paths, [&](const std::string& path) { return alone->Fit(path); }))
+      continue;
     const std::string begin = BeginOf(pattern, pattern.size());
     std::vector<std::string> begins;
     for (const std::string& path : paths) begins.push_back(BeginOf(ShortPortPath(path), PartsOf(begin).size()));
     const std::string nearest = begin.empty() ? "" : NearestName(begin, begins);
     use.context.Warn({.message = "'" + pattern + "' means no port that is there",
-                      .hint = nearest.empty() ? "" : "did you mean '" + nearest + pattern.substr(pattern.find(begin) + begin.size()) + "'?"},
+                      .hint = nearest.empty() ? ""
+                                              : "did you mean '" + nearest +
+                                                    pattern.substr(pattern.find(begin) + begin.size()) + "'?"},
                      use.Get("ports").value_position, use.parent);
   }
 }
 
-Result<void> CheckTopicType(const NetworkElement& network, const Port& port, const OfferOptions& offer, const ValueForm& form) {
+Result<void> CheckTopicType(const NetworkElement& network, const Port& port, const OfferOptions& offer,
+                            const ValueForm& form) {
   const NetworkOptions& options = network.options();
   for (const OfferOptions& each : options.offers) {
     if (offer.topic.empty() || each.topic != offer.topic || each.port.empty() || each.port == port.path()) continue;

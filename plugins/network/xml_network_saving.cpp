@@ -1,5 +1,3 @@
-#include "plugins/network/xml_network_words.h"
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -9,6 +7,7 @@
 
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
+#include "plugins/network/xml_network_words.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {
@@ -42,7 +41,9 @@ class OfferTags {
  public:
   OfferTags(NetworkElement& network, FrameworkElement& application, internal::FileUpdate& update)
       : application_(application), update_(update), left_(network.options().offers) {
-    std::erase_if(left_, [&](const OfferOptions& each) { return !each.port.empty() && !application.runtime().root().Find(each.port); });
+    std::erase_if(left_, [&](const OfferOptions& each) {
+      return !each.port.empty() && !application.runtime().root().Find(each.port);
+    });
   }
 
   // Those that say what is offered stay as they are; of the others, those of the same options get other patterns, and
@@ -170,7 +171,8 @@ bool LeadsSomewhere(XmlElement tag, FrameworkElement& application) {
     const XmlAttribute* const paths = tag.Attribute(name);
     if (paths == nullptr) continue;
     for (const PathUse& each : PathsIn(*paths, application)) {
-      if (FindPort(each, std::string_view(name) == "to" ? PathKind::kInput : PathKind::kOutput) == nullptr) return false;
+      if (FindPort(each, std::string_view(name) == "to" ? PathKind::kInput : PathKind::kOutput) == nullptr)
+        return false;
     }
   }
   return true;

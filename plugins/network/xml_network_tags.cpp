@@ -51,7 +51,8 @@ void ReadCommands(const TagUse& use, NetworkOptions& options) {
   if (said == nullptr) return;
   for (const std::string& each : SplitPaths(said->value)) {
     if (std::ranges::count(kFarCommands, each) == 0) {
-      use.Report({.message = "others cannot be allowed to '" + each + "'", .hint = NearestNameHint(each, kFarCommands)}, said->value_position);
+      use.Report({.message = "others cannot be allowed to '" + each + "'", .hint = NearestNameHint(each, kFarCommands)},
+                 said->value_position);
     }
     options.commands.push_back(each);
   }
@@ -87,7 +88,8 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
   CheckPeers(use, member);
   member.interface = use.xml.TextOr("interface");
   member.has_multicast = use.xml.TextOr("multicast") != "false";
-  if (const XmlAttribute* const interface = use.Find("interface"); interface != nullptr && member.reach != WireReach::kNetwork) {
+  if (const XmlAttribute* const interface = use.Find("interface");
+      interface != nullptr && member.reach != WireReach::kNetwork) {
     use.Report({.message = "an interface is chosen only where the network is reached",
                 .hint = "say reach=\"network\", or leave it out"},
                interface->position);
@@ -96,14 +98,16 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
     const std::size_t octets = *ParseCount(datagram->value);
     member.datagram = static_cast<std::uint32_t>(octets);
     if (octets < kSmallestDatagram || octets > kLargestDatagram) {
-      use.Report({.message = "a datagram has from " + std::to_string(kSmallestDatagram) + " to " + std::to_string(kLargestDatagram) + " octets"},
+      use.Report({.message = "a datagram has from " + std::to_string(kSmallestDatagram) + " to " +
+                             std::to_string(kLargestDatagram) + " octets"},
                  datagram->value_position);
     }
   }
   if (const XmlAttribute* const lease = use.Find("lease")) {
     member.lease = ParseDuration(lease->value).value();
     if (member.lease < kShortestLease || member.lease > kLongestLease) {
-      use.Report({.message = "a lease is from 1 s to 1 h long", .hint = "<on_stale> sees sooner that nothing comes"}, lease->value_position);
+      use.Report({.message = "a lease is from 1 s to 1 h long", .hint = "<on_stale> sees sooner that nothing comes"},
+                 lease->value_position);
     }
   }
   ReadCommands(use, options);
@@ -111,7 +115,8 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
   options.is_live = IsTrue(use, "live");
   options.engine = use.xml.TextOr("engine", options.engine);
   const auto engine = FindWireEngine(options.engine, use.context.plugins());
-  if (!engine) use.Report(engine.error(), use.Find("engine") != nullptr ? use.Find("engine")->value_position : use.xml.position());
+  if (!engine)
+    use.Report(engine.error(), use.Find("engine") != nullptr ? use.Find("engine")->value_position : use.xml.position());
   auto& network = use.context.runtime().Create<NetworkElement>(use.parent, "network", std::move(options));
   network.set_know_types([&plugins = use.context.plugins(), known = std::optional<std::size_t>()]() mutable {
     const std::size_t types = plugins.modules().All().size();
@@ -155,7 +160,8 @@ FrameworkElement* HandleOffer(const TagUse& use) {
   if (ports != nullptr) {
     for (const char* const only : {"topic", "as", "frame", "child_frame"}) {
       if (const XmlAttribute* const said = use.Find(only)) {
-        use.Report({.message = std::string(only) + " is said of one port", .hint = "write port=\"…\" instead of ports"}, said->position);
+        use.Report({.message = std::string(only) + " is said of one port", .hint = "write port=\"…\" instead of ports"},
+                   said->position);
         return &use.parent;
       }
     }
@@ -185,7 +191,8 @@ void AddTake(const TagUse& use, const TakeOptions& take) {
 FrameworkElement* HandleTake(const TagUse& use) {
   if (use.Find("service") != nullptr) return TakeService(use);
   if (use.Find("topic") == nullptr) {
-    use.Report({.message = "<take> says which topic, or which service", .hint = "topic=\"/cmd_vel\", or service=\"/save_map\""},
+    use.Report({.message = "<take> says which topic, or which service",
+                .hint = "topic=\"/cmd_vel\", or service=\"/save_map\""},
                use.xml.position());
   }
   TakeOptions take = TakeSaid([&](const char* name) { return use.xml.TextOr(name); });
@@ -219,7 +226,8 @@ FrameworkElement* HandleRos(const TagUse& use) {
     const auto parameters = std::ranges::find(RosParameterUses(), use.xml.TextOr("parameters"));
     ros.parameters = static_cast<RosParameterUse>(parameters - RosParameterUses().begin());
   }
-  if (const auto checked = CheckRosName(ros.node); !checked) use.Report(checked.error(), use.Get("node").value_position);
+  if (const auto checked = CheckRosName(ros.node); !checked)
+    use.Report(checked.error(), use.Get("node").value_position);
   const char* const environment = std::getenv("ROS_DISTRO");
   if (ros.distribution.empty() && environment != nullptr && *environment != 0) {
     const auto& known = RosDistributions();
@@ -232,9 +240,10 @@ FrameworkElement* HandleRos(const TagUse& use) {
     }
   }
   if (ros.distribution.empty()) {
-    use.context.Warn({.message = "the application is in no list of nodes, as nobody says of which ROS 2 the others are",
-                      .hint = "distribution=\"jazzy\", or ROS_DISTRO; others than those that are there end for want of memory"},
-                     use.xml.position(), use.parent);
+    use.context.Warn(
+        {.message = "the application is in no list of nodes, as nobody says of which ROS 2 the others are",
+         .hint = "distribution=\"jazzy\", or ROS_DISTRO; others than those that are there end for want of memory"},
+        use.xml.position(), use.parent);
   }
   network.set_ros(std::move(ros));
   return &use.parent;
@@ -243,60 +252,66 @@ FrameworkElement* HandleRos(const TagUse& use) {
 }  // namespace
 
 void AddNetworkTags(XmlTagRegistry& tags) {
-  tags.AddTag({.name = "network",
-               .summary = "connects the application with other processes, machines and nodes of ROS 2",
-               .parents = {"application"},
-               .attributes = {{.name = "domain",
-                               .kind = AttributeKind::kCount,
-                               .summary = "only members of one domain see each other; 0 to 101; ROS_DOMAIN_ID, or else 0"},
-                              {.name = "name",
-                               .kind = AttributeKind::kName,
-                               .summary = "of the application in the network; its own by default"},
-                              WordRule("reach", kReaches,
-                                       "loopback: only processes of this machine that say so, too (the default); machine: "
-                                       "also nodes of ROS 2 on it; network: whoever is there"),
-                              {.name = "peers", .summary = "addresses of others, where not all can be asked at once; separated by blanks"},
-                              {.name = "interface", .summary = "the only one that is used, by its name or address"},
-                              WordRule("multicast", {"true", "false"},
-                                       "false: only peers, and this machine, are asked"),
-                              {.name = "datagram",
-                               .kind = AttributeKind::kCount,
-                               .summary = "octets of the largest one: 1400 where the reach is the network, so that it fits into a frame; else 65500"},
-                              {.name = "lease",
-                               .kind = AttributeKind::kDuration,
-                               .summary = "so long after its last sign of life the application counts as gone, as after kill -9; 10 s"},
-                              {.name = "commands",
-                               .summary = "what applications that can reach this one may have it do: set, swap; nothing if left out"},
-                              WordRule("live", {"true", "false"},
-                                       "true: what is taken may come although time is simulated, of which runs are not "
-                                       "repeatable then"),
-                              {.name = "messages",
-                               .summary = ".msg and .srv files, and folders with <package>/msg/*.msg and <package>/srv/*.srv, beside ROS 2's own; separated by blanks"},
-                              {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone (the default), or fast: Fast DDS"}},
-               .handle = HandleNetwork,
-               .update = UpdateNetworkTag});
+  tags.AddTag(
+      {.name = "network",
+       .summary = "connects the application with other processes, machines and nodes of ROS 2",
+       .parents = {"application"},
+       .attributes =
+           {{.name = "domain",
+             .kind = AttributeKind::kCount,
+             .summary = "only members of one domain see each other; 0 to 101; ROS_DOMAIN_ID, or else 0"},
+            {.name = "name",
+             .kind = AttributeKind::kName,
+             .summary = "of the application in the network; its own by default"},
+            WordRule("reach", kReaches,
+                     "loopback: only processes of this machine that say so, too (the default); machine: "
+                     "also nodes of ROS 2 on it; network: whoever is there"),
+            {.name = "peers",
+             .summary = "addresses of others, where not all can be asked at once; separated by blanks"},
+            {.name = "interface", .summary = "the only one that is used, by its name or address"},
+            WordRule("multicast", {"true", "false"}, "false: only peers, and this machine, are asked"),
+            {.name = "datagram",
+             .kind = AttributeKind::kCount,
+             .summary = "octets of the largest one: 1400 where the reach is the network, so that it fits into a frame; "
+                        "else 65500"},
+            {.name = "lease",
+             .kind = AttributeKind::kDuration,
+             .summary = "so long after its last sign of life the application counts as gone, as after kill -9; 10 s"},
+            {.name = "commands",
+             .summary = "what applications that can reach this one may have it do: set, swap; nothing if left out"},
+            WordRule("live", {"true", "false"},
+                     "true: what is taken may come although time is simulated, of which runs are not "
+                     "repeatable then"),
+            {.name = "messages",
+             .summary = ".msg and .srv files, and folders with <package>/msg/*.msg and <package>/srv/*.srv, beside ROS "
+                        "2's own; separated by blanks"},
+            {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone (the default), or fast: Fast DDS"}},
+       .handle = HandleNetwork,
+       .update = UpdateNetworkTag});
   tags.AddTag({.name = "offer",
                .summary = "ports that others may read",
                .parents = {"network"},
                .attributes = OfferRules(),
                .handle = HandleOffer});
-  tags.AddTag({.name = "ros",
-               .summary = "what nodes of ROS 2 are told besides topics",
-               .parents = {"network"},
-               .attributes = {WordRule("distribution", RosDistributions(),
-                                       "of the other nodes, which decides how a node is told; ROS_DISTRO if left out"),
-                              {.name = "node", .summary = "name of the node: /base; /<name of the application> by default"},
-                              WordRule("clock", {"true", "false", "follow"},
-                                       "true: publishes the application's time on /clock; follow: the application, which has "
-                                       "<clock type=\"outside\"/>, takes its time from there"),
-                              WordRule("log", {"true", "false"}, "true: publishes what modules say on /rosout"),
-                              WordRule("diagnostics", {"true", "false"},
-                                       "true: publishes faults, silent inputs and late threads on /diagnostics"),
-                              WordRule("parameters", RosParameterUses(),
-                                       "read: nodes may look at the application's parameters; write: and set them; none by default"),
-                              WordRule("stop_releases", {"true", "false"},
-                                       "true: false, sent to the service ~/stop, releases the STOP of the robot; else it does nothing")},
-               .handle = HandleRos});
+  tags.AddTag(
+      {.name = "ros",
+       .summary = "what nodes of ROS 2 are told besides topics",
+       .parents = {"network"},
+       .attributes =
+           {WordRule("distribution", RosDistributions(),
+                     "of the other nodes, which decides how a node is told; ROS_DISTRO if left out"),
+            {.name = "node", .summary = "name of the node: /base; /<name of the application> by default"},
+            WordRule("clock", {"true", "false", "follow"},
+                     "true: publishes the application's time on /clock; follow: the application, which has "
+                     "<clock type=\"outside\"/>, takes its time from there"),
+            WordRule("log", {"true", "false"}, "true: publishes what modules say on /rosout"),
+            WordRule("diagnostics", {"true", "false"},
+                     "true: publishes faults, silent inputs and late threads on /diagnostics"),
+            WordRule("parameters", RosParameterUses(),
+                     "read: nodes may look at the application's parameters; write: and set them; none by default"),
+            WordRule("stop_releases", {"true", "false"},
+                     "true: false, sent to the service ~/stop, releases the STOP of the robot; else it does nothing")},
+       .handle = HandleRos});
   tags.AddTag({.name = "take",
                .summary = "a topic whose values go to ports of this application, or a service that they call",
                .parents = {"network"},

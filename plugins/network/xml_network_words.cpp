@@ -16,8 +16,10 @@ const std::vector<std::string> kSendings = {"network", "after_cycle"};
 AttributeRule Quality(const char* summary) { return WordRule("qos", kQualities, summary); }
 
 AttributeRule MessageTypeRule() {
-  return {.name = "as", .summary = "type of the messages: sensor_msgs/msg/LaserScan; without, the values by their description; of services: "
-                     "std_srvs/srv/Trigger"};
+  return {.name = "as",
+          .summary =
+              "type of the messages: sensor_msgs/msg/LaserScan; without, the values by their description; of services: "
+              "std_srvs/srv/Trigger"};
 }
 
 std::optional<double> NumberIn(const std::string& text) {
@@ -48,7 +50,8 @@ class Words {
 }  // namespace
 
 std::vector<AttributeRule> OfferRules() {
-  return {{.name = "ports", .summary = "patterns, separated by blanks: laser/* **/pose !**/debug"},
+  return {
+      {.name = "ports", .summary = "patterns, separated by blanks: laser/* **/pose !**/debug"},
       {.name = "port", .kind = AttributeKind::kPath, .summary = "one of them", .names_element = true},
       {.name = "topic", .summary = "its name in the network: /scan; without, /<name of the application>/<path>"},
       {.name = "service", .summary = "likewise, of a port that is a service: /save_map"},
@@ -70,20 +73,21 @@ std::vector<AttributeRule> OfferRules() {
 
 std::vector<AttributeRule> TakeRules() {
   return {{.name = "topic", .summary = "its name: /cmd_vel"},
-      {.name = "service", .summary = "instead: one that clients of this application call: /save_map"},
-      MessageTypeRule(),
-      {.name = "field", .summary = "of the messages, of which alone the values are made: percentage, pose.pose.position, ranges[0]"},
-      {.name = "to",
-       .kind = AttributeKind::kPathList,
-       .required = true,
-       .summary = "inputs, of whose type the values are",
-       .names_element = true},
-      Quality("what is asked of those who write; by default what they offer"),
-      WordRule("stamp", {"arrived", "sent"},
-               "arrived (default): measured when they came; sent: when the writer says, if the clocks of "
-               "both machines are synchronised"),
-      WordRule("exclusive", {"true", "false"}, "true: of several that write only the strongest counts"),
-      WordRule("live", {"true", "false"}, "true: also with simulated time, of which runs are not repeatable then")};
+          {.name = "service", .summary = "instead: one that clients of this application call: /save_map"},
+          MessageTypeRule(),
+          {.name = "field",
+           .summary = "of the messages, of which alone the values are made: percentage, pose.pose.position, ranges[0]"},
+          {.name = "to",
+           .kind = AttributeKind::kPathList,
+           .required = true,
+           .summary = "inputs, of whose type the values are",
+           .names_element = true},
+          Quality("what is asked of those who write; by default what they offer"),
+          WordRule("stamp", {"arrived", "sent"},
+                   "arrived (default): measured when they came; sent: when the writer says, if the clocks of "
+                   "both machines are synchronised"),
+          WordRule("exclusive", {"true", "false"}, "true: of several that write only the strongest counts"),
+          WordRule("live", {"true", "false"}, "true: also with simulated time, of which runs are not repeatable then")};
 }
 
 OfferOptions OfferSaid(const SaidOf& said) {
@@ -102,7 +106,8 @@ OfferOptions OfferSaid(const SaidOf& said) {
 std::optional<Error> WhatIsWrong(const OfferOptions& offer) {
   if (offer.rate < 0) return Error{.message = "the rate is a number above 0, of values a second"};
   if (offer.rate > 0 && offer.sending == ValueSending::kAfterCycle) {
-    return Error{.message = "values of a bounded rate are sent by the network's thread", .hint = "leave out rate, or sending"};
+    return Error{.message = "values of a bounded rate are sent by the network's thread",
+                 .hint = "leave out rate, or sending"};
   }
   return {};
 }

@@ -44,7 +44,8 @@ void CheckReachOfNodes(const TagUse& use, const WireMemberOptions& member);
 /// Warns of patterns of <offer ports="…"> that mean no port.
 void CheckPatterns(const TagUse& use, const OfferOptions& offer);
 /// Errors: the topic that is said has values of another type already, of another port.
-Result<void> CheckTopicType(const NetworkElement& network, const Port& port, const OfferOptions& offer, const ValueForm& form);
+Result<void> CheckTopicType(const NetworkElement& network, const Port& port, const OfferOptions& offer,
+                            const ValueForm& form);
 
 // What tags of files do.
 

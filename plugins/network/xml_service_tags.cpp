@@ -1,5 +1,3 @@
-#include "plugins/network/xml_network_words.h"
-
 #include <array>
 #include <fstream>
 #include <string>
@@ -9,6 +7,7 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/xml_network_tags.h"
+#include "plugins/network/xml_network_words.h"
 #include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/message_library.h"
 
@@ -70,7 +69,8 @@ FrameworkElement* TakeService(const TagUse& use) {
                           .position = use.xml.position()};
   use.context.Defer(BuildStage::kConnections, [use, is_right, &network, take = std::move(take)] {
     for (const PathUse& to_use : PathsIn(use.Get("to"), use.parent)) {
-      Port* const to = is_right ? SearchPort(to_use, PathKind::kInput, use.context) : FindPort(to_use, PathKind::kInput);
+      Port* const to =
+          is_right ? SearchPort(to_use, PathKind::kInput, use.context) : FindPort(to_use, PathKind::kInput);
       if (to == nullptr) continue;
       Error error;
       if (is_right) {
@@ -99,9 +99,11 @@ constexpr std::array<KeyFile, 6> kFiles = {
     {{"identity_ca", "identity_ca.cert.pem", &WireSecurity::identity_ca, "certificate of who signs certificates"},
      {"certificate", "cert.pem", &WireSecurity::certificate, "the application's certificate"},
      {"key", "key.pem", &WireSecurity::key, "its private key, which nobody else has"},
-     {"permissions_ca", "permissions_ca.cert.pem", &WireSecurity::permissions_ca, "certificate of who signs the two files below"},
+     {"permissions_ca", "permissions_ca.cert.pem", &WireSecurity::permissions_ca,
+      "certificate of who signs the two files below"},
      {"governance", "governance.p7s", &WireSecurity::governance, "what is encrypted, signed"},
-     {"permissions", "permissions.p7s", &WireSecurity::permissions, "what the application may write and read, signed"}}};
+     {"permissions", "permissions.p7s", &WireSecurity::permissions,
+      "what the application may write and read, signed"}}};
 
 FrameworkElement* HandleSecurity(const TagUse& use) {
   NetworkElement& network = *NetworkElement::FindIn(use.parent);
@@ -115,9 +117,10 @@ FrameworkElement* HandleSecurity(const TagUse& use) {
   for (const KeyFile& each : kFiles) {
     const XmlAttribute* const said = use.Find(each.attribute);
     if (said == nullptr && folder == nullptr) {
-      use.Report({.message = std::string("<security> does not say where the ") + each.attribute + " is",
-                  .hint = std::string("keys=\"FOLDER\", which 'runnel keys' makes, or ") + each.attribute + "=\"FILE\""},
-                 use.xml.position());
+      use.Report(
+          {.message = std::string("<security> does not say where the ") + each.attribute + " is",
+           .hint = std::string("keys=\"FOLDER\", which 'runnel keys' makes, or ") + each.attribute + "=\"FILE\""},
+          use.xml.position());
       continue;
     }
     const auto file = (said != nullptr ? beside / said->value : beside / folder->value / each.name).lexically_normal();
@@ -137,8 +140,9 @@ FrameworkElement* HandleSecurity(const TagUse& use) {
 
 void AddSecurityTag(XmlTagRegistry& tags) {
   std::vector<AttributeRule> attributes = {
-      {.name = "keys", .summary = "folder with identity_ca.cert.pem, cert.pem, key.pem, permissions_ca.cert.pem, "
-                                  "governance.p7s and permissions.p7s, as runnel keys and SROS 2 make it"}};
+      {.name = "keys",
+       .summary = "folder with identity_ca.cert.pem, cert.pem, key.pem, permissions_ca.cert.pem, "
+                  "governance.p7s and permissions.p7s, as runnel keys and SROS 2 make it"}};
   for (const KeyFile& each : kFiles) attributes.push_back({.name = each.attribute, .summary = each.summary});
   tags.AddTag({.name = "security",
                .summary = "lets in those only whose keys are trusted, and encrypts what is sent",

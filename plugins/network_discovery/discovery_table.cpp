@@ -53,7 +53,8 @@ void DiscoveryTable::OnNodes(std::span<const std::byte> octets) {
 void DiscoveryTable::OnEndpoint(const WireEndpoint& endpoint) {
   Change([&] {
     WireEndpointOptions& options = (endpoints_[endpoint.id] = endpoint).options;
-    for (std::string* const text : {&options.topic, &options.type, &options.user_data, &options.unmet}) *text = Printable(*text);
+    for (std::string* const text : {&options.topic, &options.type, &options.user_data, &options.unmet})
+      *text = Printable(*text);
   });
 }
 void DiscoveryTable::OnEndpointGone(const WireId& id) {
@@ -131,7 +132,8 @@ bool DiscoveryTable::HasSimulatedTime(const WireId& member) const {
 }
 
 bool IsInternalTopic(std::string_view topic) {
-  return topic.ends_with("/runnel_structure") || topic.ends_with("/runnel_commandsRequest") || topic.ends_with("/runnel_commandsReply");
+  return topic.ends_with("/runnel_structure") || topic.ends_with("/runnel_commandsRequest") ||
+         topic.ends_with("/runnel_commandsReply");
 }
 
 std::string Misfit(const WireEndpointOptions& writer, const WireEndpointOptions& reader) {
@@ -141,7 +143,8 @@ std::string Misfit(const WireEndpointOptions& writer, const WireEndpointOptions&
   const std::string types = TypeMisfit(writer.user_data, reader.user_data);
   if (!types.empty()) return types;
   if (!writer.unmet.empty()) return "the writer has what is not taken here: " + writer.unmet;
-  return reader.unmet.empty() ? QosMisfit(writer.qos, reader.qos) : "the reader asks for what is not offered here: " + reader.unmet;
+  return reader.unmet.empty() ? QosMisfit(writer.qos, reader.qos)
+                              : "the reader asks for what is not offered here: " + reader.unmet;
 }
 
 }  // namespace runnel

@@ -22,8 +22,8 @@ struct OfferedType {
 
 /// Of "//camera_box/camera/image", by what its writers say. `expected`: taken for it if one of them fits it; optional.
 /// `know_types` makes more types known, if there are any; under the structure lock if that calls for it.
-[[nodiscard]] OfferedType FindDistantType(const DiscoveryTable& table, const std::string& path, const TypeInfo* expected,
-                                          const std::function<void()>& know_types);
+[[nodiscard]] OfferedType FindDistantType(const DiscoveryTable& table, const std::string& path,
+                                          const TypeInfo* expected, const std::function<void()>& know_types);
 
 /// Who has the first word of a path or a topic: "//my-robot/laser" and "/my_robot/laser" are both of "my-robot".
 [[nodiscard]] std::optional<WireMember> MemberOfPath(const DiscoveryTable& table, const std::string& path);

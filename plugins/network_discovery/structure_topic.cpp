@@ -53,16 +53,15 @@ void StructureTopic::Follow() {
     }
   }
   for (const std::string& name : wanted) {
-    auto reader = participant_.MakeReader(
-        Endpoint(name),
-        [this, name](const WireSample& sample) {
-          std::string text;
-          auto from = CdrReader::Begin(sample.octets);
-          if (!from || !from->GetText(text)) return;
-          const std::lock_guard lock(mutex_);
-          texts_[name] = Printable(text, "\n");
-        },
-        {});
+    auto reader = participant_.MakeReader(Endpoint(name),
+                                          [this, name](const WireSample& sample) {
+                                            std::string text;
+                                            auto from = CdrReader::Begin(sample.octets);
+                                            if (!from || !from->GetText(text)) return;
+                                            const std::lock_guard lock(mutex_);
+                                            texts_[name] = Printable(text, "\n");
+                                          },
+                                          {});
     if (reader) readers_[name] = std::move(*reader);
   }
 }
@@ -114,7 +113,9 @@ Result<std::optional<std::string>> FindInStructure(const std::string& text, cons
   }
   if (found.empty()) {
     const std::string missing(words[std::min(word, words.size() - 1)]);
-    return Error{.message = std::string(words.front()) + " has no '" + missing + "' there", .path = path, .hint = NearestNameHint(missing, candidates)};
+    return Error{.message = std::string(words.front()) + " has no '" + missing + "' there",
+                 .path = path,
+                 .hint = NearestNameHint(missing, candidates)};
   }
   return std::optional(found);
 }

@@ -104,8 +104,9 @@ std::string TypeDoubt(const std::string& writers, const std::string& readers) {
 Result<std::shared_ptr<const ValueForm>> ValueForm::Make(const TypeInfo& type, const std::string& as,
                                                          const std::string& frame, const std::string& child_frame,
                                                          const MessageLibrary* messages, const std::string& field) {
-  auto codec = MessageCodec::Make(type, {.as = as, .by_description = as.empty(), .frame = frame, .child_frame = child_frame, .field = field},
-                                  messages != nullptr ? *messages : MessageLibrary::Standard());
+  auto codec = MessageCodec::Make(
+      type, {.as = as, .by_description = as.empty(), .frame = frame, .child_frame = child_frame, .field = field},
+      messages != nullptr ? *messages : MessageLibrary::Standard());
   if (!codec) return codec.error();
   std::string user_data = std::string(kHash) + (*codec)->type_hash() + ";";
   if (as.empty()) user_data += std::string(kKey) + DescriptionText(type) + ";";

@@ -52,9 +52,7 @@ class WriterClock {
   /// from before a STOP is taken for new for want of knowledge. If the clock is merely behind, it is to be asked for again.
   [[nodiscard]] Time sent() const { return sent_; }
   /// Of late.
-  [[nodiscard]] std::optional<Duration> least() const {
-    return before_ && least_ ? std::min(before_, least_) : least_;
-  }
+  [[nodiscard]] std::optional<Duration> least() const { return before_ && least_ ? std::min(before_, least_) : least_; }
   /// By how much it is evidently ahead; 0: not so.
   [[nodiscard]] Duration ahead() const { return std::max(Duration{}, -least().value_or(Duration{})); }
   /// More than a network takes.

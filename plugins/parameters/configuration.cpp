@@ -36,9 +36,8 @@ class FileReader {
     } else if (root.name() != "configuration") {
       diagnostics_.Add({.message = "<" + root.name() + "> is not a configuration",
                         .position = root.position(),
-                        .hint =
-                            "a configuration file begins with <configuration>, or, if it is one "
-                            "of FINROC, with <root>"});
+                        .hint = "a configuration file begins with <configuration>, or, if it is one "
+                                "of FINROC, with <root>"});
       return;
     }
     CheckAttributes(root, {}, diagnostics_);
@@ -71,10 +70,9 @@ class FileReader {
     if (name == nullptr) return;
     const std::string full = path + "/" + *name;
     if (const auto known = entries_.find(full); known != entries_.end()) {
-      diagnostics_.Add(
-          {.message = "there are two values called '" + full + "'",
-           .position = value.position(),
-           .hint = "the first is in line " + std::to_string(known->second.position.line)});
+      diagnostics_.Add({.message = "there are two values called '" + full + "'",
+                        .position = value.position(),
+                        .hint = "the first is in line " + std::to_string(known->second.position.line)});
       return;
     }
     entries_[full] = {value.text(), value.position()};
@@ -86,8 +84,7 @@ class FileReader {
     const std::string* const name = ReadText(element, "name", diagnostics_);
     if (name == nullptr) return nullptr;
     if (!name->empty() && name->find('/') == std::string::npos) return name;
-    diagnostics_.Add({.message = name->empty() ? "a name must not be empty"
-                                               : "the name '" + *name + "' contains a '/'",
+    diagnostics_.Add({.message = name->empty() ? "a name must not be empty" : "the name '" + *name + "' contains a '/'",
                       .position = element.Attribute("name")->value_position,
                       .hint = name->empty() ? ""
                                             : "a <" + contents_.front() +
@@ -131,9 +128,8 @@ Result<void> Configuration::AddArgument(std::string_view argument) {
   const SourcePosition position{"command line"};
   const std::size_t equals = argument.find('=');
   if (equals == std::string_view::npos || equals == 0) {
-    return Error{.message = "'" + std::string(argument) + "' sets nothing",
-                 .position = position,
-                 .hint = "write name=value"};
+    return Error{
+        .message = "'" + std::string(argument) + "' sets nothing", .position = position, .hint = "write name=value"};
   }
   std::string name(argument.substr(0, equals));
   if (arguments_.contains(name)) {

@@ -79,8 +79,7 @@ struct ConfigurationEntry final : Annotation {
 
 /// Kept with a module or group: what of the configuration is for all parameters within.
 struct ConfigurationSection final : Annotation {
-  ConfigurationSection(std::string section, std::string as_said)
-      : path(std::move(section)), said(std::move(as_said)) {}
+  ConfigurationSection(std::string section, std::string as_said) : path(std::move(section)), said(std::move(as_said)) {}
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
     return std::make_unique<ConfigurationSection>(path, said);
   }

@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 struct Entry {
   std::string path;  ///< "/safety/distance"
   FrameworkElement* parameter;
-  std::string text;  ///< the value as it is now
-  bool is_file = false;   ///< the name of one
+  std::string text;      ///< the value as it is now
+  bool is_file = false;  ///< the name of one
   bool has_changed = false;
 };
 
@@ -42,8 +42,7 @@ Result<std::vector<Entry>> EntriesOf(FrameworkElement& application) {
     if (path.empty()) return;
     std::string normalized;
     for (const auto name : SplitPath(path)) normalized.append("/").append(name);
-    Entry entry{normalized, &element, TextToSave(element, *parameter),
-                &parameter->type() == &TypeOf<FilePath>()};
+    Entry entry{normalized, &element, TextToSave(element, *parameter), &parameter->type() == &TypeOf<FilePath>()};
     if (const std::string fault = UnwritableCharacter(entry.text); !fault.empty() && !error) {
       error = Error{.message = "its value contains " + fault, .path = element.path()};
     }
@@ -67,8 +66,7 @@ Result<std::vector<Entry>> EntriesOf(FrameworkElement& application) {
 std::string TextIn(const fs::path& folder, const Entry& entry) {
   if (!entry.is_file || entry.text.empty() || fs::path(entry.text).is_absolute()) return entry.text;
   std::error_code ignored;
-  const fs::path moved =
-      fs::absolute(entry.text, ignored).lexically_relative(fs::absolute(folder, ignored));
+  const fs::path moved = fs::absolute(entry.text, ignored).lexically_relative(fs::absolute(folder, ignored));
   return moved.empty() ? entry.text : moved.string();
 }
 
@@ -82,8 +80,7 @@ std::optional<XmlElement> Child(XmlElement parent, std::string_view name, bool i
 }
 
 // As far as the sections of the path are there: the innermost, and how many names have been used.
-std::pair<XmlElement, std::size_t> Innermost(XmlElement root,
-                                             const std::vector<std::string_view>& names) {
+std::pair<XmlElement, std::size_t> Innermost(XmlElement root, const std::vector<std::string_view>& names) {
   XmlElement at = root;
   std::size_t used = 0;
   while (used + 1 < names.size()) {
@@ -96,8 +93,8 @@ std::pair<XmlElement, std::size_t> Innermost(XmlElement root,
 }
 
 // Into `parent`, below sections of the names from `from` on: those that are made for one entry serve the next.
-void AddTo(std::vector<NewElement>& contents, const std::string& section,
-           const std::vector<std::string_view>& names, std::size_t from, const std::string& text) {
+void AddTo(std::vector<NewElement>& contents, const std::string& section, const std::vector<std::string_view>& names,
+           std::size_t from, const std::string& text) {
   if (from + 1 == names.size()) {
     return contents.push_back({.name = "value", .attributes = {{"name", std::string(names[from])}}, .text = text});
   }
@@ -142,11 +139,9 @@ class FileChange {
   void Add(const Entry& entry) {
     const auto names = SplitPath(entry.path);
     const auto [section, used] = Innermost(document_.root(), names);
-    auto& lacking =
-        lacking_.try_emplace(section.spans().whole.begin, section, Contents{}).first->second;
+    auto& lacking = lacking_.try_emplace(section.spans().whole.begin, section, Contents{}).first->second;
     const bool is_of_finroc = document_.root().name() != "configuration";
-    AddTo(lacking.second, is_of_finroc ? "node" : "section", names, used,
-          TextIn(folder(), entry));
+    AddTo(lacking.second, is_of_finroc ? "node" : "section", names, used, TextIn(folder(), entry));
   }
   Result<std::string> Write() {
     for (auto& [place, lacking] : lacking_) {
@@ -203,8 +198,7 @@ Result<std::string> SaveConfiguration(FrameworkElement& application, const fs::p
     if (!each.has_changed) continue;
     ++count;
     // Of several files that have the entry, the last has been read last.
-    const bool is_set = std::any_of(files.rbegin(), files.rend(),
-                                    [&](const auto& file) { return file->Set(each); });
+    const bool is_set = std::any_of(files.rbegin(), files.rend(), [&](const auto& file) { return file->Set(each); });
     if (!is_set) files.back()->Add(each);
   }
   std::string names;

@@ -18,9 +18,7 @@ Result<void> FromText(std::string_view text, void* value) {
 
 void Describe(TypeBuilder<FilePath>& type) {
   type.Name("FilePath")
-      .Leaf({.to_text = [](const void* value) { return TextIn(value); },
-             .from_text = FromText,
-             .needs_quotes = true});
+      .Leaf({.to_text = [](const void* value) { return TextIn(value); }, .from_text = FromText, .needs_quotes = true});
 }
 
 FilePath ResolvedAgainst(const std::filesystem::path& folder, const FilePath& file) {

@@ -77,8 +77,7 @@ class InputTimeout {
                .description = "a value of " + inputs + " that is older does not count"}),
         options_(options) {
     if (options.former_name != nullptr) limit.Annotate(std::make_unique<FormerName>(options.former_name));
-    constexpr std::array kWords = {"is there again", "has never come", "is old", "is not measured",
-                                   "is not a number"};
+    constexpr std::array kWords = {"is there again", "has never come", "is old", "is not measured", "is not a number"};
     for (std::size_t i = 0; i < texts_.size(); ++i) texts_[i] = inputs + " " + kWords[i];
   }
 
@@ -113,9 +112,7 @@ class InputTimeout {
     return lack_ == InputLack::kNeverCame && now - *began_ <= FromSeconds(limit.Get());
   }
   /// "pose is old"; lives as long as this.
-  [[nodiscard]] const char* words() const noexcept {
-    return texts_[static_cast<std::size_t>(lack_)].c_str();
-  }
+  [[nodiscard]] const char* words() const noexcept { return texts_[static_cast<std::size_t>(lack_)].c_str(); }
 
  private:
   [[nodiscard]] bool IsOld(const ValueTimes& times, Time now) const noexcept {

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "core/channel/channel.h"
 #include "core/lockfree/latest_value.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/channel/channel.h"
 #include "plugins/parameters/parameter_base.h"
 
 namespace runnel {
@@ -51,8 +51,7 @@ class Parameter final : public ParameterBase {
  public:
   /// Errors: throws ElementError if the default value is out of the bounds.
   Parameter(FrameworkElement* module, std::string name, const ParameterOptions<T>& options = {})
-      : ParameterBase(module, std::move(name), internal::DescriptionOf(options, false),
-                      &options.default_value) {
+      : ParameterBase(module, std::move(name), internal::DescriptionOf(options, false), &options.default_value) {
     Publish(options.default_value);
   }
 
@@ -89,8 +88,7 @@ class Parameter final : public ParameterBase {
   struct CloseChannel {
     void operator()(Channel<T>* channel) const { ChannelBase::DeleteLater(channel); }
   };
-  using Storage = std::conditional_t<kIsCopiedParameter<T>, LatestValue<T>,
-                                     std::unique_ptr<Channel<T>, CloseChannel>>;
+  using Storage = std::conditional_t<kIsCopiedParameter<T>, LatestValue<T>, std::unique_ptr<Channel<T>, CloseChannel>>;
 
   bool Assign(const void* value) override {
     const T& wanted = *static_cast<const T*>(value);

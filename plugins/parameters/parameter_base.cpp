@@ -20,8 +20,7 @@ namespace {
 
 std::string NumberText(double number) {
   std::array<char, 400> digits{};  // the largest number has 309
-  const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed);
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed);
   return {digits.data(), end.ptr};
 }
 
@@ -48,17 +47,14 @@ Result<std::string> NumberInUnit(std::string_view text, std::string_view unit) {
   const std::string_view digits = all.substr(all.starts_with('+') ? 1 : 0);
   double number = 0;
   const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  const std::string_view own =
-      Trimmed(digits.substr(static_cast<std::size_t>(read.ptr - digits.data())));
+  const std::string_view own = Trimmed(digits.substr(static_cast<std::size_t>(read.ptr - digits.data())));
   if (read.ec != std::errc() || !std::isfinite(number) || own.empty()) return std::string(text);
-  if (own == unit)
-    return std::string(digits.substr(0, static_cast<std::size_t>(read.ptr - digits.data())));
+  if (own == unit) return std::string(digits.substr(0, static_cast<std::size_t>(read.ptr - digits.data())));
   const std::string quoted = "'" + std::string(all) + "'";
   const auto from = ParseUnit(own);
   if (unit.empty()) {
     if (!from) return std::string(text);
-    return Error{.message = quoted + " has a unit where none is wanted",
-                 .hint = "write the number only"};
+    return Error{.message = quoted + " has a unit where none is wanted", .hint = "write the number only"};
   }
   const std::string hint = "write it in " + std::string(unit);
   if (!from) return Error{.message = quoted + " is no number with a unit", .hint = hint};
@@ -69,25 +65,23 @@ Result<std::string> NumberInUnit(std::string_view text, std::string_view unit) {
   return NumberText(number * ratio->numerator / ratio->denominator);
 }
 
-ParameterBase::ParameterBase(FrameworkElement* module, std::string name,
-                             internal::ParameterDescription description, const void* default_value)
+ParameterBase::ParameterBase(FrameworkElement* module, std::string name, internal::ParameterDescription description,
+                             const void* default_value)
     : FrameworkElement({ParameterGroup(*module), std::move(name)}, ElementKind::kParameter),
       description_(std::move(description)),
       module_(dynamic_cast<Module*>(module)) {
   if (!description_.is_within_bounds || description_.is_within_bounds(default_value)) return;
   const std::string unit = info().unit.empty() ? "" : " " + info().unit;
-  throw ElementError(
-      {.message = "its default, " + info().default_value + unit + ", is out of its bounds",
-       .path = path(),
-       .hint = "they are " + info().bounds + unit});
+  throw ElementError({.message = "its default, " + info().default_value + unit + ", is out of its bounds",
+                      .path = path(),
+                      .hint = "they are " + info().bounds + unit});
 }
 
 ParameterBase::~ParameterBase() = default;
 
 Result<std::shared_ptr<const void>> ParameterBase::Parse(std::string_view text) const {
   if (auto good = CheckCharacters(text); !good) return good.error();
-  const auto readable =
-      description_.is_number ? NumberInUnit(text, info().unit) : Result(std::string(text));
+  const auto readable = description_.is_number ? NumberInUnit(text, info().unit) : Result(std::string(text));
   if (!readable) return readable.error();
   const std::shared_ptr<void> value = type().Make();
   if (auto read = runnel::SetFromText(type(), *readable, value.get()); !read) {
@@ -114,11 +108,9 @@ Result<void> ParameterBase::Check(const void* value) const {
 Result<void> ParameterBase::SetFrom(const void* value) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (info().is_static && life_cycle() == LifeCycle::kReady) {
-    return Error{
-        .message = "the parameter is static: it can be set only before its module is ready",
-        .path = path(),
-        .hint =
-            "set it in the application file, or have a change do it, which makes the module anew"};
+    return Error{.message = "the parameter is static: it can be set only before its module is ready",
+                 .path = path(),
+                 .hint = "set it in the application file, or have a change do it, which makes the module anew"};
   }
   if (info().is_static && parent()->parent()->has_constructed()) {
     return Error{.message = "the parameter is static, and ports have been made by it already",
@@ -145,8 +137,7 @@ class ParameterBase::Feeder final : public FrameworkElement {
       : FrameworkElement(placement, ElementKind::kPortGroup),
         parameter_(parameter),
         held_(ports.MakeHeldValues(1)),
-        input_(ports.MakeInput(*this, parameter.name(),
-                               {.description = "sets the parameter", .trigger = true})) {
+        input_(ports.MakeInput(*this, parameter.name(), {.description = "sets the parameter", .trigger = true})) {
     Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
       return {{this, Phase::kSense, BoundCall::To<&Feeder::Take>(*this), {this}, {}}};
     }));

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <string_view>
+#include <thread>
 #include <type_traits>
 
 #include "core/base/result.h"
@@ -127,8 +127,8 @@ class ParameterBase : public FrameworkElement, public Configurable {
   [[nodiscard]] const ConfigurableInfo& info() const final { return description_.info; }
 
  protected:
-  ParameterBase(FrameworkElement* module, std::string name,
-                internal::ParameterDescription description, const void* default_value);
+  ParameterBase(FrameworkElement* module, std::string name, internal::ParameterDescription description,
+                const void* default_value);
   ~ParameterBase() override;
 
   /// Takes over a value that Check() has accepted; whether it is another one. One at a time.
@@ -142,7 +142,7 @@ class ParameterBase : public FrameworkElement, public Configurable {
   Module* const module_;  // nullptr: of something else
   std::atomic_flag is_assigning_ = ATOMIC_FLAG_INIT;
   std::atomic<bool> is_fed_{false};  // relaxed: it only informs
-  Feeder* feeder_ = nullptr;  // once somebody has asked for it; a child
+  Feeder* feeder_ = nullptr;         // once somebody has asked for it; a child
 };
 
 }  // namespace runnel

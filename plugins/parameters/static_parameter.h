@@ -16,10 +16,8 @@ template <typename T>
 class StaticParameter final : public ParameterBase {
  public:
   /// Errors: throws ElementError if the default value is out of the bounds.
-  StaticParameter(FrameworkElement* module, std::string name,
-                  const ParameterOptions<T>& options = {})
-      : ParameterBase(module, std::move(name), internal::DescriptionOf(options, true),
-                      &options.default_value),
+  StaticParameter(FrameworkElement* module, std::string name, const ParameterOptions<T>& options = {})
+      : ParameterBase(module, std::move(name), internal::DescriptionOf(options, true), &options.default_value),
         value_(options.default_value) {}
 
   [[nodiscard]] const T& Get() const noexcept { return value_; }

@@ -1,12 +1,11 @@
 // Modules in Python for whichever process: starts the interpreter where there is none, and asks the package `runnel`.
 
-#include <Python.h>
-
-#include <dlfcn.h>
-
 #include <filesystem>
 #include <mutex>
 #include <string>
+
+#include <Python.h>
+#include <dlfcn.h>
 
 #include "core/element/framework_element.h"
 #include "core/plugin/module_registry.h"

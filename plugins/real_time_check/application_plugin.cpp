@@ -36,9 +36,8 @@ class ApplicationCheck final : public ApplicationExtension {
         problems.Add({.message = each.ToString(), .path = of_module.path});
       }
       if (of_module.others == 0) continue;
-      problems.Add(
-          {.message = "does so at further places, " + std::to_string(of_module.others) + " times",
-           .path = of_module.path});
+      problems.Add({.message = "does so at further places, " + std::to_string(of_module.others) + " times",
+                    .path = of_module.path});
     }
     return all.empty() ? "no module has allocated, locked or called the system in its cycle\n" : "";
   }
@@ -59,8 +58,7 @@ Result<Extensions> MakeCheck(const ExtensionArguments& arguments) {
     }
     first_cycles = static_cast<std::uint64_t>(*number);
   }
-  const auto find = reinterpret_cast<const RealTimeHooks* (*)() noexcept>(
-      dlsym(RTLD_DEFAULT, "RunnelRealTimeHooks"));
+  const auto find = reinterpret_cast<const RealTimeHooks* (*)() noexcept>(dlsym(RTLD_DEFAULT, "RunnelRealTimeHooks"));
   if (find == nullptr) {
     return Error{.message = "what allocates and locks cannot be seen in this process",
                  .hint =
@@ -68,8 +66,7 @@ Result<Extensions> MakeCheck(const ExtensionArguments& arguments) {
                      "'runnel run --check-real-time' does"};
   }
   if (!find()->works) {
-    return Error{.message = "what allocates and locks cannot be seen under a sanitizer",
-                 .hint = "use a build without"};
+    return Error{.message = "what allocates and locks cannot be seen under a sanitizer", .hint = "use a build without"};
   }
   return Extensions{std::make_shared<ApplicationCheck>(*find(), first_cycles)};
 }

@@ -15,16 +15,13 @@ enum class RealTimeOffence { kAllocation, kRelease, kLock, kSystemCall };
 /// Allocation:  none. Errors: none.
 struct RealTimeHooks {
   struct Counts {
-    std::size_t allocations =
-        0;  ///< malloc, calloc, realloc, aligned_alloc and their like, and operator new
-    std::size_t releases = 0;  ///< free() of something, and operator delete
-    std::size_t locks =
-        0;  ///< mutexes and reader-writer locks taken, or tried; none inside of the C library
+    std::size_t allocations = 0;  ///< malloc, calloc, realloc, aligned_alloc and their like, and operator new
+    std::size_t releases = 0;     ///< free() of something, and operator delete
+    std::size_t locks = 0;        ///< mutexes and reader-writer locks taken, or tried; none inside of the C library
   };
   /// Called before the act, with the function's name and to where it returns. What it does itself is neither counted
   /// nor told.
-  using Listener = void (*)(RealTimeOffence offence, const char* function,
-                            const void* caller) noexcept;
+  using Listener = void (*)(RealTimeOffence offence, const char* function, const void* caller) noexcept;
 
   /// Under a sanitizer, which replaces the same functions, nothing is counted or told.
   bool works;

@@ -22,14 +22,12 @@ class RealTimeWatch::Record {
  public:
   explicit Record(std::string path) : path_(std::move(path)) {}
 
-  void Note(RealTimeOffence offence, const char* function, long call, const void* inner,
-            const void* outer) noexcept {
+  void Note(RealTimeOffence offence, const char* function, long call, const void* inner, const void* outer) noexcept {
     CallStack stack = CallStack::Take();
     stack.KeepBetween(inner, outer);
     const auto end = places_.begin() + static_cast<std::ptrdiff_t>(count_);
-    const auto known = std::find_if(places_.begin(), end, [&](const Place& each) {
-      return each.offence == offence && each.stack == stack;
-    });
+    const auto known = std::find_if(places_.begin(), end,
+                                    [&](const Place& each) { return each.offence == offence && each.stack == stack; });
     if (known != end) {
       ++known->times;
     } else if (count_ < kMostPlaces) {
@@ -44,8 +42,7 @@ class RealTimeWatch::Record {
     for (std::size_t i = 0; i < count_; ++i) {
       const Place& each = places_[i];
       breaches.breaches.push_back(
-          {each.offence,
-           each.function != nullptr ? each.function : "system call " + std::to_string(each.call),
+          {each.offence, each.function != nullptr ? each.function : "system call " + std::to_string(each.call),
            each.times, each.stack});
     }
     return breaches;
@@ -68,8 +65,7 @@ class RealTimeWatch::Record {
 
 class RealTimeWatch::Watched final : public WatchedTask {
  public:
-  Watched(const RealTimeWatch& watch, BoundCall run, Record& record)
-      : watch_(watch), run_(run), record_(record) {}
+  Watched(const RealTimeWatch& watch, BoundCall run, Record& record) : watch_(watch), run_(run), record_(record) {}
 
   // Not inlined: where it returns to is where the task's own calls end.
   [[gnu::noinline]] void Run() override {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/error.h"
 #include "core/base/call_stack.h"
+#include "core/base/error.h"
 #include "plugins/real_time_check/real_time_hooks.h"
 #include "plugins/scheduling/task_watch.h"
 

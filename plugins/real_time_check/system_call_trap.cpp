@@ -37,8 +37,7 @@ void OnSystemCall(int, siginfo_t*, void* context) {
   selector = kAllow;
   greg_t* const registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
   if (listener != nullptr) {
-    listener(static_cast<long>(registers[REG_RAX]),
-             reinterpret_cast<const void*>(registers[REG_RIP]));
+    listener(static_cast<long>(registers[REG_RAX]), reinterpret_cast<const void*>(registers[REG_RIP]));
   }
   constexpr greg_t kSyscallInstructionSize = 2;
   registers[REG_RIP] -= kSyscallInstructionSize;

@@ -60,10 +60,7 @@ class RecorderModule final : public Module {
   StaticParameter<FilePath> file{
       this, "file", {.description = "the file (MCAP) to record to; it must not be there yet"}};
   StaticParameter<std::string> ports{
-      this,
-      "ports",
-      {.description =
-           "patterns, with blanks between: /robot/** */pose !**/scan; empty: all outputs"}};
+      this, "ports", {.description = "patterns, with blanks between: /robot/** */pose !**/scan; empty: all outputs"}};
   StaticParameter<std::string> compression{
       this, "compression", {.description = "zstd, lz4, none; empty: the first that is there"}};
   Output<RecorderState> state{this, "state"};
@@ -109,9 +106,8 @@ namespace {
 // "recorded 1234 values of 5 ports, 1.2 MB, to run.mcap", with what was lost.
 std::string RecordingText(const Recorder& recorder) {
   const RecordingStatus status = recorder.status();
-  std::string text = "recorded " + std::to_string(status.values) + " values of " +
-                     std::to_string(status.ports) + (status.ports == 1 ? " port, " : " ports, ") +
-                     SizeText(status.bytes) + ", to " + recorder.file();
+  std::string text = "recorded " + std::to_string(status.values) + " values of " + std::to_string(status.ports) +
+                     (status.ports == 1 ? " port, " : " ports, ") + SizeText(status.bytes) + ", to " + recorder.file();
   if (status.dropped > 0) {
     text += "; " + std::to_string(status.dropped) + " came too fast or could not be written, and are not in it";
   }
@@ -173,14 +169,11 @@ class ApplicationRecording final : public ApplicationExtension {
     hooks.record = [&runtime = application.runtime(), &scheduler = application.scheduler(),
                     about = AboutApplication(application)](
                        const RecordingRequest& request) -> Result<std::unique_ptr<ClientRecording>> {
-      auto recorder = Recorder::Start(runtime, &scheduler,
-                                      {.file = request.file,
-                                       .ports = request.ports,
-                                       .compression = request.compression,
-                                       .about = about});
+      auto recorder = Recorder::Start(
+          runtime, &scheduler,
+          {.file = request.file, .ports = request.ports, .compression = request.compression, .about = about});
       if (!recorder) return recorder.error();
-      return std::unique_ptr<ClientRecording>(
-          std::make_unique<RecordingOfClient>(std::move(*recorder)));
+      return std::unique_ptr<ClientRecording>(std::make_unique<RecordingOfClient>(std::move(*recorder)));
     };
   }
 
@@ -193,9 +186,7 @@ class ApplicationRecording final : public ApplicationExtension {
     return {};
   }
 
-  std::optional<Error> TakeFailure() override {
-    return recorder_ != nullptr ? recorder_->TakeFailure() : std::nullopt;
-  }
+  std::optional<Error> TakeFailure() override { return recorder_ != nullptr ? recorder_->TakeFailure() : std::nullopt; }
 
   std::string Finish(Diagnostics& problems) override {
     if (recorder_ == nullptr) return {};
@@ -215,15 +206,13 @@ class ApplicationRecording final : public ApplicationExtension {
 };
 
 // nullopt: not given.
-Result<std::optional<Duration>> ReadSeconds(const ExtensionArguments& arguments,
-                                            const std::string& option) {
+Result<std::optional<Duration>> ReadSeconds(const ExtensionArguments& arguments, const std::string& option) {
   constexpr double kLongest = 9e9;
   if (!arguments.Has(option)) return std::optional<Duration>();
   const std::string text = arguments.Find(option);
   const auto number = ParseNumber(text);
   if (number && *number >= 0 && *number <= kLongest) return std::optional(FromSeconds(*number));
-  return Error{.message =
-                   "--" + option + ": '" + text + "' is not a number of seconds from 0 to 9e9"};
+  return Error{.message = "--" + option + ": '" + text + "' is not a number of seconds from 0 to 9e9"};
 }
 
 Result<std::shared_ptr<ApplicationExtension>> ReplayOf(const ExtensionArguments& arguments) {
@@ -231,9 +220,8 @@ Result<std::shared_ptr<ApplicationExtension>> ReplayOf(const ExtensionArguments&
   if (!from) return from.error();
   const auto to = ReadSeconds(arguments, "to");
   if (!to) return to.error();
-  return MakeReplay(
-      arguments.Find("recording"),
-      {.ports = arguments.All("ports"), .from = *from, .to = *to, .loops = arguments.Has("loop")});
+  return MakeReplay(arguments.Find("recording"),
+                    {.ports = arguments.All("ports"), .from = *from, .to = *to, .loops = arguments.Has("loop")});
 }
 
 // What is played begins first: its values are recorded.
@@ -251,10 +239,8 @@ Result<Extensions> MakeRecordings(const ExtensionArguments& arguments) {
                    .hint = "add --record FILE.mcap"};
     }
   }
-  made.push_back(std::make_shared<ApplicationRecording>(
-      RecorderOptions{.file = file,
-                      .ports = arguments.All("record-ports"),
-                      .compression = arguments.Find("record-compression")}));
+  made.push_back(std::make_shared<ApplicationRecording>(RecorderOptions{
+      .file = file, .ports = arguments.All("record-ports"), .compression = arguments.Find("record-compression")}));
   return made;
 }
 
@@ -263,8 +249,7 @@ Result<Extensions> MakeRecordings(const ExtensionArguments& arguments) {
 }  // namespace runnel
 
 RUNNEL_PLUGIN(recording, registry) {
-  registry.Add<runnel::RecorderModule>("recording/recorder",
-                                       "records what ports publish into an MCAP file");
+  registry.Add<runnel::RecorderModule>("recording/recorder", "records what ports publish into an MCAP file");
   if (auto* const extensions = registry.Find<runnel::ExtensionRegistry>()) {
     extensions->Add(runnel::MakeRecordings);
   }

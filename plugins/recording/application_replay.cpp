@@ -30,8 +30,7 @@ constexpr Duration kLastCycle = std::chrono::seconds(1);
 // Stands for whatever published there; the player takes the place of its task.
 class RecordedModule final : public FrameworkElement {
  public:
-  explicit RecordedModule(const Placement& placement)
-      : FrameworkElement(placement, ElementKind::kModule) {
+  explicit RecordedModule(const Placement& placement) : FrameworkElement(placement, ElementKind::kModule) {
     Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
       return {{this, Phase::kUpdate, BoundCall::To<&RecordedModule::DoNothing>(*this), {}, {this}}};
     }));
@@ -77,11 +76,9 @@ class RecordedTree {
     FrameworkElement* parent = &runtime_.root();
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
       FrameworkElement* const known = parent->FindChild(parts[i]);
-      parent =
-          known != nullptr
-              ? known
-              : &Make(*parent, {parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i) + 1},
-                      i >= depth);
+      parent = known != nullptr
+                   ? known
+                   : &Make(*parent, {parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i) + 1}, i >= depth);
     }
     const TypeInfo* const known_type = FindType(type);
     const TypedPorts* const ports = known_type != nullptr ? FindTypedPorts(*known_type) : nullptr;
@@ -135,10 +132,9 @@ BuildOutcome BuildRecordedPorts(const std::string& file, const BuildTools& tools
     outcome.application = runtime.root().FindChild(PartsOf(PortOf(channel)).front());
   }
   if (outcome.application == nullptr) {
-    outcome.diagnostics.Add(
-        failures.empty()
-            ? Error{.message = "there are no ports in this recording", .position = {file}}
-            : failures.front());
+    outcome.diagnostics.Add(failures.empty()
+                                ? Error{.message = "there are no ports in this recording", .position = {file}}
+                                : failures.front());
     return outcome;
   }
   for (Error& failure : failures) outcome.diagnostics.AddWarning(std::move(failure));
@@ -196,16 +192,14 @@ class ApplicationReplay final : public ApplicationExtension {
     return player_->length() + (is_simulated_ ? Duration(1) : kLastCycle);
   }
 
-  std::optional<bool> IsOver() override {
-    return player_->failure() || (!is_simulated_ && player_->is_over());
-  }
+  std::optional<bool> IsOver() override { return player_->failure() || (!is_simulated_ && player_->is_over()); }
 
   std::string Finish(Diagnostics& problems) override {
     if (const auto failure = player_->failure()) problems.Add(*failure);
     const std::size_t ports = player_->ports();
-    return "replayed " + DurationText(player_->length()) +
-           (options_.loops ? ", again and again: " : ": ") + std::to_string(player_->published()) +
-           " values at " + std::to_string(ports) + (ports == 1 ? " port" : " ports") +
+    return "replayed " + DurationText(player_->length()) + (options_.loops ? ", again and again: " : ": ") +
+           std::to_string(player_->published()) + " values at " + std::to_string(ports) +
+           (ports == 1 ? " port" : " ports") +
            (player_->calls() > 0 ? ", " + std::to_string(player_->calls()) + " calls\n" : "\n");
   }
 

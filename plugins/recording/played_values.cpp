@@ -31,8 +31,8 @@ constexpr Duration kNoTimeout = std::chrono::hours(24 * 365);
 
 }  // namespace
 
-PlayedValues::PlayedValues(std::unique_ptr<McapReader> reader, std::optional<Duration> from,
-                           std::optional<Duration> to, bool loops)
+PlayedValues::PlayedValues(std::unique_ptr<McapReader> reader, std::optional<Duration> from, std::optional<Duration> to,
+                           bool loops)
     : reader_(std::move(reader)), loops_(loops) {
   const McapStatistics& all = reader_->contents().statistics;
   const std::int64_t first = Signed(all.start);
@@ -85,16 +85,14 @@ void PlayedValues::ReadChunk(const McapChunk& chunk) {
     const std::int64_t timestamp = Signed(message.publish_time);
     if (time > end_) return {};
     if (time < start_) {
-      Waiting& newest =
-          before_.try_emplace(message.channel, Waiting{time, timestamp, {}}).first->second;
+      Waiting& newest = before_.try_emplace(message.channel, Waiting{time, timestamp, {}}).first->second;
       if (time >= newest.time) newest = {time, timestamp, std::string(message.data)};
       return {};
     }
     std::deque<Waiting>& values = wanted->second;
     // Nearly always at the end: chunks overlap little, and each has a channel's values in order.
-    const auto place =
-        std::upper_bound(values.begin(), values.end(), time,
-                         [](std::int64_t at, const Waiting& each) { return at < each.time; });
+    const auto place = std::upper_bound(values.begin(), values.end(), time,
+                                        [](std::int64_t at, const Waiting& each) { return at < each.time; });
     values.insert(place, {time, timestamp, std::string(message.data)});
     return {};
   });
@@ -117,8 +115,7 @@ std::optional<PlayedValues::Value> PlayedValues::Take(std::uint16_t channel, Tim
   if (values.empty() || values.front().time > at) return {};
   Waiting first = std::move(values.front());
   values.pop_front();
-  return Value{Time(Duration(first.time + offset_)), Time(Duration(first.timestamp + offset_)),
-               std::move(first.json)};
+  return Value{Time(Duration(first.time + offset_)), Time(Duration(first.timestamp + offset_)), std::move(first.json)};
 }
 
 bool PlayedValues::HasEnded() const {
@@ -208,7 +205,8 @@ PlayedCalls::~PlayedCalls() = default;
 
 bool PlayedCalls::Add(Port& records, std::uint16_t channel) {
   if (!records.name().ends_with(kSuffix) || records.parent() == nullptr) return false;
-  FrameworkElement* const port = records.parent()->FindChild(records.name().substr(0, records.name().size() - kSuffix.size()));
+  FrameworkElement* const port =
+      records.parent()->FindChild(records.name().substr(0, records.name().size() - kSuffix.size()));
   auto* const callable = port != nullptr ? port->FindAnnotation<Callable>() : nullptr;
   FrameworkElement* module = records.parent();
   while (module != nullptr && module->FindAnnotation<Executable>() == nullptr) module = module->parent();

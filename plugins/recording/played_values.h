@@ -27,8 +27,8 @@ class PlayedValues {
   };
 
   /// `from` and `to` on the recording's clock.
-  PlayedValues(std::unique_ptr<McapReader> reader, std::optional<Duration> from,
-               std::optional<Duration> to, bool loops);
+  PlayedValues(std::unique_ptr<McapReader> reader, std::optional<Duration> from, std::optional<Duration> to,
+               bool loops);
 
   [[nodiscard]] McapReader& reader() noexcept { return *reader_; }
   /// From where to where is played, on the recording's clock.

@@ -27,15 +27,13 @@ constexpr std::size_t kMostWaitingMessages = 10'000;
 /// finds or saves it, and modules need not be held back when it goes.
 class RecorderElement final : public FrameworkElement {
  public:
-  explicit RecorderElement(FrameworkElement& root)
-      : FrameworkElement(Placement{root, "recorder", false}) {
+  explicit RecorderElement(FrameworkElement& root) : FrameworkElement(Placement{root, "recorder", false}) {
     Annotate(std::make_unique<NotSaved>());
   }
 };
 
 bool Feeds(const Port& port, const FrameworkElement& below) {
-  return std::ranges::any_of(port.outgoing(),
-                             [&](const Connection& each) { return each.to->IsAtOrBelow(below); });
+  return std::ranges::any_of(port.outgoing(), [&](const Connection& each) { return each.to->IsAtOrBelow(below); });
 }
 
 std::vector<Port*> PortsWithin(FrameworkElement& element) {
@@ -55,15 +53,13 @@ Result<std::string> ChooseCompression(const std::string& request) {
 
 }  // namespace
 
-Result<std::unique_ptr<Recorder>> Recorder::Start(Runtime& runtime, Scheduler* scheduler,
-                                                  RecorderOptions options) {
+Result<std::unique_ptr<Recorder>> Recorder::Start(Runtime& runtime, Scheduler* scheduler, RecorderOptions options) {
   auto patterns = PortPatterns::Make(options.ports);
   if (!patterns) return patterns.error();
   const auto compression = ChooseCompression(options.compression);
   if (!compression) return compression.error();
   options.compression = *compression;
-  std::unique_ptr<Recorder> recorder(
-      new Recorder(runtime, scheduler, std::move(options), std::move(*patterns)));
+  std::unique_ptr<Recorder> recorder(new Recorder(runtime, scheduler, std::move(options), std::move(*patterns)));
   try {
     if (auto begun = recorder->Begin(); !begun) return begun.error();
   } catch (...) {
@@ -72,12 +68,8 @@ Result<std::unique_ptr<Recorder>> Recorder::Start(Runtime& runtime, Scheduler* s
   return recorder;
 }
 
-Recorder::Recorder(Runtime& runtime, Scheduler* scheduler, RecorderOptions options,
-                   PortPatterns patterns)
-    : runtime_(runtime),
-      scheduler_(scheduler),
-      options_(std::move(options)),
-      patterns_(std::move(patterns)) {
+Recorder::Recorder(Runtime& runtime, Scheduler* scheduler, RecorderOptions options, PortPatterns patterns)
+    : runtime_(runtime), scheduler_(scheduler), options_(std::move(options)), patterns_(std::move(patterns)) {
   for (const std::string& pattern : patterns_.texts()) {
     if (!pattern.starts_with('!')) status_.idle_patterns.push_back(pattern);
   }
@@ -97,9 +89,8 @@ Result<void> Recorder::Begin() {
     const std::lock_guard lock(runtime_.structure_mutex());
     if (auto checked = CheckNames(); !checked) return checked;
   }
-  auto writer = McapWriter::Create(options_.file,
-                                   {.header = McapHeader{"", "runnel " + options_.about.version},
-                                    .compression = options_.compression});
+  auto writer = McapWriter::Create(options_.file, {.header = McapHeader{"", "runnel " + options_.about.version},
+                                                   .compression = options_.compression});
   if (!writer) return writer.error();
   writer_ = std::move(*writer);
   if (auto written = WriteAbout(); !written) return written;
@@ -130,27 +121,24 @@ Result<void> Recorder::CheckNames() {
   }
   for (const std::string& name : patterns_.Names()) {
     const auto one = PortPatterns::Make({name});
-    const auto meant =
-        std::ranges::find_if(ports, [&](const Port* port) { return one->Fit(port->path()); });
+    const auto meant = std::ranges::find_if(ports, [&](const Port* port) { return one->Fit(port->path()); });
     if (meant == ports.end()) {
-      return Error{.message = "there is no port '" + name + "' to record",
-                   .hint = NearestNameHint(name, paths)};
+      return Error{.message = "there is no port '" + name + "' to record", .hint = NearestNameHint(name, paths)};
     }
     const auto sender = std::ranges::find_if(ports, [&](const Port* port) {
-      return one->Fit(port->path()) &&
-             (port->is_proxy() || port->direction() == Port::Direction::kOutput);
+      return one->Fit(port->path()) && (port->is_proxy() || port->direction() == Port::Direction::kOutput);
     });
     if (sender == ports.end()) {
       const auto sources = (*meant)->Sources();
-      return Error{.message = "is an input; recorded is what outputs publish",
-                   .path = (*meant)->path(),
-                   .hint = sources.empty() ? "nothing is connected to it"
-                                           : "record " + PlainPortPath(sources.front()->path())};
+      return Error{
+          .message = "is an input; recorded is what outputs publish",
+          .path = (*meant)->path(),
+          .hint = sources.empty() ? "nothing is connected to it" : "record " + PlainPortPath(sources.front()->path())};
     }
     if (!(*sender)->type().is_transparent()) {
-      return Error{.message = "values of type " + (*sender)->type().name() +
-                              " have no form in which they could be recorded",
-                   .path = (*sender)->path()};
+      return Error{
+          .message = "values of type " + (*sender)->type().name() + " have no form in which they could be recorded",
+          .path = (*sender)->path()};
     }
   }
   return {};
@@ -158,8 +146,8 @@ Result<void> Recorder::CheckNames() {
 
 Result<void> Recorder::WriteAbout() {
   const RecordedApplication& about = options_.about;
-  const bool is_simulated = scheduler_ != nullptr &&
-                            scheduler_->options().clock == SchedulerOptions::ClockKind::kSimulated;
+  const bool is_simulated =
+      scheduler_ != nullptr && scheduler_->options().clock == SchedulerOptions::ClockKind::kSimulated;
   std::string ports;
   for (const std::string& each : patterns_.texts()) ports += (ports.empty() ? "" : " ") + each;
   const McapMetadata metadata{kAboutMetadata,
@@ -266,8 +254,8 @@ void Recorder::Follow(Port& port, const Recorded* before) {
   auto recorded = std::make_shared<Recorded>();
   recorded->path = port.path();
   recorded->type = &port.type();
-  recorded->probe = std::make_unique<ProbePort>(
-      *element_, "probe_" + std::to_string(++made_probes_), port.type(), options_.capacity);
+  recorded->probe =
+      std::make_unique<ProbePort>(*element_, "probe_" + std::to_string(++made_probes_), port.type(), options_.capacity);
   recorded->forms = ChannelsFor(port.type(), TopicOf(port), WholeValues());
   const bool has_transform = before != nullptr && before->forms.size() > recorded->forms.size();
   if (has_transform) recorded->forms.push_back(before->forms.back());
@@ -304,8 +292,7 @@ void Recorder::OnReady(FrameworkElement& element) {
   has_new_names_ = true;
   try {
     for (Port* const each : PortsWithin(element)) Follow(*each);
-  } catch (
-      ...) {  // the recording would lack something; the change of the structure is none of its business
+  } catch (...) {  // the recording would lack something; the change of the structure is none of its business
     NoteException();
   }
 }
@@ -330,9 +317,8 @@ void Recorder::OnChangesEnd() {
 void Recorder::WaitForRoom() noexcept {
   const auto is_behind = [this] {
     const std::lock_guard lock(mutex_);
-    return std::ranges::any_of(recorded_, [](const auto& each) {
-      return each->probe->waiting() * 2 > each->probe->capacity();
-    });
+    return std::ranges::any_of(recorded_,
+                               [](const auto& each) { return each->probe->waiting() * 2 > each->probe->capacity(); });
   };
   while (!has_failed_ && is_behind()) {
     Wake();

@@ -17,9 +17,9 @@
 #include "core/element/runtime.h"
 #include "core/log/log_sink.h"
 #include "core/port/probe_port.h"
-#include "plugins/values/port_patterns.h"
 #include "plugins/scheduling/backpressure.h"
 #include "plugins/values/foxglove_channel.h"
+#include "plugins/values/port_patterns.h"
 
 namespace runnel {
 
@@ -76,8 +76,7 @@ class Recorder final : public ElementListener, public BackpressureSource {
  public:
   /// `scheduler` is told to hold simulated time back; nullptr: nobody is. Errors: of the file; a pattern
   /// that names one port which is not there or cannot be recorded, with the nearest name.
-  static Result<std::unique_ptr<Recorder>> Start(Runtime& runtime, Scheduler* scheduler,
-                                                 RecorderOptions options);
+  static Result<std::unique_ptr<Recorder>> Start(Runtime& runtime, Scheduler* scheduler, RecorderOptions options);
   /// Finishes.
   ~Recorder() override;
 
@@ -154,7 +153,7 @@ class Recorder final : public ElementListener, public BackpressureSource {
   std::vector<std::shared_ptr<Recorded>> recorded_;  // guarded by mutex_
   RecordingStatus status_;                           // likewise
   std::vector<std::pair<std::string, std::uint64_t>> drops_of_gone_;
-  std::deque<LogMessage> said_;  // and is not written yet; guarded by mutex_
+  std::deque<LogMessage> said_;      // and is not written yet; guarded by mutex_
   std::uint64_t lost_messages_ = 0;  // likewise
   bool failure_is_told_ = false;
   bool unwritable_is_told_ = false;

@@ -25,8 +25,8 @@ std::uint64_t Nanoseconds(Time time) {
 }
 
 template <typename Make>
-Result<std::uint16_t> FindOrMake(std::map<std::string, std::uint16_t>& known,
-                                 const std::string& name, const Make& make) {
+Result<std::uint16_t> FindOrMake(std::map<std::string, std::uint16_t>& known, const std::string& name,
+                                 const Make& make) {
   if (const auto found = known.find(name); found != known.end()) return found->second;
   const Result<std::uint16_t> made = make();
   if (made) known.emplace(name, *made);
@@ -145,8 +145,7 @@ Result<void> Recorder::WriteValue(Recorded& recorded, ValueTimes times) {
   }
   ++recorded.sequence;
   for (std::size_t i = 0; i < recorded.channels.size(); ++i) {
-    auto added = writer_->AddMessage({recorded.channels[i], recorded.sequence,
-                                      Nanoseconds(times.publication_time),
+    auto added = writer_->AddMessage({recorded.channels[i], recorded.sequence, Nanoseconds(times.publication_time),
                                       Nanoseconds(times.timestamp), recorded.messages[i]});
     if (!added) return added;
   }
@@ -163,15 +162,12 @@ Result<void> Recorder::AddChannels(Recorded& recorded) {
   return {};
 }
 
-Result<std::uint16_t> Recorder::ChannelFor(const FoxgloveChannel& form, const std::string& port,
-                                           bool is_view) {
-  const auto schema = FindOrMake(schemas_, form.schema_name, [&] {
-    return writer_->AddSchema(form.schema_name, kSchemaEncoding, form.schema);
-  });
+Result<std::uint16_t> Recorder::ChannelFor(const FoxgloveChannel& form, const std::string& port, bool is_view) {
+  const auto schema = FindOrMake(schemas_, form.schema_name,
+                                 [&] { return writer_->AddSchema(form.schema_name, kSchemaEncoding, form.schema); });
   if (!schema) return schema.error();
   return FindOrMake(channels_, port + " " + form.topic + " " + form.schema_name, [&] {
-    return writer_->AddChannel(*schema, form.topic, kMessageEncoding,
-                               {{is_view ? kViewOfKey : kPortKey, port}});
+    return writer_->AddChannel(*schema, form.topic, kMessageEncoding, {{is_view ? kViewOfKey : kPortKey, port}});
   });
 }
 
@@ -204,9 +200,8 @@ void Recorder::DropGone() {
       return;
     }
     for (const auto& each : All()) {
-      const bool is_fed = std::ranges::any_of(each->probe->incoming(), [](const Port* port) {
-        return port->life_cycle() != LifeCycle::kDeleted;
-      });
+      const bool is_fed = std::ranges::any_of(
+          each->probe->incoming(), [](const Port* port) { return port->life_cycle() != LifeCycle::kDeleted; });
       if (!is_fed) gone.push_back(each);
     }
   }

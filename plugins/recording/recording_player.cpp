@@ -35,9 +35,8 @@ FrameworkElement* PublisherOf(const Port& port) {
 }
 
 bool Writes(const Task& task, const Port& port) {
-  return std::ranges::any_of(task.writes, [&](const FrameworkElement* group) {
-    return group != nullptr && port.IsAtOrBelow(*group);
-  });
+  return std::ranges::any_of(
+      task.writes, [&](const FrameworkElement* group) { return group != nullptr && port.IsAtOrBelow(*group); });
 }
 
 // The port at a recorded path; or, if the application is called otherwise now, in its place.
@@ -78,8 +77,7 @@ class Player::PlayedTask {
   const std::vector<PlayedPort*> ports_;
 };
 
-Result<std::unique_ptr<Player>> Player::Prepare(Runtime& runtime,
-                                                std::unique_ptr<McapReader> reader,
+Result<std::unique_ptr<Player>> Player::Prepare(Runtime& runtime, std::unique_ptr<McapReader> reader,
                                                 const PlayerOptions& options) {
   const auto patterns = PortPatterns::Make(options.ports);
   if (!patterns) return patterns.error();
@@ -90,17 +88,14 @@ Result<std::unique_ptr<Player>> Player::Prepare(Runtime& runtime,
   const McapStatistics& all = reader->contents().statistics;
   const Duration whole(static_cast<std::int64_t>(all.end - all.start));
   if (options.from && *options.from > whole) {
-    return Error{.message = "the recording ends before that: it has " +
-                            std::to_string(ToSeconds(whole)) + " s",
+    return Error{.message = "the recording ends before that: it has " + std::to_string(ToSeconds(whole)) + " s",
                  .position = {file}};
   }
   if (options.from && options.to && *options.to < *options.from) {
-    return Error{.message = "the end of what is to be played is before its beginning",
-                 .position = {file}};
+    return Error{.message = "the end of what is to be played is before its beginning", .position = {file}};
   }
-  std::unique_ptr<Player> player(new Player(
-      runtime,
-      std::make_unique<PlayedValues>(std::move(reader), options.from, options.to, options.loops)));
+  std::unique_ptr<Player> player(
+      new Player(runtime, std::make_unique<PlayedValues>(std::move(reader), options.from, options.to, options.loops)));
   const ChangeScope changes(runtime);
   if (auto found = player->FindPorts(*patterns); !found) return found.error().WithPosition(file);
   if (auto found = player->FindCalls(*patterns); !found) return found.error();
@@ -149,8 +144,7 @@ Result<void> Player::FindPorts(const PortPatterns& patterns) {
     if (std::ranges::none_of(played_, [&](const auto& each) {
           return one->Fit(PortOf(values_->reader().contents().channels.at(each->channel)));
         })) {
-      return Error{.message = "the recording has no port '" + name + "'",
-                   .hint = NearestNameHint(name, recorded)};
+      return Error{.message = "the recording has no port '" + name + "'", .hint = NearestNameHint(name, recorded)};
     }
   }
   if (!played_.empty()) return {};
@@ -160,9 +154,8 @@ Result<void> Player::FindPorts(const PortPatterns& patterns) {
   }
   std::string wanted;
   for (const std::string& pattern : patterns.texts()) wanted += " '" + pattern + "'";
-  return Error{
-      .message = "the recording has no port that fits" + wanted,
-      .hint = NearestNameHint(patterns.texts().empty() ? "" : patterns.texts().front(), recorded)};
+  return Error{.message = "the recording has no port that fits" + wanted,
+               .hint = NearestNameHint(patterns.texts().empty() ? "" : patterns.texts().front(), recorded)};
 }
 
 // Of services whose records are not played themselves.
@@ -186,8 +179,7 @@ Result<void> Player::CheckType(const Port& port, const McapChannel& channel) con
     return refuse("it is not JSON with a JSON schema");
   }
   if (schema->second.name != port.type().name()) {
-    return refuse("it is of type " + schema->second.name + ", the port takes " +
-                  port.type().name());
+    return refuse("it is of type " + schema->second.name + ", the port takes " + port.type().name());
   }
   if (port.type().Make() == nullptr) return refuse("only its module can make such values");
   if (schema->second.data != ChannelsFor(port.type(), "", WholeValues()).front().schema) {
@@ -201,14 +193,11 @@ Result<void> Player::CheckType(const Port& port, const McapChannel& channel) con
 void Player::WrapTasks() {
   std::vector<std::pair<FrameworkElement*, std::vector<PlayedPort*>>> by_module;
   for (const auto& each : played_) {
-    const bool is_output =
-        !each->original->is_proxy() && each->original->direction() == Port::Direction::kOutput;
+    const bool is_output = !each->original->is_proxy() && each->original->direction() == Port::Direction::kOutput;
     FrameworkElement* const module = is_output ? PublisherOf(*each->original) : nullptr;
-    const auto known =
-        std::ranges::find(by_module, module, [](const auto& it) { return it.first; });
-    auto& ports = known != by_module.end()
-                      ? known->second
-                      : by_module.emplace_back(module, std::vector<PlayedPort*>()).second;
+    const auto known = std::ranges::find(by_module, module, [](const auto& it) { return it.first; });
+    auto& ports =
+        known != by_module.end() ? known->second : by_module.emplace_back(module, std::vector<PlayedPort*>()).second;
     ports.push_back(each.get());
   }
   for (auto& [module, ports] : by_module) {
@@ -270,8 +259,7 @@ bool Player::IsReadUnplayed(const Task& task) const {
 void Player::WrapTasksOf(FrameworkElement& module, const std::vector<PlayedPort*>& ports) {
   const auto* const executable = module.FindAnnotation<Executable>();
   std::vector<Task> tasks = executable != nullptr ? executable->tasks() : std::vector<Task>();
-  if (&module == element_)
-    tasks = {{element_, Phase::kSense, BoundCall::To<&Player::DoNothing>(*this), {}, {}}};
+  if (&module == element_) tasks = {{element_, Phase::kSense, BoundCall::To<&Player::DoNothing>(*this), {}, {}}};
   for (Task& task : tasks) {
     std::vector<PlayedPort*> of_task;
     for (PlayedPort* each : ports) {
@@ -279,12 +267,11 @@ void Player::WrapTasksOf(FrameworkElement& module, const std::vector<PlayedPort*
     }
     if (of_task.empty()) continue;
     const bool is_own = &module == element_;
-    const bool runs =
-        !is_own && (module.FindAnnotation<RunMonitor>() != nullptr || IsReadUnplayed(task));
+    const bool runs = !is_own && (module.FindAnnotation<RunMonitor>() != nullptr || IsReadUnplayed(task));
     if (runs || is_own) task.writes.push_back(&TakePlaces(of_task));
     if (!runs) resting_.insert(&module);
-    tasks_.push_back(std::make_unique<PlayedTask>(
-        *this, runs ? std::optional(task.run) : std::nullopt, std::move(of_task)));
+    tasks_.push_back(
+        std::make_unique<PlayedTask>(*this, runs ? std::optional(task.run) : std::nullopt, std::move(of_task)));
     task.run = BoundCall::To<&PlayedTask::Run>(*tasks_.back());
   }
   module.Annotate(std::make_unique<Executable>([tasks] { return tasks; }));

@@ -84,8 +84,7 @@ struct PlayerOptions {
 ///             ends the playing, see failure().
 class Player {
  public:
-  static Result<std::unique_ptr<Player>> Prepare(Runtime& runtime,
-                                                 std::unique_ptr<McapReader> reader,
+  static Result<std::unique_ptr<Player>> Prepare(Runtime& runtime, std::unique_ptr<McapReader> reader,
                                                  const PlayerOptions& options);
   ~Player();
 
@@ -103,9 +102,7 @@ class Player {
   [[nodiscard]] std::size_t calls() const noexcept { return calls_.size(); }
   /// Recorded ports that fit but are not in the application.
   [[nodiscard]] const std::vector<std::string>& missing() const noexcept { return missing_; }
-  [[nodiscard]] std::uint64_t published() const noexcept {
-    return published_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] std::uint64_t published() const noexcept { return published_.load(std::memory_order_relaxed); }
   /// All has been published, and it does not loop; or it has failed.
   [[nodiscard]] bool is_over() const noexcept { return values_->is_over(); }
   [[nodiscard]] std::optional<Error> failure() const { return values_->failure(); }

@@ -109,7 +109,8 @@ class Describer {
     field->name = "elements";
     field->count = elements.is_fixed ? MessageCount::kArray : MessageCount::kList;
     if (elements.is_fixed) field->capacity = FixedCount(type);
-    if (elements.is_fixed && field->capacity == 0) return Error{.message = "a " + type.name() + " has no elements, which no message of ROS 2 can"};
+    if (elements.is_fixed && field->capacity == 0)
+      return Error{.message = "a " + type.name() + " has no elements, which no message of ROS 2 can"};
     definition.fields.push_back(std::move(*field));
     return {};
   }

@@ -286,8 +286,7 @@ std::string DefaultMessageOf(const TypeInfo& type) {
 
 }  // namespace
 
-Made MessageCodec::Make(const TypeInfo& type, const MessageOptions& options,
-                        const MessageLibrary& library) {
+Made MessageCodec::Make(const TypeInfo& type, const MessageOptions& options, const MessageLibrary& library) {
   if (auto checked = CheckCdr(type); !checked) return checked.error();
   if (!options.field.empty()) {
     if (!options.as.empty()) return MakeBound(type, options.as, options, library);

@@ -34,8 +34,7 @@ class MessageCodec {
  public:
   /// Errors: there is no such message, with the nearest name; the type has nothing of it, or fields of the same name that do
   /// not fit; a part of the type is opaque. `library`: which messages there are; it is not needed afterwards. Allocates.
-  static Result<std::shared_ptr<const MessageCodec>> Make(const TypeInfo& type,
-                                                          const MessageOptions& options,
+  static Result<std::shared_ptr<const MessageCodec>> Make(const TypeInfo& type, const MessageOptions& options,
                                                           const MessageLibrary& library);
 
   virtual ~MessageCodec() = default;

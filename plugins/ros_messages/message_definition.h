@@ -42,8 +42,8 @@ struct MessageField {
   MessageType type = MessageType::kInt8;
   std::string nested = {};  ///< "geometry_msgs/msg/Point", of kNested
   MessageCount count = MessageCount::kOne;
-  std::size_t capacity = 0;       ///< n of an array or a bounded list
-  std::size_t text_capacity = 0;  ///< of string<=n, 0 for any
+  std::size_t capacity = 0;        ///< n of an array or a bounded list
+  std::size_t text_capacity = 0;   ///< of string<=n, 0 for any
   std::string default_value = {};  ///< as it stands in the file: 1.0, "a", [1, 2]; "" for none
   std::string comment = {};        ///< written behind the field
 

@@ -12,14 +12,14 @@ namespace runnel {
 namespace {
 
 constexpr std::string_view kKeywords[] = {
-    "alignas",  "alignof",  "and",      "asm",      "auto",     "bool",     "break",    "case",     "catch",
-    "char",     "class",    "concept",  "const",    "continue", "default",  "delete",   "do",       "double",
-    "else",     "enum",     "explicit", "export",   "extern",   "false",    "float",    "for",      "friend",
-    "goto",     "if",       "inline",   "int",      "long",     "mutable",  "namespace", "new",     "not",
-    "operator", "or",       "private",  "protected", "public",  "register", "requires", "return",   "short",
-    "signed",   "sizeof",   "static",   "struct",   "switch",   "template", "this",     "throw",    "true",
-    "try",      "typedef",  "typename", "union",    "unsigned", "using",    "virtual",  "void",     "while",
-    "xor"};
+    "alignas",  "alignof",   "and",      "asm",     "auto",     "bool",     "break",   "case",
+    "catch",    "char",      "class",    "concept", "const",    "continue", "default", "delete",
+    "do",       "double",    "else",     "enum",    "explicit", "export",   "extern",  "false",
+    "float",    "for",       "friend",   "goto",    "if",       "inline",   "int",     "long",
+    "mutable",  "namespace", "new",      "not",     "operator", "or",       "private", "protected",
+    "public",   "register",  "requires", "return",  "short",    "signed",   "sizeof",  "static",
+    "struct",   "switch",    "template", "this",    "throw",    "true",     "try",     "typedef",
+    "typename", "union",     "unsigned", "using",   "virtual",  "void",     "while",   "xor"};
 
 std::string PathOf(const std::string& name) {
   return PackageOf(name) + "/" + NearestFieldName(LastNameOf(name)) + ".h";
@@ -49,7 +49,8 @@ std::string NumberTypeOf(MessageType type) {
 std::string LiteralOf(MessageType type, std::string text) {
   const bool is_quoted = text.size() > 1 && (text.front() == '"' || text.front() == '\'');
   if (type == MessageType::kString) return Quoted(is_quoted ? text.substr(1, text.size() - 2) : text);
-  if (type == MessageType::kBool) return text.starts_with('t') || text.starts_with('T') || text == "1" ? "true" : "false";
+  if (type == MessageType::kBool)
+    return text.starts_with('t') || text.starts_with('T') || text == "1" ? "true" : "false";
   if (type == MessageType::kUint64) return text + "U";
   return type == MessageType::kFloat32 ? "static_cast<float>(" + text + ")" : text;
 }
@@ -75,8 +76,10 @@ class HeaderWriter {
       return Error{.message = message.name + " has no fields", .hint = "take runnel::Signal"};
     }
     std::string text = "#pragma once\n\n// " + message.name + " of ROS 2, written by 'runnel ros2 import'.\n\n";
-    for (const char* header : {"array", "cstdint", "string", "vector"}) text += "#include <" + std::string(header) + ">\n";
-    text += uses_signals_ ? "\n#include <runnel/core/types/signal.h>\n#include <runnel/types.h>\n\n" : "\n#include <runnel/types.h>\n\n";
+    for (const char* header : {"array", "cstdint", "string", "vector"})
+      text += "#include <" + std::string(header) + ">\n";
+    text += uses_signals_ ? "\n#include <runnel/core/types/signal.h>\n#include <runnel/types.h>\n\n"
+                          : "\n#include <runnel/types.h>\n\n";
     for (const std::string& include : includes_) text += "#include \"" + include + "\"\n";
     if (!includes_.empty()) text += "\n";
     return text + "namespace " + PackageOf(message.name) + " {\n\nstruct " + name + " {\n" + constants + fields +
@@ -90,8 +93,8 @@ class HeaderWriter {
     if (!parsed || parsed->fields.front().type == MessageType::kWideString) return "";
     const MessageType type = parsed->fields.front().type;
     const std::string cpp_type = type == MessageType::kString ? "const char*" : NumberTypeOf(type);
-    return "  static constexpr " + cpp_type + " " + MemberOf(constant.name) + " = " +
-           LiteralOf(type, constant.value) + ";\n";
+    return "  static constexpr " + cpp_type + " " + MemberOf(constant.name) + " = " + LiteralOf(type, constant.value) +
+           ";\n";
   }
 
   std::string ElementOf(const MessageField& field) {
@@ -106,7 +109,8 @@ class HeaderWriter {
   std::string TypeOfField(const MessageField& field) {
     const std::string element = ElementOf(field);
     if (field.count == MessageCount::kOne) return element;
-    if (field.count == MessageCount::kArray) return "std::array<" + element + ", " + std::to_string(field.capacity) + ">";
+    if (field.count == MessageCount::kArray)
+      return "std::array<" + element + ", " + std::to_string(field.capacity) + ">";
     // Those of bool have no elements that could be pointed at.
     return "std::vector<" + (element == "bool" ? "std::uint8_t" : element) + ">";
   }
@@ -114,7 +118,8 @@ class HeaderWriter {
   static std::string InitialOf(const MessageField& field) {
     const std::string& given = field.default_value;
     const bool is_number = SizeOf(field.type) > 0;
-    if (given.empty()) return is_number && field.count == MessageCount::kOne ? " = {}" : field.count == MessageCount::kArray ? "{}" : "";
+    if (given.empty())
+      return is_number && field.count == MessageCount::kOne ? " = {}" : field.count == MessageCount::kArray ? "{}" : "";
     if (field.count == MessageCount::kOne) return " = " + LiteralOf(field.type, given);
     std::string with_marks = given;
     std::ranges::replace(with_marks, '\'', '"');
@@ -155,7 +160,9 @@ std::string DescriptionOf(const std::string& package, const std::set<std::string
   std::string text =
       "<?xml version=\"1.0\"?>\n"
       "<package format=\"3\">\n"
-      "  <name>" + package + "</name>\n"
+      "  <name>" +
+      package +
+      "</name>\n"
       "  <version>0.0.0</version>\n"
       "  <description>What applications of Runnel publish.</description>\n"
       "  <maintainer email=\"you@example.com\">you</maintainer>\n"

@@ -49,13 +49,15 @@ std::size_t FindBetween(std::string_view text) {
 // A message, or request and response of a service.
 Result<std::vector<MessageDefinition>> ReadDefinitionFile(const fs::path& path) {
   const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
-  const std::string package = folder.parent_path().filename(), name = path.stem(), kind = path.extension() == ".srv" ? "srv" : "msg";
+  const std::string package = folder.parent_path().filename(), name = path.stem(),
+                    kind = path.extension() == ".srv" ? "srv" : "msg";
   const auto wrong = [&](std::string message, std::string hint) {
     return Error{.message = std::move(message), .position = {path.string()}, .hint = std::move(hint)};
   };
   if (folder.filename() != kind || !IsRosPackageName(package)) {
-    return wrong("which package does the message belong to?",
-                 "put it into a folder <package>/" + kind + ", as in my_messages/" + kind + "/" + path.filename().string());
+    return wrong(
+        "which package does the message belong to?",
+        "put it into a folder <package>/" + kind + ", as in my_messages/" + kind + "/" + path.filename().string());
   }
   if (!IsRosMessageName(name)) {
     return wrong("a message cannot be called '" + name + "'", "call the file " + NearestMessageName(name) + "." + kind);
@@ -69,9 +71,12 @@ Result<std::vector<MessageDefinition>> ReadDefinitionFile(const fs::path& path) 
     parts.emplace_back(full, std::move(text));
   } else {
     const std::size_t between = FindBetween(text);
-    if (between == text.size()) return wrong("a service has a line '---' between request and response", "write one, also if one of them is empty");
+    if (between == text.size())
+      return wrong("a service has a line '---' between request and response",
+                   "write one, also if one of them is empty");
     // With as many lines in front as in the file, so that mistakes have theirs.
-    const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(between), '\n'));
+    const auto lines =
+        static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(between), '\n'));
     parts.emplace_back(full + "_Request", text.substr(0, between));
     parts.emplace_back(full + "_Response", std::string(lines, '\n') + text.substr(between + kBetween.size()));
   }
@@ -87,7 +92,8 @@ Result<std::vector<MessageDefinition>> ReadDefinitionFile(const fs::path& path) 
 Result<std::vector<fs::path>> FindMessageFiles(const fs::path& place) {
   std::error_code problem;
   if (!fs::exists(place, problem)) {
-    return Error{.message = "there is no file and no folder '" + place.string() + "'", .hint = "the path begins at the application's file"};
+    return Error{.message = "there is no file and no folder '" + place.string() + "'",
+                 .hint = "the path begins at the application's file"};
   }
   if (!fs::is_directory(place, problem)) return std::vector{place};
   std::vector<fs::path> files;
@@ -95,7 +101,8 @@ Result<std::vector<fs::path>> FindMessageFiles(const fs::path& place) {
     if (at->path().extension() == ".msg" || at->path().extension() == ".srv") files.push_back(at->path());
   }
   if (problem) return Error{.message = problem.message(), .position = {place.string()}};
-  if (files.empty()) return Error{.message = "there is no .msg or .srv file in the folder", .position = {place.string()}};
+  if (files.empty())
+    return Error{.message = "there is no .msg or .srv file in the folder", .position = {place.string()}};
   std::ranges::sort(files);
   return files;
 }
@@ -107,8 +114,7 @@ bool IsSameOnTheWire(const MessageDefinition& a, const MessageDefinition& b) {
   });
 }
 
-void AddInside(const MessageLibrary& library, const MessageDefinition& definition,
-               std::set<std::string>& names) {
+void AddInside(const MessageLibrary& library, const MessageDefinition& definition, std::set<std::string>& names) {
   for (const MessageField& field : definition.fields) {
     if (field.type != MessageType::kNested || !names.insert(field.nested).second) continue;
     if (const auto* const inside = library.Find(field.nested)) AddInside(library, *inside, names);
@@ -130,16 +136,14 @@ std::string DescriptionOf(const MessageField& field) {
   if (field.count == MessageCount::kArray) id += kArray;
   if (field.count == MessageCount::kBounded) id += kBounded;
   if (field.count == MessageCount::kList) id += kList;
-  return R"({"name": ")" + field.name + R"(", "type": {"type_id": )" + std::to_string(id) +
-         R"(, "capacity": )" + std::to_string(field.capacity) + R"(, "string_capacity": )" +
-         std::to_string(field.text_capacity) + R"(, "nested_type_name": ")" + field.nested +
-         R"("}})";
+  return R"({"name": ")" + field.name + R"(", "type": {"type_id": )" + std::to_string(id) + R"(, "capacity": )" +
+         std::to_string(field.capacity) + R"(, "string_capacity": )" + std::to_string(field.text_capacity) +
+         R"(, "nested_type_name": ")" + field.nested + R"("}})";
 }
 
 std::string DescriptionOf(const MessageDefinition& definition) {
   std::string text = R"({"type_name": ")" + definition.name + R"(", "fields": [)";
-  static const MessageField kInstead{.name = "structure_needs_at_least_one_member",
-                                     .type = MessageType::kUint8};
+  static const MessageField kInstead{.name = "structure_needs_at_least_one_member", .type = MessageType::kUint8};
   if (definition.fields.empty()) text += DescriptionOf(kInstead);
   for (const MessageField& field : definition.fields) {
     if (&field != &definition.fields.front()) text += ", ";
@@ -230,8 +234,9 @@ Result<const MessageDefinition*> MessageLibrary::Get(std::string_view name) cons
     if (each.ends_with("/" + std::string(last))) same_last_word.push_back(each);
   }
   const std::string& hint = same_last_word.empty() ? NearestName(name, names) : same_last_word.front();
-  return Error{.message = "there is no message '" + std::string(name) + "'",
-               .hint = hint.empty() ? "read its package: a folder with <package>/msg/*.msg" : "did you mean '" + hint + "'?"};
+  return Error{
+      .message = "there is no message '" + std::string(name) + "'",
+      .hint = hint.empty() ? "read its package: a folder with <package>/msg/*.msg" : "did you mean '" + hint + "'?"};
 }
 
 std::vector<const MessageDefinition*> MessageLibrary::InsideOf(const MessageDefinition& definition) const {

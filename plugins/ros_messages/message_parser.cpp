@@ -16,8 +16,10 @@ std::string_view WithoutComment(std::string_view line) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (quote != 0) {
-      if (line[i] == '\\') ++i;
-      else if (line[i] == quote) quote = 0;
+      if (line[i] == '\\')
+        ++i;
+      else if (line[i] == quote)
+        quote = 0;
     } else if (line[i] == '#') {
       return line.substr(0, i);
     } else if (line[i] == '"' || line[i] == '\'') {
@@ -36,9 +38,7 @@ std::optional<std::size_t> NumberOf(std::string_view text) {
 /// Reads one line after the other.
 class MessageParser {
  public:
-  MessageParser(const std::string& name, const std::string& file) : file_(file) {
-    definition_.name = name;
-  }
+  MessageParser(const std::string& name, const std::string& file) : file_(file) { definition_.name = name; }
 
   Result<MessageDefinition> Parse(std::string_view text) {
     while (!text.empty()) {
@@ -74,7 +74,8 @@ class MessageParser {
 
   Result<void> AddConstant(std::string_view type, std::string_view name, std::string_view value) {
     const bool is_good_type = FindMessageType(type.substr(0, type.find('<'))).has_value();
-    if (!is_good_type) return Wrong("a constant is a number, a bool or a string, no '" + std::string(type) + "'", "write 'uint8 ON=1'");
+    if (!is_good_type)
+      return Wrong("a constant is a number, a bool or a string, no '" + std::string(type) + "'", "write 'uint8 ON=1'");
     if (value.empty()) return Wrong("the constant '" + std::string(name) + "' has no value", "write 'uint8 ON=1'");
     definition_.constants.push_back({std::string(type), std::string(name), std::string(value)});
     return {};
@@ -82,7 +83,8 @@ class MessageParser {
 
   Result<void> AddField(std::string_view type, std::string_view name, std::string_view value) {
     if (!IsRosFieldName(name)) {
-      return Wrong("a field cannot be called '" + std::string(name) + "': it has lower-case letters, digits and single '_', and begins with a letter",
+      return Wrong("a field cannot be called '" + std::string(name) +
+                       "': it has lower-case letters, digits and single '_', and begins with a letter",
                    "write '" + NearestFieldName(name) + "'");
     }
     if (definition_.FindField(name) != nullptr) {
@@ -91,7 +93,8 @@ class MessageParser {
     MessageField field{.name = std::string(name), .default_value = std::string(value)};
     if (type.ends_with(']')) {
       const std::size_t bracket = type.rfind('[');
-      if (bracket == std::string_view::npos) return Wrong("'" + std::string(type) + "' lacks '['", "write 'float64[3]'");
+      if (bracket == std::string_view::npos)
+        return Wrong("'" + std::string(type) + "' lacks '['", "write 'float64[3]'");
       std::string_view count = type.substr(bracket + 1, type.size() - bracket - 2);
       type = type.substr(0, bracket);
       field.count = count.empty() ? MessageCount::kList : MessageCount::kArray;
@@ -110,7 +113,8 @@ class MessageParser {
       if (!capacity) return Wrong("'" + std::string(type) + "' has no length", "write 'string<=10'");
       field.text_capacity = *capacity;
       type = type.substr(0, bound);
-      if (type != "string" && type != "wstring") return Wrong("only strings are bounded by '<='", "write 'string<=10' or '" + std::string(type) + "[<=10]'");
+      if (type != "string" && type != "wstring")
+        return Wrong("only strings are bounded by '<='", "write 'string<=10' or '" + std::string(type) + "[<=10]'");
     }
     if (auto set = SetType(type, field); !set) return set;
     definition_.fields.push_back(std::move(field));
@@ -145,8 +149,7 @@ class MessageParser {
 
 }  // namespace
 
-Result<MessageDefinition> ParseMessage(std::string_view text, const std::string& name,
-                                       const std::string& file) {
+Result<MessageDefinition> ParseMessage(std::string_view text, const std::string& name, const std::string& file) {
   return MessageParser(name, file).Parse(text);
 }
 

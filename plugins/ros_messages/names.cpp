@@ -21,8 +21,7 @@ char Upper(char c) { return IsLower(c) ? static_cast<char>(c - 'a' + 'A') : c; }
 
 // What packages and fields have in common.
 bool IsLowerName(std::string_view name) {
-  return !name.empty() && IsLower(name.front()) && name.back() != '_' &&
-         name.find("__") == std::string_view::npos &&
+  return !name.empty() && IsLower(name.front()) && name.back() != '_' && name.find("__") == std::string_view::npos &&
          std::ranges::all_of(name, [](char c) { return IsLower(c) || IsDigit(c) || c == '_'; });
 }
 
@@ -66,12 +65,8 @@ std::string NearestRosName(std::string_view name) {
 }
 
 std::string DdsTopic(std::string_view topic) { return std::string(kTopic).append(topic); }
-std::string DdsRequestTopic(std::string_view service) {
-  return std::string(kRequest).append(service) + "Request";
-}
-std::string DdsReplyTopic(std::string_view service) {
-  return std::string(kReply).append(service) + "Reply";
-}
+std::string DdsRequestTopic(std::string_view service) { return std::string(kRequest).append(service) + "Request"; }
+std::string DdsReplyTopic(std::string_view service) { return std::string(kReply).append(service) + "Reply"; }
 std::string RosTopic(std::string_view dds_topic) {
   if (!dds_topic.starts_with(kTopic) || !CheckRosName(dds_topic.substr(kTopic.size()))) return "";
   return std::string(dds_topic.substr(kTopic.size()));
@@ -96,12 +91,8 @@ std::string RosType(std::string_view dds_type) {
   return type + "/" + std::string(name.substr(0, name.size() - 1));
 }
 
-std::string PackageOf(std::string_view ros_type) {
-  return std::string(ros_type.substr(0, ros_type.find('/')));
-}
-std::string LastNameOf(std::string_view ros_type) {
-  return std::string(ros_type.substr(ros_type.rfind('/') + 1));
-}
+std::string PackageOf(std::string_view ros_type) { return std::string(ros_type.substr(0, ros_type.find('/'))); }
+std::string LastNameOf(std::string_view ros_type) { return std::string(ros_type.substr(ros_type.rfind('/') + 1)); }
 
 bool IsRosPackageName(std::string_view name) { return name.size() > 1 && IsLowerName(name); }
 bool IsRosFieldName(std::string_view name) { return IsLowerName(name); }

@@ -86,9 +86,7 @@ inline void Describe(TypeBuilder<RosDiagnosticStatus>& type) {
       .Field("values", &RosDiagnosticStatus::values);
 }
 inline void Describe(TypeBuilder<RosDiagnostics>& type) {
-  type.Name("ros.Diagnostics")
-      .Field("header", &RosDiagnostics::header)
-      .Field("status", &RosDiagnostics::status);
+  type.Name("ros.Diagnostics").Field("header", &RosDiagnostics::header).Field("status", &RosDiagnostics::status);
 }
 
 }  // namespace runnel

@@ -59,10 +59,13 @@ bool SetList(const TypeInfo& type, const void* at, RosParameterValue& value) {
   if (type.kind() != TypeKind::kSequence || type.elements().type->kind() != TypeKind::kLeaf) return false;
   return WithLeafType(*type.elements().type, [&]<typename T>(std::type_identity<T>) {
     if constexpr (std::is_same_v<T, bool>) return AddAll<T>(type, at, value.bool_array_value, value, Type::kBoolArray);
-    if constexpr (std::is_same_v<T, std::uint8_t>) return AddAll<T>(type, at, value.byte_array_value, value, Type::kByteArray);
+    if constexpr (std::is_same_v<T, std::uint8_t>)
+      return AddAll<T>(type, at, value.byte_array_value, value, Type::kByteArray);
     if constexpr (kIsInteger<T>) return AddAll<T>(type, at, value.integer_array_value, value, Type::kIntegerArray);
-    if constexpr (std::is_floating_point_v<T>) return AddAll<T>(type, at, value.double_array_value, value, Type::kDoubleArray);
-    if constexpr (std::is_same_v<T, std::string>) return AddAll<T>(type, at, value.string_array_value, value, Type::kStringArray);
+    if constexpr (std::is_floating_point_v<T>)
+      return AddAll<T>(type, at, value.double_array_value, value, Type::kDoubleArray);
+    if constexpr (std::is_same_v<T, std::string>)
+      return AddAll<T>(type, at, value.string_array_value, value, Type::kStringArray);
     return false;
   });
 }

@@ -169,9 +169,7 @@ inline void Describe(TypeBuilder<RosListRequest>& type) {
       .Field("depth", &RosListRequest::depth);
 }
 inline void Describe(TypeBuilder<RosListReply>& type) {
-  type.Name("ros.ListParametersResult")
-      .Field("names", &RosListReply::names)
-      .Field("prefixes", &RosListReply::prefixes);
+  type.Name("ros.ListParametersResult").Field("names", &RosListReply::names).Field("prefixes", &RosListReply::prefixes);
 }
 inline void Describe(TypeBuilder<RosParameterEvent>& type) {
   type.Name("ros.ParameterEvent")

@@ -18,8 +18,8 @@ constexpr Duration kForEver = std::chrono::hours(24 * 365);
 }  // namespace
 
 OfferedService::OfferedService(Runtime& runtime, ServiceOfferOptions options, const MessageLibrary& library,
-                               ServiceDialect dialect, std::uint32_t identity,
-                               std::shared_ptr<WakeEvent> wake, const DiscoveryTable* table)
+                               ServiceDialect dialect, std::uint32_t identity, std::shared_ptr<WakeEvent> wake,
+                               const DiscoveryTable* table)
     : runtime_(runtime),
       options_(std::move(options)),
       library_(library),
@@ -78,7 +78,8 @@ Result<void> OfferedService::Follow(WireParticipant& participant, const std::fun
 Result<std::unique_ptr<AnyCall>> OfferedService::Begin(const ServiceMessage& request) {
   const auto callable = Find();
   if (!callable) return callable.error();
-  if (form_->request_type() != endpoints_->topics().request_type) return Error{.message = "it is about to be another service"};
+  if (form_->request_type() != endpoints_->topics().request_type)
+    return Error{.message = "it is about to be another service"};
   if (pending_.size() >= kMostCalls) return Error{.message = "too many calls are under way"};
   auto call = (*callable)->NewCall();
   if (const auto read = form_->ReadRequest(request.message, call->arguments()); !read) return read.error();
@@ -130,7 +131,8 @@ void OfferedService::Answer(const CallId& id, const ServiceForm& form, const Ser
 std::string OfferedService::Text() const {
   std::string text = "offers the service " + options_.port + " as " + options_.service + "  ";
   if (endpoints_ == nullptr) return text + "(it is not there)\n";
-  text += endpoints_->topics().request_type + ", " + std::to_string(answered_) + " answered, " + std::to_string(failed_) + " failed";
+  text += endpoints_->topics().request_type + ", " + std::to_string(answered_) + " answered, " +
+          std::to_string(failed_) + " failed";
   if (endpoints_->lost() > 0) text += ", " + std::to_string(endpoints_->lost()) + " lost";
   return text + "\n";
 }

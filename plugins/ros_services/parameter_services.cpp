@@ -66,7 +66,8 @@ ParameterServices::ParameterServices(FrameworkElement& application, std::string 
       wake_(std::make_shared<WakeEvent>()) {}
 
 template <typename Request, typename Answer>
-Result<void> ParameterServices::Add(const char* name, const char* type, WireParticipant& participant, const Answer& answer) {
+Result<void> ParameterServices::Add(const char* name, const char* type, WireParticipant& participant,
+                                    const Answer& answer) {
   const std::string of = std::string("rcl_interfaces/srv/") + type;
   auto endpoints = ServiceEndpoints::Start(ServiceEndpoints::Side::kServer,
                                            {.service = (node_ == "/" ? "" : node_) + "/" + name,
@@ -90,30 +91,38 @@ Result<void> ParameterServices::Add(const char* name, const char* type, WirePart
   return {};
 }
 
-Result<std::unique_ptr<ParameterServices>> ParameterServices::Start(FrameworkElement& application, const std::string& node,
-                                                                    WireParticipant& participant, ServiceDialect dialect,
-                                                                    ParameterSetter set, Logger& log, const DiscoveryTable* table) {
-  std::unique_ptr<ParameterServices> made(new ParameterServices(application, node, dialect, std::move(set), log, table));
+Result<std::unique_ptr<ParameterServices>> ParameterServices::Start(FrameworkElement& application,
+                                                                    const std::string& node,
+                                                                    WireParticipant& participant,
+                                                                    ServiceDialect dialect, ParameterSetter set,
+                                                                    Logger& log, const DiscoveryTable* table) {
+  std::unique_ptr<ParameterServices> made(
+      new ParameterServices(application, node, dialect, std::move(set), log, table));
   ParameterServices& self = *made;
   Result<void> done = self.Add<RosListRequest>("list_parameters", "ListParameters", participant,
                                                [&self](const auto& request, Time) { return self.List(request); });
-  const auto add = [&]<typename Request>(std::type_identity<Request>, const char* name, const char* type, const auto& answer) {
+  const auto add = [&]<typename Request>(std::type_identity<Request>, const char* name, const char* type,
+                                         const auto& answer) {
     if (done) done = self.Add<Request>(name, type, participant, answer);
   };
   constexpr std::type_identity<Names> kNames;
   constexpr std::type_identity<Wanted> kSet;
   add(kNames, "get_parameters", "GetParameters", [&self](const auto& request, Time) { return self.Get(request); });
-  add(kNames, "get_parameter_types", "GetParameterTypes", [&self](const auto& request, Time) { return self.GetTypes(request); });
-  add(kNames, "describe_parameters", "DescribeParameters", [&self](const auto& request, Time) { return self.DescribeAll(request); });
-  add(kSet, "set_parameters", "SetParameters", [&self](const auto& request, Time sent) { return self.Set(request, sent); });
+  add(kNames, "get_parameter_types", "GetParameterTypes",
+      [&self](const auto& request, Time) { return self.GetTypes(request); });
+  add(kNames, "describe_parameters", "DescribeParameters",
+      [&self](const auto& request, Time) { return self.DescribeAll(request); });
+  add(kSet, "set_parameters", "SetParameters",
+      [&self](const auto& request, Time sent) { return self.Set(request, sent); });
   add(kSet, "set_parameters_atomically", "SetParametersAtomically",
       [&self](const auto& request, Time sent) { return self.SetAtomically(request, sent); });
   if (!done) return done.error();
-  auto events = participant.MakeWriter(RosEndpoint("/parameter_events", "rcl_interfaces/msg/ParameterEvent", {.depth = kDepth}),
-                                       [&self](std::size_t count) {
-                                         self.listeners_.store(count, std::memory_order_relaxed);
-                                         self.wake_->Notify();
-                                       });
+  auto events =
+      participant.MakeWriter(RosEndpoint("/parameter_events", "rcl_interfaces/msg/ParameterEvent", {.depth = kDepth}),
+                             [&self](std::size_t count) {
+                               self.listeners_.store(count, std::memory_order_relaxed);
+                               self.wake_->Notify();
+                             });
   if (!events) return events.error();
   self.events_ = std::move(*events);
   self.told_ = self.Values();
@@ -206,7 +215,8 @@ Result<ParameterChange> ParameterServices::Prepare(const RosParameter& wanted) c
   const Parameters all = FindAll();
   const auto found = all.find(wanted.name);
   if (found == all.end()) {
-    return Error{.message = "there is no parameter '" + wanted.name + "'", .hint = NearestNameHint(wanted.name, NamesOf(all, [](const auto& each) { return each.first; }))};
+    return Error{.message = "there is no parameter '" + wanted.name + "'",
+                 .hint = NearestNameHint(wanted.name, NamesOf(all, [](const auto& each) { return each.first; }))};
   }
   if (set_ == nullptr) {
     return Error{.message = "parameters may not be set from elsewhere",
@@ -281,7 +291,8 @@ void ParameterServices::TellChanges() {
   for (const auto& [name, value] : now) {
     const auto before = told_.find(name);
     if (before == told_.end()) event.new_parameters.push_back({name, value});
-    if (before != told_.end() && octets_of(before->second) != octets_of(value)) event.changed_parameters.push_back({name, value});
+    if (before != told_.end() && octets_of(before->second) != octets_of(value))
+      event.changed_parameters.push_back({name, value});
   }
   for (const auto& [name, value] : told_) {
     if (!now.contains(name)) event.deleted_parameters.push_back({name, value});

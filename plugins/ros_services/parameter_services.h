@@ -36,8 +36,9 @@ class ParameterServices {
  public:
   /// `set`: nullptr: they may be looked at only. `log`: what goes wrong. `table`: ServiceTopics::table. Errors: of the engine.
   static Result<std::unique_ptr<ParameterServices>> Start(FrameworkElement& application, const std::string& node,
-                                                          WireParticipant& participant, ServiceDialect dialect, ParameterSetter set,
-                                                          Logger& log, const DiscoveryTable* table = nullptr);
+                                                          WireParticipant& participant, ServiceDialect dialect,
+                                                          ParameterSetter set, Logger& log,
+                                                          const DiscoveryTable* table = nullptr);
   ~ParameterServices();
 
   /// That it is to be looked who is there now.
@@ -63,8 +64,8 @@ class ParameterServices {
   };
   using Parameters = std::map<std::string, Found>;
 
-  ParameterServices(FrameworkElement& application, std::string node, ServiceDialect dialect, ParameterSetter set, Logger& log,
-                    const DiscoveryTable* table);
+  ParameterServices(FrameworkElement& application, std::string node, ServiceDialect dialect, ParameterSetter set,
+                    Logger& log, const DiscoveryTable* table);
   template <typename Request, typename Answer>
   Result<void> Add(const char* name, const char* type, WireParticipant& participant, const Answer& answer);
   // Under the structure lock.

@@ -51,8 +51,9 @@ const std::vector<std::string>& RosParameterUses() {
   return names;
 }
 
-std::unique_ptr<RosNode> RosNode::Start(const RosOptions& options, WireParticipant& participant, FrameworkElement& application,
-                                        bool is_simulated, Logger& log, RosHooks hooks, std::function<void()> on_news) {
+std::unique_ptr<RosNode> RosNode::Start(const RosOptions& options, WireParticipant& participant,
+                                        FrameworkElement& application, bool is_simulated, Logger& log, RosHooks hooks,
+                                        std::function<void()> on_news) {
   Runtime& runtime = application.runtime();
   const ClockOffset offset{is_simulated, hooks.clock_lead};
   std::unique_ptr<RosNode> node(new RosNode(options, participant.id(), runtime.clock(), offset));
@@ -80,7 +81,8 @@ std::unique_ptr<RosNode> RosNode::Start(const RosOptions& options, WireParticipa
   return node;
 }
 
-void RosNode::MakeTopics(WireParticipant& participant, Runtime& runtime, const std::function<void(const Error&)>& tell) {
+void RosNode::MakeTopics(WireParticipant& participant, Runtime& runtime,
+                         const std::function<void(const Error&)>& tell) {
   const auto make = [&](bool is_wanted, std::unique_ptr<WireWriter>& writer, const WireEndpointOptions& endpoint) {
     if (!is_wanted) return;
     auto made = participant.MakeWriter(endpoint, {});
@@ -91,7 +93,8 @@ void RosNode::MakeTopics(WireParticipant& participant, Runtime& runtime, const s
        {.topic = kNodesTopic, .type = kNodesType, .qos = {.is_latched = true}});
   make(options_.sends_clock, time_, RosEndpoint("/clock", "rosgraph_msgs/msg/Clock", {.is_reliable = false}));
   make(options_.sends_log, log_,
-       RosEndpoint("/rosout", "rcl_interfaces/msg/Log", {.is_latched = true, .depth = 1000, .lifespan = std::chrono::seconds(10)}));
+       RosEndpoint("/rosout", "rcl_interfaces/msg/Log",
+                   {.is_latched = true, .depth = 1000, .lifespan = std::chrono::seconds(10)}));
   if (log_ != nullptr) {
     sink_ = std::make_unique<LogSink>(
         runtime, [this](const LogMessage& message) { Write(*log_, ToRosLog(message, message.time + offset_.Now())); });
@@ -107,7 +110,8 @@ Result<void> RosNode::FollowClock(WireParticipant& participant, const std::funct
     // Whoever follows no clock has not been let start.
     (void)set_time(Time(std::chrono::seconds(seconds) + std::chrono::nanoseconds(rest)));
   };
-  auto reader = participant.MakeReader(RosEndpoint("/clock", "rosgraph_msgs/msg/Clock", {.is_reliable = false}), take, {});
+  auto reader =
+      participant.MakeReader(RosEndpoint("/clock", "rosgraph_msgs/msg/Clock", {.is_reliable = false}), take, {});
   if (!reader) return reader.error();
   followed_ = std::move(*reader);
   return {};
@@ -131,7 +135,8 @@ void RosNode::Tell(std::vector<WireId> readers, std::vector<WireId> writers) {
   readers_ = std::move(readers);
   writers_ = std::move(writers);
   const auto& distributions = RosDistributions();
-  const bool is_long = std::ranges::find(distributions, options_.distribution) <= std::ranges::find(distributions, kLastWithLongIds);
+  const bool is_long =
+      std::ranges::find(distributions, options_.distribution) <= std::ranges::find(distributions, kLastWithLongIds);
   const std::size_t slash = options_.node.rfind('/');
   auto octets = std::make_shared<Octets>();
   CdrWriter to(*octets);
@@ -166,11 +171,12 @@ Result<std::unique_ptr<DiagnosticsTopic>> DiagnosticsTopic::Start(WireParticipan
                                                                   ClockOffset offset, Health health,
                                                                   std::function<void()> on_news) {
   std::unique_ptr<DiagnosticsTopic> topic(new DiagnosticsTopic(clock, std::move(offset), std::move(health)));
-  auto writer = participant.MakeWriter(RosEndpoint("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", {.depth = 10}),
-                                       [listeners = topic->listeners_, on_news = std::move(on_news)](std::size_t count) {
-                                         listeners->store(count, std::memory_order_relaxed);
-                                         on_news();
-                                       });
+  auto writer =
+      participant.MakeWriter(RosEndpoint("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", {.depth = 10}),
+                             [listeners = topic->listeners_, on_news = std::move(on_news)](std::size_t count) {
+                               listeners->store(count, std::memory_order_relaxed);
+                               on_news();
+                             });
   if (!writer) return writer.error();
   topic->writer_ = std::move(*writer);
   return topic;

@@ -29,8 +29,9 @@ class DiagnosticsTopic {
   using Health = std::function<std::vector<RosDiagnosticStatus>()>;
 
   /// `clock`: the application's. Errors: of the engine.
-  static Result<std::unique_ptr<DiagnosticsTopic>> Start(WireParticipant& participant, const Clock& clock, ClockOffset offset,
-                                                         Health health, std::function<void()> on_news);
+  static Result<std::unique_ptr<DiagnosticsTopic>> Start(WireParticipant& participant, const Clock& clock,
+                                                         ClockOffset offset, Health health,
+                                                         std::function<void()> on_news);
 
   /// Tells what is due. When it wants to be called again, by the steady clock; nothing: when there are news.
   std::optional<Time> Send(Time now);
@@ -59,11 +60,11 @@ enum class RosParameterUse { kNone, kRead, kWrite };
 
 /// What nodes of ROS 2 are told besides.
 struct RosOptions {
-  std::string distribution = {};  ///< of RosDistributions(): "" if the application is to be no node
-  std::string node = {};          ///< "/base"
-  bool sends_clock = false;       ///< on /clock
-  bool follows_clock = false;     ///< the application's time is that of /clock
-  bool sends_log = false;         ///< on /rosout
+  std::string distribution = {};   ///< of RosDistributions(): "" if the application is to be no node
+  std::string node = {};           ///< "/base"
+  bool sends_clock = false;        ///< on /clock
+  bool follows_clock = false;      ///< the application's time is that of /clock
+  bool sends_log = false;          ///< on /rosout
   bool sends_diagnostics = false;  ///< on /diagnostics
   RosParameterUse parameters = RosParameterUse::kNone;
   bool stop_releases = false;  ///< the service ~/stop releases the STOP, too

@@ -21,7 +21,8 @@ constexpr const char* kClientId = "clientid=";
 std::string UserData(ServiceEndpoints::Side side, const WireId& participant, std::uint32_t identity) {
   WireId id = participant;
   std::memcpy(id.data() + id.size() - sizeof identity, &identity, sizeof identity);
-  return fmt::format("{}{:02x};", side == ServiceEndpoints::Side::kServer ? "serviceid=" : kClientId, fmt::join(id, "."));
+  return fmt::format("{}{:02x};", side == ServiceEndpoints::Side::kServer ? "serviceid=" : kClientId,
+                     fmt::join(id, "."));
 }
 
 // What eight octets can have of sixteen.
@@ -90,7 +91,8 @@ std::optional<ServiceMessage> ServiceEndpoints::Read(const WireSample& sample) {
   }
   if (!message) return message;
   message->id.writer = sample.writer;
-  if (clocks_.size() >= kMostClocks && !clocks_.contains(sample.writer)) clocks_.clear();  // each call may be of a new client
+  if (clocks_.size() >= kMostClocks && !clocks_.contains(sample.writer))
+    clocks_.clear();  // each call may be of a new client
   WriterClock& clock = clocks_[sample.writer];
   (void)clock.HeldUp(SinceEpoch().time_since_epoch() - Duration(sample.source_time), SteadyClock().Now());
   message->sent = clock.sent();
@@ -148,10 +150,11 @@ bool ServiceEndpoints::IsAwaited(const CallId& id) const {
   const std::size_t begin = said.find(kClientId);
   if (!is_beside && begin == std::string::npos) return false;
   const std::string name = is_beside ? "" : said.substr(begin, said.find(';', begin) + 1 - begin);
-  return std::ranges::none_of(topics_.table->Partners(DdsReplyTopic(topics_.service), false), [&](const WireEndpoint& each) {
-    const bool is_it = is_beside ? each.id == id.client : each.options.user_data.find(name) != std::string::npos;
-    return is_it && writer_->HasReader(each.handle);
-  });
+  return std::ranges::none_of(
+      topics_.table->Partners(DdsReplyTopic(topics_.service), false), [&](const WireEndpoint& each) {
+        const bool is_it = is_beside ? each.id == id.client : each.options.user_data.find(name) != std::string::npos;
+        return is_it && writer_->HasReader(each.handle);
+      });
 }
 
 void ServiceEndpoints::SendKept() {

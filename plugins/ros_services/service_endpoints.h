@@ -31,7 +31,7 @@ struct CallId {
 struct ServiceMessage {
   CallId id;
   Octets message;
-  Time sent{};               ///< at the earliest, on this machine's steady clock (WriterClock::sent())
+  Time sent{};  ///< at the earliest, on this machine's steady clock (WriterClock::sent())
 };
 
 /// As rmw_cyclonedds has it: the call stands in front of the message. `message`: with the encapsulation, of this machine's order
@@ -53,7 +53,7 @@ struct ServiceTopics {
   std::string response_type = {};  ///< "std_srvs::srv::dds_::SetBool_Response_"
   std::uint32_t depth = 10;        ///< newest requests and replies that are kept
   ServiceDialect dialect = ServiceDialect::kInFront;
-  bool is_latched = false;  ///< what is said before the other end has come is heard by it, too
+  bool is_latched = false;                ///< what is said before the other end has come is heard by it, too
   const DiscoveryTable* table = nullptr;  ///< of who calls; must outlive the ends. nullptr: no server waits for readers
 
   friend bool operator==(const ServiceTopics&, const ServiceTopics&) = default;
@@ -69,8 +69,9 @@ class ServiceEndpoints {
 
   /// `on_news` is called when something has come, or somebody has come or gone. `identity`: what nobody else has. Errors:
   /// of the engine.
-  static Result<std::unique_ptr<ServiceEndpoints>> Start(Side side, const ServiceTopics& topics, WireParticipant& participant,
-                                                         std::uint32_t identity, std::function<void()> on_news);
+  static Result<std::unique_ptr<ServiceEndpoints>> Start(Side side, const ServiceTopics& topics,
+                                                         WireParticipant& participant, std::uint32_t identity,
+                                                         std::function<void()> on_news);
 
   [[nodiscard]] const ServiceTopics& topics() const noexcept { return topics_; }
   /// Of a client: sends a request; the how manyth of its calls it is.

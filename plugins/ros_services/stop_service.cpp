@@ -14,7 +14,8 @@ constexpr std::uint32_t kStopIdentity = 0x80000100u;  // beyond those of paramet
 
 Result<std::unique_ptr<StopService>> StopService::Start(Runtime& runtime, bool may_release, const std::string& node,
                                                         WireParticipant& participant, ServiceDialect dialect,
-                                                        std::function<bool()> is_kept, std::function<Result<void>()> check,
+                                                        std::function<bool()> is_kept,
+                                                        std::function<Result<void>()> check,
                                                         const DiscoveryTable* table) {
   const std::string name = (node == "/" ? "" : node) + "/stop";
   std::unique_ptr<StopService> made(new StopService(runtime, may_release, name, std::move(is_kept), std::move(check)));
@@ -62,7 +63,8 @@ StopService::Answer StopService::Do(const ServiceMessage& request) {
     const auto all = check_ ? check_() : Result<void>();
     return {all.has_value(), all ? std::move(done) : all.error().message};
   }
-  if (!may_release_) return {false, "the STOP is not released by this service: its file does not say <ros stop_releases=\"true\">"};
+  if (!may_release_)
+    return {false, "the STOP is not released by this service: its file does not say <ros stop_releases=\"true\">"};
   const auto released = stop.Release(by, {.asked = request.sent, .requests = {}});
   if (released) return {true, "the STOP is released"};
   return {false, released.error().ToString()};

@@ -34,7 +34,11 @@ class StopService {
  private:
   StopService(Runtime& runtime, bool may_release, std::string name, std::function<bool()> is_kept,
               std::function<Result<void>()> check)
-      : runtime_(runtime), may_release_(may_release), name_(std::move(name)), is_kept_(std::move(is_kept)), check_(std::move(check)) {}
+      : runtime_(runtime),
+        may_release_(may_release),
+        name_(std::move(name)),
+        is_kept_(std::move(is_kept)),
+        check_(std::move(check)) {}
   struct Answer {
     bool success;
     std::string message;

@@ -45,8 +45,8 @@ class TakenService::Ring final : public Waker {
 };
 
 TakenService::TakenService(Runtime& runtime, std::string path, ServiceTakeOptions options,
-                           std::shared_ptr<DistantService> service, ServiceDialect dialect,
-                           std::uint32_t identity, std::shared_ptr<WakeEvent> wake)
+                           std::shared_ptr<DistantService> service, ServiceDialect dialect, std::uint32_t identity,
+                           std::shared_ptr<WakeEvent> wake)
     : runtime_(runtime),
       path_(std::move(path)),
       options_(std::move(options)),
@@ -72,10 +72,12 @@ TakenService::~TakenService() {
 Result<void> TakenService::Follow(WireParticipant& participant) {
   if (endpoints_ != nullptr) return {};
   const ServiceForm& form = *service_->form;
-  auto begun = ServiceEndpoints::Start(
-      ServiceEndpoints::Side::kClient,
-      {.service = options_.service, .request_type = form.request_type(), .response_type = form.response_type(), .dialect = dialect_}, participant,
-      identity_, [wake = wake_] { wake->Notify(); });
+  auto begun = ServiceEndpoints::Start(ServiceEndpoints::Side::kClient,
+                                       {.service = options_.service,
+                                        .request_type = form.request_type(),
+                                        .response_type = form.response_type(),
+                                        .dialect = dialect_},
+                                       participant, identity_, [wake = wake_] { wake->Notify(); });
   if (!begun) return begun.error();
   endpoints_ = std::move(*begun);
   return {};
@@ -89,7 +91,9 @@ bool TakenService::Work() {
   const Time now = runtime_.clock().Now();
   EraseWhere(pending_, [&](Pending& each) {
     if (each.call->is_given_up.load(std::memory_order_relaxed) || now >= each.call->deadline) {
-      End(each, CallStatus::kTimedOut, (is_matched ? "no answer from " : "there is no service ") + options_.service + (is_matched ? "" : " in the network"));
+      End(each, CallStatus::kTimedOut,
+          (is_matched ? "no answer from " : "there is no service ") + options_.service +
+              (is_matched ? "" : " in the network"));
       return true;
     }
     if (!is_matched || each.request.empty()) return false;
@@ -129,7 +133,8 @@ void TakenService::TakeReplies() {
     } else if (outcome->success) {
       End(*of, CallStatus::kAnswered, "");
     } else {
-      End(*of, CallStatus::kFailed, outcome->message.empty() ? options_.service + " says no reason" : Printable(outcome->message));
+      End(*of, CallStatus::kFailed,
+          outcome->message.empty() ? options_.service + " says no reason" : Printable(outcome->message));
     }
     pending_.erase(of);
   }
@@ -143,7 +148,8 @@ void TakenService::End(Pending& pending, CallStatus status, const std::string& w
 
 std::string TakenService::Text() const {
   std::string text = "takes the service " + options_.service + " as " + path_ + "  " + service_->form->ros_type();
-  text += ", " + std::to_string(service_->endpoint.answered.load()) + " answered, " + std::to_string(service_->endpoint.failed.load()) + " failed";
+  text += ", " + std::to_string(service_->endpoint.answered.load()) + " answered, " +
+          std::to_string(service_->endpoint.failed.load()) + " failed";
   return text + (endpoints_ != nullptr && endpoints_->is_matched() ? "\n" : ": NOBODY OFFERS IT\n");
 }
 

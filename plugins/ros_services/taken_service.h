@@ -17,9 +17,9 @@ namespace runnel {
 
 /// A service elsewhere that clients of this application call.
 struct ServiceTakeOptions {
-  std::string service = {};           ///< "/save_map"
-  std::string as = {};                ///< "std_srvs/srv/Trigger"; "": made of the clients' types
-  bool is_live = false;               ///< also with simulated time, whose runs then are not repeatable
+  std::string service = {};  ///< "/save_map"
+  std::string as = {};       ///< "std_srvs/srv/Trigger"; "": made of the clients' types
+  bool is_live = false;      ///< also with simulated time, whose runs then are not repeatable
   SourcePosition position = {};
 };
 

@@ -15,10 +15,9 @@ namespace {
 constexpr Duration kBrief = std::chrono::milliseconds(50);
 }  // namespace
 
-Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runners,
-                                  Duration timeout, CycleTracer* tracer) {
-  RUNNEL_CHECK(!EpochGuard::HeldByThisThread(),
-               "threads cannot be kept between cycles from within a cycle");
+Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runners, Duration timeout,
+                                  CycleTracer* tracer) {
+  RUNNEL_CHECK(!EpochGuard::HeldByThisThread(), "threads cannot be kept between cycles from within a cycle");
   const SteadyClock clock;
   const Time deadline = SaturatingSum(clock.Now(), timeout);
   std::ranges::stable_sort(runners, std::ranges::greater{},
@@ -26,8 +25,7 @@ Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runn
   CycleHold hold;
   hold.tracer_ = tracer;
   hold.began_ = clock.Now();
-  hold.runners_.reserve(
-      runners.size());  // whose gate is closed is known by the hold, whatever fails
+  hold.runners_.reserve(runners.size());  // whose gate is closed is known by the hold, whatever fails
   std::deque<std::shared_ptr<CycleRunner>> left(runners.begin(), runners.end());
   for (; !left.empty(); left.pop_front()) {
     left.front()->gate().Close();
@@ -39,8 +37,7 @@ Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runn
     for (int round = 0; !closed.quiescence()->HasLeft(epoch); ++round) {
       const Time now = clock.Now();
       if (now > deadline) {
-        return Error{.message = "has not come to the end of its cycle in " +
-                                std::to_string(ToSeconds(timeout)) + " s",
+        return Error{.message = "has not come to the end of its cycle in " + std::to_string(ToSeconds(timeout)) + " s",
                      .path = closed.path(),
                      .hint = "one of its modules does not return from its Update()"};
       }

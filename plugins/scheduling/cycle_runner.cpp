@@ -15,27 +15,22 @@ namespace {
 
 // Of the cycle that this thread is in, at whose end those who wait for data will be told; else
 // nullptr.
-thread_local constinit const Schedule* in_cycle_of __attribute__((tls_model("initial-exec"))) =
-    nullptr;
+thread_local constinit const Schedule* in_cycle_of __attribute__((tls_model("initial-exec"))) = nullptr;
 
 // Of the cycle that this thread is in, if anything is noted of it.
-thread_local constinit const CycleRunner* noting_runner
-    __attribute__((tls_model("initial-exec"))) = nullptr;
+thread_local constinit const CycleRunner* noting_runner __attribute__((tls_model("initial-exec"))) = nullptr;
 
 bool IsToldAtTheEnd(const CycleRunner& runner) noexcept {
-  return in_cycle_of != nullptr &&
-         std::ranges::find(*in_cycle_of->waiting, &runner) != in_cycle_of->waiting->end();
+  return in_cycle_of != nullptr && std::ranges::find(*in_cycle_of->waiting, &runner) != in_cycle_of->waiting->end();
 }
 
 bool HasActivated(const Schedule& schedule) noexcept {
-  return std::ranges::any_of(schedule.entries,
-                             [](const auto& entry) { return entry.element->is_activated(); });
+  return std::ranges::any_of(schedule.entries, [](const auto& entry) { return entry.element->is_activated(); });
 }
 
 // One that throws fails, and the others go on. The try block is around the loop and not within
 // it: a task costs no more than its call.
-void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now,
-               FaultDispatcher& faults) noexcept {
+void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now, FaultDispatcher& faults) noexcept {
   auto entry = entries.begin();
   const auto fail = [&](const char* what) { (entry++)->element->Fail(what, now, faults); };
   while (entry != entries.end()) {
@@ -113,8 +108,8 @@ void CycleRunner::EndNoting(const Schedule& schedule, Time began, CycleMoment no
   schedule.track->NoteCycle({began, clock_.Now()}, now.time, now.number);
 }
 
-void CycleRunner::Run(std::span<const Schedule::Entry> entries, const Schedule& schedule,
-                      CycleMoment now, FaultDispatcher& faults) noexcept {
+void CycleRunner::Run(std::span<const Schedule::Entry> entries, const Schedule& schedule, CycleMoment now,
+                      FaultDispatcher& faults) noexcept {
   if (noted_ == 0) [[likely]]
     return RunInTurn(entries, now, faults);
   for (const Schedule::Entry& entry : entries) RunNoted(entry, schedule, now, faults);
@@ -126,8 +121,7 @@ void CycleRunner::RunNoted(const Schedule::Entry& entry, const Schedule& schedul
   if (element.is_at_rest()) return;
   TraceTrack* const track = (noted_ & Instruments::kTrace) != 0 ? schedule.track : nullptr;
   TracedElement* const traced = track != nullptr ? element.traced() : nullptr;
-  const ChainSteps* const chains =
-      (noted_ & Instruments::kLatency) != 0 ? element.chains() : nullptr;
+  const ChainSteps* const chains = (noted_ & Instruments::kLatency) != 0 ? element.chains() : nullptr;
   const bool is_measured = traced != nullptr || (noted_ & Instruments::kProfile) != 0;
   const Time began = is_measured ? clock_.Now() : Time{};
   if (traced != nullptr) traced->track = track;
@@ -155,8 +149,7 @@ bool CycleRunner::IsSettled(const Schedule& schedule) noexcept {
 }
 
 // An element that another thread may still be running is left out of this cycle.
-void CycleRunner::RunAll(const Schedule& schedule, CycleMoment now,
-                         FaultDispatcher& faults) noexcept {
+void CycleRunner::RunAll(const Schedule& schedule, CycleMoment now, FaultDispatcher& faults) noexcept {
   if (IsSettled(schedule)) return Run(schedule.entries, schedule, now, faults);
   for (const Schedule::Entry& entry : schedule.entries) {
     if (entry.HasArrived()) Run({&entry, 1}, schedule, now, faults);
@@ -165,8 +158,7 @@ void CycleRunner::RunAll(const Schedule& schedule, CycleMoment now,
 
 // The entries of one element follow one another only by chance, so what has come for it is taken
 // once, by its first task, and holds for the others.
-void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now,
-                               FaultDispatcher& faults) noexcept {
+void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now, FaultDispatcher& faults) noexcept {
   const bool is_settled = IsSettled(schedule);
   is_held_up_ = false;
   for (const Schedule::Entry& entry : schedule.entries) {
@@ -182,9 +174,8 @@ void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now,
   }
 }
 
-void CycleRunner::RunIfActivated(const Schedule::Entry& entry, const Schedule& schedule,
-                                 bool is_settled, CycleMoment now,
-                                 FaultDispatcher& faults) noexcept {
+void CycleRunner::RunIfActivated(const Schedule::Entry& entry, const Schedule& schedule, bool is_settled,
+                                 CycleMoment now, FaultDispatcher& faults) noexcept {
   ScheduledElement& element = *entry.element;
   // What has come for an element that another thread may still be running is not forgotten.
   if (!is_settled && !entry.HasArrived()) {

@@ -10,10 +10,10 @@
 #include "core/base/clock.h"
 #include "core/lockfree/wake_event.h"
 #include "core/port/cycle.h"
-#include "plugins/timing/cycle_statistics.h"
 #include "plugins/scheduling/running_task.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_options.h"
+#include "plugins/timing/cycle_statistics.h"
 #include "plugins/timing/tick_clock.h"
 
 namespace runnel {
@@ -80,14 +80,10 @@ class CycleRunner {
   /// come for any element of the schedule.
   void Install(std::unique_ptr<const Schedule> schedule);
   /// Under the structure lock; nullptr before the first Install().
-  [[nodiscard]] const Schedule* schedule() const noexcept {
-    return schedule_.load(std::memory_order_seq_cst);
-  }
+  [[nodiscard]] const Schedule* schedule() const noexcept { return schedule_.load(std::memory_order_seq_cst); }
 
   /// For the threads that others' schedules may have to wait for.
-  [[nodiscard]] const std::shared_ptr<CycleQuiescence>& quiescence() const noexcept {
-    return quiescence_;
-  }
+  [[nodiscard]] const std::shared_ptr<CycleQuiescence>& quiescence() const noexcept { return quiescence_; }
 
   /// By which others keep this runner between two cycles (CycleHold).
   [[nodiscard]] CycleGate& gate() noexcept { return gate_; }
@@ -98,21 +94,15 @@ class CycleRunner {
   /// Counts a cycle that has ended.
   void Record(const CycleMeasurement& cycle) noexcept { meter_.Add(cycle); }
   /// How many cycles have begun.
-  [[nodiscard]] std::uint64_t cycles_begun() const noexcept {
-    return cycles_begun_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] std::uint64_t cycles_begun() const noexcept { return cycles_begun_.load(std::memory_order_relaxed); }
   [[nodiscard]] CycleStatistics statistics() const noexcept { return meter_.statistics(); }
 
   /// Data has come for an element of this runner. Within a cycle the waiting thread is woken at the
   /// cycle's end, if the cycle's schedule knows of it.
   void Activate() noexcept;
   /// Whether data has come since the last call.
-  [[nodiscard]] bool TakeActivation() noexcept {
-    return activated_.exchange(false, std::memory_order_acq_rel);
-  }
-  [[nodiscard]] bool is_activated() const noexcept {
-    return activated_.load(std::memory_order_acquire);
-  }
+  [[nodiscard]] bool TakeActivation() noexcept { return activated_.exchange(false, std::memory_order_acq_rel); }
+  [[nodiscard]] bool is_activated() const noexcept { return activated_.load(std::memory_order_acquire); }
   /// Whether the last cycle has left out an element that data has come for, as another thread may
   /// still be running it. By the thread of the cycles.
   [[nodiscard]] bool is_held_up() const noexcept { return is_held_up_; }
@@ -123,15 +113,14 @@ class CycleRunner {
   void Run(std::span<const Schedule::Entry> entries, const Schedule& schedule, CycleMoment now,
            FaultDispatcher& faults) noexcept;
   [[gnu::cold, gnu::noinline]] Time BeginNoting() noexcept;
-  [[gnu::cold, gnu::noinline]] void EndNoting(const Schedule& schedule, Time began,
-                                              CycleMoment now) noexcept;
+  [[gnu::cold, gnu::noinline]] void EndNoting(const Schedule& schedule, Time began, CycleMoment now) noexcept;
   [[gnu::noinline]] void RunNoted(const Schedule::Entry& entry, const Schedule& schedule, CycleMoment now,
-                FaultDispatcher& faults) noexcept;
+                                  FaultDispatcher& faults) noexcept;
   [[nodiscard]] bool IsSettled(const Schedule& schedule) noexcept;
   void RunAll(const Schedule& schedule, CycleMoment now, FaultDispatcher& faults) noexcept;
   void RunActivated(const Schedule& schedule, CycleMoment now, FaultDispatcher& faults) noexcept;
-  void RunIfActivated(const Schedule::Entry& entry, const Schedule& schedule, bool is_settled,
-                      CycleMoment now, FaultDispatcher& faults) noexcept;
+  void RunIfActivated(const Schedule::Entry& entry, const Schedule& schedule, bool is_settled, CycleMoment now,
+                      FaultDispatcher& faults) noexcept;
 
   const std::string path_;
   std::atomic<ThreadOptions::Activation> activation_;

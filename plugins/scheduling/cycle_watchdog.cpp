@@ -29,8 +29,7 @@ void CycleWatchdog::Add(StuckRule rule) {
 void CycleWatchdog::SetLimit(const std::string& of, Duration after) {
   const std::lock_guard lock(mutex_);
   std::erase_if(rules_, [&](const auto& each) { return each->is_limit && each->rule.of == of; });
-  const bool has_default =
-      std::ranges::any_of(rules_, [](const auto& each) { return each->IsDefault(); });
+  const bool has_default = std::ranges::any_of(rules_, [](const auto& each) { return each->IsDefault(); });
   if (after > Duration{} || has_default) {
     rules_.push_back(std::make_shared<KnownRule>(KnownRule{{.of = of, .after = after}, true}));
   }
@@ -78,8 +77,7 @@ void CycleWatchdog::Follow(Runners runners) {
   std::vector<Watched> watched;
   for (auto& runner : runners) {
     const auto known = std::ranges::find(watched_, runner, &Watched::runner);
-    watched.push_back(known != watched_.end() ? std::move(*known)
-                                              : Watched{.runner = std::move(runner)});
+    watched.push_back(known != watched_.end() ? std::move(*known) : Watched{.runner = std::move(runner)});
   }
   watched_ = std::move(watched);
 }
@@ -112,8 +110,7 @@ void CycleWatchdog::Run() {
       has_changed_.wait(lock, is_woken);
     } else if (!has_changed_.wait_for(lock, Interval(), is_woken)) {
       Look(Now());
-      if (std::ranges::all_of(watched_, [](const Watched& each) { return each.fired.empty(); }))
-        continue;
+      if (std::ranges::all_of(watched_, [](const Watched& each) { return each.fired.empty(); })) continue;
       lock.unlock();
       {
         const std::lock_guard listening(listening_);
@@ -129,11 +126,10 @@ void CycleWatchdog::SetListener(std::function<void()> listener) {
   listener_ = std::move(listener);
 }
 
-bool CycleWatchdog::IsAbout(const KnownRule& known, const std::string& path,
-                            const std::string& thread) const {
+bool CycleWatchdog::IsAbout(const KnownRule& known, const std::string& path, const std::string& thread) const {
   if (!known.IsDefault()) return thread == known.rule.of || IsAtOrBelow(path, known.rule.of);
-  return std::ranges::none_of(
-      rules_, [&](const auto& each) { return !each->IsDefault() && IsAbout(*each, path, thread); });
+  return std::ranges::none_of(rules_,
+                              [&](const auto& each) { return !each->IsDefault() && IsAbout(*each, path, thread); });
 }
 
 void CycleWatchdog::Look(Time now) {
@@ -151,22 +147,20 @@ void CycleWatchdog::Look(Watched& watched, Time now) {
   const Duration since = now - watched.seen;
   for (const auto& known : rules_) {
     const Duration after = known->rule.after;
-    if (after == Duration{} || since < after || std::ranges::count(watched.fired, known) > 0)
-      continue;
+    if (after == Duration{} || since < after || std::ranges::count(watched.fired, known) > 0) continue;
     const auto path = ScheduledElement::PathOf(state.element);
     if (!path || !IsAbout(*known, *path, watched.runner->path())) continue;
     watched.path = *path;
     watched.fired.push_back(known);
     Tell(watched, Fault::Kind::kStuck,
-         "has not returned from its cycle for " + DurationText(since) + "; at most " +
-             DurationText(after) + " is allowed",
+         "has not returned from its cycle for " + DurationText(since) + "; at most " + DurationText(after) +
+             " is allowed",
          known->rule.on_stuck);
   }
 }
 
 void CycleWatchdog::Return(Watched& watched, Time now) {
-  const std::string message =
-      "has returned from its cycle, after " + DurationText(now - watched.seen);
+  const std::string message = "has returned from its cycle, after " + DurationText(now - watched.seen);
   bool is_told = false;
   for (const auto& known : std::exchange(watched.fired, {})) {
     if (std::exchange(is_told, true) && !known->rule.on_return) continue;

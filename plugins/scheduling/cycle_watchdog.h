@@ -16,9 +16,8 @@ namespace runnel {
 
 /// How long a module may take for one run of a task, and what is done when it takes longer.
 struct StuckRule {
-  std::string of =
-      "/";  ///< path: this element and all below it, or all that a thread of this path runs
-  Duration after{};  ///< of the machine's clock; 0: it may take as long as it likes
+  std::string of = "/";  ///< path: this element and all below it, or all that a thread of this path runs
+  Duration after{};      ///< of the machine's clock; 0: it may take as long as it likes
   /// Called as a FaultRule's are, once for each run that takes too long ...
   std::function<void(const Fault&)> on_stuck = {};
   /// ... and when it has come to its end after all.
@@ -88,8 +87,7 @@ class CycleWatchdog {
   void Run();
   void Look(Time now);
   void Look(Watched& watched, Time now);
-  [[nodiscard]] bool IsAbout(const KnownRule& known, const std::string& path,
-                             const std::string& thread) const;
+  [[nodiscard]] bool IsAbout(const KnownRule& known, const std::string& path, const std::string& thread) const;
   void Return(Watched& watched, Time now);
   void Tell(const Watched& watched, Fault::Kind kind, std::string message,
             const std::function<void(const Fault&)>& call);

@@ -31,8 +31,7 @@ void FaultDispatcher::Raise(std::unique_ptr<FaultRecord> record) noexcept {
   do {
     added->next_ = head;
     // release: pairs with the acquire in Dispatch(): the record is filled.
-  } while (!raised_.compare_exchange_weak(head, added, std::memory_order_release,
-                                          std::memory_order_relaxed));
+  } while (!raised_.compare_exchange_weak(head, added, std::memory_order_release, std::memory_order_relaxed));
   event_.Notify();
 }
 
@@ -64,8 +63,7 @@ void FaultDispatcher::DispatchAlone() {
       Answer(*record);
     } catch (...) {  // what is not told now is told the next time
       Raise(std::move(record));
-      while (oldest != nullptr)
-        Raise(std::unique_ptr<FaultRecord>(std::exchange(oldest, oldest->next_)));
+      while (oldest != nullptr) Raise(std::unique_ptr<FaultRecord>(std::exchange(oldest, oldest->next_)));
       throw;
     }
   }

@@ -22,8 +22,7 @@ class FaultRecord {
  public:
   explicit FaultRecord(std::string path);
   /// One that is known already, with what is to be done about it in the place of the rules.
-  FaultRecord(Fault fault, std::function<void(const Fault&)> call)
-      : fault_(std::move(fault)), call_(std::move(call)) {}
+  FaultRecord(Fault fault, std::function<void(const Fault&)> call) : fault_(std::move(fault)), call_(std::move(call)) {}
   /// Cuts `message` off where the room ends.
   void Fill(std::string_view message, Time time, std::uint64_t cycle) noexcept;
   [[nodiscard]] const Fault& fault() const noexcept { return fault_; }
@@ -75,14 +74,10 @@ class FaultDispatcher {
     ended_by_fault_.store(false, std::memory_order_release);
     stop_requested_.store(false, std::memory_order_release);
   }
-  [[nodiscard]] bool stop_requested() const noexcept {
-    return stop_requested_.load(std::memory_order_acquire);
-  }
+  [[nodiscard]] bool stop_requested() const noexcept { return stop_requested_.load(std::memory_order_acquire); }
 
   /// A rule has requested it, whoever else has, too.
-  [[nodiscard]] bool ended_by_fault() const noexcept {
-    return ended_by_fault_.load(std::memory_order_acquire);
-  }
+  [[nodiscard]] bool ended_by_fault() const noexcept { return ended_by_fault_.load(std::memory_order_acquire); }
 
   /// Notified of each fault.
   [[nodiscard]] WakeEvent& event() noexcept { return event_; }
@@ -103,9 +98,9 @@ class FaultDispatcher {
   std::atomic<bool> ended_by_fault_{false};
   WakeEvent event_;
   OrderedMutex mutex_{LockLevel::kLeaf};
-  Handler handler_;               // guarded by mutex_
-  std::vector<FaultRule> rules_;  // guarded by mutex_
-  std::vector<Fault> log_;        // guarded by mutex_
+  Handler handler_;                     // guarded by mutex_
+  std::vector<FaultRule> rules_;        // guarded by mutex_
+  std::vector<Fault> log_;              // guarded by mutex_
   std::optional<std::jthread> beside_;  // so; waits for the one before it
 };
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/paths/path_search.h"
-#include "plugins/timing/cycle_tracer.h"
 #include "plugins/scheduling/scheduler.h"
+#include "plugins/timing/cycle_tracer.h"
 
 namespace runnel {
 

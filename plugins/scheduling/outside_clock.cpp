@@ -41,8 +41,8 @@ void Scheduler::TellJump() {
   const auto jump = pace_.TakeJump();
   if (!jump) return;
   faults_.Note({.path = options_.clock_port.empty() ? "/clock" : options_.clock_port,
-                .message = "the clock that is followed jumps from " + std::to_string(ToSeconds(jump->first)) + " s to " +
-                           std::to_string(ToSeconds(jump->second)) + " s; what runs here goes on from there",
+                .message = "the clock that is followed jumps from " + std::to_string(ToSeconds(jump->first)) +
+                           " s to " + std::to_string(ToSeconds(jump->second)) + " s; what runs here goes on from there",
                 .time = simulation_.clock().Now(),
                 .is_mended = true,
                 .kind = Fault::Kind::kNote});

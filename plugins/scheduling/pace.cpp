@@ -12,8 +12,7 @@ constexpr Time kNever = Time::max();
 
 }  // namespace
 
-Pace::Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine,
-           bool follows_outside)
+Pace::Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine, bool follows_outside)
     : is_simulated_(is_simulated),
       follows_outside_(follows_outside),
       machine_(machine),
@@ -24,10 +23,10 @@ Pace::Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine
 
 Result<void> Pace::Check(const char* what) const {
   if (is_simulated_ && !has_ended_.load(std::memory_order_acquire)) return {};
-  if (is_simulated_) return Error{.message = "the run has ended", .hint = "'runnel restart' runs the application again"};
-  return Error{
-      .message = "real time cannot be " + std::string(what),
-      .hint = "only of simulated time: <clock type=\"simulated\"/> in the application file"};
+  if (is_simulated_)
+    return Error{.message = "the run has ended", .hint = "'runnel restart' runs the application again"};
+  return Error{.message = "real time cannot be " + std::string(what),
+               .hint = "only of simulated time: <clock type=\"simulated\"/> in the application file"};
 }
 
 void Pace::Changed() {
@@ -137,8 +136,6 @@ void Pace::CountStep() noexcept {
   if (left > 0) cycles_to_step_.store(left - 1, std::memory_order_release);
 }
 
-void Pace::Wait(Time latest) {
-  event_.WaitUntil(std::min({may_go_on_at_, latest, machine_.Now() + kLongestSleep}));
-}
+void Pace::Wait(Time latest) { event_.WaitUntil(std::min({may_go_on_at_, latest, machine_.Now() + kLongestSleep})); }
 
 }  // namespace runnel

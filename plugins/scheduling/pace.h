@@ -22,8 +22,7 @@ class Pace {
  public:
   /// `machine` must outlive this. Precondition: Pacing::Takes(speed).
   /// `follows_outside`: simulated time passes as SetTime() says.
-  Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine,
-       bool follows_outside = false);
+  Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine, bool follows_outside = false);
 
   /// What the clock shows that this one follows: cycles that are due until then run, one after the other, at their times.
   /// The first time is where it begins. Where the clock jumps, back (a simulator begins anew, a recording is played again) or
@@ -31,7 +30,9 @@ class Pace {
   Result<void> SetTime(Time time);
   static constexpr Duration kLongestStep = std::chrono::seconds(10);
   /// By how much time here is ahead of what the clock shows, which has jumped.
-  [[nodiscard]] Duration outside_lead() const noexcept { return Duration(outside_lead_.load(std::memory_order_acquire)); }
+  [[nodiscard]] Duration outside_lead() const noexcept {
+    return Duration(outside_lead_.load(std::memory_order_acquire));
+  }
   /// From where to where it has jumped since this was last asked; of jumps without a step between the first.
   [[nodiscard]] std::optional<std::pair<Time, Time>> TakeJump();
   [[nodiscard]] bool follows_outside() const noexcept { return follows_outside_; }
@@ -61,9 +62,7 @@ class Pace {
   /// Also while cycles are stepped.
   /// After End(), until Begin(): nothing of it can be changed.
   [[nodiscard]] bool has_ended() const noexcept { return has_ended_.load(std::memory_order_acquire); }
-  [[nodiscard]] bool is_paused() const noexcept {
-    return is_paused_.load(std::memory_order_acquire);
-  }
+  [[nodiscard]] bool is_paused() const noexcept { return is_paused_.load(std::memory_order_acquire); }
   /// That have been stepped for and have not come to their end yet.
   [[nodiscard]] std::uint64_t cycles_to_step() const noexcept {
     return cycles_to_step_.load(std::memory_order_acquire);
@@ -75,9 +74,7 @@ class Pace {
 
   /// Whether simulated time may go on to `due` now. Takes no lock while there is neither a pause nor
   /// a speed. By the scheduler, between cycles.
-  [[nodiscard]] bool MayGoOnTo(Time due) {
-    return is_free_.load(std::memory_order_acquire) || MayGoOnNow(due);
-  }
+  [[nodiscard]] bool MayGoOnTo(Time due) { return is_free_.load(std::memory_order_acquire) || MayGoOnNow(due); }
   /// The cycle that MayGoOnTo() has allowed is over. By the scheduler.
   void CountCycle() noexcept {
     if (is_a_step_) CountStep();
@@ -104,9 +101,9 @@ class Pace {
   std::atomic<Duration::rep> outside_lead_{0};
   const Clock& machine_;
   OrderedMutex mutex_{LockLevel::kLeaf};
-  Pacing pacing_;  // guarded by mutex_
-  Time shown_{};   // by the clock that is followed; likewise
-  bool has_jumped_ = false;                      // the last time; likewise
+  Pacing pacing_;                              // guarded by mutex_
+  Time shown_{};                               // by the clock that is followed; likewise
+  bool has_jumped_ = false;                    // the last time; likewise
   std::optional<std::pair<Time, Time>> jump_;  // likewise
   // Written under mutex_:
   std::atomic<double> speed_;

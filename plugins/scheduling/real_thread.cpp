@@ -12,9 +12,9 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "core/base/signal_stack.h"
 #include "core/log/logger.h"
 #include "plugins/scheduling/due_time.h"
-#include "core/base/signal_stack.h"
 #include "plugins/timing/tick_clock.h"
 
 namespace runnel {
@@ -22,12 +22,10 @@ namespace runnel {
 std::optional<Error> UseScheduling(pthread_t thread, int priority) {
   sched_param parameters{};
   parameters.sched_priority = priority;
-  const int failure =
-      pthread_setschedparam(thread, priority > 0 ? SCHED_FIFO : SCHED_OTHER, &parameters);
+  const int failure = pthread_setschedparam(thread, priority > 0 ? SCHED_FIFO : SCHED_OTHER, &parameters);
   if (failure == 0) return {};
-  return Error{.message = "SCHED_FIFO with priority " + std::to_string(priority) +
-                          " was refused (" + std::strerror(failure) +
-                          "); the thread runs under ordinary scheduling",
+  return Error{.message = "SCHED_FIFO with priority " + std::to_string(priority) + " was refused (" +
+                          std::strerror(failure) + "); the thread runs under ordinary scheduling",
                .hint = "allow it with CAP_SYS_NICE or an rtprio limit (limits.conf)"};
 }
 
@@ -37,13 +35,12 @@ std::optional<Error> LockMemory() {
   getrlimit(RLIMIT_MEMLOCK, &limit);
   const bool unlimited = limit.rlim_cur == RLIM_INFINITY;
   if (mlockall(unlimited ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) != 0) {
-    return Error{.message = std::string("memory was not locked (") + std::strerror(errno) +
-                            "); cycles may wait for pages",
-                 .hint = hint};
+    return Error{
+        .message = std::string("memory was not locked (") + std::strerror(errno) + "); cycles may wait for pages",
+        .hint = hint};
   }
   if (unlimited) return {};
-  return Error{.message = "only the memory in use now was locked, since locked memory is limited",
-               .hint = hint};
+  return Error{.message = "only the memory in use now was locked, since locked memory is limited", .hint = hint};
 }
 
 void PrefaultStack() noexcept {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <pthread.h>
-
 #include <atomic>
 #include <memory>
 #include <optional>
 #include <thread>
+
+#include <pthread.h>
 
 #include "core/base/error.h"
 #include "plugins/scheduling/cycle_runner.h"
@@ -58,7 +58,7 @@ class RealThread {
   [[nodiscard]] bool leaves() const noexcept { return leaves_.load(std::memory_order_acquire); }
 
   const std::shared_ptr<CycleRunner> runner_;
-  int priority_ = 0;  // as last asked for
+  int priority_ = 0;                      // as last asked for
   ThreadOptions::Activation activation_;  // likewise
   FaultDispatcher& faults_;
   std::atomic<bool> stopping_{false};

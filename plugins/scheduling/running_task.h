@@ -30,9 +30,7 @@ class RunningTask {
     const auto* const element = element_.load(std::memory_order_acquire);
     return {element, count_.load(std::memory_order_relaxed)};
   }
-  [[nodiscard]] const ScheduledElement* element() const noexcept {
-    return element_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] const ScheduledElement* element() const noexcept { return element_.load(std::memory_order_relaxed); }
 
  private:
   std::atomic<const ScheduledElement*> element_{nullptr};

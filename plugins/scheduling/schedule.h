@@ -59,9 +59,7 @@ class CycleGate {
     if (closed_.fetch_sub(1, std::memory_order_release) == 1) closed_.notify_all();
   }
 
-  [[nodiscard]] bool is_closed() const noexcept {
-    return closed_.load(std::memory_order_acquire) != 0;
-  }
+  [[nodiscard]] bool is_closed() const noexcept { return closed_.load(std::memory_order_acquire) != 0; }
   /// Outside of the cycle and of its guard: this sleeps.
   void WaitUntilOpen() const noexcept {
     for (std::uint32_t closed = closed_.load(std::memory_order_acquire); closed != 0;
@@ -111,9 +109,7 @@ struct Schedule {
   struct Before {
     std::shared_ptr<const CycleQuiescence> quiescence;
     std::shared_ptr<const Installation> installation;
-    [[nodiscard]] bool HasLeft() const noexcept {
-      return installation->HasBeenReachedBy(*quiescence);
-    }
+    [[nodiscard]] bool HasLeft() const noexcept { return installation->HasBeenReachedBy(*quiescence); }
   };
 
   struct Entry {

@@ -84,8 +84,7 @@ void ScheduleCompiler::MakeThreadSchedules(const std::vector<ThreadContainer*>& 
   changed_threads_.clear();
   auto waiting = std::make_shared<std::vector<CycleRunner*>>();
   for (const ThreadContainer* container : containers) {
-    auto& thread = threads_[container->id()] =
-        std::make_unique<ThreadSchedule>(container->runner());
+    auto& thread = threads_[container->id()] = std::make_unique<ThreadSchedule>(container->runner());
     thread->name = container->name();
     thread->is_paused = internal::PauseMark::IsAt(*container);
     if (tracer_ != nullptr) {
@@ -164,10 +163,7 @@ void ScheduleCompiler::FollowActivation(const CycleRunner& runner) noexcept {
 }
 
 void ScheduleCompiler::Connect(const Port& from, const Port& to) noexcept {
-  Follow([&] {
-    ForEachPair(from, to,
-                [&](const Port& output, const Port& input) { ConnectPair(output, input); });
-  });
+  Follow([&] { ForEachPair(from, to, [&](const Port& output, const Port& input) { ConnectPair(output, input); }); });
 }
 
 void ScheduleCompiler::Disconnect(const Port& from, const Port& to) noexcept {
@@ -186,8 +182,8 @@ void ScheduleCompiler::Plan(FrameworkElement& element) {
   PlannedElement& planned = elements_[element.id()];
   planned.element = &element;
   if (!planned.state) {
-    planned.state = std::make_shared<ScheduledElement>(
-        element.path(), tracer_ != nullptr ? tracer_->Watch(element) : nullptr);
+    planned.state =
+        std::make_shared<ScheduledElement>(element.path(), tracer_ != nullptr ? tracer_->Watch(element) : nullptr);
   }
   HandOver(planned, *ChooseThread(element));
   AddTasks(planned);
@@ -263,8 +259,7 @@ void ScheduleCompiler::HandOver(PlannedElement& planned, ThreadSchedule& thread)
   planned.thread = &thread;
   const std::shared_ptr<const CycleQuiescence> next = thread.runner->quiescence();
   if (planned.current == next) return;
-  std::erase_if(planned.before,
-                [&](const auto& each) { return each.quiescence == next || each.HasLeft(); });
+  std::erase_if(planned.before, [&](const auto& each) { return each.quiescence == next || each.HasLeft(); });
   if (planned.current) {
     planned.before.push_back({planned.current, installation_});
     has_handovers_ = true;

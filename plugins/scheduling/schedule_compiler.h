@@ -9,9 +9,9 @@
 #include "core/base/error.h"
 #include "core/element/runtime.h"
 #include "plugins/scheduling/internal/schedule_plan.h"
-#include "plugins/timing/profile.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/timing/profile.h"
 
 namespace runnel {
 
@@ -31,8 +31,7 @@ class ScheduleCompiler {
   /// if there is none of that name.
   /// `tracer`, if there is one, is told of all that is to be run; all tasks are run by way of `watch`, if there
   /// is one.
-  explicit ScheduleCompiler(std::string default_thread, CycleTracer* tracer = nullptr,
-                            TaskWatch* watch = nullptr)
+  explicit ScheduleCompiler(std::string default_thread, CycleTracer* tracer = nullptr, TaskWatch* watch = nullptr)
       : default_thread_(std::move(default_thread)), tracer_(tracer), watch_(watch) {}
   ~ScheduleCompiler();
   ScheduleCompiler(const ScheduleCompiler&) = delete;
@@ -58,9 +57,7 @@ class ScheduleCompiler {
   void Release(FrameworkElement& element) noexcept;
 
   /// Whether Install() has something to do.
-  [[nodiscard]] bool has_changes() const noexcept {
-    return !changed_threads_.empty() || !gone_runners_.empty();
-  }
+  [[nodiscard]] bool has_changes() const noexcept { return !changed_threads_.empty() || !gone_runners_.empty(); }
   /// Puts what has changed into place, for all threads together.
   void Install();
 
@@ -83,15 +80,13 @@ class ScheduleCompiler {
   /// later; or no more. It is kept with the element, and goes along with it.
   void SetPaused(FrameworkElement& element, bool is_paused);
   /// Whether anything at or below the element is to be left out, for another reason than that `but_for` is paused.
-  [[nodiscard]] bool IsPaused(FrameworkElement& element,
-                              const FrameworkElement* but_for = nullptr) const;
+  [[nodiscard]] bool IsPaused(FrameworkElement& element, const FrameworkElement* but_for = nullptr) const;
 
   /// Loops that were cut, modules that never run or that name no thread where there are several.
   [[nodiscard]] std::vector<Error> Warnings() const;
 
  private:
-  using ThreadSchedules =
-      std::map<std::uint64_t, std::unique_ptr<internal::ThreadSchedule>>;  // by their containers
+  using ThreadSchedules = std::map<std::uint64_t, std::unique_ptr<internal::ThreadSchedule>>;  // by their containers
 
   template <typename Change>
   void Follow(const Change& change) noexcept;

@@ -25,9 +25,8 @@ Schedule::Entry MakeEntry(const PlannedTask& task) {
 
 bool NeverRuns(const PlannedElement& planned) {
   if (!planned.thread->runner->waits_for_data()) return false;
-  return std::ranges::all_of(planned.tasks, [](const auto& each) {
-    return internal::TriggerInputs({each->task}).empty();
-  });
+  return std::ranges::all_of(planned.tasks,
+                             [](const auto& each) { return internal::TriggerInputs({each->task}).empty(); });
 }
 
 Error NeverRun(const PlannedElement& planned) {
@@ -38,8 +37,8 @@ Error NeverRun(const PlannedElement& planned) {
 }
 
 Error ChosenForIt(const PlannedElement& planned) {
-  return {.message = "is assigned to no thread, and there are several; " +
-                     planned.thread->runner->path() + " runs it, as it was made first",
+  return {.message = "is assigned to no thread, and there are several; " + planned.thread->runner->path() +
+                     " runs it, as it was made first",
           .path = planned.element->path(),
           .hint = "assign it, or a group that it is in, to one of the threads"};
 }
@@ -141,8 +140,7 @@ void ScheduleCompiler::AddRunnersOf(FrameworkElement& element, Runners& runners)
 }
 
 bool ScheduleCompiler::HasTasks() const {
-  return std::ranges::any_of(threads_,
-                             [](const auto& each) { return each.second->order.size() > 0; });
+  return std::ranges::any_of(threads_, [](const auto& each) { return each.second->order.size() > 0; });
 }
 
 std::vector<Error> ScheduleCompiler::Warnings() const {
@@ -159,8 +157,7 @@ std::vector<Error> ScheduleCompiler::Warnings() const {
 // Whether nobody has said which of several threads is to run it.
 bool ScheduleCompiler::IsAChoiceMissing(const FrameworkElement& element) const {
   if (threads_.size() < 2 || threads_.contains(AssignedThread(element))) return false;
-  return std::ranges::none_of(
-      threads_, [&](const auto& each) { return each.second->name == default_thread_; });
+  return std::ranges::none_of(threads_, [&](const auto& each) { return each.second->name == default_thread_; });
 }
 
 std::vector<ProfiledTask> ScheduleCompiler::Tasks() const {
@@ -195,8 +192,7 @@ void ScheduleCompiler::SetChains(std::map<std::uint64_t, std::unique_ptr<ChainSt
   }
 }
 
-bool ScheduleCompiler::IsToBePaused(const internal::PlannedElement& planned,
-                                    const FrameworkElement* but_for) {
+bool ScheduleCompiler::IsToBePaused(const internal::PlannedElement& planned, const FrameworkElement* but_for) {
   for (const FrameworkElement* at = planned.element; at != nullptr; at = at->parent()) {
     if (at != but_for && internal::PauseMark::IsAt(*at)) return true;
   }
@@ -205,8 +201,7 @@ bool ScheduleCompiler::IsToBePaused(const internal::PlannedElement& planned,
   return but_for == nullptr || thread->runner->path() != but_for->path();
 }
 
-const internal::PlannedElement* ScheduleCompiler::FindAround(
-    const FrameworkElement& element) const {
+const internal::PlannedElement* ScheduleCompiler::FindAround(const FrameworkElement& element) const {
   for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
     const auto known = elements_.find(at->id());
     if (known != elements_.end() && known->second.thread != nullptr) return &known->second;

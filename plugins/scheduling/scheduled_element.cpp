@@ -26,9 +26,7 @@ struct LivingElements {
 }  // namespace
 
 ScheduledElement::ScheduledElement(std::string path, std::unique_ptr<TracedElement> traced)
-    : path_(std::move(path)),
-      traced_(std::move(traced)),
-      record_(std::make_unique<FaultRecord>(path_)) {
+    : path_(std::move(path)), traced_(std::move(traced)), record_(std::make_unique<FaultRecord>(path_)) {
   LivingElements& living = LivingElements::OfProcess();
   const std::lock_guard lock(living.mutex);
   living.all.insert(this);
@@ -52,8 +50,7 @@ BoundCall ScheduledElement::Watched(const Task& task, TaskWatch& watch) {
   return BoundCall::To<&WatchedTask::Run>(*watched_.back());
 }
 
-void ScheduledElement::Fail(std::string_view message, CycleMoment now,
-                            FaultDispatcher& faults) noexcept {
+void ScheduledElement::Fail(std::string_view message, CycleMoment now, FaultDispatcher& faults) noexcept {
   End();
   if (!record_) return;
   if (traced_ && traced_->track != nullptr) traced_->track->NoteFault(traced_->number, message);

@@ -11,8 +11,8 @@
 
 #include "core/channel/waker.h"
 #include "plugins/scheduling/fault_dispatcher.h"
-#include "plugins/timing/task_meter.h"
 #include "plugins/scheduling/task_watch.h"
+#include "plugins/timing/task_meter.h"
 
 namespace runnel {
 
@@ -48,9 +48,7 @@ class ScheduledElement final : public Waker {
     is_paused ? rest_.fetch_or(kPaused, std::memory_order_relaxed)
               : rest_.fetch_and(static_cast<std::uint8_t>(~kPaused), std::memory_order_relaxed);
   }
-  [[nodiscard]] bool is_paused() const noexcept {
-    return (rest_.load(std::memory_order_relaxed) & kPaused) != 0;
-  }
+  [[nodiscard]] bool is_paused() const noexcept { return (rest_.load(std::memory_order_relaxed) & kPaused) != 0; }
   /// Whether cycles leave it out.
   [[nodiscard]] bool is_at_rest() const noexcept {
     // relaxed: as has_ended(); one that is paused may run once more.
@@ -65,17 +63,11 @@ class ScheduledElement final : public Waker {
   }
 
   /// How long its runs of this phase take, while that is measured.
-  [[nodiscard]] TaskMeter& meter(Phase phase) noexcept {
-    return meters_[static_cast<std::size_t>(phase)];
-  }
+  [[nodiscard]] TaskMeter& meter(Phase phase) noexcept { return meters_[static_cast<std::size_t>(phase)]; }
   /// What it has to do with chains whose latency is measured; nullptr: nothing. Owned by this; set under the structure
   /// lock, and what was there before is the caller's to retire.
-  [[nodiscard]] const ChainSteps* chains() const noexcept {
-    return chains_.load(std::memory_order_acquire);
-  }
-  void set_chains(const ChainSteps* chains) noexcept {
-    chains_.store(chains, std::memory_order_release);
-  }
+  [[nodiscard]] const ChainSteps* chains() const noexcept { return chains_.load(std::memory_order_acquire); }
+  void set_chains(const ChainSteps* chains) noexcept { chains_.store(chains, std::memory_order_release); }
 
   /// The path of an element that may be gone by now; nullopt if it is.
   [[nodiscard]] static std::optional<std::string> PathOf(const ScheduledElement* element);
@@ -87,12 +79,8 @@ class ScheduledElement final : public Waker {
   [[nodiscard]] BoundCall Watched(const Task& task, TaskWatch& watch);
 
   /// Who runs the element on new data; nullptr for nobody.
-  void set_runner(CycleRunner* runner) noexcept {
-    runner_.store(runner, std::memory_order_seq_cst);
-  }
-  [[nodiscard]] CycleRunner* runner() const noexcept {
-    return runner_.load(std::memory_order_seq_cst);
-  }
+  void set_runner(CycleRunner* runner) noexcept { runner_.store(runner, std::memory_order_seq_cst); }
+  [[nodiscard]] CycleRunner* runner() const noexcept { return runner_.load(std::memory_order_seq_cst); }
   /// New data has come: the element shall run in the next triggered pass.
   void Wake() noexcept override;
   /// Whether data has come since the last call.
@@ -100,9 +88,7 @@ class ScheduledElement final : public Waker {
     // acq_rel: pairs with the release in Wake(): the data are there.
     return activated_.exchange(false, std::memory_order_acq_rel);
   }
-  [[nodiscard]] bool is_activated() const noexcept {
-    return activated_.load(std::memory_order_seq_cst);
-  }
+  [[nodiscard]] bool is_activated() const noexcept { return activated_.load(std::memory_order_seq_cst); }
   /// A note of the executor's for the time of one triggered pass: the element's tasks are to run.
   void set_in_pass(bool in_pass) noexcept { in_pass_.store(in_pass, std::memory_order_relaxed); }
   [[nodiscard]] bool in_pass() const noexcept { return in_pass_.load(std::memory_order_relaxed); }

@@ -15,9 +15,7 @@ namespace {
 
 constexpr Duration kLookAtClock = std::chrono::milliseconds(1);
 
-bool IsSimulated(const SchedulerOptions& options) {
-  return options.clock == SchedulerOptions::ClockKind::kSimulated;
-}
+bool IsSimulated(const SchedulerOptions& options) { return options.clock == SchedulerOptions::ClockKind::kSimulated; }
 
 }  // namespace
 
@@ -215,8 +213,7 @@ bool Scheduler::Step() {
 
 bool Scheduler::RunUntil(Time end) {
   StepResult result = StepResult::kTimeout;
-  while (result == StepResult::kTimeout || result == StepResult::kCycle)
-    result = Advance(end, Pace::kLongestSleep);
+  while (result == StepResult::kTimeout || result == StepResult::kCycle) result = Advance(end, Pace::kLongestSleep);
   return result == StepResult::kEnd;
 }
 
@@ -228,16 +225,14 @@ std::vector<Fault> Scheduler::TakeFaults() {
 
 Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, Duration timeout,
                                         const std::vector<std::string>& at_rest) {
-  RUNNEL_CHECK(
-      !runtime_.structure_mutex().HeldByThisThread(),
-      "threads cannot be kept between cycles under the structure lock, which a cycle might "
-      "be waiting for");
+  RUNNEL_CHECK(!runtime_.structure_mutex().HeldByThisThread(),
+               "threads cannot be kept between cycles under the structure lock, which a cycle might "
+               "be waiting for");
   Runners runners = RunnersOf(paths);
   const auto stuck = [this](const auto& runner) { return cycle_watchdog_.IsStuck(*runner); };
   for (const auto& runner : RunnersOf(at_rest)) {
     if (!stuck(runner)) continue;
-    return Error{.message = "one of its modules does not return from its cycle",
-                 .path = runner->path()};
+    return Error{.message = "one of its modules does not return from its cycle", .path = runner->path()};
   }
   std::erase_if(runners, stuck);
   return CycleHold::Take(std::move(runners), timeout, options_.tracer);

@@ -20,11 +20,11 @@
 #include "plugins/scheduling/fault.h"
 #include "plugins/scheduling/fault_dispatcher.h"
 #include "plugins/scheduling/pace.h"
-#include "plugins/timing/profile.h"
 #include "plugins/scheduling/real_thread.h"
 #include "plugins/scheduling/schedule_compiler.h"
 #include "plugins/scheduling/simulated_executor.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/timing/profile.h"
 
 namespace runnel {
 
@@ -303,10 +303,10 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   Runners runners_;
   std::vector<Error> realtime_warnings_;
   RealThreads threads_;
-  RealThreads ending_;  // their containers are gone, or their modules have not returned
-  bool is_profiled_ = false;  // whether or not somebody uses it
-  std::atomic<int> profile_uses_{0};  // whoever goes waits for no lock
-  std::optional<Time> profile_began_;  // by the machine
+  RealThreads ending_;                       // their containers are gone, or their modules have not returned
+  bool is_profiled_ = false;                 // whether or not somebody uses it
+  std::atomic<int> profile_uses_{0};         // whoever goes waits for no lock
+  std::optional<Time> profile_began_;        // by the machine
   mutable std::vector<std::string> paused_;  // as of the structure's revision ...
   mutable std::uint64_t paused_at_ = ~std::uint64_t{};
   std::vector<std::shared_ptr<LatencyChain>> chains_;

@@ -39,15 +39,14 @@ void SimulatedExecutor::FollowOptions() {
 
 SimulatedExecutor::PeriodicThread* SimulatedExecutor::NextPeriodic() {
   // The first of several smallest: that of the container that was made first.
-  const auto next = std::ranges::min_element(
-      periodic_, {}, [](const PeriodicThread& thread) { return thread.due.next(); });
+  const auto next =
+      std::ranges::min_element(periodic_, {}, [](const PeriodicThread& thread) { return thread.due.next(); });
   return next == periodic_.end() ? nullptr : &*next;
 }
 
 CycleRunner* SimulatedExecutor::NextActivated() const {
   if (is_time_stuck_) return nullptr;
-  const auto next =
-      std::ranges::find_if(waiting_, [](const auto& runner) { return runner->is_activated(); });
+  const auto next = std::ranges::find_if(waiting_, [](const auto& runner) { return runner->is_activated(); });
   return next == waiting_.end() ? nullptr : next->get();
 }
 

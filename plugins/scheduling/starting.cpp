@@ -45,8 +45,8 @@ void Scheduler::StartThreads(Time first) {
   std::erase(threads_, nullptr);
   std::erase_if(ending_, [](const auto& thread) { return thread->has_ended(); });
   for (const auto& runner : runners_) {
-    const bool has_thread = std::ranges::any_of(
-        threads_, [&](const auto& thread) { return thread->runner() == runner; });
+    const bool has_thread =
+        std::ranges::any_of(threads_, [&](const auto& thread) { return thread->runner() == runner; });
     if (has_thread) continue;
     threads_.push_back(std::make_unique<RealThread>(runner, faults_, first));
     if (auto warning = threads_.back()->Prioritize()) {
@@ -62,8 +62,8 @@ std::optional<Error> Scheduler::NeverReady() const {
   const std::lock_guard lock(runtime_.structure_mutex());
   const FrameworkElement* found = nullptr;
   runtime_.root().Visit([&](FrameworkElement& element) {
-    const bool is_silent = element.life_cycle() == LifeCycle::kConstructed &&
-                           element.FindAnnotation<Executable>() != nullptr;
+    const bool is_silent =
+        element.life_cycle() == LifeCycle::kConstructed && element.FindAnnotation<Executable>() != nullptr;
     if (is_silent && found == nullptr) found = &element;
   });
   if (found == nullptr) return {};
@@ -98,8 +98,8 @@ void Scheduler::StartAll() {
   realtime_warnings_.clear();
   compiler_.NeedAll();
   BringUpToDate();
-  const bool has_priorities = std::ranges::any_of(
-      runners_, [](const auto& runner) { return runner->options().priority > 0; });
+  const bool has_priorities =
+      std::ranges::any_of(runners_, [](const auto& runner) { return runner->options().priority > 0; });
   if (has_priorities && options_.lock_memory) {
     if (auto warning = LockMemory()) realtime_warnings_.push_back(std::move(*warning));
   }

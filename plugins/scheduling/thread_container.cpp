@@ -36,8 +36,7 @@ void SetAssignment(FrameworkElement& element, std::uint64_t thread, AssignedBy w
 }  // namespace
 
 ThreadContainer::ThreadContainer(const Placement& placement, const ThreadOptions& options)
-    : FrameworkElement(placement, ElementKind::kThread),
-      runner_(std::make_shared<CycleRunner>(path(), options)) {
+    : FrameworkElement(placement, ElementKind::kThread), runner_(std::make_shared<CycleRunner>(path(), options)) {
   if (auto good = Check(options, path()); !good) throw ElementError(good.error());
 }
 
@@ -46,8 +45,7 @@ ThreadContainer::~ThreadContainer() = default;
 ThreadOptions ThreadContainer::options() const noexcept { return runner_->options(); }
 
 Result<void> ThreadContainer::Check(const ThreadOptions& options, const std::string& path) {
-  if (options.activation != ThreadOptions::Activation::kTrigger &&
-      options.period <= Duration::zero()) {
+  if (options.activation != ThreadOptions::Activation::kTrigger && options.period <= Duration::zero()) {
     return Error{.message = "the period of a thread must be positive", .path = path, .hint = "for example 0.01 s"};
   }
   if (options.priority < 0 || options.priority > kHighestPriority) {

@@ -7,8 +7,8 @@
 
 #include "core/base/result.h"
 #include "core/element/framework_element.h"
-#include "plugins/timing/cycle_statistics.h"
 #include "plugins/scheduling/thread_options.h"
+#include "plugins/timing/cycle_statistics.h"
 
 namespace runnel {
 

@@ -80,7 +80,9 @@ class OwnCall final : public AnyCall {
     }
     return status_;
   }
-  [[nodiscard]] const void* reply() const override { return form_->reply() == nullptr ? nullptr : form_->ReplyOf(*call_); }
+  [[nodiscard]] const void* reply() const override {
+    return form_->reply() == nullptr ? nullptr : form_->ReplyOf(*call_);
+  }
   [[nodiscard]] std::string error() const override { return error_; }
   [[nodiscard]] double progress() const override { return call_->progress.load(std::memory_order_relaxed); }
   [[nodiscard]] const char* doing() const override { return call_->doing.load(std::memory_order_relaxed); }

@@ -39,8 +39,7 @@ void CallSlots::SetWaker(Waker* waker) noexcept {
 CallBase* CallSlots::Acquire() noexcept {
   for (CallBase* call : calls_) {
     // acquire: pairs with the release in Release(). The load before spares those in use being written to.
-    if (call->is_held.load(std::memory_order_relaxed) ||
-        call->is_held.exchange(true, std::memory_order_acquire))
+    if (call->is_held.load(std::memory_order_relaxed) || call->is_held.exchange(true, std::memory_order_acquire))
       continue;
     if (call->is_returned()) return call;
     Release(*call);
@@ -56,8 +55,7 @@ bool CallSlots::is_quiet() const noexcept {
 
 void CallSlots::GiveUpAll() noexcept {
   for (CallBase* call : calls_) {
-    if (call->is_held.load(std::memory_order_relaxed))
-      call->is_given_up.store(true, std::memory_order_relaxed);
+    if (call->is_held.load(std::memory_order_relaxed)) call->is_given_up.store(true, std::memory_order_relaxed);
   }
 }
 

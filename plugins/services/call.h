@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/channel/waker.h"
 #include "core/element/robot_stop.h"
 #include "core/lockfree/wake_event.h"
-#include "core/channel/waker.h"
 #include "core/types/type_of.h"
 #include "plugins/services/call_status.h"
 
@@ -43,9 +43,7 @@ struct CallBase {
     // release: pairs with the acquire in is_returned(): the service has let go.
     state.store(State::kReturned, std::memory_order_release);
   }
-  [[nodiscard]] bool is_answered() const noexcept {
-    return state.load(std::memory_order_acquire) >= State::kAnswered;
-  }
+  [[nodiscard]] bool is_answered() const noexcept { return state.load(std::memory_order_acquire) >= State::kAnswered; }
   [[nodiscard]] bool is_returned() const noexcept {
     const State now = state.load(std::memory_order_acquire);
     return now == State::kReturned || now == State::kIdle;
@@ -142,7 +140,7 @@ using ArgumentPack =
 /// Calls `use(argument...)` with all of them.
 template <typename... Arguments, typename Use>
 decltype(auto) WithArguments(ArgumentPack<Arguments...>& pack, Use&& use) {
-  return [&]<std::size_t... index>(std::index_sequence<index...>) -> decltype(auto) {
+  return [&]<std::size_t... index>(std::index_sequence<index...>)->decltype(auto) {
     return use(static_cast<internal::ArgumentOf<index, std::remove_cvref_t<Arguments>>&>(pack).value...);
   }
   (std::index_sequence_for<Arguments...>());

@@ -31,9 +31,7 @@ namespace internal {
 template <std::size_t... index, typename... T>
 void Describe(TypeBuilder<IndexedArguments<std::index_sequence<index...>, T...>>& type) {
   type.Name("arguments " + SignatureName(std::type_identity<void(T...)>()));
-  (type.Field("argument" + std::to_string(index + 1),
-              &ArgumentOf<index, T>::value),
-   ...);
+  (type.Field("argument" + std::to_string(index + 1), &ArgumentOf<index, T>::value), ...);
 }
 
 template <typename Reply, typename... Arguments>

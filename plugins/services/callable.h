@@ -48,13 +48,13 @@ class AnyCall {
 struct ServiceState {
   struct Running {
     std::uint64_t number = 0;  ///< of the caller's calls, or the id of the activity
-    double progress = 0;  ///< 0 to 1
+    double progress = 0;       ///< 0 to 1
     std::string doing = {};
     bool is_abort_asked = false;
   };
   std::size_t waiting = 0;
   std::uint64_t answered = 0;
-  std::uint64_t failed = 0;  ///< with whatever reason
+  std::uint64_t failed = 0;           ///< with whatever reason
   std::vector<Running> running = {};  ///< what began first comes first
 };
 

@@ -17,8 +17,7 @@ namespace runnel {
 template <typename Reply>
 class CallOutcome {
  public:
-  CallOutcome(CallStatus status, const CallBase* call,
-              const typename internal::ReplyOf<Reply>::Type* reply) noexcept
+  CallOutcome(CallStatus status, const CallBase* call, const typename internal::ReplyOf<Reply>::Type* reply) noexcept
       : status_(status), call_(call), reply_(reply) {}
 
   [[nodiscard]] CallStatus status() const noexcept { return status_; }
@@ -129,8 +128,7 @@ class Client<Reply(Arguments...)> final : public ClientBase {
   /// Into a certain group.
   Client(FrameworkElement& group, std::string name, ClientOptions options = {})
       : ClientBase(options, std::make_unique<CallSlotsOf<Signature>>(options.calls)),
-        port_(group, std::move(name),
-              {.description = options.description, .required = options.required}) {
+        port_(group, std::move(name), {.description = options.description, .required = options.required}) {
     const ServiceSignature& signature = internal::MakeServiceSignatureKnown<Signature, false>();
     port_.template Annotate<ClientForm>(std::make_unique<ClientForm>(signature.MakeForm(options.arguments)));
     Open(port_);
@@ -179,8 +177,7 @@ class Client<Reply(Arguments...)> final : public ClientBase {
     Slot* const call = static_cast<Slot*>(Acquire());
     if (call == nullptr) return nullptr;
     try {
-      WithArguments<Arguments...>(call->arguments,
-                                  [&](auto&... place) { ((place = arguments), ...); });
+      WithArguments<Arguments...>(call->arguments, [&](auto&... place) { ((place = arguments), ...); });
     } catch (...) {
       CallSlots::Release(*call);
       throw;

@@ -20,17 +20,15 @@ constexpr Duration kLookAtClock = std::chrono::milliseconds(10);
 void HoldClientsToOneService() {
   static std::once_flag once;
   std::call_once(once, [] {
-    AddConnectionRule({"services/one",
-                       "a client is connected to one service",
-                       [](const Port& from, const Port& to) -> Result<void> {
-                         if (to.direction() != Port::Direction::kInput || to.incoming().empty() ||
-                             !to.type().name().starts_with("service "))
-                           return {};
-                         if (to.incoming().front() == &from) return {};
-                         return Error{.message = "it is connected to " +
-                                                 to.incoming().front()->path() +
-                                                 ", and a client asks one service"};
-                       }});
+    AddConnectionRule(
+        {"services/one", "a client is connected to one service", [](const Port& from, const Port& to) -> Result<void> {
+           if (to.direction() != Port::Direction::kInput || to.incoming().empty() ||
+               !to.type().name().starts_with("service "))
+             return {};
+           if (to.incoming().front() == &from) return {};
+           return Error{.message =
+                            "it is connected to " + to.incoming().front()->path() + ", and a client asks one service"};
+         }});
   });
 }
 

@@ -17,8 +17,8 @@ namespace runnel {
 
 struct ClientOptions {
   std::string description = {};
-  bool required = false;   ///< an application in which it is connected to no service is wrong
-  std::size_t calls = 16;  ///< how many may be under way at once
+  bool required = false;                       ///< an application in which it is connected to no service is wrong
+  std::size_t calls = 16;                      ///< how many may be under way at once
   Duration timeout = std::chrono::seconds(5);  ///< on the application's clock
   /// Of the arguments, in their order, for services elsewhere that know them by name (ServiceOptions::arguments).
   std::vector<std::string> arguments = {};

@@ -16,8 +16,7 @@ CycleWork* CycleWork::Add(FrameworkElement& element, CyclePart& part) {
     work = &module->Annotate(std::make_unique<CycleWork>());
     work->element_ = module;
     const Executable inner = *module->FindAnnotation<Executable>();
-    module->Annotate(
-        std::make_unique<Executable>([work, inner] { return work->Wrap(inner.tasks()); }));
+    module->Annotate(std::make_unique<Executable>([work, inner] { return work->Wrap(inner.tasks()); }));
     module->Annotate(std::make_unique<WakeSource>([work](Waker* waker) {
       for (CyclePart* each : work->parts_) each->SetWaker(waker);
     }));

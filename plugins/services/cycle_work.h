@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/channel/waker.h"
 #include "core/element/annotation.h"
 #include "core/module/executable.h"
-#include "core/channel/waker.h"
 
 namespace runnel {
 

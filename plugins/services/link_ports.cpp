@@ -1,8 +1,8 @@
 // Ports of services and clients whose types are known at run time only.
 
-#include "core/port/bound_input.h"
 #include "core/channel/channel.h"
 #include "core/channel/distribution.h"
+#include "core/port/bound_input.h"
 #include "core/port/output_base.h"
 #include "core/port/typed_ports.h"
 #include "plugins/services/services_at_run_time.h"

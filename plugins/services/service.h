@@ -46,21 +46,20 @@ class Service<Reply(Arguments...)> final : public ServiceBase {
 
   template <typename Owner, typename Handler>
   Service(Owner* owner, std::string name, Handler handler, ServiceOptions options = {})
-      : Service(static_cast<PortOwner*>(owner)->OutputGroup(), *owner, std::move(name),
-                std::move(handler), std::move(options)) {}
+      : Service(static_cast<PortOwner*>(owner)->OutputGroup(), *owner, std::move(name), std::move(handler),
+                std::move(options)) {}
   /// Into a certain group. `owner` is what the handler is called on.
   template <typename Owner, typename Handler>
-  Service(FrameworkElement& group, Owner& owner, std::string name, Handler handler,
-          ServiceOptions options = {})
+  Service(FrameworkElement& group, Owner& owner, std::string name, Handler handler, ServiceOptions options = {})
       : handler_(Bind(owner, std::move(handler))),
         endpoint_(std::make_unique<ServiceEndpoint>(options.queue)),
         port_(group, name, {.description = options.description}),
         records_(group, name) {
     // First, as it may refuse the options, and nothing is to be left of a service then.
     const ServiceSignature& signature = internal::MakeServiceSignatureKnown<Signature, true>();
-    auto callable = std::make_unique<CallableService>(
-        *this, signature, signature.MakeForm(options.arguments), options.description,
-        CallableOptions{.is_activity = kIsActivity<Owner, Handler>});
+    auto callable =
+        std::make_unique<CallableService>(*this, signature, signature.MakeForm(options.arguments), options.description,
+                                          CallableOptions{.is_activity = kIsActivity<Owner, Handler>});
     port_.Publish(ServiceLink<Signature>{endpoint_.get()});
     port_.template Annotate<Callable>(std::move(callable));
     Open(port_, kIsActivity<Owner, Handler>);
@@ -84,9 +83,8 @@ class Service<Reply(Arguments...)> final : public ServiceBase {
         } else {
           static_assert(std::is_invocable_v<Handler&, Owner&, const std::remove_cvref_t<Arguments>&...>,
                         "the handler does not take the service's arguments");
-          return Take(call, [&]() -> decltype(auto) {
-            return std::invoke(handler, owner, std::as_const(argument)...);
-          });
+          return Take(call,
+                      [&]() -> decltype(auto) { return std::invoke(handler, owner, std::as_const(argument)...); });
         }
       });
     };

@@ -11,8 +11,7 @@
 
 namespace runnel {
 
-ServiceWorker::ServiceWorker(const Placement& placement,
-                             std::function<void(CallBase&, Activity&)> serve,
+ServiceWorker::ServiceWorker(const Placement& placement, std::function<void(CallBase&, Activity&)> serve,
                              std::function<void()> tell_free)
     : FrameworkElement(placement), serve_(std::move(serve)), tell_free_(std::move(tell_free)) {
   Annotate(std::make_unique<NotSaved>());
@@ -101,8 +100,7 @@ void ServiceBase::Close() noexcept {
 
 void ServiceBase::BeforeUpdate() {
   ServiceEndpoint* const at = endpoint();
-  if (at->is_faulted.load(std::memory_order_relaxed))
-    at->is_faulted.store(false, std::memory_order_relaxed);
+  if (at->is_faulted.load(std::memory_order_relaxed)) at->is_faulted.store(false, std::memory_order_relaxed);
   Runtime& runtime = port_->runtime();
   const Cycle* const cycle = CurrentCycle();
   // What is called meanwhile has its turn in the next cycle.

@@ -36,8 +36,7 @@ class Activity {
   /// The caller wants no answer any more, somebody has asked for an end, or the module is about to go, and waits for
   /// the handler: it should come to its end soon, with an error.
   [[nodiscard]] bool is_abort_asked() const noexcept {
-    return is_abort_asked_.load(std::memory_order_relaxed) ||
-           call_->is_given_up.load(std::memory_order_relaxed);
+    return is_abort_asked_.load(std::memory_order_relaxed) || call_->is_given_up.load(std::memory_order_relaxed);
   }
 
   void Abort() noexcept { is_abort_asked_.store(true, std::memory_order_relaxed); }
@@ -75,9 +74,7 @@ class ServiceWorker final : public FrameworkElement {
   ~ServiceWorker() override;
 
   // acquire: pairs with the release in Work(): the call before is over.
-  [[nodiscard]] bool is_free() const noexcept {
-    return current_.load(std::memory_order_acquire) == nullptr;
-  }
+  [[nodiscard]] bool is_free() const noexcept { return current_.load(std::memory_order_acquire) == nullptr; }
   /// Precondition: is_free().
   void Begin(CallBase& call) noexcept;
   [[nodiscard]] const Activity& activity() const noexcept { return activity_; }
@@ -148,7 +145,7 @@ class ServiceBase : public CyclePart {
 
   Port* port_ = nullptr;
   CycleWork* work_ = nullptr;
-  ServiceWorker* worker_ = nullptr;             // the module's, or its own
+  ServiceWorker* worker_ = nullptr;            // the module's, or its own
   std::unique_ptr<ServiceWorker> own_worker_;  // of a service that is part of no module
 };
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/lockfree/bounded_queue.h"
 #include "core/channel/waker.h"
+#include "core/lockfree/bounded_queue.h"
 #include "plugins/services/call.h"
 
 namespace runnel {
@@ -67,8 +67,7 @@ struct ServiceEndpoint {
 
 /// Puts the call into the queue: kPending, or why not, and then the call is not under way. Inside an epoch guard, or
 /// under the structure lock.
-[[nodiscard]] CallStatus BeginCall(ServiceEndpoint* at, CallBase& call, Time now,
-                                   Duration timeout) noexcept;
+[[nodiscard]] CallStatus BeginCall(ServiceEndpoint* at, CallBase& call, Time now, Duration timeout) noexcept;
 
 /// The value of the port by which a service is connected.
 template <typename Signature>

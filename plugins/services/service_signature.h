@@ -24,9 +24,9 @@ class ArgumentType {
   using Pack = ArgumentPack<Arguments...>;
 
   /// `names`: of all arguments, or none. Errors: others throw ProgrammingError.
-  explicit ArgumentType(const std::vector<std::string>& names) : is_named_(!(names.empty() && sizeof...(Arguments) == 1)) {
-    RUNNEL_CHECK(names.empty() || names.size() == sizeof...(Arguments),
-                 "a service names all of its arguments or none");
+  explicit ArgumentType(const std::vector<std::string>& names)
+      : is_named_(!(names.empty() && sizeof...(Arguments) == 1)) {
+    RUNNEL_CHECK(names.empty() || names.size() == sizeof...(Arguments), "a service names all of its arguments or none");
     if constexpr (sizeof...(Arguments) > 0) {
       if (is_named_) DescribeAll(names, std::index_sequence_for<Arguments...>());
     }
@@ -123,7 +123,8 @@ class ServiceSignature {
   [[nodiscard]] virtual std::shared_ptr<const CallForm> MakeForm(const std::vector<std::string>& names) const = 0;
   [[nodiscard]] virtual std::unique_ptr<CallSlots> MakeSlots(std::size_t count) const = 0;
   /// With an output SERVICE_calls. nullptr: there are no records of this signature.
-  [[nodiscard]] virtual std::unique_ptr<CallRecorder> MakeRecorder(FrameworkElement& group, const std::string& service) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<CallRecorder> MakeRecorder(FrameworkElement& group,
+                                                                   const std::string& service) const = 0;
   /// `record` is one of this signature.
   virtual void TakeArguments(const CallRecordBase& record, CallBase& call) const = 0;
 

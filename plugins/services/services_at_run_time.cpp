@@ -136,9 +136,7 @@ void internal::AddServiceSignature(const TypeInfo& link, const ServiceSignature&
   if (has_records) known.first->second = &signature;
 }
 
-std::string LinkName(const SignatureTypes& types) {
-  return "service " + SignatureName(types.reply, types.arguments);
-}
+std::string LinkName(const SignatureTypes& types) { return "service " + SignatureName(types.reply, types.arguments); }
 
 Result<FoundSignature> SignatureAtRunTime(const SignatureTypes& types) {
   internal::MakeServiceSignatureKnown<void(), true>();
@@ -147,11 +145,13 @@ Result<FoundSignature> SignatureAtRunTime(const SignatureTypes& types) {
   std::vector<const TypeInfo*> all_types = types.arguments;
   if (types.reply != nullptr) all_types.push_back(types.reply);
   for (const TypeInfo* each : all_types) {
-    if (each->Make() == nullptr) return Error{.message = "only a module in C++ can make values of type " + each->name()};
+    if (each->Make() == nullptr)
+      return Error{.message = "only a module in C++ can make values of type " + each->name()};
   }
   Known& all = All();
   const std::lock_guard lock(all.mutex);
-  if (const auto found = all.compiled.find(compiled); found != all.compiled.end()) return FoundSignature{compiled, found->second};
+  if (const auto found = all.compiled.find(compiled); found != all.compiled.end())
+    return FoundSignature{compiled, found->second};
   const RunTimeSignature& made = all.made.try_emplace(name, types).first->second;
   return FoundSignature{&made.link, &made};
 }
@@ -208,7 +208,8 @@ ClientAtRunTime::ClientAtRunTime(FrameworkElement& group, const std::string& nam
     : ClientBase(options, found.signature->MakeSlots(options.calls)),
       called_back_(std::move(called_back)),
       form_(found.signature->MakeForm(options.arguments)),
-      port_(MakeLinkInput(*found.link, group, name, {.description = options.description, .required = options.required})) {
+      port_(
+          MakeLinkInput(*found.link, group, name, {.description = options.description, .required = options.required})) {
   port_->Annotate<ClientForm>(std::make_unique<ClientForm>(form_));
   Open(*port_);
 }

@@ -46,9 +46,8 @@ class ServiceAtRunTime final : public ServiceBase {
   /// Reads the arguments and writes the reply, by the form. Its error is the call's; what it throws is the module's fault.
   using Handler = std::function<Result<void>(const CallForm& form, CallBase& call, Activity* activity)>;
 
-
-  ServiceAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types, ServiceOptions options,
-                   CallableOptions extra, Handler handler);
+  ServiceAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types,
+                   ServiceOptions options, CallableOptions extra, Handler handler);
   ~ServiceAtRunTime() { Close(); }
 
   [[nodiscard]] const CallForm& form() const noexcept { return *form_; }
@@ -75,8 +74,8 @@ class ClientAtRunTime final : public ClientBase {
   /// For calls that are awaited in the cycle.
   using CalledBack = std::function<void(CallBase& call, CallStatus status)>;
 
-  ClientAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types, const ClientOptions& options,
-                  CalledBack called_back);
+  ClientAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types,
+                  const ClientOptions& options, CalledBack called_back);
   ~ClientAtRunTime() { Close(); }
 
   using ClientBase::Acquire;

@@ -128,7 +128,7 @@ struct TagElement {
 
 /// Says from which level on what is at and below the path logs.
 struct LogElement {
-  std::string path;                      ///< "/": of everything
+  std::string path;                    ///< "/": of everything
   std::optional<LogLevel> level = {};  ///< none: as what is around it
 };
 
@@ -159,9 +159,8 @@ struct ExtensionChange {
 };
 
 using Change = std::variant<CreateModule, CreateGroup, CreatePort, CreateParameter, DeleteElement, ConnectPorts,
-                            DisconnectPorts, SetParameter, ReplaceModule, AssignToThread,
-                            AddThread, ScheduleThread, RenameElement, CopyElement, TagElement,
-                            LogElement, ExtensionChange>;
+                            DisconnectPorts, SetParameter, ReplaceModule, AssignToThread, AddThread, ScheduleThread,
+                            RenameElement, CopyElement, TagElement, LogElement, ExtensionChange>;
 
 /// Changes that belong together, in the order in which they build on one another.
 using ChangeSet = std::vector<Change>;

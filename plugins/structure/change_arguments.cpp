@@ -9,9 +9,7 @@ namespace runnel::internal {
 
 namespace {
 
-bool IsWhitespace(char character) {
-  return character == ' ' || character == '\t' || character == '\r';
-}
+bool IsWhitespace(char character) { return character == ' ' || character == '\t' || character == '\r'; }
 bool IsEndOfLine(char character) { return character == '\n'; }
 bool IsControl(char character) {
   const auto code = static_cast<unsigned char>(character);
@@ -31,9 +29,7 @@ class Reader {
   [[nodiscard]] bool IsAtEndOfLine() const { return IsAtEnd() || IsEndOfLine(text_[at_]); }
   /// Of a change.
   [[nodiscard]] bool IsAtEndOfChange() const { return IsAtEndOfLine() || text_[at_] == ';'; }
-  [[nodiscard]] bool IsAtEndOfArgument() const {
-    return IsAtEndOfChange() || IsWhitespace(text_[at_]);
-  }
+  [[nodiscard]] bool IsAtEndOfArgument() const { return IsAtEndOfChange() || IsWhitespace(text_[at_]); }
   [[nodiscard]] char next() const { return text_[at_]; }
   [[nodiscard]] const SourcePosition& position() const { return position_; }
 
@@ -127,8 +123,7 @@ Result<void> TakePlain(Reader& reader, ChangeArgument& argument) {
     if (character != '=' || argument.equals) continue;
     argument.equals = argument.text.size() - 1;
     // A new value begins, which may be in marks of its own.
-    if (!reader.IsAtEndOfArgument() && (reader.next() == '"' || IsOpening(reader.next())))
-      return {};
+    if (!reader.IsAtEndOfArgument() && (reader.next() == '"' || IsOpening(reader.next()))) return {};
   }
   return {};
 }
@@ -139,8 +134,7 @@ Result<ChangeArgument> TakeArgument(Reader& reader) {
     if (auto taken = TakePlain(reader, argument); !taken) return taken.error();
   }
   if (reader.IsAtEndOfArgument()) return argument;
-  auto taken = reader.next() == '"' ? TakeQuoted(reader, argument.text)
-                                    : TakeBracketed(reader, argument.text);
+  auto taken = reader.next() == '"' ? TakeQuoted(reader, argument.text) : TakeBracketed(reader, argument.text);
   if (!taken) return taken.error();
   if (!reader.IsAtEndOfArgument()) {
     return At(reader.position(), "a blank is missing after the end of a value");
@@ -165,8 +159,7 @@ Result<ChangeLine> TakeChange(Reader& reader) {
 
 }  // namespace
 
-std::vector<ChangeLine> SplitChanges(std::string_view text, const SourcePosition& begins,
-                                     Diagnostics& diagnostics) {
+std::vector<ChangeLine> SplitChanges(std::string_view text, const SourcePosition& begins, Diagnostics& diagnostics) {
   std::vector<ChangeLine> lines;
   Reader reader(text, begins);
   while (!reader.IsAtEnd()) {
@@ -183,11 +176,11 @@ std::vector<ChangeLine> SplitChanges(std::string_view text, const SourcePosition
 
 std::string AsArgument(std::string_view text) {
   const auto needs_marks = [](char character) {
-    return IsWhitespace(character) || IsEndOfLine(character) || IsControl(character) ||
-           character == '"' || character == ';' || character == '\\' || character == '=';
+    return IsWhitespace(character) || IsEndOfLine(character) || IsControl(character) || character == '"' ||
+           character == ';' || character == '\\' || character == '=';
   };
-  const bool is_plain = !text.empty() && text.front() != '#' && !IsOpening(text.front()) &&
-                        std::ranges::none_of(text, needs_marks);
+  const bool is_plain =
+      !text.empty() && text.front() != '#' && !IsOpening(text.front()) && std::ranges::none_of(text, needs_marks);
   if (is_plain) return std::string(text);
   return Quoted(text);
 }

@@ -29,8 +29,7 @@ using ChangeLine = std::vector<ChangeArgument>;
 
 /// Splits a text into changes, by ends of lines and semicolons, and those into arguments, by whitespace. `begins`
 /// is where the text begins in a file. Lines with errors are left out.
-[[nodiscard]] std::vector<ChangeLine> SplitChanges(std::string_view text,
-                                                   const SourcePosition& begins,
+[[nodiscard]] std::vector<ChangeLine> SplitChanges(std::string_view text, const SourcePosition& begins,
                                                    Diagnostics& diagnostics);
 
 /// `text` as an argument that is read back as it is: in quotation marks where it needs them.
@@ -45,21 +44,17 @@ class Arguments {
   std::string Take(const char* what) {
     if (at_ < line_.size()) return line_[at_++].text;
     const ChangeArgument& last = line_.back();
-    Complain(last.position, std::string(what) + " is missing after '" + last.text + "'",
-             "write: " + usage_);
+    Complain(last.position, std::string(what) + " is missing after '" + last.text + "'", "write: " + usage_);
     return {};
   }
   [[nodiscard]] const std::string& verb() const { return line_.front().text; }
   [[nodiscard]] bool IsAtEnd() const { return at_ == line_.size(); }
-  [[nodiscard]] bool IsNext(std::string_view text) const {
-    return at_ < line_.size() && line_[at_].text == text;
-  }
+  [[nodiscard]] bool IsNext(std::string_view text) const { return at_ < line_.size() && line_[at_].text == text; }
   void Expect(const std::string& text) {
     const ChangeArgument* argument = at_ < line_.size() ? &line_[at_] : nullptr;
     const std::string found = Take(("'" + text + "'").c_str());
     if (argument != nullptr && found != text) {
-      Complain(argument->position, "there should be '" + text + "' instead of '" + found + "'",
-               "write: " + usage_);
+      Complain(argument->position, "there should be '" + text + "' instead of '" + found + "'", "write: " + usage_);
     }
   }
   /// All that is left, one at least, but for options.
@@ -80,11 +75,9 @@ class Arguments {
     for (; at_ < line_.size(); ++at_) {
       const ChangeArgument& argument = line_[at_];
       if (!argument.equals || *argument.equals == 0) {
-        Complain(argument.position, "'" + argument.text + "' is one word too many",
-                 "write: " + usage_);
+        Complain(argument.position, "'" + argument.text + "' is one word too many", "write: " + usage_);
       } else if (std::ranges::count(seen, argument.name()) > 0) {
-        Complain(argument.position, "'" + argument.name() + "' is there twice",
-                 "leave one of them out");
+        Complain(argument.position, "'" + argument.name() + "' is there twice", "leave one of them out");
       } else if (!take(argument)) {
         Complain(argument.position, "there is no option '" + argument.name() + "'",
                  NearestNameHint(argument.name(), names));
@@ -97,8 +90,7 @@ class Arguments {
     TakeOptions({}, [](const ChangeArgument&) { return false; });
   }
 
-  std::size_t Choose(const ChangeArgument& argument, const std::string& value,
-                     const std::vector<std::string>& names) {
+  std::size_t Choose(const ChangeArgument& argument, const std::string& value, const std::vector<std::string>& names) {
     const auto found = std::ranges::find(names, value);
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
     Complain(argument.position, "'" + value + "' is none of the words that can stand here",

@@ -28,9 +28,8 @@ ChangeOutcome NotDone(Error error, bool is_refused) {
 
 }  // namespace
 
-ChangeOutcome ChangeHistory::Apply(const ChangeSet& changes,
-                                   const std::vector<SourcePosition>& places, std::string label,
-                                   std::string client, const RobotStop::AsOf& as_of) {
+ChangeOutcome ChangeHistory::Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places,
+                                   std::string label, std::string client, const RobotStop::AsOf& as_of) {
   const std::lock_guard one_after_the_other(applying_);
   Entries entry;
   try {
@@ -53,19 +52,16 @@ ChangeOutcome ChangeHistory::Take(Entries& from, Entries& to, const char* what, 
     Entry entry;
     {
       const std::lock_guard lock(entries_);
-      if (from.empty())
-        return NotDone({.message = "there is nothing to be " + std::string(what)}, true);
+      if (from.empty()) return NotDone({.message = "there is nothing to be " + std::string(what)}, true);
       entry = from.back();
     }
     back.push_back({entry.label, entry.client, {}});
     ChangeOutcome outcome =
         entry.undo_record.why_not
             ? NotDone(*entry.undo_record.why_not, true)
-            : editor_.Apply(
-                  {entry.undo_record.changes, {}, as_of, &entry.undo_record, &back.back().undo_record});
+            : editor_.Apply({entry.undo_record.changes, {}, as_of, &entry.undo_record, &back.back().undo_record});
     if (!outcome.is_done && outcome.is_refused) {
-      outcome.diagnostics.Add(
-          {.message = "'" + entry.label + "' can no longer be " + what + ", and is forgotten"});
+      outcome.diagnostics.Add({.message = "'" + entry.label + "' can no longer be " + what + ", and is forgotten"});
     }
     const std::lock_guard lock(entries_);
     if (outcome.is_done || outcome.is_refused) from.pop_back();

@@ -36,8 +36,8 @@ class ChangeHistory {
   /// As StructureEditor::Apply(); what is done can be undone, and nothing be redone any more. `label` is
   /// what people read of it; "": the change in its text format, and how many more there are. `client`: who
   /// wants it, for people.
-  ChangeOutcome Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places = {},
-                      std::string label = {}, std::string client = {}, const RobotStop::AsOf& as_of = {});
+  ChangeOutcome Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places = {}, std::string label = {},
+                      std::string client = {}, const RobotStop::AsOf& as_of = {});
   /// Takes back what was done last. Errors: nothing to undo; what makes it impossible.
   ChangeOutcome Undo(const RobotStop::AsOf& as_of = {}) { return Take(done_, undone_, "undone", as_of); }
   /// Does again what was undone last: what takes back what took back is what was done.
@@ -64,7 +64,7 @@ class ChangeHistory {
 
   StructureEditor& editor_;
   const std::size_t most_entries_;
-  std::mutex applying_;  // so that entries are in the order of the changes; before all others
+  std::mutex applying_;         // so that entries are in the order of the changes; before all others
   mutable std::mutex entries_;  // a leaf
   Entries done_;                // guarded by entries_
   Entries undone_;              // guarded by entries_

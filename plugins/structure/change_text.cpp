@@ -33,11 +33,11 @@ void ReadThreadOptions(Arguments& arguments, Thread& thread) {
     } else if (argument.name() == "priority") {
       thread.priority = arguments.ReadCount<int>(argument, 99);
     } else if (argument.name() == "on_overrun") {
-      thread.on_overrun = static_cast<ThreadOptions::OnOverrun>(
-          arguments.Choose(argument, argument.value(), OverrunNames()));
+      thread.on_overrun =
+          static_cast<ThreadOptions::OnOverrun>(arguments.Choose(argument, argument.value(), OverrunNames()));
     } else if (argument.name() == "activation") {
-      thread.activation = static_cast<ThreadOptions::Activation>(
-          arguments.Choose(argument, argument.value(), ActivationNames()));
+      thread.activation =
+          static_cast<ThreadOptions::Activation>(arguments.Choose(argument, argument.value(), ActivationNames()));
     } else {
       return false;
     }
@@ -78,9 +78,8 @@ Change ReadCreate(Arguments& arguments) {
   if (arguments.IsNext("port")) {
     arguments.Take("port");
     CreatePort change{.path = arguments.Take("a path"), .type = {}};
-    change.direction = arguments.TakeOneOf("'input' or 'output'", kDirections) == 0
-                           ? Port::Direction::kInput
-                           : Port::Direction::kOutput;
+    change.direction = arguments.TakeOneOf("'input' or 'output'", kDirections) == 0 ? Port::Direction::kInput
+                                                                                    : Port::Direction::kOutput;
     change.type = arguments.Take("a data type");
     change.description = TakeDescription(arguments);
     return change;
@@ -106,8 +105,7 @@ Change ReadConnect(Arguments& arguments) {
       change.options.queue = arguments.ReadCount<std::size_t>(argument, kLongestQueue);
     } else if (argument.name() == "on_full") {
       on_full = &argument;
-      change.options.on_full =
-          static_cast<OnFull>(arguments.Choose(argument, argument.value(), OnFullNames()));
+      change.options.on_full = static_cast<OnFull>(arguments.Choose(argument, argument.value(), OnFullNames()));
     } else if (argument.name() == "pull") {
       pull = &argument;
       change.options.pull = arguments.Choose(argument, argument.value(), kNoOrYes) == 1;
@@ -211,20 +209,28 @@ constexpr std::array<Verb, 14> kVerbs{{
      "[convert=NAME] [when=present] [late=true]",
      ReadConnect},
     {"disconnect", "disconnect FROM TO",
-     [](Arguments& a) -> Change { return DisconnectPorts{a.Take("the output"), a.Take("the input")}; }},
+     [](Arguments& a) -> Change {
+       return DisconnectPorts{a.Take("the output"), a.Take("the input")};
+     }},
     {"set", "set PATH VALUE, with a VALUE that has blanks in quotation marks",
-     [](Arguments& a) -> Change { return SetParameter{a.Take("the path of a parameter"), a.Take("a value")}; }},
+     [](Arguments& a) -> Change {
+       return SetParameter{a.Take("the path of a parameter"), a.Take("a value")};
+     }},
     {"replace", "replace PATH with TYPE [NAME=VALUE ...] [probation=CYCLES]", ReadReplace},
     {"rename", "rename PATH NAME",
-     [](Arguments& a) -> Change { return RenameElement{a.Take("a path"), a.Take("the new name")}; }},
+     [](Arguments& a) -> Change {
+       return RenameElement{a.Take("a path"), a.Take("the new name")};
+     }},
     {"copy", "copy PATH [NAME]", ReadCopy},
     {"move", "move PATH to THREAD", ReadMove},
     {"tag", "tag PATH [WORD ...]", ReadTag},
     {"log", "log PATH debug|info|warning|error|off|inherit", ReadLog},
     {"offer", "offer PORT [NAME=VALUE ...] [remove=true]", ReadExtension<1>},
     {"take", "take TOPIC PORT [NAME=VALUE ...] [remove=true]", ReadExtension<2>},
-    {"schedule", "schedule THREAD [period=TIME] [activation=period|free_running|trigger] [priority=N] "
-     "[on_overrun=skip|catch_up]", ReadSchedule},
+    {"schedule",
+     "schedule THREAD [period=TIME] [activation=period|free_running|trigger] [priority=N] "
+     "[on_overrun=skip|catch_up]",
+     ReadSchedule},
 }};
 
 Result<Change> ReadChange(const ChangeLine& line) {
@@ -244,8 +250,7 @@ Result<Change> ReadChange(const ChangeLine& line) {
 
 }  // namespace
 
-PlacedChanges ParseChanges(std::string_view text, const SourcePosition& begins,
-                           Diagnostics& diagnostics) {
+PlacedChanges ParseChanges(std::string_view text, const SourcePosition& begins, Diagnostics& diagnostics) {
   PlacedChanges placed;
   for (const ChangeLine& line : internal::SplitChanges(text, begins, diagnostics)) {
     auto change = ReadChange(line);

@@ -45,8 +45,7 @@ struct PlacedChanges {
 /// right are returned nevertheless.
 ///
 /// Only the text is looked at, not whether an application could be changed like that: Apply() does.
-[[nodiscard]] PlacedChanges ParseChanges(std::string_view text, const SourcePosition& begins,
-                                         Diagnostics& diagnostics);
+[[nodiscard]] PlacedChanges ParseChanges(std::string_view text, const SourcePosition& begins, Diagnostics& diagnostics);
 
 /// The change as ParseChanges() reads it.
 [[nodiscard]] std::string ChangeText(const Change& change);

@@ -20,30 +20,28 @@ std::string SettingsText(const std::vector<Setting>& settings) {
 
 std::string Text(const CreateModule& change) {
   // Relative paths and absolute ones are the same; these would be taken for the other arguments.
-  const bool is_keyword = change.path == "group" || change.path == "port" ||
-                          change.path == "parameter" || change.path == "thread";
-  return std::string("create ") + (is_keyword ? "/" : "") + AsArgument(change.path) + " " +
-         AsArgument(change.type) + SettingsText(change.settings);
+  const bool is_keyword =
+      change.path == "group" || change.path == "port" || change.path == "parameter" || change.path == "thread";
+  return std::string("create ") + (is_keyword ? "/" : "") + AsArgument(change.path) + " " + AsArgument(change.type) +
+         SettingsText(change.settings);
 }
 std::string Text(const CreateGroup& change) { return "create group " + AsArgument(change.path); }
 std::string Text(const CreatePort& change) {
   const bool is_input = change.direction == Port::Direction::kInput;
   return "create port " + AsArgument(change.path) + " " + (is_input ? "input" : "output") + " " +
-         AsArgument(change.type) +
-         (change.description.empty() ? "" : " description=" + AsArgument(change.description));
+         AsArgument(change.type) + (change.description.empty() ? "" : " description=" + AsArgument(change.description));
 }
 std::string Text(const CreateParameter& change) {
   std::string text = "create parameter " + AsArgument(change.path);
   for (const std::string& target : change.targets) text += " " + AsArgument(target);
-  return text +
-         (change.description.empty() ? "" : " description=" + AsArgument(change.description));
+  return text + (change.description.empty() ? "" : " description=" + AsArgument(change.description));
 }
 std::string Text(const DeleteElement& change) { return "delete " + AsArgument(change.path); }
 std::string Text(const ConnectPorts& change) {
   const ConnectOptions& options = change.options;
   const bool has_dot = !options.part.empty() && options.part.front() != '[';
-  std::string text = "connect " + AsArgument(change.from + (has_dot ? "." : "") + options.part) +
-                     " " + AsArgument(change.to);
+  std::string text =
+      "connect " + AsArgument(change.from + (has_dot ? "." : "") + options.part) + " " + AsArgument(change.to);
   if (options.pull) text += " pull=true";
   if (!options.convert.empty()) text += " convert=" + AsArgument(options.convert);
   if (options.when_present) text += " when=present";
@@ -61,8 +59,8 @@ std::string Text(const SetParameter& change) {
          AsArgument(change.object ? ToText(*change.type, change.object.get()) : change.value);
 }
 std::string Text(const ReplaceModule& change) {
-  std::string text = "replace " + AsArgument(change.path) + " with " + AsArgument(change.type) +
-                     SettingsText(change.settings);
+  std::string text =
+      "replace " + AsArgument(change.path) + " with " + AsArgument(change.type) + SettingsText(change.settings);
   if (change.probation_cycles == ReplaceModule{}.probation_cycles) return text;
   return text + " probation=" + std::to_string(change.probation_cycles);
 }
@@ -77,8 +75,7 @@ std::string Text(const AssignToThread& change) {
 }
 
 std::string Text(const LogElement& change) {
-  return "log " + AsArgument(change.path) + " " +
-         (change.level ? LogLevelName(*change.level) : "inherit");
+  return "log " + AsArgument(change.path) + " " + (change.level ? LogLevelName(*change.level) : "inherit");
 }
 std::string Text(const TagElement& change) {
   std::string text = "tag " + AsArgument(change.path);

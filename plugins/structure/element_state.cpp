@@ -8,8 +8,8 @@
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"
 #include "core/element/tags.h"
-#include "core/port/given_limits.h"
 #include "core/port/driving_ports.h"
+#include "core/port/given_limits.h"
 #include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
 #include "core/port/stand_in.h"
@@ -110,8 +110,7 @@ Result<void> Give(const FrameworkElement& noted, FrameworkElement& made, const E
 
 ElementState::ElementState(const FrameworkElement& element, Inherit how, Below below)
     : how_(how),
-      noted_(std::make_unique<FrameworkElement>(
-          Placement{element.runtime().root(), element.name(), false})) {
+      noted_(std::make_unique<FrameworkElement>(Placement{element.runtime().root(), element.name(), false})) {
   Note(*noted_, element, how, below);
   noted_->InheritAnnotations(element, how);
 }

@@ -35,6 +35,7 @@ class ElementState {
   Result<void> GivePorts(FrameworkElement& made, const TakenOver& taken_over = {}) const;
   /// Tells the ports of `made` what stopped those noted, to be so again when they take the places of others.
   void NoteWayBack(FrameworkElement& made) const;
+
  private:
   Inherit how_;
   // Elements of no kind beside the tree, under the names of those whose annotations they keep.

@@ -22,13 +22,11 @@ namespace runnel::internal {
 namespace {
 
 Error CannotBeMade(const FrameworkElement& element) {
-  return {.message = "could not be made again by a change: it is of no registered type",
-          .path = element.path()};
+  return {.message = "could not be made again by a change: it is of no registered type", .path = element.path()};
 }
 
 // Those that `after` would otherwise hand over.
-void AddDefaults(const FrameworkElement& before, const FrameworkElement& after,
-                 std::vector<Setting>& settings) {
+void AddDefaults(const FrameworkElement& before, const FrameworkElement& after, std::vector<Setting>& settings) {
   for (const auto& [element, parameter] : ConfigurablesOf(before)) {
     const ConfigurableElement other = FindConfigurable(after, element->name());
     if (!other || std::ranges::count(settings, element->name(), &Setting::parameter) > 0) continue;
@@ -42,8 +40,7 @@ void AddCreation(const FrameworkElement& element, FrameworkElement::Inherit how,
                  std::optional<Error>& why_not) {
   using Below = ElementState::Below;
   const bool is_group = FindModuleType(element).empty() && element.kind() == ElementKind::kGroup;
-  const auto state =
-      std::make_shared<const ElementState>(element, how, is_group ? Below::kLeftOut : Below::kIncluded);
+  const auto state = std::make_shared<const ElementState>(element, how, is_group ? Below::kLeftOut : Below::kIncluded);
   const std::string type = FindModuleType(element);
   const auto* const port = dynamic_cast<const Port*>(&element);
   if (!type.empty()) {
@@ -53,11 +50,9 @@ void AddCreation(const FrameworkElement& element, FrameworkElement::Inherit how,
   } else if (is_group) {
     changes.push_back(CreateGroup{element.path(), state});
   } else if (port != nullptr && port->is_proxy()) {
-    changes.push_back(
-        CreatePort{element.path(), port->direction(), port->type().name(), port->description(), state});
+    changes.push_back(CreatePort{element.path(), port->direction(), port->type().name(), port->description(), state});
   } else if (const auto* const group = dynamic_cast<const GroupParameter*>(&element)) {
-    changes.push_back(
-        CreateParameter{group->path(), group->targets(), group->info().description, state});
+    changes.push_back(CreateParameter{group->path(), group->targets(), group->info().description, state});
   } else if (!why_not) {
     why_not = CannotBeMade(element);
   }
@@ -145,8 +140,7 @@ ChangeSet MakeAgain(FrameworkElement& element, std::optional<Error>& why_not) {
   return changes;
 }
 
-ChangeSet MakeLike(FrameworkElement& element, const std::string& path,
-                   std::optional<Error>& why_not) {
+ChangeSet MakeLike(FrameworkElement& element, const std::string& path, std::optional<Error>& why_not) {
   ChangeSet changes;
   AddCreation(element, FrameworkElement::Inherit::kAsCopy, changes, why_not);
   AddInnerConnections(element, changes);
@@ -155,8 +149,8 @@ ChangeSet MakeLike(FrameworkElement& element, const std::string& path,
   return changes;
 }
 
-ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& after,
-                      std::uint64_t probation_cycles, std::optional<Error>& why_not) {
+ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& after, std::uint64_t probation_cycles,
+                      std::optional<Error>& why_not) {
   const std::string type = FindModuleType(before);
   if (type.empty()) {
     if (!why_not) why_not = CannotBeMade(before);
@@ -169,8 +163,7 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
                                                              ElementState::Below::kIncluded)}};
 }
 
-UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses, std::optional<Error> why_not,
-                        FrameworkElement& root) {
+UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses, std::optional<Error> why_not, FrameworkElement& root) {
   UndoRecord undo_record{{}, {}, std::move(why_not)};
   // The last step first.
   for (auto step = inverses.rbegin(); step != inverses.rend(); ++step) {
@@ -193,9 +186,8 @@ Result<void> CheckExpected(const UndoRecord& undo_record, FrameworkElement& root
     const auto found = root.Find(path);
     if (!found) return found.error();
     if (WhatItIs(**found) != what) {
-      return Error{
-          .message = "is not what it was any more: " + WhatItIs(**found) + " instead of " + what,
-          .path = path};
+      return Error{.message = "is not what it was any more: " + WhatItIs(**found) + " instead of " + what,
+                   .path = path};
     }
     if (what != "group" || !deleted.contains(path)) continue;
     for (const FrameworkElement* child : (*found)->children()) {

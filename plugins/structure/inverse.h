@@ -25,8 +25,7 @@ namespace runnel::internal {
 [[nodiscard]] ChangeSet MakeAgain(FrameworkElement& element, std::optional<Error>& why_not);
 
 /// Makes another one like it at `path`: the same, but for connections with others. All paths are absolute.
-[[nodiscard]] ChangeSet MakeLike(FrameworkElement& element, const std::string& path,
-                                 std::optional<Error>& why_not);
+[[nodiscard]] ChangeSet MakeLike(FrameworkElement& element, const std::string& path, std::optional<Error>& why_not);
 
 /// The same for a thread, with what is assigned to it.
 void AddThreadAgain(const ThreadContainer& thread, ChangeSet& changes);
@@ -48,8 +47,8 @@ struct UndoRecord {
 };
 
 /// Right after the change set has been carried out that `inverses` are of, step by step. Under the structure lock.
-[[nodiscard]] UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses,
-                                      std::optional<Error> why_not, FrameworkElement& root);
+[[nodiscard]] UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses, std::optional<Error> why_not,
+                                      FrameworkElement& root);
 
 /// Whether its changes still find what they are to delete or replace, and delete nothing that is not theirs.
 /// Errors: what is not as it was. Under the structure lock.

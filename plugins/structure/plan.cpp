@@ -32,8 +32,7 @@ std::vector<Connection> ExternalConnectionsOf(FrameworkElement& element) {
   return ties;
 }
 
-void Plan::Make(const ChangeSet& changes, const std::vector<SourcePosition>& places,
-                Diagnostics& diagnostics) {
+void Plan::Make(const ChangeSet& changes, const std::vector<SourcePosition>& places, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const auto tell = [&](Error error) {
       if (i < places.size() && !places[i].file.empty()) error.position = places[i];
@@ -112,8 +111,7 @@ void Plan::WarnOfMissingSources(Diagnostics& diagnostics) const {
   for (FrameworkElement* each : made_) {
     each->VisitAll<const Port>([&](const Port& port) {
       if (!port.is_required() || overlay_.HasSource(port) || LateConnections::Awaits(port)) return;
-      diagnostics.AddWarning(
-          {.message = "is required, and nothing is connected to it", .path = port.path()});
+      diagnostics.AddWarning({.message = "is required, and nothing is connected to it", .path = port.path()});
     });
   }
 }
@@ -176,8 +174,8 @@ void Plan::AddRemoval(FrameworkElement& element) {
 void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                           std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change) {
   struct Done {
-    New after;               // until it is listed
-    UnlistedElement before;  // once it is not
+    New after;                                // until it is listed
+    UnlistedElement before;                   // once it is not
     const FrameworkElement* place = nullptr;  // of `before`
     std::size_t moved = 0;                    // of the ports
     bool is_noted = false;
@@ -189,8 +187,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
   done->after = work.element;
   steps_.push_back({[=, this, &before, &next, values = work.values]() -> Result<void> {
                       // What has been set or assigned since the new module was made, by this change set or others.
-                      if (auto set = CopyLateSettings(before, values, change.settings, next); !set)
-                        return set;
+                      if (auto set = CopyLateSettings(before, values, change.settings, next); !set) return set;
                       InheritAnnotations(next, before, ports);
                       if (change.state) {
                         if (auto given = change.state->GivePorts(next, ports); !given) return given;
@@ -210,8 +207,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                         ++done->moved;
                       }
                       const bool is_same_place = next.parent() == before.parent();
-                      if (auto listed = runtime_.List(std::move(*done->after),
-                                                      is_same_place ? done->place : nullptr);
+                      if (auto listed = runtime_.List(std::move(*done->after), is_same_place ? done->place : nullptr);
                           !listed) {
                         return listed.error();
                       }

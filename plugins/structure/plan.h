@@ -58,8 +58,7 @@ class Workshop {
   [[nodiscard]] std::size_t size() const noexcept { return works_.size(); }
 
  private:
-  std::map<std::string, Result<Work>>
-      works_;  // a group comes before what is in it: it is asked for first
+  std::map<std::string, Result<Work>> works_;  // a group comes before what is in it: it is asked for first
 };
 
 /// While one lives, the thread that holds the structure lock does not. Precondition: it has taken it once.
@@ -104,8 +103,7 @@ class Plan {
   /// Checks the changes one after the other, each as if those before had been made, and makes what is
   /// new, beside the tree. All that is wrong goes to `diagnostics`, at `places`, if there are any. Lets go of the
   /// structure lock while it makes a module; throws Workshop::Overtaken if others have changed something then.
-  void Make(const ChangeSet& changes, const std::vector<SourcePosition>& places,
-            Diagnostics& diagnostics);
+  void Make(const ChangeSet& changes, const std::vector<SourcePosition>& places, Diagnostics& diagnostics);
 
   /// Carries it out. `back`, if there is one, gets what would take it back. Errors: what could not be foreseen,
   /// whatever was thrown; nothing has changed then.
@@ -134,16 +132,10 @@ class Plan {
   Result<void> Check(const CreatePort& change);
   Result<void> Check(const CreateParameter& change);
   Result<void> Check(const DeleteElement& change);
-  Result<void> Check(const ConnectPorts& change) {
-    return CheckTie(change.from, change.to, change.options);
-  }
-  Result<void> Check(const DisconnectPorts& change) {
-    return CheckTie(change.from, change.to, std::nullopt);
-  }
+  Result<void> Check(const ConnectPorts& change) { return CheckTie(change.from, change.to, change.options); }
+  Result<void> Check(const DisconnectPorts& change) { return CheckTie(change.from, change.to, std::nullopt); }
   Result<void> Check(const SetParameter& change);
-  Result<void> Check(const ReplaceModule& change) {
-    return CheckReplacement(change, Misfits::kAreRefused);
-  }
+  Result<void> Check(const ReplaceModule& change) { return CheckReplacement(change, Misfits::kAreRefused); }
   Result<void> Check(const AssignToThread& change);
   Result<void> Check(const AddThread& change);
   Result<void> Check(const ScheduleThread& change);
@@ -157,8 +149,8 @@ class Plan {
   enum class Misfits { kAreRefused, kAreCut };
   Result<void> CheckReplacement(const ReplaceModule& change, Misfits misfits);
   // By a module at `place`, beside the tree, which may be another one than that of `before`.
-  Result<void> CheckReplacement(FrameworkElement& before, const Placement& place,
-                                const ReplaceModule& change, Misfits misfits);
+  Result<void> CheckReplacement(FrameworkElement& before, const Placement& place, const ReplaceModule& change,
+                                Misfits misfits);
   // In the group `parent`, under another name or the same.
   Result<void> MoveTo(const Placement& place, FrameworkElement& element);
   Result<void> MoveGroup(const Placement& place, FrameworkElement& group);
@@ -168,8 +160,7 @@ class Plan {
   void MoveExtensions(const FrameworkElement& renamed, const std::string& name);
   void AddExchange(FrameworkElement& before, UnlistedElement after);
   Result<void> CheckAll(const GroupParameter& group, const SetParameter& change);
-  Result<void> CheckStatic(const FrameworkElement& element, const Configurable& parameter,
-                           const void* value);
+  Result<void> CheckStatic(const FrameworkElement& element, const Configurable& parameter, const void* value);
   Result<void> Cut(const std::vector<std::pair<Port*, Port*>>& misfits, const FrameworkElement& module);
 
   // One that is to be when its ends are there, and at least one is not; or that has been to be until now.
@@ -183,8 +174,7 @@ class Plan {
   // Constructed, configured, with what had been set at `before`, if there is one, and prepared.
   Result<Workshop::Work> MakeModule(const Placement& place, const ReplaceModule& change,
                                     const FrameworkElement* before);
-  Result<Workshop::Work> MakeGroup(const Placement& place, const FrameworkElement* before,
-                                   const GivenState& state);
+  Result<Workshop::Work> MakeGroup(const Placement& place, const FrameworkElement* before, const GivenState& state);
   // By what `key` is distinguished among what goes there.
   std::string KeyOf(const Placement& place, std::string key, const FrameworkElement* before);
   void WarnOfMissingSources(Diagnostics& diagnostics) const;
@@ -194,8 +184,8 @@ class Plan {
   // Behind `sibling`; without, after all.
   void AddCreation(New element, const FrameworkElement* sibling = nullptr, GivenState state = {});
   void AddRemoval(FrameworkElement& element);
-  void AddReplacement(FrameworkElement& before, const Workshop::Work& work,
-                      std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change);
+  void AddReplacement(FrameworkElement& before, const Workshop::Work& work, std::vector<std::pair<Port*, Port*>> ports,
+                      const ReplaceModule& change);
   // Has `set` set what is wanted instead of what `get` finds then, and that again if need be.
   template <typename Get, typename Set, typename Inverse>
   void AddSetting(Get get, Set set, std::invoke_result_t<Get> wanted, Inverse inverse) {

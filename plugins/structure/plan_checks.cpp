@@ -28,12 +28,10 @@ namespace runnel::internal {
 namespace {
 
 // What the parameter is to be set to; one that it accepts.
-Result<std::shared_ptr<const void>> ValueIn(const SetParameter& change,
-                                            const Configurable& parameter) {
+Result<std::shared_ptr<const void>> ValueIn(const SetParameter& change, const Configurable& parameter) {
   if (!change.object) return parameter.Parse(change.value);
   if (change.type != &parameter.type()) {
-    return Error{.message =
-                     "a " + parameter.type().name() + " cannot be set to a " + change.type->name()};
+    return Error{.message = "a " + parameter.type().name() + " cannot be set to a " + change.type->name()};
   }
   if (auto good = parameter.Check(change.object.get()); !good) return good.error();
   return change.object;
@@ -44,12 +42,8 @@ Result<std::shared_ptr<const void>> ValueIn(const SetParameter& change,
 Result<void> Plan::Check(const CreateModule& change) {
   const auto place = overlay_.PlaceFor(change.path);
   if (!place) return place.error();
-  const auto work = MakeModule(*place,
-                               {.path = change.path,
-                                .type = change.type,
-                                .settings = change.settings,
-                                .state = change.state},
-                               nullptr);
+  const auto work = MakeModule(
+      *place, {.path = change.path, .type = change.type, .settings = change.settings, .state = change.state}, nullptr);
   if (!work) return work.error();
   AddCreation(work->element, nullptr, change.state);
   return {};
@@ -76,8 +70,7 @@ Result<void> Plan::Check(const CreatePort& change) {
   if (const std::string fault = UnwritableCharacter(change.description); !fault.empty()) {
     return Error{.message = "the description contains " + fault, .path = change.path};
   }
-  UnlistedElement made(
-      std::make_unique<ProxyPort>(*place, change.direction, *type, change.description));
+  UnlistedElement made(std::make_unique<ProxyPort>(*place, change.direction, *type, change.description));
   return AddNew(std::move(made), change.state);
 }
 
@@ -100,8 +93,7 @@ Result<void> Plan::Check(const CreateParameter& change) {
   if (const std::string fault = UnwritableCharacter(change.description); !fault.empty()) {
     return Error{.message = "the description contains " + fault, .path = change.path};
   }
-  UnlistedElement made(
-      std::make_unique<GroupParameter>(*place, std::move(targets), change.description));
+  UnlistedElement made(std::make_unique<GroupParameter>(*place, std::move(targets), change.description));
   return AddNew(std::move(made), change.state);
 }
 
@@ -118,9 +110,11 @@ bool HoldsWhatTagsMake(const FrameworkElement& element) {
 
 Result<void> CheckIsNotOfTags(const FrameworkElement& element, const char* what) {
   if (!HoldsWhatTagsMake(element)) return {};
-  return Error{.message = std::string("is, or holds, what a tag of the file or a program has made for itself, and cannot be ") + what +
-                          " while it runs",
-               .path = element.path(), .hint = "change the tag in the file, and run it again; or have the program let go of it"};
+  return Error{
+      .message = std::string("is, or holds, what a tag of the file or a program has made for itself, and cannot be ") +
+                 what + " while it runs",
+      .path = element.path(),
+      .hint = "change the tag in the file, and run it again; or have the program let go of it"};
 }
 
 Result<void> Plan::Check(const DeleteElement& change) {
@@ -131,12 +125,9 @@ Result<void> Plan::Check(const DeleteElement& change) {
     return Error{.message = "the root cannot be deleted", .path = element.path()};
   }
   const FrameworkElement& owner = *element.parent();
-  const bool is_part =
-      owner.kind() == ElementKind::kModule || owner.kind() == ElementKind::kPortGroup;
-  if (is_part ||
-      (element.kind() == ElementKind::kPort && !dynamic_cast<Port&>(element).is_proxy())) {
-    return Error{.message = "a part of a module cannot be deleted by itself",
-                 .path = element.path()};
+  const bool is_part = owner.kind() == ElementKind::kModule || owner.kind() == ElementKind::kPortGroup;
+  if (is_part || (element.kind() == ElementKind::kPort && !dynamic_cast<Port&>(element).is_proxy())) {
+    return Error{.message = "a part of a module cannot be deleted by itself", .path = element.path()};
   }
   if (auto good = CheckIsNotOfTags(element, "deleted"); !good) return good;
   Concern(element);
@@ -149,7 +140,11 @@ Result<void> Plan::Check(const DeleteElement& change) {
     if (auto cut = CheckLateTie(each.SourceText(), each.to, std::nullopt); !cut) return cut;
   }
   element.VisitAll<const Port>([&](const Port& port) {
-    if (port.FindMark()) warnings_.push_back({.message = "its mark as driving goes with it: STOP does not hold what takes its place, unless that declares it", .path = port.path()});
+    if (port.FindMark())
+      warnings_.push_back(
+          {.message =
+               "its mark as driving goes with it: STOP does not hold what takes its place, unless that declares it",
+           .path = port.path()});
   });
   overlay_.Remove(element);
   AddRemoval(element);
@@ -166,8 +161,7 @@ Result<void> Plan::Check(const SetParameter& change) {
   if (const auto* const group = dynamic_cast<const GroupParameter*>(*found)) {
     return CheckAll(*group, change);
   }
-  const bool is_settled =
-      parameter->info().is_static && (*found)->life_cycle() == LifeCycle::kReady;
+  const bool is_settled = parameter->info().is_static && (*found)->life_cycle() == LifeCycle::kReady;
   const auto value = ValueIn(change, *parameter);
   if (!value) return value.error().WithPath((*found)->path());
   if (is_settled) return CheckStatic(**found, *parameter, value->get());
@@ -186,8 +180,7 @@ Result<void> Plan::Check(const SetParameter& change) {
 Result<void> Plan::CheckAll(const GroupParameter& group, const SetParameter& change) {
   const auto targets = group.Find();
   if (targets.empty()) {
-    return Error{.message = "nothing is there any more that could be set by it",
-                 .path = group.path()};
+    return Error{.message = "nothing is there any more that could be set by it", .path = group.path()};
   }
   for (const ConfigurableElement& each : targets) {
     SetParameter one{each.element->path(), change.value, change.object, change.type};
@@ -201,8 +194,7 @@ Result<void> Plan::CheckAll(const GroupParameter& group, const SetParameter& cha
 }
 
 // The module is made anew by its own type, and keeps what fits: connections of ports that it has no more are cut.
-Result<void> Plan::CheckStatic(const FrameworkElement& element, const Configurable& parameter,
-                               const void* value) {
+Result<void> Plan::CheckStatic(const FrameworkElement& element, const Configurable& parameter, const void* value) {
   const FrameworkElement* const module = FindModuleAround(element);
   const std::string type = module != nullptr ? FindModuleType(*module) : "";
   if (type.empty()) {
@@ -227,7 +219,8 @@ Result<void> Plan::Cut(const std::vector<std::pair<Port*, Port*>>& misfits, cons
     if (counterpart != nullptr) continue;
     for (const LateConnection& each : overlay_.AwaitedWith(*port)) {
       if (auto cut = CheckLateTie(each.SourceText(), each.to, std::nullopt); !cut) return cut;
-      warnings_.push_back({.message = "is not waited for any more: the module made anew has no such port", .path = each.from});
+      warnings_.push_back(
+          {.message = "is not waited for any more: the module made anew has no such port", .path = each.from});
     }
   }
   return {};
@@ -243,8 +236,8 @@ Result<void> Plan::CheckReplacement(const ReplaceModule& change, Misfits misfits
   return CheckReplacement(before, {*before.parent(), before.name(), false}, change, misfits);
 }
 
-Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& place,
-                                    const ReplaceModule& change, Misfits misfits) {
+Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& place, const ReplaceModule& change,
+                                    Misfits misfits) {
   Result<void> has_places;
   before.VisitAll<const Port>([&](const Port& port) {
     if (has_places) has_places = CheckHasItsPlace(port);
@@ -260,8 +253,7 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
     match.errors.clear();
   }
   if (!match.errors.empty()) {
-    for (std::size_t i = 1; i < match.errors.size(); ++i)
-      further_errors_.push_back(match.errors[i]);
+    for (std::size_t i = 1; i < match.errors.size(); ++i) further_errors_.push_back(match.errors[i]);
     return match.errors.front();
   }
   if (auto moves = CheckMovesAlike(before, made, match.ports); !moves) return moves;
@@ -280,7 +272,8 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
     }
     if (found != match.ports.end()) return;
     if (const std::string what = WhatIsSetAt(port); !what.empty()) {
-      warnings_.push_back({.message = what + " went with it: the new module has no port that takes it over", .path = port.path()});
+      warnings_.push_back(
+          {.message = what + " went with it: the new module has no port that takes it over", .path = port.path()});
     }
   });
   const bool is_made_anew = FindModuleType(before) == change.type;
@@ -301,7 +294,9 @@ Result<void> Plan::Check(const TagElement& change) {
   Concern(element);
   const auto get = [&element] { return TagsOf(element); };
   const auto set = [&element](const std::vector<std::string>& tags) { return SetTags(element, tags); };
-  AddSetting(get, set, change.tags, [&element, get](auto&) -> ChangeSet { return {TagElement{element.path(), get()}}; });
+  AddSetting(get, set, change.tags, [&element, get](auto&) -> ChangeSet {
+    return {TagElement{element.path(), get()}};
+  });
   return {};
 }
 

@@ -52,7 +52,9 @@ Result<void> Plan::Check(const LogElement& change) {
     level ? SetLogLevel(runtime_, path, *level) : (void)ResetLogLevel(runtime_, path);
     return {};
   };
-  AddSetting(get, set, change.level, [=](auto&) -> ChangeSet { return {LogElement{path.empty() ? "/" : path, get()}}; });
+  AddSetting(get, set, change.level, [=](auto&) -> ChangeSet {
+    return {LogElement{path.empty() ? "/" : path, get()}};
+  });
   return {};
 }
 
@@ -63,7 +65,8 @@ Result<void> Plan::Check(const ExtensionChange& change) {
     return Error{.message = "nothing of the application can '" + change.verb + "'",
                  .hint = "what is offered and taken needs <network/> in its file"};
   }
-  auto step = found->second(change, [this](const std::string& path, PathKind kind) { return overlay_.FindPort(path, kind); });
+  auto step =
+      found->second(change, [this](const std::string& path, PathKind kind) { return overlay_.FindPort(path, kind); });
   if (!step) return step.error();
   for (const runnel::Change& each : step->changes) {
     const auto checked = std::visit([this](const auto& one) { return Check(one); }, each);

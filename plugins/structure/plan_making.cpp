@@ -24,30 +24,27 @@ Result<Workshop::Work> Plan::MakeModule(const Placement& place, const ReplaceMod
   for (const Setting& each : change.settings) key += " " + each.parameter + "=" + each.value;
   // Whatever is to be known of others is looked at first: they may go while it is made.
   const std::uint64_t revision = runtime_.revision_by_others();
-  const auto& work =
-      workshop_.Get(KeyOf(place, std::move(key), before), [&]() -> Result<Workshop::Work> {
-        std::vector<Setting> inherited;
-        Values values;
-        std::optional<ElementState> state;
-        std::string name = place.name;
-        if (before != nullptr) {
-          inherited = SettingsOf(*before);
-          values = ValuesOf(*before);
-          state.emplace(*before, FrameworkElement::Inherit::kAsReplacement,
-                        ElementState::Below::kIncluded);
-          name = NameInFile::Of(*before);
-        }
-        const Unlocked unlocked(runtime_);
-        auto made = modules_.Make(change.type, place);
-        if (!made) return made.error().WithPath(place.parent.path() + "/" + place.name);
-        if (auto set = ConfigureNew(**made, inherited, change.settings); !set) return set.error();
-        if (change.state) change.state->GiveAnnotations(**made);
-        if (state) state->GiveAnnotations(**made);
-        if (name != place.name) (*made)->Annotate(std::make_unique<NameInFile>(name));
-        if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared.error();
-        return Workshop::Work{std::make_shared<UnlistedElement>(std::move(*made)),
-                              std::move(values)};
-      });
+  const auto& work = workshop_.Get(KeyOf(place, std::move(key), before), [&]() -> Result<Workshop::Work> {
+    std::vector<Setting> inherited;
+    Values values;
+    std::optional<ElementState> state;
+    std::string name = place.name;
+    if (before != nullptr) {
+      inherited = SettingsOf(*before);
+      values = ValuesOf(*before);
+      state.emplace(*before, FrameworkElement::Inherit::kAsReplacement, ElementState::Below::kIncluded);
+      name = NameInFile::Of(*before);
+    }
+    const Unlocked unlocked(runtime_);
+    auto made = modules_.Make(change.type, place);
+    if (!made) return made.error().WithPath(place.parent.path() + "/" + place.name);
+    if (auto set = ConfigureNew(**made, inherited, change.settings); !set) return set.error();
+    if (change.state) change.state->GiveAnnotations(**made);
+    if (state) state->GiveAnnotations(**made);
+    if (name != place.name) (*made)->Annotate(std::make_unique<NameInFile>(name));
+    if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared.error();
+    return Workshop::Work{std::make_shared<UnlistedElement>(std::move(*made)), std::move(values)};
+  });
   if (runtime_.revision_by_others() != revision) throw Workshop::Overtaken();
   return work;
 }

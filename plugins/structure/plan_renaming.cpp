@@ -25,9 +25,7 @@ namespace {
 
 // Who can be renamed and copied.
 Result<void> CheckWhatItIs(const FrameworkElement& element, const char* what) {
-  const auto refusal = [&](const std::string& why) {
-    return Error{.message = why, .path = element.path()};
-  };
+  const auto refusal = [&](const std::string& why) { return Error{.message = why, .path = element.path()}; };
   if (element.kind() != ElementKind::kModule && element.kind() != ElementKind::kGroup) {
     return refusal(std::string("is neither a module nor a group, and cannot be ") + what);
   }
@@ -45,8 +43,7 @@ std::string Sibling(const FrameworkElement& element, const std::string& name) {
 }
 
 // `path` of something at or below `from`, as it is below `to`; nullopt for others.
-std::optional<std::string> Moved(const std::string& path, const std::string& from,
-                                 const std::string& to) {
+std::optional<std::string> Moved(const std::string& path, const std::string& from, const std::string& to) {
   if (!IsAtOrBelow(path, from)) return {};
   return to + path.substr(from.size());
 }
@@ -69,8 +66,7 @@ Result<void> Plan::Check(const CopyElement& change) {
     name = element.name() + "_" + std::to_string(i);
   }
   if (name.find('/') != std::string::npos) {
-    return Error{.message = "'" + name + "' is a path, where the name of the copy is wanted",
-                 .path = element.path()};
+    return Error{.message = "'" + name + "' is a path, where the name of the copy is wanted", .path = element.path()};
   }
   std::optional<Error> why_not;
   const ChangeSet changes = MakeLike(element, Sibling(element, name), why_not);
@@ -99,8 +95,7 @@ Result<void> Plan::Check(const RenameElement& change) {
   FrameworkElement& element = **found;
   if (auto good = CheckWhatItIs(element, "renamed"); !good) return good;
   if (change.name.find('/') != std::string::npos) {
-    return Error{.message = "'" + change.name + "' is a path, where the new name is wanted",
-                 .path = element.path()};
+    return Error{.message = "'" + change.name + "' is a path, where the new name is wanted", .path = element.path()};
   }
   const std::string before = element.path();
   const std::string after = Sibling(element, change.name);
@@ -128,9 +123,7 @@ Result<void> Plan::Check(const RenameElement& change) {
   for (std::size_t i = first; i < steps_.size(); ++i) {
     steps_[i].inverse = [](auto&) { return ChangeSet(); };
   }
-  steps_[first].inverse = [after, name = element.name()](auto&) -> ChangeSet {
-    return {RenameElement{after, name}};
-  };
+  steps_[first].inverse = [after, name = element.name()](auto&) -> ChangeSet { return {RenameElement{after, name}}; };
   return {};
 }
 
@@ -142,16 +135,14 @@ Result<void> Plan::MoveTo(const Placement& place, FrameworkElement& element) {
                    .path = element.path()};
     }
     if (element.kind() == ElementKind::kGroup) {
-      warnings_.push_back({.message = "is a composite, and begins afresh under its new name",
-                           .path = element.path()});
+      warnings_.push_back({.message = "is a composite, and begins afresh under its new name", .path = element.path()});
     }
     return CheckReplacement(element, place, {.path = element.path(), .type = type, .probation_cycles = 0},
                             Misfits::kAreRefused);
   }
   if (auto* const port = dynamic_cast<Port*>(&element)) return MovePort(place, *port);
   if (const auto* const parameter = dynamic_cast<const GroupParameter*>(&element)) {
-    UnlistedElement made(std::make_unique<GroupParameter>(place, parameter->targets(),
-                                                          parameter->info().description));
+    UnlistedElement made(std::make_unique<GroupParameter>(place, parameter->targets(), parameter->info().description));
     made->InheritAnnotations(element);
     return AddNew(std::move(made));
   }
@@ -213,8 +204,8 @@ Result<void> Plan::MoveTargets(const FrameworkElement& renamed, const std::strin
       targets.push_back(RenamedPath(each, before->parent()->path(), {{renamed.path(), name}}));
     }
     if (targets == before->targets()) continue;
-    UnlistedElement made(std::make_unique<GroupParameter>(
-        Placement{*before->parent(), before->name(), false}, targets, before->info().description));
+    UnlistedElement made(std::make_unique<GroupParameter>(Placement{*before->parent(), before->name(), false}, targets,
+                                                          before->info().description));
     made->InheritAnnotations(*before);
     if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
     AddExchange(*before, std::move(made));

@@ -14,12 +14,12 @@ Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string&
   const auto [from, part] = SplitPortPath(from_path);
   const LateConnection* const known = overlay_.FindLate(from, to);
   if (wanted.has_value() == (known != nullptr)) {
-    return Error{.message = wanted ? "is to be connected to " + to + " already" : "is not connected to " + to, .path = from};
+    return Error{.message = wanted ? "is to be connected to " + to + " already" : "is not connected to " + to,
+                 .path = from};
   }
   std::optional<ConnectOptions> next = wanted;
   if (next && next->part.empty()) next->part = part;
-  const std::optional<ConnectOptions> before =
-      known != nullptr ? std::optional(known->options) : std::nullopt;
+  const std::optional<ConnectOptions> before = known != nullptr ? std::optional(known->options) : std::nullopt;
   const auto tie = [this, from = from, to](const std::optional<ConnectOptions>& options) -> Result<void> {
     LateConnections& all = LateConnections::Of(runtime_);
     if (options) return all.Add(from, to, *options);
@@ -58,7 +58,8 @@ Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_
   const bool are_there = found_from && found_to;
   const bool may_wait = asked && (asked->when_present || (found_to && IsDistantPath(from_path)));
   if (!are_there && may_wait && found_to && IsDistantPath(from_path)) {
-    warnings_.push_back({.message = "waits for " + from_path + ": " + found_from.error().message, .path = (*found_to)->path()});
+    warnings_.push_back(
+        {.message = "waits for " + from_path + ": " + found_from.error().message, .path = (*found_to)->path()});
   }
   if (!are_there && may_wait) return CheckLateTie(from_path, to_path, asked);
   if (!asked) {
@@ -71,7 +72,8 @@ Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_
   const DistantPorts* const distant = asked && IsDistantPath(from_path) ? DistantPorts::FindIn(**found_to) : nullptr;
   if (distant != nullptr) {
     const DistantType told = distant->TypeOf(SplitPortPath(from_path).path);
-    if (told.type == nullptr) warnings_.push_back({.message = "waits for " + from_path + ": " + told.why_not, .path = (*found_to)->path()});
+    if (told.type == nullptr)
+      warnings_.push_back({.message = "waits for " + from_path + ": " + told.why_not, .path = (*found_to)->path()});
   }
   std::optional<ConnectOptions> wanted = asked;
   if (wanted && !found_from->part.empty()) wanted->part = found_from->part;

@@ -23,8 +23,7 @@ ChangeSet AllAnew(const ModuleRegistry& modules, FrameworkElement& root, std::st
 }
 
 // Of one that is loaded; what is to be said of others is said when it is to be loaded anew.
-std::optional<std::filesystem::path> FileOf(const PluginManager& plugins, Runtime& runtime,
-                                            std::string_view plugin) {
+std::optional<std::filesystem::path> FileOf(const PluginManager& plugins, Runtime& runtime, std::string_view plugin) {
   const std::lock_guard lock(runtime.structure_mutex());
   if (std::ranges::find(plugins.loaded(), plugin) == plugins.loaded().end()) return {};
   const auto file = plugins.FindFile(plugin);
@@ -33,8 +32,8 @@ std::optional<std::filesystem::path> FileOf(const PluginManager& plugins, Runtim
 
 }  // namespace
 
-ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runtime& runtime,
-                           std::string_view plugin, const RobotStop::AsOf& as_of) {
+ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runtime& runtime, std::string_view plugin,
+                           const RobotStop::AsOf& as_of) {
   std::optional<PluginReload> reload;
   ChangeOutcome outcome;
   try {

@@ -16,7 +16,7 @@ namespace runnel {
 /// that the rest of the application knows.
 ///
 /// Threads:  as StructureEditor::Apply(), as is `as_of`; one at a time.
-ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runtime& runtime,
-                           std::string_view plugin, const RobotStop::AsOf& as_of = {});
+ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runtime& runtime, std::string_view plugin,
+                           const RobotStop::AsOf& as_of = {});
 
 }  // namespace runnel

@@ -99,12 +99,10 @@ Result<std::string> RenamedText(const std::string& text, const std::string& file
   if (!document) return document.error();
   XmlEditor editor(*document, text);
   VisitPaths(document->root(), "", attributes,
-             [&](XmlElement tag, const PathAttribute& known, const XmlAttribute& attribute,
-                 const std::string& base) {
+             [&](XmlElement tag, const PathAttribute& known, const XmlAttribute& attribute, const std::string& base) {
                const auto rename = [&](const std::string& path) { return RenamedPath(path, base, names); };
-               const std::string value = known.kind == Kind::kPathList
-                                             ? ForEachWord(attribute.value, rename)
-                                             : rename(attribute.value);
+               const std::string value =
+                   known.kind == Kind::kPathList ? ForEachWord(attribute.value, rename) : rename(attribute.value);
                if (value != attribute.value) editor.SetAttribute(tag, known.name, value);
              });
   return editor.Finish();

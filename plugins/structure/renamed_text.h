@@ -36,12 +36,10 @@ using NewNames = std::map<std::string, std::string, std::less<>>;
 void ForgetNewNames(FrameworkElement& application);
 
 /// A path of the file, seen from `base`, in new names.
-[[nodiscard]] std::string RenamedPath(std::string_view path, const std::string& base,
-                                      const NewNames& names);
+[[nodiscard]] std::string RenamedPath(std::string_view path, const std::string& base, const NewNames& names);
 /// The text with what has been renamed called as it is now, wherever a tag or a path names it; else byte for byte.
 /// Errors: it is no XML.
-[[nodiscard]] Result<std::string> RenamedText(const std::string& text, const std::string& file,
-                                              const NewNames& names,
+[[nodiscard]] Result<std::string> RenamedText(const std::string& text, const std::string& file, const NewNames& names,
                                               const PathAttributesOf& attributes);
 
 }  // namespace runnel

@@ -35,9 +35,11 @@ std::string ConversionText(const Port& from, const Port& to, const ConnectOption
 Result<void> CheckConversions(const Port& port, const Port& from, const std::vector<Connection>& edges) {
   for (const auto& [source, to, options, converted] : edges) {
     const bool is_source = source == &from;
-    if (ConversionText(*source, *to, options) == ConversionText(is_source ? port : *source, is_source ? *to : port, options)) continue;
-    return Error{.message = "cannot take over from " + from.path() + ": the values between " + source->path() + " and " + to->path() +
-                            " would be converted otherwise",
+    if (ConversionText(*source, *to, options) ==
+        ConversionText(is_source ? port : *source, is_source ? *to : port, options))
+      continue;
+    return Error{.message = "cannot take over from " + from.path() + ": the values between " + source->path() +
+                            " and " + to->path() + " would be converted otherwise",
                  .path = port.path(),
                  .hint = "disconnect them first"};
   }
@@ -72,11 +74,11 @@ Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkEle
 }
 
 Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {
-  const auto group = port.parent() == &before ? Result<FrameworkElement*>(&after) : after.Find(port.parent()->path().substr(before.path().size() + 1));
+  const auto group = port.parent() == &before ? Result<FrameworkElement*>(&after)
+                                              : after.Find(port.parent()->path().substr(before.path().size() + 1));
   return {.message = "the new module has no port '" + port.name() + "', which is connected",
           .path = port.path(),
-          .hint = group ? NearestNameHint(port.name(),
-                                          NamesOf((*group)->children(), &FrameworkElement::name))
+          .hint = group ? NearestNameHint(port.name(), NamesOf((*group)->children(), &FrameworkElement::name))
                         : "disconnect it first"};
 }
 
@@ -89,10 +91,9 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting, bool ma
   if (!parameter) {
     if (may_be_missing) return {};
     const auto name_of = [](const auto& each) { return each.element->name(); };
-    return Error{
-        .message = "there is no parameter '" + setting.parameter + "'",
-        .path = module.path(),
-        .hint = NearestNameHint(setting.parameter, NamesOf(ConfigurablesOf(module), name_of))};
+    return Error{.message = "there is no parameter '" + setting.parameter + "'",
+                 .path = module.path(),
+                 .hint = NearestNameHint(setting.parameter, NamesOf(ConfigurablesOf(module), name_of))};
   }
   if (!is_its_turn(*parameter.element)) return {};
   const auto set = parameter.configurable->SetFromText(setting.value);
@@ -116,8 +117,7 @@ std::vector<Setting> SettingsOf(const FrameworkElement& module) {
   std::vector<Setting> settings;
   for (const auto& [element, parameter] : ConfigurablesOf(module)) {
     std::string value = parameter->ToText();
-    if (value != parameter->info().default_value)
-      settings.push_back({element->name(), std::move(value)});
+    if (value != parameter->info().default_value) settings.push_back({element->name(), std::move(value)});
   }
   return settings;
 }
@@ -154,8 +154,7 @@ Result<void> CopyLateSettings(const FrameworkElement& before, const Values& valu
                               const std::vector<Setting>& settings, FrameworkElement& after) {
   for (const auto& [name, value] : ValuesOf(before)) {
     const auto known = values.find(name);
-    const bool is_set_anyway =
-        std::ranges::find(settings, name, &Setting::parameter) != settings.end();
+    const bool is_set_anyway = std::ranges::find(settings, name, &Setting::parameter) != settings.end();
     if (is_set_anyway || (known != values.end() && known->second == value)) continue;
     const ConfigurableElement target = FindConfigurable(after, name);
     if (!target || target.configurable->info().is_static) continue;
@@ -176,7 +175,8 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
     if (possible) possible = CheckConversions(*match, port, overlay.EdgesOf(port, &before));
     const bool is_held = port.is_blocked() || port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule);
     const bool is_connected = overlay.IsConnected(port, &before) || !overlay.AwaitedWith(port).empty();
-    const bool is_stopped = match != nullptr && (port.is_blocked() || port.FindMark() || (is_connected && port.is_driving()));
+    const bool is_stopped =
+        match != nullptr && (port.is_blocked() || port.FindMark() || (is_connected && port.is_driving()));
     if (possible) {
       result.ports.push_back({&port, match});
     } else if (is_stopped || is_connected) {
@@ -185,17 +185,22 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
       if (!is_stopped) result.misfits.emplace_back(&port, match);
     } else if (composites && (is_held || IsBarred(port))) {
       const char* const what = is_held ? "is held" : "waits for a value from after its release";
-      result.errors.push_back({.message = std::string("it ") + what + ", and the new module has no such port", .path = port.path(),
-                               .hint = is_held ? "release it first" : "publish one, or delete the module and create the other one"});
+      result.errors.push_back(
+          {.message = std::string("it ") + what + ", and the new module has no such port",
+           .path = port.path(),
+           .hint = is_held ? "release it first" : "publish one, or delete the module and create the other one"});
     }
   });
   return result;
 }
 
-Result<void> CheckMovesAlike(FrameworkElement& before, FrameworkElement& after, const std::vector<std::pair<Port*, Port*>>& ports) {
+Result<void> CheckMovesAlike(FrameworkElement& before, FrameworkElement& after,
+                             const std::vector<std::pair<Port*, Port*>>& ports) {
   if (!Composites(before, after)) return {};
   const auto differs = [](const Port& port) {
-    return Error{.message = "something moves by it, and a composite gives its place only to another one in which the same moves by ports of the same names",
+    return Error{.message =
+                     "something moves by it, and a composite gives its place only to another one in which the same "
+                     "moves by ports of the same names",
                  .path = port.path(),
                  .hint = "delete it, and create the other one"};
   };
@@ -220,7 +225,8 @@ Result<void> CheckMovesAlike(FrameworkElement& before, FrameworkElement& after, 
   return {};
 }
 
-void InheritAnnotations(FrameworkElement& after, const FrameworkElement& before, const std::vector<std::pair<Port*, Port*>>& ports) {
+void InheritAnnotations(FrameworkElement& after, const FrameworkElement& before,
+                        const std::vector<std::pair<Port*, Port*>>& ports) {
   after.InheritAnnotations(before);
   for (const auto& [from, to] : ports) {
     if (from->is_proxy() == to->is_proxy()) continue;
@@ -263,8 +269,7 @@ Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after) 
   try {
     to->TakeOver(*from);
   } catch (...) {
-    return Error{.message = "its state could not be handed over: " + DescribeException(),
-                 .path = after.path()};
+    return Error{.message = "its state could not be handed over: " + DescribeException(), .path = after.path()};
   }
   return {};
 }

@@ -36,7 +36,7 @@ Result<void> CopyLateSettings(const FrameworkElement& before, const Values& valu
 /// The ports of a module, each with that which takes over from it.
 struct PortMatch {
   std::vector<std::pair<Port*, Port*>> ports;
-  std::vector<Error> errors;   ///< what is connected, marked or blocked, and has no counterpart, with the nearest name
+  std::vector<Error> errors;  ///< what is connected, marked or blocked, and has no counterpart, with the nearest name
   /// Those of them that can be cut, each with what has its name in the other module, if anything has.
   std::vector<std::pair<Port*, Port*>> misfits;
 };
@@ -49,13 +49,13 @@ struct PortMatch {
                                            const std::vector<std::pair<Port*, Port*>>& ports);
 
 /// Also of ports that are not at the same place in a module as in a composite. What only a module's input can have stays.
-void InheritAnnotations(FrameworkElement& after, const FrameworkElement& before, const std::vector<std::pair<Port*, Port*>>& ports);
+void InheritAnnotations(FrameworkElement& after, const FrameworkElement& before,
+                        const std::vector<std::pair<Port*, Port*>>& ports);
 /// As a module's port does, or a composite's.
 void TakeOver(Port& port, Port& from, const FrameworkElement& before, const FrameworkElement& after);
 
 /// Which kept states of `before` cannot be handed over to `after`, and why.
-[[nodiscard]] std::vector<Error> StateRefusals(const FrameworkElement& before,
-                                               const FrameworkElement& after);
+[[nodiscard]] std::vector<Error> StateRefusals(const FrameworkElement& before, const FrameworkElement& after);
 
 /// What goes on of the module beside cycles ends, or waits until what `held` gets is let go of. Errors: what it throws.
 Result<void> Settle(const FrameworkElement& module, std::vector<BeforeHandOver::Held>& held);

@@ -136,8 +136,8 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting, std::string& done) 
   FrameworkElement* const after = Successor(waiting);
   if (after == nullptr) return std::move(waiting.replaced.before);
   const FrameworkElement* const place = NextSibling(*after);
-  std::vector<BeforeHandOver::Held> held;
-  for (const auto* each : {after, &*waiting.replaced.before}) (void)Settle(*each, held);  // it has failed, and goes anyway
+  std::vector<BeforeHandOver::Held> held;  // by one that has failed and goes anyway, too
+  for (const auto* each : {after, &*waiting.replaced.before}) (void)Settle(*each, held);
   FrameworkElement& before = *waiting.replaced.before;
   before.VisitAll<Port>([](Port& port) { DrivingState::Of(port).is_later = true; });
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
@@ -196,8 +196,9 @@ void WarnOfLeaving(const std::vector<std::string>& removed, Runtime& runtime, Di
   if (leaving == nullptr) return;
   for (const UnlistedElement& each : leaving->elements) {
     if (std::ranges::count(removed, each->path()) == 0) continue;
-    diagnostics.AddWarning({.message = "is deleted; a call of its service that does not come to its end still uses its memory",
-                            .path = each->path()});
+    diagnostics.AddWarning(
+        {.message = "is deleted; a call of its service that does not come to its end still uses its memory",
+         .path = each->path()});
   }
 }
 
@@ -215,8 +216,8 @@ struct StructureEditor::Shared {
   }
 };
 
-StructureEditor::StructureEditor(Runtime& runtime, const ModuleRegistry& modules,
-                                 Scheduler* scheduler, EditorOptions options)
+StructureEditor::StructureEditor(Runtime& runtime, const ModuleRegistry& modules, Scheduler* scheduler,
+                                 EditorOptions options)
     : runtime_(runtime),
       modules_(modules),
       scheduler_(scheduler),
@@ -282,8 +283,7 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
   return outcome;
 }
 
-StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
-                                              internal::Workshop& workshop,
+StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request, internal::Workshop& workshop,
                                               ChangeOutcome& outcome) {
   internal::Plan plan(runtime_, modules_, workshop);
   std::uint64_t revision = 0;

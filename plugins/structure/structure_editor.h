@@ -15,7 +15,7 @@ namespace runnel {
 namespace internal {
 struct UndoRecord;
 class Workshop;
-}
+}  // namespace internal
 
 /// What has become of a change set.
 struct ChangeOutcome {
@@ -46,8 +46,7 @@ struct EditorOptions {
 class StructureEditor {
  public:
   /// Without a scheduler nobody may run the modules concerned while a change set is applied.
-  StructureEditor(Runtime& runtime, const ModuleRegistry& modules, Scheduler* scheduler,
-                  EditorOptions options = {});
+  StructureEditor(Runtime& runtime, const ModuleRegistry& modules, Scheduler* scheduler, EditorOptions options = {});
   ~StructureEditor();
   StructureEditor(const StructureEditor&) = delete;
   StructureEditor& operator=(const StructureEditor&) = delete;

@@ -25,12 +25,10 @@ const LateConnection* KnownLate(Runtime& runtime, std::string_view from, std::st
 }  // namespace
 
 bool StructureOverlay::IsGone(const FrameworkElement& element) const {
-  return std::ranges::any_of(removed_,
-                             [&](const auto* gone) { return element.IsAtOrBelow(*gone); });
+  return std::ranges::any_of(removed_, [&](const auto* gone) { return element.IsAtOrBelow(*gone); });
 }
 
-FrameworkElement* StructureOverlay::Child(const FrameworkElement& parent,
-                                          std::string_view name) const {
+FrameworkElement* StructureOverlay::Child(const FrameworkElement& parent, std::string_view name) const {
   for (FrameworkElement* each : added_) {
     if (each->parent() == &parent && each->name() == name && !IsGone(*each)) return each;
   }
@@ -96,7 +94,8 @@ Result<void> StructureOverlay::Replace(FrameworkElement& gone, FrameworkElement&
   Add(element);
   for (const auto& [before, after] : ports) {
     if (!IsInCycle(*after)) continue;
-    return Error{.message = "in the place of " + before->path() + " it would close a cycle of interface ports", .path = after->path()};
+    return Error{.message = "in the place of " + before->path() + " it would close a cycle of interface ports",
+                 .path = after->path()};
   }
   return {};
 }
@@ -114,7 +113,8 @@ std::vector<Connection> StructureOverlay::Targets(Port& from) const {
   const auto add_outgoing = [&](const Port& port) {
     for (const Connection& each : port.outgoing()) {
       Port& now = NowFor(*each.to);
-      const bool has_gone = std::ranges::any_of(composites_, [&](const auto* gone) { return IsWithinComposite(*gone, port, *each.to); });
+      const bool has_gone =
+          std::ranges::any_of(composites_, [&](const auto* gone) { return IsWithinComposite(*gone, port, *each.to); });
       if (!has_gone && !IsGone(now)) targets.push_back({&from, &now, each.options});
     }
   };
@@ -148,7 +148,9 @@ bool StructureOverlay::Reaches(Port& from, const Port& to) const {
 
 // Of interface ports alone.
 bool StructureOverlay::IsInCycle(Port& port) const {
-  return port.is_proxy() && std::ranges::any_of(Targets(port), [&](const Connection& edge) { return edge.to->is_proxy() && Reaches(*edge.to, port); });
+  return port.is_proxy() && std::ranges::any_of(Targets(port), [&](const Connection& edge) {
+           return edge.to->is_proxy() && Reaches(*edge.to, port);
+         });
 }
 
 Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOptions& options) {
@@ -157,9 +159,8 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
     return Error{.message = "is connected to " + to.path() + " already", .path = from.path()};
   }
   if (from.is_proxy() && to.is_proxy() && Reaches(to, from)) {
-    return Error{
-        .message = "connecting to " + to.path() + " would close a cycle of interface ports",
-        .path = from.path()};
+    return Error{.message = "connecting to " + to.path() + " would close a cycle of interface ports",
+                 .path = from.path()};
   }
   connected_.push_back({&from, &to, options});
   return {};
@@ -167,11 +168,11 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
 
 Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
   if (!HasEdge(Targets(from), from, to)) {
-    const std::vector<std::string> names = NamesOf(Targets(from), [](const Connection& edge) { return edge.to->path(); });
+    const std::vector<std::string> names =
+        NamesOf(Targets(from), [](const Connection& edge) { return edge.to->path(); });
     return Error{.message = "is not connected to " + to.path(),
                  .path = from.path(),
-                 .hint = names.empty() ? "it is not connected to anything"
-                                       : NearestNameHint(to.path(), names)};
+                 .hint = names.empty() ? "it is not connected to anything" : NearestNameHint(to.path(), names)};
   }
   const auto is_same = [&](const Connection& edge) { return edge.from == &from && edge.to == &to; };
   if (std::erase_if(connected_, is_same) == 0) disconnected_.push_back({&from, &to, {}});
@@ -179,14 +180,18 @@ Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
 }
 
 void StructureOverlay::ConnectLate(const std::string& from, const std::string& to) {
-  if (const LateConnection* const late = KnownLate(runtime_, from, to)) std::erase(disconnected_late_, std::pair{late->from, late->to});
+  if (const LateConnection* const late = KnownLate(runtime_, from, to))
+    std::erase(disconnected_late_, std::pair{late->from, late->to});
 }
 
-void StructureOverlay::DisconnectLate(const LateConnection& late) { disconnected_late_.emplace_back(late.from, late.to); }
+void StructureOverlay::DisconnectLate(const LateConnection& late) {
+  disconnected_late_.emplace_back(late.from, late.to);
+}
 
 const LateConnection* StructureOverlay::FindLate(std::string_view from, std::string_view to) const {
   const LateConnection* const late = KnownLate(runtime_, from, to);
-  return late != nullptr && std::ranges::count(disconnected_late_, std::pair{late->from, late->to}) == 0 ? late : nullptr;
+  return late != nullptr && std::ranges::count(disconnected_late_, std::pair{late->from, late->to}) == 0 ? late
+                                                                                                         : nullptr;
 }
 
 std::vector<LateConnection> StructureOverlay::AwaitedWith(const FrameworkElement& element) const {
@@ -213,12 +218,15 @@ std::vector<Connection> StructureOverlay::EdgesOf(Port& port, const FrameworkEle
   for (const Connection& edge : connected_) {
     if (edge.to == &port && !HasEdge(edges, *edge.from, port)) edges.push_back(edge);
   }
-  std::erase_if(edges, [&](const Connection& edge) { return module != nullptr && IsWithinComposite(*module, *edge.from, *edge.to); });
+  std::erase_if(edges, [&](const Connection& edge) {
+    return module != nullptr && IsWithinComposite(*module, *edge.from, *edge.to);
+  });
   return edges;
 }
 
 bool StructureOverlay::HasSource(const Port& port) const {
-  return std::ranges::any_of(EdgesOf(const_cast<Port&>(port)), [&](const Connection& edge) { return edge.to == &port; });
+  return std::ranges::any_of(EdgesOf(const_cast<Port&>(port)),
+                             [&](const Connection& edge) { return edge.to == &port; });
 }
 
 }  // namespace runnel::internal

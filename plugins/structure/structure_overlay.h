@@ -29,7 +29,8 @@ class StructureOverlay final : public PathSearch {
   void Remove(FrameworkElement& element);
   /// `element` stands in the place of `gone` from now on, and its ports in that of the others. Errors: this closes a cycle of
   /// interface ports.
-  Result<void> Replace(FrameworkElement& gone, FrameworkElement& element, const std::vector<std::pair<Port*, Port*>>& ports);
+  Result<void> Replace(FrameworkElement& gone, FrameworkElement& element,
+                       const std::vector<std::pair<Port*, Port*>>& ports);
 
   /// Errors: what Port::Connect() and Disconnect() would say.
   Result<void> Connect(Port& from, Port& to, const ConnectOptions& options);
@@ -50,10 +51,8 @@ class StructureOverlay final : public PathSearch {
   [[nodiscard]] bool IsConnected(const Port& port, const FrameworkElement* module) const;
 
  private:
-  [[nodiscard]] FrameworkElement* Child(const FrameworkElement& parent,
-                                        std::string_view name) const override;
-  [[nodiscard]] std::vector<FrameworkElement*> Children(
-      const FrameworkElement& parent) const override;
+  [[nodiscard]] FrameworkElement* Child(const FrameworkElement& parent, std::string_view name) const override;
+  [[nodiscard]] std::vector<FrameworkElement*> Children(const FrameworkElement& parent) const override;
   [[nodiscard]] bool IsGone(const FrameworkElement& element) const;
   [[nodiscard]] std::vector<Connection> Targets(Port& from) const;
   [[nodiscard]] Port& NowFor(Port& port) const;
@@ -63,7 +62,7 @@ class StructureOverlay final : public PathSearch {
   Runtime& runtime_;
   std::vector<FrameworkElement*> added_;
   std::vector<FrameworkElement*> removed_;
-  std::map<const Port*, Port*> replaced_;  // a port, and that which stands in its place
+  std::map<const Port*, Port*> replaced_;            // a port, and that which stands in its place
   std::vector<const FrameworkElement*> composites_;  // that have been replaced, with what is connected within
   std::vector<Connection> connected_;
   std::vector<Connection> disconnected_;

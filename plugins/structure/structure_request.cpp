@@ -21,8 +21,7 @@ StructureRequest::~StructureRequest() {
 
 bool StructureRequest::Ask(std::string_view changes) noexcept {
   // acquire: pairs with the release in Answer(): who carried the last one out is done with the text.
-  if (changes.size() > kLongest || state_.load(std::memory_order_acquire) == State::kAsked)
-    return false;
+  if (changes.size() > kLongest || state_.load(std::memory_order_acquire) == State::kAsked) return false;
   std::ranges::copy(changes, text_.begin());
   length_ = changes.size();
   // release: pairs with the acquire in is_asked().

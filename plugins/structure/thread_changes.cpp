@@ -45,9 +45,8 @@ Result<void> Plan::Check(const AddThread& change) {
   if (!place) return place.error();
   // Who decides which threads run what looks there.
   if (place->parent.name() != "threads") {
-    return Error{.message = "threads are made in the application's group 'threads'",
-                 .path = path,
-                 .hint = "leave out the path"};
+    return Error{
+        .message = "threads are made in the application's group 'threads'", .path = path, .hint = "leave out the path"};
   }
   UnlistedElement made(std::make_unique<ThreadContainer>(*place, change.options));
   return AddNew(std::move(made));
@@ -110,17 +109,17 @@ Result<void> Plan::Check(const AssignToThread& change) {
     thread = *named;
   }
   if (element.kind() != ElementKind::kModule && element.kind() != ElementKind::kGroup) {
-    return Error{.message = "is neither a module nor a group, and no thread runs it",
-                 .path = element.path()};
+    return Error{.message = "is neither a module nor a group, and no thread runs it", .path = element.path()};
   }
   Concern(element);
   const auto assign = [&element](ThreadContainer* to) -> Result<void> {
     to != nullptr ? AssignThread(element, *to) : UnassignThread(element);
     return {};
   };
-  AddSetting([&element] { return OwnThread(element); }, assign, thread, [&element](auto&) -> ChangeSet {
-    return {AssignToThread{element.path(), OwnThreadPath(element)}};
-  });
+  AddSetting([&element] { return OwnThread(element); }, assign, thread,
+             [&element](auto&) -> ChangeSet {
+               return {AssignToThread{element.path(), OwnThreadPath(element)}};
+             });
   return {};
 }
 

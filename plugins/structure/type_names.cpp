@@ -30,14 +30,12 @@ std::string TypesWithNearestEnd(std::string_view type, const std::vector<std::st
 
 std::string ModuleTypeHint(std::string_view type, const PluginManager& plugins) {
   const std::string family(type.substr(0, std::min(type.find('/'), type.size())));
-  if (std::ranges::count(plugins.Available(), family) > 0 &&
-      std::ranges::count(plugins.loaded(), family) == 0) {
+  if (std::ranges::count(plugins.Available(), family) > 0 && std::ranges::count(plugins.loaded(), family) == 0) {
     return "add <load plugin=\"" + family + "\"/>";
   }
   const std::vector<std::string> known = ModuleTypeNames(plugins);
   const std::string nearest = NearestName(type, known);
-  const std::string meant =
-      nearest.empty() ? TypesWithNearestEnd(type, known) : "'" + nearest + "'";
+  const std::string meant = nearest.empty() ? TypesWithNearestEnd(type, known) : "'" + nearest + "'";
   if (!meant.empty()) return "did you mean " + meant + "?";
   return "load the plugin that brings it; `runnel modules` lists all types";
 }
@@ -48,15 +46,13 @@ void MakeKnown() {
 }
 
 void MakeBuiltinTypesKnown() {
-  MakeKnown<bool, std::int8_t, std::int16_t, std::int32_t, std::int64_t, std::uint8_t,
-            std::uint16_t, std::uint32_t, std::uint64_t, float, double, std::string, Duration,
-            Time>();
+  MakeKnown<bool, std::int8_t, std::int16_t, std::int32_t, std::int64_t, std::uint8_t, std::uint16_t, std::uint32_t,
+            std::uint64_t, float, double, std::string, Duration, Time>();
 }
 
 bool HasType(const ModuleDescription& module, std::string_view type) {
   return std::ranges::find(module.ports, type, &ModuleDescription::Port::type) != module.ports.end() ||
-         std::ranges::find(module.parameters, type, &ModuleDescription::Parameter::type) !=
-             module.parameters.end();
+         std::ranges::find(module.parameters, type, &ModuleDescription::Parameter::type) != module.parameters.end();
 }
 
 void MakeSamples(const ModuleRegistry& modules, Runtime& scratch) {

@@ -14,11 +14,11 @@ namespace runnel {
 
 namespace {
 
-Error At(const Port& port, std::string message) {
-  return {.message = std::move(message), .path = port.path()};
-}
+Error At(const Port& port, std::string message) { return {.message = std::move(message), .path = port.path()}; }
 
-bool IsInOtherUnit(const Port& a, const Port& b) { return !a.unit().empty() && !b.unit().empty() && a.unit() != b.unit(); }
+bool IsInOtherUnit(const Port& a, const Port& b) {
+  return !a.unit().empty() && !b.unit().empty() && a.unit() != b.unit();
+}
 
 // Of what something moves by if a value comes to the port; none of what is in another unit.
 std::vector<AnyValue> SafeValuesBehind(const Port& port) {

@@ -22,7 +22,6 @@ bool MovesSomething(const Port& port);
 /// default (InputLimits), else that of what it feeds, else what its type begins with, a command of no motion.
 Result<AnyValue> SafeValueOf(const Port& port);
 /// `value`: an object of the port's type.
-Result<void> PublishByHand(Port& port, const void* value,
-                           Port::Setter setter = Port::Setter::kPerson);
+Result<void> PublishByHand(Port& port, const void* value, Port::Setter setter = Port::Setter::kPerson);
 
 }  // namespace runnel

@@ -27,7 +27,9 @@ Result<void> Attempt(const Act& act) {
 // Kept with a module that a rule has put in the place of another: what had been set at that, and its type.
 struct ReplacedByRule final : Annotation {
   explicit ReplacedByRule(const ReplaceModule& back) : type(back.type), state(back.state) {}
-  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<ReplacedByRule>(*this); }
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<ReplacedByRule>(*this);
+  }
   [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
   std::string type;
   GivenState state;
@@ -46,7 +48,8 @@ void GiveBack(Runtime& runtime, ChangeSet& changes) {
 
 }  // namespace
 
-void Supervisor::Shared::VisitHeld(const Port& port, const std::function<void(KnownRule& rule, std::size_t number)>& visit) {
+void Supervisor::Shared::VisitHeld(const Port& port,
+                                   const std::function<void(KnownRule& rule, std::size_t number)>& visit) {
   for (const auto& rule : rules) {
     for (std::size_t i = 0; i < rule->holds.size(); ++i) {
       if (!rule->holds[i]) continue;
@@ -92,7 +95,8 @@ void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet bac
     if (!found) return nullptr;
     const auto* const parameter = dynamic_cast<const Configurable*>(*found);
     std::string now = parameter != nullptr ? parameter->ToText() : FindModuleType(**found);
-    (*found)->Annotate(std::make_unique<MadeByRule>(MadeByRule::Before(**found, before), std::move(now), std::move(lacking)));
+    (*found)->Annotate(
+        std::make_unique<MadeByRule>(MadeByRule::Before(**found, before), std::move(now), std::move(lacking)));
     return *found;
   };
   for (const Change& each : back) {
@@ -107,7 +111,8 @@ void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet bac
       const auto before = replace->state->noted().Find("parameter/" + one.parameter);
       if (is_there || !before) continue;
       const std::string* const loaded = LoadedValue::Of(**before);
-      lacking[one.parameter] = {MadeByRule::Before(**before, one.value), loaded != nullptr ? std::optional(*loaded) : std::nullopt};
+      lacking[one.parameter] = {MadeByRule::Before(**before, one.value),
+                                loaded != nullptr ? std::optional(*loaded) : std::nullopt};
     }
     for (const auto& [name, value] : lacking) {
       FrameworkElement* const again = note(replace->path + "/" + name, value.first, PathKind::kParameter);
@@ -148,7 +153,9 @@ void Supervisor::Shared::WorkBeside() noexcept {
 }
 
 void Supervisor::Shared::ServeRequests(Time now) {
-  const auto tell = [&](const std::string& path, std::string what, bool is_failure) { Note({path, std::move(what), now, is_failure}); };
+  const auto tell = [&](const std::string& path, std::string what, bool is_failure) {
+    Note({path, std::move(what), now, is_failure});
+  };
   const auto served = Attempt([&] {
     internal::ServeRequests(runtime, perform, tell);
     return Result<void>();
@@ -162,7 +169,8 @@ Result<void> Supervisor::Shared::PublishAll(KnownRule& rule, Which which, const 
   for (std::size_t i = 0; i < reaction.published.size(); ++i) {
     const auto note = [&](const Port& port) {
       // What somebody has released no rule holds any more.
-      if (!port.is_set_by_hand(Port::Setter::kRule)) VisitHeld(port, [](KnownRule& each, std::size_t number) { each.holds[number] = false; });
+      if (!port.is_set_by_hand(Port::Setter::kRule))
+        VisitHeld(port, [](KnownRule& each, std::size_t number) { each.holds[number] = false; });
       if (which != &SupervisionRule::reaction) return;
       rule.holds.resize(reaction.published.size());
       rule.holds[i] = true;
@@ -187,7 +195,9 @@ void Supervisor::Shared::PublishMissed(Time now) {
       rule->holds.resize(rule->misses.size());
       const auto done = Attempt([&] { return Publish(safe); });
       rule->holds[i] = done.has_value();
-      Note({safe.port, "is there again; what a rule wants there meanwhile " + (done ? "is set" : "cannot be set: " + done.error().ToString()),
+      Note({safe.port,
+            "is there again; what a rule wants there meanwhile " +
+                (done ? "is set" : "cannot be set: " + done.error().ToString()),
             now, !done});
     }
   }
@@ -212,8 +222,8 @@ Result<void> Supervisor::Shared::CarryOut(KnownRule& rule, Which which, Reaction
 }
 
 // What can be said of a reaction that failed is told; the application runs on as it is, and ends if it was to end.
-void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& path,
-                               const std::string& why, Time now, bool is_recovery, Where where) {
+void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& path, const std::string& why, Time now,
+                               bool is_recovery, Where where) {
   const Reaction& given = rule.*which;
   Reaction reaction{.ends_run = given.ends_run};
   // What only ends the run waits for no lock: the module that is stuck may have it.
@@ -224,7 +234,8 @@ void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& 
   }
   const auto published = Attempt([&] { return PublishAll(rule, which, reaction); });
   const bool is_long = where == Where::kBeside && !reaction.changes.empty();
-  auto rest = [this, &rule, which, published, reaction = std::move(reaction), notice = Notice{path, why, now, false, is_recovery}]() mutable {
+  auto rest = [this, &rule, which, published, reaction = std::move(reaction),
+               notice = Notice{path, why, now, false, is_recovery}]() mutable {
     const auto carried_out = Attempt([&] { return CarryOut(rule, which, reaction, notice.time); });
     const Result<void>& done = published ? carried_out : published;
     if (reaction.ends_run) scheduler.EndForFault();

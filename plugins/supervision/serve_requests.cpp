@@ -38,8 +38,7 @@ void ServeRequests(Runtime& runtime, const Supervisor::Perform& perform, const T
     const auto made = diagnostics.ok() ? perform(placed.changes) : Result<ChangeSet>(diagnostics.errors().front());
     const Result<void> done = made ? Result<void>() : made.error();
     tell(each.path,
-         done ? "has had it done: " + each.text
-              : "asked in vain for: " + each.text + ": " + done.error().ToString(),
+         done ? "has had it done: " + each.text : "asked in vain for: " + each.text + ": " + done.error().ToString(),
          !done);
     const std::lock_guard lock(runtime.structure_mutex());
     if (StructureRequest* const request = find(each.id)) request->Answer(done);

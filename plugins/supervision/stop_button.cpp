@@ -23,18 +23,21 @@ bool IsSet(const Port& port) { return port.is_set_by_hand() || port.is_set_by_ha
 // The output of the driver whose button alone is heard by the port, as it is; nullptr: nothing is connected.
 Result<const Port*> FindButton(const Port& port) {
   const auto refuse = [](const Port& at, std::string message) {
-    return Error{.message = std::move(message), .path = at.path(), .hint = "name the output of the button's own driver"};
+    return Error{
+        .message = std::move(message), .path = at.path(), .hint = "name the output of the button's own driver"};
   };
   const Port* at = &port;
   while (at->is_proxy() || at->direction() == Port::Direction::kInput) {
     if (at->incoming().empty()) return nullptr;
     if (at->incoming().size() > 1) return refuse(*at, "cannot release the STOP, as several buttons press by it");
     const Port* const from = at->incoming().front();
-    if (from->ConnectionTo(*at)->converted) return refuse(*at, "cannot release the STOP, as what comes to it is converted");
+    if (from->ConnectionTo(*at)->converted)
+      return refuse(*at, "cannot release the STOP, as what comes to it is converted");
     at = from;
   }
   const auto* const elsewhere = at->FindAnnotation<WritersElsewhere>();
-  if (elsewhere != nullptr && *elsewhere->count > 1) return refuse(*at, "cannot release the STOP, as several write to it");
+  if (elsewhere != nullptr && *elsewhere->count > 1)
+    return refuse(*at, "cannot release the STOP, as several write to it");
   const Port* read = nullptr;
   VisitSiblings(*at, Port::Direction::kInput, [&](const Port& each) {
     const auto* const input = dynamic_cast<const InputBase*>(&each);
@@ -68,7 +71,10 @@ class WayToButton {
  public:
   /// `fed`: how many connections the ports on the way have had at most. Which port it was need not be known: who renames or
   /// replaces it finds the connections, or does not.
-  WayToButton(const Scheduler& scheduler, std::map<std::string, std::size_t>& fed, const Port& port) : scheduler_(scheduler), fed_(fed) { Look(port); }
+  WayToButton(const Scheduler& scheduler, std::map<std::string, std::size_t>& fed, const Port& port)
+      : scheduler_(scheduler), fed_(fed) {
+    Look(port);
+  }
   std::set<std::string> lacks;
 
  private:
@@ -82,7 +88,8 @@ class WayToButton {
     if (port.incoming().empty()) {
       lacks.insert("nothing is connected to " + port.path());
     } else if (port.incoming().size() < most) {
-      lacks.insert(fmt::format("{} of {} connections to {} are gone", most - port.incoming().size(), most, port.path()));
+      lacks.insert(
+          fmt::format("{} of {} connections to {} are gone", most - port.incoming().size(), most, port.path()));
     }
     for (const Port* each : port.incoming()) Look(*each);
   }
@@ -105,7 +112,9 @@ class WayToButton {
       if (!is_fed || WasFed(*each)) Look(*each);  // not all of a choice need be fed
     }
   }
-  [[nodiscard]] bool WasFed(const Port& input) const { return !input.incoming().empty() || IsSet(input) || fed_.contains(input.path()); }
+  [[nodiscard]] bool WasFed(const Port& input) const {
+    return !input.incoming().empty() || IsSet(input) || fed_.contains(input.path());
+  }
 
   const Scheduler& scheduler_;
   std::map<std::string, std::size_t>& fed_;
@@ -144,7 +153,8 @@ void StopButton::Work() {
   while (!ends_.load()) {
     (void)element_->probe.Wait(kLookForPort);
     TakeValues();
-    if (down_ && !is_set_by_hand_ && !runtime_.robot_stop().in_force()) Press(rule_.port);  // somebody else has released it
+    if (down_ && !is_set_by_hand_ && !runtime_.robot_stop().in_force())
+      Press(rule_.port);  // somebody else has released it
     if (!LookForPort()) continue;
     const auto let_go = std::exchange(let_go_, {});
     if (!let_go || !rule_.releases) continue;
@@ -176,7 +186,8 @@ void StopButton::TakeValues() {
     if (times.timestamp > pressed.timestamp || times.publication_time == pressed.publication_time) {
       let_go_ = runtime_.robot_stop().AsOfNow();
       // What was held up on its way is older than what others have pressed since.
-      if (let_go_->requests != pressed_) let_go_->asked = SteadyClock().Now() - (runtime_.clock().Now() - times.timestamp);
+      if (let_go_->requests != pressed_)
+        let_go_->asked = SteadyClock().Now() - (runtime_.clock().Now() - times.timestamp);
     } else if (rule_.releases) {
       TellOfHeldStop("its 0 bears the time of what was pressed");
     }
@@ -197,7 +208,9 @@ bool StopButton::LookForPort() {
     is_gone_ = false;
     WayToButton way(scheduler_, fed_, *sources.front());
     bool is_down = false;
-    const auto look = [&](const void* value, ValueTimes) { is_down = is_down || NumberIn(element_->probe.type(), value) != 0; };
+    const auto look = [&](const void* value, ValueTimes) {
+      is_down = is_down || NumberIn(element_->probe.type(), value) != 0;
+    };
     for (const Port* each : sources.front()->ShownPorts()) each->VisitLatest(look);
     is_set_by_hand_ = sources.front()->is_set_by_hand();
     if (down_ && !element_->probe.IsFedBy(down_->source)) down_.reset();  // a value by hand has ended
@@ -214,7 +227,8 @@ bool StopButton::LookForPort() {
     if (button != button_) down_.reset();
     if (button != button_ && let_go_) why_not_ = "another button is connected now";
     button_ = button;
-    if (lacks_.empty() && why_not_.empty() && !element_->probe.IsFedBy(let_go_by_)) let_go_.reset();  // a value by hand was let go
+    if (lacks_.empty() && why_not_.empty() && !element_->probe.IsFedBy(let_go_by_))
+      let_go_.reset();  // a value by hand was let go
     return true;
   }
   if (!is_gone_) Press(rule_.port + ", which is gone");
@@ -234,7 +248,8 @@ void StopButton::Press(const std::string& by) {
 }
 
 void StopButton::TellOfHeldStop(const std::string& why) {
-  if (why != std::exchange(told_, why)) tell_({rule_.port, "does not release the STOP, as " + why, runtime_.clock().Now()});
+  if (why != std::exchange(told_, why))
+    tell_({rule_.port, "does not release the STOP, as " + why, runtime_.clock().Now()});
 }
 
 }  // namespace internal

@@ -59,17 +59,17 @@ class StopButton {
     ValueTimes times;
   };
   bool is_set_by_hand_ = false;  // as of the last look
-  std::optional<Down> down_;  // the newest value, if it was not 0
+  std::optional<Down> down_;     // the newest value, if it was not 0
   std::uint64_t dropped_ = 0;
-  std::uint64_t pressed_ = 0;  // RobotStop::State::requests after its own press, if nobody else has pressed meanwhile
+  std::uint64_t pressed_ = 0;    // RobotStop::State::requests after its own press, if nobody else has pressed meanwhile
   std::uint64_t let_go_by_ = 0;  // ProbePort::last_source()
   std::optional<RobotStop::AsOf> let_go_;  // nobody could look yet whether that was by the button itself
   bool is_gone_ = false;
-  std::set<std::string> lacks_;       // why nobody could press, as of the last look
-  std::string why_not_;               // let it not release, as of then; "": nothing
-  std::string told_;                  // why it releases nothing, of the STOP that is in force
+  std::set<std::string> lacks_;             // why nobody could press, as of the last look
+  std::string why_not_;                     // let it not release, as of then; "": nothing
+  std::string told_;                        // why it releases nothing, of the STOP that is in force
   std::map<std::string, std::size_t> fed_;  // how many connections there have been, by ports on the way
-  const Port* button_ = nullptr;  // as of the last look, to be compared only
+  const Port* button_ = nullptr;            // as of the last look, to be compared only
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

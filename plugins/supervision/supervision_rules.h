@@ -13,7 +13,7 @@ namespace runnel {
 
 /// A value that readers of a port find instead of what is published (value_by_hand.h).
 struct SafeValue {
-  std::string port;                        ///< path
+  std::string port;                       ///< path
   std::optional<std::string> value = {};  ///< in its text format; without one, the port's default
 };
 
@@ -40,15 +40,15 @@ struct Reaction {
 /// What is watched, and what is done about it.
 struct SupervisionRule {
   enum class When {
-    kStale,   ///< an input brings nothing new. Watched are the outputs that feed it when the rule is added, so that the
-              ///< rule can switch it to others and still sees the first ones come back; of an output, that output itself
-    kFault,   ///< a module has thrown, and so has failed
-    kStuck,   ///< a module does not return from its cycle; it goes on when it returns
+    kStale,  ///< an input brings nothing new. Watched are the outputs that feed it when the rule is added, so that the
+             ///< rule can switch it to others and still sees the first ones come back; of an output, that output itself
+    kFault,  ///< a module has thrown, and so has failed
+    kStuck,  ///< a module does not return from its cycle; it goes on when it returns
     kPaused,  ///< somebody has paused modules (Supervisor::SetPaused()): done once they stand still
   };
   When when = When::kStale;
-  std::string of;          ///< path of the port, or of the element with all below it; of what is paused, or is run by it
-  Duration after{};        ///< stale: nothing new has come for longer; stuck: by the machine's clock, one run takes longer
+  std::string of;    ///< path of the port, or of the element with all below it; of what is paused, or is run by it
+  Duration after{};  ///< stale: nothing new has come for longer; stuck: by the machine's clock, one run takes longer
   Duration fresh_after{};  ///< fresh again when values have come that long without such a gap
   Reaction reaction = {};
   Reaction otherwise = {};  ///< when all is well again; never after a fault
@@ -66,7 +66,7 @@ struct Notice {
   std::string path;  ///< of what the rule watches
   std::string message;
   Time time{};
-  bool is_failure = false;  ///< the reaction could not be carried out
+  bool is_failure = false;   ///< the reaction could not be carried out
   bool is_recovery = false;  ///< what was wrong is so no more
 };
 

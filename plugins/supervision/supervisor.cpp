@@ -45,10 +45,9 @@ void Supervisor::Shared::KeepSafe(Time now) {
   const std::lock_guard lock(runtime.structure_mutex());
   PublishMissed(now);
   EraseWhere(later, [&](const std::string& each) { return static_cast<bool>(Release(each, now)); });
-  standstill.Look(runtime, scheduler, now,
-                  [&](const Port& port, std::string what, bool is_recovery) {
-                    Note({port.path(), std::move(what), now, false, is_recovery});
-                  });
+  standstill.Look(runtime, scheduler, now, [&](const Port& port, std::string what, bool is_recovery) {
+    Note({port.path(), std::move(what), now, false, is_recovery});
+  });
 }
 
 // Told once when it begins, and once when it ends.
@@ -103,15 +102,14 @@ Time Supervisor::Shared::Watch(Time now) {
   // Reactions take the lock for as long as they need it. What becomes safe does before anything is taken back.
   std::ranges::stable_partition(due, [](const Due& each) { return !each.is_recovery; });
   for (const Due& each : due) {
-    React(*each.rule, each.is_recovery ? &SupervisionRule::otherwise : &SupervisionRule::reaction, each.path, each.why, now,
-          each.is_recovery);
+    React(*each.rule, each.is_recovery ? &SupervisionRule::otherwise : &SupervisionRule::reaction, each.path, each.why,
+          now, each.is_recovery);
   }
   return next;
 }
 
 Supervisor::Supervisor(Runtime& runtime, Scheduler& scheduler, Perform perform)
-    : scheduler_(scheduler),
-      shared_(std::make_shared<Shared>(runtime, scheduler, std::move(perform))) {
+    : scheduler_(scheduler), shared_(std::make_shared<Shared>(runtime, scheduler, std::move(perform))) {
   scheduler_.SetWatchdog([shared = shared_](Time now) { return shared->Watch(now); });
   const std::lock_guard lock(runtime.structure_mutex());
   const std::weak_ptr<Shared> shared = shared_;
@@ -152,7 +150,8 @@ Result<void> Supervisor::Shared::AddWatch(const std::shared_ptr<KnownRule>& rule
 
 // Weakly, for the scheduler keeps its rules longer than this.
 std::function<void(const Fault&)> Supervisor::Shared::CallOf(const std::shared_ptr<Shared>& shared,
-                                                             std::shared_ptr<KnownRule> rule, Which which, std::string why) {
+                                                             std::shared_ptr<KnownRule> rule, Which which,
+                                                             std::string why) {
   if (((*rule).*which).is_empty()) return {};  // it is told of by the fault alone
   return [shared = std::weak_ptr(shared), rule = std::move(rule), which, why = std::move(why)](const Fault& fault) {
     if (const auto there = shared.lock()) there->React(*rule, which, fault.path, why, fault.time);
@@ -165,7 +164,8 @@ Result<void> Supervisor::Add(SupervisionRule rule) {
   if (known->when == When::kStale) {
     if (auto added = shared_->AddWatch(known); !added) return added;
   } else if (known->when == When::kFault && !known->reaction.is_empty()) {
-    scheduler_.AddFaultRule({.of = known->of, .call = Shared::CallOf(shared_, known, &SupervisionRule::reaction, "has failed")});
+    scheduler_.AddFaultRule(
+        {.of = known->of, .call = Shared::CallOf(shared_, known, &SupervisionRule::reaction, "has failed")});
   } else if (known->when == When::kStuck) {
     scheduler_.AddStuckRule({.of = known->of,
                              .after = known->after,
@@ -182,8 +182,9 @@ Result<void> Supervisor::Add(StopButtonRule rule) {
   const auto port = PathSearch(shared_->runtime).FindPort(rule.port, PathKind::kOutput);
   if (!port) return port.error();
   if (auto good = CheckStopButton(**port, rule.releases); !good) return good;
-  buttons_.push_back(std::make_unique<internal::StopButton>(
-      shared_->runtime, scheduler_, std::move(rule), [shared = shared_](Notice notice) { shared->Note(std::move(notice)); }));
+  buttons_.push_back(
+      std::make_unique<internal::StopButton>(shared_->runtime, scheduler_, std::move(rule),
+                                             [shared = shared_](Notice notice) { shared->Note(std::move(notice)); }));
   return {};
 }
 

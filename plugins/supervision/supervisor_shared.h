@@ -38,8 +38,8 @@ struct Supervisor::Shared {
   void MovePaths(const PathFollowers::Move& move);
   using Which = Reaction SupervisionRule::*;
   enum class Where { kBeside, kHere };
-  void React(KnownRule& rule, Which which, const std::string& path, const std::string& why, Time now, bool is_recovery = false,
-             Where where = Where::kBeside);
+  void React(KnownRule& rule, Which which, const std::string& path, const std::string& why, Time now,
+             bool is_recovery = false, Where where = Where::kBeside);
   Result<void> PublishAll(KnownRule& rule, Which which, const Reaction& reaction);
   Result<void> CarryOut(KnownRule& rule, Which which, Reaction& reaction, Time now);
   void NotePassing(KnownRule& rule, Which which, ChangeSet back);
@@ -49,14 +49,16 @@ struct Supervisor::Shared {
   void FollowPauses(std::string_view but_for);
   void WorkBeside() noexcept;
   void ServeRequests(Time now);
-  [[nodiscard]] bool is_real() const noexcept { return scheduler.options().clock == SchedulerOptions::ClockKind::kReal; }
+  [[nodiscard]] bool is_real() const noexcept {
+    return scheduler.options().clock == SchedulerOptions::ClockKind::kReal;
+  }
   Result<void> Publish(const SafeValue& safe, const std::function<void(const Port& port)>& before = {});
   Result<void> Release(const std::string& port, Time now);
   // What rules hold there. Under the structure lock.
   void VisitHeld(const Port& port, const std::function<void(KnownRule& rule, std::size_t number)>& visit);
   Time Watch(Time now);
-  static std::function<void(const Fault&)> CallOf(const std::shared_ptr<Shared>& shared, std::shared_ptr<KnownRule> rule,
-                                                  Which which, std::string why);
+  static std::function<void(const Fault&)> CallOf(const std::shared_ptr<Shared>& shared,
+                                                  std::shared_ptr<KnownRule> rule, Which which, std::string why);
   Result<void> AddWatch(const std::shared_ptr<KnownRule>& rule);
   void KeepSafe(Time now);
   void PublishMissed(Time now);
@@ -67,14 +69,14 @@ struct Supervisor::Shared {
   const Perform perform;
 
   internal::Standstill standstill;  // under the structure lock
-  std::set<std::string> late;       // threads of which that has been told; of the thread that looks out, as the next one
+  std::set<std::string> late;  // threads of which that has been told; of the thread that looks out, as the next one
   std::vector<std::pair<std::shared_ptr<KnownRule>, internal::StaleWatch>> watches;
   std::vector<std::shared_ptr<KnownRule>> rules;  // their paths are guarded by the structure lock
   std::vector<KnownRule*> switched;  // that have something to take back, the last one last; under the structure lock
-  std::vector<std::string> later;  // to be released if an undo brings them back; under the structure lock
-  std::mutex pausing;  // one after the other; before all others
+  std::vector<std::string> later;    // to be released if an undo brings them back; under the structure lock
+  std::mutex pausing;                // one after the other; before all others
   OrderedMutex mutex{LockLevel::kLeaf};
-  std::vector<Notice> notices;  // guarded by mutex
+  std::vector<Notice> notices;             // guarded by mutex
   std::deque<std::function<void()>> acts;  // so; the first one is being done
   Lookout beside{[this]() -> std::optional<Time> {
     WorkBeside();

@@ -41,7 +41,9 @@ struct FedMark final : Annotation {
 
 // Of an output: when its module was last seen not to run, if it has published nothing since.
 struct SilentMark final : Annotation {
-  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override { return std::make_unique<SilentMark>(*this); }
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<SilentMark>(*this);
+  }
   std::optional<Time> since;
 };
 
@@ -49,8 +51,7 @@ const RestMark* MarkOf(const Port& port) { return port.FindAnnotation<RestMark>(
 
 bool HasPublishedSince(const Port& source, Time since) {
   bool has_published = false;
-  source.VisitLatest(
-      [&](const void*, ValueTimes times) { has_published = times.publication_time > since; });
+  source.VisitLatest([&](const void*, ValueTimes times) { has_published = times.publication_time > since; });
   return has_published;
 }
 
@@ -99,9 +100,8 @@ StaleWatch::Turn StaleWatch::Look(Runtime& runtime, Time now) {
   if (!heard_) heard_ = now;  // what has never come is missing from now on
   Hear(runtime);
   const Turn turn = Judge(now);
-  next_look_ = is_stale_
-                   ? now + std::max(std::min(rule_->after, rule_->fresh_after) / 4, kShortestWait)
-                   : SaturatingSum(SaturatingSum(*heard_, rule_->after), Duration(1));
+  next_look_ = is_stale_ ? now + std::max(std::min(rule_->after, rule_->fresh_after) / 4, kShortestWait)
+                         : SaturatingSum(SaturatingSum(*heard_, rule_->after), Duration(1));
   return turn;
 }
 
@@ -166,12 +166,14 @@ Feeding::Feeding(Port& port, Time now) : port_(port), at_(now), sources_(port.So
 void Feeding::LookUpstream(const Port& input, bool times_out) {
   for (Port* source : input.Sources()) {
     if (!seen_.insert({source, times_out}).second) continue;
-    if ((&input == &port_ || !times_out) && std::ranges::find(upstream_, source) == upstream_.end()) upstream_.push_back(source);
+    if ((&input == &port_ || !times_out) && std::ranges::find(upstream_, source) == upstream_.end())
+      upstream_.push_back(source);
     LookAtParameters(*source);
     VisitSiblings(*source, Port::Direction::kInput, [&](Port& each) {
       const auto* const base = dynamic_cast<const InputBase*>(&each);
       const Ageing ageing = base != nullptr ? base->ageing() : Ageing::kUnspecified;
-      const bool ages = ageing == Ageing::kPassedOn ? times_out : ageing == Ageing::kTimesOut || ageing == Ageing::kSetOnce;
+      const bool ages =
+          ageing == Ageing::kPassedOn ? times_out : ageing == Ageing::kTimesOut || ageing == Ageing::kSetOnce;
       if (each.is_set_by_hand(Port::Setter::kPerson)) return;  // whatever comes there does not count
       if (ages && &each.type() != &source->type()) return;
       LookUpstream(each, ages);
@@ -206,7 +208,8 @@ bool Feeding::LookAtCut(FrameworkElement& element, bool is_fed) const {
   if (mark == nullptr) return false;
   if (std::exchange(mark->is_fed, false)) {
     mark->cut = at_;
-    if (const auto* const configurable = dynamic_cast<const Configurable*>(&element)) mark->text = configurable->ToText();
+    if (const auto* const configurable = dynamic_cast<const Configurable*>(&element))
+      mark->text = configurable->ToText();
   }
   return true;
 }
@@ -222,7 +225,9 @@ std::string Feeding::WhyAtRest(const Scheduler& scheduler, Time now) const {
   }
   for (const Port* each : cut_off_) {
     const auto* const mark = each->FindAnnotation<FedMark>();
-    const bool is_over = mark == nullptr || std::ranges::any_of(sources_, [&](const Port* source) { return HasPublishedSince(*source, mark->cut); });
+    const bool is_over = mark == nullptr || std::ranges::any_of(sources_, [&](const Port* source) {
+                           return HasPublishedSince(*source, mark->cut);
+                         });
     if (why.empty() && !is_over) why = "nothing is connected to " + each->path() + " any more";
   }
   return why;
@@ -238,8 +243,9 @@ void Standstill::LookAtReaders(const Driven& driven, const Scheduler& scheduler,
   if (why.empty() && MarkOf(port) == nullptr) return;
   if (std::exchange(port.FindOrAnnotate<RestMark>().is_unreached, !why.empty()) == !why.empty()) return;
   tell(port,
-       why.empty() ? "can be reached again"
-                   : "cannot be reached: " + why + "; until it runs, no STOP counts there but the time-out of what it moves",
+       why.empty()
+           ? "can be reached again"
+           : "cannot be reached: " + why + "; until it runs, no STOP counts there but the time-out of what it moves",
        why.empty());
 }
 
@@ -257,14 +263,12 @@ void Standstill::LookAtSources(const Driven& driven, const Scheduler& scheduler,
     const auto set = safe ? PublishByHand(port, safe->get(), Port::Setter::kRule) : safe.error();
     if (!set && held) return;  // it has been told
     port.FindOrAnnotate<RestMark>().rested = now;
-    return tell(port,
-                set ? "has its safe value: " + why
-                    : why + ", and it has no safe value: " + set.error().message,
+    return tell(port, set ? "has its safe value: " + why : why + ", and it has no safe value: " + set.error().message,
                 false);
   }
   if (!held) return;
-  const bool is_fed = std::ranges::any_of(
-      driven.feeding.sources(), [&](const Port* each) { return HasPublishedSince(*each, *held); });
+  const bool is_fed =
+      std::ranges::any_of(driven.feeding.sources(), [&](const Port* each) { return HasPublishedSince(*each, *held); });
   if (!is_fed && !driven.feeding.sources().empty()) return;
   port.FindOrAnnotate<RestMark>().rested.reset();
   if (port.Release(Port::Setter::kRule)) tell(port, "is driven again: what feeds it runs", true);

@@ -42,8 +42,8 @@ class StaleWatch {
 
   const std::shared_ptr<const SupervisionRule> rule_;
   std::vector<std::string> outputs_;  // by path: modules may be replaced meanwhile
-  std::optional<Time> heard_;               // the newest timestamp, or the first look
-  std::optional<Time> well_since_;          // while stale: since when values come again
+  std::optional<Time> heard_;         // the newest timestamp, or the first look
+  std::optional<Time> well_since_;    // while stale: since when values come again
   bool is_stale_ = false;
   Time next_look_{};
 };

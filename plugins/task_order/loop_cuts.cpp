@@ -77,9 +77,8 @@ class LoopFinder {
 };
 
 bool WaitsForItsElement(const OrderedTask& task) {
-  return std::ranges::any_of(task.incoming, [&](const Dependency* each) {
-    return each->is_own && each->from->set == task.set;
-  });
+  return std::ranges::any_of(task.incoming,
+                             [&](const Dependency* each) { return each->is_own && each->from->set == task.set; });
 }
 
 LoopCut CutOnce(Tasks loop) {

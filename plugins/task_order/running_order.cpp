@@ -112,9 +112,7 @@ void RunningOrder::Sort() {
 // Of the tasks that are free, the first by rule 3; where none is, the head of a loop. False if loops
 // that are not cut keep some from being placed.
 bool RunningOrder::PlaceAll() {
-  const auto is_later = [](const OrderedTask* a, const OrderedTask* b) {
-    return b->key() < a->key();
-  };
+  const auto is_later = [](const OrderedTask* a, const OrderedTask* b) { return b->key() < a->key(); };
   using Queue = std::priority_queue<OrderedTask*, std::vector<OrderedTask*>, decltype(is_later)>;
   Queue free(is_later);
   Queue heads(is_later);
@@ -182,15 +180,12 @@ std::vector<const Dependency*> RunningOrder::Cuts() const {
 void ReportCuts(const RunningOrder& order, std::vector<Error>& warnings) {
   for (const Dependency* cut : order.Cuts()) {
     std::vector<PortPair> connections = cut->connections;
-    std::ranges::sort(connections, {}, [](const PortPair& each) {
-      return std::pair(each.to->id(), each.from->id());
-    });
+    std::ranges::sort(connections, {}, [](const PortPair& each) { return std::pair(each.to->id(), each.from->id()); });
     for (const auto& [from, to] : connections) {
-      warnings.push_back(
-          {.message = "the data flow runs in a loop, which is cut here: " + to->path() +
-                      " reads what " + from->path() + " published one cycle before",
-           .path = from->path(),
-           .hint = "nothing needs to be done if one cycle of delay is meant to be there"});
+      warnings.push_back({.message = "the data flow runs in a loop, which is cut here: " + to->path() + " reads what " +
+                                     from->path() + " published one cycle before",
+                          .path = from->path(),
+                          .hint = "nothing needs to be done if one cycle of delay is meant to be there"});
     }
   }
 }

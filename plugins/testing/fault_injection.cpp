@@ -29,10 +29,8 @@ thread_local constinit bool throws_a_number = false;
 void* Allocate(std::size_t size, std::size_t alignment) {
   if (allocations.Strikes()) throw std::bad_alloc();
   if (size == 0) size = 1;
-  void* const block =
-      alignment == 0
-          ? std::malloc(size)
-          : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  void* const block = alignment == 0 ? std::malloc(size)
+                                     : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
   if (block == nullptr) throw std::bad_alloc();
   return block;
 }
@@ -64,9 +62,7 @@ FaultInjection::FaultInjection(InjectedFault fault, std::size_t nth, std::size_t
 
 void FaultInjection::End() noexcept { allocations.left = calls.left = 0; }
 
-bool FaultInjection::has_struck() const noexcept {
-  return allocations.has_struck || calls.has_struck;
-}
+bool FaultInjection::has_struck() const noexcept { return allocations.has_struck || calls.has_struck; }
 
 void InjectionPoint() {
   if (!calls.Strikes()) return;

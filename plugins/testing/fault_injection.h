@@ -14,8 +14,8 @@ enum class InjectedFault {
   kNumber,      ///< InjectionPoint() throws an int
 };
 
-inline constexpr InjectedFault kInjectedFaults[] = {
-    InjectedFault::kAllocation, InjectedFault::kException, InjectedFault::kNumber};
+inline constexpr InjectedFault kInjectedFaults[] = {InjectedFault::kAllocation, InjectedFault::kException,
+                                                    InjectedFault::kNumber};
 
 /// While one lives, the calling thread's n-th allocation, or n-th InjectionPoint(), counted from 1, fails, and so
 /// do the `further` ones behind it; those before and after do not.
@@ -49,8 +49,7 @@ void InjectionPoint();
 ///     AtEachPoint(InjectedFault::kAllocation, [&] { outcome = editor.Apply(changes); },
 ///                 [&](bool has_struck) { … });
 template <typename Operation, typename Check>
-std::size_t AtEachPoint(InjectedFault fault, Operation operation, Check check,
-                        std::size_t further = 0) {
+std::size_t AtEachPoint(InjectedFault fault, Operation operation, Check check, std::size_t further = 0) {
   for (std::size_t nth = 1;; ++nth) {
     SCOPED_TRACE(NameOf(fault) + " " + std::to_string(nth));
     FaultInjection injection(fault, nth, further);

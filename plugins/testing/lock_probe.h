@@ -17,9 +17,7 @@ namespace runnel::test {
 class LockProbe {
  public:
   [[nodiscard]] static bool works() noexcept { return RunnelRealTimeHooks()->works; }
-  [[nodiscard]] std::size_t locks() const noexcept {
-    return RunnelRealTimeHooks()->counts().locks - before_;
-  }
+  [[nodiscard]] std::size_t locks() const noexcept { return RunnelRealTimeHooks()->counts().locks - before_; }
 
  private:
   std::size_t before_ = RunnelRealTimeHooks()->counts().locks;

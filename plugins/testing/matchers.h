@@ -33,17 +33,14 @@ class HasPublishedMatcher {
     const bool has_any = output.VisitLatest([&](const void* newest, Time) {
       const T& published = *static_cast<const T*>(newest);
       const auto matcher = ::testing::SafeMatcherCast<const T&>(value_);
-      if (explanation != nullptr)
-        *explanation << "whose last is " << ::testing::PrintToString(published);
+      if (explanation != nullptr) *explanation << "whose last is " << ::testing::PrintToString(published);
       matches = matcher.Matches(published);
     });
     if (!has_any && explanation != nullptr) *explanation << "that has published nothing";
     return matches;
   }
   void DescribeTo(std::ostream* text) const { *text << "has published what is wanted"; }
-  void DescribeNegationTo(std::ostream* text) const {
-    *text << "has not published what is not wanted";
-  }
+  void DescribeNegationTo(std::ostream* text) const { *text << "has not published what is not wanted"; }
 
  private:
   const Value value_;
@@ -61,14 +58,12 @@ template <typename Run>
 class CyclesMatcher {
  public:
   using is_gtest_matcher = void;
-  CyclesMatcher(std::string description, Run run)
-      : description_(std::move(description)), run_(std::move(run)) {}
+  CyclesMatcher(std::string description, Run run) : description_(std::move(description)), run_(std::move(run)) {}
 
   bool MatchAndExplain(const ModuleRigBase& rig, std::ostream* explanation) const {
     std::optional<std::string>& kept = *why_not_;
     const bool is_asked_again = explanation != nullptr && kept.has_value();
-    const std::optional<std::string> why_not =
-        is_asked_again ? std::exchange(kept, {}) : run_(rig.changeable());
+    const std::optional<std::string> why_not = is_asked_again ? std::exchange(kept, {}) : run_(rig.changeable());
     if (!is_asked_again) kept = why_not;
     if (why_not && explanation != nullptr) *explanation << *why_not;
     return !why_not;
@@ -79,8 +74,7 @@ class CyclesMatcher {
  private:
   const std::string description_;
   const Run run_;  // what is wrong; nullopt: nothing
-  std::shared_ptr<std::optional<std::string>> why_not_ =
-      std::make_shared<std::optional<std::string>>();
+  std::shared_ptr<std::optional<std::string>> why_not_ = std::make_shared<std::optional<std::string>>();
 };
 
 }  // namespace internal
@@ -91,19 +85,19 @@ class CyclesMatcher {
 ///     EXPECT_THAT(rig, PublishesWithin(5, rig.module.twist, Field(&Twist2::turn, Gt(0))));
 template <typename T, typename Value>
 [[nodiscard]] auto PublishesWithin(std::uint64_t cycles, const Output<T>& output, Value value) {
-  return internal::CyclesMatcher(
-      "publishes what is wanted within " + std::to_string(cycles) + " cycles",
-      [cycles, &output, value](ModuleRigBase& rig) -> std::optional<std::string> {
-        const HasPublishedMatcher<Value> matcher(value);
-        for (std::uint64_t i = 0; i < cycles; ++i) {
-          const std::uint64_t before = output.publications();
-          rig.RunCycle();
-          if (output.publications() > before && matcher.MatchAndExplain(output, nullptr)) return {};
-        }
-        std::ostringstream why_not;
-        matcher.MatchAndExplain(output, &why_not);
-        return "with an output " + why_not.str();
-      });
+  return internal::CyclesMatcher("publishes what is wanted within " + std::to_string(cycles) + " cycles",
+                                 [cycles, &output, value](ModuleRigBase& rig) -> std::optional<std::string> {
+                                   const HasPublishedMatcher<Value> matcher(value);
+                                   for (std::uint64_t i = 0; i < cycles; ++i) {
+                                     const std::uint64_t before = output.publications();
+                                     rig.RunCycle();
+                                     if (output.publications() > before && matcher.MatchAndExplain(output, nullptr))
+                                       return {};
+                                   }
+                                   std::ostringstream why_not;
+                                   matcher.MatchAndExplain(output, &why_not);
+                                   return "with an output " + why_not.str();
+                                 });
 }
 
 /// What a fault says:  EXPECT_THAT(rig.RunUntilFault(), Optional(FaultSays(HasSubstr("out of range"))));
@@ -121,8 +115,7 @@ template <typename Text>
       "allocates, locks and calls the system in none of " + std::to_string(cycles) + " cycles",
       [cycles](ModuleRigBase& rig) -> std::optional<std::string> {
         std::string why_not;
-        for (const RealTimeBreach& each : RunWatched(rig, cycles))
-          why_not += "\n" + each.ToString();
+        for (const RealTimeBreach& each : RunWatched(rig, cycles)) why_not += "\n" + each.ToString();
         return why_not.empty() ? std::nullopt : std::optional(why_not);
       });
 }

@@ -29,8 +29,7 @@ ModuleRigBase::ModuleRigBase(Duration period)
 
 ModuleRigBase::~ModuleRigBase() = default;
 
-FrameworkElement& ModuleRigBase::Make(std::string_view type,
-                                      const std::filesystem::path& plugin_folder) {
+FrameworkElement& ModuleRigBase::Make(std::string_view type, const std::filesystem::path& plugin_folder) {
   if (!plugin_folder.empty()) plugins_.AddSearchFolder(plugin_folder);
   Need(plugins_.Load(type.substr(0, type.find('/'))));
   return *Need(plugins_.modules().Create(type, runtime.root(), "module"));
@@ -52,13 +51,10 @@ Port& ModuleRigBase::FindPort(std::string_view name, Port::Direction direction) 
   const std::lock_guard lock(runtime.structure_mutex());
   Need(Runtime::Construct(*module_));
   const bool is_input = direction == Port::Direction::kInput;
-  return *Need(
-      PathSearch(*module_).FindPort(name, is_input ? PathKind::kInput : PathKind::kOutput));
+  return *Need(PathSearch(*module_).FindPort(name, is_input ? PathKind::kInput : PathKind::kOutput));
 }
 
-std::string ModuleRigBase::FreeNameFor(const Port& port) const {
-  return FreeName(surroundings_, port.name());
-}
+std::string ModuleRigBase::FreeNameFor(const Port& port) const { return FreeName(surroundings_, port.name()); }
 
 void ModuleRigBase::RefuseType(const Port& port, const TypeInfo& wanted) {
   const std::string kind = port.direction() == Port::Direction::kInput ? "input" : "output";
@@ -105,8 +101,7 @@ std::optional<Fault> ModuleRigBase::RunUntilFault(std::uint64_t most_cycles) {
       RunCycle();
     } catch (...) {
       clock_.Advance(period_);
-      return Fault{module_->path(), DescribeException().substr(0, kLongestFaultMessage), began,
-                   cycles_};
+      return Fault{module_->path(), DescribeException().substr(0, kLongestFaultMessage), began, cycles_};
     }
   }
   return std::nullopt;

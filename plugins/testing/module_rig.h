@@ -53,8 +53,7 @@ class ModuleRigBase {
 
   /// From now on values that are fed wait in a queue at the input. Before the first is fed.
   void UseQueue(Port& input, std::size_t capacity, OnFull on_full = OnFull::kDropOldest);
-  void UseQueue(std::string_view input, std::size_t capacity,
-                OnFull on_full = OnFull::kDropOldest) {
+  void UseQueue(std::string_view input, std::size_t capacity, OnFull on_full = OnFull::kDropOldest) {
     UseQueue(FindPort(input, Port::Direction::kInput), capacity, on_full);
   }
   /// Publishes `value` through an output of the rig's own that is connected to `input`.
@@ -144,8 +143,7 @@ class ModuleRigBase {
   FrameworkElement* module_ = nullptr;
   std::uint64_t cycles_ = 0;
   TaskWatch* watch_ = nullptr;
-  std::vector<std::unique_ptr<WatchedTask>>
-      watched_;  // by watch_, one for each task; empty: not yet
+  std::vector<std::unique_ptr<WatchedTask>> watched_;  // by watch_, one for each task; empty: not yet
 };
 
 /// One module on its own: feeds its inputs, runs its tasks cycle by cycle, without a scheduler, in time that passes by
@@ -173,8 +171,8 @@ class ModuleRig : public ModuleRigBase {
       : ModuleRigBase(period), module(runtime.Create<M>(runtime.root(), "module")) {
     set_module(module);
   }
-  explicit ModuleRig(std::string_view type, Duration period = std::chrono::milliseconds(
-                                                50)) requires std::is_same_v<M, FrameworkElement>
+  explicit ModuleRig(std::string_view type,
+                     Duration period = std::chrono::milliseconds(50)) requires std::is_same_v<M, FrameworkElement>
       : ModuleRigBase(period), module(Make(type, kBuiltPlugins)) {
     set_module(module);
   }

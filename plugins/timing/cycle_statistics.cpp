@@ -50,8 +50,7 @@ CycleStatistics CycleMeter::statistics() const noexcept {
   if (!shown_.Read(sums)) return {};
   CycleStatistics statistics = sums.of;
   const auto cycles = static_cast<std::int64_t>(statistics.cycles);
-  statistics.period_mean =
-      (sums.last_start - sums.first_start) / std::max<std::int64_t>(cycles - 1, 1);
+  statistics.period_mean = (sums.last_start - sums.first_start) / std::max<std::int64_t>(cycles - 1, 1);
   statistics.jitter_mean /= cycles;
   statistics.execution_mean /= cycles;
   return statistics;

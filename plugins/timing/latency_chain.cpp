@@ -16,9 +16,8 @@ namespace {
 
 std::int64_t MeasuredAt(const Port& output) noexcept {
   std::int64_t measured = 0;
-  output.VisitLatest([&measured](const void*, ValueTimes times) {
-    measured = times.timestamp.time_since_epoch().count();
-  });
+  output.VisitLatest(
+      [&measured](const void*, ValueTimes times) { measured = times.timestamp.time_since_epoch().count(); });
   return measured;
 }
 
@@ -44,8 +43,7 @@ Result<Port*> FindOutput(Runtime& runtime, const std::string& path) {
   if (!port.is_proxy() && port.direction() == Port::Direction::kOutput) return &port;
   const std::vector<Port*> sources = port.Sources();
   if (sources.size() == 1) return sources.front();
-  return Error{.message = sources.empty() ? "nothing is connected to it"
-                                          : "is fed by several outputs",
+  return Error{.message = sources.empty() ? "nothing is connected to it" : "is fed by several outputs",
                .path = port.path(),
                .hint = "name an output"};
 }
@@ -91,7 +89,9 @@ void ChainSteps::End(Time within_task, TraceTrack* track) const noexcept {
     if (is_last) chain.meter->Add(chain.clock->Now() - Time(Duration(step.measured)));
     if (track != nullptr) {
       using Arrow = TraceEvent::Arrow;
-      track->NoteArrow(is_first ? Arrow::kBegins : is_last ? Arrow::kEnds : Arrow::kPasses,
+      track->NoteArrow(is_first  ? Arrow::kBegins
+                       : is_last ? Arrow::kEnds
+                                 : Arrow::kPasses,
                        chain.name, step.number, within_task);
     }
   }
@@ -104,8 +104,7 @@ Result<DataPath> FindDataPath(FrameworkElement& root, const LatencyRequest& requ
   if (!to) return to.error();
   FrameworkElement* const target = RunnerOf(**to);
   if (*from == *to || target == nullptr) {
-    return Error{.message = "is not computed from " + (*from)->path() + " by any module",
-                 .path = (*to)->path()};
+    return Error{.message = "is not computed from " + (*from)->path() + " by any module", .path = (*to)->path()};
   }
   // Breadth first, from output to output.
   std::map<const Port*, const Port*> before{{*from, nullptr}};
@@ -120,8 +119,7 @@ Result<DataPath> FindDataPath(FrameworkElement& root, const LatencyRequest& requ
     }
   }
   if (!before.contains(*to)) {
-    return Error{.message = "no data flow from " + (*from)->path() + " to here",
-                 .path = (*to)->path()};
+    return Error{.message = "no data flow from " + (*from)->path() + " to here", .path = (*to)->path()};
   }
   DataPath path;
   for (const Port* at = *to; at != nullptr; at = before[at]) path.stops.push_back({RunnerOf(*at), at});

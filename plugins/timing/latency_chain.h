@@ -46,8 +46,8 @@ struct LatencyChain {
   LatencyRequest request;
   std::uint64_t name = 0;  ///< by which a trace knows it
   std::vector<std::string> modules;
-  const Clock* clock = nullptr;     ///< the application's
-  std::vector<Point> points;        ///< outputs, from the first to the last
+  const Clock* clock = nullptr;      ///< the application's
+  std::vector<Point> points;         ///< outputs, from the first to the last
   std::vector<std::uint64_t> stops;  ///< for each point, the id of the element that publishes it; 0: of none that runs
   std::shared_ptr<TaskMeter> meter;
 };

@@ -13,9 +13,7 @@ constexpr const char* kBounds = "the speed of simulated time is 0 or from 1e-6 t
 
 }  // namespace
 
-Pacing::Pacing(double speed, const Clock& real) : speed_(speed), real_(real) {
-  RUNNEL_CHECK(Takes(speed), kBounds);
-}
+Pacing::Pacing(double speed, const Clock& real) : speed_(speed), real_(real) { RUNNEL_CHECK(Takes(speed), kBounds); }
 
 Time Pacing::Deadline(Time simulated) {
   const Time now = real_.Now();

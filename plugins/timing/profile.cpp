@@ -31,15 +31,13 @@ std::string TaskTable(const Profile& profile, Duration passed, const Profile& si
     width = std::max(width, each.thread.size());
   }
   std::ranges::stable_sort(rows, std::ranges::greater{}, &Row::share);
-  std::string text = fmt::format("{:>7} {:>10} {:>10} {:>10} {:>10} {:>11} {:>5}  {:<{}}  module\n",
-                                 "share/%", "runs", "last/us", "mean/us", "max/us", "total/ms",
-                                 "order", "thread", width);
+  std::string text = fmt::format("{:>7} {:>10} {:>10} {:>10} {:>10} {:>11} {:>5}  {:<{}}  module\n", "share/%", "runs",
+                                 "last/us", "mean/us", "max/us", "total/ms", "order", "thread", width);
   for (const auto& [task, share] : rows) {
     const TaskTimes& times = task->times;
-    text += fmt::format("{:7.2f} {:10} {:10.1f} {:10.1f} {:10.1f} {:11.3f} {:5}  {:<{}}  {}\n", share,
-                        times.runs, Microseconds(times.last), Microseconds(times.mean()),
-                        Microseconds(times.max), Milliseconds(times.total), task->order,
-                        task->thread, width, task->name());
+    text += fmt::format("{:7.2f} {:10} {:10.1f} {:10.1f} {:10.1f} {:11.3f} {:5}  {:<{}}  {}\n", share, times.runs,
+                        Microseconds(times.last), Microseconds(times.mean()), Microseconds(times.max),
+                        Milliseconds(times.total), task->order, task->thread, width, task->name());
   }
   return text;
 }
@@ -50,9 +48,8 @@ std::string LatencyText(const Latency& latency) {
   for (const std::string& each : latency.modules) way += (way.empty() ? " by way of " : ", ") + each;
   return fmt::format("latency from {} to {}{}: ", latency.request.from, latency.request.to,
                      way.empty() ? ", between which there is no data flow now" : way) +
-         fmt::format("last {:.3f} ms, mean {:.3f} ms, max {:.3f} ms, of {} measurements\n",
-                     Milliseconds(times.last), Milliseconds(times.mean()), Milliseconds(times.max),
-                     times.runs);
+         fmt::format("last {:.3f} ms, mean {:.3f} ms, max {:.3f} ms, of {} measurements\n", Milliseconds(times.last),
+                     Milliseconds(times.mean()), Milliseconds(times.max), times.runs);
 }
 
 }  // namespace

@@ -30,7 +30,6 @@ struct Profile {
 
 /// A profile as a table, for people. Shares are of `passed`, of the machine's time: of `since`, what has been added
 /// since that was taken; those with the largest come first.
-[[nodiscard]] std::string ProfileText(const Profile& profile, Duration passed,
-                                      const Profile& since = {});
+[[nodiscard]] std::string ProfileText(const Profile& profile, Duration passed, const Profile& since = {});
 
 }  // namespace runnel

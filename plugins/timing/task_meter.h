@@ -27,10 +27,8 @@ class TaskMeter {
   void Add(Duration duration) noexcept {
     // relaxed: figures for people; one thread writes.
     last_.store(duration.count(), std::memory_order_relaxed);
-    max_.store(std::max(max_.load(std::memory_order_relaxed), duration.count()),
-               std::memory_order_relaxed);
-    total_.store(total_.load(std::memory_order_relaxed) + duration.count(),
-                 std::memory_order_relaxed);
+    max_.store(std::max(max_.load(std::memory_order_relaxed), duration.count()), std::memory_order_relaxed);
+    total_.store(total_.load(std::memory_order_relaxed) + duration.count(), std::memory_order_relaxed);
     runs_.store(runs_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
   /// While nobody adds; what is just being added may count yet.
@@ -40,8 +38,7 @@ class TaskMeter {
   }
   [[nodiscard]] TaskTimes times() const noexcept {
     return {runs_.load(std::memory_order_relaxed), Duration(last_.load(std::memory_order_relaxed)),
-            Duration(max_.load(std::memory_order_relaxed)),
-            Duration(total_.load(std::memory_order_relaxed))};
+            Duration(max_.load(std::memory_order_relaxed)), Duration(total_.load(std::memory_order_relaxed))};
   }
 
  private:

@@ -21,12 +21,12 @@ namespace runnel {
 /// it has given out.
 struct TraceEvent {
   enum class Kind : std::uint8_t {
-    kCycle,  ///< words: begin, end, the cycle's time on the application's clock; number: the cycle's
+    kCycle,        ///< words: begin, end, the cycle's time on the application's clock; number: the cycle's
     kUpdate,       ///< words: begin, end; number: the element's
     kPublication,  ///< words: when it was noticed, how many values; number: the port's
     kFault,        ///< words: when; number: the element's; its text follows
-    kArrow,  ///< words: when, which Arrow, the number of what goes along; number: the name's
-    kText,   ///< the bytes of `words`, as far as `length` says: goes on with the fault's message
+    kArrow,        ///< words: when, which Arrow, the number of what goes along; number: the name's
+    kText,         ///< the bytes of `words`, as far as `length` says: goes on with the fault's message
   };
   static constexpr std::size_t kTextBytes = 24;
   /// From one update to another: what a value goes back to.
@@ -68,13 +68,9 @@ class TraceTrack {
          .words = {Count(span.began), Count(span.ended), Count(application_time)}});
   }
   /// An update that has just ended, and what has been published since the one before.
-  void NoteUpdate(Span span, Phase phase, std::uint64_t element,
-                  std::vector<TracedPort>& ports) noexcept {
+  void NoteUpdate(Span span, Phase phase, std::uint64_t element, std::vector<TracedPort>& ports) noexcept {
     const std::int64_t now = Count(span.ended);
-    Add({.kind = TraceEvent::Kind::kUpdate,
-         .phase = phase,
-         .number = element,
-         .words = {Count(span.began), now, 0}});
+    Add({.kind = TraceEvent::Kind::kUpdate, .phase = phase, .number = element, .words = {Count(span.began), now, 0}});
     for (TracedPort& each : ports) {
       const std::uint64_t before = each.publications;
       each.publications = each.port->publications();
@@ -84,12 +80,10 @@ class TraceTrack {
            .words = {now, static_cast<std::int64_t>(each.publications - before), 0}});
     }
   }
-  void NoteArrow(TraceEvent::Arrow arrow, std::uint64_t name, std::uint64_t number,
-                 Time when) noexcept {
+  void NoteArrow(TraceEvent::Arrow arrow, std::uint64_t name, std::uint64_t number, Time when) noexcept {
     Add({.kind = TraceEvent::Kind::kArrow,
          .number = name,
-         .words = {Count(when), static_cast<std::int64_t>(arrow),
-                   static_cast<std::int64_t>(number)}});
+         .words = {Count(when), static_cast<std::int64_t>(arrow), static_cast<std::int64_t>(number)}});
   }
   void NoteFault(std::uint64_t element, std::string_view message) noexcept {
     Add({.kind = TraceEvent::Kind::kFault, .number = element, .words = {Count(Now()), 0, 0}});

@@ -21,11 +21,10 @@ class ApplicationTrace final : public ApplicationExtension {
   explicit ApplicationTrace(std::string file) : file_(std::move(file)) {}
 
   Result<void> Prepare(FrameworkElement& application, SchedulerOptions& options) override {
-    auto recorder = TraceRecorder::Start(
-        application.runtime(),
-        {.file = file_,
-         .application = application.name(),
-         .is_simulated = options.clock == SchedulerOptions::ClockKind::kSimulated});
+    auto recorder = TraceRecorder::Start(application.runtime(),
+                                         {.file = file_,
+                                          .application = application.name(),
+                                          .is_simulated = options.clock == SchedulerOptions::ClockKind::kSimulated});
     if (!recorder) return recorder.error();
     recorder_ = std::move(*recorder);
     options.tracer = recorder_.get();
@@ -45,8 +44,8 @@ class ApplicationTrace final : public ApplicationExtension {
     }
     const auto warn = [&](std::uint64_t events, const char* why) {
       if (events == 0) return;
-      problems.AddWarning({.message = std::to_string(events) + " events are not in it, as " + why,
-                           .position = {file_}});
+      problems.AddWarning(
+          {.message = std::to_string(events) + " events are not in it, as " + why, .position = {file_}});
     };
     warn(finished->lost, "they came faster than they could be written down");
     warn(finished->left_out, "it is as long as a trace may be");

@@ -16,10 +16,8 @@ constexpr std::size_t kAtOnce = 1 << 18;
 // In microseconds, as the format wants them.
 void AppendTime(std::string_view key, Duration duration, std::string& text) {
   const std::int64_t count = duration.count();
-  const std::uint64_t size =
-      count < 0 ? 0 - static_cast<std::uint64_t>(count) : static_cast<std::uint64_t>(count);
-  fmt::format_to(std::back_inserter(text), ",\"{}\":{}{}.{:03}", key, count < 0 ? "-" : "",
-                 size / 1000, size % 1000);
+  const std::uint64_t size = count < 0 ? 0 - static_cast<std::uint64_t>(count) : static_cast<std::uint64_t>(count);
+  fmt::format_to(std::back_inserter(text), ",\"{}\":{}{}.{:03}", key, count < 0 ? "-" : "", size / 1000, size % 1000);
 }
 
 }  // namespace
@@ -72,8 +70,8 @@ void TraceFile::AddName(int track, std::string_view what, std::string_view argum
   if (Begin('M', track, what)) End(arguments);
 }
 
-void TraceFile::AddSlice(int track, std::string_view name, const char* category, Time began,
-                         Time ended, std::string_view arguments) {
+void TraceFile::AddSlice(int track, std::string_view name, const char* category, Time began, Time ended,
+                         std::string_view arguments) {
   if (!Begin('X', track, name)) return;
   fmt::format_to(std::back_inserter(text_), ",\"cat\":\"{}\"", category);
   AppendTime("ts", began - start_, text_);
@@ -89,8 +87,7 @@ void TraceFile::AddInstant(int track, std::string_view name, const char* categor
   End(arguments);
 }
 
-void TraceFile::AddArrow(int track, std::string_view name, char phase, Time when,
-                         std::string_view id) {
+void TraceFile::AddArrow(int track, std::string_view name, char phase, Time when, std::string_view id) {
   if (!Begin(phase, track, name)) return;
   fmt::format_to(std::back_inserter(text_), ",\"cat\":\"latency\",\"id\":\"{}\"{}", id,
                  phase == 's' ? "" : ",\"bp\":\"e\"");

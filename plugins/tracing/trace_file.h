@@ -50,8 +50,7 @@ class TraceFile {
   void AddSlice(int track, std::string_view name, const char* category, Time began, Time ended,
                 std::string_view arguments);
   /// Something that happened.
-  void AddInstant(int track, std::string_view name, const char* category, Time when,
-                  std::string_view arguments);
+  void AddInstant(int track, std::string_view name, const char* category, Time when, std::string_view arguments);
 
   /// One end of an arrow, or a place that it passes: 's', 't' or 'f' (Chrome's phases). It goes from the slice that is
   /// there at its time to the next one of the same name and id.

@@ -22,12 +22,10 @@ std::string JsonText(std::string_view text) {
 
 }  // namespace
 
-Result<std::unique_ptr<TraceRecorder>> TraceRecorder::Start(Runtime& runtime,
-                                                            TraceOptions options) {
+Result<std::unique_ptr<TraceRecorder>> TraceRecorder::Start(Runtime& runtime, TraceOptions options) {
   auto file = TraceFile::Create(options.file, options.most_bytes);
   if (!file) return file.error();
-  return std::unique_ptr<TraceRecorder>(
-      new TraceRecorder(runtime, std::move(options), std::move(*file)));
+  return std::unique_ptr<TraceRecorder>(new TraceRecorder(runtime, std::move(options), std::move(*file)));
 }
 
 TraceRecorder::TraceRecorder(Runtime& runtime, TraceOptions options, TraceFile file)
@@ -57,8 +55,7 @@ Result<TraceSummary> TraceRecorder::Finish() {
   if (thread_.joinable()) thread_.join();
   auto finished = writer_->Finish();
   if (failure_ == nullptr) return finished;
-  return Error{.message = "the trace '" + options_.file +
-                          "' came to an early end: " + DescribeException(failure_)};
+  return Error{.message = "the trace '" + options_.file + "' came to an early end: " + DescribeException(failure_)};
 }
 
 // Whatever goes wrong with the writing ends the trace and not the application.

@@ -39,19 +39,16 @@ namespace {
 
 using internal::Drawing;
 
-constexpr std::array<const Drawing*, 8> kDrawings{
-    &internal::kPoseDrawing,    &internal::kPathDrawing,    &internal::kRangeScanDrawing,
-    &internal::kImageDrawing,   &internal::kPointDrawing,   &internal::kHitAndLeavePointsDrawing,
-    &internal::kDrawingDrawing, &internal::kWorldMapDrawing};
+constexpr std::array<const Drawing*, 8> kDrawings{&internal::kPoseDrawing,      &internal::kPathDrawing,
+                                                  &internal::kRangeScanDrawing, &internal::kImageDrawing,
+                                                  &internal::kPointDrawing,     &internal::kHitAndLeavePointsDrawing,
+                                                  &internal::kDrawingDrawing,   &internal::kWorldMapDrawing};
 
-bool IsList(const TypeInfo& type) {
-  return type.kind() == TypeKind::kSequence || type.kind() == TypeKind::kMatrix;
-}
+bool IsList(const TypeInfo& type) { return type.kind() == TypeKind::kSequence || type.kind() == TypeKind::kMatrix; }
 
 // Foxglove refuses a channel whose schema has lists of lists, and reads it well without a schema.
 bool IsListOfLists(const TypeInfo& type) {
-  return type.kind() == TypeKind::kMatrix ||
-         (type.kind() == TypeKind::kSequence && IsList(*type.elements().type));
+  return type.kind() == TypeKind::kMatrix || (type.kind() == TypeKind::kSequence && IsList(*type.elements().type));
 }
 
 // Messages are objects; what is none is put into one.
@@ -78,8 +75,7 @@ FoxgloveChannel PlainChannel(const TypeInfo& type, std::string_view topic, const
 }
 
 FoxgloveChannel DrawnChannel(const Drawing& drawing, const TypeInfo& type, std::string topic) {
-  return {std::move(topic), std::string("foxglove.").append(drawing.schema),
-          internal::FoxgloveSchema(drawing.schema),
+  return {std::move(topic), std::string("foxglove.").append(drawing.schema), internal::FoxgloveSchema(drawing.schema),
           [&type, append = drawing.append](const void* value, Time timestamp, std::string& json) {
             append({type, value}, timestamp, json);
           }};
@@ -98,8 +94,7 @@ void AppendLog(const LogMessage& said, Time timestamp, std::string& json) {
 
 }  // namespace
 
-std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view topic,
-                                         const JsonLimits& limits) {
+std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view topic, const JsonLimits& limits) {
   std::vector<FoxgloveChannel> channels;
   if (!type.is_transparent()) return channels;
   channels.push_back(PlainChannel(type, topic, limits));

@@ -16,8 +16,7 @@ namespace {
 
 // The parser refuses numbers that its floating point type has no room for; 1e999, which stands for infinity, fits
 // into this one.
-using Json = nlohmann::basic_json<std::map, std::vector, std::string, bool, std::int64_t,
-                                  std::uint64_t, long double>;
+using Json = nlohmann::basic_json<std::map, std::vector, std::string, bool, std::int64_t, std::uint64_t, long double>;
 
 /// Makes tokens of what the parser comes across.
 class TokenMaker final : public nlohmann::json_sax<Json> {
@@ -36,9 +35,7 @@ class TokenMaker final : public nlohmann::json_sax<Json> {
   bool null() override { return AddWord("null"); }
   bool boolean(bool is_true) override { return AddWord(is_true ? "true" : "false"); }
   // Whole numbers with a sign; doubles have a 0 of either.
-  bool number_integer(std::int64_t number) override {
-    return AddWord(number == 0 ? "-0" : std::to_string(number));
-  }
+  bool number_integer(std::int64_t number) override { return AddWord(number == 0 ? "-0" : std::to_string(number)); }
   bool number_unsigned(std::uint64_t number) override { return AddWord(std::to_string(number)); }
   bool number_float(long double, const std::string& digits) override {
     std::string word = digits;
@@ -54,8 +51,7 @@ class TokenMaker final : public nlohmann::json_sax<Json> {
   bool end_array() override { return End(); }
 
   // `read`: how many bytes, with the one at which it stopped.
-  bool parse_error(std::size_t read, const std::string&,
-                   const nlohmann::detail::exception& failure) override {
+  bool parse_error(std::size_t read, const std::string&, const nlohmann::detail::exception& failure) override {
     constexpr std::size_t kShown = 200;
     // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error …"
     std::string_view message = failure.what();

@@ -44,8 +44,8 @@ std::vector<std::pair<std::string, JsonPart>> JsonPart::members() const {
 
 const JsonPart* JsonMembers::Find(const std::string& name) {
   known_.push_back(name);
-  const auto found = std::ranges::find(
-      members_, name, [](const auto& each) -> const std::string& { return each.first; });
+  const auto found =
+      std::ranges::find(members_, name, [](const auto& each) -> const std::string& { return each.first; });
   return found == members_.end() ? nullptr : &found->second;
 }
 
@@ -82,9 +82,8 @@ std::optional<bool> JsonMembers::Flag(const std::string& name) {
 }
 
 std::optional<std::vector<JsonPart>> JsonMembers::List(const std::string& name) {
-  return Take(name, "a list", [](const JsonPart& part) {
-    return part.is_list() ? std::optional(part.items()) : std::nullopt;
-  });
+  return Take(name, "a list",
+              [](const JsonPart& part) { return part.is_list() ? std::optional(part.items()) : std::nullopt; });
 }
 
 std::vector<std::string> JsonMembers::NeedTexts(const std::string& name) {

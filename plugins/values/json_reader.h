@@ -20,8 +20,7 @@ class JsonPart {
  public:
   /// Errors: the text is no JSON, or has more than `deepest` lists and objects inside of one another, or a number
   /// beyond 1e4932; with the line and the column (bytes, from 1) where that shows.
-  [[nodiscard]] static Result<JsonPart> Parse(std::string_view text,
-                                              int deepest = ValueTokens::kDeepest);
+  [[nodiscard]] static Result<JsonPart> Parse(std::string_view text, int deepest = ValueTokens::kDeepest);
 
   [[nodiscard]] bool is_object() const noexcept { return Is(ValueToken::Kind::kStructure); }
   [[nodiscard]] bool is_list() const noexcept { return Is(ValueToken::Kind::kList); }
@@ -70,9 +69,7 @@ class JsonMembers {
 
   // It is an error if there is none.
   std::string NeedText(const std::string& name) { return Needed(name, Text(name)); }
-  std::uint64_t NeedCount(const std::string& name, std::uint64_t most) {
-    return Needed(name, Count(name, most));
-  }
+  std::uint64_t NeedCount(const std::string& name, std::uint64_t most) { return Needed(name, Count(name, most)); }
   std::vector<JsonPart> NeedList(const std::string& name) { return Needed(name, List(name)); }
   std::vector<std::string> NeedTexts(const std::string& name);
 

@@ -26,10 +26,9 @@ Result<void> ReadNumber(const TypeInfo& type, const ValueToken& token, N& value)
   const auto number = internal::NumberOf<N>(token);
   if (!number) {
     return Error{.message = "'" + token.text + "' does not fit into " + type.name(),
-                 .hint = kIsWhole
-                             ? "allowed are whole numbers " + std::to_string(Limits::lowest()) +
-                                   " .. " + std::to_string(Limits::max())
-                             : ""};
+                 .hint = kIsWhole ? "allowed are whole numbers " + std::to_string(Limits::lowest()) + " .. " +
+                                        std::to_string(Limits::max())
+                                  : ""};
   }
   value = *number;
   return {};
@@ -53,8 +52,7 @@ Result<void> ReadDuration(const TypeInfo& type, const ValueToken& token, Duratio
   SecondsAndRest parts;
   if (auto read = SetFromTokens(description, token, SetLeafFromJson, &parts); !read) return read;
   if (parts.nsec < 0 || parts.nsec >= kPerSecond) {
-    return Error{.message =
-                     "'nsec' is a number from 0 to 999999999, not " + std::to_string(parts.nsec)};
+    return Error{.message = "'nsec' is a number from 0 to 999999999, not " + std::to_string(parts.nsec)};
   }
   // The earliest time lies in a second whose begin cannot be said in nanoseconds.
   if (parts.sec < 0) {
@@ -62,8 +60,7 @@ Result<void> ReadDuration(const TypeInfo& type, const ValueToken& token, Duratio
     parts.nsec -= kPerSecond;
   }
   std::int64_t sum = 0;
-  if (__builtin_mul_overflow(parts.sec, kPerSecond, &sum) ||
-      __builtin_add_overflow(sum, parts.nsec, &sum)) {
+  if (__builtin_mul_overflow(parts.sec, kPerSecond, &sum) || __builtin_add_overflow(sum, parts.nsec, &sum)) {
     return Error{.message = "a " + type.name() + " cannot be that long"};
   }
   value = Duration(sum);

@@ -41,8 +41,7 @@ struct JsonLimits {
 /// Appends the JSON of the value at `value`, an object of the type. Returns whether all of it is
 /// there, false if a limit has cut something.
 /// Threads: as for the object. Allocates what `json` needs; and for leaves that are none of the above.
-bool AppendJson(const TypeInfo& type, const void* value, std::string& json,
-                const JsonLimits& limits = {});
+bool AppendJson(const TypeInfo& type, const void* value, std::string& json, const JsonLimits& limits = {});
 
 /// The way back: sets `value` from what AppendJson() has written without limits, or what somebody
 /// wrote by hand. Strict JSON (RFC 8259), in UTF-8. Fields that are left out stay as they are;

@@ -9,8 +9,7 @@ namespace {
 constexpr std::string_view kReplacement = "\xef\xbf\xbd";
 
 void AppendAscii(char character, std::string& json) {
-  constexpr std::string_view kMeant = "\"\\\n\t\r", kNames = "\"\\ntr",
-                             kDigits = "0123456789abcdef";
+  constexpr std::string_view kMeant = "\"\\\n\t\r", kNames = "\"\\ntr", kDigits = "0123456789abcdef";
   const auto byte = static_cast<unsigned char>(character);
   if (const auto named = kMeant.find(character); named != std::string_view::npos) {
     json.append({'\\', kNames[named]});

@@ -35,9 +35,7 @@ namespace internal {
 // exception passes, the text is lost anyway and stays open: a second one would end the process.
 class JsonBrackets {
  public:
-  JsonBrackets(std::string& json, char opening, char closing) : json_(json), closing_(closing) {
-    json_ += opening;
-  }
+  JsonBrackets(std::string& json, char opening, char closing) : json_(json), closing_(closing) { json_ += opening; }
   ~JsonBrackets() noexcept(false) {
     if (std::uncaught_exceptions() == exceptions_) json_ += closing_;
   }
@@ -74,9 +72,7 @@ class JsonObject {
     AppendJsonString(text, Key(name));
     return *this;
   }
-  JsonObject& Add(std::string_view name, const char* text) {
-    return Add(name, std::string_view(text));
-  }
+  JsonObject& Add(std::string_view name, const char* text) { return Add(name, std::string_view(text)); }
   template <typename N>
   requires std::is_arithmetic_v<N> JsonObject& Add(std::string_view name, N number) {
     if constexpr (std::same_as<N, bool>) {

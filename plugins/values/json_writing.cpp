@@ -24,8 +24,7 @@ class ValueWriter {
   ValueWriter(std::string& json, const JsonLimits& limits)
       : json_(json),
         limits_(limits),
-        end_(limits.bytes > JsonLimits::kNone - json.size() ? JsonLimits::kNone
-                                                            : json.size() + limits.bytes) {}
+        end_(limits.bytes > JsonLimits::kNone - json.size() ? JsonLimits::kNone : json.size() + limits.bytes) {}
 
   [[nodiscard]] bool is_whole() const noexcept { return is_whole_; }
 
@@ -43,8 +42,7 @@ class ValueWriter {
       case TypeKind::kSequence:
         return WriteRow(type, value, 0);
       case TypeKind::kMatrix:
-        return WriteList(type.elements().rows(value),
-                         [&](std::size_t row) { WriteRow(type, value, row); });
+        return WriteList(type.elements().rows(value), [&](std::size_t row) { WriteRow(type, value, row); });
     }
   }
 
@@ -110,9 +108,8 @@ class ValueWriter {
   void WriteRow(const TypeInfo& type, const void* value, std::size_t row) {
     const ElementOperations& elements = type.elements();
     const std::size_t columns = elements.columns(value);
-    WriteList(columns, [&](std::size_t i) {
-      Write(*elements.type, elements.element(ForLooking(value), row * columns + i));
-    });
+    WriteList(columns,
+              [&](std::size_t i) { Write(*elements.type, elements.element(ForLooking(value), row * columns + i)); });
   }
 
   template <typename WriteOne>
@@ -135,8 +132,7 @@ class ValueWriter {
 
 }  // namespace
 
-bool AppendJson(const TypeInfo& type, const void* value, std::string& json,
-                const JsonLimits& limits) {
+bool AppendJson(const TypeInfo& type, const void* value, std::string& json, const JsonLimits& limits) {
   ValueWriter writer(json, limits);
   writer.Write(type, value);
   return writer.is_whole();

@@ -94,8 +94,7 @@ bool PortPatterns::FitOne(const Parts& pattern, std::string_view path) {
 
 bool PortPatterns::Fit(std::string_view path) const {
   const auto fits = [&](const Parts& pattern) { return FitOne(pattern, path); };
-  return (wanted_.empty() || std::ranges::any_of(wanted_, fits)) &&
-         std::ranges::none_of(excluded_, fits);
+  return (wanted_.empty() || std::ranges::any_of(wanted_, fits)) && std::ranges::none_of(excluded_, fits);
 }
 
 std::vector<std::string> PortPatterns::Names() const {
@@ -107,9 +106,8 @@ std::vector<std::string> PortPatterns::Names() const {
 }
 
 bool PortPatterns::Name(std::string_view path) const {
-  return Fit(path) && std::ranges::any_of(Names(), [&](const std::string& name) {
-           return FitOne(PartsOf(name), path);
-         });
+  return Fit(path) &&
+         std::ranges::any_of(Names(), [&](const std::string& name) { return FitOne(PartsOf(name), path); });
 }
 
 std::vector<std::string> PartsOf(std::string_view path) {

@@ -11,9 +11,7 @@ namespace runnel {
 
 namespace {
 
-bool IsTold(const TypeInfo& type) {
-  return type.kind() == TypeKind::kLeaf || type.kind() == TypeKind::kEnumeration;
-}
+bool IsTold(const TypeInfo& type) { return type.kind() == TypeKind::kLeaf || type.kind() == TypeKind::kEnumeration; }
 
 // Whether values of the type may differ in their bytes. A type can contain itself only in lists, where this ends.
 bool Varies(const TypeInfo& type) {
@@ -22,8 +20,7 @@ bool Varies(const TypeInfo& type) {
     case TypeKind::kMatrix:
       return !type.elements().is_fixed || Varies(*type.elements().type);
     case TypeKind::kStructure:
-      return std::ranges::any_of(type.fields(),
-                                 [](const FieldInfo& field) { return Varies(*field.type); });
+      return std::ranges::any_of(type.fields(), [](const FieldInfo& field) { return Varies(*field.type); });
     default:
       return &type == &TypeOf<std::string>();
   }
@@ -36,9 +33,7 @@ std::size_t BytesOfElements(const TypeInfo& type, const void* value) {
   if (IsTold(*elements.type) && elements.type != &TypeOf<std::string>()) {
     return count * elements.type->size();
   }
-  const auto bytes_at = [&](std::size_t i) {
-    return BytesOf(*elements.type, elements.element(ForLooking(value), i));
-  };
+  const auto bytes_at = [&](std::size_t i) { return BytesOf(*elements.type, elements.element(ForLooking(value), i)); };
   if (!Varies(*elements.type)) return count * bytes_at(0);
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < count; ++i) bytes += bytes_at(i);

@@ -127,8 +127,6 @@ std::optional<std::uint64_t> WatchedPort::VisitIfNew(const Port::Visitor& look) 
   return count;
 }
 
-std::uint64_t WatchedPort::dropped() const noexcept {
-  return input_ == nullptr ? 0 : input_->dropped();
-}
+std::uint64_t WatchedPort::dropped() const noexcept { return input_ == nullptr ? 0 : input_->dropped(); }
 
 }  // namespace runnel

@@ -83,8 +83,7 @@ struct ViewerRequest {
 };
 
 // Where the viewers shall be; nothing if none are wanted. Errors: the place is none.
-Result<std::optional<ViewerRequest>> RequestOf(const ViewerOptions& options,
-                                               const FrameworkElement& application) {
+Result<std::optional<ViewerRequest>> RequestOf(const ViewerOptions& options, const FrameworkElement& application) {
   const auto in_file = InspectorPlaceOf(application);
   if (options.is_refused || (!in_file && !options.is_wanted)) return std::optional<ViewerRequest>();
   ViewerRequest request{in_file.value_or(InspectorPlace{})};
@@ -117,10 +116,8 @@ Result<std::optional<ViewerRequest>> RequestOf(const ViewerOptions& options,
   return std::optional(request);
 }
 
-Result<std::unique_ptr<WebServer>> StartServer(const ViewerRequest& request,
-                                               const ViewerOptions& asked,
-                                               const std::vector<WebProtocol>& protocols,
-                                               Diagnostics& diagnostics) {
+Result<std::unique_ptr<WebServer>> StartServer(const ViewerRequest& request, const ViewerOptions& asked,
+                                               const std::vector<WebProtocol>& protocols, Diagnostics& diagnostics) {
   const auto& resources = InspectorPage();
   auto tokens = TokensOf(request.place);
   if (!tokens) return tokens.error();
@@ -158,13 +155,12 @@ class Viewers final : public ApplicationExtension {
                                                               .file = application.file(),
                                                               .version = Application::Version(),
                                                               .is_read_only = is_read_only});
-    auto web =
-        StartServer(**request, options_,
-                    {inspector_->Protocol(), FoxgloveProtocol({.service = application.service(),
-                                                               .name = application.name(),
-                                                               .version = Application::Version(),
-                                                               .is_read_only = is_read_only})},
-                    diagnostics);
+    auto web = StartServer(**request, options_,
+                           {inspector_->Protocol(), FoxgloveProtocol({.service = application.service(),
+                                                                      .name = application.name(),
+                                                                      .version = Application::Version(),
+                                                                      .is_read_only = is_read_only})},
+                           diagnostics);
     if (!web) return web.error().WithContext("the inspector cannot be started");
     web_ = std::move(*web);
     return TellToken((*request)->place.token.size() + (*request)->place.token_file.size() > 0);

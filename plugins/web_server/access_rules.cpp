@@ -99,8 +99,7 @@ Result<bool> IsLoopback(const std::string& address) {
                .hint = "write 127.0.0.1 for this machine only, or 0.0.0.0 for all networks"};
 }
 
-AccessRules::AccessRules(const WebServerOptions& options)
-    : tokens_(options.tokens), origins_(options.origins) {
+AccessRules::AccessRules(const WebServerOptions& options) : tokens_(options.tokens), origins_(options.origins) {
   names_.emplace_back("localhost");
   if (const auto is_loopback = IsLoopback(options.address); !is_loopback || !*is_loopback) {
     // Not on a loopback address, where nobody needs them: who is asked for them on a network can let them lead
@@ -118,8 +117,7 @@ AccessRules::AccessRules(const WebServerOptions& options)
 
 bool AccessRules::IsKnownName(std::string_view host) const {
   const std::string_view name = HostNameOf(host);
-  return !name.empty() &&
-         (IsAddress(name) || std::ranges::find(names_, Lower(name)) != names_.end());
+  return !name.empty() && (IsAddress(name) || std::ranges::find(names_, Lower(name)) != names_.end());
 }
 
 std::optional<WebRole> AccessRules::RoleOf(std::string_view secret) const {
@@ -162,9 +160,8 @@ std::variant<WebRole, AccessRules::Refusal> AccessRules::Admit(const WebRequest&
   const std::string host = Lower(request.host);
   const bool is_own = origin == "http://" + host || origin == "https://" + host;
   if (is_own || std::ranges::find(origins_, origin) != origins_.end()) return WebRole::kChange;
-  return Refusal{403,
-                 "pages of '" + std::string(request.origin) +
-                     "' may not talk to this server; it can be started with that origin allowed"};
+  return Refusal{403, "pages of '" + std::string(request.origin) +
+                          "' may not talk to this server; it can be started with that origin allowed"};
 }
 
 }  // namespace runnel

@@ -22,11 +22,9 @@ constexpr std::size_t kLongestToken = 128;
 
 bool IsGoodToken(std::string_view token) {
   const bool has_letters_of_addresses = std::ranges::all_of(token, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '_' ||
-           c == '~';
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '_' || c == '~';
   });
-  return has_letters_of_addresses && token.size() >= kShortestToken &&
-         token.size() <= kLongestToken;
+  return has_letters_of_addresses && token.size() >= kShortestToken && token.size() <= kLongestToken;
 }
 
 Result<AccessToken> ParseToken(std::string_view word) {
@@ -36,8 +34,7 @@ Result<AccessToken> ParseToken(std::string_view word) {
     const std::string_view name = word.substr(0, colon);
     const auto role = WebRoleNamed(name);
     if (!role) {
-      return Error{.message = "a token's role is none",
-                   .hint = "write look:TOKEN, drive:TOKEN or change:TOKEN"};
+      return Error{.message = "a token's role is none", .hint = "write look:TOKEN, drive:TOKEN or change:TOKEN"};
     }
     token.role = *role;
     word.remove_prefix(colon + 1);
@@ -95,8 +92,7 @@ Result<std::vector<AccessToken>> ReadAccessTokens(const std::filesystem::path& f
 Result<std::string> MakeToken() {
   std::array<unsigned char, 16> bytes{};
   if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-    return Error{.message = "no token can be made: the system has no random numbers",
-                 .hint = "give one"};
+    return Error{.message = "no token can be made: the system has no random numbers", .hint = "give one"};
   }
   return fmt::format("{:02x}", fmt::join(bytes, ""));
 }

@@ -29,14 +29,13 @@ constexpr auto kFarewell = std::chrono::milliseconds(200);
 Error CannotListen(const WebServerOptions& options, const boost::system::error_code& why) {
   const std::string place = options.address + ":" + std::to_string(options.port);
   if (why == asio::error::address_in_use) {
-    return {.message = "port " + std::to_string(options.port) + " of " + options.address +
-                       " is taken by another program",
-            .hint = "choose another one, or 0 for any that is free"};
+    return {
+        .message = "port " + std::to_string(options.port) + " of " + options.address + " is taken by another program",
+        .hint = "choose another one, or 0 for any that is free"};
   }
   if (why == asio::error::access_denied) {
-    return {
-        .message = "port " + std::to_string(options.port) + " may not be used: " + why.message(),
-        .hint = "choose one from 1024 on, or 0 for any that is free"};
+    return {.message = "port " + std::to_string(options.port) + " may not be used: " + why.message(),
+            .hint = "choose one from 1024 on, or 0 for any that is free"};
   }
   if (why == boost::system::errc::address_not_available) {
     return {.message = options.address + " is no address of this machine",
@@ -62,8 +61,9 @@ Result<std::string> TokenFor(const WebServerOptions& options) {
   if (options.certificate_file.empty() && !options.is_insecure) {
     return Error{.message = "at " + options.address +
                             " others on the network could read along and take part: nothing is encrypted",
-                 .hint = "give it a certificate (--inspect-certificate, --inspect-key); "
-                         "--inspect-insecure where nobody else listens, or a proxy encrypts"};
+                 .hint =
+                     "give it a certificate (--inspect-certificate, --inspect-key); "
+                     "--inspect-insecure where nobody else listens, or a proxy encrypts"};
   }
   if (!options.tokens.empty()) return std::string();
   return MakeToken();
@@ -86,8 +86,8 @@ Result<tcp::acceptor> Listen(asio::io_context& context, const WebServerOptions& 
 
 class Running final : public WebServer {
  public:
-  Running(std::unique_ptr<ConnectionRegistry> registry, std::shared_ptr<TlsIdentity> identity,
-          tcp::acceptor acceptor, std::string url, std::string made_token)
+  Running(std::unique_ptr<ConnectionRegistry> registry, std::shared_ptr<TlsIdentity> identity, tcp::acceptor acceptor,
+          std::string url, std::string made_token)
       : registry_(std::move(registry)),
         identity_(std::move(identity)),
         acceptor_(std::move(acceptor)),
@@ -146,8 +146,7 @@ class Running final : public WebServer {
     }
   }
 
-  void AwaitEnd(std::shared_ptr<asio::steady_timer> timer,
-                std::chrono::steady_clock::time_point end) {
+  void AwaitEnd(std::shared_ptr<asio::steady_timer> timer, std::chrono::steady_clock::time_point end) {
     if (registry_->connections() == 0 || std::chrono::steady_clock::now() >= end) {
       return registry_->context().stop();
     }
@@ -167,8 +166,7 @@ class Running final : public WebServer {
 
 }  // namespace
 
-Result<std::unique_ptr<WebServer>> WebServer::Start(WebServerOptions options,
-                                                    const std::vector<WebResource>& resources,
+Result<std::unique_ptr<WebServer>> WebServer::Start(WebServerOptions options, const std::vector<WebResource>& resources,
                                                     std::vector<WebProtocol> protocols) {
   auto made_token = TokenFor(options);
   if (!made_token) return made_token.error();
@@ -186,11 +184,11 @@ Result<std::unique_ptr<WebServer>> WebServer::Start(WebServerOptions options,
   if (!probe) return probe.error();
   const auto protocol = probe->local_endpoint().protocol();
   const std::string url = UrlOf(options, probe->local_endpoint().port());
-  auto registry = std::make_unique<ConnectionRegistry>(std::move(options), std::move(rules),
-                                                       resources, std::move(protocols));
+  auto registry =
+      std::make_unique<ConnectionRegistry>(std::move(options), std::move(rules), resources, std::move(protocols));
   tcp::acceptor acceptor(registry->context(), protocol, probe->release());
-  return std::unique_ptr<WebServer>(std::make_unique<Running>(
-      std::move(registry), std::move(identity), std::move(acceptor), url, std::move(*made_token)));
+  return std::unique_ptr<WebServer>(std::make_unique<Running>(std::move(registry), std::move(identity),
+                                                              std::move(acceptor), url, std::move(*made_token)));
 }
 
 }  // namespace runnel

@@ -22,8 +22,7 @@ namespace runnel {
 ///             answered, and go no further.
 class WebServer {
  public:
-  static Result<std::unique_ptr<WebServer>> Start(WebServerOptions options,
-                                                  const std::vector<WebResource>& resources,
+  static Result<std::unique_ptr<WebServer>> Start(WebServerOptions options, const std::vector<WebResource>& resources,
                                                   std::vector<WebProtocol> protocols);
   /// Tells clients that it ends, and waits for them for a moment.
   virtual ~WebServer() = default;

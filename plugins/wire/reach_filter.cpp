@@ -29,7 +29,8 @@ bool IsOpenPortOf(int socket, std::uint32_t domain) {
   if (getsockopt(socket, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) return false;
   sockaddr_in address{};
   size = sizeof address;
-  if (getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0 || address.sin_family != AF_INET) return false;
+  if (getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0 || address.sin_family != AF_INET)
+    return false;
   const int first = kFirstPort + kPortsOfDomain * static_cast<int>(domain);
   const int port = ntohs(address.sin_port);
   return port >= first && port < first + kPortsOfDomain && address.sin_addr.s_addr != htonl(INADDR_LOOPBACK);
@@ -41,7 +42,8 @@ using FilterProgram = std::vector<sock_filter>;
 FilterProgram OnlyIf(int load, std::uint32_t offset, const std::vector<std::uint32_t>& allowed) {
   FilterProgram program = {BPF_STMT(static_cast<std::uint16_t>(load), offset)};
   for (std::size_t i = 0; i < allowed.size(); ++i) {
-    program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, allowed[i], static_cast<std::uint8_t>(allowed.size() - i), 0));
+    program.push_back(
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, allowed[i], static_cast<std::uint8_t>(allowed.size() - i), 0));
   }
   program.push_back(BPF_STMT(BPF_RET | BPF_K, 0));
   program.push_back(BPF_STMT(BPF_RET | BPF_K, 0xffffffff));
@@ -78,7 +80,8 @@ std::uint32_t IndexOfInterface(const std::string& interface) {
   in_addr wanted{};
   if (found != 0 || inet_pton(AF_INET, interface.c_str(), &wanted) != 1) return found;
   (void)ForEachAddress([&](const ifaddrs& each) {
-    if (reinterpret_cast<const sockaddr_in*>(each.ifa_addr)->sin_addr.s_addr == wanted.s_addr) found = if_nametoindex(each.ifa_name);
+    if (reinterpret_cast<const sockaddr_in*>(each.ifa_addr)->sin_addr.s_addr == wanted.s_addr)
+      found = if_nametoindex(each.ifa_name);
   });
   return found;
 }
@@ -133,8 +136,9 @@ std::string AddressText(const sockaddr& address) {
 
 bool IsInNetwork() {
   bool is_in_one = false;
-  const bool is_known = ForEachAddress(
-      [&](const ifaddrs& each) { is_in_one |= (each.ifa_flags & IFF_LOOPBACK) == 0 && (each.ifa_flags & IFF_UP) != 0; });
+  const bool is_known = ForEachAddress([&](const ifaddrs& each) {
+    is_in_one |= (each.ifa_flags & IFF_LOOPBACK) == 0 && (each.ifa_flags & IFF_UP) != 0;
+  });
   return is_in_one || !is_known;  // who cannot know says nothing
 }
 

@@ -38,19 +38,22 @@ std::string QosMisfit(const WireQos& offered, const WireQos& asked) {
 Error WithPermissionHint(Error error, bool has_keys, const WireEndpointOptions& options, bool is_writer) {
   const std::string tag = is_writer ? "publish>" : "subscribe>";
   if (!has_keys || !error.hint.empty()) return error;
-  error.hint = "permissions.xml, signed anew, is to have <" + tag + "<topics><topic>" + options.topic + "</topic></topics></" + tag;
+  error.hint = "permissions.xml, signed anew, is to have <" + tag + "<topics><topic>" + options.topic +
+               "</topic></topics></" + tag;
   return error;
 }
 
 std::string QosText(const WireQos& qos) {
   std::string text = qos.is_reliable ? "reliable" : "best effort";
   if (qos.is_latched) text += ", latched";
-  if (qos.is_exclusive) text += qos.strength > 0 ? ", exclusive by strength " + std::to_string(qos.strength) : ", exclusive";
+  if (qos.is_exclusive)
+    text += qos.strength > 0 ? ", exclusive by strength " + std::to_string(qos.strength) : ", exclusive";
   return text + ", newest " + std::to_string(qos.depth);
 }
 
 Result<WireIdentity> WireWriter::WriteRelated(const std::shared_ptr<const Octets>&, std::int64_t, const WireIdentity&) {
-  return Error{.message = "the network's engine cannot say to which other value one is related", .hint = "engine=\"fast\""};
+  return Error{.message = "the network's engine cannot say to which other value one is related",
+               .hint = "engine=\"fast\""};
 }
 
 }  // namespace runnel

@@ -25,11 +25,11 @@ using WireId = std::array<std::uint8_t, 16>;
 /// How values of a topic are kept and sent. A reader matches a writer that offers at least as much.
 struct WireQos {
   bool is_reliable = true;
-  bool is_latched = false;  ///< who comes late gets what has been written last (transient local)
-  std::uint32_t depth = 1;  ///< newest values kept, at least 1
-  bool is_exclusive = false;   ///< of several writers only the strongest counts (exclusive ownership)
-  std::int32_t strength = 0;   ///< of a writer, if exclusive
-  Duration lifespan{};         ///< of a writer's values, which nobody gets that are older; 0: for ever
+  bool is_latched = false;    ///< who comes late gets what has been written last (transient local)
+  std::uint32_t depth = 1;    ///< newest values kept, at least 1
+  bool is_exclusive = false;  ///< of several writers only the strongest counts (exclusive ownership)
+  std::int32_t strength = 0;  ///< of a writer, if exclusive
+  Duration lifespan{};        ///< of a writer's values, which nobody gets that are older; 0: for ever
 
   bool operator==(const WireQos&) const = default;
 };
@@ -158,8 +158,9 @@ struct WireSecurity {
 
 /// A hint for an engine that has joined no network with these keys and does not say which file is wrong.
 [[nodiscard]] inline std::string KeyFilesHint(const WireSecurity& security) {
-  return "the key must be that of the certificate, and that of the authority: look at " + security.certificate + ", " + security.key + ", " +
-         security.identity_ca + "; the other two signed by " + security.permissions_ca + ": " + security.governance + ", " + security.permissions;
+  return "the key must be that of the certificate, and that of the authority: look at " + security.certificate + ", " +
+         security.key + ", " + security.identity_ca + "; the other two signed by " + security.permissions_ca + ": " +
+         security.governance + ", " + security.permissions;
 }
 
 /// `error` of making an endpoint, with the hint what the member's permissions are to have, if it has keys and `error` has none.
@@ -174,7 +175,7 @@ struct WireMemberOptions {
   std::string name = {};
   std::string user_data = {};
   std::optional<WireSecurity> security = {};  ///< nothing: whoever is within reach may join, and listen
-  std::uint32_t datagram = 0;           ///< octets of the largest one, 1000 to 65500; 0: as is best for the reach
+  std::uint32_t datagram = 0;                 ///< octets of the largest one, 1000 to 65500; 0: as is best for the reach
   Duration lease = std::chrono::seconds(10);  ///< so long after its last sign of life it counts as gone; 1 s at least
 };
 
@@ -193,10 +194,9 @@ class WireParticipant {
  public:
   virtual ~WireParticipant() = default;
   [[nodiscard]] virtual const WireId& id() const noexcept = 0;
-  virtual Result<std::unique_ptr<WireWriter>> MakeWriter(const WireEndpointOptions& options,
+  virtual Result<std::unique_ptr<WireWriter>> MakeWriter(const WireEndpointOptions& options, OnMatched on_matched) = 0;
+  virtual Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options, OnSample on_sample,
                                                          OnMatched on_matched) = 0;
-  virtual Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options,
-                                                         OnSample on_sample, OnMatched on_matched) = 0;
 };
 
 /// A way to send octets: Cyclone DDS, Fast DDS, or a fake of this process.
@@ -206,8 +206,7 @@ class WireEngine {
   /// Whether values have identities, and say to which others they are related.
   [[nodiscard]] virtual bool has_identities() const noexcept { return false; }
   /// `discovery` must outlive the participant. Errors: what the engine says of options and network.
-  virtual Result<std::unique_ptr<WireParticipant>> Join(const WireMemberOptions& options,
-                                                        WireDiscovery& discovery) = 0;
+  virtual Result<std::unique_ptr<WireParticipant>> Join(const WireMemberOptions& options, WireDiscovery& discovery) = 0;
 };
 
 }  // namespace runnel

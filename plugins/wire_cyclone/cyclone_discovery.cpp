@@ -29,9 +29,7 @@ void TakeAll(dds_entity_t reader, const Visit& visit) {
   }
 }
 
-bool IsThere(const dds_sample_info_t& info) {
-  return info.valid_data && info.instance_state == DDS_IST_ALIVE;
-}
+bool IsThere(const dds_sample_info_t& info) { return info.valid_data && info.instance_state == DDS_IST_ALIVE; }
 
 OtherPolicies OtherPoliciesOf(const dds_qos_t* qos) {
   OtherPolicies other;
@@ -113,11 +111,13 @@ CycloneDiscovery::CycloneDiscovery(dds_entity_t participant, const WireId& own, 
     : own_(own),
       listener_(listener),
       members_(Read(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT,
-          [](dds_entity_t at, void* self) { static_cast<CycloneDiscovery*>(self)->TakeMembers(at); })),
-      writers_(Read(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION,
-          [](dds_entity_t at, void* self) { static_cast<CycloneDiscovery*>(self)->TakeEndpoints(at, true); })),
-      readers_(Read(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION,
-          [](dds_entity_t at, void* self) { static_cast<CycloneDiscovery*>(self)->TakeEndpoints(at, false); })) {
+                    [](dds_entity_t at, void* self) { static_cast<CycloneDiscovery*>(self)->TakeMembers(at); })),
+      writers_(
+          Read(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION,
+               [](dds_entity_t at, void* self) { static_cast<CycloneDiscovery*>(self)->TakeEndpoints(at, true); })),
+      readers_(Read(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, [](dds_entity_t at, void* self) {
+        static_cast<CycloneDiscovery*>(self)->TakeEndpoints(at, false);
+      })) {
   // What was there before the listeners.
   TakeMembers(members_);
   TakeEndpoints(writers_, true);
@@ -128,8 +128,7 @@ CycloneDiscovery::~CycloneDiscovery() {
   for (const dds_entity_t reader : {members_, writers_, readers_}) (void)dds_delete(reader);
 }
 
-dds_entity_t CycloneDiscovery::Read(dds_entity_t participant, dds_entity_t topic,
-                                    dds_on_data_available_fn on_data) {
+dds_entity_t CycloneDiscovery::Read(dds_entity_t participant, dds_entity_t topic, dds_on_data_available_fn on_data) {
   dds_listener_t* const listener = dds_create_listener(this);
   dds_lset_data_available(listener, on_data);
   const dds_entity_t reader = dds_create_reader(participant, topic, nullptr, listener);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <dlfcn.h>
-
 #include <openssl/bio.h>
 #include <openssl/pem.h>
 #include <openssl/x509.h>
@@ -58,9 +57,7 @@ void Hear(void*, const dds_log_data_t* data) {
 
 std::string PeersText(const WireMemberOptions& options) {
   std::string text;
-  const auto add = [&](const std::string& address) {
-    text += "<Peer Address=\"" + EscapedMarkup(address) + "\"/>";
-  };
+  const auto add = [&](const std::string& address) { text += "<Peer Address=\"" + EscapedMarkup(address) + "\"/>"; };
   // Each of its ports is asked, again and again: only where not all can be asked at once.
   if (options.reach == WireReach::kMachine || !options.has_multicast) add("127.0.0.1");
   for (const std::string& peer : options.peers) add(peer);
@@ -100,26 +97,32 @@ int TellNoPassword(char*, int, int, void*) { return 0; }  // instead of asking a
 
 // Cyclone DDS takes a key of somebody else's and meets nobody then. What cannot be read it tells itself.
 Result<void> CheckKey(const WireSecurity& security) {
-  const auto open = [](const std::string& file) { return std::unique_ptr<BIO, decltype(&BIO_free)>(BIO_new_file(file.c_str(), "r"), BIO_free); };
+  const auto open = [](const std::string& file) {
+    return std::unique_ptr<BIO, decltype(&BIO_free)>(BIO_new_file(file.c_str(), "r"), BIO_free);
+  };
   const auto certificate_file = open(security.certificate);
   const auto key_file = open(security.key);
   if (certificate_file == nullptr || key_file == nullptr) return {};
-  const std::unique_ptr<X509, decltype(&X509_free)> certificate(PEM_read_bio_X509(certificate_file.get(), nullptr, TellNoPassword, nullptr), X509_free);
-  const std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)> key(PEM_read_bio_PrivateKey(key_file.get(), nullptr, TellNoPassword, nullptr), EVP_PKEY_free);
+  const std::unique_ptr<X509, decltype(&X509_free)> certificate(
+      PEM_read_bio_X509(certificate_file.get(), nullptr, TellNoPassword, nullptr), X509_free);
+  const std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)> key(
+      PEM_read_bio_PrivateKey(key_file.get(), nullptr, TellNoPassword, nullptr), EVP_PKEY_free);
   if (certificate == nullptr || key == nullptr || X509_check_private_key(certificate.get(), key.get()) == 1) return {};
-  return Error{.message = "the key " + security.key + " is not that of the certificate " + security.certificate, .hint = "'runnel keys' makes both"};
+  return Error{.message = "the key " + security.key + " is not that of the certificate " + security.certificate,
+               .hint = "'runnel keys' makes both"};
 }
 
 }  // namespace
 
 std::shared_ptr<void> HearRefusals(std::function<void(const std::string&)> hear) {
-  std::shared_ptr<const Domains::Hearing> hearing(new Domains::Hearing(std::move(hear)), [](const Domains::Hearing* ends) {
-    {
-      const std::lock_guard lock(AllDomains().mutex);
-      std::erase(AllDomains().hearings, ends);
-    }
-    delete ends;
-  });
+  std::shared_ptr<const Domains::Hearing> hearing(new Domains::Hearing(std::move(hear)),
+                                                  [](const Domains::Hearing* ends) {
+                                                    {
+                                                      const std::lock_guard lock(AllDomains().mutex);
+                                                      std::erase(AllDomains().hearings, ends);
+                                                    }
+                                                    delete ends;
+                                                  });
   const std::lock_guard lock(AllDomains().mutex);
   AllDomains().hearings.push_back(hearing.get());
   return std::const_pointer_cast<Domains::Hearing>(hearing);
@@ -134,16 +137,21 @@ Error CycloneError(const std::string& what, dds_return_t code) {
 // Buffers of 4 MB, and large datagrams where none gets lost: with its defaults half of all images are lost. Participants have
 // indices, so that those who cannot be asked all at once are asked one by one.
 std::string CycloneConfiguration(const WireMemberOptions& options) {
-  const char* const multicast = !options.has_multicast ? "false" : options.reach == WireReach::kMachine ? "false" : "true";
+  const char* const multicast = !options.has_multicast                 ? "false"
+                                : options.reach == WireReach::kMachine ? "false"
+                                                                       : "true";
   constexpr std::uint32_t kHeaders = 200;  // of a fragment, with those of keys
   const std::uint32_t datagram = LargestDatagram(options);
-  return "<Domain Id=\"any\"><General>" + InterfacesText(options) + "<AllowMulticast>" + multicast + "</AllowMulticast><MaxMessageSize>" +
-         std::to_string(datagram) + "B</MaxMessageSize><FragmentSize>" + std::to_string(datagram - kHeaders) + "B</FragmentSize></General>"
+  return "<Domain Id=\"any\"><General>" + InterfacesText(options) + "<AllowMulticast>" + multicast +
+         "</AllowMulticast><MaxMessageSize>" + std::to_string(datagram) + "B</MaxMessageSize><FragmentSize>" +
+         std::to_string(datagram - kHeaders) +
+         "B</FragmentSize></General>"
          "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>119</MaxAutoParticipantIndex>"
          "<SPDPInterval>500ms</SPDPInterval><LeaseDuration>" +
-         std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(options.lease).count()) + "ms</LeaseDuration>" +
-         PeersText(options) +
-         "</Discovery><Internal><GenerateKeyhash>true</GenerateKeyhash><SocketReceiveBufferSize max=\"4MB\"/><SocketSendBufferSize max=\"4MB\"/>" +
+         std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(options.lease).count()) +
+         "ms</LeaseDuration>" + PeersText(options) +
+         "</Discovery><Internal><GenerateKeyhash>true</GenerateKeyhash><SocketReceiveBufferSize "
+         "max=\"4MB\"/><SocketSendBufferSize max=\"4MB\"/>" +
          (HasBoundedReach(options) ? "<ControlTopic><Deaf>true</Deaf></ControlTopic>" : "") + "</Internal></Domain>";
 }
 
@@ -160,9 +168,10 @@ Result<std::shared_ptr<CycloneDomain>> CycloneDomain::Join(const WireMemberOptio
     AllDomains().said.clear();
     if (const auto known = AllDomains().all[options.domain].lock()) {
       if (known->configuration_ == configuration) return known;
-      return Error{.message = "domain " + std::to_string(options.domain) +
-                              " is used in this process already, with another reach, other peers, or with keys and without",
-                   .hint = "choose another domain, or say the same"};
+      return Error{
+          .message = "domain " + std::to_string(options.domain) +
+                     " is used in this process already, with another reach, other peers, or with keys and without",
+          .hint = "choose another domain, or say the same"};
     }
   }
   dds_set_log_sink(Hear, nullptr);

@@ -88,9 +88,8 @@ class CycloneReader final : public WireReader {
   Result<void> Begin(dds_entity_t participant, dds_entity_t topic, const WireEndpointOptions& options) {
     dds_qos_t* const qos = MakeQos(options, false);
     dds_listener_t* const listener = dds_create_listener(this);
-    dds_lset_data_available(listener, [](dds_entity_t reader, void* self) {
-      static_cast<CycloneReader*>(self)->TakeAll(reader);
-    });
+    dds_lset_data_available(
+        listener, [](dds_entity_t reader, void* self) { static_cast<CycloneReader*>(self)->TakeAll(reader); });
     dds_lset_subscription_matched(listener, [](dds_entity_t, dds_subscription_matched_status_t status, void* self) {
       const auto& on_matched = static_cast<CycloneReader*>(self)->on_matched_;
       if (on_matched) on_matched(status.current_count);
@@ -158,9 +157,8 @@ class CycloneParticipant final : public WireParticipant {
   Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options, OnSample on_sample,
                                                  OnMatched on_matched) override {
     auto reader = std::make_unique<CycloneReader>(std::move(on_sample), std::move(on_matched));
-    const auto begun = WithTopic(options, [&](dds_entity_t topic, const ddsi_sertype*) {
-      return reader->Begin(participant_, topic, options);
-    });
+    const auto begun = WithTopic(
+        options, [&](dds_entity_t topic, const ddsi_sertype*) { return reader->Begin(participant_, topic, options); });
     if (!begun) return WithPermissionHint(begun.error(), refusals_ != nullptr, options, false);
     return std::unique_ptr<WireReader>(std::move(reader));
   }

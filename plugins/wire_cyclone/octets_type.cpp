@@ -36,8 +36,8 @@ ddsi_serdata* FromPieces(const ddsi_sertype* type, ddsi_serdata_kind kind, const
     const std::size_t end = std::min<std::size_t>(piece->maxp1, size);
     if (piece->min > octets->size()) return nullptr;
     if (end <= octets->size()) continue;
-    const auto* const payload = reinterpret_cast<const std::byte*>(
-        NN_RMSG_PAYLOADOFF(piece->rmsg, NN_RDATA_PAYLOAD_OFF(piece)));
+    const auto* const payload =
+        reinterpret_cast<const std::byte*>(NN_RMSG_PAYLOADOFF(piece->rmsg, NN_RDATA_PAYLOAD_OFF(piece)));
     octets->insert(octets->end(), payload + (octets->size() - piece->min), payload + (end - piece->min));
   }
   return octets->size() == size ? Make(type, kind, std::move(octets)) : nullptr;
@@ -84,7 +84,8 @@ const ddsi_serdata_ops kValueOperations = {
     .get_size = [](const ddsi_serdata* value) { return static_cast<std::uint32_t>(Of(value).octets->size()); },
     .from_ser = FromPieces,
     .from_ser_iov = FromVector,
-    .from_keyhash = [](const ddsi_sertype* type, const ddsi_keyhash*) { return Make(type, SDK_KEY, std::make_shared<Octets>()); },
+    .from_keyhash = [](const ddsi_sertype* type,
+                       const ddsi_keyhash*) { return Make(type, SDK_KEY, std::make_shared<Octets>()); },
     // Nobody writes other values than octets.
     .from_sample = [](const ddsi_sertype*, ddsi_serdata_kind, const void*) -> ddsi_serdata* { return nullptr; },
     .to_ser = ToOctets,

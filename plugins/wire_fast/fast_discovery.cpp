@@ -44,9 +44,7 @@ class Listener final : public dds::LogConsumer {
 
 constexpr std::size_t kPrefix = rtps::GuidPrefix_t::size;  // of a participant's id, which those of its endpoints share
 
-std::string TextOf(const dds::UserDataQosPolicy& user_data) {
-  return {user_data.begin(), user_data.end()};
-}
+std::string TextOf(const dds::UserDataQosPolicy& user_data) { return {user_data.begin(), user_data.end()}; }
 
 template <typename Proxy>
 WireEndpoint EndpointOf(const Proxy& proxy, bool is_writer) {
@@ -61,13 +59,14 @@ WireEndpoint EndpointOf(const Proxy& proxy, bool is_writer) {
   qos.is_latched = proxy.m_qos.m_durability.kind != dds::VOLATILE_DURABILITY_QOS;
   qos.is_exclusive = proxy.m_qos.m_ownership.kind == dds::EXCLUSIVE_OWNERSHIP_QOS;
   const auto& representations = proxy.m_qos.representation.m_value;
-  endpoint.options.unmet = OtherPolicies{.durability = proxy.m_qos.m_durability.kind,
-                                         .liveliness = proxy.m_qos.m_liveliness.kind,
-                                         .has_deadline = proxy.m_qos.m_deadline.period != eprosima::fastrtps::c_TimeInfinite,
-                                         .has_lease = proxy.m_qos.m_liveliness.lease_duration != eprosima::fastrtps::c_TimeInfinite,
-                                         .partitions = proxy.m_qos.m_partition.names(),
-                                         .representations = {representations.begin(), representations.end()}}
-                               .Unmet(is_writer);
+  endpoint.options.unmet =
+      OtherPolicies{.durability = proxy.m_qos.m_durability.kind,
+                    .liveliness = proxy.m_qos.m_liveliness.kind,
+                    .has_deadline = proxy.m_qos.m_deadline.period != eprosima::fastrtps::c_TimeInfinite,
+                    .has_lease = proxy.m_qos.m_liveliness.lease_duration != eprosima::fastrtps::c_TimeInfinite,
+                    .partitions = proxy.m_qos.m_partition.names(),
+                    .representations = {representations.begin(), representations.end()}}
+          .Unmet(is_writer);
   return endpoint;
 }
 
@@ -148,7 +147,8 @@ void FastDiscovery::on_participant_discovery(dds::DomainParticipant*, rtps::Part
   switch (info.status) {
     case rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT:
     case rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT:
-      return TellMember({.id = id, .name = info.info.m_participantName.to_string(), .user_data = TextOf(info.info.m_userData)});
+      return TellMember(
+          {.id = id, .name = info.info.m_participantName.to_string(), .user_data = TextOf(info.info.m_userData)});
     case rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT:
     case rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT:
       return TellMemberGone(id);
@@ -160,7 +160,8 @@ void FastDiscovery::onParticipantAuthentication(dds::DomainParticipant*, rtps::P
   const std::string why = TakeFastRefusal();
   const std::lock_guard lock(mutex_);
   const std::string& name = names_[IdOf(info.guid)];
-  listener_.OnRefused((name.empty() ? "somebody" : name) + ": " + (why.empty() ? "no certificate that is trusted here" : why));
+  listener_.OnRefused((name.empty() ? "somebody" : name) + ": " +
+                      (why.empty() ? "no certificate that is trusted here" : why));
 }
 
 void FastDiscovery::on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {

@@ -52,8 +52,8 @@ class FastDiscovery final : public eprosima::fastdds::dds::DomainParticipantList
   void TellMemberGone(const WireId& id);
 
   WireDiscovery& listener_;
-  std::mutex mutex_;  // Fast DDS calls from several threads
-  std::set<WireId> endpoints_;  // that have been told
+  std::mutex mutex_;                     // Fast DDS calls from several threads
+  std::set<WireId> endpoints_;           // that have been told
   std::map<WireId, std::string> names_;  // of members
 };
 

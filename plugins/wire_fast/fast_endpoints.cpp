@@ -78,7 +78,8 @@ WireIdentity IdentityOf(const rtps::SampleIdentity& identity) {
 rtps::SampleIdentity SampleIdentityOf(const WireIdentity& identity) {
   rtps::SampleIdentity made;
   std::copy_n(identity.writer.begin(), rtps::GuidPrefix_t::size, made.writer_guid().guidPrefix.value);
-  std::copy_n(identity.writer.begin() + rtps::GuidPrefix_t::size, rtps::EntityId_t::size, made.writer_guid().entityId.value);
+  std::copy_n(identity.writer.begin() + rtps::GuidPrefix_t::size, rtps::EntityId_t::size,
+              made.writer_guid().entityId.value);
   if (identity.number > 0) made.sequence_number(rtps::SequenceNumber_t(static_cast<std::uint64_t>(identity.number)));
   return made;
 }
@@ -129,8 +130,14 @@ class Matches {
   std::set<std::uint64_t> matched_;  // guarded by mutex_
 };
 
-WireEndpoint OwnEndpoint(const WireId& id, const FastMember& member, const WireEndpointOptions& options, bool is_writer) {
-  return {.handle = HandleOf(id), .id = id, .participant = member.id(), .is_writer = is_writer, .is_own = true, .options = options};
+WireEndpoint OwnEndpoint(const WireId& id, const FastMember& member, const WireEndpointOptions& options,
+                         bool is_writer) {
+  return {.handle = HandleOf(id),
+          .id = id,
+          .participant = member.id(),
+          .is_writer = is_writer,
+          .is_own = true,
+          .options = options};
 }
 
 class FastWriter final : public WireWriter, private dds::DataWriterListener {
@@ -150,7 +157,8 @@ class FastWriter final : public WireWriter, private dds::DataWriterListener {
     const auto topic = member_.TakeTopic(options.topic, options.type);
     if (!topic) return topic.error();
     topic_ = *topic;
-    writer_ = member_.publisher().create_datawriter(topic_, WriterQosOf(options), this, dds::StatusMask::publication_matched());
+    writer_ = member_.publisher().create_datawriter(topic_, WriterQosOf(options), this,
+                                                    dds::StatusMask::publication_matched());
     if (writer_ == nullptr) return FastError("'" + options.topic + "' cannot be written");
     id_ = IdOf(writer_->guid());
     member_.discovery().Tell(OwnEndpoint(id_, member_, options, true));
@@ -209,7 +217,8 @@ class FastReader final : public WireReader, private dds::DataReaderListener {
     if (!topic) return topic.error();
     topic_ = *topic;
     reader_ = member_.subscriber().create_datareader(topic_, ReaderQosOf(options), this,
-                                                     dds::StatusMask::data_available() << dds::StatusMask::subscription_matched());
+                                                     dds::StatusMask::data_available()
+                                                         << dds::StatusMask::subscription_matched());
     if (reader_ == nullptr) return FastError("'" + options.topic + "' cannot be read");
     id_ = IdOf(reader_->guid());
     member_.discovery().Tell(OwnEndpoint(id_, member_, options, false));
@@ -267,8 +276,9 @@ Result<dds::Topic*> FastMember::TakeTopic(const std::string& name, const std::st
   for (auto& [topic, count] : topics_) {
     if (topic->get_name() != name) continue;
     if (topic->get_type_name() != type) {
-      return Error{.message = "the topic '" + name + "' is of type " + topic->get_type_name() + " here already, and not " + type,
-                   .hint = "Fast DDS has one type for each topic of an application; Cyclone DDS has several"};
+      return Error{
+          .message = "the topic '" + name + "' is of type " + topic->get_type_name() + " here already, and not " + type,
+          .hint = "Fast DDS has one type for each topic of an application; Cyclone DDS has several"};
     }
     ++count;
     return topic;

@@ -5,15 +5,14 @@
 #include <memory>
 #include <utility>
 
-#include <netdb.h>
-#include <sys/socket.h>
-
 #include <fastdds/rtps/network/SenderResource.h>
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
 #include <fastdds/rtps/transport/TransportReceiverInterface.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
+#include <netdb.h>
+#include <sys/socket.h>
 
 #include "plugins/wire/reach_filter.h"
 
@@ -51,8 +50,8 @@ class ReachTransport final : public ChainingTransport {
     hears_ = true;
     return is_open;
   }
-  bool send(SenderResource* low, const octet* octets, std::uint32_t size, LocatorsIterator* begin, LocatorsIterator* end,
-            const std::chrono::steady_clock::time_point& latest) override {
+  bool send(SenderResource* low, const octet* octets, std::uint32_t size, LocatorsIterator* begin,
+            LocatorsIterator* end, const std::chrono::steady_clock::time_point& latest) override {
     return low->send(octets, size, begin, end, latest);
   }
   void receive(TransportReceiverInterface* next, const octet* octets, std::uint32_t size, const Locator_t& local,
@@ -68,14 +67,20 @@ class ReachTransport final : public ChainingTransport {
 
 TransportInterface* ReachDescriptor::create_transport() const { return new ReachTransport(*this); }
 
-constexpr std::uint32_t kRoom = 4'194'304;          // of sockets: for images
+constexpr std::uint32_t kRoom = 4'194'304;           // of sockets: for images
 constexpr std::uint32_t kProcessesOfAMachine = 120;  // that are asked one by one
 constexpr std::uint32_t kMillisecond = 1'000'000;
 constexpr const char* kGroup = "239.255.0.1";
 
 Result<Locator_t> Peer(const std::string& name) {
-  const addrinfo hints{.ai_flags = 0, .ai_family = AF_INET, .ai_socktype = SOCK_DGRAM, .ai_protocol = 0, .ai_addrlen = 0,
-                       .ai_addr = nullptr, .ai_canonname = nullptr, .ai_next = nullptr};
+  const addrinfo hints{.ai_flags = 0,
+                       .ai_family = AF_INET,
+                       .ai_socktype = SOCK_DGRAM,
+                       .ai_protocol = 0,
+                       .ai_addrlen = 0,
+                       .ai_addr = nullptr,
+                       .ai_canonname = nullptr,
+                       .ai_next = nullptr};
   addrinfo* found = nullptr;
   if (const int failed = getaddrinfo(name.c_str(), nullptr, &hints, &found); failed != 0) {
     return Error{.message = "the address '" + name + "' is not known: " + gai_strerror(failed)};
@@ -182,7 +187,8 @@ dds::DataWriterQos WriterQosOf(const WireEndpointOptions& options) {
   SetKept(qos, options.qos);
   SetUserData(qos.user_data(), options.user_data);
   qos.reliability().max_blocking_time = Duration_t(0, 2 * kMillisecond);
-  if (options.qos.lifespan > Duration{}) qos.lifespan().duration = Duration_t(static_cast<long double>(ToSeconds(options.qos.lifespan)));
+  if (options.qos.lifespan > Duration{})
+    qos.lifespan().duration = Duration_t(static_cast<long double>(ToSeconds(options.qos.lifespan)));
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.ownership_strength().value = options.qos.is_exclusive ? static_cast<std::uint32_t>(options.qos.strength) : 0;
   auto& times = qos.reliable_writer_qos().times;

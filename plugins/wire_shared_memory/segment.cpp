@@ -19,14 +19,16 @@ namespace {
 constexpr std::size_t kSize = sizeof(SlotHold<>) * kSlots;
 
 constexpr std::size_t kPage = 4096;
-constexpr std::size_t kHead = 2 * kPage;  // in front of the slots
+constexpr std::size_t kHead = 2 * kPage;              // in front of the slots
 constexpr std::uint64_t kMagic = 0x524e4c5345473032;  // of this layout
 // Plain CDR of this machine's, since engines let nothing else pass, with options that nobody has; then what is no length of
 // a list or a text, so that who does not know of places finds no value in it.
 constexpr std::array<std::byte, 12> kBegin = {std::byte{0},    std::byte{std::endian::native == std::endian::little},
                                               std::byte{0xC0}, std::byte{0x50},
-                                              std::byte{0xFF}, std::byte{0xFF}, std::byte{0xFF}, std::byte{0xFF},
-                                              std::byte{'P'},  std::byte{'l'},  std::byte{'c'},  std::byte{'e'}};
+                                              std::byte{0xFF}, std::byte{0xFF},
+                                              std::byte{0xFF}, std::byte{0xFF},
+                                              std::byte{'P'},  std::byte{'l'},
+                                              std::byte{'c'},  std::byte{'e'}};
 
 struct Head {
   std::uint64_t magic = kMagic;
@@ -102,8 +104,7 @@ std::shared_ptr<const Octets> SegmentPlace::ToOctets() const {
 
 std::optional<SegmentPlace> SegmentPlace::In(std::span<const std::byte> octets) {
   SegmentPlace place;
-  if (octets.size() < kBegin.size() ||
-      std::memcmp(octets.data(), kBegin.data(), kBegin.size()) != 0) {
+  if (octets.size() < kBegin.size() || std::memcmp(octets.data(), kBegin.data(), kBegin.size()) != 0) {
     return {};
   }
   octets = octets.subspan(kBegin.size());
@@ -129,7 +130,8 @@ Result<std::unique_ptr<WrittenSegment>> WrittenSegment::Make(std::size_t room) {
   const std::size_t slot_size = (kLead + room + kPage - 1) / kPage * kPage;
   const std::size_t size = kHead + kSlots * slot_size;
   Descriptor file(memfd_create("runnel values", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  if (!file.is_open() || ftruncate(file.number(), static_cast<off_t>(size)) != 0) return SystemError("there is no shared memory");
+  if (!file.is_open() || ftruncate(file.number(), static_cast<off_t>(size)) != 0)
+    return SystemError("there is no shared memory");
   void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file.number(), 0);
   if (memory == MAP_FAILED) return SystemError("there is no shared memory");
   std::unique_ptr<WrittenSegment> made(new WrittenSegment(std::move(file), static_cast<std::byte*>(memory), slot_size));
@@ -158,8 +160,10 @@ std::optional<std::uint32_t> WrittenSegment::FindSlot(std::uint64_t use) noexcep
       if (holders_->Hold(slot)) continue;
       if (free++ == 0 || uses_[slot] < uses_[oldest]) oldest = slot;
     }
-    if (free < kSpare && in_use_ < kSlots) oldest = in_use_++;
-    else if (free == 0) return {};
+    if (free < kSpare && in_use_ < kSlots)
+      oldest = in_use_++;
+    else if (free == 0)
+      return {};
     if (mark(oldest)) return oldest;
   }
   return {};
@@ -193,7 +197,8 @@ Result<std::shared_ptr<ReadSegment>> ReadSegment::Map(const Descriptor& file, st
   const auto* const begin = static_cast<const std::byte*>(memory);
   std::shared_ptr<ReadSegment> mapped(new ReadSegment(begin, size, std::move(holds), std::move(link)));
   const std::uint64_t slot_size = HeadOf(begin).slot_size;
-  if (HeadOf(begin).magic != kMagic || slot_size <= kLead || slot_size > size || kHead + kSlots * slot_size != size) return none;
+  if (HeadOf(begin).magic != kMagic || slot_size <= kLead || slot_size > size || kHead + kSlots * slot_size != size)
+    return none;
   mapped->slot_size_ = slot_size;
   return mapped;
 }

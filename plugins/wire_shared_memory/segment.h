@@ -91,7 +91,7 @@ using SegmentId = std::array<std::byte, 16>;
 
 /// Where a value lies: what goes over the wire in the place of its octets.
 struct SegmentPlace {
-  SegmentId server{};   // who hands the segment out
+  SegmentId server{};  // who hands the segment out
   SegmentId segment{};
   std::uint64_t use = 0;   // of the slot
   std::uint64_t size = 0;  // octets
@@ -146,7 +146,8 @@ class WrittenSegment {
 class ReadSegment : public std::enable_shared_from_this<ReadSegment> {
  public:
   /// `holds`: where the writer looks what is held; as long as `link` is open. Errors: it is no such memory, whoever has made it.
-  static Result<std::shared_ptr<ReadSegment>> Map(const Descriptor& file, std::unique_ptr<HoldTable> holds, Descriptor link);
+  static Result<std::shared_ptr<ReadSegment>> Map(const Descriptor& file, std::unique_ptr<HoldTable> holds,
+                                                  Descriptor link);
   ~ReadSegment();
 
   /// The octets of the value, which stay as they are as long as anybody has what is returned; nullptr if the value has gone,

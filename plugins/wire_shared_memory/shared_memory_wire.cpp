@@ -88,8 +88,8 @@ class Neighbours {
   /// Whether it is known of a writer that it is there.
   [[nodiscard]] bool IsThere(std::uint64_t writer) const {
     const std::lock_guard lock(mutex_);
-    return std::ranges::any_of(
-        endpoints_, [&](const auto& each) { return each.second.is_writer && each.second.handle == writer; });
+    return std::ranges::any_of(endpoints_,
+                               [&](const auto& each) { return each.second.is_writer && each.second.handle == writer; });
   }
 
  private:
@@ -228,9 +228,8 @@ class Finder {
     auto fetched = FetchSegment(place);
     if (!fetched) return fetched.error();
     // A writer has one at a time.
-    std::erase_if(known_, [&](const Known& each) {
-      return each.writer == writer || !common_.neighbours.IsThere(each.writer);
-    });
+    std::erase_if(known_,
+                  [&](const Known& each) { return each.writer == writer || !common_.neighbours.IsThere(each.writer); });
     if (known_.size() >= kMost) known_.erase(known_.begin());
     known_.push_back({place.segment, writer, std::move(*fetched)});
     return known_.back().segment;
@@ -256,10 +255,11 @@ class SharingParticipant final : public WireParticipant, private WireDiscovery {
   [[nodiscard]] const WireId& id() const noexcept override { return inner_->id(); }
   Result<std::unique_ptr<WireWriter>> MakeWriter(const WireEndpointOptions& options, OnMatched on_matched) override {
     auto writer = std::make_unique<SharingWriter>(common_, options);
-    auto inner = inner_->MakeWriter(options, [raw = writer.get(), on_matched = std::move(on_matched)](std::size_t count) {
-      raw->OnMatched(count);
-      if (on_matched) on_matched(count);
-    });
+    auto inner =
+        inner_->MakeWriter(options, [raw = writer.get(), on_matched = std::move(on_matched)](std::size_t count) {
+          raw->OnMatched(count);
+          if (on_matched) on_matched(count);
+        });
     if (!inner) return inner.error();
     writer->Begin(std::move(*inner));
     return std::unique_ptr<WireWriter>(std::move(writer));
@@ -267,7 +267,8 @@ class SharingParticipant final : public WireParticipant, private WireDiscovery {
   Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options, OnSample on_sample,
                                                  OnMatched on_matched) override {
     auto finder = std::make_shared<Finder>(common_, std::move(on_sample));
-    return inner_->MakeReader(options, [finder](const WireSample& sample) { (*finder)(sample); }, std::move(on_matched));
+    return inner_->MakeReader(
+        options, [finder](const WireSample& sample) { (*finder)(sample); }, std::move(on_matched));
   }
 
  private:

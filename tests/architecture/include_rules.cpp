@@ -60,8 +60,8 @@ bool MayUseBullet(std::string_view file) {
 // fmt is the standard's <format>, which this compiler does not have yet.
 bool IsAllowedInAlgorithms(const std::string& header) {
   static const std::regex standard("[a-z0-9_]+");
-  return std::regex_match(header, standard) || header.starts_with("Eigen/") ||
-         header == "fmt/format.h" || IsBullet(header);
+  return std::regex_match(header, standard) || header.starts_with("Eigen/") || header == "fmt/format.h" ||
+         IsBullet(header);
 }
 
 // What is wrong with an include in angle brackets; "" if nothing is.
@@ -74,9 +74,7 @@ std::string OffenceOfForeign(const Include& include, const IncludeRule& rule) {
 }
 
 // The test library's headers may stand in quotation marks too.
-bool IsGoogleTest(const std::string& target) {
-  return target.starts_with("gtest/") || target.starts_with("gmock/");
-}
+bool IsGoogleTest(const std::string& target) { return target.starts_with("gtest/") || target.starts_with("gmock/"); }
 
 // The folder that an internal header belongs to, "" for others.
 std::string OwnerOfInternal(const std::string& target) {
@@ -98,16 +96,14 @@ std::string Offence(const Include& include, const IncludeRule& rule, const Sourc
   }
   const IncludeRule* const other = RuleOf(include.target, rules);
   if (other == &rule) return "";
-  const bool allowed = std::ranges::any_of(rule.may_include, [&](const std::string& folder) {
-    return IsAtOrBelow(include.target, folder);
-  });
+  const bool allowed = std::ranges::any_of(
+      rule.may_include, [&](const std::string& folder) { return IsAtOrBelow(include.target, folder); });
   return allowed ? "" : rule.name + " may not know \"" + include.target + "\"";
 }
 
 }  // namespace
 
-std::vector<std::string> IncludeOffences(const SourceTree& tree,
-                                         const std::vector<IncludeRule>& rules) {
+std::vector<std::string> IncludeOffences(const SourceTree& tree, const std::vector<IncludeRule>& rules) {
   std::vector<std::string> offences;
   for (const auto& [file, text] : tree) {
     if (IsCode(file) && RuleOf(file, rules) == nullptr) {

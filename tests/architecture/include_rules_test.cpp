@@ -66,9 +66,7 @@ TEST(IncludeRulesTest, PluginsKnowOnlyTheirDeclaredNeighbours) {
   EXPECT_EQ(Planted("plugins/scheduling/thread.h", tag).size(), 1u);
   EXPECT_EQ(Planted("plugins/parameters/parameter.h", tag).size(), 1u);
   EXPECT_THAT(Planted("plugins/finroc_files/reader.h", tag), IsEmpty());
-  EXPECT_EQ(
-      Planted("plugins/scheduling/thread.h", "#include \"plugins/finroc_files/reader.h\"").size(),
-      1u);
+  EXPECT_EQ(Planted("plugins/scheduling/thread.h", "#include \"plugins/finroc_files/reader.h\"").size(), 1u);
 }
 
 TEST(IncludeRulesTest, AlgorithmsKnowNoFramework) {
@@ -93,20 +91,14 @@ TEST(IncludeRulesTest, OnlyTheSimulationKnowsThePhysicsEngine) {
 
 TEST(IncludeRulesTest, OfThePluginsModulesKnowTheParametersOnly) {
   const std::string file = "modules/planning/planner.h";
-  EXPECT_THAT(
-      Planted(file, "#include \"plugins/scheduling/thread.h\""),
-      ElementsAre(HasSubstr("modules/planning may not know \"plugins/scheduling/thread.h\"")));
+  EXPECT_THAT(Planted(file, "#include \"plugins/scheduling/thread.h\""),
+              ElementsAre(HasSubstr("modules/planning may not know \"plugins/scheduling/thread.h\"")));
   EXPECT_EQ(Planted(file, "#include \"plugins/application_files/tag.h\"").size(), 1u);
 }
 
 TEST(IncludeRulesTest, FamiliesOfModulesDoNotKnowEachOther) {
-  EXPECT_EQ(
-      Planted("modules/planning/planner.h", "#include \"modules/simulation/algorithm/world.cpp\"")
-          .size(),
-      1u);
-  EXPECT_EQ(Planted("modules/simulation/algorithm/world.cpp",
-                    "#include \"modules/planning/algorithm/bug.h\"")
-                .size(),
+  EXPECT_EQ(Planted("modules/planning/planner.h", "#include \"modules/simulation/algorithm/world.cpp\"").size(), 1u);
+  EXPECT_EQ(Planted("modules/simulation/algorithm/world.cpp", "#include \"modules/planning/algorithm/bug.h\"").size(),
             1u);
 }
 
@@ -116,8 +108,7 @@ TEST(IncludeRulesTest, ProgramsKnowNoModules) {
 
 TEST(IncludeRulesTest, InternalFoldersBelongToTheirLibrary) {
   const std::string internal = "#include \"plugins/scheduling/internal/flow.h\"";
-  EXPECT_THAT(Planted("apps/runnel/main.cpp", internal),
-              ElementsAre(HasSubstr("is internal to plugins/scheduling")));
+  EXPECT_THAT(Planted("apps/runnel/main.cpp", internal), ElementsAre(HasSubstr("is internal to plugins/scheduling")));
   EXPECT_THAT(Planted("plugins/scheduling/thread.h", internal), IsEmpty());
 }
 

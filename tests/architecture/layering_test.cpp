@@ -24,29 +24,19 @@ TEST(LayeringTest, TheTreeIsThere) {
   EXPECT_GT(Tree().size(), 100u);
 }
 
-TEST(LayeringTest, EachPartKnowsOnlyWhatItMayKnow) {
-  EXPECT_THAT(IncludeOffences(Tree(), ProjectRules()), IsEmpty());
-}
+TEST(LayeringTest, EachPartKnowsOnlyWhatItMayKnow) { EXPECT_THAT(IncludeOffences(Tree(), ProjectRules()), IsEmpty()); }
 
-TEST(LayeringTest, NoPartsKnowEachOtherInACircle) {
-  EXPECT_THAT(Circles(Tree(), ProjectRules()), IsEmpty());
-}
+TEST(LayeringTest, NoPartsKnowEachOtherInACircle) { EXPECT_THAT(Circles(Tree(), ProjectRules()), IsEmpty()); }
 
-TEST(LayeringTest, NoLibraryIsTooLarge) {
-  EXPECT_THAT(TooLargeLibraries(Tree(), kLargestLibrary), IsEmpty());
-}
+TEST(LayeringTest, NoLibraryIsTooLarge) { EXPECT_THAT(TooLargeLibraries(Tree(), kLargestLibrary), IsEmpty()); }
 
 TEST(LayeringTest, NoFileIsTooLong) { EXPECT_THAT(TooLongFiles(Tree(), kLongestFile), IsEmpty()); }
 
 TEST(LayeringTest, TheRootHoldsNothingElse) { EXPECT_THAT(StrayFiles(Tree()), IsEmpty()); }
 
-TEST(LayeringTest, EachLibrarySaysWhatItIs) {
-  EXPECT_THAT(LibrariesWithoutReadme(Tree()), IsEmpty());
-}
+TEST(LayeringTest, EachLibrarySaysWhatItIs) { EXPECT_THAT(LibrariesWithoutReadme(Tree()), IsEmpty()); }
 
-TEST(LayeringTest, NothingIsLeftOfOneMachineOrUnfinished) {
-  EXPECT_THAT(ForbiddenText(Tree()), IsEmpty());
-}
+TEST(LayeringTest, NothingIsLeftOfOneMachineOrUnfinished) { EXPECT_THAT(ForbiddenText(Tree()), IsEmpty()); }
 
 TEST(LayeringTest, EachHeaderIsReadOnce) { EXPECT_THAT(HeadersWithoutGuard(Tree()), IsEmpty()); }
 

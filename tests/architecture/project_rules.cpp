@@ -5,9 +5,8 @@ namespace runnel::test {
 namespace {
 
 // Bottom to top: each may know those before it.
-const std::vector<std::string> kCoreOrder = {
-    "base", "xml", "types", "conversion", "lockfree", "element", "channel", "port", "paths",
-    "log",  "module", "plugin"};
+const std::vector<std::string> kCoreOrder = {"base",    "xml",  "types", "conversion", "lockfree", "element",
+                                             "channel", "port", "paths", "log",        "module",   "plugin"};
 
 void AddCore(std::vector<IncludeRule>& rules) {
   std::vector<std::string> below;
@@ -23,11 +22,13 @@ void AddApplication(std::vector<IncludeRule>& rules) {
   // is attached from outside, by files of these names.
   const std::vector<std::string> application = {"core",
                                                 "plugins/application",
-                                                "plugins/application_files", "plugins/application_tags",
+                                                "plugins/application_files",
+                                                "plugins/application_tags",
                                                 "plugins/command_service",
                                                 "plugins/control",
                                                 "plugins/parameters",
-                                                "plugins/scheduling", "plugins/timing",
+                                                "plugins/scheduling",
+                                                "plugins/timing",
                                                 "plugins/structure",
                                                 "plugins/supervision",
                                                 "plugins/values/watched_port.h"};
@@ -41,15 +42,14 @@ void AddApplication(std::vector<IncludeRule>& rules) {
   attached("the trace of an application", "plugins/tracing/application_", {"plugins/tracing"});
   attached("the real-time check of an application", "plugins/real_time_check/application_",
            {"plugins/real_time_check"});
-  attached("FINROC's form of an application", "plugins/finroc_files/application_",
-           {"plugins/finroc_files"});
+  attached("FINROC's form of an application", "plugins/finroc_files/application_", {"plugins/finroc_files"});
   attached("recordings of an application", "plugins/recording/application_",
            {"plugins/mcap", "plugins/recording", "plugins/values/port_patterns.h"});
-  attached("the network of an application", "plugins/network/application_",
-           {"plugins/cdr_values", "plugins/network", "plugins/ros_messages/names.h", "plugins/ros_messages/node_messages.h",
-            "plugins/ros_services/service_endpoints.h", "plugins/wire", "plugins/wire_shared_memory/shared_memory_wire.h"});
-  attached("plugins/viewers", "plugins/viewers",
-           {"plugins/foxglove", "plugins/inspector", "plugins/web_server"});
+  attached(
+      "the network of an application", "plugins/network/application_",
+      {"plugins/cdr_values", "plugins/network", "plugins/ros_messages/names.h", "plugins/ros_messages/node_messages.h",
+       "plugins/ros_services/service_endpoints.h", "plugins/wire", "plugins/wire_shared_memory/shared_memory_wire.h"});
+  attached("plugins/viewers", "plugins/viewers", {"plugins/foxglove", "plugins/inspector", "plugins/web_server"});
 }
 
 void AddPlugins(std::vector<IncludeRule>& rules) {
@@ -58,7 +58,10 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    "plugins/behaviours/xml_",
                    {"core", "plugins/application", "plugins/application_files", "plugins/behaviours"}});
   rules.push_back({"plugins/behaviours/algorithm", "plugins/behaviours/algorithm", {}, true});
-  rules.push_back({"plugins/behaviours", "plugins/behaviours", {"core", "plugins/parameters", "plugins/behaviours/algorithm", "plugins/model_checker", "plugins/scheduling"}});
+  rules.push_back(
+      {"plugins/behaviours",
+       "plugins/behaviours",
+       {"core", "plugins/parameters", "plugins/behaviours/algorithm", "plugins/model_checker", "plugins/scheduling"}});
   rules.push_back({"plugins/model_checker", "plugins/model_checker", {"core"}});
   rules.push_back({"plugins/values", "plugins/values", {"core"}});
   rules.push_back({"plugins/cdr_values", "plugins/cdr_values", {"core"}});
@@ -66,21 +69,20 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/services", "plugins/services", {"core"}});
   rules.push_back({"plugins/genom_execution", "plugins/genom_execution", {"core/base", "core/lockfree"}});
   rules.push_back({"plugins/genom_standalone", "plugins/genom_standalone", {"core", "plugins/genom_execution"}});
-  rules.push_back({"plugins/genom_modules",
-                   "plugins/genom_modules",
-                   {"core", "plugins/genom_execution", "plugins/parameters", "plugins/scheduling", "plugins/services"}});
+  rules.push_back(
+      {"plugins/genom_modules",
+       "plugins/genom_modules",
+       {"core", "plugins/genom_execution", "plugins/parameters", "plugins/scheduling", "plugins/services"}});
   rules.push_back({"plugins/genom_text", "plugins/genom_text", {"core"}});
   rules.push_back({"plugins/genom_templates", "plugins/genom_templates", {"core", "plugins/genom_text/file_text.h"}});
-  rules.push_back(
-      {"plugins/genom_description", "plugins/genom_description", {"core", "plugins/genom_text"}});
+  rules.push_back({"plugins/genom_description", "plugins/genom_description", {"core", "plugins/genom_text"}});
   rules.push_back({"plugins/blackboards", "plugins/blackboards", {"core", "plugins/services"}});
   rules.push_back({"plugins/foxglove",
                    "plugins/foxglove",
                    {"core", "plugins/command_service", "plugins/services/callable.h", "plugins/structure",
                     "plugins/values", "plugins/web_server"}});
-  rules.push_back({"plugins/application_files",
-                   "plugins/application_files",
-                   {"core", "plugins/parameters", "plugins/structure"}});
+  rules.push_back(
+      {"plugins/application_files", "plugins/application_files", {"core", "plugins/parameters", "plugins/structure"}});
   rules.push_back({"plugins/application_tags",
                    "plugins/application_tags",
                    {"core", "plugins/application_files", "plugins/parameters", "plugins/scheduling", "plugins/timing",
@@ -98,7 +100,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    "plugins/testing",
                    {"core", "plugins/real_time_check", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/crash_report", "plugins/crash_report", {"core", "plugins/scheduling", "plugins/timing"}});
-  rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/manifest", "plugins/scheduling", "plugins/timing"}});
+  rules.push_back(
+      {"plugins/structure", "plugins/structure", {"core", "plugins/manifest", "plugins/scheduling", "plugins/timing"}});
   rules.push_back(
       {"plugins/tracing", "plugins/tracing", {"core", "plugins/values", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/command_service",
@@ -113,38 +116,43 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/wire", "plugins/wire", {"core"}});
   rules.push_back({"the words of networks",
                    "plugins/network/xml_",
-                   {"core", "plugins/application_files", "plugins/network", "plugins/network_discovery", "plugins/ros_messages/message_library.h", "plugins/ros_messages/names.h",
-                    "plugins/ros_services", "plugins/services", "plugins/structure", "plugins/values/port_patterns.h", "plugins/wire"}});
+                   {"core", "plugins/application_files", "plugins/network", "plugins/network_discovery",
+                    "plugins/ros_messages/message_library.h", "plugins/ros_messages/names.h", "plugins/ros_services",
+                    "plugins/services", "plugins/structure", "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/network",
                    "plugins/network",
-                   {"core", "plugins/cdr_values", "plugins/network_discovery", "plugins/ros_messages", "plugins/ros_services", "plugins/services/callable.h",
-                    "plugins/values/json_writer.h", "plugins/values/port_patterns.h", "plugins/wire"}});
-  rules.push_back({"plugins/network_discovery",
-                   "plugins/network_discovery",
-                   {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/values/port_patterns.h", "plugins/wire"}});
+                   {"core", "plugins/cdr_values", "plugins/network_discovery", "plugins/ros_messages",
+                    "plugins/ros_services", "plugins/services/callable.h", "plugins/values/json_writer.h",
+                    "plugins/values/port_patterns.h", "plugins/wire"}});
+  rules.push_back(
+      {"plugins/network_discovery",
+       "plugins/network_discovery",
+       {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/ros_services",
                    "plugins/ros_services",
-                   {"core", "plugins/cdr_values", "plugins/network_discovery", "plugins/ros_messages", "plugins/services", "plugins/wire"}});
+                   {"core", "plugins/cdr_values", "plugins/network_discovery", "plugins/ros_messages",
+                    "plugins/services", "plugins/wire"}});
   rules.push_back({"plugins/wire_shared_memory", "plugins/wire_shared_memory", {"core", "plugins/wire"}});
   rules.push_back({"plugins/wire_cyclone", "plugins/wire_cyclone", {"core", "plugins/wire"}});
   rules.push_back({"plugins/wire_fast", "plugins/wire_fast", {"core", "plugins/wire"}});
   rules.push_back({"plugins/python", "plugins/python", {"core"}});
   rules.push_back({"plugins/recording",
                    "plugins/recording",
-                   {"core", "plugins/values", "plugins/mcap", "plugins/application_files",
-                    "plugins/parameters", "plugins/scheduling", "plugins/services", "plugins/structure", "plugins/timing"}});
+                   {"core", "plugins/values", "plugins/mcap", "plugins/application_files", "plugins/parameters",
+                    "plugins/scheduling", "plugins/services", "plugins/structure", "plugins/timing"}});
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
+  rules.push_back({"the tags of the inspector",
+                   "plugins/inspector/xml_",
+                   {"core", "plugins/inspector", "plugins/application_files", "plugins/web_server"}});
   rules.push_back(
-      {"the tags of the inspector",
-       "plugins/inspector/xml_",
-       {"core", "plugins/inspector", "plugins/application_files", "plugins/web_server"}});
-  rules.push_back({"plugins/inspector",
-                   "plugins/inspector",
-                   {"core", "plugins/command_service", "plugins/manifest", "plugins/services/callable.h", "plugins/values",
-                    "plugins/scheduling", "plugins/timing", "plugins/structure", "plugins/web_server"}});
-  rules.push_back({"plugins/supervision",
-                   "plugins/supervision",
-                   {"core", "plugins/parameters/value_to_save.h", "plugins/scheduling", "plugins/timing", "plugins/structure"}});
+      {"plugins/inspector",
+       "plugins/inspector",
+       {"core", "plugins/command_service", "plugins/manifest", "plugins/services/callable.h", "plugins/values",
+        "plugins/scheduling", "plugins/timing", "plugins/structure", "plugins/web_server"}});
+  rules.push_back(
+      {"plugins/supervision",
+       "plugins/supervision",
+       {"core", "plugins/parameters/value_to_save.h", "plugins/scheduling", "plugins/timing", "plugins/structure"}});
 }
 
 // A family of modules knows the framework, the types that all share, and itself. Neighbours that a
@@ -152,8 +160,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
 void AddFamily(std::vector<IncludeRule>& rules, const std::string& name,
                const std::vector<std::string>& neighbours = {}) {
   const std::string folder = "modules/" + name;
-  rules.push_back(
-      {folder + "/algorithm", folder + "/algorithm", {"modules/types/algorithm"}, true});
+  rules.push_back({folder + "/algorithm", folder + "/algorithm", {"modules/types/algorithm"}, true});
   std::vector<std::string> may_include = {"core", "plugins/parameters", "modules/types", folder};
   may_include.insert(may_include.end(), neighbours.begin(), neighbours.end());
   rules.push_back({folder, folder, may_include});
@@ -171,10 +178,8 @@ void AddModules(std::vector<IncludeRule>& rules) {
   AddFamily(rules, "places", {"plugins/blackboards", "plugins/services"});
   AddFamily(rules, "simulation", {"plugins/values"});  // the referee's result
   // Worlds made and measured: no modules, and what a world is, the simulation says.
-  rules.push_back({"modules/worlds",
-                   "modules/worlds",
-                   {"modules/types/algorithm", "modules/simulation/algorithm"},
-                   true});
+  rules.push_back(
+      {"modules/worlds", "modules/worlds", {"modules/types/algorithm", "modules/simulation/algorithm"}, true});
 }
 
 std::vector<IncludeRule> MakeProjectRules() {

@@ -24,16 +24,15 @@ std::vector<std::string> TooLongFiles(const SourceTree& tree, std::size_t limit)
   std::vector<std::string> files;
   for (const auto& [file, text] : tree) {
     const std::size_t count = Lines(text).size();
-    if (IsCode(file) && count > limit)
-      files.push_back(file + ": " + std::to_string(count) + " lines");
+    if (IsCode(file) && count > limit) files.push_back(file + ": " + std::to_string(count) + " lines");
   }
   return files;
 }
 
 std::vector<std::string> StrayFiles(const SourceTree& tree) {
-  static const std::set<std::string> known = {".clang-format", ".clang-tidy", ".gitignore",
-                                              "CHANGELOG.md", "CMakeLists.txt", "CMakePresets.json",
-                                              "LICENSE", "README.md", "check", "demo",
+  static const std::set<std::string> known = {".clang-format", ".clang-tidy", ".gitignore", "CHANGELOG.md",
+                                              "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "check",
+                                              "demo",
                                               // Of one's own, never of the project.
                                               "CMakeUserPresets.json", "compile_commands.json"};
   std::vector<std::string> stray;
@@ -65,9 +64,20 @@ std::vector<std::string> ForbiddenText(const SourceTree& tree) {
   };
   // Written so that they do not match themselves.
   static const std::vector<Pattern> patterns = {
-      {{"/wo" "rk/", "/ro" "ot/", "/ho" "me/"},
-       std::regex("(^|[^A-Za-z0-9_.}])/(work|root|home)/"), "a path of one machine"},
-      {{"TO" "DO", "FIX" "ME", "XX" "X"},
+      {{"/wo"
+        "rk/",
+        "/ro"
+        "ot/",
+        "/ho"
+        "me/"},
+       std::regex("(^|[^A-Za-z0-9_.}])/(work|root|home)/"),
+       "a path of one machine"},
+      {{"TO"
+        "DO",
+        "FIX"
+        "ME",
+        "XX"
+        "X"},
        std::regex("\\b(TO"
                   "DO|FIX"
                   "ME|XX"

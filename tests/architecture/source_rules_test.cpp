@@ -39,8 +39,8 @@ TEST(SourceRulesTest, PathsOfOneMachineAreFound) {
   const SourceTree tree = {{"README.md", "fine\nsee " + work + "\n"},
                            {"a.cmake", "set(x \"" + work + "\")\n"},
                            {"b.md", "the frame" + work + " of reference, and ${HOME}" + work}};
-  EXPECT_THAT(ForbiddenText(tree), ElementsAre("README.md:2: a path of one machine",
-                                               "a.cmake:1: a path of one machine"));
+  EXPECT_THAT(ForbiddenText(tree),
+              ElementsAre("README.md:2: a path of one machine", "a.cmake:1: a path of one machine"));
 }
 
 TEST(SourceRulesTest, MarksOfUnfinishedThingsAreFound) {
@@ -61,15 +61,13 @@ TEST(SourceRulesTest, NotesLeftBehindAreFound) {
 }
 
 TEST(SourceRulesTest, LongFilesAreFound) {
-  const SourceTree tree = {{"core/port/a.h", ManyLines(10)},
-                           {"tests/core/b.cpp", ManyLines(11)},
-                           {"core/port/README.md", ManyLines(100)}};
+  const SourceTree tree = {
+      {"core/port/a.h", ManyLines(10)}, {"tests/core/b.cpp", ManyLines(11)}, {"core/port/README.md", ManyLines(100)}};
   EXPECT_THAT(TooLongFiles(tree, 10), ElementsAre("tests/core/b.cpp: 11 lines"));
 }
 
 TEST(SourceRulesTest, HeadersNeedTheirGuard) {
-  EXPECT_THAT(HeadersWithoutGuard({{"core/a.h", "#pragma once\n"}, {"core/b.h", "int x;\n"}}),
-              ElementsAre("core/b.h"));
+  EXPECT_THAT(HeadersWithoutGuard({{"core/a.h", "#pragma once\n"}, {"core/b.h", "int x;\n"}}), ElementsAre("core/b.h"));
 }
 
 }  // namespace

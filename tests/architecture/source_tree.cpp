@@ -14,8 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::set<std::string> kTops{"apps",    "bench",   "core",  "docs",
-                                  "modules", "plugins", "tests", "xml"};
+const std::set<std::string> kTops{"apps", "bench", "core", "docs", "modules", "plugins", "tests", "xml"};
 
 bool IsOfTree(const fs::path& name) {
   // ".git" is a file in a worktree.
@@ -76,8 +75,7 @@ std::string LibraryOf(std::string_view file) {
 }
 
 bool IsAtOrBelow(std::string_view file, std::string_view folder) {
-  return file == folder ||
-         (file.starts_with(folder) && file.substr(folder.size()).starts_with('/'));
+  return file == folder || (file.starts_with(folder) && file.substr(folder.size()).starts_with('/'));
 }
 
 std::vector<std::string_view> Lines(std::string_view text) {

@@ -23,8 +23,7 @@ class SourceTreeTest : public testing::Test {
   }
   // False where git is not there.
   bool Git(const std::string& words) {
-    return std::system(
-               ("git -C '" + folder_.path().string() + "' " + words + " 2>/dev/null").c_str()) == 0;
+    return std::system(("git -C '" + folder_.path().string() + "' " + words + " 2>/dev/null").c_str()) == 0;
   }
 
   TemporaryFolder folder_;
@@ -36,9 +35,8 @@ TEST_F(SourceTreeTest, IsWhatGitTracks) {
   }
   if (!Git("init -q")) GTEST_SKIP() << "git is not there";
   ASSERT_TRUE(Git("add README.md core/port/input.h"));
-  EXPECT_THAT(
-      ReadSourceTree(folder_.path()),
-      ElementsAre(Pair("README.md", "README.md"), Pair("core/port/input.h", "core/port/input.h")));
+  EXPECT_THAT(ReadSourceTree(folder_.path()),
+              ElementsAre(Pair("README.md", "README.md"), Pair("core/port/input.h", "core/port/input.h")));
 }
 
 TEST_F(SourceTreeTest, LeavesOutWhatIsTrackedButGone) {
@@ -51,9 +49,8 @@ TEST_F(SourceTreeTest, LeavesOutWhatIsTrackedButGone) {
 
 TEST_F(SourceTreeTest, IsAllThatLiesInAnUnpackedArchive) {
   for (const char* name : {"README.md", "core/port/input.h", "build/core/object.o"}) Write(name);
-  EXPECT_THAT(
-      ReadSourceTree(folder_.path()),
-      ElementsAre(Pair("README.md", "README.md"), Pair("core/port/input.h", "core/port/input.h")));
+  EXPECT_THAT(ReadSourceTree(folder_.path()),
+              ElementsAre(Pair("README.md", "README.md"), Pair("core/port/input.h", "core/port/input.h")));
 }
 
 }  // namespace

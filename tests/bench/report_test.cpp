@@ -22,8 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-Measurement Time(const std::string& workload, Role role, const std::string& by,
-                 std::vector<double> samples) {
+Measurement Time(const std::string& workload, Role role, const std::string& by, std::vector<double> samples) {
   return {"group", {workload}, {role, by}, TimeQuantity(), std::move(samples)};
 }
 
@@ -201,8 +200,8 @@ TEST(Charts, AreDrawnForEachWorkloadAndFamily) {
     names.push_back(entry.path().filename());
     EXPECT_GT(entry.file_size(), 100u);
   }
-  EXPECT_THAT(names, ::testing::UnorderedElementsAre("index.html", "work_time.svg",
-                                                     "other_work_time.svg", "publishing_time.svg"));
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("index.html", "work_time.svg", "other_work_time.svg",
+                                                     "publishing_time.svg"));
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ void UseApplication(const ApplicationChoice& choice, const std::function<void(Ru
     supervisor.emplace(runtime, *scheduler, perform);
     return AddRules(application, *scheduler, *supervisor);
   };
-  const BuildOutcome built = BuildApplication(
-      *document, folder, {runtime, plugins, tags, configuration}, BuildMode::kConstruct);
+  const BuildOutcome built =
+      BuildApplication(*document, folder, {runtime, plugins, tags, configuration}, BuildMode::kConstruct);
   if (built.application == nullptr) throw std::runtime_error(built.diagnostics.ToString());
   auto ready = schedule(*built.application);
   if (ready) ready = MakeApplicationReady(*built.application);

@@ -31,8 +31,8 @@ struct ApplicationRun {
   std::optional<RunOutcome> outcome;  ///< nothing if the time limit came first, or a fault's stop
   std::vector<Pose2> truth;           ///< where the robot really was, after each cycle
   std::vector<Fault> faults;
-  std::vector<Notice> notices;  ///< of what was done about faults and silence
-  bool was_stopped = false;     ///< by a fault rule
+  std::vector<Notice> notices;                             ///< of what was done about faults and silence
+  bool was_stopped = false;                                ///< by a fault rule
   std::vector<std::pair<Duration, std::string>> warnings;  ///< and errors of the log, since the start
   Duration duration{};
 };

@@ -5,9 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include <unistd.h>
-
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "plugins/application/application_description.h"
 #include "plugins/behaviours/network.h"
@@ -85,25 +84,28 @@ TEST(NetworkCheckTest, FindsBehavioursThatCanNeverBeActive) {
   const std::string nobody = With(Demo(), "<connect from=\"drive/activity\" to=\"avoid/stimulation\"/>", "");
   EXPECT_THAT(FlawsOf(nobody),
               ElementsAre("/behaviour_demo/network/avoid: can never be active: nothing stimulates it"));
-  const std::string nobody_who_could = With(
-      nobody, "to=\"drive/inhibition1 follow_wall/stimulation\"",
-      "to=\"drive/inhibition1\"/><connect from=\"avoid/activity\" to=\"follow_wall/stimulation\"");
+  const std::string nobody_who_could =
+      With(nobody, "to=\"drive/inhibition1 follow_wall/stimulation\"",
+           "to=\"drive/inhibition1\"/><connect from=\"avoid/activity\" to=\"follow_wall/stimulation\"");
   EXPECT_THAT(FlawsOf(nobody_who_could),
               ::testing::Contains("/behaviour_demo/network/follow_wall: can never be active: only network/avoid would "
                                   "stimulate it, which can never be active"));
   const std::string itself = With(Demo(), "to=\"avoid/stimulation\"", "to=\"avoid/stimulation avoid/inhibition1\"");
-  EXPECT_THAT(FlawsOf(itself), ElementsAre(AllOf(HasSubstr("network/avoid: can never be fully active"),
-                                                 HasSubstr("network/drive, without which it is not active, inhibits it"))));
+  EXPECT_THAT(FlawsOf(itself),
+              ElementsAre(AllOf(HasSubstr("network/avoid: can never be fully active"),
+                                HasSubstr("network/drive, without which it is not active, inhibits it"))));
 }
 
 TEST(NetworkCheckTest, FindsLoopsThatCanOscillate) {
-  const std::string loop = With(Demo(), "to=\"avoid/stimulation\"/>",
-                                "to=\"avoid/stimulation\"/><connect from=\"motion/activity\" to=\"escape/stimulation\"/>"
-                                "<connect from=\"avoid/activity\" to=\"drive/inhibition1\" late=\"true\"/>");
+  const std::string loop =
+      With(Demo(), "to=\"avoid/stimulation\"/>",
+           "to=\"avoid/stimulation\"/><connect from=\"motion/activity\" to=\"escape/stimulation\"/>"
+           "<connect from=\"avoid/activity\" to=\"drive/inhibition1\" late=\"true\"/>");
   const std::string without_others = With(loop, "drive/inhibition1 follow_wall/stimulation", "follow_wall/stimulation");
-  EXPECT_THAT(FlawsOf(without_others),
-              ::testing::Contains(AllOf(HasSubstr("can oscillate"), HasSubstr("network/avoid inhibits network/drive, which "
-                                                                              "activates network/avoid"))));
+  EXPECT_THAT(
+      FlawsOf(without_others),
+      ::testing::Contains(AllOf(HasSubstr("can oscillate"), HasSubstr("network/avoid inhibits network/drive, which "
+                                                                      "activates network/avoid"))));
   const std::string even = With(Demo(), "to=\"avoid/stimulation\"/>",
                                 "to=\"avoid/stimulation\"/>"
                                 "<connect from=\"drive/activity\" to=\"escape/inhibition1\" late=\"true\"/>");
@@ -111,19 +113,22 @@ TEST(NetworkCheckTest, FindsLoopsThatCanOscillate) {
   const std::string both_late = With(even, "to=\"drive/inhibition1 follow_wall/stimulation\"/>",
                                      "to=\"follow_wall/stimulation\"/>"
                                      "<connect from=\"escape/activity\" to=\"drive/inhibition1\" late=\"true\"/>");
-  EXPECT_THAT(FlawsOf(both_late), Not(::testing::Contains(HasSubstr("can oscillate")))) << "one of the two runs behind the other";
-  const std::string apart = With(With(even, "<module name=\"escape\"", "<module name=\"escape\" thread=\"other\""), "<thread ",
-                                 "<thread name=\"other\" period=\"50ms\"/> <thread ");
+  EXPECT_THAT(FlawsOf(both_late), Not(::testing::Contains(HasSubstr("can oscillate"))))
+      << "one of the two runs behind the other";
+  const std::string apart = With(With(even, "<module name=\"escape\"", "<module name=\"escape\" thread=\"other\""),
+                                 "<thread ", "<thread name=\"other\" period=\"50ms\"/> <thread ");
   EXPECT_THAT(FlawsOf(apart), ::testing::Contains(AllOf(HasSubstr("can oscillate, for all go on and off together"),
-                                                        HasSubstr("; 2 of these can come a cycle late")))) << "two threads";
+                                                        HasSubstr("; 2 of these can come a cycle late"))))
+      << "two threads";
 }
 
 TEST(NetworkCheckTest, FindsTwoOnOneActuatorWithoutFusion) {
   const std::string both =
       With(Demo(), "<connect from=\"safe_motion/out\" to=\"twist\"/>",
            "<connect from=\"safe_motion/out\" to=\"twist\"/><connect from=\"avoid/twist\" to=\"twist\"/>");
-  EXPECT_THAT(FlawsOf(both), ElementsAre("/behaviour_demo/gate/input/wanted: network/safe_motion and network/avoid command "
-                                         "it, and can be active at once without a fusion"));
+  EXPECT_THAT(FlawsOf(both),
+              ElementsAre("/behaviour_demo/gate/input/wanted: network/safe_motion and network/avoid command "
+                          "it, and can be active at once without a fusion"));
   const std::string by_turns =
       With(Demo(), "<connect from=\"safe_motion/out\" to=\"twist\"/>",
            "<connect from=\"drive/twist\" to=\"twist\"/><connect from=\"follow_wall/twist\" to=\"twist\"/>");
@@ -168,25 +173,28 @@ TEST(NetworkPropertyTest, HoldInTheDemonstration) {
 TEST(NetworkPropertyTest, DoesNotHoldWhereAnInhibitionComesLate) {
   if (!HasSpin()) GTEST_SKIP() << "the package spin is not here";
   const std::string never = DemoWith("<never active=\"drive follow_wall\"/>");
-  const std::string late = With(never, "to=\"drive/inhibition1 follow_wall/stimulation\"/>",
-                                "to=\"follow_wall/stimulation\"/><connect from=\"escape/activity\" to=\"drive/inhibition1\" late=\"true\"/>");
+  const std::string late = With(
+      never, "to=\"drive/inhibition1 follow_wall/stimulation\"/>",
+      "to=\"follow_wall/stimulation\"/><connect from=\"escape/activity\" to=\"drive/inhibition1\" late=\"true\"/>");
   EXPECT_THAT(FlawsOf(late), ElementsAre(HasSubstr("<never> can be: ")));
-  const std::string apart = With(With(never, "<module name=\"escape\"", "<module name=\"escape\" thread=\"other\""), "<thread ",
-                                 "<thread name=\"other\" period=\"50ms\"/> <thread ");
+  const std::string apart = With(With(never, "<module name=\"escape\"", "<module name=\"escape\" thread=\"other\""),
+                                 "<thread ", "<thread name=\"other\" period=\"50ms\"/> <thread ");
   EXPECT_THAT(FlawsOf(apart), ElementsAre(HasSubstr("<never> can be: ")));
 }
 
 // Somebody has forgotten a connection: the model checker tells what comes of it.
 TEST(NetworkPropertyTest, ASeededFaultIsToldAsTheBehavioursThatFollowEachOther) {
   if (!HasSpin()) GTEST_SKIP() << "the package spin is not here";
-  const std::string forgotten = With(DemoWith("<never active=\"drive follow_wall\"/>"),
-                                     "to=\"drive/inhibition1 follow_wall/stimulation\"", "to=\"follow_wall/stimulation\"");
+  const std::string forgotten =
+      With(DemoWith("<never active=\"drive follow_wall\"/>"), "to=\"drive/inhibition1 follow_wall/stimulation\"",
+           "to=\"follow_wall/stimulation\"");
   EXPECT_THAT(FlawsOf(forgotten), ElementsAre("/behaviour_demo: <never> can be: network/drive, network/escape, "
                                               "network/follow_wall, network/motion, network/safe_motion"));
-  const std::string for_ever = With(DemoWith("<eventually active=\"drive\" after=\"escape\"/>"),
-                                    "<connect from=\"drive/activity\" to=\"avoid/stimulation\"/>",
-                                    "<connect from=\"drive/activity\" to=\"avoid/stimulation\"/>"
-                                    "<connect from=\"emergency_stop/activity\" to=\"drive/inhibition2\" late=\"true\"/>");
+  const std::string for_ever =
+      With(DemoWith("<eventually active=\"drive\" after=\"escape\"/>"),
+           "<connect from=\"drive/activity\" to=\"avoid/stimulation\"/>",
+           "<connect from=\"drive/activity\" to=\"avoid/stimulation\"/>"
+           "<connect from=\"emergency_stop/activity\" to=\"drive/inhibition2\" late=\"true\"/>");
   const std::string two = With(for_ever, "<module name=\"drive\" type=\"behaviours/drive_to_goal\">",
                                "<module name=\"drive\" type=\"behaviours/drive_to_goal\">"
                                "<parameter name=\"inhibitions\" value=\"2\"/>");

@@ -58,17 +58,16 @@ TEST_P(BugWorlds, EndsWithTheRightVerdict) {
 }
 
 std::vector<Journey> AllJourneys() {
-  constexpr std::pair<const char*, const char*> kWorlds[] = {
-      {"unreachable.xml", "unreachable"},
-      {"one_obstacle.xml", "reached"},
-      {"met_again.xml", "reached"},
-      {"cup.xml", "reached"},
-      {"open.xml", "reached"},
-      {"goal_too_near_wall.xml", "unreachable"},
-      {"comb.xml", "reached"},
-      {"corridor.xml", "reached"},
-      {"rooms.xml", "reached"},
-      {"spiral.xml", "reached"}};
+  constexpr std::pair<const char*, const char*> kWorlds[] = {{"unreachable.xml", "unreachable"},
+                                                             {"one_obstacle.xml", "reached"},
+                                                             {"met_again.xml", "reached"},
+                                                             {"cup.xml", "reached"},
+                                                             {"open.xml", "reached"},
+                                                             {"goal_too_near_wall.xml", "unreachable"},
+                                                             {"comb.xml", "reached"},
+                                                             {"corridor.xml", "reached"},
+                                                             {"rooms.xml", "reached"},
+                                                             {"spiral.xml", "reached"}};
   std::vector<Journey> journeys;
   for (const char* planner : {"bug1", "bug2"}) {
     for (const char* application : {"bug_demo.xml", "bug_infrared.xml"}) {
@@ -78,8 +77,7 @@ std::vector<Journey> AllJourneys() {
     }
   }
   // The paper's worlds, for the other variants (Com need not end).
-  for (const char* planner :
-       {"alg1", "alg2", "dist_bug", "tangent_bug", "rev1", "rev2", "class1"}) {
+  for (const char* planner : {"alg1", "alg2", "dist_bug", "tangent_bug", "rev1", "rev2", "class1"}) {
     for (const char* application : {"bug_demo.xml", "bug_infrared.xml"}) {
       for (int world = 0; world < 3; ++world) {
         journeys.push_back({planner, application, kWorlds[world].first, kWorlds[world].second});
@@ -90,8 +88,7 @@ std::vector<Journey> AllJourneys() {
 }
 
 std::string NameOf(const testing::TestParamInfo<Journey>& journey) {
-  std::string name = std::string(journey.param.planner) + "_" + journey.param.application + "_" +
-                     journey.param.world;
+  std::string name = std::string(journey.param.planner) + "_" + journey.param.application + "_" + journey.param.world;
   for (char& character : name) {
     if (std::isalnum(static_cast<unsigned char>(character)) == 0) character = '_';
   }
@@ -143,8 +140,7 @@ TEST(Application, TakesTheGoalFromTheCommandLine) {
 TEST(Application, EndsByItsTimeLimit) {
   ApplicationChoice choice = ChoiceFor({"bug2", "bug_demo.xml", "open.xml", ""});
   choice.replace.push_back(
-      {"<parameter name=\"picture\"",
-       "<parameter name=\"time_limit\" value=\"3\"/> <parameter name=\"picture\""});
+      {"<parameter name=\"picture\"", "<parameter name=\"time_limit\" value=\"3\"/> <parameter name=\"picture\""});
   const auto run = RunApplication(choice);
   ASSERT_TRUE(run.outcome);
   EXPECT_EQ(run.outcome->verdict, "timeout");

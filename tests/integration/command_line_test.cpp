@@ -30,17 +30,14 @@ class CommandLine : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove(file_); }
 
-  std::filesystem::path file_ =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".xml");
+  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) /
+                                (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".xml");
 };
 
 TEST_F(CommandLine, RunEndsWithVerdictPathAndTime) {
-  const std::string picture =
-      testing::TempDir() + "command_line_test_" + std::to_string(getpid()) + ".svg";
+  const std::string picture = testing::TempDir() + "command_line_test_" + std::to_string(getpid()) + ".svg";
   std::filesystem::remove(picture);
-  const Ended ended =
-      Runnel("run --fast " + kDemo + "world=" RUNNEL_XML "/worlds/open.xml picture=" + picture);
+  const Ended ended = Runnel("run --fast " + kDemo + "world=" RUNNEL_XML "/worlds/open.xml picture=" + picture);
   EXPECT_EQ(ended.code, kDone) << ended.text;
   EXPECT_THAT(ended.text, HasSubstr("reached: path "));
   EXPECT_THAT(ended.text, HasSubstr("times real time"));
@@ -103,8 +100,7 @@ TEST_F(CommandLine, CheckTellsOfFilesThatAreNotThereAndOfSettingsThatCannotBeUse
 
 TEST_F(CommandLine, RunThatFailsEndsWithOne) {
   const Ended ended =
-      Runnel("run --fast " + kDemo +
-             "world=" RUNNEL_XML "/worlds/unreachable.xml expected=reached picture=");
+      Runnel("run --fast " + kDemo + "world=" RUNNEL_XML "/worlds/unreachable.xml expected=reached picture=");
   EXPECT_EQ(ended.code, kRunFailed) << ended.text;
   EXPECT_THAT(ended.text, HasSubstr("unreachable: path "));
 }
@@ -178,9 +174,8 @@ TEST_F(CommandLine, CheckOfGoodFilesIsDone) {
 TEST_F(CommandLine, ModulesListsTypesWithPortsAndParameters) {
   const Ended ended = Runnel("modules motion");
   EXPECT_EQ(ended.code, kDone);
-  EXPECT_THAT(ended.text,
-              AllOf(HasSubstr("motion/command_gate"), HasSubstr("wanted"), HasSubstr("Twist2"),
-                    HasSubstr("wanted_timeout"), HasSubstr("0 .. 3600"), Not(HasSubstr("planning/"))));
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("motion/command_gate"), HasSubstr("wanted"), HasSubstr("Twist2"),
+                                HasSubstr("wanted_timeout"), HasSubstr("0 .. 3600"), Not(HasSubstr("planning/"))));
 }
 
 TEST_F(CommandLine, ModulesAreToldToProgramsAsJson) {
@@ -204,8 +199,8 @@ TEST_F(CommandLine, HelpAndVersionAreDone) {
 }
 
 TEST_F(CommandLine, NumbersThatNoClockCouldHoldAreRefused) {
-  for (const char* option : {"--duration 1e10", "--duration 0", "--duration -1", "--duration nan",
-                             "--speed 1e-300", "--speed 1e7", "--speed -1"}) {
+  for (const char* option : {"--duration 1e10", "--duration 0", "--duration -1", "--duration nan", "--speed 1e-300",
+                             "--speed 1e7", "--speed -1"}) {
     const Ended ended = Runnel(std::string("run ") + option + " " + kDemo);
     EXPECT_EQ(ended.code, kBadInput) << option;
     const std::string number = std::string(option).substr(std::string(option).find(' ') + 1);
@@ -235,8 +230,7 @@ TEST_F(CommandLine, ProgressIsToldOnceASecond) {
 TEST_F(CommandLine, QuietRunsTellOnlyHowTheyEnded) {
   const Ended ended = Runnel("run --quiet --speed 200 " + kDemo + "picture=");
   EXPECT_THAT(ended.text, MatchesRegex("reached: path [0-9.]+ m, time [0-9.]+ s\n"));
-  EXPECT_EQ(Runnel("run --quiet --fast --duration 1 " + kDemo + "picture=").text,
-            "the time is up\n");
+  EXPECT_EQ(Runnel("run --quiet --fast --duration 1 " + kDemo + "picture=").text, "the time is up\n");
 }
 
 TEST_F(CommandLine, StatisticsTellOfEachThread) {
@@ -254,8 +248,7 @@ TEST_F(CommandLine, ConfigurationFilesGiveValuesToParameters) {
   std::ifstream demo(RUNNEL_XML "/apps/bug_demo.xml");
   std::string text{std::istreambuf_iterator<char>(demo), {}};
   const std::string referee = "<module name=\"referee\" type=\"simulation/referee\">";
-  text.insert(text.find(referee) + referee.size(),
-              "<parameter name=\"time_limit\" config=\"/limits/time\"/>");
+  text.insert(text.find(referee) + referee.size(), "<parameter name=\"time_limit\" config=\"/limits/time\"/>");
   std::ofstream(application) << text;
   const Ended ended = Runnel("run --fast --config " + configuration + application.string() +
                              " picture= world=" RUNNEL_XML "/worlds/open.xml");
@@ -280,8 +273,7 @@ TEST_F(CommandLine, TheSameRunInAnotherProcessIsTheSameBitForBit) {
     std::vector<std::string> pictures;
     for (const char* name : {"first.svg", "second.svg"}) {
       const std::filesystem::path picture = file_.string() + name;
-      const Ended ended = Runnel("run --fast --quiet " + application +
-                                 "world=" RUNNEL_XML "/worlds/one_obstacle.xml " +
+      const Ended ended = Runnel("run --fast --quiet " + application + "world=" RUNNEL_XML "/worlds/one_obstacle.xml " +
                                  "noise=0.01 picture=" + picture.string());
       EXPECT_THAT(ended.text, HasSubstr(": path ")) << ended.text;
       pictures.push_back(ContentOf(picture));

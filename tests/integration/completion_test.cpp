@@ -23,10 +23,9 @@ using testing::Not;
 // What is offered for the last of `words`.
 std::vector<std::string> Completed(const std::string& words) {
   const std::string program = RUNNEL_PROGRAM;
-  const std::string script =
-      "export PATH=\"" + program.substr(0, program.rfind('/')) +
-      ":$PATH\"; cd " RUNNEL_XML "; source " RUNNEL_COMPLETION "; COMP_WORDS=(runnel " + words +
-      "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _runnel; printf \"%s\\n\" \"${COMPREPLY[@]}\"";
+  const std::string script = "export PATH=\"" + program.substr(0, program.rfind('/')) +
+                             ":$PATH\"; cd " RUNNEL_XML "; source " RUNNEL_COMPLETION "; COMP_WORDS=(runnel " + words +
+                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _runnel; printf \"%s\\n\" \"${COMPREPLY[@]}\"";
   FILE* const pipe = popen(("bash -c '" + script + "' 2>&1").c_str(), "r");
   std::string text;
   std::array<char, 4096> block{};
@@ -59,7 +58,8 @@ TEST(Completion, CarriesOutNothingThatStandsInAFile) {
   const auto folder = std::filesystem::path(testing::TempDir()) / ("completion_test_" + std::to_string(getpid()));
   std::filesystem::create_directory(folder);
   const std::string file = folder / "app.xml", made = folder / "made";
-  std::ofstream(file) << "<parameter command_line=\"$(touch${IFS}" << made << ")\"/>\n<parameter command_line=\"speed\"/>\n";
+  std::ofstream(file) << "<parameter command_line=\"$(touch${IFS}" << made
+                      << ")\"/>\n<parameter command_line=\"speed\"/>\n";
   EXPECT_THAT(Completed("run " + file + " s"), ElementsAre("speed="));
   EXPECT_FALSE(std::filesystem::exists(made));
   std::filesystem::remove_all(folder);

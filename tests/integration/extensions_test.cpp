@@ -33,8 +33,8 @@ TEST_F(ExtensionsOfARun, AreNotInAProcessThatNeedsNone) {
   ASSERT_TRUE(program.WaitFor("paused"));
   const std::string maps = program.Maps();
   EXPECT_THAT(maps, HasSubstr("/librunnel_application.so"));
-  for (const char* file : {"inspector", "web_server", "foxglove", "mcap", "recording", "tracing",
-                           "finroc", "viewers"}) {
+  for (const char* file :
+       {"inspector", "web_server", "foxglove", "mcap", "recording", "tracing", "finroc", "viewers"}) {
     EXPECT_THAT(maps, Not(HasSubstr(file)));
   }
 }
@@ -42,8 +42,8 @@ TEST_F(ExtensionsOfARun, AreNotInAProcessThatNeedsNone) {
 TEST_F(ExtensionsOfARun, AreLoadedByTheirOptions) {
   Program program(kPausedDemo + "--inspect=0");
   ASSERT_TRUE(program.WaitFor("paused"));
-  EXPECT_THAT(program.Maps(), AllOf(HasSubstr("/viewers.so"), HasSubstr("/librunnel_inspector.so"),
-                                    Not(HasSubstr("mcap"))));
+  EXPECT_THAT(program.Maps(),
+              AllOf(HasSubstr("/viewers.so"), HasSubstr("/librunnel_inspector.so"), Not(HasSubstr("mcap"))));
 }
 
 TEST_F(ExtensionsOfARun, AreLoadedWhenATerminalWantsARecording) {
@@ -51,8 +51,7 @@ TEST_F(ExtensionsOfARun, AreLoadedWhenATerminalWantsARecording) {
   ASSERT_TRUE(program.WaitFor("paused"));
   ASSERT_THAT(program.Maps(), Not(HasSubstr("mcap")));
   Program recording("record -o " + (folder_ / "run.mcap").string());
-  WaitUntil("the recording has begun",
-            [&] { return std::filesystem::exists(folder_ / "run.mcap"); });
+  WaitUntil("the recording has begun", [&] { return std::filesystem::exists(folder_ / "run.mcap"); });
   EXPECT_THAT(program.Maps(), HasSubstr("/librunnel_mcap.so"));
   recording.WaitUntilHandles(SIGINT, true);
   recording.Send(SIGINT);
@@ -68,8 +67,8 @@ TEST_F(ExtensionsOfARun, ThatAreNotInstalledAreToldByName) {
   std::ofstream(folder_ / "app.xml") << "<application name=\"a\"><radar/></application>";
   const auto run = [&](const std::string& arguments) {
     const std::string said = folder_ / "said";
-    const std::string command = "RUNNEL_PLUGIN_PATH=" + folder_.path().string() +
-                                " " RUNNEL_PROGRAM " " + arguments + " >" + said + " 2>&1";
+    const std::string command =
+        "RUNNEL_PLUGIN_PATH=" + folder_.path().string() + " " RUNNEL_PROGRAM " " + arguments + " >" + said + " 2>&1";
     EXPECT_NE(std::system(command.c_str()), 0);
     std::ifstream stream(said);
     return std::string(std::istreambuf_iterator<char>(stream), {});

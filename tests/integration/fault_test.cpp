@@ -10,10 +10,8 @@ namespace {
 /// bug_demo with a relay between adaptor and planner that fails after 5 s.
 ApplicationChoice WithFaultyRelay(const std::string& rule) {
   return {.name = "bug_demo.xml",
-          .replace = {{"<load plugin=\"motion\"/>",
-                       "<load plugin=\"motion\"/> <load plugin=\"faulty\"/>"},
-                      {"<module name=\"gate\"",
-                       "<module name=\"relay\" type=\"faulty/relay\"/> <module name=\"gate\""},
+          .replace = {{"<load plugin=\"motion\"/>", "<load plugin=\"motion\"/> <load plugin=\"faulty\"/>"},
+                      {"<module name=\"gate\"", "<module name=\"relay\" type=\"faulty/relay\"/> <module name=\"gate\""},
                       {"from=\"eyes/surroundings\" to=\"planner/surroundings\"",
                        "from=\"eyes/surroundings\" to=\"relay/in\"/> <connect from=\"relay/out\" "
                        "to=\"planner/surroundings\""},
@@ -40,16 +38,15 @@ TEST(Fault, StopsItsModuleAloneAndTheGateStopsTheRobot) {
 }
 
 TEST(Fault, StopsTheApplicationWhereItSaysSo) {
-  const auto run =
-      RunApplication(WithFaultyRelay("<on_fault of=\"robot\" action=\"quit\"/>"));
+  const auto run = RunApplication(WithFaultyRelay("<on_fault of=\"robot\" action=\"quit\"/>"));
   EXPECT_TRUE(run.was_stopped);
   EXPECT_FALSE(run.outcome);
   EXPECT_LT(run.duration, std::chrono::milliseconds(5200));
 }
 
 TEST(Fault, SetsAParameterWhereItSaysSo) {
-  const auto run = RunApplication(
-      WithFaultyRelay("<on_fault of=\"robot/relay\" set=\"robot/gate/stop\" value=\"true\"/>"));
+  const auto run =
+      RunApplication(WithFaultyRelay("<on_fault of=\"robot/relay\" set=\"robot/gate/stop\" value=\"true\"/>"));
   EXPECT_FALSE(run.was_stopped);
   EXPECT_LT(RecentWay(run, 100), 1e-6);
 }

@@ -32,7 +32,8 @@ TEST_F(GenerateCommand, ChecksDescriptions) {
   EXPECT_EQ(good.code, 0) << good.text;
   EXPECT_THAT(good.text, HasSubstr("right.gen: no errors"));
 
-  const std::string wrong = Write("wrong.gen", "component wrong {\n  port in sped wanted;\n  task t { period -1; };\n};\n");
+  const std::string wrong =
+      Write("wrong.gen", "component wrong {\n  port in sped wanted;\n  task t { period -1; };\n};\n");
   const Ended bad = Runnel("check " + wrong);
   EXPECT_EQ(bad.code, kBadInput);
   EXPECT_THAT(bad.text, AllOf(HasSubstr("wrong.gen:2:11: error: unknown type 'sped'"), HasSubstr("wrong.gen:3:19"),
@@ -41,11 +42,15 @@ TEST_F(GenerateCommand, ChecksDescriptions) {
 
 TEST_F(GenerateCommand, HasAModelCheckerLookAtComponents) {
   if (std::system("spin -V > /dev/null 2>&1") != 0) GTEST_SKIP() << "the package spin is not here";
-  const std::string file = Write("c.gen", "component c { task t;\n  activity a() { task t; codel<start> k() yield pause::start;\n"
-                                          "    codel<stop> s() yield pause::stop; };\n};\n");
+  const std::string file =
+      Write("c.gen",
+            "component c { task t;\n  activity a() { task t; codel<start> k() yield pause::start;\n"
+            "    codel<stop> s() yield pause::stop; };\n};\n");
   EXPECT_EQ(Runnel("check " + file).code, kBadInput) << "a stop that cannot end is refused without it";
-  const std::string sleeps = Write("d.gen", "component d { task t;\n  activity a() { task t; codel<start> k() yield pause::start;\n"
-                                            "    codel<stop> s() yield pause::end_; codel<end_> e() yield ether; };\n};\n");
+  const std::string sleeps =
+      Write("d.gen",
+            "component d { task t;\n  activity a() { task t; codel<start> k() yield pause::start;\n"
+            "    codel<stop> s() yield pause::end_; codel<end_> e() yield ether; };\n};\n");
   EXPECT_EQ(Runnel("check " + sleeps).code, kDone);
   const Ended found = Runnel("check --spin " + sleeps);
   EXPECT_EQ(found.code, kBadInput);
@@ -68,9 +73,11 @@ TEST_F(GenerateCommand, AMissingPackageIsTold) {
 }
 
 TEST_F(GenerateCommand, ADescriptionWithoutAComponentIsTold) {
-  const Ended ended = Runnel("generate mappings -o " + (folder_ / "made").string() + " " + Write("t.gen", "typedef double speed;\n"));
+  const Ended ended =
+      Runnel("generate mappings -o " + (folder_ / "made").string() + " " + Write("t.gen", "typedef double speed;\n"));
   EXPECT_EQ(ended.code, kBadInput);
-  EXPECT_THAT(ended.text, HasSubstr("t.gen: error: template 'mappings' makes nothing of this; does it describe a component?"));
+  EXPECT_THAT(ended.text,
+              HasSubstr("t.gen: error: template 'mappings' makes nothing of this; does it describe a component?"));
 }
 
 TEST_F(GenerateCommand, EntersAComponentThatWasNotMadeHere) {

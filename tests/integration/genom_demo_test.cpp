@@ -29,7 +29,8 @@ class GenomDemo : public testing::Test {
   /// The parameter follows the attribute in one of the next cycles.
   static std::string Limits(const std::string& awaited) {
     std::string text;
-    for (int tries = 0; tries < 600 && text.find(awaited) == std::string::npos; ++tries) text = Runnel("get /guide/parameter/set_limits").text;
+    for (int tries = 0; tries < 600 && text.find(awaited) == std::string::npos; ++tries)
+      text = Runnel("get /guide/parameter/set_limits").text;
     return text;
   }
 
@@ -56,7 +57,8 @@ TEST_F(GenomDemo, IsSentInterruptedResumedAndSwapped) {
   ASSERT_TRUE(going.WaitFor("0 % "));
   EXPECT_THAT(Runnel("activities").text, HasSubstr("/guide/output/go_to: 0 % "));
   int aborted = kRunFailed;
-  for (int tries = 0; tries < 100 && aborted != kDone; ++tries) aborted = Runnel("activities --abort /guide/go_to").code;
+  for (int tries = 0; tries < 100 && aborted != kDone; ++tries)
+    aborted = Runnel("activities --abort /guide/go_to").code;
   EXPECT_EQ(aborted, kDone);
   EXPECT_EQ(going.Wait().code, kDone) << "its codel of `stop` has come to ether";
   EXPECT_THAT(Trip(), HasSubstr("to: {x: 5.6, y: 0.5}"));
@@ -92,15 +94,17 @@ TEST_F(GenomDemo, DoesTheSameInAReplayWithItsCalls) {
   ASSERT_TRUE(going.WaitFor("0 % "));
   EXPECT_EQ(Runnel("call /guide/set_limits '{limits: {speed: 0.3, turn_rate: 1}}'").code, kDone);
   int aborted = kRunFailed;
-  for (int tries = 0; tries < 100 && aborted != kDone; ++tries) aborted = Runnel("activities --abort /guide/go_to").code;
+  for (int tries = 0; tries < 100 && aborted != kDone; ++tries)
+    aborted = Runnel("activities --abort /guide/go_to").code;
   EXPECT_EQ(aborted, kDone);
   EXPECT_EQ(going.Wait().code, kDone);
   const Ended arrived = Runnel("call /guide/go_to '{to: {x: -4.5, y: -0.5}}' --timeout 1000s");
   EXPECT_EQ(arrived.code, kDone) << arrived.text;
   EXPECT_EQ(Runnel("quit").code, kDone);
   (void)program.Wait();
-  const Ended replayed = Runnel("replay " + recording + " " + demo_ +
-                                " --ports localisation/pose --ports eyes/surroundings --rate 0 --quiet --record " + again);
+  const Ended replayed =
+      Runnel("replay " + recording + " " + demo_ +
+             " --ports localisation/pose --ports eyes/surroundings --rate 0 --quiet --record " + again);
   EXPECT_EQ(replayed.code, kDone) << replayed.text;
   EXPECT_THAT(replayed.text, HasSubstr(" calls"));
   for (const char* port : {"/genom_demo/guide/output/twist", "/genom_demo/guide/output/go_to_calls",

@@ -19,14 +19,14 @@ TEST_P(HotPath, AllocatesNothingAfterStartUp) {
   int cycles = 0;
   std::size_t allocations = 0;
   std::optional<AllocationGuard> guard;
-  const auto run = RunApplication(
-      {.name = GetParam(),
-       .arguments = {"world=" RUNNEL_XML "/worlds/one_obstacle.xml", "noise=0.01", "picture="},
-       .before_step = [&] { guard.emplace(); },
-       .after_step =
-           [&] {
-             if (++cycles > kStartUp) allocations += guard->allocations();
-           }});
+  const auto run =
+      RunApplication({.name = GetParam(),
+                      .arguments = {"world=" RUNNEL_XML "/worlds/one_obstacle.xml", "noise=0.01", "picture="},
+                      .before_step = [&] { guard.emplace(); },
+                      .after_step =
+                          [&] {
+                            if (++cycles > kStartUp) allocations += guard->allocations();
+                          }});
   ASSERT_TRUE(run.outcome);
   EXPECT_GT(cycles, 10 * kStartUp);
   EXPECT_EQ(allocations, 0u);

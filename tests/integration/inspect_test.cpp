@@ -47,8 +47,7 @@ class Inspect : public testing::Test {
 
   std::filesystem::path file_ =
       std::filesystem::path(testing::TempDir()) /
-      (std::string("inspect_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
-       ".xml");
+      (std::string("inspect_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".xml");
 };
 
 TEST_F(Inspect, ShowsThePageAndTalksWhileItRuns) {
@@ -108,8 +107,7 @@ TEST_F(Inspect, APortOfTheFileThatIsTakenIsReplacedWithANotice) {
   const auto other = WebServer::Start({.port = 0}, {}, {});
   ASSERT_TRUE(other);
   const std::string port = std::to_string((*other)->port());
-  const Ended ended =
-      Runnel("run --fast " + Write("<inspector port=\"" + port + "\" read_only=\"true\"/>"));
+  const Ended ended = Runnel("run --fast " + Write("<inspector port=\"" + port + "\" read_only=\"true\"/>"));
   EXPECT_EQ(ended.code, 0) << ended.text;
   EXPECT_THAT(ended.text, HasSubstr("warning: port " + port + " of 127.0.0.1 is taken"));
   EXPECT_THAT(ended.text, HasSubstr("the inspector takes "));
@@ -124,25 +122,21 @@ TEST_F(Inspect, IsLeftOutIfTheCommandLineSaysSo) {
 }
 
 TEST_F(Inspect, WhatIsWrongInTheFileIsToldWithItsPlace) {
-  const Ended ended = Runnel(
-      "check " +
-      Write("<inspector port=\"99999\" address=\"here\" token=\"short\" read_only=\"no\"/>"));
+  const Ended ended =
+      Runnel("check " + Write("<inspector port=\"99999\" address=\"here\" token=\"short\" read_only=\"no\"/>"));
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.text, HasSubstr("read_only"));
-  const Ended values =
-      Runnel("check " + Write("<inspector port=\"99999\" address=\"here\" token=\"short\"/>"));
+  const Ended values = Runnel("check " + Write("<inspector port=\"99999\" address=\"here\" token=\"short\"/>"));
   EXPECT_EQ(values.code, 2);
   EXPECT_THAT(values.text, HasSubstr("'99999' is not a port"));
   EXPECT_THAT(values.text, HasSubstr("'here' is not an address"));
   EXPECT_THAT(values.text, HasSubstr("the token cannot be used"));
-  EXPECT_THAT(Runnel("check " + Write("<inspector/><inspector/>")).text,
-              HasSubstr("there is an inspector already"));
+  EXPECT_THAT(Runnel("check " + Write("<inspector/><inspector/>")).text, HasSubstr("there is an inspector already"));
 }
 
 TEST_F(Inspect, PlacesThatAreNoneAreRefused) {
-  for (const char* option :
-       {"--inspect=x", "--inspect=1.2.3:80", "--inspect=99999", "--inspect --inspect-token=short",
-        "--inspect=0 --no-inspect --hold"}) {
+  for (const char* option : {"--inspect=x", "--inspect=1.2.3:80", "--inspect=99999", "--inspect --inspect-token=short",
+                             "--inspect=0 --no-inspect --hold"}) {
     const Ended ended = Runnel("run --fast " + std::string(option) + " " + kUndrawnDemo);
     EXPECT_EQ(ended.code, 2) << option << ended.text;
   }
@@ -153,8 +147,8 @@ TEST_F(Inspect, TokensComeFromAFileAndHaveRoles) {
   std::ofstream(file) << "look:just-look-7\ndrive:green-car-7\n";
   std::filesystem::permissions(file, std::filesystem::perms::owner_read);
   const std::uint16_t port = FreePort();
-  Program program("run --fast --hold --inspect=" + std::to_string(port) +
-                  " --inspect-token-file=" + file + " " + kUndrawnDemo);
+  Program program("run --fast --hold --inspect=" + std::to_string(port) + " --inspect-token-file=" + file + " " +
+                  kUndrawnDemo);
   ASSERT_TRUE(program.WaitFor("held for viewers"));
   const auto access = [&](const std::string& token) {
     return RawClient(port).Get("/access", "Authorization: Bearer " + token + "\r\n");
@@ -166,18 +160,15 @@ TEST_F(Inspect, TokensComeFromAFileAndHaveRoles) {
   const Ended ended = program.Wait();
   EXPECT_EQ(ended.code, 0) << ended.text;
   EXPECT_THAT(ended.text, Not(HasSubstr("-7")));
-  std::filesystem::permissions(file, std::filesystem::perms::others_read,
-                               std::filesystem::perm_options::add);
-  const Ended refused =
-      Runnel("run --fast --inspect=0 --inspect-token-file=" + file + " " + kUndrawnDemo);
+  std::filesystem::permissions(file, std::filesystem::perms::others_read, std::filesystem::perm_options::add);
+  const Ended refused = Runnel("run --fast --inspect=0 --inspect-token-file=" + file + " " + kUndrawnDemo);
   EXPECT_EQ(refused.code, 2) << refused.text;
   EXPECT_THAT(refused.text, AllOf(HasSubstr(file), HasSubstr("chmod 600")));
   std::filesystem::remove(file);
 }
 
 TEST_F(Inspect, ATokenThatIsMadeStandsInAFileAndNotInTheOutput) {
-  const Ended ended =
-      Runnel("run --fast --inspect=0.0.0.0:0 --inspect-insecure " + kUndrawnDemo);
+  const Ended ended = Runnel("run --fast --inspect=0.0.0.0:0 --inspect-insecure " + kUndrawnDemo);
   EXPECT_EQ(ended.code, 0) << ended.text;
   const std::string before = "(and #token=…, which is in ";
   const std::size_t found = ended.text.find(before);

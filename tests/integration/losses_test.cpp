@@ -37,9 +37,21 @@ using namespace std::chrono_literals;
 constexpr Duration kLost = 6s, kBack = 36s, kEnd = 48s;
 constexpr Duration kStated = 1500ms;  // the time-out of 0.5 s, then drive and body come to rest
 
-enum class Loss { kNeverComes, kCeases, kDisconnected, kStale, kNotMeasured, kPartly, kNoNumber, kDeleted, kSwapped, kStuck };
-constexpr std::array kLosses = {Loss::kNeverComes, Loss::kCeases,   Loss::kDisconnected, Loss::kStale,   Loss::kNotMeasured,
-                                Loss::kPartly,     Loss::kNoNumber, Loss::kDeleted,      Loss::kSwapped, Loss::kStuck};
+enum class Loss {
+  kNeverComes,
+  kCeases,
+  kDisconnected,
+  kStale,
+  kNotMeasured,
+  kPartly,
+  kNoNumber,
+  kDeleted,
+  kSwapped,
+  kStuck
+};
+constexpr std::array kLosses = {Loss::kNeverComes,  Loss::kCeases, Loss::kDisconnected, Loss::kStale,
+                                Loss::kNotMeasured, Loss::kPartly, Loss::kNoNumber,     Loss::kDeleted,
+                                Loss::kSwapped,     Loss::kStuck};
 
 Spoil SpoilOf(const OnTheWay& value, Loss loss) {
   if (loss == Loss::kNoNumber) return value.no_number;
@@ -97,12 +109,17 @@ class Losing {
   void Begin(RunningApplication& run) {
     switch (loss_) {
       case Loss::kNeverComes:
-      case Loss::kDisconnected: return Apply(run, {DisconnectPorts{value_.output, value_.input}});
-      case Loss::kDeleted: return Apply(run, {DeleteElement{value_.source}});
+      case Loss::kDisconnected:
+        return Apply(run, {DisconnectPorts{value_.output, value_.input}});
+      case Loss::kDeleted:
+        return Apply(run, {DeleteElement{value_.source}});
       case Loss::kSwapped:
-        return Apply(run, {ReplaceModule{.path = value_.source, .type = FindModuleType(ElementAt(run.application, value_.source))}});
-      case Loss::kCeases: return Pause(run, true);
-      default: return Hold(run);
+        return Apply(run, {ReplaceModule{.path = value_.source,
+                                         .type = FindModuleType(ElementAt(run.application, value_.source))}});
+      case Loss::kCeases:
+        return Pause(run, true);
+      default:
+        return Hold(run);
     }
   }
   /// In each cycle, as somebody does who measures nothing, with a new stamp each time.
@@ -112,13 +129,17 @@ class Losing {
   void End(RunningApplication& run) {
     switch (loss_) {
       case Loss::kNeverComes:
-      case Loss::kDisconnected: return Apply(run, {ConnectPorts{value_.output, value_.input}});
+      case Loss::kDisconnected:
+        return Apply(run, {ConnectPorts{value_.output, value_.input}});
       case Loss::kDeleted:
         if (const auto undone = run.history.Undo(); !undone) throw std::runtime_error(undone.diagnostics.ToString());
         return;
-      case Loss::kSwapped: return;
-      case Loss::kCeases: return Pause(run, false);
-      default: PortAt(run.application, value_.output).Release();
+      case Loss::kSwapped:
+        return;
+      case Loss::kCeases:
+        return Pause(run, false);
+      default:
+        PortAt(run.application, value_.output).Release();
     }
   }
 
@@ -252,12 +273,12 @@ void ExpectStands(const std::string& cell) {
 
 // Who drives in the place of another has measurements of its own.
 TEST(Losses, WhoDrivesInsteadStandsWithoutItsMeasurements) {
-  const ApplicationRun run = RunApplication(
-      {.name = "behaviour_demo.xml",
-       .arguments = {"world=" RUNNEL_XML "/worlds/rooms.xml", "picture="},
-       .limit = kBack,
-       .changes = {{kLost, {DisconnectPorts{"/network/drive/twist", "/network/motion/in1"}}},
-                   {20s, {DisconnectPorts{"/eyes/surroundings", "/network/surroundings"}}}}});
+  const ApplicationRun run =
+      RunApplication({.name = "behaviour_demo.xml",
+                      .arguments = {"world=" RUNNEL_XML "/worlds/rooms.xml", "picture="},
+                      .limit = kBack,
+                      .changes = {{kLost, {DisconnectPorts{"/network/drive/twist", "/network/motion/in1"}}},
+                                  {20s, {DisconnectPorts{"/eyes/surroundings", "/network/surroundings"}}}}});
   EXPECT_GT(Moved(run, kLost + 4s, 20s), 0.5);
   EXPECT_LE(Moved(run, 20s + kStated, kBack), 1e-6);
   EXPECT_GE(run.duration, kBack) << "nor has it met anything";
@@ -266,8 +287,8 @@ TEST(Losses, WhoDrivesInsteadStandsWithoutItsMeasurements) {
 TEST(Losses, TheTableThatIsPrintedHasTheseRows) {
   auto printed = Printed();
   EXPECT_THAT(printed["value"], testing::ElementsAre("never comes", "ceases", "disconnected", "stale", "not measured",
-                                                     "partly not measured", "no number", "source deleted", "source swapped",
-                                                     "source stuck"));
+                                                     "partly not measured", "no number", "source deleted",
+                                                     "source swapped", "source stuck"));
   for (const Row& each : Rows()) EXPECT_EQ(printed[each.name()].size(), kLosses.size()) << each.name();
   for (const auto& [name, cells] : printed) {  // those of other processes are tried by tests/apps/python/test_losses.py
     const bool is_ours = name != "value" && !name.starts_with("python/") && !name.starts_with("two processes/");

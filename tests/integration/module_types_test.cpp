@@ -115,7 +115,8 @@ TEST_F(ModuleTypes, ThatCommandAMotionSayWhatGrowsOld) {
     ++commanding;
     for (const Port* each : PortsOf(sample, Port::Direction::kInput)) {
       const auto* const input = dynamic_cast<const InputBase*>(each);
-      if (input != nullptr && input->ageing() == Ageing::kUnspecified) unsaid.push_back(sample.name + ": " + input->path());
+      if (input != nullptr && input->ageing() == Ageing::kUnspecified)
+        unsaid.push_back(sample.name + ": " + input->path());
     }
   }
   EXPECT_GT(commanding, 35u);
@@ -160,7 +161,9 @@ std::vector<std::string> SaysAlone(const std::string& type) {
 TEST_F(ModuleTypes, SayInTheSameWordsWhatHasNotCome) {
   int asked = 0;
   for (const Sample& sample : Samples()) {
-    if (sample.name.find(' ') != std::string::npos || sample.name == "behaviours/navigator" || sample.name == "guide/guide") continue;
+    if (sample.name.find(' ') != std::string::npos || sample.name == "behaviours/navigator" ||
+        sample.name == "guide/guide")
+      continue;
     std::vector<testing::Matcher<std::string>> words;
     for (const Port* each : PortsOf(sample, Port::Direction::kInput)) {
       const auto* const input = dynamic_cast<const InputBase*>(each);

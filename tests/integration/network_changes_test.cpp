@@ -34,10 +34,12 @@ TEST_F(NetworkChanges, OffersComeAndGoAndAreUndoneAndSaved) {
   ASSERT_EQ(Runnel("offer --app follower /gate/allowed --topic /go --qos latched --sending after_cycle").code, kDone);
   WaitForText("network --app other", "written /go");
   ASSERT_EQ(Runnel("offer --app follower /gate/allowed --topic /follower/gate/allowed --remove").code, kDone);
-  WaitUntil("it is gone", [] { return Runnel("network --app other").text.find("/follower/gate/allowed") == std::string::npos; });
+  WaitUntil("it is gone",
+            [] { return Runnel("network --app other").text.find("/follower/gate/allowed") == std::string::npos; });
   ASSERT_EQ(Runnel("save --app follower").code, kDone);
-  EXPECT_THAT(Read(file), AllOf(HasSubstr(R"(<offer ports="gate/* !/gate/allowed"/>)"),
-                                HasSubstr(R"(<offer port="gate/allowed" topic="/go" qos="latched" sending="after_cycle"/>)")));
+  EXPECT_THAT(Read(file),
+              AllOf(HasSubstr(R"(<offer ports="gate/* !/gate/allowed"/>)"),
+                    HasSubstr(R"(<offer port="gate/allowed" topic="/go" qos="latched" sending="after_cycle"/>)")));
   EXPECT_EQ(Runnel("check " + file).code, kDone);
   ASSERT_EQ(Runnel("undo --app follower").code, kDone);
   ASSERT_EQ(Runnel("undo --app follower").code, kDone);
@@ -64,16 +66,21 @@ TEST_F(NetworkChanges, MistakesAreToldAndNothingIsChanged) {
   };
   EXPECT_THAT(told("offer --app follower /gate/alowed"), HasSubstr("did you mean 'allowed'?"));
   EXPECT_THAT(told("offer --app follower /gate/wanted"), HasSubstr("wanted"));
-  EXPECT_THAT(told("offer --app follower //nobody/twist"), AllOf(HasSubstr("//nobody/twist"), HasSubstr("comes from the network itself")));
+  EXPECT_THAT(told("offer --app follower //nobody/twist"),
+              AllOf(HasSubstr("//nobody/twist"), HasSubstr("comes from the network itself")));
   EXPECT_THAT(told("offer --app follower /gate/allowed --qos quick"), HasSubstr("qos: "));
-  EXPECT_THAT(told("offer --app follower /gate/allowed --sending after_cycles"), HasSubstr("did you mean 'after_cycle'?"));
-  EXPECT_THAT(told("offer --app follower /gate/allowed --sending after_cycle --rate 5"), HasSubstr("by the network's thread"));
+  EXPECT_THAT(told("offer --app follower /gate/allowed --sending after_cycles"),
+              HasSubstr("did you mean 'after_cycle'?"));
+  EXPECT_THAT(told("offer --app follower /gate/allowed --sending after_cycle --rate 5"),
+              HasSubstr("by the network's thread"));
   EXPECT_THAT(told("offer --app follower /gate/allowed --topic 'go there'"), HasSubstr("topic: "));
   EXPECT_THAT(told("offer --app follower /gate/allowed"), HasSubstr("is offered as /follower/gate/allowed already"));
   EXPECT_THAT(told("offer --app follower /gate/allowed --topic /x --remove"), HasSubstr("is not offered as /x"));
   EXPECT_THAT(told("take --app follower /x /gate/wanted --remove"), HasSubstr("'/x' is not taken"));
   EXPECT_THAT(told("take --app follower /x /gate/wanted --as geometry_msgs/msg/Twst"), HasSubstr("did you mean"));
-  const Program lonely("run " + Write("lonely", "  <module name=\"gate\" type=\"motion/command_gate\"/>\n  <connect from=\"gate/allowed\" to=\"gate/wanted\" late=\"true\"/>\n"));
+  const Program lonely("run " + Write("lonely",
+                                      "  <module name=\"gate\" type=\"motion/command_gate\"/>\n  <connect "
+                                      "from=\"gate/allowed\" to=\"gate/wanted\" late=\"true\"/>\n"));
   WaitForText("ps", "lonely");
   EXPECT_THAT(told("offer --app lonely /gate/allowed"), HasSubstr("<network/>"));
   // It is used until the run ends.
@@ -97,9 +104,8 @@ TEST_F(NetworkChanges, TakesComeAndGoAndAreUndoneAndSaved) {
   EXPECT_EQ(Runnel("check " + file).code, kDone);
   EXPECT_EQ(Runnel("take --app follower /planner/planner/twist /gate/wanted --qos sensor").code, kBadInput);
   ASSERT_EQ(Runnel("take --app follower /planner/planner/twist /gate/wanted --remove").code, kDone);
-  WaitUntil("nobody takes it", [] {
-    return Runnel("network --app planner").text.find("read by follower") == std::string::npos;
-  });
+  WaitUntil("nobody takes it",
+            [] { return Runnel("network --app planner").text.find("read by follower") == std::string::npos; });
   ASSERT_EQ(Runnel("save --app follower").code, kDone);
   EXPECT_THAT(Read(file), Not(HasSubstr("<take")));
   ASSERT_EQ(Runnel("take --app follower /planner/planner/twist /gate/wanted --qos sensor").code, kDone);
@@ -129,11 +135,14 @@ TEST_F(NetworkChanges, OneFieldOfMessagesIsTakenUndoneAndSaved) {
   WaitUntil("values come", [] {
     const std::string told = Runnel("network --app follower").text;
     const std::size_t line = told.find("takes /stamped.twist to ");
-    return line != std::string::npos && told.substr(line, told.find('\n', line) - line).find(", 0 came") == std::string::npos;
+    return line != std::string::npos &&
+           told.substr(line, told.find('\n', line) - line).find(", 0 came") == std::string::npos;
   });
   EXPECT_THAT(Runnel("network --app follower").text, Not(HasSubstr("could not be read")));
   ASSERT_EQ(Runnel("save --app follower").code, kDone);
-  EXPECT_THAT(Read(file), HasSubstr(R"(<take topic="/stamped" to="gate/wanted" as="geometry_msgs/msg/TwistStamped" field="twist"/>)"));
+  EXPECT_THAT(
+      Read(file),
+      HasSubstr(R"(<take topic="/stamped" to="gate/wanted" as="geometry_msgs/msg/TwistStamped" field="twist"/>)"));
   EXPECT_EQ(Runnel("check " + file).code, kDone);
   ASSERT_EQ(Runnel("undo --app follower").code, kDone);
   ASSERT_EQ(Runnel("save --app follower").code, kDone);

@@ -46,8 +46,9 @@ TEST_F(FarApplications, ParametersAreSetAndModulesSwappedWhereTheFileAllowsIt) {
   const Ended swap = Runnel("swap --app asker //planner/planner planning/bug1");
   EXPECT_EQ(swap.code, kDone) << swap.text;
   EXPECT_THAT(Runnel("ls --app planner /planner").text, HasSubstr("planning/bug1"));
-  EXPECT_THAT(Runnel("log --app planner").text, AllOf(HasSubstr("//asker has it done: set /planner/planner/cruise_speed 0.124"),
-                                                      Not(HasSubstr("has it done: set /planner/planner/cruise_speed fast"))));
+  EXPECT_THAT(Runnel("log --app planner").text,
+              AllOf(HasSubstr("//asker has it done: set /planner/planner/cruise_speed 0.124"),
+                    Not(HasSubstr("has it done: set /planner/planner/cruise_speed fast"))));
   ASSERT_EQ(Runnel("undo --app planner").code, kDone);
   EXPECT_THAT(Runnel("ls --app planner /planner").text, HasSubstr("planning/bug2"));
   const Ended refused = Runnel("set --app asker //robot/world/goal_x 1");
@@ -121,8 +122,11 @@ TEST_F(FarApplications, WhatARobotThatStoodStillFindsInItsSocketIsNotDone) {
 }
 
 TEST_F(FarApplications, WhatFilesAllowIsChecked) {
-  const auto check = [&](const std::string& network) { return Runnel("check " + Write("wrong", Passer(network, ""))).text; };
-  EXPECT_THAT(check("commands=\"set swop\""), AllOf(HasSubstr("cannot be allowed to 'swop'"), HasSubstr("did you mean 'swap'?")));
+  const auto check = [&](const std::string& network) {
+    return Runnel("check " + Write("wrong", Passer(network, ""))).text;
+  };
+  EXPECT_THAT(check("commands=\"set swop\""),
+              AllOf(HasSubstr("cannot be allowed to 'swop'"), HasSubstr("did you mean 'swap'?")));
   EXPECT_THAT(check("lease=\"10ms\""), HasSubstr("from 1 s to 1 h"));
   EXPECT_THAT(check("lease=\"2 s\""), Not(HasSubstr("error:")));
 }

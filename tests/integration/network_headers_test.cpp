@@ -52,7 +52,8 @@ class HeadersByTshark : public testing::TestWithParam<const char*> {
     for (std::size_t at = text_.find(begin); at != std::string::npos;) {
       const std::size_t next = std::min(text_.find(begin, at + 1), text_.size());
       const std::string one = text_.substr(at, next - at);
-      if (std::ranges::all_of(words, [&](const std::string& word) { return one.find(word) != std::string::npos; })) return one;
+      if (std::ranges::all_of(words, [&](const std::string& word) { return one.find(word) != std::string::npos; }))
+        return one;
       at = text_.find(begin, next);
     }
     return {};
@@ -76,31 +77,36 @@ TEST_P(HeadersByTshark, AreThoseOfRos) {
   const std::string vendor = std::string(GetParam()) == "fast" ? "eProsima" : "Cyclone DDS";
 
   const std::string member = Wait({"ENTITYID_BUILTIN_PARTICIPANT_WRITER", "entityName: base"});
-  EXPECT_THAT(member, AllOf(HasSubstr("encapsulation kind: PL_CDR_LE"), HasSubstr("userData: 656e636c6176653d2f3b"),  // enclave=/;
+  EXPECT_THAT(member, AllOf(HasSubstr("encapsulation kind: PL_CDR_LE"),
+                            HasSubstr("userData: 656e636c6176653d2f3b"),  // enclave=/;
                             HasSubstr(vendor), HasSubstr("lease_duration: 10.0")));
-  EXPECT_THAT(Wait({"ENTITYID_BUILTIN_PUBLICATIONS_WRITER", vendor, "topic: rt/scan\n"}),
-              AllOf(HasSubstr("encapsulation kind: PL_CDR_LE"), HasSubstr("typeName: sensor_msgs::msg::dds_::LaserScan_\n"),
-                    HasSubstr("Kind: BEST_EFFORT_RELIABILITY_QOS"), Not(HasSubstr("TRANSIENT_LOCAL_DURABILITY_QOS")),
-                    AnyOf(Not(HasSubstr("PID_HISTORY")), HasSubstr("  Depth: 5\n")),  // Fast DDS tells nobody
-                    HasSubstr("Application-defined writer (no key)"),
-                    // typehash=RIHS01_64c19139
-                    HasSubstr("userData: 74797065686173683d5249485330315f3634633139313339")));
-  EXPECT_THAT(Wait({"ENTITYID_BUILTIN_PUBLICATIONS_WRITER", vendor, "topic: rt/tf_static\n"}),
-              AllOf(HasSubstr("typeName: tf2_msgs::msg::dds_::TFMessage_\n"), HasSubstr("Kind: RELIABLE_RELIABILITY_QOS"),
-                    HasSubstr("Durability: TRANSIENT_LOCAL_DURABILITY_QOS"), Not(HasSubstr("Depth: 5")),
-                    // typehash=RIHS01_e369d0f0
-                    HasSubstr("userData: 74797065686173683d5249485330315f6533363964306630")));
-  EXPECT_THAT(Wait({"ENTITYID_BUILTIN_SUBSCRIPTIONS_WRITER", vendor, "topic: rt/cmd_vel\n"}),
-              AllOf(HasSubstr("typeName: geometry_msgs::msg::dds_::Twist_\n"), HasSubstr("Application-defined reader (no key)"),
-                    Not(HasSubstr("TRANSIENT_LOCAL_DURABILITY_QOS")), Not(HasSubstr("EXCLUSIVE_OWNERSHIP_QOS"))));
-  EXPECT_THAT(Wait({"ENTITYID_BUILTIN_PUBLICATIONS_WRITER", vendor, "topic: ros_discovery_info\n"}),
-              AllOf(HasSubstr("typeName: rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_\n"),
-                    HasSubstr("Durability: TRANSIENT_LOCAL_DURABILITY_QOS"), HasSubstr("Kind: RELIABLE_RELIABILITY_QOS")));
+  EXPECT_THAT(
+      Wait({"ENTITYID_BUILTIN_PUBLICATIONS_WRITER", vendor, "topic: rt/scan\n"}),
+      AllOf(HasSubstr("encapsulation kind: PL_CDR_LE"), HasSubstr("typeName: sensor_msgs::msg::dds_::LaserScan_\n"),
+            HasSubstr("Kind: BEST_EFFORT_RELIABILITY_QOS"), Not(HasSubstr("TRANSIENT_LOCAL_DURABILITY_QOS")),
+            AnyOf(Not(HasSubstr("PID_HISTORY")), HasSubstr("  Depth: 5\n")),  // Fast DDS tells nobody
+            HasSubstr("Application-defined writer (no key)"),
+            // typehash=RIHS01_64c19139
+            HasSubstr("userData: 74797065686173683d5249485330315f3634633139313339")));
+  EXPECT_THAT(
+      Wait({"ENTITYID_BUILTIN_PUBLICATIONS_WRITER", vendor, "topic: rt/tf_static\n"}),
+      AllOf(HasSubstr("typeName: tf2_msgs::msg::dds_::TFMessage_\n"), HasSubstr("Kind: RELIABLE_RELIABILITY_QOS"),
+            HasSubstr("Durability: TRANSIENT_LOCAL_DURABILITY_QOS"), Not(HasSubstr("Depth: 5")),
+            // typehash=RIHS01_e369d0f0
+            HasSubstr("userData: 74797065686173683d5249485330315f6533363964306630")));
+  EXPECT_THAT(
+      Wait({"ENTITYID_BUILTIN_SUBSCRIPTIONS_WRITER", vendor, "topic: rt/cmd_vel\n"}),
+      AllOf(HasSubstr("typeName: geometry_msgs::msg::dds_::Twist_\n"), HasSubstr("Application-defined reader (no key)"),
+            Not(HasSubstr("TRANSIENT_LOCAL_DURABILITY_QOS")), Not(HasSubstr("EXCLUSIVE_OWNERSHIP_QOS"))));
+  EXPECT_THAT(
+      Wait({"ENTITYID_BUILTIN_PUBLICATIONS_WRITER", vendor, "topic: ros_discovery_info\n"}),
+      AllOf(HasSubstr("typeName: rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_\n"),
+            HasSubstr("Durability: TRANSIENT_LOCAL_DURABILITY_QOS"), HasSubstr("Kind: RELIABLE_RELIABILITY_QOS")));
   // sec, nanosec, 6 characters "laser", filled up to 4; the smallest angle, - pi / 2.
   EXPECT_THAT(Wait({"submessageId: DATA (0x15)", "[Topic Information (from Discovery)]", "[topic: rt/scan]"}),
-              AllOf(HasSubstr("[typeName: sensor_msgs::msg::dds_::LaserScan_]"), HasSubstr("encapsulation kind: CDR_LE (0x0001)"),
-                    HasSubstr("encapsulation options: 0x0000"), HasSubstr("060000006c61736572000000db0fc9bf"),
-                    Not(HasSubstr("Inline QoS,"))));
+              AllOf(HasSubstr("[typeName: sensor_msgs::msg::dds_::LaserScan_]"),
+                    HasSubstr("encapsulation kind: CDR_LE (0x0001)"), HasSubstr("encapsulation options: 0x0000"),
+                    HasSubstr("060000006c61736572000000db0fc9bf"), Not(HasSubstr("Inline QoS,"))));
 }
 
 INSTANTIATE_TEST_SUITE_P(Cyclone, HeadersByTshark, testing::Values("cyclone"));

@@ -51,7 +51,8 @@ class HostileDatagrams : public TwoRobots, public testing::WithParamInterface<co
       // Of the domain, and of two participants.
       const int offset = std::array{0, 1, 10, 11, 12, 13}[i % 6];
       address.sin_port = htons(static_cast<std::uint16_t>(7400 + 250 * static_cast<int>(OwnDomain()) + offset));
-      (void)sendto(descriptor, datagrams[i].data(), datagrams[i].size(), 0, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+      (void)sendto(descriptor, datagrams[i].data(), datagrams[i].size(), 0, reinterpret_cast<const sockaddr*>(&address),
+                   sizeof address);
     }
     close(descriptor);
   }
@@ -64,7 +65,8 @@ class HostileDatagrams : public TwoRobots, public testing::WithParamInterface<co
       for (char& each : packet) each = static_cast<char>(random());
       if (i % 2 == 0) packet = header + packet;
       // A known submessage with a length that is wrong.
-      if (i % 4 == 0 && packet.size() > 24) packet[20] = static_cast<char>(std::array{0x06, 0x07, 0x08, 0x15, 0x16}[random() % 5]);
+      if (i % 4 == 0 && packet.size() > 24)
+        packet[20] = static_cast<char>(std::array{0x06, 0x07, 0x08, 0x15, 0x16}[random() % 5]);
       all.push_back(std::move(packet));
     }
     return all;

@@ -55,11 +55,13 @@ TEST_F(NetworkParts, AreConnectedWhenTheOtherApplicationTellsWhatTheyAreOf) {
   Told("undo --app display", kDone);
   auto robot = Start("two_robots.xml");
   WaitUntil("both come", [] {
-    return Runnel("get --app display /place/in").code == kDone && Runnel("ls --app display").text.find("->") == std::string::npos;
+    return Runnel("get --app display /place/in").code == kDone &&
+           Runnel("ls --app display").text.find("->") == std::string::npos;
   });
   EXPECT_THAT(Told("connect --app display //robot/localisation/pose.z /spare/in", kBadInput),
               AllOf(HasSubstr("Pose2 has no field 'z'"), HasSubstr("did you mean 'x'?")));
-  EXPECT_THAT(Told("connect --app display //robot/laser/scam.ranges[0] /spare/in", kDone), HasSubstr("did you mean '//robot/laser/scan'?"));
+  EXPECT_THAT(Told("connect --app display //robot/laser/scam.ranges[0] /spare/in", kDone),
+              HasSubstr("did you mean '//robot/laser/scan'?"));
   Told("undo --app display", kDone);
   Told("swap --app display /place signal/dead_band", kDone);
   Told("undo --app display", kDone);

@@ -25,15 +25,14 @@ class NetworkReach : public TwoRobots, public testing::WithParamInterface<const 
     if (!Cable("left")) GTEST_SKIP() << "needs iproute2, and networks of pairs";
     ASSERT_TRUE(Cable("right"));
   }
-  void TearDown() override {
-    (void)RunsWell("ip link del left; ip link del right");
-  }
+  void TearDown() override { (void)RunsWell("ip link del left; ip link del right"); }
   [[nodiscard]] bool Cable(const std::string& name, bool has_multicast = true) const {
     return name == "left" ? left_->Connect(name, 1, has_multicast) : right_->Connect(name, 2, has_multicast);
   }
 
   /// An application with this in its <network>; `there`: nullptr if it is here.
-  std::unique_ptr<Program> Run(const std::string& name, const std::string& attributes, const OtherNetwork* there = nullptr) {
+  std::unique_ptr<Program> Run(const std::string& name, const std::string& attributes,
+                               const OtherNetwork* there = nullptr) {
     const std::string file = Write(name, "<network engine=\"" + std::string(GetParam()) + "\" " + attributes +
                                              R"(><take topic="/nothing" to="gate/wanted"/></network>
   <module name="gate" type="motion/command_gate"/>
@@ -124,7 +123,9 @@ TEST_P(NetworkReach, ValuesComeAgainWhenTheNetworkHasBeenDown) {
 
 TEST_F(TwoRobots, ThatThereIsNoNetworkIsTold) {
   if (OwnDomain() != 0) GTEST_SKIP() << "needs the right to make networks";
-  const std::string gate = "  <module name=\"gate\" type=\"motion/command_gate\"/>\n  <connect from=\"//nobody/twist\" to=\"gate/wanted\"/>\n";
+  const std::string gate =
+      "  <module name=\"gate\" type=\"motion/command_gate\"/>\n  <connect from=\"//nobody/twist\" "
+      "to=\"gate/wanted\"/>\n";
   const auto log_with = [&](const std::string& name) {
     const Program lonely("run " + Write(name, "  <network reach=\"network\"/>\n" + gate));
     WaitForText("network --app " + name, name + " in domain");
@@ -134,7 +135,8 @@ TEST_F(TwoRobots, ThatThereIsNoNetworkIsTold) {
   };
   const std::string told = "this machine is in no network";
   EXPECT_THAT(log_with("lonely"), HasSubstr(told));
-  if (!RunsWell("ip link add cable type veth peer name end && ip addr add 10.77.9.1/24 dev cable && ip link set cable up")) {
+  if (!RunsWell(
+          "ip link add cable type veth peer name end && ip addr add 10.77.9.1/24 dev cable && ip link set cable up")) {
     GTEST_SKIP() << "needs iproute2, and networks of pairs";
   }
   EXPECT_THAT(log_with("connected"), Not(HasSubstr(told)));

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <linux/if_ether.h>
 #include <linux/if_packet.h>
-#include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -81,14 +81,12 @@ class NetworkSecurity : public testing::TestWithParam<const char*> {
     ASSERT_EQ(ended.code, kDone) << ended.text;
   }
   static void WaitUntilItDrives() {
-    WaitUntil("the robot drives", [] {
-      return Runnel("get --app robot /gate/wanted").text.find("forward: 0.") != std::string::npos;
-    });
+    WaitUntil("the robot drives",
+              [] { return Runnel("get --app robot /gate/wanted").text.find("forward: 0.") != std::string::npos; });
   }
   static void WaitUntilItSays(const std::string& text) {
-    WaitUntil("the robot says '" + text + "'", [&] {
-      return Runnel("network --app robot").text.find(text) != std::string::npos;
-    });
+    WaitUntil("the robot says '" + text + "'",
+              [&] { return Runnel("network --app robot").text.find(text) != std::string::npos; });
   }
 
   const TemporaryFolder folder_;
@@ -96,7 +94,8 @@ class NetworkSecurity : public testing::TestWithParam<const char*> {
 
 TEST_P(NetworkSecurity, AKeyOfSomebodyElseIsToldWithItsFiles) {
   MakeKeys("keys", "robot planner");
-  std::filesystem::copy_file(folder_ / "keys/planner/key.pem", folder_ / "keys/robot/key.pem", std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(folder_ / "keys/planner/key.pem", folder_ / "keys/robot/key.pem",
+                             std::filesystem::copy_options::overwrite_existing);
   const Ended ended = Start("robot", "keys/robot")->Wait();
   EXPECT_NE(ended.code, kDone);
   EXPECT_THAT(ended.text, AllOf(HasSubstr("keys/robot/key.pem"), HasSubstr("keys/robot/cert.pem")));
@@ -131,12 +130,14 @@ TEST_P(NetworkSecurity, WhoHasKeysOfAnotherAuthorityOrNoneIsNotLetInAndThatIsTol
   WaitUntilItSays("planner: NOT LET IN");
   // The one that is asked by the other says why.
   WaitUntil("one of them says why", [] {
-    return (Runnel("network --app robot").text + Runnel("network --app planner").text).find("certificate signature failure") != std::string::npos;
+    return (Runnel("network --app robot").text + Runnel("network --app planner").text)
+               .find("certificate signature failure") != std::string::npos;
   });
   EXPECT_THAT(Runnel("network --app robot").text, Not(HasSubstr("written by planner")));
   EXPECT_TRUE(robot->WaitFor("shows no keys that are trusted here"));
   planner = Start("planner", "");
-  WaitUntil("the planner runs", [] { return Runnel("network --app planner").text.find("planner in domain") != std::string::npos; });
+  WaitUntil("the planner runs",
+            [] { return Runnel("network --app planner").text.find("planner in domain") != std::string::npos; });
   EXPECT_THAT(Runnel("network --app planner").text, Not(HasSubstr("written by robot")));
   // The right one is let in all the same.
   planner = Start("planner", "keys/planner");
@@ -153,14 +154,18 @@ TEST_P(NetworkSecurity, WithThePermissionsThatItsPortsNeedItRunsAndSaysWhatElseW
     ASSERT_NE(text.find(all), std::string::npos);
     text.replace(text.find(all), all.size(), "<" + what + "><topics>" + topics + "</topics></" + what + ">");
   };
-  allow("publish", "<topic>rt/robot/laser/scan</topic><topic>rt/robot/localisation/pose</topic><topic>rt/robot/world/goal</topic>");
+  allow(
+      "publish",
+      "<topic>rt/robot/laser/scan</topic><topic>rt/robot/localisation/pose</topic><topic>rt/robot/world/goal</topic>");
   allow("subscribe", "<topic>rt/planner/planner/twist</topic>");
   std::ofstream(folder_ / "permissions.xml") << text;
-  const std::string sign = "cd " + folder_.path().string() + " && openssl smime -sign -text -in permissions.xml -out keys/robot/permissions.p7s "
+  const std::string sign = "cd " + folder_.path().string() +
+                           " && openssl smime -sign -text -in permissions.xml -out keys/robot/permissions.p7s "
                            "-signer keys/ca.cert.pem -inkey keys/ca.key.pem 2>/dev/null";
   ASSERT_EQ(std::system(sign.c_str()), 0);
   const auto robot = Start("robot", "keys/robot");
-  EXPECT_TRUE(robot->WaitFor("is to have <publish><topics><topic>rt/robot/runnel_structure</topic></topics></publish>"));
+  EXPECT_TRUE(
+      robot->WaitFor("is to have <publish><topics><topic>rt/robot/runnel_structure</topic></topics></publish>"));
   const auto planner = Start("planner", "keys/planner");
   WaitUntilItDrives();
 }
@@ -174,9 +179,11 @@ TEST_P(NetworkSecurity, FilesThatAreNotThereAreToldWithTheirPlace) {
   };
   MakeKeys("keys", "base");
   EXPECT_THAT(check(R"(<security keys="keys/base"/>)"), Not(HasSubstr("error:")));
-  EXPECT_THAT(check(R"(<security keys="keys/bass"/>)"),
-              AllOf(HasSubstr("wrong.xml:3:17"), HasSubstr("keys/bass/cert.pem"), HasSubstr("runnel keys FOLDER base")));
-  EXPECT_THAT(check(R"(<security keys="keys/base" key="my.pem"/>)"), AllOf(HasSubstr("wrong.xml:3:33"), HasSubstr("my.pem")));
+  EXPECT_THAT(
+      check(R"(<security keys="keys/bass"/>)"),
+      AllOf(HasSubstr("wrong.xml:3:17"), HasSubstr("keys/bass/cert.pem"), HasSubstr("runnel keys FOLDER base")));
+  EXPECT_THAT(check(R"(<security keys="keys/base" key="my.pem"/>)"),
+              AllOf(HasSubstr("wrong.xml:3:33"), HasSubstr("my.pem")));
   EXPECT_THAT(check(R"(<security key="keys/base/key.pem"/>)"), HasSubstr("does not say where the certificate is"));
   // A file with something else in it is the engine's matter.
   std::ofstream(folder_ / "keys/base/permissions.p7s") << "nothing";

@@ -53,12 +53,14 @@ TEST_F(TwoRobots, AStopOfThePlannerStopsTheRobotAndNothingElseThatItSends) {
 
 // Its port is true while the STOP is in force; no module has to know of it.
 TEST_F(TwoRobots, AStopOfOneStopsTheOtherWhereTheFilesSaySo) {
-  const Program planner("run " + Write("planner", R"(  <group name="panel"><port name="stopped" type="bool" direction="output"/></group>
+  const Program planner(
+      "run " + Write("planner", R"(  <group name="panel"><port name="stopped" type="bool" direction="output"/></group>
   <driving port="panel/stopped" safe="true"/>
   <network><offer port="panel/stopped" topic="/stop" as="std_msgs/msg/Bool"/><take topic="/cmd" to="gate/wanted"/></network>
   <module name="gate" type="motion/command_gate"/>
 )"));
-  Program base("run " + Write("base", R"(  <group name="panel"><port name="pressed" type="bool" direction="input"/></group>
+  Program base("run " +
+               Write("base", R"(  <group name="panel"><port name="pressed" type="bool" direction="input"/></group>
   <stop_button port="panel/pressed"/>
   <network><take topic="/stop" as="std_msgs/msg/Bool" to="panel/pressed"/><take topic="/cmd" to="gate/wanted"/></network>
   <module name="gate" type="motion/command_gate"/>
@@ -97,20 +99,23 @@ TEST_F(TwoRobots, OneMayHaveAnotherEngineThanTheOther) {
 TEST_F(TwoRobots, MistakesAreToldWithTheirPlaces) {
   const std::string file = folder_ / "wrong.xml";
   const auto check = [&](const std::string& network) {
-    std::ofstream(file) << "<application name=\"base\">\n<load plugin=\"motion\"/>\n" << network
-                        << "\n<module name=\"gate\" type=\"motion/command_gate\"/>\n</application>\n";
+    std::ofstream(file) << "<application name=\"base\">\n<load plugin=\"motion\"/>\n"
+                        << network << "\n<module name=\"gate\" type=\"motion/command_gate\"/>\n</application>\n";
     return Runnel("check " + file).text;
   };
   EXPECT_THAT(check(R"(<network><offer port="gate/alowed"/></network>)"),
               testing::AllOf(HasSubstr("wrong.xml:3:23"), HasSubstr("did you mean 'allowed'?")));
-  EXPECT_THAT(check(R"(<network><take topic="cmd vel" to="gate/wanted"/></network>)"), testing::AllOf(HasSubstr("wrong.xml:3:23"), HasSubstr("write '/cmd_vel'"), HasSubstr("1 error")));
+  EXPECT_THAT(check(R"(<network><take topic="cmd vel" to="gate/wanted"/></network>)"),
+              testing::AllOf(HasSubstr("wrong.xml:3:23"), HasSubstr("write '/cmd_vel'"), HasSubstr("1 error")));
   EXPECT_THAT(check(R"(<network reach="everywhere"/>)"), HasSubstr("loopback"));
   EXPECT_THAT(check(R"(<network domain="500"/>)"), HasSubstr("from 0 to 101"));
   EXPECT_THAT(check(R"(<network datagram="70000"/>)"), HasSubstr("from 1000 to 65500 octets"));
   EXPECT_THAT(check(R"(<network engine="carrier_pigeon"/>)"), HasSubstr("'carrier_pigeon' is not installed"));
   EXPECT_THAT(check(R"(<network/><network/>)"), HasSubstr("there is a network already"));
-  EXPECT_THAT(check(R"(<network><offer ports="gate/*" topic="/x"/></network>)"), HasSubstr("topic is said of one port"));
-  EXPECT_THAT(check(R"(<network><offer ports="gate/*" sending="after_cycles"/></network>)"), HasSubstr("did you mean 'after_cycle'?"));
+  EXPECT_THAT(check(R"(<network><offer ports="gate/*" topic="/x"/></network>)"),
+              HasSubstr("topic is said of one port"));
+  EXPECT_THAT(check(R"(<network><offer ports="gate/*" sending="after_cycles"/></network>)"),
+              HasSubstr("did you mean 'after_cycle'?"));
   EXPECT_THAT(check(R"(<network><offer ports="gate/*" sending="after_cycle" rate="5"/></network>)"),
               testing::AllOf(HasSubstr("by the network's thread"), HasSubstr("leave out rate, or sending")));
   EXPECT_THAT(check(R"(<network><offer/></network>)"), HasSubstr("<offer> says which ports"));
@@ -139,7 +144,8 @@ TEST_F(TwoRobots, APortOfAnotherApplicationIsConnectedByItsPath) {
   EXPECT_THAT(Runnel("network --app follower").text,
               testing::AllOf(HasSubstr("member planner"), HasSubstr("written by planner (reliable, newest 1)"),
                              HasSubstr("written /robot/laser/scan  runnel_msgs::msg::dds_::RangeScan_ by robot")));
-  EXPECT_THAT(Runnel("ls --app follower //planner/eyes").text, testing::AllOf(HasSubstr("surroundings"), Not(HasSubstr("twist"))));
+  EXPECT_THAT(Runnel("ls --app follower //planner/eyes").text,
+              testing::AllOf(HasSubstr("surroundings"), Not(HasSubstr("twist"))));
   EXPECT_THAT(Runnel("ls --app follower //planner/eys").text, HasSubstr("did you mean 'eyes'?"));
   // While it runs, too, and back.
   ASSERT_EQ(Runnel("disconnect --app follower //planner/planner/twist /gate/wanted").code, kDone);
@@ -191,9 +197,11 @@ TEST_F(TwoRobots, WhoComesLateGetsWhatIsLatchedAndNothingElse) {
   const Program late("run " + Write("late", reader));
   WaitForText("network --app late", "network/gone  runnel_msgs::msg::dds_::Twist2_, reliable, newest 1, 1 came");
   const Program later("run " + Write("later", reader));
-  WaitForText("network --app later", "network/kept  runnel_msgs::msg::dds_::Twist2_, reliable, latched, newest 1, 1 came");
+  WaitForText("network --app later",
+              "network/kept  runnel_msgs::msg::dds_::Twist2_, reliable, latched, newest 1, 1 came");
   EXPECT_THAT(Runnel("get --app later /one/wanted").text, HasSubstr("forward: 0"));
-  EXPECT_THAT(Runnel("network --app later").text, HasSubstr("network/gone  runnel_msgs::msg::dds_::Twist2_, reliable, newest 1, 0 came"));
+  EXPECT_THAT(Runnel("network --app later").text,
+              HasSubstr("network/gone  runnel_msgs::msg::dds_::Twist2_, reliable, newest 1, 0 came"));
 }
 
 }  // namespace

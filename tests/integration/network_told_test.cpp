@@ -36,7 +36,9 @@ TEST_F(NetworkTold, CommandsOfTwoApplicationsNeedNotSayWhich) {
   EXPECT_THAT(told("ls //planner"), ContainsRegex("cruise_speed +parameter +double = 0.2"));
   // Of one that is not running here who has a network knows more.
   EXPECT_THAT(Runnel("set //robt/world/goal_x 4").text, HasSubstr("did you mean '//robot'?"));
-  const Program lonely("run " + Write("lonely", "  <module name=\"gate\" type=\"motion/command_gate\"/>\n  <connect from=\"gate/allowed\" to=\"gate/wanted\" late=\"true\"/>\n"));
+  const Program lonely("run " + Write("lonely",
+                                      "  <module name=\"gate\" type=\"motion/command_gate\"/>\n  <connect "
+                                      "from=\"gate/allowed\" to=\"gate/wanted\" late=\"true\"/>\n"));
   WaitForText("ps", "lonely");
   EXPECT_THAT(told("network"), AllOf(HasSubstr("robot in domain"), Not(HasSubstr("lonely"))));
 }
@@ -78,8 +80,10 @@ TEST_F(NetworkTold, MessagesOfRos2AreConnectedAsTheirWriterSaysOrRefused) {
   <module name="gate" type="motion/command_gate"/>
   <connect from="//nobody/twist" to="gate/wanted"/>
 )"));
-  const std::string file = Write("follower", "  <load plugin=\"signal\"/>\n  <module name=\"line\" type=\"signal/linear\"/>\n  <connect from=\"//nobody/number\" to=\"line/in\"/>\n" +
-                                                 kEyes);
+  const std::string file = Write("follower",
+                                 "  <load plugin=\"signal\"/>\n  <module name=\"line\" type=\"signal/linear\"/>\n  "
+                                 "<connect from=\"//nobody/number\" to=\"line/in\"/>\n" +
+                                     kEyes);
   auto follower = std::make_unique<Program>("run " + file);
   WaitForText("network --app follower", "written /cmd_vel");
   const Ended refused = Runnel("connect --app follower //cmd_vel /line/in");
@@ -90,7 +94,8 @@ TEST_F(NetworkTold, MessagesOfRos2AreConnectedAsTheirWriterSaysOrRefused) {
   ASSERT_EQ(connected.code, kDone) << connected.text;
   ASSERT_EQ(Runnel("publish --app base /gate/wanted '{forward: 0.25, turn: 0}' --rate 20").code, kDone);
   WaitForText("get --app follower /gate/wanted", "forward: 0.25");
-  EXPECT_THAT(Runnel("ls --long --app base /gate").text, AllOf(HasSubstr(", to the network"), Not(HasSubstr("offer_"))));
+  EXPECT_THAT(Runnel("ls --long --app base /gate").text,
+              AllOf(HasSubstr(", to the network"), Not(HasSubstr("offer_"))));
   ASSERT_EQ(Runnel("save --app follower").code, kDone);
   EXPECT_THAT(Read(file), HasSubstr(R"(<connect from="//cmd_vel" to="gate/wanted"/>)"));
   // What the file does not say is found again when the writer is.
@@ -103,21 +108,33 @@ TEST_F(NetworkTold, MessagesOfRos2AreConnectedAsTheirWriterSaysOrRefused) {
 TEST_F(NetworkTold, WhatWouldDoNothingInAFileIsTold) {
   const std::string file = folder_ / "wrong.xml";
   const auto check = [&](const std::string& network) {
-    std::ofstream(file) << "<application name=\"base\">\n<load plugin=\"motion\"/>\n" << network
-                        << "\n<module name=\"gate\" type=\"motion/command_gate\"/>\n<connect from=\"//nobody/twist\" to=\"gate/wanted\"/>\n</application>\n";
+    std::ofstream(file) << "<application name=\"base\">\n<load plugin=\"motion\"/>\n"
+                        << network
+                        << "\n<module name=\"gate\" type=\"motion/command_gate\"/>\n<connect from=\"//nobody/twist\" "
+                           "to=\"gate/wanted\"/>\n</application>\n";
     return Runnel("check " + file).text;
   };
-  EXPECT_THAT(check(R"(<network><offer ports="gate/* gtae/*"/></network>)"), AllOf(HasSubstr("wrong.xml:3:24"), HasSubstr("did you mean 'gate/*'?")));
+  EXPECT_THAT(check(R"(<network><offer ports="gate/* gtae/*"/></network>)"),
+              AllOf(HasSubstr("wrong.xml:3:24"), HasSubstr("did you mean 'gate/*'?")));
   EXPECT_THAT(check(R"(<network><offer ports="gate/* !**/state"/></network>)"), Not(HasSubstr("means no port")));
-  EXPECT_THAT(check(R"(<network reach="network" peers="10.0.0.300"/>)"), AllOf(HasSubstr("wrong.xml:3:33"), HasSubstr("'10.0.0.300' is no address")));
-  EXPECT_THAT(check(R"(<network peers="10.0.0.2"/>)"), AllOf(HasSubstr("wrong.xml:3:17"), HasSubstr("reach=\"loopback\"")));
-  EXPECT_THAT(check(R"(<network reach="network" peers="nobody.invalid"/>)"), HasSubstr("no machine is known here by the name 'nobody.invalid'"));
-  EXPECT_THAT(check(R"(<network><offer port="gate/allowed" topic="/x"/><offer port="gate/state" topic="/x"/></network>)"),
-              AllOf(HasSubstr("the topic /x has values of /base/gate/output/allowed already"), HasSubstr("runnel_msgs/msg/Twist2, and not std_msgs/msg/UInt32")));
-  EXPECT_THAT(check(R"(<network><ros distribution="jazzy"/></network>)"), AllOf(HasSubstr("wrong.xml:3:10"), HasSubstr("reach=\"machine\"")));
-  EXPECT_THAT(check(R"(<network reach="machine"><ros distribution="jazzy"/></network>)"), Not(HasSubstr("are not met")));
-  EXPECT_THAT(check(R"(<network messages="nothere"/>)"), AllOf(HasSubstr("wrong.xml:3:20"), HasSubstr("there is no file and no folder")));
-  EXPECT_THAT(check(R"(<network engine="cyclon"/>)"), AllOf(HasSubstr("wrong.xml:3:18"), HasSubstr("did you mean 'cyclone'?")));
+  EXPECT_THAT(check(R"(<network reach="network" peers="10.0.0.300"/>)"),
+              AllOf(HasSubstr("wrong.xml:3:33"), HasSubstr("'10.0.0.300' is no address")));
+  EXPECT_THAT(check(R"(<network peers="10.0.0.2"/>)"),
+              AllOf(HasSubstr("wrong.xml:3:17"), HasSubstr("reach=\"loopback\"")));
+  EXPECT_THAT(check(R"(<network reach="network" peers="nobody.invalid"/>)"),
+              HasSubstr("no machine is known here by the name 'nobody.invalid'"));
+  EXPECT_THAT(
+      check(R"(<network><offer port="gate/allowed" topic="/x"/><offer port="gate/state" topic="/x"/></network>)"),
+      AllOf(HasSubstr("the topic /x has values of /base/gate/output/allowed already"),
+            HasSubstr("runnel_msgs/msg/Twist2, and not std_msgs/msg/UInt32")));
+  EXPECT_THAT(check(R"(<network><ros distribution="jazzy"/></network>)"),
+              AllOf(HasSubstr("wrong.xml:3:10"), HasSubstr("reach=\"machine\"")));
+  EXPECT_THAT(check(R"(<network reach="machine"><ros distribution="jazzy"/></network>)"),
+              Not(HasSubstr("are not met")));
+  EXPECT_THAT(check(R"(<network messages="nothere"/>)"),
+              AllOf(HasSubstr("wrong.xml:3:20"), HasSubstr("there is no file and no folder")));
+  EXPECT_THAT(check(R"(<network engine="cyclon"/>)"),
+              AllOf(HasSubstr("wrong.xml:3:18"), HasSubstr("did you mean 'cyclone'?")));
   (void)check(R"(<network reach="network" interface="wlan7"/>)");
   const Ended ended = Runnel("run --duration 0.1 " + file);
   EXPECT_NE(ended.code, kDone);
@@ -127,8 +144,10 @@ TEST_F(NetworkTold, WhatWouldDoNothingInAFileIsTold) {
 TEST_F(NetworkTold, WhereAPathOfAnotherApplicationIsNoUseIsTold) {
   const Program follower("run " + Write("follower", kEyes));
   WaitForText("network --app follower", "takes /nobody/twist");
-  EXPECT_THAT(Runnel("connect /gate/allowed //nobody/wanted").text, HasSubstr("inputs of another application are connected there"));
-  EXPECT_THAT(Runnel("connect //nobody /gate/wanted").text, AllOf(HasSubstr("'/nobody' is no port"), HasSubstr("/nobody/twist")));
+  EXPECT_THAT(Runnel("connect /gate/allowed //nobody/wanted").text,
+              HasSubstr("inputs of another application are connected there"));
+  EXPECT_THAT(Runnel("connect //nobody /gate/wanted").text,
+              AllOf(HasSubstr("'/nobody' is no port"), HasSubstr("/nobody/twist")));
   EXPECT_THAT(Runnel("get //nobdy/twist").text, HasSubstr("nobdy is not in the network yet"));
   const Program other("run " + Write("planer", kEyes));
   WaitForText("network --app follower", "member planer");

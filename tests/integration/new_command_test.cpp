@@ -19,9 +19,7 @@ using testing::HasSubstr;
 
 class NewCommand : public testing::Test {
  protected:
-  Ended New(const std::string& words) {
-    return Runnel("new " + words + " --in " + folder_.path().string());
-  }
+  Ended New(const std::string& words) { return Runnel("new " + words + " --in " + folder_.path().string()); }
   static std::string TextOf(const fs::path& file) {
     std::ifstream stream(file);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -65,12 +63,11 @@ TEST_F(NewCommand, ModulesAreAddedToThePluginOfTheFolder) {
   std::ofstream(folder_ / "plugin.cpp") << "#include <runnel/plugin.h>\n"
                                            "RUNNEL_PLUGIN(my_robot, types) {}\n";
   EXPECT_THAT(New("module leader").text, HasSubstr("my_robot/leader"));
-  EXPECT_EQ(
-      TextOf(folder_ / "plugin.cpp"),
-      "#include <runnel/plugin.h>\n"
-      "#include \"leader.h\"\n"
-      "RUNNEL_PLUGIN(my_robot, types) {\n"
-      "  types.Add<Leader>(\"my_robot/leader\", \"follows its input, no faster than it may\");}\n");
+  EXPECT_EQ(TextOf(folder_ / "plugin.cpp"),
+            "#include <runnel/plugin.h>\n"
+            "#include \"leader.h\"\n"
+            "RUNNEL_PLUGIN(my_robot, types) {\n"
+            "  types.Add<Leader>(\"my_robot/leader\", \"follows its input, no faster than it may\");}\n");
   EXPECT_THAT(TextOf(folder_ / "leader.h"), HasSubstr("class Leader final"));
   EXPECT_THAT(TextOf(folder_ / "leader_test.cpp"), HasSubstr("ModuleRig rig(\"my_robot/leader\""));
   EXPECT_EQ(New("module leader").code, kBadInput) << "it is there";

@@ -36,8 +36,8 @@ class OtherNetwork {
     return RunsWell("ip link add " + cable + " type veth peer name end") &&
            RunsWell("ip link set end netns " + std::to_string(process())) &&
            RunsWell("ip addr add " + net + "1/24 dev " + cable + " && ip link set " + cable + multicast + " up") &&
-           RunsWell(within() + "ip addr add " + net + "2/24 dev end") && RunsWell(within() + "ip link set end" + multicast + " up") &&
-           RunsWell(within() + "ip link set lo up");
+           RunsWell(within() + "ip addr add " + net + "2/24 dev end") &&
+           RunsWell(within() + "ip link set end" + multicast + " up") && RunsWell(within() + "ip link set lo up");
   }
 
  private:

@@ -33,8 +33,8 @@ class RunningTime : public testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
   static std::size_t Count(const json& events, const std::string& name) {
-    return static_cast<std::size_t>(std::count_if(
-        events.begin(), events.end(), [&](const json& each) { return each["name"] == name; }));
+    return static_cast<std::size_t>(
+        std::count_if(events.begin(), events.end(), [&](const json& each) { return each["name"] == name; }));
   }
 
   TemporaryFolder folder_;

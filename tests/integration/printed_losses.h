@@ -35,7 +35,8 @@ inline std::map<std::string, std::vector<std::string>> Printed() {
   std::ifstream manual(RUNNEL_XML "/../apps/documentation/pages/concepts/losses.md");
   for (std::string line; std::getline(manual, line);) {
     std::vector<std::string> cells;
-    for (std::size_t at = 2, end = 0; line.starts_with("| ") && (end = line.find(" |", at)) != std::string::npos; at = end + 3)
+    for (std::size_t at = 2, end = 0; line.starts_with("| ") && (end = line.find(" |", at)) != std::string::npos;
+         at = end + 3)
       cells.push_back(line.substr(at, end - at));
     if (cells.empty()) continue;
     const std::string name = cells.front();
@@ -47,7 +48,8 @@ inline std::map<std::string, std::vector<std::string>> Printed() {
 
 /// Letters and digits only.
 inline std::string AsTestName(std::string name) {
-  std::ranges::replace_if(name, [](char each) { return std::isalnum(each) == 0; }, '_');
+  std::ranges::replace_if(
+      name, [](char each) { return std::isalnum(each) == 0; }, '_');
   return name;
 }
 

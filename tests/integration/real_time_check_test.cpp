@@ -34,11 +34,9 @@ class RealTimeCheck : public testing::Test {
 };
 
 TEST_F(RealTimeCheck, NamesTheModuleThatAllocatesWithItsCalls) {
-  const Ended ended =
-      Runnel("run --fast --quiet --duration 1 --check-real-time=90 " + application_);
+  const Ended ended = Runnel("run --fast --quiet --duration 1 --check-real-time=90 " + application_);
   EXPECT_EQ(ended.code, kRunFailed);
-  EXPECT_THAT(ended.text,
-              HasSubstr("error: /hasty/hasty: allocates in its cycle (malloc, 10 times):\n    "));
+  EXPECT_THAT(ended.text, HasSubstr("error: /hasty/hasty: allocates in its cycle (malloc, 10 times):\n    "));
   EXPECT_THAT(ended.text, HasSubstr("\n    runnel::test::FaultyWorker::Update() at "));
   EXPECT_THAT(ended.text, Not(HasSubstr("/hasty/calm")));
 }
@@ -46,8 +44,8 @@ TEST_F(RealTimeCheck, NamesTheModuleThatAllocatesWithItsCalls) {
 TEST_F(RealTimeCheck, TheDemoKeepsRealTime) {
   const Ended ended = Runnel("run --fast --quiet --check-real-time " + kDemo + "picture=");
   EXPECT_EQ(ended.code, kDone);
-  EXPECT_THAT(ended.text, AllOf(HasSubstr("reached"),
-                                HasSubstr("no module has allocated, locked or called the system")));
+  EXPECT_THAT(ended.text,
+              AllOf(HasSubstr("reached"), HasSubstr("no module has allocated, locked or called the system")));
 }
 
 TEST_F(RealTimeCheck, WhoDoesNotAskHasNothingOfIt) {

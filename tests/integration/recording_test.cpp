@@ -36,8 +36,8 @@ class Recording : public testing::Test {
 
   /// The demo in the world with one obstacle, from start to goal.
   void RecordTheDemo() {
-    const Ended ended = Runnel("run --fast --quiet " + kDemo + "world=" + kWorlds +
-                               "one_obstacle.xml --record " + Path("run.mcap"));
+    const Ended ended =
+        Runnel("run --fast --quiet " + kDemo + "world=" + kWorlds + "one_obstacle.xml --record " + Path("run.mcap"));
     ASSERT_EQ(ended.code, kDone) << ended.text;
     ASSERT_THAT(ended.text, AllOf(HasSubstr("recorded "), HasSubstr("to " + Path("run.mcap")),
                                   testing::Not(HasSubstr("too fast"))));
@@ -51,7 +51,8 @@ class Recording : public testing::Test {
 TEST_F(Recording, OfOneRunIsThatOfTheNextToTheLastOctet) {
   std::vector<std::string> runs;
   for (const char* const name : {"first.mcap", "second.mcap"}) {
-    const Ended ended = Runnel("run --fast --quiet --duration 5 " RUNNEL_XML "/apps/places_demo.xml --record " + Path(name));
+    const Ended ended =
+        Runnel("run --fast --quiet --duration 5 " RUNNEL_XML "/apps/places_demo.xml --record " + Path(name));
     ASSERT_THAT(ended.text, AllOf(HasSubstr("recorded "), testing::Not(HasSubstr("too fast")))) << ended.code;
     const auto reader = McapReader::Open(Path(name));
     ASSERT_TRUE(reader);
@@ -61,8 +62,8 @@ TEST_F(Recording, OfOneRunIsThatOfTheNextToTheLastOctet) {
       const McapChannel& channel = (*reader)->contents().channels.at(message.channel);
       std::string port = channel.topic;
       for (const auto& [key, value] : channel.metadata) port += " " + value;
-      ports[port] +=
-          std::to_string(message.log_time) + " " + std::to_string(message.publish_time) + " " + std::string(message.data) + "\n";
+      ports[port] += std::to_string(message.log_time) + " " + std::to_string(message.publish_time) + " " +
+                     std::string(message.data) + "\n";
       return {};
     }));
     EXPECT_THAT(ports, testing::Contains(testing::Key(HasSubstr("/book/output/places"))));
@@ -77,9 +78,8 @@ TEST_F(Recording, TheSensorsOfARunGiveTheSameCommandsAlsoInAnotherWorld) {
   const auto recorded = ValuesOf(Path("run.mcap"), kTwist);
   ASSERT_GT(recorded.size(), 200u);
   // The world around is another one: nothing but what is played can make the planner do the same.
-  const Ended ended =
-      Runnel("replay " + Path("run.mcap") + " " + kDemo + "world=" + kWorlds +
-             "spiral.xml --rate 0 --quiet" + kSensors + "--record " + Path("again.mcap"));
+  const Ended ended = Runnel("replay " + Path("run.mcap") + " " + kDemo + "world=" + kWorlds +
+                             "spiral.xml --rate 0 --quiet" + kSensors + "--record " + Path("again.mcap"));
   EXPECT_EQ(ended.code, kDone) << ended.text;
   EXPECT_THAT(ended.text, HasSubstr("values at 4 ports"));
   EXPECT_EQ(ValuesOf(Path("again.mcap"), kTwist), recorded);
@@ -91,9 +91,9 @@ TEST_F(Recording, InfoSaysWhatIsInIt) {
   RecordTheDemo();
   const Ended text = Runnel("info " + Path("run.mcap"));
   EXPECT_EQ(text.code, kDone);
-  EXPECT_THAT(text.text, AllOf(HasSubstr("bug_demo.xml"), HasSubstr("clock        simulated"),
-                               HasSubstr("one_obstacle.xml"), HasSubstr("20.0"),
-                               HasSubstr("/bug_demo/laser/output/scan"), HasSubstr("RangeScan")));
+  EXPECT_THAT(text.text,
+              AllOf(HasSubstr("bug_demo.xml"), HasSubstr("clock        simulated"), HasSubstr("one_obstacle.xml"),
+                    HasSubstr("20.0"), HasSubstr("/bug_demo/laser/output/scan"), HasSubstr("RangeScan")));
   const Ended json = Runnel("info --json " + Path("run.mcap"));
   EXPECT_EQ(json.code, kDone);
   EXPECT_THAT(json.text, HasSubstr("\"ended_properly\":true"));
@@ -101,13 +101,11 @@ TEST_F(Recording, InfoSaysWhatIsInIt) {
 
 TEST_F(Recording, IsReplayedWithoutItsApplication) {
   RecordTheDemo();
-  const Ended ended =
-      Runnel("replay " + Path("run.mcap") + " --rate 0 --quiet --record " + Path("again.mcap"));
+  const Ended ended = Runnel("replay " + Path("run.mcap") + " --rate 0 --quiet --record " + Path("again.mcap"));
   EXPECT_EQ(ended.code, kDone) << ended.text;
   EXPECT_THAT(ended.text, HasSubstr("replayed "));
   ASSERT_GT(ValuesOf(Path("run.mcap"), kTwist).size(), 200u);
-  for (const char* port :
-       {"/bug_demo/localisation/output/pose", "/bug_demo/laser/output/scan", kTwist}) {
+  for (const char* port : {"/bug_demo/localisation/output/pose", "/bug_demo/laser/output/scan", kTwist}) {
     EXPECT_EQ(ValuesOf(Path("again.mcap"), port), ValuesOf(Path("run.mcap"), port)) << port;
   }
 }
@@ -115,8 +113,8 @@ TEST_F(Recording, IsReplayedWithoutItsApplication) {
 TEST_F(Recording, PlaysAStretchFromLaterOn) {
   RecordTheDemo();
   const Ended ended = Runnel("replay " + Path("run.mcap") + " " + kDemo +
-                             " --rate 0 --quiet --from 2 --to 3 --ports laser/scan --record " +
-                             Path("again.mcap") + " --record-ports laser/scan");
+                             " --rate 0 --quiet --from 2 --to 3 --ports laser/scan --record " + Path("again.mcap") +
+                             " --record-ports laser/scan");
   EXPECT_EQ(ended.code, kDone) << ended.text;
   EXPECT_THAT(ended.text, HasSubstr("replayed 1s: 2"));
 }
@@ -134,8 +132,7 @@ TEST_F(Recording, OfARunningApplicationEndsWithCtrlCInOrder) {
 
   Program recording("record" + app + "-o " + Path("live.mcap") + " laser/scan '*/pose'");
   WaitUntil("the first chunk is written", [&] {
-    return std::filesystem::exists(Path("live.mcap")) &&
-           std::filesystem::file_size(Path("live.mcap")) > 10'000;
+    return std::filesystem::exists(Path("live.mcap")) && std::filesystem::file_size(Path("live.mcap")) > 10'000;
   });
   recording.Send(SIGINT);
   const Ended ended = recording.Wait();
@@ -160,8 +157,7 @@ TEST_F(Recording, AModuleRecordsWhatTheApplicationFileSays) {
               "<parameter name=\"file\" value=\"here.mcap\"/>"
               "<parameter name=\"ports\" value=\"world/* !**/twist\"/></module>\n");
   std::ofstream(Path("app.xml")) << text;
-  const std::string run =
-      "run --fast --quiet " + Path("app.xml") + " world=" + kWorlds + "one_obstacle.xml";
+  const std::string run = "run --fast --quiet " + Path("app.xml") + " world=" + kWorlds + "one_obstacle.xml";
   const Ended ended = Runnel(run);
   EXPECT_EQ(ended.code, kDone) << ended.text;
   const auto poses = ValuesOf(Path("here.mcap"), "/bug_demo/world/sensor_output/pose");
@@ -187,8 +183,7 @@ TEST_F(Recording, SaysWhatIsWrongWithFiles) {
   const Ended cut = Runnel("info " + Path("run.mcap"));
   EXPECT_EQ(cut.code, kRunFailed);
   EXPECT_THAT(cut.text, AllOf(HasSubstr("end          missing"), HasSubstr("at byte ")));
-  const Ended replayed =
-      Runnel("replay " + Path("run.mcap") + " " + kDemo + "--rate 0 --quiet --ports laser/scan");
+  const Ended replayed = Runnel("replay " + Path("run.mcap") + " " + kDemo + "--rate 0 --quiet --ports laser/scan");
   EXPECT_EQ(replayed.code, kDone) << replayed.text;
   EXPECT_THAT(replayed.text, HasSubstr("warning: played is what comes before its damage"));
 }

@@ -90,7 +90,8 @@ TEST_P(StrictReaders, AreToldOfWithWhatTheyAskFor) {
   for (const auto& [what, asked] : readers) {
     const Program node = Node(what);
     const std::string told = std::string("the reader asks for what is not offered here: ") + asked;
-    WaitUntil("the log says it", [&] { return Runnel("log --app robot").text.find("does not fit: " + told) != std::string::npos; });
+    WaitUntil("the log says it",
+              [&] { return Runnel("log --app robot").text.find("does not fit: " + told) != std::string::npos; });
     EXPECT_THAT(Runnel("network --app robot").text, HasSubstr("NOT MATCHED, " + told));
   }
 }
@@ -104,8 +105,11 @@ INSTANTIATE_TEST_SUITE_P(Fast, StrictReaders, testing::Values("fast"));
 TEST_F(AmongRosNodes, AnotherMessageOfTheSameNameIsToldOf) {
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   const Program node = Node("other_twist");
-  const std::string told = "is of another version: the writer's message of this name has other fields than the reader's (RIHS01_64c19139, not RIHS01_9c45bf16)";
-  WaitUntil("it is told", [&] { return Runnel("log --app robot").text.find("/cmd_vel of somebody " + told) != std::string::npos; });
+  const std::string told =
+      "is of another version: the writer's message of this name has other fields than the reader's (RIHS01_64c19139, "
+      "not RIHS01_9c45bf16)";
+  WaitUntil("it is told",
+            [&] { return Runnel("log --app robot").text.find("/cmd_vel of somebody " + told) != std::string::npos; });
   EXPECT_THAT(Runnel("network --app robot").text, HasSubstr("), " + told));
   WaitUntil("they have come", [] { return Runnel("network --app robot").text.find(", 0 came") == std::string::npos; });
 }
@@ -113,9 +117,8 @@ TEST_F(AmongRosNodes, AnotherMessageOfTheSameNameIsToldOf) {
 TEST_F(AmongRosNodes, ItDrivesAsTheyTellIt) {
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   const Program node = Node("twist");
-  WaitUntil("the twist has come", [] {
-    return Runnel("get /gate/wanted").text.find("{forward: 0.25, turn: -0.5}") != std::string::npos;
-  });
+  WaitUntil("the twist has come",
+            [] { return Runnel("get /gate/wanted").text.find("{forward: 0.25, turn: -0.5}") != std::string::npos; });
   EXPECT_THAT(Runnel("network --app robot").text, HasSubstr("written by /pilots/joystick (reliable"));
 }
 

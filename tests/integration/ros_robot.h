@@ -9,7 +9,8 @@ inline std::string RosRobot(const std::string& engine) {
   return R"(<application name="robot" thread="control">
   <load plugin="simulation"/> <load plugin="motion"/>
   <clock type="simulated" speed="1"/> <thread name="control" period="50ms"/>
-  <network name="base" engine=")" + engine + R"(">
+  <network name="base" engine=")" +
+         engine + R"(">
     <offer port="laser/scan" topic="/scan" as="sensor_msgs/msg/LaserScan" frame="laser" qos="sensor"/>
     <offer port="world/pose" topic="/tf" as="tf2_msgs/msg/TFMessage" frame="map" child_frame="base_link"/>
     <offer port="world/pose" topic="/tf_static" as="tf2_msgs/msg/TFMessage" frame="map" child_frame="start" qos="latched"/>

@@ -32,8 +32,7 @@ class RunEnd : public testing::Test {
     std::filesystem::remove(file_);
     std::filesystem::remove(picture_);
   }
-  std::string Write(const std::string& clock, const std::string& thread,
-                    const std::string& modules) {
+  std::string Write(const std::string& clock, const std::string& thread, const std::string& modules) {
     std::ofstream(file_) << "<application name=\"app\">\n<load plugin=\"faulty\"/>\n"
                          << clock << "\n<thread name=\"main\" " << thread << "/>\n"
                          << modules << "\n</application>\n";
@@ -47,20 +46,17 @@ class RunEnd : public testing::Test {
 };
 
 TEST_F(RunEnd, ComesAfterWarningsOfWhatRealTimeThreadsWereRefused) {
-  const Ended ended =
-      Runnel("run --duration 0.1 " +
-             Write(real_, "period='20ms' priority='5'", "<module name='a' type='faulty/worker'/>"));
+  const Ended ended = Runnel("run --duration 0.1 " +
+                             Write(real_, "period='20ms' priority='5'", "<module name='a' type='faulty/worker'/>"));
   EXPECT_EQ(ended.code, kDone) << ended.text;
   EXPECT_THAT(ended.text, HasSubstr("the time is up"));
-  EXPECT_THAT(ended.text, HasSubstr(file_.string() +
-                                    ":4:1: warning: /app/threads/main: SCHED_FIFO with priority 5 "
-                                    "was refused"));
+  EXPECT_THAT(ended.text, HasSubstr(file_.string() + ":4:1: warning: /app/threads/main: SCHED_FIFO with priority 5 "
+                                                     "was refused"));
 }
 
 TEST_F(RunEnd, LeavesALogIfOneIsWanted) {
   const std::filesystem::path log = TestFile(".log");
-  const std::string worker =
-      "<module name='a' type='faulty/worker'><parameter name='good_cycles' value='2'/></module>";
+  const std::string worker = "<module name='a' type='faulty/worker'><parameter name='good_cycles' value='2'/></module>";
   const std::string file = Write(simulated_, "period='20ms'", worker);
   const Ended ended = Runnel("run --duration 0.1 --log " + log.string() + " " + file);
   EXPECT_THAT(ended.text, HasSubstr("20ms  warning  /app/a: 2 cycles are enough\n"));
@@ -85,8 +81,7 @@ TEST_F(RunEnd, ComesAtOnceWhereThereIsNothingToRun) {
 
 TEST_F(RunEnd, ComesWhenTheTimeIsUpAndNotAPeriodLater) {
   const Ended ended =
-      Runnel("run --duration 1 " +
-             Write(simulated_, "period='30s'", "<module name='a' type='faulty/worker'/>"));
+      Runnel("run --duration 1 " + Write(simulated_, "period='30s'", "<module name='a' type='faulty/worker'/>"));
   EXPECT_EQ(ended.code, kDone);
   EXPECT_THAT(ended.text, AllOf(HasSubstr("the time is up"), HasSubstr("simulated 1.00 s")));
 }
@@ -97,10 +92,8 @@ TEST_F(RunEnd, ByAFaultIsAFailure) {
 <module name="a" type="faulty/worker"><parameter name="good_cycles" value="2"/></module>
 <on_fault of="a" action="quit"/>)"));
     EXPECT_EQ(ended.code, kRunFailed);
-    EXPECT_THAT(ended.text,
-                AllOf(HasSubstr(file_.string() +
-                                ":6:1: error: /app/a: has failed: the worker is worn out"),
-                      HasSubstr("the run was ended because of a fault")));
+    EXPECT_THAT(ended.text, AllOf(HasSubstr(file_.string() + ":6:1: error: /app/a: has failed: the worker is worn out"),
+                                  HasSubstr("the run was ended because of a fault")));
   }
 }
 
@@ -112,8 +105,7 @@ TEST_F(RunEnd, LeavesTimeToBringTheRobotToRestOnTheRealClock) {
 <on_fault of="first" action="quit"/>
 <on_fault of="first" set="second/good_cycles" value="0"/>)"));
   EXPECT_EQ(ended.code, kRunFailed);
-  EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/first: has failed"),
-                                HasSubstr("/app/second: has failed")));
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/first: has failed"), HasSubstr("/app/second: has failed")));
 }
 
 TEST_F(RunEnd, ByAnySignalIsInOrder) {
@@ -130,8 +122,7 @@ TEST_F(RunEnd, ByAnySignalIsInOrder) {
 }
 
 TEST_F(RunEnd, BySignalAsSoonAsItIsHandledIsInOrder) {
-  Program program("run " +
-                  Write(real_, "period='10ms'", "<module name='a' type='faulty/worker'/>"));
+  Program program("run " + Write(real_, "period='10ms'", "<module name='a' type='faulty/worker'/>"));
   program.WaitUntilHandles(SIGHUP, true);  // the last one; shells handle SIGINT, too
   program.Send(SIGINT);
   const Ended ended = program.Wait();
@@ -164,8 +155,10 @@ TEST_F(RunEnd, ByASignalWinsOverARestart) {
     const TemporaryFolder folder;
     setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
     const std::string go_on = folder / "go_on";
-    Program program("run --duration 5 " + Write(real_, "period='10ms'", R"(
-<module name="judge" type="faulty/monitor"><parameter name="finishes_after" value=")" + go_on + R"("/></module>)"));
+    Program program("run --duration 5 " + Write(real_, "period='10ms'",
+                                                R"(
+<module name="judge" type="faulty/monitor"><parameter name="finishes_after" value=")" +
+                                                    go_on + R"("/></module>)"));
     ASSERT_TRUE(program.WaitFor("going well"));
     // The system gives it to the main thread first, which looks for the file after that.
     if (signal_is_first) program.Send(SIGTERM);
@@ -183,16 +176,22 @@ TEST_F(RunEnd, ByASignalWinsOverARestart) {
 // Cycles have ended, and the application does not go.
 TEST_F(RunEnd, SaysForWhatItWaitsUntilTheApplicationHasGoneAndASignalEndsItInOrder) {
   const std::string gone_after = TestFile(".gone").string();
-  const std::string run = "run --duration 0.1 " + Write(simulated_, "period='10ms'", R"(
-<module name="a" type="faulty/slow_to_go"><parameter name="gone_after" value=")" + gone_after + R"("/></module>)");
-  const std::string waits = "the run waits for one of its modules or plugins to come to its end; Ctrl-C again ends the program";
+  const std::string run = "run --duration 0.1 " + Write(simulated_, "period='10ms'",
+                                                        R"(
+<module name="a" type="faulty/slow_to_go"><parameter name="gone_after" value=")" +
+                                                            gone_after + R"("/></module>)");
+  const std::string waits =
+      "the run waits for one of its modules or plugins to come to its end; Ctrl-C again ends the program";
   {
     Program program(run);
     ASSERT_TRUE(program.WaitFor(waits));
     program.Send(SIGINT);
     const Ended ended = program.Wait();
     EXPECT_EQ(ended.code, kRunFailed) << ended.text;
-    EXPECT_THAT(ended.text, AllOf(HasSubstr("the time is up"), HasSubstr("one of its modules or plugins has still not come to its end; the program ends without it")));
+    EXPECT_THAT(
+        ended.text,
+        AllOf(HasSubstr("the time is up"),
+              HasSubstr("one of its modules or plugins has still not come to its end; the program ends without it")));
   }
   Program program(run);
   ASSERT_TRUE(program.WaitFor(waits));
@@ -205,8 +204,7 @@ TEST_F(RunEnd, SaysForWhatItWaitsUntilTheApplicationHasGoneAndASignalEndsItInOrd
 TEST_F(RunEnd, IsInOrderWhenNobodyReadsTheProgress) {
   const std::filesystem::path code = TestFile(".code");
   const std::string command = "(" RUNNEL_PROGRAM " run --speed 1 --duration 1.5 " + kDemo +
-                              "picture=" + picture_.string() + "; echo ended with $? >" +
-                              code.string() + ") | true";
+                              "picture=" + picture_.string() + "; echo ended with $? >" + code.string() + ") | true";
   EXPECT_EQ(std::system(command.c_str()), 0);
   std::string text;
   std::getline(std::ifstream(code), text);
@@ -216,8 +214,7 @@ TEST_F(RunEnd, IsInOrderWhenNobodyReadsTheProgress) {
 }
 
 TEST_F(RunEnd, IsAFailureWhenTheOutputCannotBeWritten) {
-  for (const std::string& arguments :
-       {std::string("version"), "run --fast " + kDemo + "picture="}) {
+  for (const std::string& arguments : {std::string("version"), "run --fast " + kDemo + "picture="}) {
     const Ended ended = Runnel(arguments + " >/dev/full");
     EXPECT_EQ(ended.code, kRunFailed);
     EXPECT_THAT(ended.text, HasSubstr("standard output could not be written"));
@@ -226,11 +223,10 @@ TEST_F(RunEnd, IsAFailureWhenTheOutputCannotBeWritten) {
 
 TEST_F(RunEnd, IsAFailureWhenAMonitorThrows) {
   for (const std::string& function : std::vector<std::string>{"progress", "outcome", "finish"}) {
-    const Ended ended = Runnel("run --duration 1.5 " +
-                               Write(real_, "period='10ms'",
-                                     "<module name='judge' type='faulty/monitor'><parameter "
-                                     "name='throws_in' value='" +
-                                         function + "'/></module>"));
+    const Ended ended = Runnel("run --duration 1.5 " + Write(real_, "period='10ms'",
+                                                             "<module name='judge' type='faulty/monitor'><parameter "
+                                                             "name='throws_in' value='" +
+                                                                 function + "'/></module>"));
     EXPECT_EQ(ended.code, kRunFailed) << ended.text;
     EXPECT_THAT(ended.text, HasSubstr(file_.string() +
                                       ":5:1: error: /app/judge: its run monitor has failed: "
@@ -243,8 +239,7 @@ TEST_F(RunEnd, NamesThePlaceOfAMonitorThatCannotFinish) {
   const Ended ended = Runnel("run --duration 0.1 " + Write(simulated_, "period='10ms'", R"(
 <module name="judge" type="faulty/monitor"><parameter name="throws_in" value="nothing"/></module>)"));
   EXPECT_EQ(ended.code, kRunFailed);
-  EXPECT_THAT(ended.text,
-              HasSubstr(file_.string() + ":6:1: error: /app/judge: cannot be finished"));
+  EXPECT_THAT(ended.text, HasSubstr(file_.string() + ":6:1: error: /app/judge: cannot be finished"));
 }
 
 TEST_F(RunEnd, ComesWhenTheModuleThatWouldJudgeItHasBeenStopped) {
@@ -252,8 +247,7 @@ TEST_F(RunEnd, ComesWhenTheModuleThatWouldJudgeItHasBeenStopped) {
     const Ended ended = Runnel("run " + Write(clock, "period='10ms'", R"(
 <module name="judge" type="faulty/monitor"><parameter name="throws_in" value="update"/></module>)"));
     EXPECT_EQ(ended.code, kRunFailed);
-    EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/judge: has failed: thrown in update"),
-                                  HasSubstr("finished")));
+    EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/judge: has failed: thrown in update"), HasSubstr("finished")));
   }
 }
 

@@ -78,8 +78,8 @@ TEST_F(SchedulingCommands, AProfileIsInTheLogAtTheEnd) {
   Write(std::string(kOnSimulatedClock) + kLatency + "  <profile/>\n");
   const Ended ended = Runnel("run --fast --duration 1 --quiet --log " + Path("log") + " " + application_);
   EXPECT_EQ(ended.code, kDone);
-  EXPECT_THAT(TextOfFile(Path("log")), AllOf(ContainsRegex("info +share/%"), HasSubstr("/demo/relay\n"),
-                                         HasSubstr("of 200 measurements")));
+  EXPECT_THAT(TextOfFile(Path("log")),
+              AllOf(ContainsRegex("info +share/%"), HasSubstr("/demo/relay\n"), HasSubstr("of 200 measurements")));
 }
 
 TEST_F(SchedulingCommands, ATraceHasArrowsAlongTheChain) {
@@ -142,13 +142,23 @@ TEST_F(SchedulingCommands, AnEmptyWordIsAnError) {
   Program program("run --quiet " + application_);
   ASSERT_TRUE(program.WaitFor("reads"));
   ASSERT_EQ(Runnel("publish /sink/in 3").code, kDone);
-  for (const std::string command : {"release", "pause", "resume", "block", "restart", "ls", "hz", "echo", "get", "copy relay", "save",
-                                    "step", "speed", "activities", "profile", "deadline", "reload", "delete", "rename relay",
-                                    "disconnect source/count", "tag relay", "record -o a.mcap", "ls --app", "publish /sink/in 3 --rate"}) {
+  for (const std::string command : {"release",      "pause",
+                                    "resume",       "block",
+                                    "restart",      "ls",
+                                    "hz",           "echo",
+                                    "get",          "copy relay",
+                                    "save",         "step",
+                                    "speed",        "activities",
+                                    "profile",      "deadline",
+                                    "reload",       "delete",
+                                    "rename relay", "disconnect source/count",
+                                    "tag relay",    "record -o a.mcap",
+                                    "ls --app",     "publish /sink/in 3 --rate"}) {
     const Ended refused = Runnel(command + " \"\"");
     EXPECT_EQ(refused.code, kBadInput) << command;
-    EXPECT_THAT(refused.text, testing::AnyOf(HasSubstr("one of its words is empty; is a variable of the shell not set?"),
-                                             HasSubstr("an empty word names no application")))
+    EXPECT_THAT(refused.text,
+                testing::AnyOf(HasSubstr("one of its words is empty; is a variable of the shell not set?"),
+                               HasSubstr("an empty word names no application")))
         << command;
   }
   EXPECT_EQ(Runnel("get /sink/in").text, "3\n");

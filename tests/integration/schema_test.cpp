@@ -23,8 +23,7 @@ std::string ReadAll(const std::string& file) {
 
 // 0 if the file is what the schema says.
 int Validate(const std::string& file) {
-  return std::system(
-      ("xmllint --noout --schema " + kSchema + " " + file + " >/dev/null 2>&1").c_str());
+  return std::system(("xmllint --noout --schema " + kSchema + " " + file + " >/dev/null 2>&1").c_str());
 }
 
 bool HasXmllint() { return std::system("xmllint --version >/dev/null 2>&1") == 0; }
@@ -97,8 +96,7 @@ TEST(Graph, SaysWhatIsMissing) {
               testing::HasSubstr("its name ends in .svg"));
   const TemporaryFolder folder;
   const std::string picture = folder / "graph.svg";
-  const std::string command = "env PATH=/nowhere " RUNNEL_PROGRAM " graph " RUNNEL_XML
-                              "/apps/bug_demo.xml -o " +
+  const std::string command = "env PATH=/nowhere " RUNNEL_PROGRAM " graph " RUNNEL_XML "/apps/bug_demo.xml -o " +
                               picture + " 2>" + picture + ".said";
   EXPECT_NE(std::system(command.c_str()), 0);
   EXPECT_THAT(ReadAll(picture + ".said"), testing::HasSubstr("install the package graphviz"));

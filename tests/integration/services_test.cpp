@@ -84,8 +84,8 @@ TEST_F(ServicesOfAnApplication, AWrongPairIsToldByTheCheck) {
   std::ofstream(wrong) << text;
   const Ended checked = Runnel("check " + wrong + " world=" RUNNEL_XML "/worlds/rooms.xml");
   EXPECT_EQ(checked.code, kBadInput);
-  EXPECT_THAT(checked.text, AllOf(HasSubstr("service string[]()"), HasSubstr("service Pose2(string)"),
-                                  HasSubstr("wrong.xml:")));
+  EXPECT_THAT(checked.text,
+              AllOf(HasSubstr("service string[]()"), HasSubstr("service Pose2(string)"), HasSubstr("wrong.xml:")));
 }
 
 }  // namespace

@@ -8,11 +8,10 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
-
-#include <gmock/gmock.h>
 
 #include "tests/integration/program.h"
 #include "tests/support/temporary_folder.h"
@@ -93,8 +92,9 @@ TEST_F(StopCommand, StopsAllApplicationsAndSaysOfEachWhetherItHas) {
   second.Send(SIGSTOP);
   const Ended ended = Runnel("stop");
   EXPECT_EQ(ended.code, kRunFailed);
-  EXPECT_THAT(ended.text, AllOf(HasSubstr("first ("), HasSubstr("): STOP is in force;"), HasSubstr("): STOP is in force already;"),
-                                HasSubstr("error: the STOP is not confirmed: ")));
+  EXPECT_THAT(ended.text,
+              AllOf(HasSubstr("first ("), HasSubstr("): STOP is in force;"), HasSubstr("): STOP is in force already;"),
+                    HasSubstr("error: the STOP is not confirmed: ")));
   EXPECT_TRUE(first.WaitFor("/first/motor: stands"));
   second.Send(SIGCONT);
   EXPECT_THAT(Runnel("release --app first").text, HasSubstr("released the STOP"));
@@ -119,7 +119,8 @@ TEST_F(StopCommand, OutlivesAProcessThatIsKilledAtTheAnswer) {
   ASSERT_TRUE(next.WaitFor("the application begins under STOP, pressed by a terminal, in a process before this one"));
   WaitUntil("it is told", [] { return Runnel("ps").text.find("running, STOP in force for") != std::string::npos; });
   EXPECT_THAT(Runnel("get /motor/speed").text, HasSubstr("0"));
-  EXPECT_THAT(Runnel("release").text, HasSubstr("released the STOP that a terminal, in a process before this one had pressed"));
+  EXPECT_THAT(Runnel("release").text,
+              HasSubstr("released the STOP that a terminal, in a process before this one had pressed"));
   EXPECT_TRUE(next.WaitFor("/robot/motor: moves"));
   EXPECT_EQ(Runnel("quit").code, kDone);
   EXPECT_EQ(next.Wait().code, kDone);
@@ -142,7 +143,8 @@ TEST_F(StopCommand, ARestartDoesNotClearItAgain) {
   ASSERT_EQ(Runnel("stop").code, kDone);
   ASSERT_TRUE(cleared.WaitFor("/robot/motor: stands"));
   EXPECT_THAT(Runnel("restart").text, HasSubstr("runs again from its file"));
-  ASSERT_TRUE(cleared.WaitFor("the application begins under STOP, pressed by a terminal, in a process before this one"));
+  ASSERT_TRUE(
+      cleared.WaitFor("the application begins under STOP, pressed by a terminal, in a process before this one"));
   WaitUntil("it runs again", [] { return Runnel("ps").text.find("running, STOP in force for") != std::string::npos; });
 }
 
@@ -151,24 +153,28 @@ TEST_F(StopCommand, APauseSaysWhichDrivingPortsHaveTheirSafeValueAndWhichKeepThe
   ASSERT_TRUE(program.WaitFor("/robot/motor: moves"));
   const Ended feeds = Runnel("pause /commander");
   EXPECT_EQ(feeds.code, kDone) << feeds.text;
-  EXPECT_EQ(feeds.text, "paused /commander; driving ports with the safe value of supervision now: /robot/motor/input/speed\n");
+  EXPECT_EQ(feeds.text,
+            "paused /commander; driving ports with the safe value of supervision now: /robot/motor/input/speed\n");
   ASSERT_TRUE(program.WaitFor("/robot/motor: stands"));
   const Ended drives = Runnel("pause /other");
   EXPECT_EQ(drives.code, kDone) << "what was asked for is done";
   EXPECT_THAT(drives.text, AllOf(HasSubstr("/robot/other/input/speed: cannot be reached: /robot/other is paused"),
-                                 HasSubstr("keeps its last command, and has to come to rest by its own time-out"), HasSubstr("paused /other")));
+                                 HasSubstr("keeps its last command, and has to come to rest by its own time-out"),
+                                 HasSubstr("paused /other")));
   EXPECT_EQ(Runnel("resume /other").text, "resumed /other\n");
 }
 
 TEST_F(StopCommand, WhereNothingDrivesItDoesNotSucceedAndSaysWhy) {
   const std::string file = folder_ / "still.xml";
-  std::ofstream(file) << R"(<application name="still"> <load plugin="faulty"/> <clock type="real"/> <thread name="main" period="5ms"/>
+  std::ofstream(file)
+      << R"(<application name="still"> <load plugin="faulty"/> <clock type="real"/> <thread name="main" period="5ms"/>
   <module name="commander" type="faulty/counter"/> </application>)";
   Program program("run --quiet " + file);
   WaitUntil("it runs", [&] { return Runnel("ps").text.find("still") != std::string::npos; });
   const Ended stopped = Runnel("stop");
   EXPECT_EQ(stopped.code, kRunFailed);
-  EXPECT_THAT(stopped.text, AllOf(HasSubstr("STOP is in force;"), HasSubstr("STOP stops nothing, and the robot may move; use its own stop"),
+  EXPECT_THAT(stopped.text, AllOf(HasSubstr("STOP is in force;"),
+                                  HasSubstr("STOP stops nothing, and the robot may move; use its own stop"),
                                   HasSubstr("<driving port=")));
   EXPECT_THAT(Runnel("ps").text, HasSubstr("but NO PORT DRIVES"));
 }

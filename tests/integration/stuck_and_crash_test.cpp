@@ -80,16 +80,13 @@ TEST_F(StuckAndCrash, WhatWouldReplaceAStuckModuleIsRefusedAtOnce) {
 
 TEST_F(StuckAndCrash, DeadlinesAreSetFromTheTerminal) {
   Write("", "");
-  const auto deadline = [&](const std::string& words) {
-    return Runnel("deadline --app demo " + words).text;
-  };
+  const auto deadline = [&](const std::string& words) { return Runnel("deadline --app demo " + words).text; };
   setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
   Program program("run " + application_);
   ASSERT_TRUE(program.WaitFor("reads"));
   EXPECT_EQ(deadline(""), "all others: at most 1s in a cycle\n");
   EXPECT_EQ(deadline("/worker 200ms"), "/demo/worker: at most 200ms in a cycle\n");
-  EXPECT_EQ(deadline(""),
-            "all others: at most 1s in a cycle\n/demo/worker: at most 200ms in a cycle\n");
+  EXPECT_EQ(deadline(""), "all others: at most 1s in a cycle\n/demo/worker: at most 200ms in a cycle\n");
   EXPECT_THAT(deadline("/wroker 1s"), HasSubstr("did you mean 'worker'?"));
   EXPECT_THAT(deadline("/worker soon"), HasSubstr("soon"));
   EXPECT_EQ(deadline("/worker off"), "/demo/worker: no deadline\n");
@@ -124,8 +121,8 @@ TEST_F(StuckAndCrash, TheFileSaysAfterWhichTimeAModuleIsStuck) {
   Program program("run " + application_);
   EXPECT_TRUE(program.WaitFor(kTold)) << "that of the thread counts for its modules";
   EXPECT_THAT(Runnel("deadline --app demo").text,
-              AllOf(HasSubstr("all others: at most 5400s in a cycle\n"), HasSubstr("/other: at most 100ms in a cycle\n"),
-                    HasSubstr("/demo/worker has not returned for ")));
+              AllOf(HasSubstr("all others: at most 5400s in a cycle\n"),
+                    HasSubstr("/other: at most 100ms in a cycle\n"), HasSubstr("/demo/worker has not returned for ")));
   program.Send(SIGTERM);
   EXPECT_EQ(program.Wait().code, kRunFailed);
   unsetenv("XDG_RUNTIME_DIR");
@@ -136,8 +133,8 @@ TEST_F(StuckAndCrash, OnASimulatedClockASecondSignalEndsWhatIsStuckInOrder) {
   Program program(Run() + " --record " + Path("run.mcap") + " --log " + Path("log"));
   EXPECT_TRUE(program.WaitFor(kTold));
   program.Send(SIGINT);
-  EXPECT_TRUE(program.WaitFor(
-      "the run waits for /demo/worker to return from its cycle; Ctrl-C again ends the program"));
+  EXPECT_TRUE(
+      program.WaitFor("the run waits for /demo/worker to return from its cycle; Ctrl-C again ends the program"));
   program.Send(SIGINT);
   const Ended ended = program.Wait();
   EXPECT_EQ(ended.code, kRunFailed) << ended.text;
@@ -151,9 +148,8 @@ TEST_F(StuckAndCrash, OnASimulatedClockAStuckModuleCanEndTheRunToo) {
   Write(kHangs, std::string(kSimulated) + R"(<on_stuck of="." after="50ms"><quit/></on_stuck>)");
   const Ended ended = Runnel(Run());
   EXPECT_EQ(ended.code, kRunFailed);
-  EXPECT_THAT(ended.text,
-              AllOf(HasSubstr(kTold), HasSubstr("is stuck; ends the run"),
-                    HasSubstr("/demo/worker: has still not returned; the program ends")));
+  EXPECT_THAT(ended.text, AllOf(HasSubstr(kTold), HasSubstr("is stuck; ends the run"),
+                                HasSubstr("/demo/worker: has still not returned; the program ends")));
 }
 
 TEST_F(StuckAndCrash, ACallThatDoesNotEndIsNamedAndTheProgramEndsWithoutIt) {
@@ -163,8 +159,9 @@ TEST_F(StuckAndCrash, ACallThatDoesNotEndIsNamedAndTheProgramEndsWithoutIt) {
   program.Send(SIGTERM);
   const Ended ended = program.Wait();
   EXPECT_EQ(ended.code, kRunFailed) << ended.text;
-  EXPECT_THAT(ended.text, AllOf(HasSubstr("the run waits for a call of /demo/deaf to come to its end"),
-                                HasSubstr("a call of /demo/deaf has still not come to its end; the program ends without it")));
+  EXPECT_THAT(ended.text,
+              AllOf(HasSubstr("the run waits for a call of /demo/deaf to come to its end"),
+                    HasSubstr("a call of /demo/deaf has still not come to its end; the program ends without it")));
   EXPECT_THAT(Runnel("info " + Path("run.mcap")).text, HasSubstr("as its writer wanted it"));
 }
 
@@ -177,18 +174,18 @@ class Crashing : public StuckAndCrash, public testing::WithParamInterface<std::p
 
 TEST_P(Crashing, NamesTheModuleAndLeavesRecordingTraceAndLogReadable) {
   const auto& [way, signal] = GetParam();
-  Write("<parameter name=\"good_cycles\" value=\"20\"/> <parameter name=\"crashes\" value=\"" +
-            std::string(way) + "\"/>",
-        "");
-  const Ended ended = Runnel(Run() + " --record " + Path("run.mcap") + " --log " + Path("log") +
-                             " --trace " + Path("trace.json") + " --crash-report " + Path("crash"));
+  Write(
+      "<parameter name=\"good_cycles\" value=\"20\"/> <parameter name=\"crashes\" value=\"" + std::string(way) + "\"/>",
+      "");
+  const Ended ended = Runnel(Run() + " --record " + Path("run.mcap") + " --log " + Path("log") + " --trace " +
+                             Path("trace.json") + " --crash-report " + Path("crash"));
   EXPECT_EQ(ended.signal, signal) << "it ends as it would have without";
   EXPECT_THAT(ended.text, HasSubstr("\ncrash: /demo/worker: SIG"));
   EXPECT_THAT(ended.text, HasSubstr("runnel::test::FaultyWorker::"));
-  EXPECT_THAT(TextOf(Path("crash")), AllOf(HasSubstr("\ncrash: /demo/worker: SIG"),
-                                           HasSubstr("runnel::test::FaultyWorker::")));
-  EXPECT_THAT(TextOf(Path("log")), AllOf(HasSubstr("20 cycles are enough"),
-                                         HasSubstr("/demo/worker has crashed: SIG")));
+  EXPECT_THAT(TextOf(Path("crash")),
+              AllOf(HasSubstr("\ncrash: /demo/worker: SIG"), HasSubstr("runnel::test::FaultyWorker::")));
+  EXPECT_THAT(TextOf(Path("log")),
+              AllOf(HasSubstr("20 cycles are enough"), HasSubstr("/demo/worker has crashed: SIG")));
   const Ended info = Runnel("info " + Path("run.mcap"));
   EXPECT_EQ(info.code, kDone) << info.text;
   EXPECT_THAT(info.text, AllOf(HasSubstr("/source/output/count"), HasSubstr("as its writer wanted it")));

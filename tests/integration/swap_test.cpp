@@ -13,17 +13,12 @@ namespace {
 using namespace std::chrono_literals;
 using testing::IsEmpty;
 
-ReplaceModule Planner(const std::string& type) {
-  return {.path = "/robot/planner", .type = "planning/" + type};
-}
+ReplaceModule Planner(const std::string& type) { return {.path = "/robot/planner", .type = "planning/" + type}; }
 
-std::string World(const std::string& name) {
-  return "world=" RUNNEL_XML "/worlds/" + name + ".xml";
-}
+std::string World(const std::string& name) { return "world=" RUNNEL_XML "/worlds/" + name + ".xml"; }
 
 TEST(SwapTest, EveryPlannerTakesOverFromEveryOtherInTheMidstOfTheWay) {
-  const char* const variants[] = {"bug1", "alg1", "dist_bug", "tangent_bug", "class1",
-                                  "alg2", "rev1", "rev2",     "bug2"};
+  const char* const variants[] = {"bug1", "alg1", "dist_bug", "tangent_bug", "class1", "alg2", "rev1", "rev2", "bug2"};
   ApplicationChoice choice{.name = "bug_demo.xml", .arguments = {World("rooms"), "picture="}};
   Duration at = 7s;
   for (int round = 0; round < 4; ++round) {
@@ -51,11 +46,12 @@ TEST(SwapTest, TheSamePlannerMadeAnewAllTheTimeDrivesTheSameWay) {
 
 // Else a swap, or a reload, would open it.
 TEST(SwapTest, AnotherGateKnowsThatThereWasABumper) {
-  const ApplicationRun run = RunApplication({.name = "bug_demo.xml",
-                                             .arguments = {World("rooms"), "picture="},
-                                             .limit = 20s,
-                                             .changes = {{6s, {DisconnectPorts{"/bumper/contact", "/robot/contact"}}},
-                                                         {10s, {ReplaceModule{.path = "/robot/gate", .type = "motion/command_gate"}}}}});
+  const ApplicationRun run =
+      RunApplication({.name = "bug_demo.xml",
+                      .arguments = {World("rooms"), "picture="},
+                      .limit = 20s,
+                      .changes = {{6s, {DisconnectPorts{"/bumper/contact", "/robot/contact"}}},
+                                  {10s, {ReplaceModule{.path = "/robot/gate", .type = "motion/command_gate"}}}}});
   ASSERT_GE(run.truth.size(), 400u);
   EXPECT_GT(std::hypot(run.truth[119].x - run.truth[99].x, run.truth[119].y - run.truth[99].y), 0.05) << "it drives";
   for (std::size_t i = 160; i < run.truth.size(); ++i) ASSERT_EQ(run.truth[i], run.truth[159]) << i;
@@ -75,24 +71,21 @@ TEST(SwapTest, TheSensorIsExchangedWithItsAdaptorWhileTheRobotDrives) {
       ConnectPorts{"/robot/pose", "/robot/eyes/pose"},
       ConnectPorts{"/robot/eyes/surroundings", "/robot/planner/surroundings"},
   };
-  const ApplicationRun run = RunApplication({.name = "bug_demo.xml",
-                                             .arguments = {World("one_obstacle"), "picture="},
-                                             .changes = {{10s, to_infrared}}});
+  const ApplicationRun run = RunApplication(
+      {.name = "bug_demo.xml", .arguments = {World("one_obstacle"), "picture="}, .changes = {{10s, to_infrared}}});
   ASSERT_TRUE(run.outcome);
   EXPECT_EQ(run.outcome->verdict, "reached") << run.outcome->summary;
   EXPECT_THAT(run.faults, IsEmpty());
 }
 
 TEST(SwapTest, ChangesRepeatBitForBit) {
-  const ApplicationChoice choice{
-      .name = "bug_demo.xml",
-      .arguments = {World("cup"), "picture="},
-      .changes = {{9s, {Planner("tangent_bug")}}, {15s, {Planner("alg1")}}}};
+  const ApplicationChoice choice{.name = "bug_demo.xml",
+                                 .arguments = {World("cup"), "picture="},
+                                 .changes = {{9s, {Planner("tangent_bug")}}, {15s, {Planner("alg1")}}}};
   const ApplicationRun first = RunApplication(choice);
   const ApplicationRun second = RunApplication(choice);
   ASSERT_EQ(first.truth.size(), second.truth.size());
-  EXPECT_EQ(
-      std::memcmp(first.truth.data(), second.truth.data(), first.truth.size() * sizeof(Pose2)), 0);
+  EXPECT_EQ(std::memcmp(first.truth.data(), second.truth.data(), first.truth.size() * sizeof(Pose2)), 0);
 }
 
 }  // namespace

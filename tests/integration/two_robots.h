@@ -44,7 +44,8 @@ class TwoRobots : public testing::Test {
   /// An application of the test's own, in a file of its name.
   std::string Write(const std::string& name, const std::string& content) const {
     const std::string file = folder_ / (name + ".xml");
-    std::ofstream(file) << "<application name=\"" << name << "\">\n  <load plugin=\"motion\"/>\n" << content << "</application>\n";
+    std::ofstream(file) << "<application name=\"" << name << "\">\n  <load plugin=\"motion\"/>\n"
+                        << content << "</application>\n";
     return file;
   }
   static std::string Read(const std::string& file) {
@@ -53,7 +54,8 @@ class TwoRobots : public testing::Test {
   }
   /// Until a command says something.
   static void WaitForText(const std::string& command, const std::string& text) {
-    WaitUntil("'runnel " + command + "' says " + text, [&] { return Runnel(command).text.find(text) != std::string::npos; });
+    WaitUntil("'runnel " + command + "' says " + text,
+              [&] { return Runnel(command).text.find(text) != std::string::npos; });
   }
   /// That the robot is told to go.
   static void WaitUntilItDrives() {

@@ -51,8 +51,7 @@ class FakeNetwork final : public WireEngine {
   }
 
   [[nodiscard]] bool has_identities() const noexcept override { return true; }
-  Result<std::unique_ptr<WireParticipant>> Join(const WireMemberOptions& options,
-                                                WireDiscovery& discovery) override;
+  Result<std::unique_ptr<WireParticipant>> Join(const WireMemberOptions& options, WireDiscovery& discovery) override;
 
   void Post(std::function<void()> task) {
     {
@@ -169,20 +168,19 @@ class FakeParticipant final : public WireParticipant {
   [[nodiscard]] std::uint32_t domain() const noexcept { return domain_; }
   [[nodiscard]] WireDiscovery& discovery() const noexcept { return discovery_; }
 
-  Result<std::unique_ptr<WireWriter>> MakeWriter(const WireEndpointOptions& options,
-                                                 OnMatched on_matched) override {
+  Result<std::unique_ptr<WireWriter>> MakeWriter(const WireEndpointOptions& options, OnMatched on_matched) override {
     auto endpoint = Make(options, true, {}, std::move(on_matched));
     return std::unique_ptr<WireWriter>(new FakeWriter(network_, std::move(endpoint)));
   }
-  Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options,
-                                                 OnSample on_sample, OnMatched on_matched) override {
+  Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options, OnSample on_sample,
+                                                 OnMatched on_matched) override {
     auto endpoint = Make(options, false, std::move(on_sample), std::move(on_matched));
     return std::unique_ptr<WireReader>(new FakeReader(network_, std::move(endpoint)));
   }
 
  private:
-  std::shared_ptr<FakeEndpoint> Make(const WireEndpointOptions& options, bool is_writer,
-                                     OnSample on_sample, OnMatched on_matched) {
+  std::shared_ptr<FakeEndpoint> Make(const WireEndpointOptions& options, bool is_writer, OnSample on_sample,
+                                     OnMatched on_matched) {
     auto endpoint = std::make_shared<FakeEndpoint>();
     endpoint->about = {.id = network_.NewId(), .participant = about_.id, .is_writer = is_writer, .options = options};
     std::memcpy(&endpoint->about.handle, endpoint->about.id.data(), sizeof endpoint->about.handle);
@@ -241,10 +239,8 @@ void FakeNetwork::ForEachOther(const FakeEndpoint& endpoint, const Visit& visit)
   for (const auto& other : endpoints_) {
     const WireEndpointOptions& mine = endpoint.about.options;
     const WireEndpointOptions& its = other->about.options;
-    if (other->participant == endpoint.participant ||
-        other->participant->domain() != endpoint.participant->domain() ||
-        other->about.is_writer == endpoint.about.is_writer || mine.topic != its.topic ||
-        mine.type != its.type) {
+    if (other->participant == endpoint.participant || other->participant->domain() != endpoint.participant->domain() ||
+        other->about.is_writer == endpoint.about.is_writer || mine.topic != its.topic || mine.type != its.type) {
       continue;
     }
     const bool is_writer = endpoint.about.is_writer;
@@ -319,8 +315,7 @@ void FakeNetwork::SetCutOff(const std::string& name, bool is_cut_off, bool gets_
   }
 }
 
-Result<std::unique_ptr<WireParticipant>> FakeNetwork::Join(const WireMemberOptions& options,
-                                                           WireDiscovery& discovery) {
+Result<std::unique_ptr<WireParticipant>> FakeNetwork::Join(const WireMemberOptions& options, WireDiscovery& discovery) {
   return std::unique_ptr<WireParticipant>(new FakeParticipant(*this, options, discovery));
 }
 

@@ -93,7 +93,8 @@ class LossyCable {
         const ssize_t size = ends[i].revents != 0 ? read(ends_[i], room.data(), room.size()) : 0;
         if (size <= 0) continue;
         if (std::uniform_real_distribution<double>()(random_) < manner_.loss) continue;
-        frames_.push_back({std::chrono::steady_clock::now() + manner_.delay, ends_[1 - i], {room.begin(), room.begin() + size}});
+        frames_.push_back(
+            {std::chrono::steady_clock::now() + manner_.delay, ends_[1 - i], {room.begin(), room.begin() + size}});
       }
       while (!frames_.empty() && frames_.front().due <= std::chrono::steady_clock::now()) {
         const Frame& frame = frames_.front();

@@ -17,12 +17,14 @@ namespace runnel::test {
 /// The packets of the internet protocol that leave by an interface of the calling thread's network, from now on.
 class SentPackets {
  public:
-  explicit SentPackets(const std::string& interface) : socket_(socket(AF_PACKET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
+  explicit SentPackets(const std::string& interface)
+      : socket_(socket(AF_PACKET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
     sockaddr_ll address{};
     address.sll_family = AF_PACKET;
     address.sll_protocol = htons(ETH_P_ALL);  // of one protocol, only what comes would be told
     address.sll_ifindex = static_cast<int>(if_nametoindex(interface.c_str()));
-    is_there_ = address.sll_ifindex != 0 && bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    is_there_ =
+        address.sll_ifindex != 0 && bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   }
   ~SentPackets() { close(socket_); }
   SentPackets(const SentPackets&) = delete;

@@ -14,9 +14,7 @@ inline std::uint64_t& YieldState() noexcept {
   return state;
 }
 /// Precondition: any seed; 0 counts as 1.
-inline void SeedYields(std::uint64_t seed) noexcept {
-  YieldState() = (seed != 0 ? seed : 1) * 0x9E3779B97F4A7C15u;
-}
+inline void SeedYields(std::uint64_t seed) noexcept { YieldState() = (seed != 0 ? seed : 1) * 0x9E3779B97F4A7C15u; }
 inline void MaybeYield() noexcept {
   std::uint64_t& state = YieldState();  // xorshift64 (Marsaglia 2003)
   state ^= state << 13;
@@ -53,15 +51,11 @@ class YieldingAtomic {
   T fetch_or(T value, std::memory_order order) noexcept {
     return Between([&] { return atomic_.fetch_or(value, order); });
   }
-  bool compare_exchange_weak(T& expected, T desired, std::memory_order success,
-                             std::memory_order failure) noexcept {
-    return Between(
-        [&] { return atomic_.compare_exchange_weak(expected, desired, success, failure); });
+  bool compare_exchange_weak(T& expected, T desired, std::memory_order success, std::memory_order failure) noexcept {
+    return Between([&] { return atomic_.compare_exchange_weak(expected, desired, success, failure); });
   }
-  bool compare_exchange_strong(T& expected, T desired, std::memory_order success,
-                               std::memory_order failure) noexcept {
-    return Between(
-        [&] { return atomic_.compare_exchange_strong(expected, desired, success, failure); });
+  bool compare_exchange_strong(T& expected, T desired, std::memory_order success, std::memory_order failure) noexcept {
+    return Between([&] { return atomic_.compare_exchange_strong(expected, desired, success, failure); });
   }
 
  private:

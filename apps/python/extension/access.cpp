@@ -74,7 +74,8 @@ void PublishByHand(const Open& open, const std::string& path, const py::object& 
   FromPython(type, value, made.at);
   const auto publish = [&](Application& application) -> Result<void> {
     const std::lock_guard lock(runtime.structure_mutex());
-    if (auto again = find(application); !again || *again != &type) return Error{.message = "has gone meanwhile", .path = path};
+    if (auto again = find(application); !again || *again != &type)
+      return Error{.message = "has gone meanwhile", .path = path};
     return port->PublishByHand([&](void* at) -> Result<void> {
       if (auto known = runtime.robot_stop().CheckIsKnown(as_of); !known) return known;
       if (CopyValue(type, made.at, at)) return {};
@@ -86,7 +87,8 @@ void PublishByHand(const Open& open, const std::string& path, const py::object& 
 
 py::object Call(const Open& open, const std::string& path, double timeout, const py::args& positional,
                 const py::kwargs& named) {
-  if (!positional.empty() && !named.empty()) throw py::type_error("a call has one argument, or arguments by their names");
+  if (!positional.empty() && !named.empty())
+    throw py::type_error("a call has one argument, or arguments by their names");
   const Use use(*open);
   std::shared_ptr<AnyCall> call;
   const TypeInfo* reply = nullptr;
@@ -107,11 +109,13 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
           if (has_some) throw py::type_error("the service takes no arguments");
         } else {
           const bool is_enough = has_some || callable->are_arguments_optional();
-          if (!is_enough || positional.size() > 1) throw py::type_error("the service wants " + ToText(*callable->arguments(), call->arguments()));
+          if (!is_enough || positional.size() > 1)
+            throw py::type_error("the service wants " + ToText(*callable->arguments(), call->arguments()));
           const py::object said = positional.empty() ? py::object(named) : py::object(positional[0]);
           if (has_some) FromPython(*callable->arguments(), said, call->arguments(), false);
           for (const std::string& each : callable->required()) {
-            if (py::isinstance<py::dict>(said) && !said.contains(each)) throw py::type_error("the service wants '" + each + "', too");
+            if (py::isinstance<py::dict>(said) && !said.contains(each))
+              throw py::type_error("the service wants '" + each + "', too");
           }
         }
       } catch (...) {
@@ -137,7 +141,8 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
   }
   if (status != CallStatus::kAnswered) {
     const std::string why = call->error();
-    Throw({.message = std::string("the call has ended: ") + CallStatusName(status) + (why.empty() ? "" : ": " + why), .path = path});
+    Throw({.message = std::string("the call has ended: ") + CallStatusName(status) + (why.empty() ? "" : ": " + why),
+           .path = path});
   }
   if (reply == nullptr) return py::none();
   return ToPython(*reply, ForLooking(call->reply()), std::make_shared<Memory>(Memory{.kept = call}));
@@ -150,7 +155,11 @@ py::list Paths(const Open& open) {
     application.element().Visit([&](FrameworkElement& each) {
       if (const auto* const port = dynamic_cast<const Port*>(&each)) {
         const bool is_input = port->direction() == Port::Direction::kInput;
-        rows.push_back({each.path(), each.FindAnnotation<Callable>() != nullptr ? "service" : is_input ? "input" : "output", port->type().name()});
+        rows.push_back({each.path(),
+                        each.FindAnnotation<Callable>() != nullptr ? "service"
+                        : is_input                                 ? "input"
+                                                                   : "output",
+                        port->type().name()});
       } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&each)) {
         rows.push_back({each.path(), "parameter", parameter->type().name()});
       } else if (each.kind() == ElementKind::kModule) {

@@ -35,16 +35,19 @@ Result<void> SetStop(Application& application, bool is_pressed) {
   if (auto done = is_pressed ? Result<void>() : stop.Release("Python"); !done) return done;
   if (is_pressed) stop.Press("Python");
   auto all = is_pressed ? CheckThatAllStops(application.runtime(), &application.scheduler()) : Result<void>();
-  const auto is_kept = application.options().has_control ? application.service().application().hooks.is_stop_kept : nullptr;
+  const auto is_kept =
+      application.options().has_control ? application.service().application().hooks.is_stop_kept : nullptr;
   if (all && is_kept && !is_kept()) {
-    return Error{.message = std::string(is_pressed ? "STOP is in force" : "the STOP is released") + ", and the next process would not know of it yet"};
+    return Error{.message = std::string(is_pressed ? "STOP is in force" : "the STOP is released") +
+                            ", and the next process would not know of it yet"};
   }
   return all;
 }
 
 Open Load(const std::string& kind, const std::string& text, const std::string& folder, const Words& settings,
-          const std::vector<std::string>& configurations, const std::vector<std::string>& plugin_folders, const std::string& clock,
-          std::optional<double> speed, bool is_paused, bool has_control, const std::vector<std::pair<std::string, Words>>& extensions) {
+          const std::vector<std::string>& configurations, const std::vector<std::string>& plugin_folders,
+          const std::string& clock, std::optional<double> speed, bool is_paused, bool has_control,
+          const std::vector<std::pair<std::string, Words>>& extensions) {
   using ClockKind = SchedulerOptions::ClockKind;
   CheckMayWait();
   ApplicationOptions options{.has_control = has_control, .keeps_stop = has_control};
@@ -86,7 +89,8 @@ std::vector<Setting> SettingsOf(const Words& words) {
 }
 
 // With groups above it.
-void Create(const Open& open, const std::vector<std::string>& groups, const std::string& path, const std::string& type, const Words& settings) {
+void Create(const Open& open, const std::vector<std::string>& groups, const std::string& path, const std::string& type,
+            const Words& settings) {
   ChangeSet changes;
   for (const std::string& each : groups) changes.push_back(CreateGroup{each});
   if (!type.empty()) changes.push_back(CreateModule{path, type, SettingsOf(settings)});
@@ -97,7 +101,8 @@ void Create(const Open& open, const std::vector<std::string>& groups, const std:
 class Running {
  public:
   explicit Running(const Open& open) : open_(*open) {
-    if (open_.runs_in != std::thread::id()) Throw({.message = "another call runs the application", .hint = "quit() ends it"});
+    if (open_.runs_in != std::thread::id())
+      Throw({.message = "another call runs the application", .hint = "quit() ends it"});
     open_.runs_in = std::this_thread::get_id();
     open_.is_quit = false;
   }
@@ -203,18 +208,33 @@ void BindApplication(py::module_& module) {
       .def("_create", Create)
       .def("_connect", Connect)
       .def("_thread", AddThreadOf)
-      .def("_assign", [](const Open& open, const std::string& path, const std::string& thread) { Apply(open, {AssignToThread{path, thread}}); })
-      .def("_disconnect", [](const Open& open, const std::string& from, const std::string& to) { Apply(open, {DisconnectPorts{from, to}}); })
+      .def("_assign",
+           [](const Open& open, const std::string& path, const std::string& thread) {
+             Apply(open, {AssignToThread{path, thread}});
+           })
+      .def("_disconnect",
+           [](const Open& open, const std::string& from, const std::string& to) {
+             Apply(open, {DisconnectPorts{from, to}});
+           })
       .def("_delete", [](const Open& open, const std::string& path) { Apply(open, {DeleteElement{path}}); })
-      .def("_apply", [](const Open& open, const std::string& text) { Check(WithoutGil(open, [&](Application& it) { return it.Apply(text); })); })
+      .def("_apply",
+           [](const Open& open, const std::string& text) {
+             Check(WithoutGil(open, [&](Application& it) { return it.Apply(text); }));
+           })
       .def("_swap",
            [](const Open& open, const std::string& path, const std::string& type, const Words& settings) {
              Check(WithoutGil(open, [&](Application& it) { return it.Swap(path, type, SettingsOf(settings)); }));
            })
       .def("_undo", [](const Open& open) { Check(WithoutGil(open, [&](Application& it) { return it.Undo(); })); })
       .def("_redo", [](const Open& open) { Check(WithoutGil(open, [&](Application& it) { return it.Redo(); })); })
-      .def("_reload", [](const Open& open, const std::string& plugin) { Check(WithoutGil(open, [&](Application& it) { return it.Reload(plugin); })); })
-      .def("_load_plugin", [](const Open& open, const std::string& plugin) { Checked(WithoutGil(open, [&](Application& it) { return it.LoadPlugin(plugin); })); })
+      .def("_reload",
+           [](const Open& open, const std::string& plugin) {
+             Check(WithoutGil(open, [&](Application& it) { return it.Reload(plugin); }));
+           })
+      .def("_load_plugin",
+           [](const Open& open, const std::string& plugin) {
+             Checked(WithoutGil(open, [&](Application& it) { return it.LoadPlugin(plugin); }));
+           })
       .def("_set",
            [](const Open& open, const std::string& path, const std::string& value) {
              Checked(WithoutGil(open, [&](Application& it) { return it.Set(path, value); }));
@@ -225,48 +245,72 @@ void BindApplication(py::module_& module) {
              Checked(WithoutGil(open, [&](Application& it) { return it.Save(file, overwrite); }));
            })
       .def("_read_input", ReadInput)
-      .def("_reader", [](const Open& open, const std::string& path, std::size_t queue) { return std::make_shared<Reader>(open, path, queue); })
-      .def("_writer", [](const Open& open, const std::string& path) { return std::make_shared<TiedPort>(open, path, PathKind::kInput, ConnectOptions{}); })
+      .def("_reader", [](const Open& open, const std::string& path,
+                         std::size_t queue) { return std::make_shared<Reader>(open, path, queue); })
+      .def("_writer",
+           [](const Open& open, const std::string& path) {
+             return std::make_shared<TiedPort>(open, path, PathKind::kInput, ConnectOptions{});
+           })
       .def("_publish", PublishByHand)
-      .def("_release", [](const Open& open, const std::string& path) { Checked(WithoutGil(open, [&](Application& it) { return it.Release(path); })); })
-      .def("_block", [](const Open& open, const std::string& path) { Checked(WithoutGil(open, [&](Application& it) { return Block(it, path); })); })
-      .def("_robot_stop", [](const Open& open, bool is_pressed) {
-        // Also while close() waits for calls under way: cycles go on until then.
-        const auto application = open->application ? open->application : open->Get();
-        Checked(WithoutGil([&] { return SetStop(*application, is_pressed); }));
-      })
+      .def("_release",
+           [](const Open& open, const std::string& path) {
+             Checked(WithoutGil(open, [&](Application& it) { return it.Release(path); }));
+           })
+      .def("_block",
+           [](const Open& open, const std::string& path) {
+             Checked(WithoutGil(open, [&](Application& it) { return Block(it, path); }));
+           })
+      .def("_robot_stop",
+           [](const Open& open, bool is_pressed) {
+             // Also while close() waits for calls under way: cycles go on until then.
+             const auto application = open->application ? open->application : open->Get();
+             Checked(WithoutGil([&] { return SetStop(*application, is_pressed); }));
+           })
       .def("_call", Call)
       .def("_run", Run)
       .def("_run_for", RunFor)
       .def("_step", Step)
-      .def("_start", [](const Open& open) {
-        const Running running(open);
-        Checked(WithoutGil(open, [&](Application& it) { return it.Start(); }));
-      })
+      .def("_start",
+           [](const Open& open) {
+             const Running running(open);
+             Checked(WithoutGil(open, [&](Application& it) { return it.Start(); }));
+           })
       .def("_quit", Quit)
-      .def("_pause", [](const Open& open, const std::optional<std::string>& path) {
-        Checked(WithoutGil(open, [&](Application& it) { return path ? it.Pause(*path) : it.Pause(); }));
-      })
-      .def("_resume", [](const Open& open, const std::optional<std::string>& path) {
-        Checked(WithoutGil(open, [&](Application& it) { return path ? it.Resume(*path) : it.Resume(); }));
-      })
-      .def("_set_speed", [](const Open& open, double speed) { Checked(WithoutGil(open, [&](Application& it) { return it.SetSpeed(speed); })); })
+      .def("_pause",
+           [](const Open& open, const std::optional<std::string>& path) {
+             Checked(WithoutGil(open, [&](Application& it) { return path ? it.Pause(*path) : it.Pause(); }));
+           })
+      .def("_resume",
+           [](const Open& open, const std::optional<std::string>& path) {
+             Checked(WithoutGil(open, [&](Application& it) { return path ? it.Resume(*path) : it.Resume(); }));
+           })
+      .def("_set_speed",
+           [](const Open& open, double speed) {
+             Checked(WithoutGil(open, [&](Application& it) { return it.SetSpeed(speed); }));
+           })
       .def("_close", [](const Open& open) { open->Close(); })
       .def("_leave", [](const Open& open) { open->Leave(); })
       .def("_paths", Paths)
       .def("_log", Log)
       .def("_events", Events)
-      .def("_verdicts", [](const Open& open) {
-        return WithoutGil(open, [&](Application& it) { return std::pair(it.report().Verdicts(), it.report().IsGood()); });
-      })
-      .def_property_readonly("is_running", [](const Open& open) { return !open->is_closed && open->application->is_running(); },
-                             "start() has been called, and the run has not ended since.")
+      .def("_verdicts",
+           [](const Open& open) {
+             return WithoutGil(
+                 open, [&](Application& it) { return std::pair(it.report().Verdicts(), it.report().IsGood()); });
+           })
+      .def_property_readonly(
+          "is_running", [](const Open& open) { return !open->is_closed && open->application->is_running(); },
+          "start() has been called, and the run has not ended since.")
       .def_property_readonly("name", [](const Open& open) { return Use(*open)->name(); })
-      .def_property_readonly("file", [](const Open& open) { return Use(*open)->file(); }, "Where it came from; '' if from no file.")
-      .def_property_readonly("time", [](const Open& open) {
-        const Use use(*open);
-        return ToSeconds(use->runtime().clock().Now() - use->log().start());
-      }, "How long it has been running on its clock (s).");
+      .def_property_readonly(
+          "file", [](const Open& open) { return Use(*open)->file(); }, "Where it came from; '' if from no file.")
+      .def_property_readonly(
+          "time",
+          [](const Open& open) {
+            const Use use(*open);
+            return ToSeconds(use->runtime().clock().Now() - use->log().start());
+          },
+          "How long it has been running on its clock (s).");
   module.def("await_all", AwaitAll);
   module.def("forked", BeginAsChild);
   module.attr("version") = Application::Version();

@@ -46,7 +46,8 @@ py::object FixedListDtype(const TypeInfo& type) {
   const auto sample = type.Make();
   if (element.is_none() || !sample) return py::none();
   const std::size_t count = elements.columns(sample.get());
-  if (count == 0 || elements.element(sample.get(), 0) != sample.get() || type.size() != count * elements.type->size()) return py::none();
+  if (count == 0 || elements.element(sample.get(), 0) != sample.get() || type.size() != count * elements.type->size())
+    return py::none();
   return py::dtype::from_args(py::make_tuple(element, py::make_tuple(count)));
 }
 
@@ -78,11 +79,11 @@ py::object ArrayOf(const TypeInfo& type, void* at, const std::shared_ptr<Memory>
   const auto size = static_cast<py::ssize_t>(elements.type->size());
   char* const first = rows * columns > 0 ? address(0) : nullptr;
   const py::ssize_t across = columns > 1 ? address(1) - first : size;
-  const py::ssize_t down = is_matrix && rows > 1 ? address(columns) - first : across * static_cast<py::ssize_t>(columns);
+  const py::ssize_t down =
+      is_matrix && rows > 1 ? address(columns) - first : across * static_cast<py::ssize_t>(columns);
   // A container whose elements do not lie in a row is not looked at like that.
-  if (first != nullptr && address(rows * columns - 1) !=
-                              first + static_cast<py::ssize_t>(rows - 1) * down +
-                                  static_cast<py::ssize_t>(columns - 1) * across) {
+  if (first != nullptr && address(rows * columns - 1) != first + static_cast<py::ssize_t>(rows - 1) * down +
+                                                             static_cast<py::ssize_t>(columns - 1) * across) {
     return py::none();
   }
   const py::capsule base(new Value(type, at, memory, true), [](void* view) { delete static_cast<Value*>(view); });

@@ -126,10 +126,12 @@ bool SetNumbers(const TypeInfo& type, py::handle object, void* at) {
   static const py::handle as_array = py::object(py::module_::import("numpy").attr("asarray")).release();
   const py::bytes bytes = PyBytes_Check(object.ptr()) ? py::reinterpret_borrow<py::bytes>(object) : py::bytes();
   const auto array = py::reinterpret_borrow<py::array>(
-      PyBytes_Check(object.ptr()) ? py::module_::import("numpy").attr("frombuffer")(bytes, dtype) : as_array(object, dtype));
+      PyBytes_Check(object.ptr()) ? py::module_::import("numpy").attr("frombuffer")(bytes, dtype)
+                                  : as_array(object, dtype));
   const bool is_matrix = type.kind() == TypeKind::kMatrix;
   if (array.ndim() != (is_matrix ? 2 : 1)) {
-    throw py::value_error(type.name() + " is expected, not an array of " + std::to_string(array.ndim()) + " dimensions");
+    throw py::value_error(type.name() + " is expected, not an array of " + std::to_string(array.ndim()) +
+                          " dimensions");
   }
   const auto rows = is_matrix ? static_cast<std::size_t>(array.shape(0)) : 1;
   const auto columns = static_cast<std::size_t>(array.shape(is_matrix ? 1 : 0));
@@ -198,15 +200,19 @@ void FromPython(const TypeInfo& type, py::handle object, void* at, bool is_whole
     return;
   }
   switch (type.kind()) {
-    case TypeKind::kLeaf: return SetLeaf(type, object, at);
-    case TypeKind::kEnumeration: return SetEnumeration(type, object, at);
+    case TypeKind::kLeaf:
+      return SetLeaf(type, object, at);
+    case TypeKind::kEnumeration:
+      return SetEnumeration(type, object, at);
     case TypeKind::kSequence:
-    case TypeKind::kMatrix: return SetElements(type, object, at);
+    case TypeKind::kMatrix:
+      return SetElements(type, object, at);
     case TypeKind::kStructure:
       if (!py::isinstance<py::str>(object)) return SetStructure(type, object, at, is_whole);
       if (is_whole) Reset(type, at);
       return SetText(type, object.cast<std::string>(), at);
-    default: Refuse(type, object);
+    default:
+      Refuse(type, object);
   }
 }
 

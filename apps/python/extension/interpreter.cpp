@@ -10,7 +10,8 @@ namespace runnel::python {
 
 void CheckMayWait() {
   if (this_thread_place.cycles <= 0) return;  // fewer: a forked child has left what it was forked in
-  Throw({.message = "an application is not waited for in update(), a service or a callback of a module, or while a value is made for a port",
+  Throw({.message = "an application is not waited for in update(), a service or a callback of a module, or while a "
+                    "value is made for a port",
          .hint = "use the module's own ports, parameters and clients, or another thread"});
 }
 

@@ -68,7 +68,9 @@ ModuleService::ModuleService(FrameworkElement& group, const std::string& name, c
   const CallableOptions extra{.is_activity = said["activity"].cast<bool>(),
                               .defaults = said["defaults"].cast<std::string>(),
                               .are_arguments_optional = said["are_optional"].cast<bool>()};
-  const auto serve = [this](const CallForm& form, CallBase& call, Activity* activity) { return Serve(form, call, activity); };
+  const auto serve = [this](const CallForm& form, CallBase& call, Activity* activity) {
+    return Serve(form, call, activity);
+  };
   service_ = WithoutGil([&] { return std::make_unique<ServiceAtRunTime>(group, name, types, options, extra, serve); });
 }
 
@@ -84,7 +86,8 @@ Result<void> ModuleService::Serve(const CallForm& form, CallBase& call, Activity
     py::dict named;
     if (form.arguments() != nullptr) {
       const void* const at = form.ArgumentsOf(call);
-      for (const FieldInfo& each : form.arguments()->fields()) named[py::str(each.name)] = CopyToPython(*each.type, each.address(ForLooking(at)));
+      for (const FieldInfo& each : form.arguments()->fields())
+        named[py::str(each.name)] = CopyToPython(*each.type, each.address(ForLooking(at)));
     }
     const auto told = std::make_shared<ActivityOfModule>(ActivityOfModule{activity});
     // Whatever keeps the object finds a call that is over.
@@ -210,7 +213,8 @@ bool ModuleClient::Send(const py::args& positional, const py::kwargs& named) {
 
 bool ModuleClient::Call(const py::object& callback, const py::args& positional, const py::kwargs& named) {
   // Who calls back does not take the GIL to look for what has ended.
-  if (CurrentCycle() == nullptr) throw py::value_error("call() is for the module's own cycle; elsewhere begin() is, and send()");
+  if (CurrentCycle() == nullptr)
+    throw py::value_error("call() is for the module's own cycle; elsewhere begin() is, and send()");
   CallBase* const call = Fill(positional, named);
   if (call == nullptr) return false;
   if (client_->Begin(*call) != CallStatus::kPending) {
@@ -246,19 +250,23 @@ void ModuleClient::CalledBack(CallBase& call, CallStatus status) {
 }
 
 void BindModuleServices(py::module_& module) {
-  py::class_<ActivityOfModule, std::shared_ptr<ActivityOfModule>>(module, "ModuleActivity", "What a service with activity=True is told.")
-      .def("report",
-           [](const ActivityOfModule& told, double fraction, const std::string& doing) {
-             if (told.activity != nullptr) told.activity->Report(fraction, Kept(doing));
-           },
-           py::arg("fraction"), py::arg("doing") = "", "How far it has come, 0 to 1, and what it is about.")
-      .def_property_readonly("is_abort_asked",
-                             [](const ActivityOfModule& told) { return told.activity == nullptr || told.activity->is_abort_asked(); },
-                             "The caller wants no answer any more, or the module is about to go: it should end soon.");
+  py::class_<ActivityOfModule, std::shared_ptr<ActivityOfModule>>(module, "ModuleActivity",
+                                                                  "What a service with activity=True is told.")
+      .def(
+          "report",
+          [](const ActivityOfModule& told, double fraction, const std::string& doing) {
+            if (told.activity != nullptr) told.activity->Report(fraction, Kept(doing));
+          },
+          py::arg("fraction"), py::arg("doing") = "", "How far it has come, 0 to 1, and what it is about.")
+      .def_property_readonly(
+          "is_abort_asked",
+          [](const ActivityOfModule& told) { return told.activity == nullptr || told.activity->is_abort_asked(); },
+          "The caller wants no answer any more, or the module is about to go: it should end soon.");
   py::class_<CallOfModule>(module, "ModuleCall", "A call that a module in Python has begun. Let go of, it is given up.")
       .def_property_readonly("is_done", [](CallOfModule& call) { return call.Poll() != CallStatus::kPending; })
-      .def_property_readonly("status", [](CallOfModule& call) { return CallStatusName(call.Poll()); },
-                             "pending, answered, failed, timed_out, not_connected, ...")
+      .def_property_readonly(
+          "status", [](CallOfModule& call) { return CallStatusName(call.Poll()); },
+          "pending, answered, failed, timed_out, not_connected, ...")
       .def_property_readonly("reply", &CallOfModule::Reply, "A copy; None without one.")
       .def_property_readonly("error", &CallOfModule::Error, "Why there is none; '' if nothing is wrong.")
       .def_property_readonly("progress", &CallOfModule::Progress, "Of an activity, 0 to 1.")

@@ -154,7 +154,8 @@ TiedPort::TiedPort(Open open, const std::string& path, PathKind kind, const Conn
     place_ = &runtime.Create<Place>(runtime.root(), FreeName(runtime.root(), "python"));
     const bool reads = kind == PathKind::kOutput;
     place_->port = reads ? ports_->MakeInput(*place_, "in", {.waits = true}) : ports_->MakeOutput(*place_, "out");
-    if (!place_->port) return Error{.message = "only a module can make values of type " + port.type().name(), .path = path_};
+    if (!place_->port)
+      return Error{.message = "only a module can make values of type " + port.type().name(), .path = path_};
     if (auto ready = runtime.MakeReady(*place_); !ready) return ready;
     return reads ? Port::Connect(port, *place_->port, options) : Port::Connect(*place_->port, port, options);
   };
@@ -193,7 +194,8 @@ bool Reader::Wait(double seconds) {
 std::uint64_t Reader::dropped() const { return dynamic_cast<InputBase&>(tied_.port(Use(*tied_.open()))).dropped(); }
 
 void BindPorts(py::module_& module) {
-  py::class_<Reader, std::shared_ptr<Reader>>(module, "Reader", R"(Reads a port of an application in this process, also after swaps.
+  py::class_<Reader, std::shared_ptr<Reader>>(module, "Reader",
+                                              R"(Reads a port of an application in this process, also after swaps.
 
 One thread at a time uses it. A value that has been read is leased, not copied: its buffer is not used again as long as
 the value, or an array of it, lives.
@@ -212,19 +214,23 @@ the value, or an array of it, lives.
            })
       .def_property_readonly("path", [](const Reader& reader) { return reader.tied().path(); })
       .def_property_readonly("type", [](const Reader& reader) { return reader.tied().type(); })
-      .def_property_readonly("timestamp", &Reader::timestamp, "When the last value was measured (s, of the application's clock).")
+      .def_property_readonly("timestamp", &Reader::timestamp,
+                             "When the last value was measured (s, of the application's clock).")
       .def_property_readonly("publication_time", &Reader::publication_time, "When it was published (s).")
       .def_property_readonly("dropped", &Reader::dropped, "Values that the queue has lost because it was full.");
-  py::class_<TiedPort, std::shared_ptr<TiedPort>>(module, "Writer", R"(Publishes to an input of an application in this process, also after swaps.
+  py::class_<TiedPort, std::shared_ptr<TiedPort>>(
+      module, "Writer", R"(Publishes to an input of an application in this process, also after swaps.
 
 One thread at a time uses it, outside of cycles.
 )")
-      .def("publish",
-           [](const TiedPort& tied, const py::args& positional, const py::kwargs& named) {
-             const Use use(*tied.open());
-             PublishFromPython(tied.port(use), positional, named, std::nullopt);
-           },
-           "publish(value) or publish(x=1, y=2): writes the value into a buffer that the port lends, and publishes that.")
+      .def(
+          "publish",
+          [](const TiedPort& tied, const py::args& positional, const py::kwargs& named) {
+            const Use use(*tied.open());
+            PublishFromPython(tied.port(use), positional, named, std::nullopt);
+          },
+          "publish(value) or publish(x=1, y=2): writes the value into a buffer that the port lends, and publishes "
+          "that.")
       .def_property_readonly("path", &TiedPort::path)
       .def_property_readonly("type", &TiedPort::type);
 }

@@ -107,8 +107,12 @@ class TiedPort {
 class Reader {
  public:
   Reader(Open open, const std::string& path, std::size_t queue);
-  pybind11::object Read() { return Take(tied_.ports(), tied_.port(Use(*tied_.open())), &HeldValues::Read, false, times_); }
-  pybind11::object Next() { return Take(tied_.ports(), tied_.port(Use(*tied_.open())), &HeldValues::Next, true, times_); }
+  pybind11::object Read() {
+    return Take(tied_.ports(), tied_.port(Use(*tied_.open())), &HeldValues::Read, false, times_);
+  }
+  pybind11::object Next() {
+    return Take(tied_.ports(), tied_.port(Use(*tied_.open())), &HeldValues::Next, true, times_);
+  }
   /// Waits without the GIL; false: nothing new has come. Ctrl-C ends it.
   bool Wait(double seconds);
   [[nodiscard]] std::uint64_t dropped() const;

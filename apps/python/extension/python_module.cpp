@@ -181,9 +181,12 @@ void PythonModule::MakePorts(const py::dict& described) {
     }));
   });
   each("outputs", [&](const TypedPorts& ports, const std::string& name, const py::dict& said) {
-    const OutputOptions options{.description = said["description"].cast<std::string>(), .unit = said["unit"].cast<std::string>()};
+    const OutputOptions options{.description = said["description"].cast<std::string>(),
+                                .unit = said["unit"].cast<std::string>()};
     auto port = WithoutGil([&] { return ports.MakeOutput(OutputGroup(), name, options); });
-    if (!port) Throw({.message = "only a module in C++ can make values of type " + said["type"].cast<std::string>(), .path = path()});
+    if (!port)
+      Throw({.message = "only a module in C++ can make values of type " + said["type"].cast<std::string>(),
+             .path = path()});
     outputs_.push_back(std::move(port));
   });
 }
@@ -234,7 +237,8 @@ void PythonModule::KeepOthersTogether() {
   if (threads.empty()) threads.push_back(&CreateThread(runtime(), "main"));
   FrameworkElement* application = this;
   while (application->parent()->parent() != nullptr) application = application->parent();
-  if (threads.size() == 1 && AssignedThread(*application) == 0) AssignThread(*application, *threads.front(), AssignedBy::kNobody);
+  if (threads.size() == 1 && AssignedThread(*application) == 0)
+    AssignThread(*application, *threads.front(), AssignedBy::kNobody);
 }
 
 void PythonModule::Update() {
@@ -266,7 +270,8 @@ void PythonModule::Say(const std::string& level, const std::string& text) {
 }
 
 PythonModule::Attributes& PythonModule::Attributes::operator=(const Attributes& from) {
-  if (module->object_ && from.module->object_) module->WithPython([&] { Helper("take_over")(module->object_, from.module->object_); });
+  if (module->object_ && from.module->object_)
+    module->WithPython([&] { Helper("take_over")(module->object_, from.module->object_); });
   return *this;
 }
 

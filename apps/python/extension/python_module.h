@@ -52,7 +52,8 @@ class PythonModule final : public Module {
   struct BoundInput {
     std::unique_ptr<Port> port;
     const TypedPorts* ports;
-    std::unique_ptr<InputTimeout> timeout;  ///< nullptr: what comes there is set once, or the class has that parameter itself
+    std::unique_ptr<InputTimeout>
+        timeout;  ///< nullptr: what comes there is set once, or the class has that parameter itself
   };
   [[nodiscard]] BoundInput& input(std::size_t index) { return inputs_.at(index); }
   [[nodiscard]] Port& output(std::size_t index) { return *outputs_.at(index); }

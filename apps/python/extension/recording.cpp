@@ -36,8 +36,8 @@ py::list ChannelsOf(const RecordingFile& file) {
     const auto schema = contents.schemas.find(channel.schema);
     const auto count = contents.statistics.messages_of.find(id);
     all.append(py::make_tuple(id, PortOf(channel), schema == contents.schemas.end() ? "" : schema->second.name,
-                              channel.message_encoding, count == contents.statistics.messages_of.end() ? 0 : count->second,
-                              IsView(channel)));
+                              channel.message_encoding,
+                              count == contents.statistics.messages_of.end() ? 0 : count->second, IsView(channel)));
   }
   return all;
 }
@@ -54,7 +54,8 @@ py::dict AboutOf(const RecordingFile& file) {
 py::object ValuesOf(const TypeInfo& type, const std::vector<std::string>& texts) {
   const py::object dtype = DtypeOf(type);
   if (!dtype.is_none()) {
-    py::array array(py::reinterpret_borrow<py::dtype>(dtype), std::vector<py::ssize_t>{static_cast<py::ssize_t>(texts.size())});
+    py::array array(py::reinterpret_borrow<py::dtype>(dtype),
+                    std::vector<py::ssize_t>{static_cast<py::ssize_t>(texts.size())});
     auto* to = static_cast<char*>(array.mutable_data());
     const auto value = type.Make();
     for (const std::string& text : texts) {
@@ -93,7 +94,8 @@ py::tuple Read(const RecordingFile& file, std::uint16_t channel, const std::stri
 // What an application records from now on, until it is finished.
 class RunningRecording {
  public:
-  RunningRecording(Open open, const std::string& file, const std::vector<std::string>& ports, const std::string& compression)
+  RunningRecording(Open open, const std::string& file, const std::vector<std::string>& ports,
+                   const std::string& compression)
       : open_(std::move(open)) {
     std::shared_ptr<ClientRecording> begun = Checked(WithoutGil(open_, [&](Application& application) {
       static std::mutex one_at_a_time;  // the service is made when it is first asked for

@@ -51,8 +51,10 @@ Value::~Value() {
 
 py::object ToPython(const TypeInfo& type, void* at, const std::shared_ptr<Memory>& memory, bool is_element) {
   switch (type.kind()) {
-    case TypeKind::kLeaf: return LeafToPython(type, at);
-    case TypeKind::kEnumeration: return NameOf(type, at);
+    case TypeKind::kLeaf:
+      return LeafToPython(type, at);
+    case TypeKind::kEnumeration:
+      return NameOf(type, at);
     case TypeKind::kSequence:
       if (IsOptional(type)) {
         if (type.elements().columns(at) == 0) return py::none();
@@ -65,17 +67,20 @@ py::object ToPython(const TypeInfo& type, void* at, const std::shared_ptr<Memory
         if (!array.is_none()) return array;
       }
       [[fallthrough]];
-    default: return py::cast(Value(type, at, memory, is_element));
+    default:
+      return py::cast(Value(type, at, memory, is_element));
   }
 }
 
 py::object ToPlain(const TypeInfo& type, const void* at) {
   if (type.kind() == TypeKind::kStructure) {
     py::dict all;
-    for (const FieldInfo& field : type.fields()) all[py::str(field.name)] = ToPlain(*field.type, field.address(ForLooking(at)));
+    for (const FieldInfo& field : type.fields())
+      all[py::str(field.name)] = ToPlain(*field.type, field.address(ForLooking(at)));
     return all;
   }
-  if (type.kind() != TypeKind::kSequence && type.kind() != TypeKind::kMatrix) return ToPython(type, ForLooking(at), nullptr);
+  if (type.kind() != TypeKind::kSequence && type.kind() != TypeKind::kMatrix)
+    return ToPython(type, ForLooking(at), nullptr);
   const ElementOperations& elements = type.elements();
   if (IsOptional(type)) {
     if (elements.columns(at) == 0) return py::none();
@@ -100,7 +105,8 @@ bool AreEqual(const TypeInfo& type, const void* one, const void* other) {
         if (!AreEqual(*field.type, field.address(ForLooking(one)), field.address(ForLooking(other)))) return false;
       }
       return true;
-    case TypeKind::kEnumeration: return type.enumeration().get(one) == type.enumeration().get(other);
+    case TypeKind::kEnumeration:
+      return type.enumeration().get(one) == type.enumeration().get(other);
     case TypeKind::kLeaf:
       if (type.cpp_type() == typeid(double)) return As<double>(one) == As<double>(other);
       if (type.cpp_type() == typeid(float)) return As<float>(one) == As<float>(other);
@@ -113,11 +119,13 @@ bool AreEqual(const TypeInfo& type, const void* one, const void* other) {
       const std::size_t count = elements.columns(one) * elements.rows(one);
       if (elements.rows(one) != elements.rows(other) || elements.columns(one) != elements.columns(other)) return false;
       for (std::size_t i = 0; i < count; ++i) {
-        if (!AreEqual(*elements.type, elements.element(ForLooking(one), i), elements.element(ForLooking(other), i))) return false;
+        if (!AreEqual(*elements.type, elements.element(ForLooking(one), i), elements.element(ForLooking(other), i)))
+          return false;
       }
       return true;
     }
-    default: return one == other;
+    default:
+      return one == other;
   }
 }
 

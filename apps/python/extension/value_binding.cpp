@@ -49,8 +49,10 @@ void SetField(Value& value, const std::string& name, const py::object& to) {
   }
   const FieldInfo& field = FieldOf(value, name);
   if (value.memory->views > (value.counts ? 1 : 0) && HasFreeLists(*field.type)) {
-    throw py::buffer_error("an array or an element still looks at this value, whose lists would move: let go of it first, "
-                           "or change it in place: value." + name + "[:] = ...");
+    throw py::buffer_error(
+        "an array or an element still looks at this value, whose lists would move: let go of it first, "
+        "or change it in place: value." +
+        name + "[:] = ...");
   }
   const Counted stays(value.memory->views);  // while Python makes what the elements are
   FromPython(*field.type, to, field.address(value.at));
@@ -150,7 +152,8 @@ const TypeInfo* LookForType(const std::string& name) {
 
 const TypeInfo& TypeNamed(const std::string& name) {
   if (const TypeInfo* const type = LookForType(name)) return *type;
-  Throw({.message = "there is no type '" + name + "'", .hint = NearestNameHint(name, NamesOf(RegisteredTypes(), &TypeInfo::name))});
+  Throw({.message = "there is no type '" + name + "'",
+         .hint = NearestNameHint(name, NamesOf(RegisteredTypes(), &TypeInfo::name))});
 }
 
 void BindValues(py::module_& module) {
@@ -179,7 +182,8 @@ Pose2 {x: 1, y: 2, heading: 0}
              for (const FieldInfo& each : value.type->fields()) names.append(each.name);
              return names;
            })
-      .def("__repr__", [](const Value& value) { return value.type->name() + " " + ToText(*value.type, value.at, kShown); })
+      .def("__repr__",
+           [](const Value& value) { return value.type->name() + " " + ToText(*value.type, value.at, kShown); })
       .def("__str__", [](const Value& value) { return ToText(*value.type, value.at); })
       .def("__eq__",
            [](const Value& value, const py::object& other) -> py::object {
@@ -190,15 +194,17 @@ Pose2 {x: 1, y: 2, heading: 0}
              return py::reinterpret_borrow<py::object>(Py_NotImplemented);
            })
       .def("__len__", CountOf)
-      .def("__bool__", [](const Value& value) { return value.type->kind() == TypeKind::kStructure || CountOf(value) > 0; })
+      .def("__bool__",
+           [](const Value& value) { return value.type->kind() == TypeKind::kStructure || CountOf(value) > 0; })
       .def("__getitem__", ElementOf)
       .def("__getitem__", GetField, "A field, whatever its name is.")
-      .def("__array__",
-           [](const Value& value, const py::object& dtype) {
-             const py::object array = AsArray(value);
-             return dtype.is_none() ? array : array.attr("astype")(dtype);
-           },
-           py::arg("dtype") = py::none())
+      .def(
+          "__array__",
+          [](const Value& value, const py::object& dtype) {
+            const py::object array = AsArray(value);
+            return dtype.is_none() ? array : array.attr("astype")(dtype);
+          },
+          py::arg("dtype") = py::none())
       .def("__reduce__",
            [](const Value& value) {
              return py::make_tuple(py::module_::import("runnel._types").attr("restore"),
@@ -208,9 +214,11 @@ Pose2 {x: 1, y: 2, heading: 0}
       .def("__deepcopy__", [](const Value& value, const py::dict&) { return CopyOf(value); })
       .def("array", AsArray, "A list of structures as a structured array that looks at it, without a copy.")
       .def("copy", CopyOf, "A value of one's own, which can be changed.")
-      .def("plain", [](const Value& value) { return ToPlain(*value.type, value.at); },
-           "A copy made of dict, list, arrays, numbers and texts.")
-      .def_property_readonly("type", [](const Value& value) { return Type{value.type}; }, "The runnel.Type of the value.")
+      .def(
+          "plain", [](const Value& value) { return ToPlain(*value.type, value.at); },
+          "A copy made of dict, list, arrays, numbers and texts.")
+      .def_property_readonly(
+          "type", [](const Value& value) { return Type{value.type}; }, "The runnel.Type of the value.")
       .attr("__hash__") = py::none();
 
   py::class_<Type>(module, "Type", R"(A described type: called, it makes a value.
@@ -218,26 +226,31 @@ Pose2 {x: 1, y: 2, heading: 0}
 >>> runnel.types.Pose2.fields[2]
 ('heading', 'double', 'rad', '')
 )")
-      .def("__call__", [](const Type& type, const py::args& positional, const py::kwargs& named) { return MakeOf(type, positional, named); })
+      .def("__call__", [](const Type& type, const py::args& positional,
+                          const py::kwargs& named) { return MakeOf(type, positional, named); })
       .def("__repr__", [](const Type& type) { return "<type " + type.info->name() + ">"; })
       .def("__eq__", [](const Type& type, const Type& other) { return type.info == other.info; })
       .def("__hash__", [](const Type& type) { return std::hash<const void*>()(type.info); })
       .def_property_readonly("name", [](const Type& type) { return type.info->name(); })
-      .def_property_readonly("meaning", [](const Type& type) { return type.info->semantic_tag(); },
-                             "What values stand for: 'pose', 'range_scan', ... or ''.")
+      .def_property_readonly(
+          "meaning", [](const Type& type) { return type.info->semantic_tag(); },
+          "What values stand for: 'pose', 'range_scan', ... or ''.")
       .def_property_readonly("fields", FieldsOf, "(name, type, SI unit, description) of each field.")
-      .def_property_readonly("names", [](const Type& type) { return NamesOf(type.info->enumerators(), &EnumeratorInfo::name); },
-                             "Of an enumeration.")
-      .def_property_readonly("dtype", [](const Type& type) { return DtypeOf(*type.info); },
-                             "As NumPy has it, or None where a value is not only numbers.")
+      .def_property_readonly(
+          "names", [](const Type& type) { return NamesOf(type.info->enumerators(), &EnumeratorInfo::name); },
+          "Of an enumeration.")
+      .def_property_readonly(
+          "dtype", [](const Type& type) { return DtypeOf(*type.info); },
+          "As NumPy has it, or None where a value is not only numbers.")
       .def_property_readonly("help", HelpOf, "Fields with their units, as text.");
   module.def("type_named", [](const std::string& name) { return Type{&TypeNamed(name)}; });
   module.def("known_types", [] { return NamesOf(RegisteredTypes(), &TypeInfo::name); });
-  module.def("make",
-             [](const std::string& type, const py::args& positional, const py::kwargs& named) {
-               return MakeOf(Type{&TypeNamed(type)}, positional, named);
-             },
-             R"(A value of the type with this name, from fields, a dict, a list, an array or a text.
+  module.def(
+      "make",
+      [](const std::string& type, const py::args& positional, const py::kwargs& named) {
+        return MakeOf(Type{&TypeNamed(type)}, positional, named);
+      },
+      R"(A value of the type with this name, from fields, a dict, a list, an array or a text.
 
 >>> runnel.make("Point2", "{x: 1, y: 2}") == runnel.make("Point2", x=1, y=2)
 True

@@ -14,12 +14,8 @@ class AtomicSharedPointer {
   static constexpr const char* kName = "atomic<shared_ptr>";
 
   void Write(const T& value) { Write(std::make_shared<const T>(value)); }
-  void Write(std::shared_ptr<const T> value) {
-    value_.store(std::move(value), std::memory_order_release);
-  }
-  [[nodiscard]] std::shared_ptr<const T> Lease() const {
-    return value_.load(std::memory_order_acquire);
-  }
+  void Write(std::shared_ptr<const T> value) { value_.store(std::move(value), std::memory_order_release); }
+  [[nodiscard]] std::shared_ptr<const T> Lease() const { return value_.load(std::memory_order_acquire); }
   void Read(T& value) const { value = *Lease(); }
   /// Only a value that has not been taken yet. One reader. What was taken last is kept, so that its
   /// address cannot come back.

@@ -36,8 +36,7 @@ class Camera final : public Module {
 
 class Consumer final : public Module {
  public:
-  Consumer(const Placement& placement, Audience& audience)
-      : Module(placement), audience_(audience) {}
+  Consumer(const Placement& placement, Audience& audience) : Module(placement), audience_(audience) {}
   Input<Image> in{this, "in", {.trigger = true}};
 
  private:
@@ -60,14 +59,12 @@ ImageCost MeasureImagePorts(double seconds, int readers) {
     const std::string name = "consumer" + std::to_string(i);
     auto& consumer = runtime.Create<Consumer>(runtime.root(), name, audience);
     MustSucceed(Port::Connect(camera.out, consumer.in));
-    AssignThread(consumer,
-                 CreateThread(runtime, name, {.activation = ThreadOptions::Activation::kTrigger}));
+    AssignThread(consumer, CreateThread(runtime, name, {.activation = ThreadOptions::Activation::kTrigger}));
   }
   MustSucceed(runtime.MakeReady(runtime.root()));
   MustSucceed(scheduler.Start());
-  const ImageCost cost = CostOf(seconds, readers, audience, [&] {
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-  });
+  const ImageCost cost =
+      CostOf(seconds, readers, audience, [&] { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); });
   scheduler.Stop();
   return cost;
 }

@@ -35,8 +35,7 @@ class Audience {
 void RunAtFiftyHertz(double seconds, const std::function<void(std::uint64_t)>& fill);
 
 /// What the process uses while `run` does its work of so many seconds.
-ImageCost CostOf(double seconds, int readers, const Audience& audience,
-                 const std::function<void()>& run);
+ImageCost CostOf(double seconds, int readers, const Audience& audience, const std::function<void()>& run);
 
 // The subjects.
 ImageCost MeasureImagePorts(double seconds, int readers);

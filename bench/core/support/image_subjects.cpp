@@ -20,9 +20,8 @@ using Clock = std::chrono::steady_clock;
 ImageCost MeasureFilling(double seconds) {
   const auto image = MakeImage();
   FillImage(*image, 0);
-  return CostOf(seconds, 0, {}, [&] {
-    RunAtFiftyHertz(seconds, [&](std::uint64_t number) { FillImage(*image, number); });
-  });
+  return CostOf(seconds, 0, {},
+                [&] { RunAtFiftyHertz(seconds, [&](std::uint64_t number) { FillImage(*image, number); }); });
 }
 
 }  // namespace
@@ -44,8 +43,7 @@ void RunAtFiftyHertz(double seconds, const std::function<void(std::uint64_t)>& f
   }
 }
 
-ImageCost CostOf(double seconds, int readers, const Audience& audience,
-                 const std::function<void()>& run) {
+ImageCost CostOf(double seconds, int readers, const Audience& audience, const std::function<void()>& run) {
   const std::uint64_t seen_before = audience.seen();
   const double used_before = ProcessSeconds();
   const auto start = Clock::now();

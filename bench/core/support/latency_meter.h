@@ -17,9 +17,7 @@ namespace runnel::bench {
 /// Threads: SendAll() in one thread, Received() in the reader's, Percentile() when both are done.
 class LatencyMeter {
  public:
-  explicit LatencyMeter(std::uint64_t messages) : messages_(messages) {
-    latencies_.reserve(messages);
-  }
+  explicit LatencyMeter(std::uint64_t messages) : messages_(messages) { latencies_.reserve(messages); }
   [[nodiscard]] std::uint64_t messages() const noexcept { return messages_; }
 
   template <typename Send, typename Pause>

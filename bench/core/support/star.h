@@ -48,12 +48,10 @@ class Receiver final : public Node {
 template <typename T>
 class Star {
  public:
-  explicit Star(std::size_t count, const ConnectOptions& connection = {},
-                OutputOptions options = {})
+  explicit Star(std::size_t count, const ConnectOptions& connection = {}, OutputOptions options = {})
       : sender_(runtime_.Create<Sender<T>>(runtime_.root(), "sender", std::move(options))) {
     for (std::size_t i = 0; i < count; ++i) {
-      inputs_.push_back(
-          &runtime_.Create<Receiver<T>>(runtime_.root(), "receiver" + std::to_string(i)).in);
+      inputs_.push_back(&runtime_.Create<Receiver<T>>(runtime_.root(), "receiver" + std::to_string(i)).in);
       MustSucceed(Port::Connect(output(), *inputs_.back(), connection));
     }
   }

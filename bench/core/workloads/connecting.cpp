@@ -87,16 +87,14 @@ void RunWiring(benchmark::State& state, bool changes_go_on) {
 
 template <typename Wiring>
 void AddWiring(Suite& suite, Role role, const std::string& name, bool changes_go_on) {
-  suite.Add(role, name,
-            [changes_go_on](benchmark::State& state) { RunWiring<Wiring>(state, changes_go_on); });
+  suite.Add(role, name, [changes_go_on](benchmark::State& state) { RunWiring<Wiring>(state, changes_go_on); });
 }
 
 }  // namespace
 
 void AddConnecting(Suite& suite) {
   for (const bool changes_go_on : {false, true}) {
-    Workload workload{changes_go_on ? "publish while connections change"
-                                    : "publish, connections at rest"};
+    Workload workload{changes_go_on ? "publish while connections change" : "publish, connections at rest"};
     if (changes_go_on) workload.quantities.push_back({"changes", "k/s", true});
     suite.Start(workload);
     AddWiring<RunnelWiring>(suite, Role::kRunnel, "Publish", changes_go_on);

@@ -42,8 +42,7 @@ void PublishPooled(benchmark::State& state, std::size_t cell_count) {
 
 template <typename Cell>
 void AddPooled(Suite& suite, const std::string& name, std::size_t cells) {
-  suite.Add(Role::kRival, name,
-            [cells](benchmark::State& state) { PublishPooled<Cell>(state, cells); });
+  suite.Add(Role::kRival, name, [cells](benchmark::State& state) { PublishPooled<Cell>(state, cells); });
 }
 
 void AddReaders(Suite& suite, std::size_t readers) {
@@ -51,8 +50,7 @@ void AddReaders(Suite& suite, std::size_t readers) {
                .family = "loan + publish an image",
                .axis = "inputs",
                .position = static_cast<double>(readers)});
-  suite.Add(Role::kRunnel, "Loan, Publish",
-            [readers](benchmark::State& state) { PublishRunnel(state, readers); });
+  suite.Add(Role::kRunnel, "Loan, Publish", [readers](benchmark::State& state) { PublishRunnel(state, readers); });
   AddPooled<MutexSharedPointer<Image>>(suite, "mutex + shared_ptr, one for all", 1);
   AddPooled<MutexSharedPointer<Image>>(suite, "mutex + shared_ptr, one each", readers);
   AddPooled<AtomicSharedPointer<Image>>(suite, "atomic<shared_ptr>, one for all", 1);

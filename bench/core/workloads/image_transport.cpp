@@ -32,8 +32,8 @@ std::string OutputOf(const std::string& command) {
 
 void RunInAProcess(benchmark::State& state, const ImageTransport& transport) {
   std::ostringstream command;
-  command << OwnProgram() << " --image-transport '" << transport.subject << "' --readers "
-          << transport.readers << " --image-seconds " << transport.seconds;
+  command << OwnProgram() << " --image-transport '" << transport.subject << "' --readers " << transport.readers
+          << " --image-seconds " << transport.seconds;
   for (auto _ : state) {
     std::istringstream output(OutputOf(command.str()));
     double cpu = 0;
@@ -51,8 +51,7 @@ void RunInAProcess(benchmark::State& state, const ImageTransport& transport) {
 
 void AddProcess(Suite& suite, Role role, const std::string& subject, int readers) {
   const ImageTransport transport{subject, readers, suite.settings().seconds_per_image_case};
-  suite.AddProcess(role, subject,
-                   [transport](benchmark::State& state) { RunInAProcess(state, transport); });
+  suite.AddProcess(role, subject, [transport](benchmark::State& state) { RunInAProcess(state, transport); });
 }
 
 }  // namespace
@@ -66,12 +65,11 @@ int RunImageTransport(const ImageTransport& transport) {
 
 void AddImageTransport(Suite& suite) {
   for (const int readers : {0, 1, 7, 15}) {
-    suite.Start(
-        {.name = "image transport, " + Counted(static_cast<std::size_t>(readers), "consumer"),
-         .quantities = {{"CPU", "%"}, {"peak RSS", "MB"}},
-         .family = "image transport",
-         .axis = "consumers",
-         .position = static_cast<double>(readers)});
+    suite.Start({.name = "image transport, " + Counted(static_cast<std::size_t>(readers), "consumer"),
+                 .quantities = {{"CPU", "%"}, {"peak RSS", "MB"}},
+                 .family = "image transport",
+                 .axis = "consumers",
+                 .position = static_cast<double>(readers)});
     AddProcess(suite, Role::kRunnel, kPortsSubject, readers);
     AddProcess(suite, Role::kRival, kPoolSubject, readers);
     AddProcess(suite, Role::kFloor, readers == 0 ? kFillingSubject : kWakeUpSubject, readers);

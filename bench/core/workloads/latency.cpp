@@ -50,9 +50,8 @@ void RunPolled(benchmark::State& state, std::uint64_t messages) {
         }
       });
       const InACycle cycle;
-      meter.SendAll(
-          [&](const Message& message) { transport->Write(message); },
-          [](std::uint64_t number) { Idle(500 + static_cast<unsigned>(number * 7 % 16) * 20); });
+      meter.SendAll([&](const Message& message) { transport->Write(message); },
+                    [](std::uint64_t number) { Idle(500 + static_cast<unsigned>(number * 7 % 16) * 20); });
     }
     state.counters["p50"] = meter.Percentile(0.5);
     state.counters["p99"] = meter.Percentile(0.99);
@@ -62,17 +61,13 @@ void RunPolled(benchmark::State& state, std::uint64_t messages) {
 template <typename Transport>
 void AddPolled(Suite& suite, Role role, const std::string& name) {
   const std::uint64_t messages = suite.settings().quick ? 10'000 : 50'000;
-  suite
-      .Add(role, name,
-           [messages](benchmark::State& state) { RunPolled<Transport>(state, messages); })
-      ->Iterations(1);
+  suite.Add(role, name, [messages](benchmark::State& state) { RunPolled<Transport>(state, messages); })->Iterations(1);
 }
 
 }  // namespace
 
 void AddLatency(Suite& suite) {
-  suite.Start(
-      {.name = "one-way latency of 128 B, polled", .quantities = {{"p50", "ns"}, {"p99", "ns"}}});
+  suite.Start({.name = "one-way latency of 128 B, polled", .quantities = {{"p50", "ns"}, {"p99", "ns"}}});
   AddPolled<RunnelPort>(suite, Role::kRunnel, "Read");
   AddPolled<Seqlock<Message>>(suite, Role::kRival, Seqlock<Message>::kName);
   AddPolled<TripleBuffer<Message>>(suite, Role::kRival, TripleBuffer<Message>::kName);

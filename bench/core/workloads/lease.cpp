@@ -21,9 +21,7 @@ namespace runnel::bench {
 
 namespace {
 
-std::size_t IndexOf(const benchmark::State& state) {
-  return static_cast<std::size_t>(state.thread_index());
-}
+std::size_t IndexOf(const benchmark::State& state) { return static_cast<std::size_t>(state.thread_index()); }
 
 void ReadAgainAndAgain(Input<Image>& input, benchmark::State& state) {
   const InACycle cycle;
@@ -36,9 +34,7 @@ void ReadAgainAndAgain(Input<Image>& input, benchmark::State& state) {
 // Each thread has an input of its own, all connected to the same output.
 class ReadersOfOnePort {
  public:
-  explicit ReadersOfOnePort(std::size_t threads) : star_(threads) {
-    star_.output().Publish(Image{});
-  }
+  explicit ReadersOfOnePort(std::size_t threads) : star_(threads) { star_.output().Publish(Image{}); }
   void Run(benchmark::State& state) { ReadAgainAndAgain(star_.input(IndexOf(state)), state); }
 
  private:
@@ -100,17 +96,16 @@ std::set<int> ThreadCounts() {
 
 void AddLease(Suite& suite) {
   for (const int threads : ThreadCounts()) {
-    suite.Start(
-        {.name = "lease a large value, " + Counted(static_cast<std::size_t>(threads), "thread"),
-         .family = "lease a large value",
-         .axis = "threads",
-         .position = static_cast<double>(threads)});
+    suite.Start({.name = "lease a large value, " + Counted(static_cast<std::size_t>(threads), "thread"),
+                 .family = "lease a large value",
+                 .axis = "threads",
+                 .position = static_cast<double>(threads)});
     AddReaders<ReadersOfOnePort>(suite, Role::kRunnel, "Read", threads);
     AddReaders<ReadersOfTheirOwn>(suite, Role::kFloor, "a port for each", threads);
-    AddReaders<PointerReaders<MutexSharedPointer<Image>>>(
-        suite, Role::kRival, MutexSharedPointer<Image>::kName, threads);
-    AddReaders<PointerReaders<AtomicSharedPointer<Image>>>(
-        suite, Role::kRival, AtomicSharedPointer<Image>::kName, threads);
+    AddReaders<PointerReaders<MutexSharedPointer<Image>>>(suite, Role::kRival, MutexSharedPointer<Image>::kName,
+                                                          threads);
+    AddReaders<PointerReaders<AtomicSharedPointer<Image>>>(suite, Role::kRival, AtomicSharedPointer<Image>::kName,
+                                                           threads);
   }
 }
 

@@ -28,9 +28,9 @@ class FiveInFiveOut final : public Node {
   std::array<Input<double>, 5> inputs = {Input<double>(*this, "in0"), Input<double>(*this, "in1"),
                                          Input<double>(*this, "in2"), Input<double>(*this, "in3"),
                                          Input<double>(*this, "in4")};
-  std::array<Output<double>, 5> outputs = {
-      Output<double>(*this, "out0"), Output<double>(*this, "out1"), Output<double>(*this, "out2"),
-      Output<double>(*this, "out3"), Output<double>(*this, "out4")};
+  std::array<Output<double>, 5> outputs = {Output<double>(*this, "out0"), Output<double>(*this, "out1"),
+                                           Output<double>(*this, "out2"), Output<double>(*this, "out3"),
+                                           Output<double>(*this, "out4")};
 };
 
 double HeapBytes() {
@@ -96,9 +96,7 @@ void AddManyPorts(Suite& suite) {
                  .family = "ports in a runtime",
                  .axis = "ports",
                  .position = static_cast<double>(ports)});
-    suite
-        .Add(Role::kRunnel, "Input, Output",
-             [ports](benchmark::State& state) { RunPorts(state, ports); })
+    suite.Add(Role::kRunnel, "Input, Output", [ports](benchmark::State& state) { RunPorts(state, ports); })
         ->Iterations(1);
   }
 }

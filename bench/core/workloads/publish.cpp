@@ -83,8 +83,7 @@ void AddReaders(Suite& suite, std::size_t readers) {
                .family = "publish a double",
                .axis = "inputs",
                .position = static_cast<double>(readers)});
-  suite.Add(Role::kRunnel, "Publish",
-            [readers](benchmark::State& state) { PublishRunnel(state, readers); });
+  suite.Add(Role::kRunnel, "Publish", [readers](benchmark::State& state) { PublishRunnel(state, readers); });
   if (readers == 1) {
     suite.Add(Role::kRunnel, "Publish with its time, outside of cycles",
               [readers](benchmark::State& state) { PublishMeasured(state, readers); });
@@ -94,8 +93,7 @@ void AddReaders(Suite& suite, std::size_t readers) {
   const std::string one = ", one for all";
   suite.Add(Role::kRival, Seqlock<double>::kName + one, WriteOnce<Seqlock<double>>);
   suite.Add(Role::kRival, MutexValue<double>::kName + one, WriteOnce<MutexValue<double>>);
-  suite.Add(Role::kRival, AtomicSharedPointer<double>::kName + one,
-            WriteOnce<AtomicSharedPointer<double>>);
+  suite.Add(Role::kRival, AtomicSharedPointer<double>::kName + one, WriteOnce<AtomicSharedPointer<double>>);
   suite.Add(Role::kRival, "mutex + shared_ptr, one each",
             [readers](benchmark::State& state) { WriteToEach(state, readers); });
   suite.Add(Role::kRival, "boost spsc_queue, one each",

@@ -28,8 +28,7 @@ constexpr std::uint64_t kToldAtOnce = 64;
 template <OnFull kOnFull>
 class RunnelQueue {
  public:
-  static constexpr const char* kName =
-      kOnFull == OnFull::kRefuse ? "queued input" : "queued input, drop oldest";
+  static constexpr const char* kName = kOnFull == OnFull::kRefuse ? "queued input" : "queued input, drop oldest";
 
   bool Push(const Message& message) {
     if constexpr (kOnFull == OnFull::kRefuse) {
@@ -111,18 +110,15 @@ void RunQueue(benchmark::State& state) {
     consumer.WaitFor(sent);
   }
   if (!consumer.is_in_order()) state.SkipWithError("messages were lost or came out of order");
-  state.counters["throughput"] =
-      benchmark::Counter(static_cast<double>(sent) * 1e-6, benchmark::Counter::kIsRate);
+  state.counters["throughput"] = benchmark::Counter(static_cast<double>(sent) * 1e-6, benchmark::Counter::kIsRate);
 }
 
 }  // namespace
 
 void AddQueue(Suite& suite) {
   suite.Start({.name = "queue of 128 B, two threads", .quantities = {{"throughput", "M/s", true}}});
-  suite.Add(Role::kRunnel, RunnelQueue<OnFull::kRefuse>::kName,
-            RunQueue<RunnelQueue<OnFull::kRefuse>>);
-  suite.Add(Role::kRunnel, RunnelQueue<OnFull::kDropOldest>::kName,
-            RunQueue<RunnelQueue<OnFull::kDropOldest>>);
+  suite.Add(Role::kRunnel, RunnelQueue<OnFull::kRefuse>::kName, RunQueue<RunnelQueue<OnFull::kRefuse>>);
+  suite.Add(Role::kRunnel, RunnelQueue<OnFull::kDropOldest>::kName, RunQueue<RunnelQueue<OnFull::kDropOldest>>);
   using SpscQueue = BoostSpscQueue<Message, kCapacity>;
   suite.Add(Role::kRival, SpscQueue::kName, RunQueue<SpscQueue>);
 #ifdef RUNNEL_BENCH_HAS_MOODYCAMEL

@@ -93,8 +93,7 @@ void RunThread(benchmark::State& state, std::chrono::milliseconds window) {
   using Clock = std::chrono::steady_clock;
   Ring ring;
   Scheduler scheduler(ring.runtime);
-  auto& thread =
-      CreateThread(ring.runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
+  auto& thread = CreateThread(ring.runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
   MustSucceed(scheduler.Start());
   std::this_thread::sleep_for(std::chrono::milliseconds(5));
   for (auto _ : state) {
@@ -127,12 +126,8 @@ void PassPointer(PointerCell& from, PointerCell& to) {
   AddOne(*lease, *next);
   to.Write(std::move(next));
 }
-void Pass(MutexSharedPointer<Matrix4>& from, MutexSharedPointer<Matrix4>& to) {
-  PassPointer(from, to);
-}
-void Pass(AtomicSharedPointer<Matrix4>& from, AtomicSharedPointer<Matrix4>& to) {
-  PassPointer(from, to);
-}
+void Pass(MutexSharedPointer<Matrix4>& from, MutexSharedPointer<Matrix4>& to) { PassPointer(from, to); }
+void Pass(AtomicSharedPointer<Matrix4>& from, AtomicSharedPointer<Matrix4>& to) { PassPointer(from, to); }
 
 template <template <typename> class Cell>
 void RunCells(benchmark::State& state) {
@@ -198,8 +193,7 @@ void AddCells(Suite& suite, Role role = Role::kRival) {
 void AddRing(Suite& suite) {
   suite.Start({"ring of 5, 4x4 double"});
   const std::chrono::milliseconds window(suite.settings().quick ? 20 : 100);
-  suite.AddTimed(Role::kRunnel, "modules, thread",
-                 [window](benchmark::State& state) { RunThread(state, window); });
+  suite.AddTimed(Role::kRunnel, "modules, thread", [window](benchmark::State& state) { RunThread(state, window); });
   suite.Add(Role::kRunnel, "modules, simulated time", RunSimulated);
   suite.Add(Role::kRunnel, "raw ports", RunRawPorts);
   AddCells<MutexValue>(suite);

@@ -94,11 +94,8 @@ void AddTransport(Suite& suite, std::uint64_t messages) {
 
 void AddWakeUp(Suite& suite) {
   const std::uint64_t messages = suite.settings().quick ? 200 : 1000;
-  suite.Start(
-      {.name = "one-way latency of 128 B, asleep", .quantities = {{"p50", "ns"}, {"p99", "ns"}}});
-  suite
-      .Add(Role::kRunnel, "triggered module",
-           [messages](benchmark::State& state) { RunModule(state, messages); })
+  suite.Start({.name = "one-way latency of 128 B, asleep", .quantities = {{"p50", "ns"}, {"p99", "ns"}}});
+  suite.Add(Role::kRunnel, "triggered module", [messages](benchmark::State& state) { RunModule(state, messages); })
       ->Iterations(1);
   AddTransport<ConditionValue<Message>>(suite, messages);
   AddTransport<WaitedSeqlock<Message>>(suite, messages);

@@ -59,8 +59,7 @@ int main(int count, char** words) {
     if (equals == std::string::npos) {
       options.extensions_by_name.push_back({word});
     } else {
-      options.extensions_by_name.back().arguments.values.emplace_back(word.substr(0, equals),
-                                                                      word.substr(equals + 1));
+      options.extensions_by_name.back().arguments.values.emplace_back(word.substr(0, equals), word.substr(equals + 1));
     }
   }
   const auto application = runnel::Application::Compose("slim", options);

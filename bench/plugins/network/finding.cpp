@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <set>
 #include <mutex>
 #include <new>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -70,7 +70,7 @@ class Endpoints final : public WireDiscovery {
 struct Common {
   std::atomic<int> ready{0};
   std::atomic<bool> has_ended{false};
-  std::atomic<double> took{0};  // s
+  std::atomic<double> took{0};          // s
   std::atomic<std::int64_t> memory{0};  // kB, of all, what they share counted once
 };
 
@@ -104,9 +104,10 @@ void PrintDiscovery(int starts) {
   Common& common = MakeCommon();
   const pid_t writing = Fork([&] {
     Application<Sender<Block>> application;
-    application.Begin({.member = {.name = "writer"},
-                       .offers = {{.port = "/application/element/output", .topic = "/values", .quality = ValueQuality::kLatched}}},
-                      nullptr);
+    application.Begin(
+        {.member = {.name = "writer"},
+         .offers = {{.port = "/application/element/output", .topic = "/values", .quality = ValueQuality::kLatched}}},
+        nullptr);
     {
       const OwnCycle cycle(SteadyClock().Now());
       application.element.output.Publish(Block{});
@@ -133,8 +134,10 @@ void PrintDiscovery(int starts) {
   waitpid(writing, nullptr, 0);
   std::ranges::sort(all);
   const auto soon = std::ranges::count_if(all, [](double each) { return each < 0.1; });
-  fmt::print("{} starts: an application has another one's value after {:.1f} ms (median), {:.1f} ms (worst); {} within 100 ms\n", starts,
-             1e3 * all[all.size() / 2], 1e3 * all.back(), soon);
+  fmt::print(
+      "{} starts: an application has another one's value after {:.1f} ms (median), {:.1f} ms (worst); {} within 100 "
+      "ms\n",
+      starts, 1e3 * all[all.size() / 2], 1e3 * all.back(), soon);
 }
 
 void PrintMany(int count) {
@@ -153,14 +156,15 @@ void PrintMany(int count) {
   Group& group = runtime.Create<Group>(runtime.root(), "application");
   for (int i = 0; i < count; ++i) runtime.Create<Sender<Block>>(group, "element_" + std::to_string(i));
   const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
-  auto& network = runtime.Create<NetworkElement>(group, "network", NetworkOptions{.member = {.name = "writer"}, .offers = {{.patterns = {"**"}}}});
+  auto& network = runtime.Create<NetworkElement>(
+      group, "network", NetworkOptions{.member = {.name = "writer"}, .offers = {{.patterns = {"**"}}}});
   (void)runtime.MakeReady(runtime.root());
   const std::int64_t before = OwnMemory();
   const double began = Now();
   auto link = std::move(*NetworkLink::Start(group, network, *engine, false));
   while (common.took == 0) Nap();
-  fmt::print("{} ports offered: another process knows all after {:.0f} ms; {:.1f} MB\n", count, 1e3 * (common.took - began),
-             1e-3 * static_cast<double>(OwnMemory() - before));
+  fmt::print("{} ports offered: another process knows all after {:.0f} ms; {:.1f} MB\n", count,
+             1e3 * (common.took - began), 1e-3 * static_cast<double>(OwnMemory() - before));
   common.has_ended = true;
   waitpid(looking, nullptr, 0);
   link.reset();
@@ -177,7 +181,8 @@ void PrintCrowd(int count) {
       const auto member = std::move(*engine->Join({.name = "robot"}, members));
       const auto writer = std::move(*member->MakeWriter(kTopic, {}));
       const auto reader = std::move(*member->MakeReader(kTopic, [](const WireSample&) {}, {}));
-      while (members.count() < static_cast<std::size_t>(count)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      while (members.count() < static_cast<std::size_t>(count))
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
       ++common.ready;
       while (common.ready < count) std::this_thread::sleep_for(std::chrono::milliseconds(10));
       common.memory += OwnMemory();

@@ -43,7 +43,8 @@ OfferOptions OfferOf(ValueQuality quality, ValueSending sending) {
 }
 
 template <typename T>
-Figures MeasurePorts(const Load& load, const OfferOptions& offer, bool has_shared_memory, void (*fill)(T&), double (*sent)(const T&)) {
+Figures MeasurePorts(const Load& load, const OfferOptions& offer, bool has_shared_memory, void (*fill)(T&),
+                     double (*sent)(const T&)) {
   const auto read = [&](Course& course) {
     Application<Receiver<T>> application;
     if (!has_shared_memory) application.engine = MakeCycloneWire();
@@ -96,12 +97,13 @@ Figures MeasureEngine(const Load& load, std::size_t size) {
     Nobody nobody;
     const auto engine = MakeCycloneWire();
     const auto member = std::move(*engine->Join({}, nobody));
-    const auto reader = member->MakeReader(
-        kRaw, [&](const WireSample& sample) {
-          double sent = 0;
-          std::memcpy(&sent, sample.octets.data() + 4, sizeof sent);
-          course.Note(sent);
-        }, {});
+    const auto reader = member->MakeReader(kRaw,
+                                           [&](const WireSample& sample) {
+                                             double sent = 0;
+                                             std::memcpy(&sent, sample.octets.data() + 4, sizeof sent);
+                                             course.Note(sent);
+                                           },
+                                           {});
     course.WaitForEnd();
   };
   const auto write = [&](Course& course) {
@@ -124,17 +126,19 @@ Figures MeasureEngine(const Load& load, std::size_t size) {
 }
 
 Figures MeasureBlocks(const Load& load, ValueQuality quality, ValueSending sending) {
-  return MeasurePorts<Block>(load, OfferOf(quality, sending), true, [](Block& block) { block.values[0] = Now(); },
-                             [](const Block& block) { return block.values[0]; });
+  return MeasurePorts<Block>(
+      load, OfferOf(quality, sending), true, [](Block& block) { block.values[0] = Now(); },
+      [](const Block& block) { return block.values[0]; });
 }
 
 Figures MeasurePictures(const Load& load, bool has_shared_memory) {
-  return MeasurePorts<Picture>(load, OfferOf(ValueQuality::kNewest, ValueSending::kNetwork), has_shared_memory,
-                               [](Picture& picture) {
-                                 picture.data.resize(kPicture);
-                                 picture.sent = Now();
-                               },
-                               [](const Picture& picture) { return picture.sent; });
+  return MeasurePorts<Picture>(
+      load, OfferOf(ValueQuality::kNewest, ValueSending::kNetwork), has_shared_memory,
+      [](Picture& picture) {
+        picture.data.resize(kPicture);
+        picture.sent = Now();
+      },
+      [](const Picture& picture) { return picture.sent; });
 }
 
 void PrintPublishing() {
@@ -160,9 +164,11 @@ void PrintPublishing() {
   }
   {
     Application<Sender<Block>> application;
-    application.Begin({.member = {.name = "writer"}, .offers = {OfferOf(ValueQuality::kNewest, ValueSending::kNetwork)}}, nullptr);
+    application.Begin(
+        {.member = {.name = "writer"}, .offers = {OfferOf(ValueQuality::kNewest, ValueSending::kNetwork)}}, nullptr);
     while (application.element.output.outgoing().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    fmt::print("{:.1f} ns read by another process, while the network's thread is awake\n", PublishingTime(application.element.output));
+    fmt::print("{:.1f} ns read by another process, while the network's thread is awake\n",
+               PublishingTime(application.element.output));
     application.link.reset();
   }
   close(ends[1]);

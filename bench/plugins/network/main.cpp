@@ -27,8 +27,9 @@ Figures Median(std::vector<Figures> rounds) {
 }
 
 void PrintLatency(const char* what, const Figures& figures) {
-  fmt::print("{:32} {:8.1f} us {:8.1f} us   {:7.1f} + {:7.1f} us   {:5.1f} %", what, kMicro * figures.p50, kMicro * figures.p99,
-             kMicro * figures.processor_writing, kMicro * figures.processor_reading, 100 * figures.arrived / figures.sent);
+  fmt::print("{:32} {:8.1f} us {:8.1f} us   {:7.1f} + {:7.1f} us   {:5.1f} %", what, kMicro * figures.p50,
+             kMicro * figures.p99, kMicro * figures.processor_writing, kMicro * figures.processor_reading,
+             100 * figures.arrived / figures.sent);
 }
 
 // Round by round, since the machine is faster and slower in turn: median, and the quarter on either side.
@@ -47,14 +48,16 @@ struct Way {
 };
 
 // In turn, so that whatever else the machine does is in all of them.
-void CompareLatency(const char* what, int rounds, const std::function<Figures()>& engine, const std::vector<Way>& ways) {
+void CompareLatency(const char* what, int rounds, const std::function<Figures()>& engine,
+                    const std::vector<Way>& ways) {
   std::vector<Figures> alone;
   std::vector<std::vector<Figures>> whole(ways.size());
   for (int round = 0; round < rounds; ++round) {
     alone.push_back(engine());
     for (std::size_t i = 0; i < ways.size(); ++i) whole[i].push_back(ways[i].measure());
   }
-  fmt::print("{:32} {:>11} {:>11}   {:>20}   {:>7}   {}\n", what, "p50", "p99", "CPU of both a value", "arrived", "p50 to the engine's");
+  fmt::print("{:32} {:>11} {:>11}   {:>20}   {:>7}   {}\n", what, "p50", "p99", "CPU of both a value", "arrived",
+             "p50 to the engine's");
   PrintLatency("  the engine alone", Median(alone));
   fmt::print("\n");
   for (std::size_t i = 0; i < ways.size(); ++i) {
@@ -86,7 +89,8 @@ std::vector<Way> WaysOfBlocks(const Load& load, ValueQuality quality) {
 void CompareBlocks(const char* what, bool is_even) {
   constexpr int kRounds = 9;
   const Load load{300, std::chrono::milliseconds(1), is_even};
-  CompareLatency(what, kRounds, [&] { return MeasureEngine(load, sizeof(Block)); }, WaysOfBlocks(load, ValueQuality::kNewest));
+  CompareLatency(
+      what, kRounds, [&] { return MeasureEngine(load, sizeof(Block)); }, WaysOfBlocks(load, ValueQuality::kNewest));
 }
 
 void Latency() { CompareBlocks("128 B at 1 kHz", true); }
@@ -94,23 +98,30 @@ void Uneven() { CompareBlocks("128 B at about 1 kHz, unevenly", false); }
 
 void Pictures() {
   const Load load{40, std::chrono::milliseconds(33)};
-  CompareLatency("6.2 MB at 30 Hz", 3, [&] { return MeasureEngine(load, kPicture); },
-                 {{kByNetwork, [&] { return MeasurePictures(load); }}, {kByUdp, [&] { return MeasurePictures(load, false); }}});
+  CompareLatency(
+      "6.2 MB at 30 Hz", 3, [&] { return MeasureEngine(load, kPicture); },
+      {{kByNetwork, [&] { return MeasurePictures(load); }}, {kByUdp, [&] { return MeasurePictures(load, false); }}});
 }
 
 void Throughput() {
   const Load flood{0, {}};
   PrintThroughput("128 B, as fast as it goes", sizeof(Block), MeasureEngine(flood, sizeof(Block)),
                   WaysOfBlocks(flood, ValueQuality::kEach));
-  PrintThroughput("6.2 MB, as fast as it goes", kPicture, MeasureEngine(flood, kPicture),
-                  {{kByNetwork, [&] { return MeasurePictures(flood); }}, {kByUdp, [&] { return MeasurePictures(flood, false); }}});
+  PrintThroughput(
+      "6.2 MB, as fast as it goes", kPicture, MeasureEngine(flood, kPicture),
+      {{kByNetwork, [&] { return MeasurePictures(flood); }}, {kByUdp, [&] { return MeasurePictures(flood, false); }}});
 }
 
 int Run(const std::vector<std::string>& wanted) {
-  const std::vector<std::pair<std::string_view, void (*)()>> parts = {
-      {"publishing", PrintPublishing}, {"latency", Latency}, {"uneven", Uneven}, {"pictures", Pictures}, {"throughput", Throughput},
-      {"discovery", [] { PrintDiscovery(50); }}, {"many", [] { PrintMany(500); }},
-      {"crowd", [] { PrintCrowd(30); }}, {"large_crowd", [] { PrintCrowd(100); }}};
+  const std::vector<std::pair<std::string_view, void (*)()>> parts = {{"publishing", PrintPublishing},
+                                                                      {"latency", Latency},
+                                                                      {"uneven", Uneven},
+                                                                      {"pictures", Pictures},
+                                                                      {"throughput", Throughput},
+                                                                      {"discovery", [] { PrintDiscovery(50); }},
+                                                                      {"many", [] { PrintMany(500); }},
+                                                                      {"crowd", [] { PrintCrowd(30); }},
+                                                                      {"large_crowd", [] { PrintCrowd(100); }}};
   (void)test::EnterOwnNetwork();
   bool is_known = wanted.empty();
   for (const auto& [name, run] : parts) {
@@ -119,7 +130,10 @@ int Run(const std::vector<std::string>& wanted) {
     run();
     std::fflush(stdout);
   }
-  if (!is_known) fmt::print(stderr, "usage: bench_network [publishing] [latency] [uneven] [pictures] [throughput] [discovery] [many] [crowd] [large_crowd]\n");
+  if (!is_known)
+    fmt::print(stderr,
+               "usage: bench_network [publishing] [latency] [uneven] [pictures] [throughput] [discovery] [many] "
+               "[crowd] [large_crowd]\n");
   return is_known ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

@@ -81,9 +81,11 @@ void Tell(std::int64_t held) {
     if (dladdr(frames[i], &known) == 0) continue;
     const char* const slash = std::strrchr(known.dli_fname, '/');
     int is_bad = 1;
-    char* const name = known.dli_sname != nullptr ? abi::__cxa_demangle(known.dli_sname, nullptr, nullptr, &is_bad) : nullptr;
-    size += std::snprintf(text + size, sizeof text - static_cast<std::size_t>(size), "%s%s:%.150s", i == 3 ? " " : " < ",
-                          slash != nullptr ? slash + 1 : known.dli_fname, name != nullptr ? name : "?");
+    char* const name =
+        known.dli_sname != nullptr ? abi::__cxa_demangle(known.dli_sname, nullptr, nullptr, &is_bad) : nullptr;
+    size +=
+        std::snprintf(text + size, sizeof text - static_cast<std::size_t>(size), "%s%s:%.150s", i == 3 ? " " : " < ",
+                      slash != nullptr ? slash + 1 : known.dli_fname, name != nullptr ? name : "?");
     std::free(name);
   }
   text[size++] = '\n';
@@ -172,7 +174,8 @@ int pthread_cond_wait(pthread_cond_t* condition, pthread_mutex_t* mutex) {
   return WaitWithout(mutex, [&] { return Next(next_wait, "pthread_cond_wait", "GLIBC_2.3.2")(condition, mutex); });
 }
 int pthread_cond_timedwait(pthread_cond_t* condition, pthread_mutex_t* mutex, const timespec* until) {
-  return WaitWithout(mutex, [&] { return Next(next_timed, "pthread_cond_timedwait", "GLIBC_2.3.2")(condition, mutex, until); });
+  return WaitWithout(
+      mutex, [&] { return Next(next_timed, "pthread_cond_timedwait", "GLIBC_2.3.2")(condition, mutex, until); });
 }
 int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock, const timespec* until) {
   return WaitWithout(mutex, [&] { return Next(next_clock, "pthread_cond_clockwait")(condition, mutex, clock, until); });

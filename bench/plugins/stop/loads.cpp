@@ -149,8 +149,7 @@ Load::Step Saturate(Robot& robot, TaskGroup& /*tasks*/) {
   for (int i = 0; i < 2; ++i) {
     viewers.push_back(std::make_shared<RawClient>(robot.web->port()));
     (void)viewers.back()->Upgrade("runnel.inspector.v1");
-    (void)viewers.back()->SendText(
-        R"({"op":"watch","path":"/planner/output/picture","rate":60,"elements":1000000})");
+    (void)viewers.back()->SendText(R"({"op":"watch","path":"/planner/output/picture","rate":60,"elements":1000000})");
   }
   return [&robot, viewers] {
     robot.planner->PublishPicture();

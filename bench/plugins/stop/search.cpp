@@ -20,10 +20,10 @@ int main(int argc, char** argv) {
               static_cast<unsigned long long>(found.presses), static_cast<unsigned long long>(found.reloads),
               static_cast<unsigned long long>(found.refused));
   std::printf("%llu times a driving port was looked at, %llu times under STOP, %llu times it moved\n",
-              static_cast<unsigned long long>(found.checks),
-              static_cast<unsigned long long>(found.checks_in_force),
+              static_cast<unsigned long long>(found.checks), static_cast<unsigned long long>(found.checks_in_force),
               static_cast<unsigned long long>(found.moving));
-  std::printf("%llu marks and blocks came back with what was deleted\n", static_cast<unsigned long long>(found.came_back));
+  std::printf("%llu marks and blocks came back with what was deleted\n",
+              static_cast<unsigned long long>(found.came_back));
   for (const auto& violation : found.violations) std::printf("%s\n", violation.c_str());
   std::printf("%zu ways around STOP\n", found.violations.size());
   return found.violations.empty() ? 0 : 1;

@@ -83,7 +83,8 @@ class ByWebSocket final : public Way {
 /// When it was by the machine's wall clock, which is in ms.
 SteadyClock::time_point ByWallClock(double time) {
   const std::chrono::duration<double, std::milli> now = std::chrono::system_clock::now().time_since_epoch();
-  return SteadyClock::now() - std::chrono::duration_cast<SteadyClock::duration>(now - std::chrono::duration<double, std::milli>(time));
+  return SteadyClock::now() -
+         std::chrono::duration_cast<SteadyClock::duration>(now - std::chrono::duration<double, std::milli>(time));
 }
 
 // From the event of the mouse or the key, as the browser has stamped it, in headless Chromium.
@@ -143,8 +144,7 @@ const std::vector<KindOfWay>& KindsOfWays() {
        [](Robot& robot, bool) -> std::unique_ptr<Way> { return std::make_unique<ByTerminal>(robot); }},
       {"from the page's octets to reader",
        [](Robot& robot, bool) -> std::unique_ptr<Way> { return std::make_unique<ByWebSocket>(robot); }},
-      {"from click or key in Chromium to reader",
-       [](Robot& robot, bool fills_page) -> std::unique_ptr<Way> {
+      {"from click or key in Chromium to reader", [](Robot& robot, bool fills_page) -> std::unique_ptr<Way> {
          auto page = std::make_unique<ByPage>(robot, fills_page);
          if (page->is_there()) return page;
          std::printf("skipped: neither node nor Chromium, or the tests in a browser are not built\n");

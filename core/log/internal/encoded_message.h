@@ -22,7 +22,7 @@ namespace internal {
 /// formatted where there is time for it.
 template <typename T>
 concept IsLoggable = std::integral<T> || std::same_as<T, float> || std::same_as<T, double> ||
-                     std::convertible_to<const T&, std::string_view>;
+    std::convertible_to<const T&, std::string_view>;
 
 /// A message on its way from the cycle that says it to who formats it: the format and the arguments as bytes, so
 /// that nothing of it lies in a library that may have been unloaded meanwhile.
@@ -98,9 +98,7 @@ class EncodedMessage {
     Append(&size, sizeof size);
     Append(text.data(), size);
   }
-  [[nodiscard]] bool HasRoomFor(std::size_t size) const noexcept {
-    return header_.size + size <= kMostBytes;
-  }
+  [[nodiscard]] bool HasRoomFor(std::size_t size) const noexcept { return header_.size + size <= kMostBytes; }
   void Cut() noexcept { header_.is_cut = true; }
   void Append(const void* from, std::size_t size) noexcept {
     std::memcpy(bytes_.data() + header_.size, from, size);

@@ -65,7 +65,7 @@ class LogDispatcher {
   std::mutex reading_;
   std::vector<Sink> sinks_;
   std::uint64_t lost_ = 0;  // and not yet told
-  std::mutex listing_;  // a leaf
+  std::mutex listing_;      // a leaf
   Logger* first_ = nullptr;
   std::map<const Runtime*, LevelOfPath> levels_;
   std::condition_variable_any wake_;

@@ -27,8 +27,8 @@ LogRing& LogRing::Take() {
   ForEach([&](LogRing& ring) {
     bool taken = false;
     // acquire: as in GiveBack(); relaxed: another thread has it.
-    if (free == nullptr && ring.taken_.compare_exchange_strong(taken, true, std::memory_order_acquire,
-                                                               std::memory_order_relaxed)) {
+    if (free == nullptr &&
+        ring.taken_.compare_exchange_strong(taken, true, std::memory_order_acquire, std::memory_order_relaxed)) {
       free = &ring;
     }
   });

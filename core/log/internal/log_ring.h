@@ -29,9 +29,7 @@ class LogRing {
     (void)bytes_.push(message, size);
   }
   /// False if nothing waits. A message whose first bytes are there is there as a whole.
-  bool Pop(void* into, std::size_t size) noexcept {
-    return bytes_.pop(static_cast<std::byte*>(into), size) == size;
-  }
+  bool Pop(void* into, std::size_t size) noexcept { return bytes_.pop(static_cast<std::byte*>(into), size) == size; }
   [[nodiscard]] std::uint64_t TakeLost() noexcept {
     const std::uint64_t lost = lost_.load(std::memory_order_relaxed);
     return lost - std::exchange(lost_taken_, lost);

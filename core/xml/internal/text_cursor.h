@@ -18,20 +18,18 @@ inline std::string_view WithoutXmlSpace(std::string_view text) {
 }
 // The same characters as in tinyxml2, so that both find the same names.
 inline bool IsXmlNameStart(char character) {
-  return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
-         character == ':' || character == '_' || static_cast<unsigned char>(character) >= 128;
+  return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') || character == ':' ||
+         character == '_' || static_cast<unsigned char>(character) >= 128;
 }
 inline bool IsXmlNameCharacter(char character) {
-  return IsXmlNameStart(character) || (character >= '0' && character <= '9') || character == '.' ||
-         character == '-';
+  return IsXmlNameStart(character) || (character >= '0' && character <= '9') || character == '.' || character == '-';
 }
 
 /// Walks through a text and knows at which line and column it is.
 class TextCursor {
  public:
   /// `begin`: how many bytes stand before the text in its file.
-  explicit TextCursor(std::string_view text, std::size_t begin = 0)
-      : end_(begin + text.size()), rest_(text) {}
+  explicit TextCursor(std::string_view text, std::size_t begin = 0) : end_(begin + text.size()), rest_(text) {}
 
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
   [[nodiscard]] TextPlace place() const { return place_; }
@@ -64,9 +62,7 @@ class TextCursor {
     return Take(count);
   }
 
-  std::string_view TakeName() {
-    return IsXmlNameStart(next()) ? TakeWhile(IsXmlNameCharacter) : std::string_view();
-  }
+  std::string_view TakeName() { return IsXmlNameStart(next()) ? TakeWhile(IsXmlNameCharacter) : std::string_view(); }
   /// True if there was any.
   bool SkipSpace() { return !TakeWhile(IsXmlSpace).empty(); }
 

@@ -39,7 +39,6 @@ struct XmlNode {
 /// tinyxml2 knows the line of an error and of an element but no column, and lets much pass that is
 /// not XML. So this goes over the text first: it finds all places, and refuses with line and column
 /// whatever is not well-formed.
-Result<std::unique_ptr<XmlNode>> ScanXml(std::string_view text, const std::string& file_name,
-                                         std::size_t begin);
+Result<std::unique_ptr<XmlNode>> ScanXml(std::string_view text, const std::string& file_name, std::size_t begin);
 
 }  // namespace runnel::internal

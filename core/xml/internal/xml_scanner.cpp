@@ -35,8 +35,7 @@ bool IsNumericEntity(std::string_view name) {
   const bool hexadecimal = name.starts_with("#x");
   name.remove_prefix(hexadecimal ? 2 : 1);
   std::uint32_t code = 0;
-  const auto [end, error] =
-      std::from_chars(name.data(), name.data() + name.size(), code, hexadecimal ? 16 : 10);
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), code, hexadecimal ? 16 : 10);
   return error == std::errc() && end == name.data() + name.size() && IsXmlCharacter(code);
 }
 
@@ -89,8 +88,7 @@ class Scanner {
     }
     if (!root_) return Failure(cursor_.place(), "there is no element", "");
     if (open_ != nullptr) {
-      return Failure(open_->place, Quoted(open_->name) + " is never closed",
-                     "add </" + open_->name + ">");
+      return Failure(open_->place, Quoted(open_->name) + " is never closed", "add </" + open_->name + ">");
     }
     return std::move(root_);
   }
@@ -118,8 +116,7 @@ class Scanner {
     if (!TakePast("<?", "?>", "declaration")) return false;
     const std::string encoding = DeclaredEncoding(rest.substr(0, rest.find("?>")));
     if (!IsReadableEncoding(encoding)) {
-      return Fail(start, "the file says that it is " + encoding,
-                  "save it as UTF-8 and write encoding=\"UTF-8\"");
+      return Fail(start, "the file says that it is " + encoding, "save it as UTF-8 and write encoding=\"UTF-8\"");
     }
     cursor_.SkipSpace();
     return true;
@@ -162,10 +159,10 @@ class Scanner {
     cursor_.SkipSpace();
     if (open_ == nullptr) return Fail(start, "</" + std::string(name) + "> closes nothing", "");
     if (name != open_->name) {
-      return Fail(start,
-                  "</" + std::string(name) + "> where " + Quoted(open_->name) + " of " +
-                      At(open_->place) + " is still open",
-                  "write </" + open_->name + "> first");
+      return Fail(
+          start,
+          "</" + std::string(name) + "> where " + Quoted(open_->name) + " of " + At(open_->place) + " is still open",
+          "write </" + open_->name + "> first");
     }
     if (cursor_.next() != '>') return Fail(start, "an end tag without '>'", "");
     cursor_.Take(1);
@@ -269,8 +266,7 @@ class Scanner {
   bool TakeValue(XmlAttribute& attribute, TextPlace place, const std::string& quoted) {
     const char quote = cursor_.next();
     if (quote != '"' && quote != '\'') {
-      return Fail(cursor_.place(), "the value of " + quoted + " is not in quotes",
-                  "write \"…\" round it");
+      return Fail(cursor_.place(), "the value of " + quoted + " is not in quotes", "write \"…\" round it");
     }
     cursor_.Take(1);
     attribute.value_position = PositionAt(cursor_.place());
@@ -309,9 +305,7 @@ class Scanner {
     return Fail(cursor_.place(), fault, fault.starts_with("byte") ? "save the file as UTF-8" : "");
   }
 
-  SourcePosition PositionAt(TextPlace place) const {
-    return {file_name_, place.line, place.column};
-  }
+  SourcePosition PositionAt(TextPlace place) const { return {file_name_, place.line, place.column}; }
   Error Failure(TextPlace place, std::string message, std::string hint) const {
     return {.message = std::move(message), .position = PositionAt(place), .hint = std::move(hint)};
   }
@@ -332,8 +326,7 @@ class Scanner {
 
 }  // namespace
 
-Result<std::unique_ptr<XmlNode>> ScanXml(std::string_view text, const std::string& file_name,
-                                         std::size_t begin) {
+Result<std::unique_ptr<XmlNode>> ScanXml(std::string_view text, const std::string& file_name, std::size_t begin) {
   return Scanner(text, file_name, begin).Run();
 }
 

@@ -42,7 +42,8 @@ bool SaysEnough(const RangeScan& scan) {
   const std::size_t rays = scan.ranges.size();
   const double step = std::abs(scan.angle_step);
   // What nobody has filled in says nothing of where the rays went, nor of how far they could see.
-  if (!(step > 0.0) || !std::isfinite(step + scan.start_angle + scan.range_minimum) || !(scan.range_maximum > 0.0)) return false;
+  if (!(step > 0.0) || !std::isfinite(step + scan.start_angle + scan.range_minimum) || !(scan.range_maximum > 0.0))
+    return false;
   // Of a whole turn the last ray lies beside the first one, and a gap may reach over both.
   const bool is_whole_turn = (static_cast<double>(rays) + 0.5) * step >= 2 * kPi;
   std::size_t silent = 0, in_a_row = 0, most_in_a_row = 0;
@@ -88,8 +89,7 @@ Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& 
     return Cone{bearing, std::min(ranges.field_of_view / 2, kWidest),
                 has_echo ? std::max(range, LocalMap::kLeastDistance) : ranges.range_maximum, has_echo};
   };
-  const std::array cones = {cone(0.0, ranges.front), cone(kPi / 2, ranges.left),
-                            cone(-kPi / 2, ranges.right)};
+  const std::array cones = {cone(0.0, ranges.front), cone(kPi / 2, ranges.left), cone(-kPi / 2, ranges.right)};
   surroundings.is_vague = true;
   map_.SetPose(pose);
   for (const Cone& each : cones) Carve(each, pose);
@@ -106,13 +106,11 @@ void InfraredAdaptor::Carve(const Cone& cone, const Pose2& pose) {
   const double widening = std::tan(cone.half_width);
   const auto is_inside = [&](Point2 point) {
     const Point2 local = frame.ToBody(point);
-    return local.x > 0.0 && Dot(local, local) < free * free &&
-           std::abs(local.y) < widening * local.x;
+    return local.x > 0.0 && Dot(local, local) < free * free && std::abs(local.y) < widening * local.x;
   };
   map_.ForgetBoundaries(is_inside);
 
-  const auto [low, high] =
-      BoxRound(Position(pose), pose.heading + cone.bearing, cone.half_width, free);
+  const auto [low, high] = BoxRound(Position(pose), pose.heading + cone.bearing, cone.half_width, free);
   map_.MarkFree(low, high, is_inside);
 }
 
@@ -129,17 +127,15 @@ bool InfraredAdaptor::IsExplained(const Cone& cone, const Pose2& pose) const {
   const double widening = std::tan(cone.half_width);
   map_.ForEachBoundary([&](Point2 point) {
     const Point2 local = frame.ToBody(point);
-    is_explained =
-        is_explained || (local.x > 0.0 && std::abs(local.y) < widening * local.x &&
-                         std::abs(Norm(local) - cone.echo) < configuration_.refutation_margin);
+    is_explained = is_explained || (local.x > 0.0 && std::abs(local.y) < widening * local.x &&
+                                    std::abs(Norm(local) - cone.echo) < configuration_.refutation_margin);
   });
   return is_explained;
 }
 
 bool InfraredAdaptor::MarkArcPoints(const Cone& cone, const Pose2& pose, bool even_where_free) {
   const double width = 2 * cone.half_width;
-  const int steps =
-      std::max(1, static_cast<int>(std::ceil(width * cone.echo / configuration_.arc_step)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(width * cone.echo / configuration_.arc_step)));
   bool has_marked = false;
   for (int step = 0; step <= steps; ++step) {
     const double bearing = cone.bearing - cone.half_width + width * step / steps;

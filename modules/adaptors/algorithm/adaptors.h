@@ -20,8 +20,7 @@ struct BumperAdaptorConfiguration {
 /// obstacle by touching it, again and again along a wall. `sensor_range` is 0.
 class BumperAdaptor {
  public:
-  explicit BumperAdaptor(const BumperAdaptorConfiguration& configuration = {})
-      : configuration_(configuration) {}
+  explicit BumperAdaptor(const BumperAdaptorConfiguration& configuration = {}) : configuration_(configuration) {}
 
   /// `contact` felt at `pose` (world). Does not allocate.
   [[nodiscard]] Surroundings Update(const Contact& contact, const Pose2& pose);
@@ -48,8 +47,7 @@ struct InfraredAdaptorConfiguration {
 /// of the arc that were not there.
 class InfraredAdaptor {
  public:
-  explicit InfraredAdaptor(const InfraredAdaptorConfiguration& configuration = {})
-      : configuration_(configuration) {}
+  explicit InfraredAdaptor(const InfraredAdaptorConfiguration& configuration = {}) : configuration_(configuration) {}
 
   /// `ranges` taken from the body's centre at `pose` (world). Nothing is known (is_measured
   /// false) from ranges with range_maximum 0, or where one is no number. Does not allocate.
@@ -81,8 +79,7 @@ struct LaserAdaptorConfiguration {
 /// in the world's frame until a later scan looks through them.
 class LaserAdaptor {
  public:
-  explicit LaserAdaptor(const LaserAdaptorConfiguration& configuration = {})
-      : configuration_(configuration) {}
+  explicit LaserAdaptor(const LaserAdaptorConfiguration& configuration = {}) : configuration_(configuration) {}
 
   /// `scan` taken from the body's centre at `pose` (world). Nothing is known (is_measured false) from
   /// a scan without rays, of which half are no numbers, or those of more than 10 degrees in a row. Does not allocate.

@@ -27,9 +27,7 @@ class LocalMap {
   /// m; up to here from its centre to each side the window is surely valid.
   static constexpr double kReach = (kCellsAcross / 2 - 1) * kCellSize;
 
-  LocalMap() : cells_(static_cast<std::size_t>(kCellsAcross) * kCellsAcross) {
-    listed_.reserve(cells_.size());
-  }
+  LocalMap() : cells_(static_cast<std::size_t>(kCellsAcross) * kCellsAcross) { listed_.reserve(cells_.size()); }
 
   /// Moves the window, and where its points are seen from; in the world's frame. Call it before the others.
   void SetPose(const Pose2& pose) {
@@ -133,9 +131,7 @@ class LocalMap {
     return cell.seen;
   }
 
-  static int Index(double coordinate) {
-    return static_cast<int>(std::floor(coordinate / kCellSize));
-  }
+  static int Index(double coordinate) { return static_cast<int>(std::floor(coordinate / kCellSize)); }
   static std::size_t Slot(int column, int row) {
     const auto wrap = [](int index) {
       return static_cast<std::size_t>(((index % kCellsAcross) + kCellsAcross) % kCellsAcross);

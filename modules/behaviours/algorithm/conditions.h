@@ -25,7 +25,6 @@ struct ConditionState {
   Condition condition = {};
   double value = 0.0;
   bool is_latched = false;
-
 };
 
 /// One cycle: whether all are true. None: they are. Changes what they remember.

@@ -10,7 +10,7 @@ enum class CurveKind {
   kFallRise,  ///< the other way round
 };
 enum class CurveShape {
-  kSine,    ///< 1/2 + 1/2 sin(pi ((x - start) / (end - start) - 1/2))
+  kSine,  ///< 1/2 + 1/2 sin(pi ((x - start) / (end - start) - 1/2))
   kLinear,
 };
 

@@ -33,8 +33,7 @@ struct FusedSignals {
 ///
 /// Neutral: the activity lies between min(a) * activation and min(1, sum a) * activation, the target rating between
 /// the least and the greatest. At least one channel. Does not allocate.
-[[nodiscard]] FusedSignals Fuse(FusionMethod method, std::span<const FusedChannel> channels,
-                                double activation);
+[[nodiscard]] FusedSignals Fuse(FusionMethod method, std::span<const FusedChannel> channels, double activation);
 
 /// By what each channel's value is multiplied before all are added: 0 for all where nobody is active, as nobody wants any
 /// of them. As many weights as channels.
@@ -43,7 +42,6 @@ void WeighChannels(FusionMethod method, std::span<const FusedChannel> channels, 
 /// The sum, weighted.
 [[nodiscard]] double FuseNumbers(std::span<const double> weights, std::span<const double> numbers);
 /// Angles (rad) as weighted unit vectors, so that pi and -pi are one. In (-pi, pi]; that of the winner if they cancel out.
-[[nodiscard]] double FuseAngles(std::span<const double> weights, std::span<const double> angles,
-                                std::size_t winner);
+[[nodiscard]] double FuseAngles(std::span<const double> weights, std::span<const double> angles, std::size_t winner);
 
 }  // namespace runnel

@@ -21,7 +21,7 @@ double FreerSide(const Surroundings& surroundings) {
 // rad, as if the wall were on the right: where that is looked for.
 constexpr double kHandMiddle = -1.05;
 constexpr double kHandHalfWidth = 1.75;
-constexpr double kBeside = 1.0;  // m; what is further away is not beside it
+constexpr double kBeside = 1.0;     // m; what is further away is not beside it
 constexpr double kLookStep = 0.05;  // rad
 
 // Where the wall is, as if that were on the right; the nearest one if none is on that hand.
@@ -40,7 +40,8 @@ bool IsWayFree(const EscapeConfiguration& configuration, const Pose2& pose, Poin
 }  // namespace
 
 Twist2 Steer(const SteeringConfiguration& configuration, double bearing, double free) {
-  const double turn = std::clamp(configuration.turn_gain * bearing, -configuration.turn_limit, configuration.turn_limit);
+  const double turn =
+      std::clamp(configuration.turn_gain * bearing, -configuration.turn_limit, configuration.turn_limit);
   const double part = std::max(0.0, 1.0 - std::abs(bearing) / configuration.turning_bearing);
   const double stopping_speed = std::sqrt(2.0 * configuration.braking * std::max(0.0, free));
   return {std::min(configuration.speed * part, stopping_speed), turn};

@@ -43,8 +43,8 @@ struct AvoidObstaclesConfiguration {
 };
 
 /// Turns away from the nearest obstacle ahead, and drives the slower the nearer it is.
-[[nodiscard]] Wish AvoidObstacles(const SteeringConfiguration& steering, const AvoidObstaclesConfiguration& configuration,
-                                  const Surroundings& surroundings);
+[[nodiscard]] Wish AvoidObstacles(const SteeringConfiguration& steering,
+                                  const AvoidObstaclesConfiguration& configuration, const Surroundings& surroundings);
 
 /// Which way it turns where it meets a wall, which is then on its other hand.
 enum class FirstTurn { kLeft, kRight };
@@ -68,11 +68,11 @@ struct EmergencyStopConfiguration {
                                  const Twist2& wanted);
 
 struct EscapeConfiguration {
-  double patience = 4.0;    ///< s without coming nearer, after which it is a dead end
-  double progress = 0.1;    ///< m, by which it must come nearer
-  double margin = 0.2;      ///< m, by which it leaves nearer to the goal than it came
-  double free_way = 1.0;    ///< m towards the goal, with which it leaves
-  double tolerance = 0.1;   ///< m, nearer than this it is there
+  double patience = 4.0;   ///< s without coming nearer, after which it is a dead end
+  double progress = 0.1;   ///< m, by which it must come nearer
+  double margin = 0.2;     ///< m, by which it leaves nearer to the goal than it came
+  double free_way = 1.0;   ///< m towards the goal, with which it leaves
+  double tolerance = 0.1;  ///< m, nearer than this it is there
 };
 
 /// Notices that the robot does not come nearer to its goal any more, and when it is out of there. Remembers.

@@ -20,8 +20,8 @@ struct DifferentialDrive {
 /// finite number becomes standstill.
 [[nodiscard]] inline Twist2 WithinLimits(const DifferentialDrive& drive, const Twist2& wanted) {
   if (!std::isfinite(wanted.forward) || !std::isfinite(wanted.turn)) return {};
-  const double excess = std::max({1.0, std::abs(wanted.forward) / drive.maximum_speed,
-                                  std::abs(wanted.turn) / drive.maximum_turn_rate});
+  const double excess =
+      std::max({1.0, std::abs(wanted.forward) / drive.maximum_speed, std::abs(wanted.turn) / drive.maximum_turn_rate});
   return {wanted.forward / excess, wanted.turn / excess};
 }
 
@@ -32,21 +32,18 @@ struct AccelerationLimit {
 };
 
 /// The motion nearest to `wanted` that can be had `time_step` s after `current`.
-[[nodiscard]] inline Twist2 Approach(const AccelerationLimit& limit, const Twist2& current,
-                                     const Twist2& wanted, double time_step) {
+[[nodiscard]] inline Twist2 Approach(const AccelerationLimit& limit, const Twist2& current, const Twist2& wanted,
+                                     double time_step) {
   const auto step = [time_step](double from, double to, double rate) {
     return from + std::clamp(to - from, -rate * time_step, rate * time_step);
   };
-  return {step(current.forward, wanted.forward, limit.forward),
-          step(current.turn, wanted.turn, limit.turn)};
+  return {step(current.forward, wanted.forward, limit.forward), step(current.turn, wanted.turn, limit.turn)};
 }
 
 /// How the wheels turn when the body moves by `twist`, rolling without slip.
-[[nodiscard]] inline WheelSpeeds WheelSpeedsFor(const DifferentialDrive& drive,
-                                                const Twist2& twist) {
+[[nodiscard]] inline WheelSpeeds WheelSpeedsFor(const DifferentialDrive& drive, const Twist2& twist) {
   const double difference = twist.turn * drive.track / 2;
-  return {(twist.forward - difference) / drive.wheel_radius,
-          (twist.forward + difference) / drive.wheel_radius};
+  return {(twist.forward - difference) / drive.wheel_radius, (twist.forward + difference) / drive.wheel_radius};
 }
 
 }  // namespace runnel

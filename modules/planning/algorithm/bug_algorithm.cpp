@@ -11,16 +11,14 @@ namespace runnel {
 namespace {
 
 constexpr double kSeen = DegreesToRadians(13.0);  // rad off ahead, within the narrowest view
-constexpr int kSecondLooks = 3;       // in a task, so that it ends whatever the sensors say
-constexpr double kLookingTime = 4.0;  // s, of standing and looking before a vague obstacle
-constexpr double kTurnsForLookingRound = 2.5;  // that a robot needs where there is no way on
+constexpr int kSecondLooks = 3;                   // in a task, so that it ends whatever the sensors say
+constexpr double kLookingTime = 4.0;              // s, of standing and looking before a vague obstacle
+constexpr double kTurnsForLookingRound = 2.5;     // that a robot needs where there is no way on
 constexpr double kHitPlace = Lap::kGateDistance + Lap::kGateHalfWidth;
 constexpr double kFalseLeave = 0.05;    // m nearer to the goal, at which a hit is a new one
 constexpr double kRefusalReach = 0.15;  // m, of the way on from a leave point that was blocked
 
-bool IsFinal(PlannerMode mode) {
-  return mode == PlannerMode::kReached || mode == PlannerMode::kUnreachable;
-}
+bool IsFinal(PlannerMode mode) { return mode == PlannerMode::kReached || mode == PlannerMode::kUnreachable; }
 
 }  // namespace
 
@@ -67,8 +65,7 @@ Twist2 BugAlgorithm::GoRoundObstacle(BugState& state, const BugInput& input) con
   const Twist2 along = IdentifyLeavePoint(state, input);
   if (LeavePointFound(state) && ResearchComplete(state, input)) {
     SetOut(state, input);
-    return state.status.mode == PlannerMode::kGoingToLeavePoint ? GoToLeavePoint(state, input)
-                                                                : Twist2{};
+    return state.status.mode == PlannerMode::kGoingToLeavePoint ? GoToLeavePoint(state, input) : Twist2{};
   }
   if (CompleteCycleAroundObstacle(state) && !LeavePointFound(state)) {
     return FinishFruitlessLap(state, input);
@@ -104,9 +101,7 @@ bool BugAlgorithm::IsStuck(const BugState& state, const BugInput& input) const {
   return state.idle_time > parts * std::max(configuration_.idle_limit, turning);
 }
 
-bool BugAlgorithm::LeavePointFound(const BugState& state) const {
-  return state.leave_point.has_value();
-}
+bool BugAlgorithm::LeavePointFound(const BugState& state) const { return state.leave_point.has_value(); }
 
 bool BugAlgorithm::ResearchComplete(const BugState& state, const BugInput& input) const {
   return components_.leave->ResearchComplete(View(state, input));
@@ -131,12 +126,10 @@ Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const 
   const Waypoint waypoint = components_.motion->Target(View(state, input));
   if (waypoint.node_side) state.node_side = waypoint.node_side;
   const double bearing = BearingTo(input, waypoint.point);
-  const WayAhead way = LookAlong(input.surroundings, bearing,
-                                 TravelRadius(configuration_.driving, input.surroundings));
+  const WayAhead way = LookAlong(input.surroundings, bearing, TravelRadius(configuration_.driving, input.surroundings));
   if (way.free_range < std::min(configuration_.hit_range, state.status.distance_to_goal)) {
     // Face what may not be there: looked at, it proves to be there or is gone.
-    if (input.surroundings.is_vague && !state.faced.Contains(way.obstacle_bearing) &&
-        state.idle_time < kLookingTime) {
+    if (input.surroundings.is_vague && !state.faced.Contains(way.obstacle_bearing) && state.idle_time < kLookingTime) {
       return TurnTowards(configuration_.driving, way.obstacle_bearing);
     }
     Hit(state, input, way.obstacle_bearing);
@@ -156,8 +149,7 @@ Twist2 BugAlgorithm::GoAhead(const BugState& state, const BugInput& input, doubl
   if (input.surroundings.is_vague && std::abs(bearing) > kSeen) {
     return TurnTowards(driving, bearing);
   }
-  const double speed =
-      std::min(driving.cruise_speed, SpeedToStopWithin(driving, state.status.distance_to_goal));
+  const double speed = std::min(driving.cruise_speed, SpeedToStopWithin(driving, state.status.distance_to_goal));
   return DriveTowards(driving, input.surroundings, bearing, speed);
 }
 
@@ -186,8 +178,7 @@ void BugAlgorithm::Hit(BugState& state, const BugInput& input, double contact_be
   state.has_reversed = false;
   state.is_last_chance = false;
   RestartLap(state, input);
-  const BoundaryDirection direction =
-      components_.direction->Choose(View(state, input), contact_bearing);
+  const BoundaryDirection direction = components_.direction->Choose(View(state, input), contact_bearing);
   state.last_direction = direction;
   state.node_side.reset();
   state.follower.Start(direction, input.pose, contact_bearing);
@@ -211,8 +202,7 @@ Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) 
       return WallFollowing(state, input);
     }
   }
-  if (!is_at_hit_point || state.second_looks == kSecondLooks ||
-      !IsFreeTowardsGoal(View(state, input))) {
+  if (!is_at_hit_point || state.second_looks == kSecondLooks || !IsFreeTowardsGoal(View(state, input))) {
     GiveUp(state, Unreachability::kEnclosed);
     return {};
   }
@@ -228,8 +218,8 @@ Twist2 BugAlgorithm::FaceGoal(BugState& state, const BugInput& input) const {
   if (std::abs(bearing) > FacedHeadings::kFaced) {
     return TurnTowards(configuration_.driving, bearing);
   }
-  const bool may_leave = state.is_last_chance ? IsFreeTowardsGoal(View(state, input))
-                                              : components_.leave->MayLeave(View(state, input));
+  const bool may_leave =
+      state.is_last_chance ? IsFreeTowardsGoal(View(state, input)) : components_.leave->MayLeave(View(state, input));
   if (may_leave) {
     Leave(state, input);
   } else {
@@ -242,8 +232,7 @@ Twist2 BugAlgorithm::WallFollowing(BugState& state, const BugInput& input) const
   return state.follower.Update(configuration_.driving, input.pose, input.surroundings, state.faced);
 }
 
-void BugAlgorithm::StartFollowing(BugState& state, const BugInput& input,
-                                  BoundaryDirection direction) const {
+void BugAlgorithm::StartFollowing(BugState& state, const BugInput& input, BoundaryDirection direction) const {
   state.follower.Start(direction, input.pose, NearestBoundary(input.surroundings).bearing);
 }
 

@@ -19,9 +19,7 @@ constexpr double kNoLowering = -std::numeric_limits<double>::infinity();
 class StraightMotion final : public MotionToGoal {
  public:
   [[nodiscard]] std::string_view name() const override { return "straight"; }
-  [[nodiscard]] Waypoint Target(const BugView& view) const override {
-    return {view.input.goal, {}};
-  }
+  [[nodiscard]] Waypoint Target(const BugView& view) const override { return {view.input.goal, {}}; }
 };
 
 class MLineMotion final : public MotionToGoal {
@@ -56,9 +54,7 @@ class FixedDirection final : public DirectionChoice {
   [[nodiscard]] std::string_view name() const override {
     return direction_ == BoundaryDirection::kLeft ? "left" : "right";
   }
-  [[nodiscard]] BoundaryDirection Choose(const BugView&, double) const override {
-    return direction_;
-  }
+  [[nodiscard]] BoundaryDirection Choose(const BugView&, double) const override { return direction_; }
 
  private:
   BoundaryDirection direction_;
@@ -67,8 +63,7 @@ class FixedDirection final : public DirectionChoice {
 class LocalDirection final : public DirectionChoice {
  public:
   [[nodiscard]] std::string_view name() const override { return "local"; }
-  [[nodiscard]] BoundaryDirection Choose(const BugView& view,
-                                         double contact_bearing) const override {
+  [[nodiscard]] BoundaryDirection Choose(const BugView& view, double contact_bearing) const override {
     if (view.state.node_side) return *view.state.node_side;
     const double bearing = WrapAngle(contact_bearing);
     if (std::abs(bearing) < kHeadOn) return view.configuration.first_direction;
@@ -80,8 +75,7 @@ class AlternateDirection final : public DirectionChoice {
  public:
   [[nodiscard]] std::string_view name() const override { return "alternate"; }
   [[nodiscard]] BoundaryDirection Choose(const BugView& view, double) const override {
-    return view.state.last_direction ? Opposite(*view.state.last_direction)
-                                     : view.configuration.first_direction;
+    return view.state.last_direction ? Opposite(*view.state.last_direction) : view.configuration.first_direction;
   }
 };
 
@@ -118,9 +112,8 @@ class ReverseAtVisited final : public Revisit {
 
 // The condition that demands the same, but not on the M-line.
 LeaveKind WithoutTheLine(const LeaveCondition& condition) {
-  return condition.name() == ComponentFor(LeaveKind::kMLineClosestSoFar).name()
-             ? LeaveKind::kClosestSoFar
-             : LeaveKind::kCloserThanHit;
+  return condition.name() == ComponentFor(LeaveKind::kMLineClosestSoFar).name() ? LeaveKind::kClosestSoFar
+                                                                                : LeaveKind::kCloserThanHit;
 }
 
 std::string Quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
@@ -172,15 +165,14 @@ std::uint64_t BugComponents::Fingerprint() const {
 }
 
 BugComponents Assemble(const BugComposition& composition) {
-  return {&ComponentFor(composition.motion), &ComponentFor(composition.direction),
-          &ComponentFor(composition.leave), &ComponentFor(composition.revisit)};
+  return {&ComponentFor(composition.motion), &ComponentFor(composition.direction), &ComponentFor(composition.leave),
+          &ComponentFor(composition.revisit)};
 }
 
 std::optional<Misfit> FindMisfit(const BugComponents& components) {
   const LeaveCondition& leave = *components.leave;
   if (leave.needs_m_line() && !components.motion->follows_m_line()) {
-    return Misfit{"the leave condition " + Quoted(leave.name()) +
-                      " needs the line from start to goal, which motion " +
+    return Misfit{"the leave condition " + Quoted(leave.name()) + " needs the line from start to goal, which motion " +
                       Quoted(components.motion->name()) + " does not follow",
                   "take motion " + Quoted(ComponentFor(MotionKind::kMLine).name()) + ", or leave " +
                       Quoted(ComponentFor(WithoutTheLine(leave)).name())};
@@ -188,16 +180,14 @@ std::optional<Misfit> FindMisfit(const BugComponents& components) {
   return std::nullopt;
 }
 
-std::optional<Misfit> FindMisfit(const BugComponents& components,
-                                 const Surroundings& surroundings) {
+std::optional<Misfit> FindMisfit(const BugComponents& components, const Surroundings& surroundings) {
   if (!components.leave->needs_range_sensor() || surroundings.sensor_range > 0.0F) {
     return std::nullopt;
   }
-  return Misfit{
-      "the leave condition " + Quoted(components.leave->name()) +
-          " needs a sensor that sees how far the way is free; this one only feels "
-          "(sensor_range 0)",
-      "take a laser or infrared rangers, or one of the leave conditions " + NamesWithoutRange()};
+  return Misfit{"the leave condition " + Quoted(components.leave->name()) +
+                    " needs a sensor that sees how far the way is free; this one only feels "
+                    "(sensor_range 0)",
+                "take a laser or infrared rangers, or one of the leave conditions " + NamesWithoutRange()};
 }
 
 }  // namespace runnel

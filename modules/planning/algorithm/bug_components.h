@@ -48,8 +48,7 @@ class DirectionChoice {
   virtual ~DirectionChoice() = default;
   [[nodiscard]] virtual std::string_view name() const = 0;
   /// `contact_bearing` (rad, body's frame) is that of the boundary point in the way.
-  [[nodiscard]] virtual BoundaryDirection Choose(const BugView& view,
-                                                 double contact_bearing) const = 0;
+  [[nodiscard]] virtual BoundaryDirection Choose(const BugView& view, double contact_bearing) const = 0;
 };
 
 enum class DirectionKind : std::uint8_t {
@@ -84,9 +83,7 @@ class LeaveCondition {
   /// Whether the robot may go, now that it is at its leave point and looks towards the goal.
   [[nodiscard]] virtual bool MayLeave(const BugView& view) const { return IsFreeTowardsGoal(view); }
   /// m, a number that conditions about sensed boundaries keep: to be the state's followed_distance.
-  [[nodiscard]] virtual double FollowedDistance(const BugView& view) const {
-    return view.state.followed_distance;
-  }
+  [[nodiscard]] virtual double FollowedDistance(const BugView& view) const { return view.state.followed_distance; }
 
   // Constraints on what it may be composed with.
   [[nodiscard]] virtual bool needs_m_line() const { return false; }
@@ -101,7 +98,7 @@ class LeaveCondition {
 };
 
 enum class LeaveKind : std::uint8_t {
-  kBestAfterLap,  ///< after one whole lap the point with the least d, by the shorter way (Bug1)
+  kBestAfterLap,        ///< after one whole lap the point with the least d, by the shorter way (Bug1)
   kMLineCloserThanHit,  ///< on the M-line, d(x) < d(H), free towards the goal (Bug2)
   /// On the M-line, d(x) < d of all points of the M-line visited so far, free (Alg1).
   kMLineClosestSoFar,
@@ -187,7 +184,6 @@ struct Misfit {
 /// Nothing if they fit. Allocates.
 [[nodiscard]] std::optional<Misfit> FindMisfit(const BugComponents& components);
 /// Nothing if the components can do with what the sensors tell.
-[[nodiscard]] std::optional<Misfit> FindMisfit(const BugComponents& components,
-                                               const Surroundings& surroundings);
+[[nodiscard]] std::optional<Misfit> FindMisfit(const BugComponents& components, const Surroundings& surroundings);
 
 }  // namespace runnel

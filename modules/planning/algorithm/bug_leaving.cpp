@@ -32,8 +32,7 @@ constexpr double kMoving = 0.005;        // m or rad in a step, commanded
 constexpr double kStill = 0.0005;        // m or rad in a step
 constexpr double kCrossingReach = 0.15;  // m past a crossing within which it may still leave there
 constexpr double kLineTolerance = 0.08;  // m; a robot that comes so near to the line is on it
-constexpr double kParallel =
-    0.001;  // m in a step by which it comes nearer at least, else it passes
+constexpr double kParallel = 0.001;      // m in a step by which it comes nearer at least, else it passes
 
 // Commanded to move, and not moving at all. With noise in its poses this cannot be seen.
 bool IsHeld(const BugState& state, const BugInput& input) {
@@ -94,9 +93,8 @@ void BugAlgorithm::ChooseShorterWay(BugState& state, const BugInput& input) cons
 }
 
 Twist2 BugAlgorithm::GoToLeavePoint(BugState& state, const BugInput& input) const {
-  const auto twist = state.approach == Approach::kAlongBoundary
-                         ? GoAlongBoundary(state, input)
-                         : DriveToPoint(input, *state.leave_point);
+  const auto twist = state.approach == Approach::kAlongBoundary ? GoAlongBoundary(state, input)
+                                                                : DriveToPoint(input, *state.leave_point);
   if (twist) return *twist;
   if (state.approach == Approach::kAcross) return EndPassage(state, input);
   state.status.mode = PlannerMode::kFacingGoal;
@@ -242,11 +240,9 @@ void BugAlgorithm::RecordMLine(BugState& state, const BugInput& input) const {
   if (!crossing && gap < kLineTolerance && line.DistanceTo(before) - gap < kParallel) {
     crossing = line.Nearest(here);
   }
-  const bool has_passed =
-      state.crossing && (crossing || Distance(*state.crossing, here) > kCrossingReach);
+  const bool has_passed = state.crossing && (crossing || Distance(*state.crossing, here) > kCrossingReach);
   if (has_passed) {
-    state.least_distance_on_line =
-        std::min(state.least_distance_on_line, Distance(*state.crossing, input.goal));
+    state.least_distance_on_line = std::min(state.least_distance_on_line, Distance(*state.crossing, input.goal));
     state.crossing.reset();
   }
   if (crossing) state.crossing = crossing;

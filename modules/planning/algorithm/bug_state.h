@@ -42,9 +42,7 @@ class PointHistory {
   /// Of the points there have been.
   [[nodiscard]] std::size_t total() const { return total_; }
   /// From 0, the oldest remembered, to size() - 1, the newest.
-  [[nodiscard]] Point2 operator[](std::size_t i) const {
-    return points_[(total_ - size_ + i) % kCapacity];
-  }
+  [[nodiscard]] Point2 operator[](std::size_t i) const { return points_[(total_ - size_ + i) % kCapacity]; }
   [[nodiscard]] Point2 back() const { return (*this)[size() - 1]; }
 
  private:
@@ -88,19 +86,18 @@ struct BugState {
   PointHistory leaves;  ///< without those that turned out to be none
 
   // Of all the task.
-  double least_distance_of_all = kNever;   ///< m to the goal, of all points visited
-  Point2 line_start;                       ///< of the M-line, that ends at the goal
-  double least_distance_on_line = kNever;  ///< m to the goal, of the M-line's points visited
-  double last_leave_distance = kNever;     ///< m to the goal, from where motion to goal began
+  double least_distance_of_all = kNever;            ///< m to the goal, of all points visited
+  Point2 line_start;                                ///< of the M-line, that ends at the goal
+  double least_distance_on_line = kNever;           ///< m to the goal, of the M-line's points visited
+  double last_leave_distance = kNever;              ///< m to the goal, from where motion to goal began
   std::optional<BoundaryDirection> last_direction;  ///< chosen at the last hit point
-  std::optional<BoundaryDirection> node_side;  ///< of the goal, of the tangent node chosen last
-  int second_looks = 0;  ///< at hit points, after a lap, that found the way free
-  double doubted_hit_distance =
-      kNever;                   ///< m to the goal, of the last hit point whose lap proved nothing
-  FacedHeadings faced;          ///< from where it stands
-  Point2 progress_point;        ///< where the robot last got on
-  double idle_time = 0.0;       ///< s since then
-  double refused_at = -kNever;  ///< m, the path's length where it last found a leave point blocked
+  std::optional<BoundaryDirection> node_side;       ///< of the goal, of the tangent node chosen last
+  int second_looks = 0;                             ///< at hit points, after a lap, that found the way free
+  double doubted_hit_distance = kNever;             ///< m to the goal, of the last hit point whose lap proved nothing
+  FacedHeadings faced;                              ///< from where it stands
+  Point2 progress_point;                            ///< where the robot last got on
+  double idle_time = 0.0;                           ///< s since then
+  double refused_at = -kNever;                      ///< m, the path's length where it last found a leave point blocked
 
   // Since the last hit point.
   WallFollower follower;

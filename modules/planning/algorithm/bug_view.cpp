@@ -10,13 +10,9 @@ constexpr double kClearanceNoise = 0.02;  // m, of the distance to a boundary fo
 
 }  // namespace
 
-double DistanceToGoal(const BugView& view) {
-  return Distance(Position(view.input.pose), view.input.goal);
-}
+double DistanceToGoal(const BugView& view) { return Distance(Position(view.input.pose), view.input.goal); }
 
-double BearingTo(const BugInput& input, Point2 point) {
-  return Direction(ToBody(input.pose, point));
-}
+double BearingTo(const BugInput& input, Point2 point) { return Direction(ToBody(input.pose, point)); }
 
 double PassingRadius(const BugView& view) {
   const Surroundings& surroundings = view.input.surroundings;
@@ -31,14 +27,12 @@ double ViewRange(const BugView& view) {
 }
 
 double FreeRangeTowardsGoal(const BugView& view) {
-  const double free = FreeRange(view.input.surroundings, BearingTo(view.input, view.input.goal),
-                                PassingRadius(view));
+  const double free = FreeRange(view.input.surroundings, BearingTo(view.input, view.input.goal), PassingRadius(view));
   return std::min(free, ViewRange(view));
 }
 
 bool IsFreeTowardsGoal(const BugView& view) {
-  return FreeRange(view.input.surroundings, BearingTo(view.input, view.input.goal),
-                   PassingRadius(view)) >=
+  return FreeRange(view.input.surroundings, BearingTo(view.input, view.input.goal), PassingRadius(view)) >=
          std::min(view.configuration.leave_range, DistanceToGoal(view));
 }
 

@@ -16,12 +16,11 @@ double TravelRadius(const DrivingConfiguration& configuration, const Surrounding
 }
 
 Twist2 TurnTowards(const DrivingConfiguration& configuration, double bearing) {
-  return {0.0, std::clamp(configuration.turn_gain * bearing, -configuration.turn_limit,
-                          configuration.turn_limit)};
+  return {0.0, std::clamp(configuration.turn_gain * bearing, -configuration.turn_limit, configuration.turn_limit)};
 }
 
-Twist2 DriveTowards(const DrivingConfiguration& configuration, const Surroundings& surroundings,
-                    double bearing, double speed) {
+Twist2 DriveTowards(const DrivingConfiguration& configuration, const Surroundings& surroundings, double bearing,
+                    double speed) {
   Twist2 twist = TurnTowards(configuration, bearing);
   const double part = 1.0 - std::abs(bearing) / configuration.turning_bearing;
   if (part <= 0.0) return twist;

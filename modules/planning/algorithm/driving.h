@@ -12,8 +12,7 @@ namespace runnel {
 enum class BoundaryDirection : std::uint8_t { kLeft, kRight };
 
 [[nodiscard]] constexpr BoundaryDirection Opposite(BoundaryDirection direction) {
-  return direction == BoundaryDirection::kLeft ? BoundaryDirection::kRight
-                                               : BoundaryDirection::kLeft;
+  return direction == BoundaryDirection::kLeft ? BoundaryDirection::kRight : BoundaryDirection::kLeft;
 }
 /// +1 if the robot turned left, -1 if it turned right: a factor that mirrors bearings so that the
 /// boundary is always on the right.
@@ -36,16 +35,15 @@ struct DrivingConfiguration {
 };
 
 /// m, the radius of the disc that has to pass where the robot drives.
-[[nodiscard]] double TravelRadius(const DrivingConfiguration& configuration,
-                                  const Surroundings& surroundings);
+[[nodiscard]] double TravelRadius(const DrivingConfiguration& configuration, const Surroundings& surroundings);
 
 /// Turns on the spot towards `bearing` (rad, body's frame; beyond +-pi it chooses the way round).
 [[nodiscard]] Twist2 TurnTowards(const DrivingConfiguration& configuration, double bearing);
 
 /// Drives towards `bearing` at up to `speed` m/s, the slower the more it has to turn and the nearer
 /// the end of the free way ahead is.
-[[nodiscard]] Twist2 DriveTowards(const DrivingConfiguration& configuration,
-                                  const Surroundings& surroundings, double bearing, double speed);
+[[nodiscard]] Twist2 DriveTowards(const DrivingConfiguration& configuration, const Surroundings& surroundings,
+                                  double bearing, double speed);
 
 /// m/s, from which the robot stops within `distance` m.
 [[nodiscard]] double SpeedToStopWithin(const DrivingConfiguration& configuration, double distance);

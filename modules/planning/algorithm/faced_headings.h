@@ -26,8 +26,7 @@ class FacedHeadings {
   }
   /// `bearing` (rad) in the body's frame.
   [[nodiscard]] bool Contains(double bearing) const {
-    const double to_left =
-        WrapAngle(bearing) >= 0.0 ? WrapAngle(bearing) : WrapAngle(bearing) + 2 * kPi;
+    const double to_left = WrapAngle(bearing) >= 0.0 ? WrapAngle(bearing) : WrapAngle(bearing) + 2 * kPi;
     return to_left <= left_ + kFaced || 2 * kPi - to_left <= right_ + kFaced;
   }
 

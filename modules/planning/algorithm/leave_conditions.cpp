@@ -22,8 +22,7 @@ bool IsCloserThanHit(const BugView& view, double distance) {
 // Where the robot crosses the M-line, if that is closer than the hit point and free.
 std::optional<LeavePoint> GoodCrossing(const BugView& view) {
   const auto& crossing = view.state.crossing;
-  if (!crossing || !IsCloserThanHit(view, Distance(*crossing, view.input.goal)) ||
-      !IsFreeTowardsGoal(view)) {
+  if (!crossing || !IsCloserThanHit(view, Distance(*crossing, view.input.goal)) || !IsFreeTowardsGoal(view)) {
     return std::nullopt;
   }
   return LeavePoint{*crossing, Approach::kNear};
@@ -46,9 +45,7 @@ class BestAfterLap final : public LeaveCondition {
   [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override {
     return LeavePoint{view.state.closest_point, Approach::kAlongBoundary};
   }
-  [[nodiscard]] bool ResearchComplete(const BugView& view) const override {
-    return view.state.lap.is_complete();
-  }
+  [[nodiscard]] bool ResearchComplete(const BugView& view) const override { return view.state.lap.is_complete(); }
 };
 
 class OnMLine final : public LeaveCondition {
@@ -60,8 +57,7 @@ class OnMLine final : public LeaveCondition {
   [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override {
     const auto point = GoodCrossing(view);
     const double closest = view.state.least_distance_on_line + kPassNoise;
-    const bool is_known_closer =
-        is_closest_so_far_ && point && Distance(point->point, view.input.goal) > closest;
+    const bool is_known_closer = is_closest_so_far_ && point && Distance(point->point, view.input.goal) > closest;
     return is_known_closer ? std::nullopt : point;
   }
 
@@ -88,13 +84,10 @@ class WhereItIs final : public LeaveCondition {
   bool decides_after_lap_;
 };
 
-bool IsHereCloserThanHit(const BugView& view) {
-  return IsCloserThanHit(view, DistanceToGoal(view));
-}
+bool IsHereCloserThanHit(const BugView& view) { return IsCloserThanHit(view, DistanceToGoal(view)); }
 
 bool IsHereClosestSoFar(const BugView& view) {
-  return IsHereCloserThanHit(view) &&
-         DistanceToGoal(view) <= view.state.least_distance_of_all + kPassNoise;
+  return IsHereCloserThanHit(view) && DistanceToGoal(view) <= view.state.least_distance_of_all + kPassNoise;
 }
 
 class FreeRangeStep final : public LeaveCondition {
@@ -114,9 +107,7 @@ class FreeRangeStep final : public LeaveCondition {
 class ReachBelowFollowed final : public LeaveCondition {
  public:
   [[nodiscard]] std::string_view name() const override { return "reach_below_followed"; }
-  [[nodiscard]] bool MayMissPassages(const BugView& view) const override {
-    return view.input.surroundings.is_vague;
-  }
+  [[nodiscard]] bool MayMissPassages(const BugView& view) const override { return view.input.surroundings.is_vague; }
   [[nodiscard]] double FollowedDistance(const BugView& view) const override {
     const double contact = view.state.follower.Contact(view.input.surroundings).bearing;
     return std::min({view.state.followed_distance, view.state.least_distance,

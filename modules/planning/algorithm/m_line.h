@@ -16,8 +16,7 @@ class MLine {
   /// that starts on it does not, so no crossing counts twice.
   [[nodiscard]] std::optional<Point2> Crossing(Point2 before, Point2 now) const {
     const double side_before = Side(before), side_now = Side(now);
-    const bool crosses =
-        (side_before < 0.0 && side_now >= 0.0) || (side_before > 0.0 && side_now <= 0.0);
+    const bool crosses = (side_before < 0.0 && side_now >= 0.0) || (side_before > 0.0 && side_now <= 0.0);
     if (!crosses) return std::nullopt;
     const double part = side_before / (side_before - side_now);
     const Point2 crossing = before + part * (now - before);
@@ -41,9 +40,7 @@ class MLine {
   [[nodiscard]] double DistanceTo(Point2 point) const { return Distance(segment_, point); }
 
  private:
-  [[nodiscard]] double Side(Point2 point) const {
-    return Cross(segment_.to - segment_.from, point - segment_.from);
-  }
+  [[nodiscard]] double Side(Point2 point) const { return Cross(segment_.to - segment_.from, point - segment_.from); }
 
   Segment2 segment_;
 };

@@ -17,8 +17,7 @@ int Wrapped(int sector) { return (sector + Surroundings::kSectors) % Surrounding
 
 }  // namespace
 
-TangentGraph::TangentGraph(const Surroundings& surroundings, const Pose2& pose, double radius,
-                           double range)
+TangentGraph::TangentGraph(const Surroundings& surroundings, const Pose2& pose, double radius, double range)
     : surroundings_(surroundings), pose_(pose), radius_(radius), range_(range) {
   free_.fill(range);
   blocker_.fill(-1);
@@ -31,8 +30,7 @@ TangentGraph::TangentGraph(const Surroundings& surroundings, const Pose2& pose, 
       const double ahead = distance * std::cos(turn * kSectorWidth);
       const double aside = distance * std::sin(turn * kSectorWidth);
       if (ahead <= 1e-9 || std::abs(aside) >= radius) continue;
-      const double free =
-          distance <= radius ? 0.0 : ahead - std::sqrt(radius * radius - aside * aside);
+      const double free = distance <= radius ? 0.0 : ahead - std::sqrt(radius * radius - aside * aside);
       const auto sector = static_cast<std::size_t>(Wrapped(point + turn));
       if (free >= free_[sector]) continue;
       free_[sector] = free;
@@ -61,8 +59,7 @@ std::optional<TangentGraph::Node> TangentGraph::BestNode(Point2 goal, double low
     const double rest = Distance(place, goal);
     if (rest > distance - lowering || (best && ahead + rest >= best->way)) continue;
     const bool is_left = WrapAngle(SectorBearing(past) - goal_bearing) >= 0.0;
-    best =
-        Node{place, ahead + rest, is_left ? BoundaryDirection::kLeft : BoundaryDirection::kRight};
+    best = Node{place, ahead + rest, is_left ? BoundaryDirection::kLeft : BoundaryDirection::kRight};
   }
   return best;
 }
@@ -95,8 +92,7 @@ double TangentGraph::SectionDistance(Point2 goal, double contact_bearing) const 
     int last = contact;
     for (int sector = contact; std::isfinite(ContourDistance(surroundings_, sector));) {
       if (!IsSameSection(last, sector)) break;
-      least =
-          std::min(least, Distance(Ahead(sector, ContourDistance(surroundings_, sector)), goal));
+      least = std::min(least, Distance(Ahead(sector, ContourDistance(surroundings_, sector)), goal));
       last = sector;
       sector = Wrapped(sector + step);
       if (sector == contact) break;

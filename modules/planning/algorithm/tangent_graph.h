@@ -20,8 +20,8 @@ class TangentGraph {
   TangentGraph(const Surroundings& surroundings, const Pose2& pose, double radius, double range);
 
   struct Node {
-    Point2 place;      ///< m, world
-    double way = 0.0;  ///< m from the robot, through it, to the goal
+    Point2 place;                                       ///< m, world
+    double way = 0.0;                                   ///< m from the robot, through it, to the goal
     BoundaryDirection side = BoundaryDirection::kLeft;  ///< of the straight way to the goal
   };
   /// The node with the shortest way through it to the goal, of those at least `lowering` m nearer

@@ -18,10 +18,10 @@ constexpr double kBesideHalfWidth = DegreesToRadians(57.5);
 constexpr double kBesideReach = 0.30;                        // m, beyond the safe distance
 constexpr double kDistanceGain = 6.0;                        // rad of bearing for each m of error
 constexpr double kCorrectionLimit = DegreesToRadians(60.0);  // so that far off it still advances
-constexpr double kCautiousLookahead = 0.40;  // m, where the robot turned away just before
-constexpr double kCautiousReach = 0.25;      // m from there
-constexpr double kLeastLookahead = 0.03;     // m, in a tight place
-constexpr double kLookahead = 0.15;          // m that the way must be free
+constexpr double kCautiousLookahead = 0.40;                  // m, where the robot turned away just before
+constexpr double kCautiousReach = 0.25;                      // m from there
+constexpr double kLeastLookahead = 0.03;                     // m, in a tight place
+constexpr double kLookahead = 0.15;                          // m that the way must be free
 constexpr double kSqueeze = DegreesToRadians(30.0);
 constexpr double kSweepStep = DegreesToRadians(3.0);
 constexpr double kLookedAt = DegreesToRadians(5.0);  // within what counts as faced
@@ -37,8 +37,7 @@ constexpr double kSearchRadius = 0.5;               // m, of the circle towards 
 class Gaze {
  public:
   // `turned` (rad): by so much the robot has turned to look round.
-  Gaze(const Surroundings& surroundings, const FacedHeadings& faced, double sign, double turned,
-       double radius)
+  Gaze(const Surroundings& surroundings, const FacedHeadings& faced, double sign, double turned, double radius)
       : surroundings_(surroundings), faced_(faced), sign_(sign), turned_(turned), radius_(radius) {}
 
   [[nodiscard]] double Body(double bearing) const { return sign_ * bearing - turned_; }
@@ -61,8 +60,7 @@ class Gaze {
 
   // The first point, if there is one, for which the robot would turn away from the tangent, and that
   // may not be there.
-  [[nodiscard]] std::optional<double> Doubt(double tangent, double bearing_to_go,
-                                            double lookahead) const {
+  [[nodiscard]] std::optional<double> Doubt(double tangent, double bearing_to_go, double lookahead) const {
     if (!surroundings_.is_vague || bearing_to_go < tangent + kDetour) return std::nullopt;
     for (double bearing = tangent; bearing < bearing_to_go; bearing += kSweepStep) {
       const WayAhead way = LookAlong(surroundings_, Body(bearing), radius_);
@@ -74,9 +72,7 @@ class Gaze {
 
  private:
   [[nodiscard]] std::optional<double> FreeBearing(double tangent, double lookahead) const {
-    const auto is_free = [&](double bearing) {
-      return FreeRange(surroundings_, Body(bearing), radius_) >= lookahead;
-    };
+    const auto is_free = [&](double bearing) { return FreeRange(surroundings_, Body(bearing), radius_) >= lookahead; };
     // In a narrow passage nearer to the boundary than it likes to be, so that whether a passage is
     // wide enough does not depend on the side the robot comes from.
     for (double bearing = tangent; bearing > tangent - kSqueeze; bearing -= kSweepStep) {
@@ -96,9 +92,8 @@ class Gaze {
 };
 
 double Tangent(const Surroundings& surroundings, const BoundaryPoint& contact, double bearing) {
-  const double correction =
-      std::clamp(kDistanceGain * (double{surroundings.safe_distance} - contact.distance),
-                 -kCorrectionLimit, kCorrectionLimit);
+  const double correction = std::clamp(kDistanceGain * (double{surroundings.safe_distance} - contact.distance),
+                                       -kCorrectionLimit, kCorrectionLimit);
   return bearing + kPi / 2 + correction;
 }
 
@@ -122,8 +117,7 @@ void WallFollower::EndLook() {
 
 BoundaryPoint WallFollower::Contact(const Surroundings& surroundings) const {
   const auto nearest = [&](double centre, double half_width) {
-    return NearestBoundary(surroundings, MirrorSign(direction_) * centre - looked_round_,
-                           half_width);
+    return NearestBoundary(surroundings, MirrorSign(direction_) * centre - looked_round_, half_width);
   };
   if (surroundings.is_vague) {
     // Pushed off its boundary by an arc, the robot may be nearer to the other side of a passage.
@@ -164,8 +158,8 @@ Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pos
   const double contact_bearing = gaze.Mirrored(contact.bearing);
   const double tangent = Tangent(surroundings, contact, contact_bearing);
   const double bearing = gaze.BearingToGo(tangent, lookahead);
-  const auto doubt = gaze.IsInDoubt(contact_bearing) ? std::optional(contact_bearing)
-                                                     : gaze.Doubt(tangent, bearing, lookahead);
+  const auto doubt =
+      gaze.IsInDoubt(contact_bearing) ? std::optional(contact_bearing) : gaze.Doubt(tangent, bearing, lookahead);
   if (doubt) {
     is_looking_ = true;
     last_heading_ = pose.heading;

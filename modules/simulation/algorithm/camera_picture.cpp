@@ -62,8 +62,7 @@ class Painter {
     const double x = pose_.x + distance * std::cos(pose_.heading + bearing);
     const double y = pose_.y + distance * std::sin(pose_.heading + bearing);
     const bool is_dark = std::fmod(std::abs(std::floor(x) + std::floor(y)), 2.0) > 0.5;
-    return Mixed(is_dark ? kDarkGround : kLightGround, kSky,
-                 std::min(1.0, distance / options_.range));
+    return Mixed(is_dark ? kDarkGround : kLightGround, kSky, std::min(1.0, distance / options_.range));
   }
 
   void Set(std::uint32_t column, std::uint32_t row, const Colour& colour) {
@@ -82,8 +81,7 @@ class Painter {
 
 }  // namespace
 
-void TakePicture(const RayCaster& rays, const Pose2& pose, const CameraOptions& options,
-                 Image& image) {
+void TakePicture(const RayCaster& rays, const Pose2& pose, const CameraOptions& options, Image& image) {
   image.width = options.width;
   image.height = options.height;
   image.encoding = "rgb8";
@@ -93,8 +91,7 @@ void TakePicture(const RayCaster& rays, const Pose2& pose, const CameraOptions& 
   double before = std::numeric_limits<double>::infinity();
   for (std::uint32_t column = 0; column < options.width; ++column) {
     const double direction = pose.heading + painter.BearingOf(column);
-    const double distance =
-        std::max(1e-3, rays.Cast(Position(pose), direction, options.range));
+    const double distance = std::max(1e-3, rays.Cast(Position(pose), direction, options.range));
     painter.Paint(column, distance, before);
     before = distance;
   }

@@ -96,10 +96,7 @@ Extent ExtentOf(const World& world) {
 BoxObstacle StraightPart(const Segment2& piece, double thickness, double height) {
   const Point2 along = piece.to - piece.from;
   const Point2 middle = piece.from + 0.5 * along;
-  return {.pose = {middle.x, middle.y, Direction(along)},
-          .length = Norm(along),
-          .width = thickness,
-          .height = height};
+  return {.pose = {middle.x, middle.y, Direction(along)}, .length = Norm(along), .width = thickness, .height = height};
 }
 
 Ring LineRound(const WallObstacle& wall) {

@@ -40,8 +40,7 @@ class PathRecord {
     }
     length_ += Distance(last_.position, sample.position);
     last_ = sample;
-    if (sample.mode == samples_.back().mode &&
-        Distance(samples_.back().position, sample.position) < spacing_) {
+    if (sample.mode == samples_.back().mode && Distance(samples_.back().position, sample.position) < spacing_) {
       return false;
     }
     if (samples_.size() == capacity_) Thin();

@@ -46,8 +46,8 @@ class WheelConstraint final : public btTypedConstraint {
 
  private:
   /// velocity * direction + turn rate * lever shall be `speed`; limits are impulses.
-  void FillRow(btConstraintInfo2* info, int row, const btVector3& direction, double lever,
-               double speed, double force) const {
+  void FillRow(btConstraintInfo2* info, int row, const btVector3& direction, double lever, double speed,
+               double force) const {
     const int first = row * info->rowskip;
     for (int axis = 0; axis < 3; ++axis) info->m_J1linearAxis[first + axis] = direction[axis];
     info->m_J1angularAxis[first + 2] = lever;
@@ -91,13 +91,11 @@ WheelSpeeds Limited(WheelSpeeds speeds, const RobotOptions& robot) {
   const double left = robot.wheel_radius * speeds.left, right = robot.wheel_radius * speeds.right;
   const double speed = std::abs(left / 2 + right / 2);
   const double turn_rate = std::abs(right / robot.track - left / robot.track);
-  const double excess =
-      std::max({1.0, speed / robot.maximum_speed, turn_rate / robot.maximum_turn_rate});
+  const double excess = std::max({1.0, speed / robot.maximum_speed, turn_rate / robot.maximum_turn_rate});
   return {speeds.left / excess, speeds.right / excess};
 }
 
-btRigidBody::btRigidBodyConstructionInfo BodyInfo(const RobotOptions& robot,
-                                                  btCollisionShape* shape) {
+btRigidBody::btRigidBodyConstructionInfo BodyInfo(const RobotOptions& robot, btCollisionShape* shape) {
   btVector3 inertia;
   shape->calculateLocalInertia(robot.mass, inertia);
   btRigidBody::btRigidBodyConstructionInfo info(robot.mass, nullptr, shape, inertia);
@@ -135,7 +133,7 @@ struct PhysicsWorld::State {
   State& operator=(const State&) = delete;
 
   void SetUpSolver() {
-    world.setGravity(btVector3(0, 0, 0));  // the ground carries the robot; nothing else moves
+    world.setGravity(btVector3(0, 0, 0));                          // the ground carries the robot; nothing else moves
     world.getSolverInfo().m_solverMode = SOLVER_USE_WARMSTARTING;  // one code path for all CPUs
     world.getSolverInfo().m_numIterations = 20;
     solver.setRandSeed(0);
@@ -154,8 +152,7 @@ struct PhysicsWorld::State {
   /// At rest.
   void PlaceRobot(const Pose2& start) {
     const double z = options.robot.ground_clearance + options.robot.height / 2;
-    const btTransform place(btQuaternion(btVector3(0, 0, 1), start.heading),
-                            ToBullet(Position(start), z));
+    const btTransform place(btQuaternion(btVector3(0, 0, 1), start.heading), ToBullet(Position(start), z));
     robot.setWorldTransform(place);
     robot.setInterpolationWorldTransform(place);
     robot.setLinearVelocity(btVector3(0, 0, 0));
@@ -256,9 +253,7 @@ void PhysicsWorld::Advance(double duration) {
   }
 }
 
-double PhysicsWorld::elapsed() const noexcept {
-  return static_cast<double>(state_->steps) * state_->options.step;
-}
+double PhysicsWorld::elapsed() const noexcept { return static_cast<double>(state_->steps) * state_->options.step; }
 
 Pose2 PhysicsWorld::pose() const noexcept {
   const btVector3& origin = state_->robot.getWorldTransform().getOrigin();

@@ -45,9 +45,9 @@ class PhysicsWorld {
   /// last whole step is kept for the next call.
   void Advance(double duration);
 
-  [[nodiscard]] double elapsed() const noexcept;  ///< s, in whole steps
-  [[nodiscard]] Pose2 pose() const noexcept;      ///< of the robot's centre, in the world's frame
-  [[nodiscard]] Twist2 twist() const noexcept;    ///< how it really moves
+  [[nodiscard]] double elapsed() const noexcept;            ///< s, in whole steps
+  [[nodiscard]] Pose2 pose() const noexcept;                ///< of the robot's centre, in the world's frame
+  [[nodiscard]] Twist2 twist() const noexcept;              ///< how it really moves
   [[nodiscard]] WheelSpeeds wheel_speeds() const noexcept;  ///< how the wheels really turn
   /// Whether anything was touched during the last Advance that made a step, and where last.
   [[nodiscard]] Contact contact() const noexcept;

@@ -16,9 +16,9 @@ namespace runnel {
 struct InfraredSensorOptions {
   double field_of_view = DegreesToRadians(26.0);  ///< rad, the whole angle of each cone
   double range_maximum = 2.0;                     ///< m
-  std::size_t rays_per_cone = 27;   ///< at least 2: how finely a cone is looked through
-  double standard_deviation = 0.0;  ///< m, of the noise on every distance
-  std::uint64_t seed = 1;           ///< of the noise
+  std::size_t rays_per_cone = 27;                 ///< at least 2: how finely a cone is looked through
+  double standard_deviation = 0.0;                ///< m, of the noise on every distance
+  std::uint64_t seed = 1;                         ///< of the noise
 };
 
 /// Three infrared rangers at the robot's centre, looking ahead, to the left and to the right, each
@@ -40,8 +40,8 @@ class InfraredSensor {
 };
 
 struct LaserScannerOptions {
-  std::size_t rays = 181;      ///< at least 2; the first and the last are at the edges of the field
-  double field_of_view = kPi;  ///< rad, half of it on either side of straight ahead
+  std::size_t rays = 181;           ///< at least 2; the first and the last are at the edges of the field
+  double field_of_view = kPi;       ///< rad, half of it on either side of straight ahead
   double range_minimum = 0.02;      ///< m
   double range_maximum = 4.0;       ///< m
   double standard_deviation = 0.0;  ///< m, of the noise on every distance

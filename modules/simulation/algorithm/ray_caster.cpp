@@ -77,8 +77,7 @@ void RayCaster::MeasureExtent() {
   low_ = low_ - Point2{0.01 * cell_size_, 0.01 * cell_size_};  // nothing lies on the border
   columns_ = static_cast<std::ptrdiff_t>((high_.x - low_.x) / cell_size_ + 1.01);
   rows_ = static_cast<std::ptrdiff_t>((high_.y - low_.y) / cell_size_ + 1.01);
-  high_ = low_ + Point2{static_cast<double>(columns_) * cell_size_,
-                        static_cast<double>(rows_) * cell_size_};
+  high_ = low_ + Point2{static_cast<double>(columns_) * cell_size_, static_cast<double>(rows_) * cell_size_};
 }
 
 void RayCaster::FillCells() {
@@ -108,10 +107,9 @@ void RayCaster::AddToCells(std::uint32_t surface, Point2 low, Point2 high) {
   };
   const double reach = 0.72 * cell_size_;  // from the middle of a cell to its corner, and a little
   const double margin = 0.01 * cell_size_;
-  for (auto row = index(low.y - margin, low_.y, rows_);
-       row <= index(high.y + margin, low_.y, rows_); ++row) {
-    for (auto column = index(low.x - margin, low_.x, columns_);
-         column <= index(high.x + margin, low_.x, columns_); ++column) {
+  for (auto row = index(low.y - margin, low_.y, rows_); row <= index(high.y + margin, low_.y, rows_); ++row) {
+    for (auto column = index(low.x - margin, low_.x, columns_); column <= index(high.x + margin, low_.x, columns_);
+         ++column) {
       const Point2 middle = low_ + Point2{(static_cast<double>(column) + 0.5) * cell_size_,
                                           (static_cast<double>(row) + 0.5) * cell_size_};
       if (IsNear(surface, middle, reach)) {
@@ -128,25 +126,22 @@ bool RayCaster::IsNear(std::uint32_t surface, Point2 point, double distance) con
 }
 
 double RayCaster::DistanceTo(std::uint32_t surface, Point2 origin, Point2 direction) const {
-  return surface < flats_.size()
-             ? DistanceToFlat(flats_[surface], origin, direction)
-             : DistanceToRound(rounds_[surface - flats_.size()], origin, direction);
+  return surface < flats_.size() ? DistanceToFlat(flats_[surface], origin, direction)
+                                 : DistanceToRound(rounds_[surface - flats_.size()], origin, direction);
 }
 
-double RayCaster::NearestInCell(std::size_t cell, Point2 origin, Point2 direction,
-                                double nearest) const {
+double RayCaster::NearestInCell(std::size_t cell, Point2 origin, Point2 direction, double nearest) const {
   for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
     nearest = std::min(nearest, DistanceTo(surfaces_[i], origin, direction));
   }
   return nearest;
 }
 
-RayCaster::AxisWalk RayCaster::StartWalk(double origin, double direction, double inverse_direction,
-                                         double low, double entry, std::ptrdiff_t count) const {
+RayCaster::AxisWalk RayCaster::StartWalk(double origin, double direction, double inverse_direction, double low,
+                                         double entry, std::ptrdiff_t count) const {
   AxisWalk walk;
   const double place = (origin + entry * direction - low) * cells_per_metre_;
-  walk.cell =
-      std::clamp(static_cast<std::ptrdiff_t>(std::floor(place)), std::ptrdiff_t{0}, count - 1);
+  walk.cell = std::clamp(static_cast<std::ptrdiff_t>(std::floor(place)), std::ptrdiff_t{0}, count - 1);
   walk.step = std::isinf(inverse_direction) ? 0 : direction > 0.0 ? 1 : -1;
   if (walk.step == 0) {
     walk.next_border = kInfinity;
@@ -162,8 +157,8 @@ double RayCaster::Cast(Point2 origin, double direction, double range) const {
   return CastAlong(origin, UnitVector(direction), range);
 }
 
-void RayCaster::CastFan(Point2 origin, Point2 ahead, std::span<const Point2> directions,
-                        double range, std::span<float> distances) const {
+void RayCaster::CastFan(Point2 origin, Point2 ahead, std::span<const Point2> directions, double range,
+                        std::span<float> distances) const {
   for (std::size_t i = 0; i < directions.size(); ++i) {
     distances[i] = static_cast<float>(CastAlong(origin, Turned(directions[i], ahead), range));
   }

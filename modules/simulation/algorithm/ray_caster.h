@@ -51,10 +51,9 @@ class RayCaster {
   void AddToCells(std::uint32_t surface, Point2 low, Point2 high);
   [[nodiscard]] bool IsNear(std::uint32_t surface, Point2 point, double distance) const;
   [[nodiscard]] double DistanceTo(std::uint32_t surface, Point2 origin, Point2 direction) const;
-  [[nodiscard]] AxisWalk StartWalk(double origin, double direction, double inverse_direction,
-                                   double low, double entry, std::ptrdiff_t count) const;
-  [[nodiscard]] double NearestInCell(std::size_t cell, Point2 origin, Point2 direction,
-                                     double nearest) const;
+  [[nodiscard]] AxisWalk StartWalk(double origin, double direction, double inverse_direction, double low, double entry,
+                                   std::ptrdiff_t count) const;
+  [[nodiscard]] double NearestInCell(std::size_t cell, Point2 origin, Point2 direction, double nearest) const;
 
   std::vector<Segment2> flats_;
   std::vector<Outline::Round> rounds_;  // surface numbers go on after those of flats_
@@ -63,8 +62,8 @@ class RayCaster {
   double cells_per_metre_ = 1.0;
   std::ptrdiff_t columns_ = 0, rows_ = 0;
   std::vector<std::vector<std::uint32_t>> buckets_;  // only while filling
-  std::vector<std::uint32_t> first_;     // of each cell, in surfaces_; one more at the end
-  std::vector<std::uint32_t> surfaces_;  // cell after cell
+  std::vector<std::uint32_t> first_;                 // of each cell, in surfaces_; one more at the end
+  std::vector<std::uint32_t> surfaces_;              // cell after cell
 };
 
 }  // namespace runnel

@@ -61,43 +61,38 @@ class Drawing {
     if (!trajectory_.verdict.empty()) {
       const std::string_view colour = kTones[static_cast<std::size_t>(trajectory_.tone)];
       svg_.Circle({x + 5, 54}, 5, Style({"fill", colour}));
-      svg_.Text(
-          {x + 17, 59}, trajectory_.verdict,
-          Style({"class", "verdict", "font-size", "15", "font-weight", "bold", "fill", colour}));
+      svg_.Text({x + 17, 59}, trajectory_.verdict,
+                Style({"class", "verdict", "font-size", "15", "font-weight", "bold", "fill", colour}));
     }
-    svg_.Text(
-        {kMargin + kPlotWidth, 59}, Figures(),
-        Style({"class", "figures", "font-size", "15", "fill", kFaintInk, "text-anchor", "end"}));
+    svg_.Text({kMargin + kPlotWidth, 59}, Figures(),
+              Style({"class", "figures", "font-size", "15", "fill", kFaintInk, "text-anchor", "end"}));
   }
 
   std::string Figures() const {
     const double direct = Distance(Position(world_.start), world_.goal);
-    return "path " + Decimal(trajectory_.length) + " m   ·   straight line " + Decimal(direct) +
-           " m   ·   time " + Decimal(trajectory_.duration, 1) + " s";
+    return "path " + Decimal(trajectory_.length) + " m   ·   straight line " + Decimal(direct) + " m   ·   time " +
+           Decimal(trajectory_.duration, 1) + " s";
   }
 
   void DrawStraightLine() {
     svg_.Line(canvas_.Pixel(Position(world_.start)), canvas_.Pixel(world_.goal),
-              Style({"class", "straight-line", "stroke", "#9aa5b4", "stroke-width", "1.2",
-                     "stroke-dasharray", "5 5"}));
+              Style({"class", "straight-line", "stroke", "#9aa5b4", "stroke-width", "1.2", "stroke-dasharray", "5 5"}));
   }
 
   void DrawRobot() {
     if (!trajectory_.end || !IsFinite(Position(*trajectory_.end))) return;
     const Pose2& end = *trajectory_.end;
     const double radius = trajectory_.robot_radius;
-    svg_.Circle(canvas_.Pixel(Position(end)), canvas_.scale() * radius,
-                Style({"class", "robot", "fill", "#ffffff", "fill-opacity", "0.85", "stroke", kInk,
-                       "stroke-width", "2"}));
+    svg_.Circle(
+        canvas_.Pixel(Position(end)), canvas_.scale() * radius,
+        Style({"class", "robot", "fill", "#ffffff", "fill-opacity", "0.85", "stroke", kInk, "stroke-width", "2"}));
     svg_.Line(canvas_.Pixel(Position(end)), canvas_.Pixel(ToWorld(end, {radius, 0})),
               Style({"class", "robot-heading", "stroke", kInk, "stroke-width", "2"}));
   }
 
   void DrawMarks() {
     const Point2 start = canvas_.Pixel(Position(world_.start));
-    svg_.Circle(
-        start, 6,
-        Style({"class", "start", "fill", kStart, "stroke", "#ffffff", "stroke-width", "2"}));
+    svg_.Circle(start, 6, Style({"class", "start", "fill", kStart, "stroke", "#ffffff", "stroke-width", "2"}));
     DrawLabel(start + Point2{-10, -11}, "start", kStart);
     DrawGoal(canvas_.Pixel(world_.goal));
     for (std::size_t i = 0; i < trajectory_.hits.size(); ++i) {
@@ -114,35 +109,30 @@ class Drawing {
     svg_.Line(foot, top, Style({"stroke", "#ffffff", "stroke-width", "5"}));
     svg_.Rings({{top, top + Point2{17, 6}, top + Point2{0, 12}}},
                Style({"class", "goal", "fill", kGoal, "stroke", "#ffffff", "stroke-width", "1"}));
-    svg_.Line(foot, top,
-              Style({"stroke", kGoal, "stroke-width", "2.2", "stroke-linecap", "round"}));
+    svg_.Line(foot, top, Style({"stroke", kGoal, "stroke-width", "2.2", "stroke-linecap", "round"}));
     svg_.Circle(foot, 3.2, Style({"fill", kGoal, "stroke", "#ffffff", "stroke-width", "1"}));
     DrawLabel(top + Point2{-6, -7}, "goal", kGoal);
   }
 
   void DrawHit(Point2 place, std::string_view label) {
     if (!IsFinite(place)) return;
-    svg_.Circle(place, 5,
-                Style({"class", "hit", "fill", kHit, "stroke", "#ffffff", "stroke-width", "1.5"}));
+    svg_.Circle(place, 5, Style({"class", "hit", "fill", kHit, "stroke", "#ffffff", "stroke-width", "1.5"}));
     if (!label.empty()) DrawLabel(place + Point2{8, 16}, label, kHit);
   }
 
   void DrawLeave(Point2 place, std::string_view label) {
     if (!IsFinite(place)) return;
-    svg_.Rings(
-        {{place + Point2{0, -6}, place + Point2{6, 0}, place + Point2{0, 6},
-          place + Point2{-6, 0}}},
-        Style({"class", "leave", "fill", kLeave, "stroke", "#ffffff", "stroke-width", "1.5"}));
+    svg_.Rings({{place + Point2{0, -6}, place + Point2{6, 0}, place + Point2{0, 6}, place + Point2{-6, 0}}},
+               Style({"class", "leave", "fill", kLeave, "stroke", "#ffffff", "stroke-width", "1.5"}));
     if (!label.empty()) DrawLabel(place + Point2{8, -8}, label, kLeave);
   }
 
   /// With a light rim, because labels stand on lines.
   void DrawLabel(Point2 place, std::string_view text, std::string_view colour) {
     constexpr std::string_view kFont = "font-size=\"13\" font-weight=\"bold\" ";
-    svg_.Text(
-        place, text,
-        std::string(kFont) + Style({"fill", "#ffffff", "stroke", "#ffffff", "stroke-width", "3.5",
-                                    "stroke-linejoin", "round", "aria-hidden", "true"}));
+    svg_.Text(place, text,
+              std::string(kFont) + Style({"fill", "#ffffff", "stroke", "#ffffff", "stroke-width", "3.5",
+                                          "stroke-linejoin", "round", "aria-hidden", "true"}));
     svg_.Text(place, text, std::string(kFont) + Style({"class", "label", "fill", colour}));
   }
 

@@ -41,9 +41,8 @@ std::optional<std::string> SelfCrossing(const Ring& ring) {
                          : closing ? FoldsBack(sides[j], sides[i])
                                    : Meet(sides[i], sides[j]);
       if (!wrong) continue;
-      return "crosses or touches itself: its side from " + Text(sides[i].from) + " to " +
-             Text(sides[i].to) + " meets the one from " + Text(sides[j].from) + " to " +
-             Text(sides[j].to);
+      return "crosses or touches itself: its side from " + Text(sides[i].from) + " to " + Text(sides[i].to) +
+             " meets the one from " + Text(sides[j].from) + " to " + Text(sides[j].to);
     }
   }
   return std::nullopt;
@@ -65,8 +64,7 @@ std::optional<std::string> RepeatedPoint(const std::vector<Point2>& points, bool
 std::optional<std::string> RingFault(const Ring& ring) {
   if (!AreFinite(ring)) return "has a point that is not finite";
   if (ring.size() < 3) {
-    return "has " + std::to_string(ring.size()) + " point" + (ring.size() == 1 ? "" : "s") +
-           ", but needs at least 3";
+    return "has " + std::to_string(ring.size()) + " point" + (ring.size() == 1 ? "" : "s") + ", but needs at least 3";
   }
   if (auto repeated = RepeatedPoint(ring, true)) return repeated;
   return SelfCrossing(ring);
@@ -108,8 +106,7 @@ class Checker {
   void CheckStart(WorldPart part, std::size_t index, const Obstacle& obstacle) {
     const bool was_good = std::ranges::none_of(faults_, [&](const WorldFault& fault) {
       return (fault.part == part && fault.index == index) || fault.part == WorldPart::kStart ||
-             (fault.part == WorldPart::kHole && part == WorldPart::kPolygon &&
-              fault.index == index);
+             (fault.part == WorldPart::kHole && part == WorldPart::kPolygon && fault.index == index);
     });
     if (was_good && SignedDistance(obstacle, Position(world_.start)) < 0.0) {
       Add(part, index, "the start " + Text(Position(world_.start)) + " is inside this obstacle");
@@ -141,8 +138,7 @@ class Checker {
     for (std::size_t other = 0; other < hole; ++other) {
       const Ring& before = polygon.holes[other];
       if (RingFault(before)) continue;
-      if (RingsMeet(ring, before) || Contains(before, ring.front()) ||
-          Contains(ring, before.front())) {
+      if (RingsMeet(ring, before) || Contains(before, ring.front()) || Contains(ring, before.front())) {
         Add(WorldPart::kHole, index, "the hole meets another hole of its polygon", hole);
       }
     }
@@ -185,8 +181,7 @@ class Checker {
     if (const auto fault = RingFault(*world_.bounds)) {
       Add(WorldPart::kBounds, 0, "the ring of the bounds " + *fault);
     } else if (IsFinite(world_.start) && !Contains(*world_.bounds, Position(world_.start))) {
-      Add(WorldPart::kBounds, 0,
-          "the start " + Text(Position(world_.start)) + " is outside the bounds");
+      Add(WorldPart::kBounds, 0, "the start " + Text(Position(world_.start)) + " is outside the bounds");
     }
   }
 

@@ -27,8 +27,8 @@ double LeastDistance(const Obstacles& obstacles, Point2 point) {
 
 Ring CornersOf(const BoxObstacle& box) {
   const double ahead = box.length / 2, left = box.width / 2;
-  return {ToWorld(box.pose, {-ahead, -left}), ToWorld(box.pose, {ahead, -left}),
-          ToWorld(box.pose, {ahead, left}), ToWorld(box.pose, {-ahead, left})};
+  return {ToWorld(box.pose, {-ahead, -left}), ToWorld(box.pose, {ahead, -left}), ToWorld(box.pose, {ahead, left}),
+          ToWorld(box.pose, {-ahead, left})};
 }
 
 std::vector<Segment2> SidesOf(const Ring& ring) {
@@ -60,8 +60,7 @@ double SignedDistance(const Ring& ring, Point2 point) {
 
 double SignedDistance(const PolygonObstacle& polygon, Point2 point) {
   double distance = SignedDistance(polygon.outline, point);
-  for (const Ring& hole : polygon.holes)
-    distance = std::max(distance, -SignedDistance(hole, point));
+  for (const Ring& hole : polygon.holes) distance = std::max(distance, -SignedDistance(hole, point));
   return distance;
 }
 
@@ -69,8 +68,7 @@ double SignedDistance(const BoxObstacle& box, Point2 point) {
   const Point2 local = ToBody(box.pose, point);
   const double ahead = std::abs(local.x) - box.length / 2;
   const double aside = std::abs(local.y) - box.width / 2;
-  return std::hypot(std::max(ahead, 0.0), std::max(aside, 0.0)) +
-         std::min(std::max(ahead, aside), 0.0);
+  return std::hypot(std::max(ahead, 0.0), std::max(aside, 0.0)) + std::min(std::max(ahead, aside), 0.0);
 }
 
 double SignedDistance(const CylinderObstacle& cylinder, Point2 point) {
@@ -83,9 +81,8 @@ double SignedDistance(const WallObstacle& wall, Point2 point) {
 
 double ClearanceAt(const World& world, Point2 point) {
   const double to_bounds = world.bounds ? -SignedDistance(*world.bounds, point) : kInfinity;
-  return std::min({to_bounds, LeastDistance(world.polygons, point),
-                   LeastDistance(world.boxes, point), LeastDistance(world.cylinders, point),
-                   LeastDistance(world.walls, point)});
+  return std::min({to_bounds, LeastDistance(world.polygons, point), LeastDistance(world.boxes, point),
+                   LeastDistance(world.cylinders, point), LeastDistance(world.walls, point)});
 }
 
 }  // namespace runnel

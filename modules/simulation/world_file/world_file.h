@@ -28,11 +28,9 @@ namespace runnel {
 /// Errors: all that is wrong with the file is added to `diagnostics` at once, each with its place;
 /// then there is no world. That includes bad geometry (FaultsOf); a goal that cannot be reached is
 /// allowed.
-[[nodiscard]] std::optional<World> ReadWorldFile(const std::filesystem::path& path,
-                                                 Diagnostics& diagnostics);
+[[nodiscard]] std::optional<World> ReadWorldFile(const std::filesystem::path& path, Diagnostics& diagnostics);
 /// `file_name` is what errors call the text.
-[[nodiscard]] std::optional<World> ReadWorld(std::string_view text, std::string file_name,
-                                             Diagnostics& diagnostics);
+[[nodiscard]] std::optional<World> ReadWorld(std::string_view text, std::string file_name, Diagnostics& diagnostics);
 
 /// The world as XML in the format that ReadWorld reads. Numbers are as short as they can be without
 /// losing a bit, so that reading gives an equal world. Headings of 0 and heights of 1 are left out.

@@ -1,5 +1,3 @@
-#include "modules/simulation/world_file/world_file.h"
-
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -10,6 +8,7 @@
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_reading.h"
 #include "modules/simulation/algorithm/world_checks.h"
+#include "modules/simulation/world_file/world_file.h"
 
 namespace runnel {
 
@@ -35,10 +34,8 @@ class WorldReader {
     Check(root, {"name"}, {"start", "goal", "polygon", "box", "cylinder", "wall", "bounds"});
     if (const std::string* name = ReadText(root, "name", diagnostics_)) world_.name = *name;
     for (const XmlElement child : root.children()) ReadPart(child);
-    if (!Has(WorldPart::kStart))
-      Report(root, "the world has no <start>", "add <start x=\"…\" y=\"…\"/>");
-    if (!Has(WorldPart::kGoal))
-      Report(root, "the world has no <goal>", "add <goal x=\"…\" y=\"…\"/>");
+    if (!Has(WorldPart::kStart)) Report(root, "the world has no <start>", "add <start x=\"…\" y=\"…\"/>");
+    if (!Has(WorldPart::kGoal)) Report(root, "the world has no <goal>", "add <goal x=\"…\" y=\"…\"/>");
     ReportFaults();
     if (diagnostics_.errors().size() != errors_before) return std::nullopt;
     return std::move(world_);
@@ -46,8 +43,7 @@ class WorldReader {
 
  private:
   void Report(XmlElement element, std::string message, std::string hint = {}) {
-    diagnostics_.Add(
-        {.message = std::move(message), .position = element.position(), .hint = std::move(hint)});
+    diagnostics_.Add({.message = std::move(message), .position = element.position(), .hint = std::move(hint)});
   }
 
   void ReadPart(XmlElement element) {
@@ -199,8 +195,7 @@ std::optional<World> ReadWorldFile(const std::filesystem::path& path, Diagnostic
   return ReadDocument(XmlDocument::Load(path), diagnostics);
 }
 
-std::optional<World> ReadWorld(std::string_view text, std::string file_name,
-                               Diagnostics& diagnostics) {
+std::optional<World> ReadWorld(std::string_view text, std::string file_name, Diagnostics& diagnostics) {
   return ReadDocument(XmlDocument::Parse(text, std::move(file_name)), diagnostics);
 }
 

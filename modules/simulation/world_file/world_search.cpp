@@ -1,9 +1,8 @@
-#include "modules/simulation/world_file/world_file.h"
-
 #include <dlfcn.h>
 
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
+#include "modules/simulation/world_file/world_file.h"
 
 namespace runnel {
 

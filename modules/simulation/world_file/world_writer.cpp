@@ -1,9 +1,8 @@
-#include "modules/simulation/world_file/world_file.h"
-
 #include <charconv>
 #include <string_view>
 
 #include "core/xml/xml_writing.h"
+#include "modules/simulation/world_file/world_file.h"
 
 namespace runnel {
 
@@ -21,13 +20,9 @@ std::string AttributeUnless(double usual, std::string_view name, double value) {
 
 std::string Place(Point2 point) { return Attribute("x", point.x) + Attribute("y", point.y); }
 
-std::string Place(const Pose2& pose) {
-  return Place(Position(pose)) + AttributeUnless(0.0, "heading", pose.heading);
-}
+std::string Place(const Pose2& pose) { return Place(Position(pose)) + AttributeUnless(0.0, "heading", pose.heading); }
 
-std::string Height(double height) {
-  return AttributeUnless(kDefaultObstacleHeight, "height", height);
-}
+std::string Height(double height) { return AttributeUnless(kDefaultObstacleHeight, "height", height); }
 
 std::string Points(const std::vector<Point2>& points, const std::string& indent) {
   std::string text;
@@ -44,13 +39,13 @@ std::string Write(const PolygonObstacle& polygon) {
 }
 
 std::string Write(const BoxObstacle& box) {
-  return "  <box" + Place(box.pose) + Attribute("length", box.length) +
-         Attribute("width", box.width) + Height(box.height) + "/>\n";
+  return "  <box" + Place(box.pose) + Attribute("length", box.length) + Attribute("width", box.width) +
+         Height(box.height) + "/>\n";
 }
 
 std::string Write(const CylinderObstacle& cylinder) {
-  return "  <cylinder" + Place(cylinder.centre) + Attribute("radius", cylinder.radius) +
-         Height(cylinder.height) + "/>\n";
+  return "  <cylinder" + Place(cylinder.centre) + Attribute("radius", cylinder.radius) + Height(cylinder.height) +
+         "/>\n";
 }
 
 std::string Write(const WallObstacle& wall) {

@@ -17,8 +17,8 @@ enum class PlannerMode : std::uint8_t {
 
 enum class Unreachability : std::uint8_t {
   kNone,
-  kEnclosed,  ///< no leave point all round an obstacle: the start or the goal is walled in, or the
-              ///< goal is nearer to a wall than the robot's centre may come
+  kEnclosed,    ///< no leave point all round an obstacle: the start or the goal is walled in, or the
+                ///< goal is nearer to a wall than the robot's centre may come
   kNoProgress,  ///< back where it left an obstacle: there is a passage that the sensors show now
                 ///< open, now closed
   kNoRoom,      ///< the robot cannot get away from where it is

@@ -21,15 +21,13 @@ struct Pose2 {
 /// The frame of a body (x ahead, y left) in that of its pose. Its sine and cosine are computed once for many points.
 class BodyFrame {
  public:
-  explicit BodyFrame(const Pose2& pose)
-      : origin_(Position(pose)), ahead_(UnitVector(pose.heading)) {}
+  explicit BodyFrame(const Pose2& pose) : origin_(Position(pose)), ahead_(UnitVector(pose.heading)) {}
   [[nodiscard]] constexpr Point2 ToBody(Point2 world) const {
     const Point2 offset = world - origin_;
     return {Dot(ahead_, offset), Cross(ahead_, offset)};
   }
   [[nodiscard]] constexpr Point2 ToWorld(Point2 local) const {
-    return {origin_.x + ahead_.x * local.x - ahead_.y * local.y,
-            origin_.y + ahead_.y * local.x + ahead_.x * local.y};
+    return {origin_.x + ahead_.x * local.x - ahead_.y * local.y, origin_.y + ahead_.y * local.x + ahead_.x * local.y};
   }
 
  private:
@@ -38,13 +36,9 @@ class BodyFrame {
 };
 
 /// From the body's frame into that of the pose.
-[[nodiscard]] inline Point2 ToWorld(const Pose2& pose, Point2 local) {
-  return BodyFrame(pose).ToWorld(local);
-}
+[[nodiscard]] inline Point2 ToWorld(const Pose2& pose, Point2 local) { return BodyFrame(pose).ToWorld(local); }
 /// The way back: from the frame of the pose into the body's frame.
-[[nodiscard]] inline Point2 ToBody(const Pose2& pose, Point2 world) {
-  return BodyFrame(pose).ToBody(world);
-}
+[[nodiscard]] inline Point2 ToBody(const Pose2& pose, Point2 world) { return BodyFrame(pose).ToBody(world); }
 
 /// How a planar body moves, in its own frame: m/s ahead, rad/s counter-clockwise.
 struct Twist2 {

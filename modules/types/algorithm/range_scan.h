@@ -12,7 +12,7 @@ struct RangeScan {
   double angle_step = 0.0;     ///< rad
   double range_minimum = 0.0;  ///< m; what is nearer reads range_minimum
   double range_maximum = 0.0;  ///< m
-  std::vector<float> ranges;   ///< m; +infinity where nothing is within range_maximum, -infinity: too near, NaN: unknown
+  std::vector<float> ranges;  ///< m; +infinity where nothing is within range_maximum, -infinity: too near, NaN: unknown
 
   friend bool operator==(const RangeScan&, const RangeScan&) = default;
 };

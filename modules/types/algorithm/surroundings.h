@@ -49,9 +49,7 @@ struct Surroundings {
   friend constexpr bool operator==(const Surroundings&, const Surroundings&) = default;
 };
 static_assert(sizeof(Surroundings) <= 256);
-[[nodiscard]] constexpr bool IsMeasured(const Surroundings& surroundings) {
-  return surroundings.is_measured;
-}
+[[nodiscard]] constexpr bool IsMeasured(const Surroundings& surroundings) { return surroundings.is_measured; }
 
 /// A point of a boundary, seen from the body's centre.
 struct BoundaryPoint {
@@ -63,8 +61,7 @@ inline constexpr double kSectorWidth = 2 * kPi / Surroundings::kSectors;
 
 /// Sector 0 lies straight ahead, the others follow counter-clockwise.
 [[nodiscard]] constexpr double SectorBearing(int sector) {
-  return kSectorWidth *
-         (sector <= Surroundings::kSectors / 2 ? sector : sector - Surroundings::kSectors);
+  return kSectorWidth * (sector <= Surroundings::kSectors / 2 ? sector : sector - Surroundings::kSectors);
 }
 [[nodiscard]] inline int SectorOf(double bearing) {
   const int sector = static_cast<int>(std::lround(WrapAngle(bearing) / kSectorWidth));
@@ -88,8 +85,8 @@ inline void AddBoundaryPoint(Surroundings& surroundings, BoundaryPoint point) {
 }
 
 /// The nearest boundary point of which the bearing is at most `half_width` away from `bearing`.
-[[nodiscard]] inline BoundaryPoint NearestBoundary(const Surroundings& surroundings,
-                                                   double bearing = 0.0, double half_width = kPi) {
+[[nodiscard]] inline BoundaryPoint NearestBoundary(const Surroundings& surroundings, double bearing = 0.0,
+                                                   double half_width = kPi) {
   BoundaryPoint nearest;
   for (int sector = 0; sector < Surroundings::kSectors; ++sector) {
     const double distance = ContourDistance(surroundings, sector);
@@ -109,8 +106,7 @@ struct WayAhead {
 /// How far a disc of `radius` (m) round the body's centre can go straight towards `bearing` (rad,
 /// body's frame) before it meets a boundary point known; infinitely far if nothing known is in its
 /// way. A point already within the disc stops only motion that comes nearer to it.
-[[nodiscard]] inline WayAhead LookAlong(const Surroundings& surroundings, double bearing,
-                                        double radius) {
+[[nodiscard]] inline WayAhead LookAlong(const Surroundings& surroundings, double bearing, double radius) {
   WayAhead way;
   for (int sector = 0; sector < Surroundings::kSectors; ++sector) {
     const double distance = ContourDistance(surroundings, sector);
@@ -118,14 +114,12 @@ struct WayAhead {
     const double offset = SectorBearing(sector) - bearing;
     const double ahead = distance * std::cos(offset), aside = distance * std::sin(offset);
     if (ahead <= 0.0 || std::abs(aside) >= radius) continue;
-    const double free =
-        distance <= radius ? 0.0 : ahead - std::sqrt(radius * radius - aside * aside);
+    const double free = distance <= radius ? 0.0 : ahead - std::sqrt(radius * radius - aside * aside);
     if (free < way.free_range) way = {free, SectorBearing(sector)};
   }
   return way;
 }
-[[nodiscard]] inline double FreeRange(const Surroundings& surroundings, double bearing,
-                                      double radius) {
+[[nodiscard]] inline double FreeRange(const Surroundings& surroundings, double bearing, double radius) {
   return LookAlong(surroundings, bearing, radius).free_range;
 }
 

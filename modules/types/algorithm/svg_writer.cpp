@@ -32,8 +32,7 @@ std::string EscapedXml(std::string_view text) {
 
 std::string Decimal(double number, int digits) {
   char text[64];
-  const auto [end, error] =
-      std::to_chars(text, text + sizeof text, number, std::chars_format::fixed, digits);
+  const auto [end, error] = std::to_chars(text, text + sizeof text, number, std::chars_format::fixed, digits);
   if (error != std::errc()) return "0";
   const std::string decimal(text, end);
   const bool is_zero = decimal.find_first_of("123456789") == std::string::npos;
@@ -41,24 +40,23 @@ std::string Decimal(double number, int digits) {
 }
 
 void SvgWriter::Open(double width, double height) {
-  text_ = "<svg xmlns=\"http://www.w3.org/2000/svg\"" + Attribute("width", width) +
-          Attribute("height", height) + " viewBox=\"0 0 " + Decimal(width) + " " + Decimal(height) +
+  text_ = "<svg xmlns=\"http://www.w3.org/2000/svg\"" + Attribute("width", width) + Attribute("height", height) +
+          " viewBox=\"0 0 " + Decimal(width) + " " + Decimal(height) +
           "\" font-family=\"Helvetica, Arial, sans-serif\">\n";
 }
 
 void SvgWriter::Rectangle(Point2 corner, double width, double height, std::string_view style) {
-  text_ += "<rect" + Attribute("x", corner.x) + Attribute("y", corner.y) +
-           Attribute("width", width) + Attribute("height", height) + End(style);
+  text_ += "<rect" + Attribute("x", corner.x) + Attribute("y", corner.y) + Attribute("width", width) +
+           Attribute("height", height) + End(style);
 }
 
 void SvgWriter::Circle(Point2 centre, double radius, std::string_view style) {
-  text_ += "<circle" + Attribute("cx", centre.x) + Attribute("cy", centre.y) +
-           Attribute("r", radius) + End(style);
+  text_ += "<circle" + Attribute("cx", centre.x) + Attribute("cy", centre.y) + Attribute("r", radius) + End(style);
 }
 
 void SvgWriter::Line(Point2 from, Point2 to, std::string_view style) {
-  text_ += "<line" + Attribute("x1", from.x) + Attribute("y1", from.y) + Attribute("x2", to.x) +
-           Attribute("y2", to.y) + End(style);
+  text_ += "<line" + Attribute("x1", from.x) + Attribute("y1", from.y) + Attribute("x2", to.x) + Attribute("y2", to.y) +
+           End(style);
 }
 
 void SvgWriter::Polyline(const std::vector<Point2>& points, std::string_view style) {
@@ -77,8 +75,8 @@ void SvgWriter::Rings(const std::vector<std::vector<Point2>>& rings, std::string
 }
 
 void SvgWriter::Text(Point2 place, std::string_view text, std::string_view style) {
-  text_ += "<text" + Attribute("x", place.x) + Attribute("y", place.y) + " " + std::string(style) +
-           ">" + EscapedXml(text) + "</text>\n";
+  text_ += "<text" + Attribute("x", place.x) + Attribute("y", place.y) + " " + std::string(style) + ">" +
+           EscapedXml(text) + "</text>\n";
 }
 
 void SvgWriter::OpenGroup(std::string_view style) { text_ += "<g " + std::string(style) + ">\n"; }

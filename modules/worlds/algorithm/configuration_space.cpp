@@ -72,8 +72,7 @@ double BoundaryPiece::length() const {
 double BoundaryPiece::DistanceTo(Point2 point) const {
   if (!centre) return Distance(Segment2{from, to}, point);
   const double first = Direction(from - *centre);
-  const bool is_beside =
-      Sweep(first, Direction(point - *centre)) <= Sweep(first, Direction(to - *centre));
+  const bool is_beside = Sweep(first, Direction(point - *centre)) <= Sweep(first, Direction(to - *centre));
   if (is_beside) return std::abs(Distance(*centre, point) - Distance(*centre, from));
   return std::min(Distance(point, from), Distance(point, to));
 }
@@ -99,8 +98,7 @@ ConfigurationSpace::ConfigurationSpace(World world, double radius)
 void ConfigurationSpace::CutCircle(Circle& circle) const {
   std::vector<double> cuts{0.0};
   const auto add = [&](const std::vector<Point2>& points) {
-    for (const Point2 point : points)
-      cuts.push_back(PositiveAngle(Direction(point - circle.centre)));
+    for (const Point2 point : points) cuts.push_back(PositiveAngle(Direction(point - circle.centre)));
   };
   for (const Segment2& offset : offsets_) {
     add(Meeting(circle.centre, circle.radius, offset, kTolerance));
@@ -109,8 +107,7 @@ void ConfigurationSpace::CutCircle(Circle& circle) const {
     add(Meeting(circle.centre, circle.radius, other.centre, other.radius, kTolerance));
   }
   std::ranges::sort(cuts);
-  const auto same =
-      std::unique(cuts.begin(), cuts.end(), [](double a, double b) { return b - a < kSameAngle; });
+  const auto same = std::unique(cuts.begin(), cuts.end(), [](double a, double b) { return b - a < kSameAngle; });
   cuts.erase(same, cuts.end());
   circle.is_free.clear();
   for (std::size_t i = 0; i < cuts.size(); ++i) {
@@ -132,16 +129,14 @@ double ConfigurationSpace::SurfaceDistance(Point2 point) const {
 }
 
 bool ConfigurationSpace::IsFree(Point2 point) const {
-  return SurfaceDistance(point) >= radius_ - kTolerance &&
-         ClearanceAt(world_, point) >= radius_ - kTolerance;
+  return SurfaceDistance(point) >= radius_ - kTolerance && ClearanceAt(world_, point) >= radius_ - kTolerance;
 }
 
 bool ConfigurationSpace::IsFree(const Segment2& segment) const {
   const double least = radius_ - kTolerance;
-  return std::ranges::none_of(outline_.flats,
-                              [&](const Outline::Flat& flat) {
-                                return internal::Distance(flat.ground, segment) < least;
-                              }) &&
+  return std::ranges::none_of(
+             outline_.flats,
+             [&](const Outline::Flat& flat) { return internal::Distance(flat.ground, segment) < least; }) &&
          std::ranges::none_of(outline_.rounds, [&](const Outline::Round& round) {
            return Distance(segment, round.centre) < round.radius + least;
          });
@@ -179,8 +174,7 @@ std::optional<Point2> ConfigurationSpace::NearestFree(Point2 point, double reach
   return nearest;
 }
 
-void ConfigurationSpace::AddPiecesOf(const Segment2& offset,
-                                     std::vector<BoundaryPiece>& pieces) const {
+void ConfigurationSpace::AddPiecesOf(const Segment2& offset, std::vector<BoundaryPiece>& pieces) const {
   const double length = Distance(offset.from, offset.to);
   std::vector<double> cuts{0.0, length};
   const auto add = [&](Point2 point) {
@@ -204,8 +198,7 @@ void ConfigurationSpace::AddPiecesOf(const Segment2& offset,
   }
 }
 
-void ConfigurationSpace::AddPiecesOf(const Circle& circle,
-                                     std::vector<BoundaryPiece>& pieces) const {
+void ConfigurationSpace::AddPiecesOf(const Circle& circle, std::vector<BoundaryPiece>& pieces) const {
   for (std::size_t i = 0; i < circle.cuts.size(); ++i) {
     const double from = circle.cuts[i];
     const double to = i + 1 < circle.cuts.size() ? circle.cuts[i + 1] : 2 * kPi;

@@ -55,21 +55,18 @@ class TangentGraph {
 
  private:
   bool HasFreeArc(std::size_t circle) const {
-    return std::ranges::find(space_.circles()[circle].is_free, true) !=
-           space_.circles()[circle].is_free.end();
+    return std::ranges::find(space_.circles()[circle].is_free, true) != space_.circles()[circle].is_free.end();
   }
 
   /// Whether the circle's boundary is free at this angle, or next to it.
   bool IsOnFreeArc(const Circle& circle, double angle) const {
     const double step = ConfigurationSpace::kTolerance / circle.radius;
-    return space_.IsFree(circle, angle, angle + 2 * step) ||
-           space_.IsFree(circle, angle - 2 * step, angle);
+    return space_.IsFree(circle, angle, angle + 2 * step) || space_.IsFree(circle, angle - 2 * step, angle);
   }
 
   std::size_t AddNode(std::size_t circle, double angle) {
     const Circle& round = space_.circles()[circle];
-    nodes_.push_back(
-        {round.centre + round.radius * UnitVector(angle), circle, internal::PositiveAngle(angle)});
+    nodes_.push_back({round.centre + round.radius * UnitVector(angle), circle, internal::PositiveAngle(angle)});
     tangents_of_.emplace_back();
     nodes_of_[circle].push_back(nodes_.size() - 1);
     return nodes_.size() - 1;
@@ -189,8 +186,7 @@ class Search {
     for (std::size_t node = 1; node != kNone; node = came_from_[node]) {
       const std::size_t before = came_from_[node];
       path.points.push_back(At(node).place);
-      const bool is_arc =
-          before != kNone && At(node).circle != kNone && At(node).circle == At(before).circle;
+      const bool is_arc = before != kNone && At(node).circle != kNone && At(node).circle == At(before).circle;
       if (is_arc) AddArc(node, before, path.points);
     }
     std::ranges::reverse(path.points);
@@ -221,8 +217,7 @@ class Search {
 
 }  // namespace
 
-std::optional<ShortestPath> FindShortestPath(const ConfigurationSpace& space, Point2 from,
-                                             Point2 to, double reach) {
+std::optional<ShortestPath> FindShortestPath(const ConfigurationSpace& space, Point2 from, Point2 to, double reach) {
   const auto first = space.NearestFree(from, reach), last = space.NearestFree(to, reach);
   if (!first || !last) return std::nullopt;
   return Search(space, *first, *last).Find();

@@ -21,8 +21,7 @@ struct ShortestPath {
 ///
 /// A `from` or `to` that is not free is replaced by the nearest point that is, if there is one
 /// within `reach` (m); the way to it does not count.
-[[nodiscard]] std::optional<ShortestPath> FindShortestPath(const ConfigurationSpace& space,
-                                                           Point2 from, Point2 to,
+[[nodiscard]] std::optional<ShortestPath> FindShortestPath(const ConfigurationSpace& space, Point2 from, Point2 to,
                                                            double reach = 0.0);
 
 }  // namespace runnel

@@ -13,8 +13,8 @@ namespace {
 constexpr double kEnclosureThickness = 0.1;  // m
 
 // By kind.
-constexpr std::array kMakers{internal::MakeScatter, internal::MakeMaze, internal::MakeSpiral,
-                             internal::MakeComb, internal::MakeRing};
+constexpr std::array kMakers{internal::MakeScatter, internal::MakeMaze, internal::MakeSpiral, internal::MakeComb,
+                             internal::MakeRing};
 
 struct Range {
   const char* what;
@@ -35,8 +35,7 @@ WallObstacle Enclosure(Point2 goal, double gap) {
 std::string FaultOf(const GeneratorOptions& options) {
   const double least = std::max(kLeastGround, 5.0 * options.gap);
   for (const auto& [what, value, low, high] :
-       {Range{"gap", options.gap, kLeastGap, kGreatestGap},
-        Range{"width", options.width, least, kGreatestGround},
+       {Range{"gap", options.gap, kLeastGap, kGreatestGap}, Range{"width", options.width, least, kGreatestGround},
         Range{"height", options.height, least, kGreatestGround},
         Range{"count", static_cast<double>(options.count), 0, kGreatestCount}}) {
     if (value >= low && value <= high) continue;  // never so for what is no number

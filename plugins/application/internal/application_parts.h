@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/log/log_sink.h"
-#include "plugins/application/internal/stop_file.h"
 #include "plugins/application/application.h"
 #include "plugins/application/application_description.h"
 #include "plugins/application/application_extension.h"
+#include "plugins/application/internal/stop_file.h"
 #include "plugins/application/run_report.h"
 #include "plugins/command_service/application_log.h"
 #include "plugins/command_service/command_service.h"
@@ -31,8 +31,7 @@ struct Application::Parts final : ApplicationDescription {
   using ApplicationDescription::ApplicationDescription;
   ~Parts() override;
 
-  std::vector<LogMessage>
-      early_messages;  // what modules say while it is loaded; guarded by events_mutex
+  std::vector<LogMessage> early_messages;  // what modules say while it is loaded; guarded by events_mutex
 
   bool is_composed = false;  // in code: whoever composes it makes it ready
   std::optional<Scheduler> scheduler;
@@ -86,8 +85,7 @@ struct Application::Parts final : ApplicationDescription {
   // that. The threads have been started.
   Duration RunThreads(std::optional<Duration> limit, const LookAround& look);
   // Cycles that are due at the limit do not run. Errors: there is nothing to run, and it does not wait for that.
-  Result<Duration> RunCycles(std::optional<Duration> limit, bool waits_for_tasks,
-                             const LookAround& look);
+  Result<Duration> RunCycles(std::optional<Duration> limit, bool waits_for_tasks, const LookAround& look);
   // Whether the thread of Start() is to end. Waits for it so long.
   bool EndsWithin(Duration longest);
   // Ends the thread of Start(), if there is one.

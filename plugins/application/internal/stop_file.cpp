@@ -11,10 +11,9 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
-
-#include <fmt/format.h>
 
 #include "core/base/folder_names.h"
 #include "plugins/control/control_folder.h"
@@ -91,9 +90,8 @@ std::string OwnName() {
 }  // namespace
 
 Result<std::unique_ptr<StopFile>> StopFile::Follow(RobotStop& stop, ApplicationLog& log,
-                                                   const fs::path& application_file,
-                                                   const std::string& name, bool clears,
-                                                   Diagnostics& diagnostics) {
+                                                   const fs::path& application_file, const std::string& name,
+                                                   bool clears, Diagnostics& diagnostics) {
   const fs::path folder = ControlFolder();
   if (auto trusted = CheckFolder(folder); !trusted) {
     Error error = trusted.error().WithContext("whether a STOP is in force cannot be known");
@@ -190,7 +188,8 @@ Result<void> StopFile::Follow(const RobotStop::State& state) {
 Result<void> StopFile::Hold(const std::string& text) {
   const fs::path unnamed = folder_ / ("." + file_.filename().string());
   const int descriptor = Open(unnamed, O_WRONLY | O_CREAT | O_TRUNC);
-  if (descriptor >= 0 && flock(descriptor, LOCK_EX) == 0 && write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+  if (descriptor >= 0 && flock(descriptor, LOCK_EX) == 0 &&
+      write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
       rename(unnamed.c_str(), file_.c_str()) == 0) {
     held_ = descriptor;
     return {};

@@ -33,8 +33,7 @@ class StopFile {
   /// STOP was in force cannot be known; with `clears`, a warning.
   static Result<std::unique_ptr<StopFile>> Follow(RobotStop& stop, ApplicationLog& log,
                                                   const std::filesystem::path& application_file,
-                                                  const std::string& name, bool clears,
-                                                  Diagnostics& diagnostics);
+                                                  const std::string& name, bool clears, Diagnostics& diagnostics);
 
   /// `name`: how the names of all files of the application begin. `left`: those that it takes over.
   StopFile(RobotStop& stop, ApplicationLog& log, std::filesystem::path folder, const std::string& name,
@@ -52,9 +51,9 @@ class StopFile {
   RobotStop& stop_;
   ApplicationLog& log_;
   const std::filesystem::path folder_;
-  const std::filesystem::path file_;  // of this process
+  const std::filesystem::path file_;         // of this process
   std::vector<std::filesystem::path> left_;  // taken over, and there perhaps; of the thread that writes
-  int held_ = -1;                     // the file, while STOP is in force; of the thread that writes
+  int held_ = -1;                            // the file, while STOP is in force; of the thread that writes
   std::mutex mutex_;
   std::condition_variable has_written_;
   std::uint64_t written_ = 0;  // guarded by mutex_: which change of the STOP

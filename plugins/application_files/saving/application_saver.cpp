@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 using internal::Saving;
 
 std::string WholeText(Saving& saving) {
-  NewElement root = internal::ElementOf(
-      *saving.tools.tags.FindTag("application"),
-      {{{"name", saving.application.name()}}, &saving.application}, saving.application, saving);
+  NewElement root =
+      internal::ElementOf(*saving.tools.tags.FindTag("application"),
+                          {{{"name", saving.application.name()}}, &saving.application}, saving.application, saving);
   std::vector<NewElement> loads;
   for (const std::string& plugin : saving.plugins) {
     loads.push_back({.name = "load", .attributes = {{"plugin", plugin}}});
@@ -63,20 +63,17 @@ void RefuseInterface(Saving& saving) {
 // A file that would not load is no use; better to be told now. A new file has no connections from
 // other applications.
 void CheckRequiredInputs(Saving& saving, bool is_new_file) {
-  const auto feeds = [&](const Port* source) {
-    return !is_new_file || source->IsAtOrBelow(saving.application);
-  };
+  const auto feeds = [&](const Port* source) { return !is_new_file || source->IsAtOrBelow(saving.application); };
   saving.application.VisitAll<const Port>([&](const Port& port) {
     if (!port.is_required()) return;
     const std::vector<Port*> sources = port.Sources();
     if (std::ranges::any_of(sources, feeds) || LateConnections::Awaits(port)) return;
     if (std::ranges::count(saving.edges, &port, &internal::SavedEdge::to) > 0) return;  // a rule has cut it
-    const std::string what = sources.empty() ? "nothing is connected to this input"
-                                             : "only another application feeds this input";
-    saving.Fail(
-        {.message = what + ", which its module requires: a file that says so would not load",
-         .path = port.path(),
-         .hint = "connect it, or delete the module"});
+    const std::string what =
+        sources.empty() ? "nothing is connected to this input" : "only another application feeds this input";
+    saving.Fail({.message = what + ", which its module requires: a file that says so would not load",
+                 .path = port.path(),
+                 .hint = "connect it, or delete the module"});
   });
 }
 
@@ -101,9 +98,9 @@ Result<void> CheckSavedText(std::string_view text, const fs::path& file, const S
   if (!is_alone) return {};
   Runtime runtime;
   Configuration none;
-  const Diagnostics diagnostics = BuildApplication(*document, file.parent_path(), {runtime, tools.plugins, tools.tags, none},
-                                                   BuildMode::kCheck)
-                                      .diagnostics;
+  const Diagnostics diagnostics =
+      BuildApplication(*document, file.parent_path(), {runtime, tools.plugins, tools.tags, none}, BuildMode::kCheck)
+          .diagnostics;
   if (!diagnostics.ok()) return WouldNotLoad(diagnostics.errors().front());
   return {};
 }
@@ -123,21 +120,20 @@ Result<void> CheckUnchanged(const ApplicationSource& source) {
 
 }  // namespace
 
-Result<internal::SavedText> internal::TextOfApplication(FrameworkElement& application,
-                                                        const SaveTools& tools,
+Result<internal::SavedText> internal::TextOfApplication(FrameworkElement& application, const SaveTools& tools,
                                                         const fs::path& folder) {
   Saving saving{application, tools, folder, internal::EdgesOf(application)};
   const auto* const source = application.FindAnnotation<ApplicationSource>();
   CheckRequiredInputs(saving, source == nullptr);
   RefuseInterface(saving);
-  Result<std::string> text =
-      source != nullptr ? UpdatedText(saving, *source) : Result<std::string>(WholeText(saving));
+  Result<std::string> text = source != nullptr ? UpdatedText(saving, *source) : Result<std::string>(WholeText(saving));
   if (!text) return text.error();
   if (saving.error) return *saving.error;
   return internal::SavedText{std::move(*text), std::move(saving.values), std::move(saving.lost)};
 }
 
-Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& application, const SaveTools& tools, const fs::path& to) {
+Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& application, const SaveTools& tools,
+                                    const fs::path& to) {
   constexpr int kAttempts = 20;
   std::optional<internal::SavedText> checked;
   std::uint64_t revision = 0;  // at which it was
@@ -164,7 +160,8 @@ Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& applicat
     }
     // What modules set by their outputs may be another value each time.
     const bool is_checked = checked && revision == runtime.revision();
-    auto saved = is_checked ? Result(std::move(*checked)) : internal::TextOfApplication(application, tools, file.parent_path());
+    auto saved =
+        is_checked ? Result(std::move(*checked)) : internal::TextOfApplication(application, tools, file.parent_path());
     if (!saved) return saved.error();
     const bool is_on_disk = source != nullptr && is_its_own && saved->text == source->text && fs::exists(source->file);
     if (!is_on_disk && !is_checked) {
@@ -176,8 +173,8 @@ Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& applicat
       continue;  // unless others have changed the application meanwhile, it is written
     }
     // All that needs memory comes before the file is another one.
-    const auto now = source != nullptr ? std::make_unique<ApplicationSource>(*source)
-                                       : std::make_unique<ApplicationSource>();
+    const auto now =
+        source != nullptr ? std::make_unique<ApplicationSource>(*source) : std::make_unique<ApplicationSource>();
     now->file = file;
     now->text = saved->text;
     if (!is_on_disk) {
@@ -196,8 +193,9 @@ Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& applicat
     }
     return std::move(saved->lost);
   }
-  return Error{.message = "others change the application all the time; gave up after " + std::to_string(kAttempts) + " attempts",
-               .hint = "save again when they have ended"};
+  return Error{
+      .message = "others change the application all the time; gave up after " + std::to_string(kAttempts) + " attempts",
+      .hint = "save again when they have ended"};
 }
 
 }  // namespace runnel

@@ -32,7 +32,7 @@ struct SaveTools {
 ///
 /// What the file has lost, for people: tags that name something that is gone; "": nothing.
 /// `runtime`: of the application, which others may delete meanwhile.
-[[nodiscard]] Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& application, const SaveTools& tools,
-                                                  const std::filesystem::path& file = {});
+[[nodiscard]] Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& application,
+                                                  const SaveTools& tools, const std::filesystem::path& file = {});
 
 }  // namespace runnel

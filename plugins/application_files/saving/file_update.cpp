@@ -37,9 +37,7 @@ bool MeanTheSame(const AttributeRule& rule, const std::string& one, const std::s
   return (rule.kind == AttributeKind::kNumber || rule.kind == AttributeKind::kCount) && come_to_the_same(ParseNumber);
 }
 
-bool FileUpdate::IsMoved() const {
-  return part_ == nullptr && Whole(old_folder_) != Whole(saving_.folder);
-}
+bool FileUpdate::IsMoved() const { return part_ == nullptr && Whole(old_folder_) != Whole(saving_.folder); }
 
 std::string FileUpdate::Moved(const std::string& file) const {
   return IsMoved() ? MovedFileName(file, old_folder_, saving_.folder) : file;
@@ -110,10 +108,8 @@ void FileUpdate::UpdateAttributes(XmlElement tag, const XmlTag& known, const Sav
       untyped_.emplace_back(tag, port);
       if (port->FindAnnotation<SourcePlace>() == nullptr) Touch(port);
     } else if (!wanted->is_kept &&
-               (attribute != nullptr ? !MeanTheSame(rule, attribute->value, wanted->value)
-                                     : !wanted->is_default)) {
-      saving_.CheckAttribute(rule, wanted->value,
-                             saved.element != nullptr ? *saved.element : about);
+               (attribute != nullptr ? !MeanTheSame(rule, attribute->value, wanted->value) : !wanted->is_default)) {
+      saving_.CheckAttribute(rule, wanted->value, saved.element != nullptr ? *saved.element : about);
       wanted->is_default ? editor_.RemoveAttribute(tag, rule.name)
                          : editor_.SetAttribute(tag, rule.name, wanted->value);
     }
@@ -142,8 +138,7 @@ bool FileUpdate::NamesWhatIsGone(XmlElement tag, FrameworkElement& parent) const
     if (!rule.names_element || attribute == nullptr) continue;
     if (!std::ranges::all_of(PathsIn(*attribute, parent), LeadsSomewhere)) return true;
   }
-  return std::ranges::any_of(tag.children(),
-                             [&](XmlElement child) { return NamesWhatIsGone(child, parent); });
+  return std::ranges::any_of(tag.children(), [&](XmlElement child) { return NamesWhatIsGone(child, parent); });
 }
 
 void FileUpdate::AppendMissing(Inside& inside) {
@@ -220,19 +215,18 @@ void FileUpdate::UpdateInstance(XmlElement tag, FrameworkElement& group) {
   const std::string& file = group.FindAnnotation<PartInstance>()->file;
   const auto text = source_.parts.find(file);
   if (text == source_.parts.end()) {
-    return saving_.Fail(
-        {.message = "what " + file + " said is not known any more", .path = group.path()});
+    return saving_.Fail({.message = "what " + file + " said is not known any more", .path = group.path()});
   }
   auto document = XmlDocument::Parse(text->second, file);
   if (!document) return saving_.Fail(document.error());
-  Part& part = *parts_.emplace_back(
-      std::make_unique<Part>(std::move(*document), text->second, saving_, source_));
+  Part& part = *parts_.emplace_back(std::make_unique<Part>(std::move(*document), text->second, saving_, source_));
   const XmlElement root = part.document.root();
   SetOverride set = set_override_;
   if (part_ == nullptr) {
     if (IsMoved()) MoveFileNames(tag, root, group);
-    set = [this, tag](const std::string& module, const std::string& name,
-                      const std::string& value) { Override(tag, module, name, value); };
+    set = [this, tag](const std::string& module, const std::string& name, const std::string& value) {
+      Override(tag, module, name, value);
+    };
   }
   part.update.part_ = part_ == nullptr ? &group : part_;
   part.update.set_override_ = std::move(set);
@@ -258,8 +252,7 @@ void FileUpdate::Override(XmlElement tag, const std::string& module, const std::
     editor_.SetAttribute(child, "value", value);
     return;
   }
-  editor_.Append(
-      tag, {.name = "parameter", .attributes = {{"of", module}, {"name", name}, {"value", value}}});
+  editor_.Append(tag, {.name = "parameter", .attributes = {{"of", module}, {"name", name}, {"value", value}}});
 }
 
 void FileUpdate::FinishParts() {
@@ -271,8 +264,7 @@ void FileUpdate::FinishParts() {
     const FrameworkElement& group = update.insides_.front().element;
     const std::string& file = group.FindAnnotation<PartInstance>()->file;
     saving_.Fail(
-        {.message = "what is in this group has been changed, but " + file +
-                    " says what is in all groups of its type",
+        {.message = "what is in this group has been changed, but " + file + " says what is in all groups of its type",
          .path = group.path(),
          .hint = "values of parameters can be saved for one group; write the rest into " + file});
   }
@@ -289,8 +281,7 @@ void FileUpdate::MoveFileNames(XmlElement tag, XmlElement root, FrameworkElement
   for (const XmlElement child : tag.children()) {
     const XmlAttribute* const of = child.Attribute("of");
     const std::string name = NameOf(child);
-    const bool is_file =
-        of != nullptr ? IsFileName(group.Find(of->value), name) : NamesFile(name, root, group);
+    const bool is_file = of != nullptr ? IsFileName(group.Find(of->value), name) : NamesFile(name, root, group);
     if (is_file) move(child, "value");
   }
 }

@@ -18,8 +18,7 @@
 namespace runnel::internal {
 
 /// Sets a parameter of a module in a group that another file describes; `module` seen from there.
-using SetOverride = std::function<void(const std::string& module, const std::string& name,
-                                       const std::string& value)>;
+using SetOverride = std::function<void(const std::string& module, const std::string& name, const std::string& value)>;
 
 /// Brings the text that an application came from up to what the application is: tags whose element
 /// is gone are cut out, what has changed is rewritten, what is new appended to the tag of its group.
@@ -59,8 +58,7 @@ class FileUpdate {
   // First all tags that are there …
   void UpdateInside(XmlElement tag, FrameworkElement& element);
   void UpdateTag(XmlElement tag, Inside& around);
-  void UpdateAttributes(XmlElement tag, const XmlTag& known, const SavedTag& saved,
-                        const FrameworkElement& about);
+  void UpdateAttributes(XmlElement tag, const XmlTag& known, const SavedTag& saved, const FrameworkElement& about);
   void UpdateAddedAttributes(XmlElement tag, FrameworkElement& element);
   [[nodiscard]] bool NamesWhatIsGone(XmlElement tag, FrameworkElement& parent) const;
   // … then what has none.
@@ -69,8 +67,7 @@ class FileUpdate {
 
   // Groups that other files describe: nothing may be changed there but values of parameters.
   void UpdateInstance(XmlElement tag, FrameworkElement& group);
-  void Override(XmlElement tag, const std::string& module, const std::string& name,
-                const std::string& value);
+  void Override(XmlElement tag, const std::string& module, const std::string& name, const std::string& value);
   void MoveFileNames(XmlElement tag, XmlElement root, FrameworkElement& group);
   void FinishParts();
 
@@ -91,7 +88,6 @@ class FileUpdate {
 };
 
 /// Whether two values of an attribute mean the same, as "0.05 s" and "50ms" do.
-[[nodiscard]] bool MeanTheSame(const AttributeRule& rule, const std::string& one,
-                               const std::string& other);
+[[nodiscard]] bool MeanTheSame(const AttributeRule& rule, const std::string& one, const std::string& other);
 
 }  // namespace runnel::internal

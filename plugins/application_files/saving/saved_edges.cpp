@@ -5,9 +5,9 @@
 #include "core/element/element_path.h"
 #include "core/element/not_saved.h"
 #include "core/paths/distant_ports.h"
-#include "core/plugin/module_type_name.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
+#include "core/plugin/module_type_name.h"
 #include "plugins/application_files/saving/saving.h"
 #include "plugins/structure/extension_changes.h"
 
@@ -28,8 +28,7 @@ const FrameworkElement* StandsFor(const Port& port, const FrameworkElement& appl
 
 bool IsPortOf(const Port& port, const FrameworkElement& module) {
   const FrameworkElement* const parent = port.parent();
-  return parent == &module ||
-         (parent->kind() == ElementKind::kPortGroup && parent->parent() == &module);
+  return parent == &module || (parent->kind() == ElementKind::kPortGroup && parent->parent() == &module);
 }
 
 // The innermost group that has both, or nullptr. `from`: nullptr is one of another application that has ended.
@@ -46,8 +45,7 @@ FrameworkElement* Home(const Port* from, const Port& to, FrameworkElement& appli
 }
 
 // The same of paths that nothing may be at; nullptr if that group has gone, too, or is none of the application.
-FrameworkElement* HomeOfPaths(const std::string& from, const std::string& to,
-                              FrameworkElement& application) {
+FrameworkElement* HomeOfPaths(const std::string& from, const std::string& to, FrameworkElement& application) {
   std::string common;
   const auto from_names = SplitPath(from);
   const auto to_names = SplitPath(to);

@@ -48,12 +48,10 @@ std::string SavedValue(const FrameworkElement& element, const Configurable& conf
 void Saving::CheckText(std::string_view text, const FrameworkElement& element) {
   const std::string fault = UnwritableCharacter(text);
   if (fault.empty()) return;
-  Fail({.message = "what is to be saved of it contains " + fault + ": no file can carry that",
-        .path = element.path()});
+  Fail({.message = "what is to be saved of it contains " + fault + ": no file can carry that", .path = element.path()});
 }
 
-void Saving::CheckAttribute(const AttributeRule& rule, const std::string& value,
-                            const FrameworkElement& element) {
+void Saving::CheckAttribute(const AttributeRule& rule, const std::string& value, const FrameworkElement& element) {
   CheckText(value, element);
   if (rule.kind != AttributeKind::kModuleType) return;
   if (value.empty()) {
@@ -75,9 +73,7 @@ bool IsByRule(const FrameworkElement& element) {
 }
 
 bool HoldsOnlyThreads(const FrameworkElement& group) {
-  const auto is_thread = [](const FrameworkElement* child) {
-    return child->kind() == ElementKind::kThread;
-  };
+  const auto is_thread = [](const FrameworkElement* child) { return child->kind() == ElementKind::kThread; };
   return !group.children().empty() && std::ranges::all_of(group.children(), is_thread);
 }
 
@@ -86,15 +82,13 @@ bool IsSaved(const FrameworkElement& element) {
   return IsModule(element) || (element.kind() == ElementKind::kGroup && !HoldsOnlyThreads(element));
 }
 
-NewElement ElementOf(const XmlTag& tag, const SavedTag& saved, const FrameworkElement& about,
-                     Saving& saving) {
+NewElement ElementOf(const XmlTag& tag, const SavedTag& saved, const FrameworkElement& about, Saving& saving) {
   const FrameworkElement& said_of = saved.element != nullptr ? *saved.element : about;
   const std::vector<AttributeRule> rules = saving.tools.tags.Rules(tag);
   NewElement made{.name = tag.name};
   for (const SavedAttribute& attribute : saved.attributes) {
     if (attribute.is_default || attribute.is_kept) continue;
-    saving.CheckAttribute(*std::ranges::find(rules, attribute.name, &AttributeRule::name),
-                          attribute.value, said_of);
+    saving.CheckAttribute(*std::ranges::find(rules, attribute.name, &AttributeRule::name), attribute.value, said_of);
     made.attributes.emplace_back(attribute.name, attribute.value);
   }
   if (saved.element != nullptr) AddInside(tag, *saved.element, saving, made);

@@ -59,12 +59,12 @@ struct Saving {
   /// That a file can carry what is to be said of `element`.
   void CheckText(std::string_view text, const FrameworkElement& element);
   /// The same for an attribute; if it names a type of modules, its plugin has to be loaded.
-  void CheckAttribute(const AttributeRule& rule, const std::string& value,
-                      const FrameworkElement& element);
+  void CheckAttribute(const AttributeRule& rule, const std::string& value, const FrameworkElement& element);
 };
 
 /// The value as text that gives it again when it stands in the file: names of files start there.
-[[nodiscard]] std::string SavedValue(const FrameworkElement& element, const Configurable& configurable, const Saving& saving);
+[[nodiscard]] std::string SavedValue(const FrameworkElement& element, const Configurable& configurable,
+                                     const Saving& saving);
 
 struct SavedText {
   std::string text;
@@ -72,15 +72,14 @@ struct SavedText {
   std::string lost;                                 ///< likewise
 };
 /// What SaveApplication() would write into a file in `folder`, but for whether it would load. Under the structure lock.
-[[nodiscard]] Result<SavedText> TextOfApplication(FrameworkElement& application,
-                                                  const SaveTools& tools,
+[[nodiscard]] Result<SavedText> TextOfApplication(FrameworkElement& application, const SaveTools& tools,
                                                   const std::filesystem::path& folder);
 
 // The tags that give again what is in the tree, as if no file had been there before.
 
 /// `saved` as an element, with all that is in it. `about`: the element that errors name.
-[[nodiscard]] NewElement ElementOf(const XmlTag& tag, const SavedTag& saved,
-                                   const FrameworkElement& about, Saving& saving);
+[[nodiscard]] NewElement ElementOf(const XmlTag& tag, const SavedTag& saved, const FrameworkElement& about,
+                                   Saving& saving);
 
 /// The tags that may stand in another, in the order of XmlTag::place.
 [[nodiscard]] std::vector<const XmlTag*> TagsWithin(std::string_view tag, const Saving& saving);

@@ -36,9 +36,9 @@ struct MetaSignals {
 /// What the rules look at.
 struct BehaviourCycle {
   MetaSignals now;
-  std::span<const double> derived = {};      ///< derived activities
-  std::optional<MetaSignals> before = {};    ///< of the last cycle, if there was one
-  bool has_same_activities = false;          ///< all activities that it reads are what they were then
+  std::span<const double> derived = {};    ///< derived activities
+  std::optional<MetaSignals> before = {};  ///< of the last cycle, if there was one
+  bool has_same_activities = false;        ///< all activities that it reads are what they were then
 };
 
 /// The rules of iB2C, by which a network can be reasoned about:

@@ -51,15 +51,13 @@ ClientSaid ReadSubscribe(JsonMembers& members) {
 ClientSaid ReadAdvertise(JsonMembers& members) {
   return AdvertiseMessage{ItemsIn(members, "channels", [](JsonMembers& item) {
     for (const char* each : {"schemaName", "schemaEncoding", "schema"}) (void)item.Find(each);  // the input knows it
-    return AdvertiseMessage::Channel{IdIn(item, "id"), item.NeedText("topic"),
-                                     item.NeedText("encoding")};
+    return AdvertiseMessage::Channel{IdIn(item, "id"), item.NeedText("topic"), item.NeedText("encoding")};
   })};
 }
 ClientSaid ReadSetParameters(JsonMembers& members) {
   auto items = ItemsIn(members, "parameters", [](JsonMembers& item) {
     const JsonPart* const value = item.Find("value");
-    return SetParametersMessage::Item{item.NeedText("name"),
-                                      value != nullptr ? std::optional(*value) : std::nullopt,
+    return SetParametersMessage::Item{item.NeedText("name"), value != nullptr ? std::optional(*value) : std::nullopt,
                                       item.Text("type").value_or("")};
   });
   return SetParametersMessage{std::move(items), members.Text("id")};
@@ -73,13 +71,23 @@ struct Operation {
 using enum WebRole;
 constexpr std::array<Operation, 10> kOperations{{
     {"subscribe", kLook, ReadSubscribe},
-    {"unsubscribe", kLook, [](JsonMembers& m) -> ClientSaid { return UnsubscribeMessage{IdsIn(m, "subscriptionIds")}; }},
+    {"unsubscribe", kLook,
+     [](JsonMembers& m) -> ClientSaid { return UnsubscribeMessage{IdsIn(m, "subscriptionIds")}; }},
     {"advertise", kLook, ReadAdvertise},
     {"unadvertise", kLook, [](JsonMembers& m) -> ClientSaid { return UnadvertiseMessage{IdsIn(m, "channelIds")}; }},
-    {"getParameters", kLook, [](JsonMembers& m) -> ClientSaid { return GetParametersMessage{NamesIn(m), m.Text("id")}; }},
+    {"getParameters", kLook,
+     [](JsonMembers& m) -> ClientSaid {
+       return GetParametersMessage{NamesIn(m), m.Text("id")};
+     }},
     {"setParameters", kChange, ReadSetParameters},
-    {"subscribeParameterUpdates", kLook, [](JsonMembers& m) -> ClientSaid { return SubscribeParametersMessage{NamesIn(m), true}; }},
-    {"unsubscribeParameterUpdates", kLook, [](JsonMembers& m) -> ClientSaid { return SubscribeParametersMessage{NamesIn(m), false}; }},
+    {"subscribeParameterUpdates", kLook,
+     [](JsonMembers& m) -> ClientSaid {
+       return SubscribeParametersMessage{NamesIn(m), true};
+     }},
+    {"unsubscribeParameterUpdates", kLook,
+     [](JsonMembers& m) -> ClientSaid {
+       return SubscribeParametersMessage{NamesIn(m), false};
+     }},
     {"subscribeConnectionGraph", kLook, [](JsonMembers&) -> ClientSaid { return SubscribeGraphMessage{true}; }},
     {"unsubscribeConnectionGraph", kLook, [](JsonMembers&) -> ClientSaid { return SubscribeGraphMessage{false}; }},
 }};

@@ -56,9 +56,9 @@ struct SubscribeGraphMessage {
   bool is_wanted;
 };
 
-using ClientSaid = std::variant<SubscribeMessage, UnsubscribeMessage, AdvertiseMessage, UnadvertiseMessage,
-                                GetParametersMessage, SetParametersMessage, SubscribeParametersMessage,
-                                SubscribeGraphMessage>;
+using ClientSaid =
+    std::variant<SubscribeMessage, UnsubscribeMessage, AdvertiseMessage, UnadvertiseMessage, GetParametersMessage,
+                 SetParametersMessage, SubscribeParametersMessage, SubscribeGraphMessage>;
 /// What a client says in text.
 struct ClientMessage {
   std::string_view op;

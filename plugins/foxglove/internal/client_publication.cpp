@@ -1,5 +1,3 @@
-#include "plugins/foxglove/internal/foxglove_session.h"
-
 #include <atomic>
 #include <mutex>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
+#include "plugins/foxglove/internal/foxglove_session.h"
 #include "plugins/values/foxglove_channel.h"
 #include "plugins/values/json_values.h"
 
@@ -29,8 +28,7 @@ class ClientPublication::Place final : public FrameworkElement {
   std::unique_ptr<Port> output;
 };
 
-ClientPublication::ClientPublication(FoxgloveShared& shared, const DirectoryInput& input,
-                                     std::function<void()> wake)
+ClientPublication::ClientPublication(FoxgloveShared& shared, const DirectoryInput& input, std::function<void()> wake)
     : shared_(shared),
       input_(input),
       type_(*input.type),
@@ -56,8 +54,7 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
     return Error{.message = "this is another port by now", .path = input.path};
   }
   if (port->is_proxy() && port->Sinks().empty()) {
-    return Error{.message = "nothing is connected to this port that could read it",
-                 .path = input.path};
+    return Error{.message = "nothing is connected to this port that could read it", .path = input.path};
   }
   auto& place = runtime.Create<Place>(runtime.root(), name);
   shared.places.insert(name);
@@ -138,9 +135,8 @@ Result<void> ClientPublication::PublishWaiting() {
     if (auto counts = runtime.robot_stop().CheckIsKnown(as_of_); !counts) return counts;
     place = dynamic_cast<Place*>(runtime.root().FindChild(place_));
     if (place == nullptr) {
-      return Error{.message = "the output of this channel has been deleted",
-                   .path = "/" + place_,
-                   .hint = "advertise it anew"};
+      return Error{
+          .message = "the output of this channel has been deleted", .path = "/" + place_, .hint = "advertise it anew"};
     }
   }
   const auto fill = [&](void* value) { return Read(json, value); };

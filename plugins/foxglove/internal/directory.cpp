@@ -18,8 +18,7 @@ namespace {
 
 // A large structure takes some milliseconds to look at: not more often than a person notices.
 constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
-constexpr auto kLookOn =
-    std::chrono::milliseconds(5);  // while there is more to look at, or it is locked
+constexpr auto kLookOn = std::chrono::milliseconds(5);  // while there is more to look at, or it is locked
 
 // As viewers want it: of an object.
 std::string SchemaOf(const TypeInfo* type) {
@@ -34,8 +33,8 @@ std::string OwnerPath(const FrameworkElement& element) {
 }
 
 // What several have in common names none of them; those are called by their paths.
-const std::string& NameIn(const std::unordered_map<std::string, int>& counts,
-                          const std::string& topic, const std::string& path) {
+const std::string& NameIn(const std::unordered_map<std::string, int>& counts, const std::string& topic,
+                          const std::string& path) {
   return counts.at(topic) == 1 ? topic : path;
 }
 
@@ -62,8 +61,7 @@ struct Directory::Search {
     if (const auto* const port = dynamic_cast<const Port*>(&element)) {
       Add(*port);
     } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
-      parameters.emplace_back(TopicOf(element),
-                              DirectoryParameter{element.path(), &parameter->type(), parameter});
+      parameters.emplace_back(TopicOf(element), DirectoryParameter{element.path(), &parameter->type(), parameter});
       ++parameter_topics[parameters.back().first];
     }
     return true;
@@ -103,7 +101,7 @@ struct Directory::Search {
   }
 
   std::vector<FoundPort> ports;
-  std::vector<DirectoryService> services = StopServices();  // without their numbers
+  std::vector<DirectoryService> services = StopServices();             // without their numbers
   std::vector<std::pair<std::string, DirectoryParameter>> parameters;  // with their topics
   Counts target_topics, shown_topics, parameter_topics;
 };
@@ -116,9 +114,8 @@ Directory::SteadyTime Directory::Look(SteadyTime now) {
   if (now < look_at_) return look_at_;
   std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
   if (!lock) return now + kLookOn;
-  const auto outcome =
-      walk_.Continue([this] { search_ = std::make_unique<Search>(); },
-                     [this](const FrameworkElement& element) { return search_->Visit(element); });
+  const auto outcome = walk_.Continue([this] { search_ = std::make_unique<Search>(); },
+                                      [this](const FrameworkElement& element) { return search_->Visit(element); });
   if (outcome == StructureWalk::Outcome::kUnderWay) return now + kLookOn;
   look_at_ = now + kBetweenLooks;
   if (outcome == StructureWalk::Outcome::kUnchanged) return look_at_;
@@ -137,8 +134,8 @@ Directory::SteadyTime Directory::Look(SteadyTime now) {
   }
   for (DirectoryService service : search->services) {
     const auto next = static_cast<std::uint32_t>(service_ids_.size() + 1);
-    const std::string all = service.path + "\n" + service.type + "\n" + service.request_schema + "\n" +
-                            service.reply_schema;
+    const std::string all =
+        service.path + "\n" + service.type + "\n" + service.request_schema + "\n" + service.reply_schema;
     service.id = service_ids_.try_emplace(all, next).first->second;
     content->services[service.id] = std::move(service);
   }
@@ -148,8 +145,7 @@ Directory::SteadyTime Directory::Look(SteadyTime now) {
   return look_at_;
 }
 
-void Directory::AddChannels(const Search& search, const Port* robot_pose,
-                            DirectoryContent& content) {
+void Directory::AddChannels(const Search& search, const Port* robot_pose, DirectoryContent& content) {
   if (!search.shown_topics.contains(log_->topic)) AddChannel(log_->topic, "", nullptr, log_, content);
   AddChannel(stop_->topic, "", nullptr, stop_, content);
   for (const Search::FoundPort& port : search.ports) {
@@ -168,8 +164,8 @@ void Directory::AddChannels(const Search& search, const Port* robot_pose,
   }
 }
 
-void Directory::AddChannel(std::string topic, const std::string& port, const TypeInfo* type,
-                           const Encoding& encoding, DirectoryContent& content) {
+void Directory::AddChannel(std::string topic, const std::string& port, const TypeInfo* type, const Encoding& encoding,
+                           DirectoryContent& content) {
   const auto next = static_cast<std::uint32_t>(ids_.size() + 1);
   const auto [place, is_new] = ids_.try_emplace({topic, encoding.get()}, next);
   content.channels[place->second] = {place->second, std::move(topic), port, type, encoding};
@@ -189,8 +185,7 @@ const Directory::Encodings& Directory::EncodingsOf(const TypeInfo& type) {
   return place->second;
 }
 
-bool Directory::VisitParameters(const std::vector<std::string>& names,
-                                const ParameterVisitor& visit) const {
+bool Directory::VisitParameters(const std::vector<std::string>& names, const ParameterVisitor& visit) const {
   // What is there under the lock stays in memory while the guard is held; so the lock need not be.
   const EpochGuard guard;
   {

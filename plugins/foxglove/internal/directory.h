@@ -25,8 +25,8 @@ class BroughtByClient final : public Annotation {};
 struct DirectoryChannel {
   std::uint32_t id;
   std::string topic;
-  std::string port;      ///< path; "" for the log and the STOP
-  const TypeInfo* type;  ///< nullptr for these
+  std::string port;                                 ///< path; "" for the log and the STOP
+  const TypeInfo* type;                             ///< nullptr for these
   std::shared_ptr<const FoxgloveChannel> encoding;  ///< of its type, without the topic
 };
 
@@ -102,8 +102,8 @@ class Directory {
   struct Search;
 
   void AddChannels(const Search& search, const Port* robot_pose, DirectoryContent& content);
-  void AddChannel(std::string topic, const std::string& port, const TypeInfo* type,
-                  const Encoding& encoding, DirectoryContent& content);
+  void AddChannel(std::string topic, const std::string& port, const TypeInfo* type, const Encoding& encoding,
+                  DirectoryContent& content);
   [[nodiscard]] const Encodings& EncodingsOf(const TypeInfo& type);
 
   Runtime& runtime_;

@@ -86,8 +86,9 @@ void FoxgloveSession::OnBinary(std::string_view message) {
     return calls_.Begin(message, shared_->RoleOf(client_) >= RoleFor("call"), CheckIsMeant());
   }
   if (message.size() < kHead || message[0] != kMessageData) {
-    return SendError({.message = "there is no binary message of this kind here",
-                      .hint = "byte 1: the value of a client's channel, then the channel's id; byte 2: a call of a service"});
+    return SendError(
+        {.message = "there is no binary message of this kind here",
+         .hint = "byte 1: the value of a client's channel, then the channel's id; byte 2: a call of a service"});
   }
   const std::uint32_t id = ReadNumber(message, 1);
   const auto found = publications_.find(id);
@@ -123,16 +124,13 @@ void FoxgloveSession::Handle(const AdvertiseMessage& message) {
 
 void FoxgloveSession::Advertise(const AdvertiseMessage::Channel& channel, bool& may_search) {
   if (channel.encoding != "json") {
-    return SendError(
-        {.message = "advertise: values come as 'json' here, not as '" + channel.encoding + "'"});
+    return SendError({.message = "advertise: values come as 'json' here, not as '" + channel.encoding + "'"});
   }
   if (publications_.contains(channel.id)) {
-    return SendError(
-        {.message = "advertise: channel " + std::to_string(channel.id) + " is in use"});
+    return SendError({.message = "advertise: channel " + std::to_string(channel.id) + " is in use"});
   }
   if (publications_.size() >= kMostPublications) {
-    return SendError(
-        {.message = "advertise: more than " + std::to_string(kMostPublications) + " channels"});
+    return SendError({.message = "advertise: more than " + std::to_string(kMostPublications) + " channels"});
   }
   if (channel.topic == kStopName) {
     publications_[channel.id] = nullptr;

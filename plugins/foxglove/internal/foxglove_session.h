@@ -35,8 +35,7 @@ namespace runnel::internal {
 class ClientPublication {
  public:
   /// `wake` has the session take a turn, from any thread.
-  ClientPublication(FoxgloveShared& shared, const DirectoryInput& input,
-                    std::function<void()> wake);
+  ClientPublication(FoxgloveShared& shared, const DirectoryInput& input, std::function<void()> wake);
   ~ClientPublication();
 
   /// Publishes a value that is told in JSON as its channel would tell it; fields that are left out have
@@ -84,8 +83,7 @@ class Subscriptions {
  public:
   using SteadyTime = std::chrono::steady_clock::time_point;
 
-  Subscriptions(const ServedApplication& application, WebClient& client)
-      : application_(application), client_(client) {}
+  Subscriptions(const ServedApplication& application, WebClient& client) : application_(application), client_(client) {}
 
   /// Returns what is wrong with it; the rest is done.
   std::vector<Error> Add(const SubscribeMessage& message, const DirectoryContent& content);
@@ -148,7 +146,7 @@ class ServiceCalls {
     std::uint32_t service;
     std::uint32_t call;
     std::string path;
-    std::string json;               // until it has begun
+    std::string json;  // until it has begun
     std::unique_ptr<AnyCall> begun;
     RobotStop::AsOf as_of = {};
     const TypeInfo* reply = nullptr;
@@ -208,8 +206,9 @@ class FoxgloveSession final : public WebSession {
   Subscriptions subscriptions_;
   ParameterHandler parameters_;
   ServiceCalls calls_;
-  std::map<std::uint32_t, std::unique_ptr<ClientPublication>> publications_;  // by the client's numbers; nullptr: of the STOP
-  std::shared_ptr<const DirectoryContent> content_;    // that the client has been told of
+  std::map<std::uint32_t, std::unique_ptr<ClientPublication>>
+      publications_;                                 // by the client's numbers; nullptr: of the STOP
+  std::shared_ptr<const DirectoryContent> content_;  // that the client has been told of
   std::set<std::uint32_t> advertised_;
   bool has_graph_ = false;
   std::map<std::string, GraphTopic> graph_;  // that the client has been told of

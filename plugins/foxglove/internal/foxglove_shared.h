@@ -17,9 +17,7 @@ struct FoxgloveShared {
   explicit FoxgloveShared(FoxgloveApplication given);
   ~FoxgloveShared();
 
-  [[nodiscard]] Runtime& runtime() const noexcept {
-    return application.service.application().runtime;
-  }
+  [[nodiscard]] Runtime& runtime() const noexcept { return application.service.application().runtime; }
 
   [[nodiscard]] WebRole RoleOf(const WebClient& client) const {
     return application.is_read_only ? WebRole::kLook : client.role();

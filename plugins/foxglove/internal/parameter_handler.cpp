@@ -31,8 +31,7 @@ struct ParameterHandler::PendingSet {
 };
 
 std::vector<std::string> ParameterHandler::AllNames() const {
-  return NamesOf(shared_.directory.content()->parameters,
-                 [](const auto& each) { return each.first; });
+  return NamesOf(shared_.directory.content()->parameters, [](const auto& each) { return each.first; });
 }
 
 void ParameterHandler::SendError(const Error& error) {
@@ -57,8 +56,7 @@ void ParameterHandler::Set(const SetParametersMessage& message) {
     return SendError({.message = "setParameters: too many requests are waiting"});
   }
   if (message.parameters.size() > kMostAtOnce) {
-    return SendError({.message = "setParameters: more than " + std::to_string(kMostAtOnce) +
-                                 " parameters at once"});
+    return SendError({.message = "setParameters: more than " + std::to_string(kMostAtOnce) + " parameters at once"});
   }
   sets_.push_back(std::make_shared<PendingSet>(PendingSet{message, shared_.runtime().robot_stop().AsOfNow()}));
 }
@@ -95,8 +93,7 @@ ParameterHandler::SteadyTime ParameterHandler::Continue(SteadyTime now) {
   return subscribed_.empty() ? now + kLongTime : look_at_;
 }
 
-std::optional<ParameterHandler::Values> ParameterHandler::Read(
-    const std::vector<std::string>& names) const {
+std::optional<ParameterHandler::Values> ParameterHandler::Read(const std::vector<std::string>& names) const {
   Values values;
   const auto add = [&](std::size_t i, const DirectoryParameter* parameter) {
     if (parameter != nullptr) values[names[i]] = ParameterJson(names[i], *parameter->element);
@@ -177,8 +174,8 @@ bool ParameterHandler::BeginSet(PendingSet& set) {
           return;
         }
         set.changes.push_back(shared_.application.service.Begin(
-            ChangeRequest{{.changes = {std::move(*setting)}, .positions = {}}, {}, "Foxglove"},
-            *shared_.tasks, wake_, set.as_of));
+            ChangeRequest{{.changes = {std::move(*setting)}, .positions = {}}, {}, "Foxglove"}, *shared_.tasks, wake_,
+            set.as_of));
       });
   return set.has_begun;
 }

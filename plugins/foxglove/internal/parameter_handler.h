@@ -26,8 +26,7 @@ namespace runnel::internal {
 
 /// What a client sets, at `path`. What it leaves out of a structure is as it is now. Texts are taken as the
 /// text format. Errors: the value is none of the type.
-[[nodiscard]] Result<SetParameter> SettingOf(const SetParametersMessage::Item& item,
-                                             const std::string& path,
+[[nodiscard]] Result<SetParameter> SettingOf(const SetParametersMessage::Item& item, const std::string& path,
                                              const Configurable& parameter);
 
 struct FoxgloveShared;

@@ -1,10 +1,9 @@
-#include "plugins/foxglove/internal/parameter_handler.h"
-
 #include <cstring>
 #include <memory>
 
 #include "core/base/exception_text.h"
 #include "core/types/type_of.h"
+#include "plugins/foxglove/internal/parameter_handler.h"
 #include "plugins/values/base64.h"
 #include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"

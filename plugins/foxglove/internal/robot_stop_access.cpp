@@ -30,9 +30,12 @@ CommandAnswer Release(FoxgloveShared& shared, std::string_view json) {
   }
   if (!number) {
     const auto requests = shared.runtime().robot_stop().requests();
-    return CommandAnswer::Refused({.message = "say which STOP is meant: {\"number\": " + std::to_string(requests) + "}"});
+    return CommandAnswer::Refused(
+        {.message = "say which STOP is meant: {\"number\": " + std::to_string(requests) + "}"});
   }
-  return shared.application.service.Begin(RobotStopRequest{false, "Foxglove"}, *shared.tasks, {}, {.asked = {}, .requests = number})->Take();
+  return shared.application.service
+      .Begin(RobotStopRequest{false, "Foxglove"}, *shared.tasks, {}, {.asked = {}, .requests = number})
+      ->Take();
 }
 
 }  // namespace
@@ -44,20 +47,23 @@ std::vector<DirectoryService> StopServices() {
     made.reply_schema = kReplySchema;
     return made;
   };
-  return {service(kStopName, "STOP of the robot: true presses", R"({"type":"object","properties":{"data":{"type":"boolean"}}})"),
-          service(kReleaseName, "ends the STOP of the robot", R"({"type":"object","properties":{"number":{"type":"integer"}}})")};
+  return {service(kStopName, "STOP of the robot: true presses",
+                  R"({"type":"object","properties":{"data":{"type":"boolean"}}})"),
+          service(kReleaseName, "ends the STOP of the robot",
+                  R"({"type":"object","properties":{"number":{"type":"integer"}}})")};
 }
 
 FoxgloveChannel StopChannel() {
-  return {std::string(kStopName), "runnel.Stop",
-          R"({"type":"object","properties":{"data":{"type":"boolean"},"by":{"type":"string"},"since":{"type":"number"},)"
-          R"("number":{"type":"integer"}}})",
-          [](const void* value, Time, std::string& json) {
-            const auto& state = *static_cast<const RobotStop::State*>(value);
-            JsonObject message(json);
-            message.Add("data", state.in_force).Add("by", state.by);
-            message.Add("since", ToSeconds(state.since.time_since_epoch())).Add("number", state.requests);
-          }};
+  return {
+      std::string(kStopName), "runnel.Stop",
+      R"({"type":"object","properties":{"data":{"type":"boolean"},"by":{"type":"string"},"since":{"type":"number"},)"
+      R"("number":{"type":"integer"}}})",
+      [](const void* value, Time, std::string& json) {
+        const auto& state = *static_cast<const RobotStop::State*>(value);
+        JsonObject message(json);
+        message.Add("data", state.in_force).Add("by", state.by);
+        message.Add("since", ToSeconds(state.since.time_since_epoch())).Add("number", state.requests);
+      }};
 }
 
 std::string SetStop(FoxgloveShared& shared, std::string_view name, std::string_view json) {

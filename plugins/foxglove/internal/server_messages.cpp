@@ -33,7 +33,8 @@ std::string ServerInfoMessage(const FoxgloveShared& shared) {
   return JsonObjectText([&](JsonObject& message) {
     message.Add("op", "serverInfo").Add("name", shared.application.name);
     // The last two for all, since whoever may look may press STOP.
-    message.AddJson("capabilities", R"(["time","parameters","parametersSubscribe","connectionGraph","clientPublish","services"])");
+    message.AddJson("capabilities",
+                    R"(["time","parameters","parametersSubscribe","connectionGraph","clientPublish","services"])");
     message.AddJson("supportedEncodings", R"(["json"])");
     JsonObject(message.Key("metadata")).Add("runnel", shared.application.version);
     message.Add("sessionId", shared.session);
@@ -59,9 +60,8 @@ std::string AdvertiseMessageFor(std::span<const DirectoryChannel* const> channel
 }
 
 std::string UnadvertiseMessageFor(std::string_view op, std::string_view key, std::span<const std::uint32_t> ids) {
-  return JsonObjectText([&](JsonObject& message) {
-    AppendList(ids, message.Add("op", op).Key(key), AppendJsonNumber<std::uint32_t>);
-  });
+  return JsonObjectText(
+      [&](JsonObject& message) { AppendList(ids, message.Add("op", op).Key(key), AppendJsonNumber<std::uint32_t>); });
 }
 
 std::string AdvertiseServicesMessage(std::span<const DirectoryService* const> services) {

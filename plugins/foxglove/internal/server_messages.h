@@ -23,11 +23,9 @@ enum class StatusLevel { kInformation = 0, kWarning = 1, kError = 2 };
 [[nodiscard]] std::string UnadvertiseMessageFor(std::string_view op, std::string_view key,
                                                 std::span<const std::uint32_t> ids);
 [[nodiscard]] std::string AdvertiseServicesMessage(std::span<const DirectoryService* const> services);
-[[nodiscard]] std::string ServiceFailureMessage(std::uint32_t service, std::uint32_t call,
-                                                std::string_view why);
+[[nodiscard]] std::string ServiceFailureMessage(std::uint32_t service, std::uint32_t call, std::string_view why);
 /// Binary.
-[[nodiscard]] std::string ServiceReplyMessage(std::uint32_t service, std::uint32_t call,
-                                              std::string_view json);
+[[nodiscard]] std::string ServiceReplyMessage(std::uint32_t service, std::uint32_t call, std::string_view json);
 /// What has changed between two moments.
 [[nodiscard]] std::string GraphMessage(const std::map<std::string, GraphTopic>& before,
                                        const std::map<std::string, GraphTopic>& now);

@@ -1,5 +1,3 @@
-#include "plugins/foxglove/internal/foxglove_session.h"
-
 #include <algorithm>
 #include <chrono>
 #include <mutex>
@@ -9,6 +7,7 @@
 #include "core/element/runtime.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/foxglove/internal/client_message.h"
+#include "plugins/foxglove/internal/foxglove_session.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
 #include "plugins/foxglove/internal/robot_stop_access.h"
 #include "plugins/foxglove/internal/send_queue.h"

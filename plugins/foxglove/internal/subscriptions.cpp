@@ -1,11 +1,10 @@
-#include "plugins/foxglove/internal/foxglove_session.h"
-
 #include <algorithm>
 #include <chrono>
 #include <mutex>
 
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/command_service/caught_error.h"
+#include "plugins/foxglove/internal/foxglove_session.h"
 #include "plugins/foxglove/internal/robot_stop_access.h"
 #include "plugins/foxglove/internal/server_messages.h"
 
@@ -20,23 +19,19 @@ constexpr auto kBetweenStops = std::chrono::seconds(1);
 
 }  // namespace
 
-std::vector<Error> Subscriptions::Add(const SubscribeMessage& message,
-                                      const DirectoryContent& content) {
+std::vector<Error> Subscriptions::Add(const SubscribeMessage& message, const DirectoryContent& content) {
   std::vector<Error> errors;
   for (const auto& [id, channel_id] : message.subscriptions) {
     const auto channel = content.channels.find(channel_id);
     if (channel == content.channels.end()) {
-      errors.push_back({.message = "subscribe: there is no channel " + std::to_string(channel_id) +
-                                   " (any more)"});
+      errors.push_back({.message = "subscribe: there is no channel " + std::to_string(channel_id) + " (any more)"});
       continue;
     }
-    const bool is_subscribed = std::ranges::any_of(
-        by_id_, [&](const auto& each) { return each.second.channel.id == channel->first; });
+    const bool is_subscribed =
+        std::ranges::any_of(by_id_, [&](const auto& each) { return each.second.channel.id == channel->first; });
     if (by_id_.contains(id) || is_subscribed) {
-      errors.push_back(
-          {.message = is_subscribed
-                          ? "subscribe: " + channel->second.topic + " is subscribed to already"
-                          : "subscribe: the id " + std::to_string(id) + " is in use"});
+      errors.push_back({.message = is_subscribed ? "subscribe: " + channel->second.topic + " is subscribed to already"
+                                                 : "subscribe: the id " + std::to_string(id) + " is in use"});
       continue;
     }
     by_id_[id] = To(channel->second);
@@ -59,8 +54,7 @@ std::vector<Error> Subscriptions::Remove(const UnsubscribeMessage& message) {
 }
 
 void Subscriptions::Retain(const DirectoryContent& content) {
-  std::erase_if(
-      by_id_, [&](const auto& each) { return !content.channels.contains(each.second.channel.id); });
+  std::erase_if(by_id_, [&](const auto& each) { return !content.channels.contains(each.second.channel.id); });
   for (auto& [id, subscription] : by_id_) {
     const DirectoryChannel& now = content.channels.at(subscription.channel.id);
     if (now.port == subscription.channel.port) continue;

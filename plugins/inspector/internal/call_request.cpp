@@ -1,5 +1,3 @@
-#include "plugins/inspector/internal/requests.h"
-
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -12,6 +10,7 @@
 #include "core/port/port.h"
 #include "core/types/text_format.h"
 #include "plugins/command_service/caught_error.h"
+#include "plugins/inspector/internal/requests.h"
 #include "plugins/services/callable.h"
 #include "plugins/values/json_writer.h"
 

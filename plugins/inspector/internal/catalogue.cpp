@@ -1,5 +1,3 @@
-#include "plugins/inspector/internal/inspection.h"
-
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -7,10 +5,11 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
-#include "core/plugin/module_type_name.h"
 #include "core/paths/path_search.h"
+#include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
+#include "plugins/inspector/internal/inspection.h"
 #include "plugins/manifest/plugin_manifest.h"
 #include "plugins/values/json_writer.h"
 
@@ -19,8 +18,7 @@ namespace runnel::internal {
 namespace {
 
 /// Of a TypeKind, in their order.
-constexpr std::array<const char*, 6> kKindNames{"opaque",    "leaf",     "enumeration",
-                                                "structure", "sequence", "matrix"};
+constexpr std::array<const char*, 6> kKindNames{"opaque", "leaf", "enumeration", "structure", "sequence", "matrix"};
 
 void AppendField(const FieldInfo& field, std::string& text) {
   JsonObject object(text);
@@ -36,9 +34,8 @@ void AppendType(const TypeInfo* type, std::string& text) {
     AppendList(type->fields(), json.Key("fields"), AppendField);
   }
   if (type->kind() == TypeKind::kEnumeration) {
-    AppendList(
-        type->enumerators(), json.Key("values"),
-        [](const EnumeratorInfo& each, std::string& to) { AppendJsonString(each.name, to); });
+    AppendList(type->enumerators(), json.Key("values"),
+               [](const EnumeratorInfo& each, std::string& to) { AppendJsonString(each.name, to); });
   }
   if (type->kind() == TypeKind::kSequence || type->kind() == TypeKind::kMatrix) {
     json.Add("element", type->elements().type->name());
@@ -68,8 +65,7 @@ Catalogue MakeCatalogue(const ServedApplication& application) {
     const std::lock_guard lock(application.runtime.structure_mutex());
     names = NamesOf(application.modules.All(), &ModuleType::name);
   }
-  ModuleDescriber describer(application.runtime, application.modules,
-                            application.hooks.library_of);
+  ModuleDescriber describer(application.runtime, application.modules, application.hooks.library_of);
   for (const std::string& name : names) {
     if (auto module = describer.Describe(name)) catalogue.modules.push_back(std::move(*module));
   }
@@ -90,8 +86,7 @@ std::uint64_t RegistryFingerprint(const ModuleRegistry& modules) {
   return hash;
 }
 
-Result<std::string> CompatibleTypes(Runtime& runtime, const Catalogue& catalogue,
-                                    const std::string& path) {
+Result<std::string> CompatibleTypes(Runtime& runtime, const Catalogue& catalogue, const std::string& path) {
   std::vector<ModuleDescription::Port> connected;
   std::string own_type;
   {

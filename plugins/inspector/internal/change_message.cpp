@@ -5,8 +5,8 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/tags.h"
-#include "plugins/scheduling/thread_container.h"
 #include "plugins/inspector/internal/viewer_message.h"
+#include "plugins/scheduling/thread_container.h"
 
 namespace runnel::internal {
 
@@ -76,8 +76,7 @@ std::optional<int> PriorityIn(JsonMembers& m) {
 }
 Change ReadCreateThread(JsonMembers& m) {
   AddThread change{m.NeedText("path")};
-  change.options.activation =
-      OneOf<ThreadOptions::Activation>(m, "activation", ActivationNames());
+  change.options.activation = OneOf<ThreadOptions::Activation>(m, "activation", ActivationNames());
   change.options.period = PeriodIn(m).value_or(change.options.period);
   change.options.priority = PriorityIn(m).value_or(0);
   return change;
@@ -95,7 +94,10 @@ struct Kind {
   Change (*read)(JsonMembers& m);
 };
 constexpr Kind kKinds[] = {
-    {"create", [](JsonMembers& m) -> Change { return CreateModule{m.NeedText("path"), m.NeedText("type"), SettingsIn(m)}; }},
+    {"create",
+     [](JsonMembers& m) -> Change {
+       return CreateModule{m.NeedText("path"), m.NeedText("type"), SettingsIn(m)};
+     }},
     {"create_group", [](JsonMembers& m) -> Change { return CreateGroup{m.NeedText("path")}; }},
     {"create_port",
      [](JsonMembers& m) -> Change {
@@ -108,16 +110,40 @@ constexpr Kind kKinds[] = {
      }},
     {"delete", [](JsonMembers& m) -> Change { return DeleteElement{m.NeedText("path")}; }},
     {"connect", ReadConnect},
-    {"disconnect", [](JsonMembers& m) -> Change { return DisconnectPorts{m.NeedText("from"), m.NeedText("to")}; }},
-    {"set", [](JsonMembers& m) -> Change { return SetParameter{m.NeedText("path"), m.NeedText("value")}; }},
+    {"disconnect",
+     [](JsonMembers& m) -> Change {
+       return DisconnectPorts{m.NeedText("from"), m.NeedText("to")};
+     }},
+    {"set",
+     [](JsonMembers& m) -> Change {
+       return SetParameter{m.NeedText("path"), m.NeedText("value")};
+     }},
     {"replace", ReadReplace},
-    {"move", [](JsonMembers& m) -> Change { return AssignToThread{m.NeedText("path"), m.NeedText("thread")}; }},
-    {"rename", [](JsonMembers& m) -> Change { return RenameElement{m.NeedText("path"), m.NeedText("name")}; }},
-    {"tag", [](JsonMembers& m) -> Change { return TagElement{m.NeedText("path"), TagsInText(m.NeedText("tags"))}; }},
+    {"move",
+     [](JsonMembers& m) -> Change {
+       return AssignToThread{m.NeedText("path"), m.NeedText("thread")};
+     }},
+    {"rename",
+     [](JsonMembers& m) -> Change {
+       return RenameElement{m.NeedText("path"), m.NeedText("name")};
+     }},
+    {"tag",
+     [](JsonMembers& m) -> Change {
+       return TagElement{m.NeedText("path"), TagsInText(m.NeedText("tags"))};
+     }},
     {"log", ReadLog},
-    {"copy", [](JsonMembers& m) -> Change { return CopyElement{m.NeedText("path"), m.Text("name").value_or("")}; }},
-    {"offer", [](JsonMembers& m) -> Change { return ExtensionChange{"offer", m.NeedTexts("words"), SettingsIn(m)}; }},
-    {"take", [](JsonMembers& m) -> Change { return ExtensionChange{"take", m.NeedTexts("words"), SettingsIn(m)}; }},
+    {"copy",
+     [](JsonMembers& m) -> Change {
+       return CopyElement{m.NeedText("path"), m.Text("name").value_or("")};
+     }},
+    {"offer",
+     [](JsonMembers& m) -> Change {
+       return ExtensionChange{"offer", m.NeedTexts("words"), SettingsIn(m)};
+     }},
+    {"take",
+     [](JsonMembers& m) -> Change {
+       return ExtensionChange{"take", m.NeedTexts("words"), SettingsIn(m)};
+     }},
     {"create_thread", ReadCreateThread},
     {"schedule", ReadSchedule}};
 

@@ -98,8 +98,7 @@ constexpr auto kLookAtReach = milliseconds(500);
 
 std::string RunName() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::to_string(getpid()) + "-" +
-         std::to_string(std::chrono::duration_cast<milliseconds>(now).count());
+  return std::to_string(getpid()) + "-" + std::to_string(std::chrono::duration_cast<milliseconds>(now).count());
 }
 
 }  // namespace

@@ -28,8 +28,7 @@ void AppendThread(const CycleStatistics& statistics, std::string& text) {
       .Add("max", Milliseconds(statistics.execution_max));
 }
 
-void AppendPorts(const CountSample& before, const CountSample& now, std::vector<ToldRate>& told,
-                 std::string& text) {
+void AppendPorts(const CountSample& before, const CountSample& now, std::vector<ToldRate>& told, std::string& text) {
   const std::vector<std::string>& paths = now.of->ports;
   if (told.size() != paths.size()) told.assign(paths.size(), {});
   JsonObject json(text);
@@ -73,8 +72,7 @@ void AppendLatency(const Latency& latency, std::string& text) {
 
 }  // namespace
 
-std::string RateMessage(const CountSample& before, const CountSample& now, double time,
-                        std::vector<ToldRate>& told) {
+std::string RateMessage(const CountSample& before, const CountSample& now, double time, std::vector<ToldRate>& told) {
   return JsonObjectText([&](JsonObject& json) {
     json.Add("op", "rates").Add("time", time);
     AppendPorts(before, now, told, json.Key("ports"));

@@ -66,11 +66,12 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
   }
   if (message.changes.empty()) return Errors{{Error{.message = "there are no changes in it"}}};
   if (message.changes.size() > ChangeRequest::kMostChanges) {
-    return Errors{{Error{.message = "more than " + std::to_string(ChangeRequest::kMostChanges) +
-                                    " changes at once"}}};
+    return Errors{{Error{.message = "more than " + std::to_string(ChangeRequest::kMostChanges) + " changes at once"}}};
   }
   ChangeRequest request{{.changes = std::move(message.changes), .positions = {}},
-                        std::move(message.label), std::move(message.client), message.may_end_application};
+                        std::move(message.label),
+                        std::move(message.client),
+                        message.may_end_application};
   for (std::size_t i = 0; i < request.placed.changes.size(); ++i) {
     request.placed.positions.push_back({"changes", static_cast<int>(i + 1), 1});
   }
@@ -80,11 +81,16 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
 // By the table: its fields are members of the message.
 CommandOrErrors MakeDescribed(ViewerMessage& message) {
   RequestFields fields;
-  const std::map<std::string_view, const std::string*> texts{
-      {"path", &message.path}, {"value", &message.value}, {"lease", &message.lease}, {"plugin", &message.plugin}, {"level", &message.level}};
+  const std::map<std::string_view, const std::string*> texts{{"path", &message.path},
+                                                             {"value", &message.value},
+                                                             {"lease", &message.lease},
+                                                             {"plugin", &message.plugin},
+                                                             {"level", &message.level}};
   for (const RequestField& field : FindRequest(message.op).value()->fields) {
     const auto text = texts.find(field.name);
-    const auto number = field.name == "rate" ? message.rate : field.name == "deadline" ? message.deadline : std::nullopt;
+    const auto number = field.name == "rate"       ? message.rate
+                        : field.name == "deadline" ? message.deadline
+                                                   : std::nullopt;
     if (number) fields.emplace(field.name, *number);
     if (text != texts.end() && (field.is_required || !text->second->empty())) fields.emplace(field.name, *text->second);
   }
@@ -96,8 +102,8 @@ CommandOrErrors MakeDescribed(ViewerMessage& message) {
 std::string FindCompatible(Inspection& inspection, const ViewerMessage& message) {
   const auto catalogue = inspection.catalogue();
   if (catalogue == nullptr) {
-    return Refusal(message.request, {{Error{.message = "the module types are still being looked at",
-                                            .hint = "ask again in a moment"}}});
+    return Refusal(message.request,
+                   {{Error{.message = "the module types are still being looked at", .hint = "ask again in a moment"}}});
   }
   const auto types = CompatibleTypes(inspection.application().runtime, *catalogue, message.path);
   if (!types) return Refusal(message.request, {{types.error()}});
@@ -132,8 +138,7 @@ std::string PreviewSave(Inspection& inspection, const ViewerMessage& message) {
   }
   const auto& preview_save = inspection.application().hooks.preview_save;
   if (!preview_save) {
-    return Refusal(message.request,
-                   {{Error{.message = "the program that runs this application cannot save it"}}});
+    return Refusal(message.request, {{Error{.message = "the program that runs this application cannot save it"}}});
   }
   const auto difference = preview_save(file);
   if (!difference) return Refusal(message.request, {{difference.error()}});
@@ -147,8 +152,7 @@ std::string PreviewSave(Inspection& inspection, const ViewerMessage& message) {
 std::string SetLatency(Inspection& inspection, const ViewerMessage& message) {
   const LatencyRequest latency{message.from, message.to};
   Scheduler& scheduler = inspection.scheduler();
-  const auto done =
-      message.is_on ? scheduler.AddLatency(latency) : scheduler.RemoveLatency(latency);
+  const auto done = message.is_on ? scheduler.AddLatency(latency) : scheduler.RemoveLatency(latency);
   return done ? Reply(message.request, "done") : Refusal(message.request, {{done.error()}});
 }
 
@@ -164,8 +168,7 @@ std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
   } else if (message.op == "step") {
     done = pace.StepCycles(message.cycles);
   } else if (!message.speed) {
-    done = Error{.message = "the speed is missing",
-                 .hint = "\"speed\": 1 is real time, 0 as fast as it can"};
+    done = Error{.message = "the speed is missing", .hint = "\"speed\": 1 is real time, 0 as fast as it can"};
   } else {
     done = pace.SetSpeed(*message.speed);
   }
@@ -177,8 +180,8 @@ ViewerRequest Answered(std::string reply) {
 }
 
 // By the worker, because it may wait.
-ViewerRequest AnsweredLater(Inspection& inspection, std::optional<std::uint64_t> request, std::function<std::string()> answer,
-                            std::function<void()> on_done) {
+ViewerRequest AnsweredLater(Inspection& inspection, std::optional<std::uint64_t> request,
+                            std::function<std::string()> answer, std::function<void()> on_done) {
   const auto reply = std::make_shared<std::string>();
   auto task = inspection.tasks().Post([reply, answer = std::move(answer)] { *reply = answer(); }, std::move(on_done));
   return {[request, reply, task] { return task->failure() ? Refusal(request, {{*task->failure()}}) : *reply; },
@@ -209,10 +212,11 @@ void CopyArrangement(Inspection& inspection, const std::string& wanted) {
   });
 }
 
-ViewerRequest BeginCommand(Inspection& inspection, const ViewerMessage& message,
-                           CommandOrErrors command, std::function<void()> on_done) {
+ViewerRequest BeginCommand(Inspection& inspection, const ViewerMessage& message, CommandOrErrors command,
+                           std::function<void()> on_done) {
   const auto request = message.request;
-  if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command)) return Answered(Refusal(request, *errors));
+  if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command))
+    return Answered(Refusal(request, *errors));
   const std::string copy = message.op == "save" && !message.saves_configuration ? message.file : "";
   const std::shared_ptr<PendingCommand> pending = inspection.service().Begin(
       std::move(std::get<CommandRequest>(command)), inspection.tasks(), std::move(on_done), message.as_of);
@@ -245,21 +249,19 @@ ViewerRequest AtOnce(Inspection& inspection, ViewerMessage message, std::functio
 }
 
 // Of all of it at once, of modules by the service.
-ViewerRequest PauseOrResume(Inspection& inspection, ViewerMessage message,
-                            std::function<void()> on_done) {
+ViewerRequest PauseOrResume(Inspection& inspection, ViewerMessage message, std::function<void()> on_done) {
   const auto begin = message.path.empty() ? AtOnce<SetPace> : ByService<MakeDescribed>;
   return begin(inspection, std::move(message), std::move(on_done));
 }
 
 ViewerRequest Save(Inspection& inspection, ViewerMessage message, std::function<void()> on_done) {
-  return BeginCommand(
-      inspection, message,
-      CommandRequest(SaveRequest{.file = message.file,
-                                 .is_confined = true,
-                                 .application_file = inspection.options().file,
-                                 .is_configuration = message.saves_configuration,
-                                 .overwrites = message.overwrites}),
-      std::move(on_done));
+  return BeginCommand(inspection, message,
+                      CommandRequest(SaveRequest{.file = message.file,
+                                                 .is_confined = true,
+                                                 .application_file = inspection.options().file,
+                                                 .is_configuration = message.saves_configuration,
+                                                 .overwrites = message.overwrites}),
+                      std::move(on_done));
 }
 
 std::string SetProfiled(Inspection& inspection, const ViewerMessage& message) {
@@ -287,6 +289,7 @@ std::string Refusal(std::optional<std::uint64_t> request, const std::vector<Requ
 
 std::span<const Operation> AllOperations() {
   using enum WebRole;
+  // clang-format off
   static const std::array all{
       Operation("watch", kLook, nullptr, "path rate elements as"), Operation("unwatch", kLook, nullptr, "path"),
       Operation("watch_rates", kLook, nullptr, "rate"), Operation("alive", kLook, nullptr),
@@ -305,6 +308,7 @@ std::span<const Operation> AllOperations() {
       Operation("profile", kChange, ByWorker<SetProfiled>, "on"), Operation("latency", kChange, ByWorker<SetLatency>, "from to on"),
       Operation("preview", kChange, ByWorker<PreviewSave>, "file"), Operation("restart", ByService<MakeDescribed>),
       Operation("quit", ByService<MakeDescribed>)};
+  // clang-format on
   return all;
 }
 

@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,8 +17,7 @@ namespace runnel::internal {
 /// {"op":"reply","request":…,"ok":true,"text":…}
 [[nodiscard]] std::string Reply(std::optional<std::uint64_t> request, const std::string& text);
 
-[[nodiscard]] std::string Refusal(std::optional<std::uint64_t> request,
-                                  const std::vector<RequestError>& errors,
+[[nodiscard]] std::string Refusal(std::optional<std::uint64_t> request, const std::vector<RequestError>& errors,
                                   const std::string& needs = {});
 
 /// A request while it is being carried out; a change that is destroyed before it has begun is not done.
@@ -32,8 +31,7 @@ struct ViewerRequest {
 /// What viewers may say, and who may say it.
 struct Operation {
   /// `on_done` is called by the worker when the task is done.
-  using Begin = ViewerRequest (*)(Inspection& inspection, ViewerMessage message,
-                                  std::function<void()> on_done);
+  using Begin = ViewerRequest (*)(Inspection& inspection, ViewerMessage message, std::function<void()> on_done);
   // Not an aggregate: what has no role does not compile. Without `its_begin` it is the session's and gets no reply.
   Operation(std::string_view its_name, WebRole its_role, Begin its_begin, std::string_view its_fields = "")
       : name(its_name), role(its_role), role_of_modules(its_role), begin(its_begin), fields(its_fields) {}
@@ -59,7 +57,8 @@ struct Operation {
 [[nodiscard]] std::string FindConversions(Inspection& inspection, const ViewerMessage& message);
 
 /// Calls a service for a viewer: the reply's text is what the service replies. Given up when the viewer goes.
-[[nodiscard]] ViewerRequest BeginCallRequest(Inspection& inspection, ViewerMessage message, std::function<void()> on_done);
+[[nodiscard]] ViewerRequest BeginCallRequest(Inspection& inspection, ViewerMessage message,
+                                             std::function<void()> on_done);
 
 /// Asks what is under way at a service to end. Waits for the structure lock.
 [[nodiscard]] std::string AbortCall(Inspection& inspection, const ViewerMessage& message);

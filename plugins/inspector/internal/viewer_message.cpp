@@ -11,11 +11,11 @@ constexpr int kDeepest = 4;
 constexpr std::uint64_t kLargestWhole = 9007199254740992;
 
 using Text = std::pair<const char*, std::string ViewerMessage::*>;
-constexpr Text kTexts[] = {
-    {"op", &ViewerMessage::op},         {"path", &ViewerMessage::path},   {"label", &ViewerMessage::label},
-    {"file", &ViewerMessage::file},     {"plugin", &ViewerMessage::plugin},
-    {"level", &ViewerMessage::level},   {"from", &ViewerMessage::from},   {"to", &ViewerMessage::to},
-    {"value", &ViewerMessage::value},   {"lease", &ViewerMessage::lease}};
+constexpr Text kTexts[] = {{"op", &ViewerMessage::op},         {"path", &ViewerMessage::path},
+                           {"label", &ViewerMessage::label},   {"file", &ViewerMessage::file},
+                           {"plugin", &ViewerMessage::plugin}, {"level", &ViewerMessage::level},
+                           {"from", &ViewerMessage::from},     {"to", &ViewerMessage::to},
+                           {"value", &ViewerMessage::value},   {"lease", &ViewerMessage::lease}};
 
 // A member that has but one word, or is left out.
 bool IsSaid(const std::string& name, const std::string& word, JsonMembers& members) {
@@ -37,8 +37,7 @@ void ReadChanges(const std::vector<JsonPart>& changes, ViewerMessage& message) {
 
 }  // namespace
 
-Result<ViewerMessage> ParseViewerMessage(std::string_view text,
-                                         std::optional<std::uint64_t>* number) {
+Result<ViewerMessage> ParseViewerMessage(std::string_view text, std::optional<std::uint64_t>* number) {
   const auto json = JsonPart::Parse(text, kDeepest);
   if (!json) return json.error().WithContext("the message cannot be read");
   if (!json->is_object()) return Error{.message = "the message is not a JSON object"};

@@ -29,12 +29,12 @@ struct ViewerMessage {
   std::vector<std::string> fields;  ///< the names of all that it says, whether anybody knows them or not
   std::string path;
   std::string label;
-  std::string client;  ///< whose message it is; is never read from it
+  std::string client;                 ///< whose message it is; is never read from it
   std::optional<Time> received = {};  ///< by the machine's clock; likewise
   RobotStop::AsOf as_of = {};         ///< likewise
   ChangeSet changes;
   std::map<std::string, std::string> entries;  ///< of the arrangement
-  std::vector<RequestError> wrong_changes;  ///< of what is no change; then `changes` has not all
+  std::vector<RequestError> wrong_changes;     ///< of what is no change; then `changes` has not all
   std::string file;
   std::string plugin;
   std::string level;
@@ -62,7 +62,7 @@ struct ViewerMessage {
 
 /// Errors: it is no JSON object, is nested deeper than any message is, or a member is of another kind
 /// than the protocol has it. Whether its operation has all of its members, CheckFields() says. `number` is the request's, so that what is wrong can be answered with it.
-[[nodiscard]] Result<ViewerMessage> ParseViewerMessage(
-    std::string_view text, std::optional<std::uint64_t>* number = nullptr);
+[[nodiscard]] Result<ViewerMessage> ParseViewerMessage(std::string_view text,
+                                                       std::optional<std::uint64_t>* number = nullptr);
 
 }  // namespace runnel::internal

@@ -276,12 +276,10 @@ void ViewerSession::OnText(std::string_view text) {
   const Operation* const operation = FindOperation(message.op);
   if (operation == nullptr) {
     return Refuse(message, {.message = "there is no operation '" + message.op + "'",
-                            .hint = NearestNameHint(message.op,
-                                                    NamesOf(AllOperations(), &Operation::name))});
+                            .hint = NearestNameHint(message.op, NamesOf(AllOperations(), &Operation::name))});
   }
   if (message.op == "alive") return;  // that was heard, if it says when
-  if (is_for_stop_ && message.op != "stop" &&
-      (message.op != "release" || message.path != kRobotStopName)) {
+  if (is_for_stop_ && message.op != "stop" && (message.op != "release" || message.path != kRobotStopName)) {
     return Refuse(message, {.message = "this connection knows no '" + message.op + "'",
                             .hint = "it bears 'stop', and 'release' with the path 'stop'"});
   }
@@ -307,11 +305,9 @@ void ViewerSession::OnText(std::string_view text) {
 
 void ViewerSession::RefuseRole(const ViewerMessage& message, WebRole needed) {
   if (inspection_.options().is_read_only) {
-    return Refuse(message,
-                  {.message = "this inspector is read-only: '" + message.op + "' is not allowed"});
+    return Refuse(message, {.message = "this inspector is read-only: '" + message.op + "' is not allowed"});
   }
-  Refuse(message, {.message = "'" + message.op + "' is not allowed to who may only " +
-                              std::string(WebRoleName(role())),
+  Refuse(message, {.message = "'" + message.op + "' is not allowed to who may only " + std::string(WebRoleName(role())),
                    .path = message.path,
                    .hint = "it takes a token for the role '" + std::string(WebRoleName(needed)) + "'"});
 }
@@ -325,11 +321,9 @@ void ViewerSession::BeginWatching(const ViewerMessage& message) {
   const double rate = std::clamp(message.rate.value_or(10), 1.0, fastest);
   const std::size_t elements = std::min(message.elements, kMostElements);
   const auto found = watches_.find(message.path);
-  if (found != watches_.end())
-    watches_.erase(found);  // with what has been shown: all is shown anew
+  if (found != watches_.end()) watches_.erase(found);  // with what has been shown: all is shown anew
   if (watches_.size() >= kMostWatches) {
-    return Refuse(message, {.message = "more than " + std::to_string(kMostWatches) +
-                                       " ports cannot be watched at once",
+    return Refuse(message, {.message = "more than " + std::to_string(kMostWatches) + " ports cannot be watched at once",
                             .path = message.path});
   }
   watches_.emplace(message.path, Watch{WatchedPort(message.path), IntervalOf(rate), elements, message.wants_image});

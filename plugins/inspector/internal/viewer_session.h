@@ -39,7 +39,7 @@ class ViewerSession final : public WebSession {
     std::size_t elements;
     bool wants_image = false;
     SteadyTime due{};
-    std::string service = {};                     // how it is doing, if it is one, as JSON
+    std::string service = {};  // how it is doing, if it is one, as JSON
     bool is_service_told = true;
     const TypeInfo* pictured = nullptr;           // the type that `picture` is of
     std::optional<FoxgloveChannel> picture = {};  // as Foxglove has it, which browsers can show
@@ -77,7 +77,7 @@ class ViewerSession final : public WebSession {
   std::optional<std::uint64_t> told_stop_;  // of its requests
   SteadyTime alive_due_{};
   std::shared_ptr<const Catalogue> catalogue_;
-  std::uint64_t structure_ = 0;  // the revision that has been told
+  std::uint64_t structure_ = 0;    // the revision that has been told
   std::uint64_t arrangement_ = 0;  // the revision that has been told
   std::optional<std::uint64_t> log_;
   std::string network_;  // as it was told
@@ -91,7 +91,7 @@ class ViewerSession final : public WebSession {
   Duration rates_interval_{};  // 0: not wanted
   SteadyTime rates_due_{};
   std::optional<CountSample> counted_;
-  bool has_profile_ = false;  // that the viewer has been told
+  bool has_profile_ = false;     // that the viewer has been told
   std::vector<ToldRate> rates_;  // as they were told, of counted_
 };
 

@@ -32,8 +32,7 @@ void ViewerSession::SendValues(SteadyTime now) {
   const EpochGuard guard;
   std::vector<Watch*> found;
   {
-    const std::unique_lock lock(inspection_.application().runtime.structure_mutex(),
-                                std::try_to_lock);
+    const std::unique_lock lock(inspection_.application().runtime.structure_mutex(), std::try_to_lock);
     if (!lock) {
       for (Watch* watch : due) watch->due = now + std::chrono::milliseconds(5);
       return;

@@ -111,7 +111,8 @@ class Binder {
     if (is_alone && (!is_structure || field.type == MessageType::kNested)) return Itself(field, *type);
     if (!is_structure && field.name == "data" && place.prefix.empty()) return Itself(field, *type);
     const std::string within = place.prefix + field.name + ".";
-    if (field.type == MessageType::kNested && field.count == MessageCount::kOne && HasRulesWithin(place.owner->name, within)) {
+    if (field.type == MessageType::kNested && field.count == MessageCount::kOne &&
+        HasRulesWithin(place.owner->name, within)) {
       const auto nested = library_.Get(field.nested);
       if (!nested) return nested.error();
       return Structure(**nested, {.owner = place.owner, .type = type, .prefix = within});
@@ -137,7 +138,7 @@ class Binder {
     }
     if (rule.source == kLastAngleOf) {
       const FieldInfo *const ranges = type.FindField("ranges"), *const first = type.FindField("start_angle"),
-                       *const step_of = type.FindField("angle_step");
+                             *const step_of = type.FindField("angle_step");
       const bool has_all = ranges != nullptr && IsElements(*ranges->type) && first != nullptr &&
                            IsNumber(*first->type) && step_of != nullptr && IsNumber(*step_of->type);
       if (!has_all) return DefaultStep(field, library_);
@@ -239,8 +240,8 @@ class Binder {
 
 }  // namespace
 
-Result<Binding> Bind(const MessageDefinition& definition, const TypeInfo& type,
-                     const MessageOptions& options, const MessageLibrary& library) {
+Result<Binding> Bind(const MessageDefinition& definition, const TypeInfo& type, const MessageOptions& options,
+                     const MessageLibrary& library) {
   return Binder(type, options, library).Bind(definition);
 }
 

@@ -78,8 +78,8 @@ struct Binding {
 };
 
 /// Errors: as MessageCodec::Make().
-Result<Binding> Bind(const MessageDefinition& definition, const TypeInfo& type,
-                     const MessageOptions& options, const MessageLibrary& library);
+Result<Binding> Bind(const MessageDefinition& definition, const TypeInfo& type, const MessageOptions& options,
+                     const MessageLibrary& library);
 
 /// The same of one field of a message only, "pose.pose.position" or "ranges[0]": what stands before it is passed over, and what
 /// comes after it is not looked at. It can be read only.

@@ -62,7 +62,8 @@ class FieldBinder {
     if (rest.starts_with('[')) return Element(field, rest);
     if (rest.starts_with('.')) rest.remove_prefix(1);
     if (field.count != MessageCount::kOne) {
-      return Error{.message = "'" + field.name + "' is a list", .hint = "say which of its elements: " + field.name + "[0]." + std::string(rest)};
+      return Error{.message = "'" + field.name + "' is a list",
+                   .hint = "say which of its elements: " + field.name + "[0]." + std::string(rest)};
     }
     if (field.type != MessageType::kNested) return Error{.message = "'" + field.name + "' has no fields"};
     const auto nested = library_.Get(field.nested);
@@ -72,11 +73,14 @@ class FieldBinder {
   Result<Step> Element(const MessageField& field, std::string_view rest) {
     if (field.count == MessageCount::kOne) return Error{.message = "'" + field.name + "' has no elements"};
     const std::size_t end = rest.find(']');
-    const auto index = end == std::string_view::npos ? std::nullopt : NumberIn<std::size_t>(std::string(rest.substr(1, end - 1)));
-    if (!index) return Error{.message = "'" + std::string(rest) + "' names no element", .hint = "write [INDEX], counted from 0"};
+    const auto index =
+        end == std::string_view::npos ? std::nullopt : NumberIn<std::size_t>(std::string(rest.substr(1, end - 1)));
+    if (!index)
+      return Error{.message = "'" + std::string(rest) + "' names no element", .hint = "write [INDEX], counted from 0"};
     if (field.count != MessageCount::kList && *index >= field.capacity) {
       return Error{.message = "'" + field.name + "' has no element [" + std::to_string(*index) + "]",
-                   .hint = "it has " + std::to_string(field.capacity) + (field.count == MessageCount::kArray ? "" : " at most") + ", counted from 0"};
+                   .hint = "it has " + std::to_string(field.capacity) +
+                           (field.count == MessageCount::kArray ? "" : " at most") + ", counted from 0"};
     }
     auto inside = Of(One(field), rest.substr(end + 1));
     if (!inside) return inside;
@@ -176,7 +180,8 @@ bool IsSame(const MessageField& field, const TypeInfo& type, const MessageLibrar
     const bool is_empty = &type == &TypeOf<Signal>() && nested != nullptr && nested->fields.empty();
     if (is_empty) return true;
     const bool is_time = leaf.nested == kTimeMessage || leaf.nested == kDurationMessage;
-    return leaf.nested == field.nested || (is_time && (field.nested == kTimeMessage || field.nested == kDurationMessage));
+    return leaf.nested == field.nested ||
+           (is_time && (field.nested == kTimeMessage || field.nested == kDurationMessage));
   }
   if (field.count == MessageCount::kOne) {
     const auto* const nested = field.type == MessageType::kNested ? library.Find(field.nested) : nullptr;
@@ -241,9 +246,7 @@ Step TextStep(std::string text) {
   return {.kind = Kind::kNoText, .type = MessageType::kString, .text = std::move(text)};
 }
 
-Step StampStep(bool is_own) {
-  return {.kind = Kind::kStamp, .is_own_stamp = is_own};
-}
+Step StampStep(bool is_own) { return {.kind = Kind::kStamp, .is_own_stamp = is_own}; }
 
 Step HeaderStep(bool is_own, const std::string& frame) {
   Step step{.kind = Kind::kStructure, .inside = {StampStep(is_own), TextStep(frame)}};

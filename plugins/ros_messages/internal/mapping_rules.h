@@ -47,9 +47,12 @@ struct DefaultMessage {
   std::string_view message;
 };
 inline constexpr DefaultMessage kDefaultMessages[] = {
-    {"point", "geometry_msgs/msg/PointStamped"}, {"pose", "geometry_msgs/msg/PoseStamped"},
-    {"twist", "geometry_msgs/msg/Twist"},        {"range_scan", "sensor_msgs/msg/LaserScan"},
-    {"path", "nav_msgs/msg/Path"},               {"image", "sensor_msgs/msg/Image"},
+    {"point", "geometry_msgs/msg/PointStamped"},
+    {"pose", "geometry_msgs/msg/PoseStamped"},
+    {"twist", "geometry_msgs/msg/Twist"},
+    {"range_scan", "sensor_msgs/msg/LaserScan"},
+    {"path", "nav_msgs/msg/Path"},
+    {"image", "sensor_msgs/msg/Image"},
     {"world_map", "nav_msgs/msg/OccupancyGrid"},
 };
 

@@ -19,17 +19,28 @@ using AnyNumber = long double;
 template <typename Use>
 auto WithMessageNumber(MessageType type, const Use& use) {
   switch (type) {
-    case MessageType::kInt8: return use(std::type_identity<std::int8_t>());
-    case MessageType::kInt16: return use(std::type_identity<std::int16_t>());
-    case MessageType::kUint16: return use(std::type_identity<std::uint16_t>());
-    case MessageType::kInt32: return use(std::type_identity<std::int32_t>());
-    case MessageType::kUint32: return use(std::type_identity<std::uint32_t>());
-    case MessageType::kInt64: return use(std::type_identity<std::int64_t>());
-    case MessageType::kUint64: return use(std::type_identity<std::uint64_t>());
-    case MessageType::kFloat32: return use(std::type_identity<float>());
-    case MessageType::kFloat64: return use(std::type_identity<double>());
-    case MessageType::kBool: return use(std::type_identity<bool>());
-    default: return use(std::type_identity<std::uint8_t>());
+    case MessageType::kInt8:
+      return use(std::type_identity<std::int8_t>());
+    case MessageType::kInt16:
+      return use(std::type_identity<std::int16_t>());
+    case MessageType::kUint16:
+      return use(std::type_identity<std::uint16_t>());
+    case MessageType::kInt32:
+      return use(std::type_identity<std::int32_t>());
+    case MessageType::kUint32:
+      return use(std::type_identity<std::uint32_t>());
+    case MessageType::kInt64:
+      return use(std::type_identity<std::int64_t>());
+    case MessageType::kUint64:
+      return use(std::type_identity<std::uint64_t>());
+    case MessageType::kFloat32:
+      return use(std::type_identity<float>());
+    case MessageType::kFloat64:
+      return use(std::type_identity<double>());
+    case MessageType::kBool:
+      return use(std::type_identity<bool>());
+    default:
+      return use(std::type_identity<std::uint8_t>());
   }
 }
 

@@ -70,15 +70,15 @@ class StepReader : public CdrWalk {
   bool ReadNumber(const Step& step, void* value) {
     AnyNumber number = 0;
     if (!IsThere(GetNumber(step.type, reader_, number))) return false;
-    return SetNumber(*step.part, number, value) ||
-           Fail(std::to_string(number) + " is no " + step.part->name());
+    return SetNumber(*step.part, number, value) || Fail(std::to_string(number) + " is no " + step.part->name());
   }
 
   bool ReadHeading(const Step& step, void* value) {
     double x = 0, y = 0, z = 0, w = 0;
     if (!IsThere(reader_.Get(x) && reader_.Get(y) && reader_.Get(z) && reader_.Get(w))) return false;
     const double length = x * x + y * y + z * z + w * w;
-    if (!(length > 0 && std::isfinite(length))) return Fail("a quaternion of length 0, or of what are no numbers, has no heading");
+    if (!(length > 0 && std::isfinite(length)))
+      return Fail("a quaternion of length 0, or of what are no numbers, has no heading");
     const double heading = std::atan2(2 * (w * z + x * y), w * w + x * x - y * y - z * z);  // of whatever length it is
     return SetNumber(*step.part, heading, value) || Fail("the heading is no " + step.part->name());
   }
@@ -88,7 +88,8 @@ class StepReader : public CdrWalk {
     const auto count = CountOf(step, step.inside.front());
     if (!count || !TakeRoom(*elements.type, *count)) return false;
     // A matrix has rows of its own; other lists may refer to what is not theirs until they are resized.
-    const bool is_as_long = step.part->kind() == TypeKind::kMatrix && elements.rows(value) * elements.columns(value) == *count;
+    const bool is_as_long =
+        step.part->kind() == TypeKind::kMatrix && elements.rows(value) * elements.columns(value) == *count;
     if (!is_as_long && !Resize(*step.part, value, 1, *count)) return false;
     return ForEach(*step.part, value, *count, [&](void* each) { return Read(step.inside.front(), each); });
   }

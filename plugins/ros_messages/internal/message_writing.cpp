@@ -19,10 +19,8 @@ double FieldNumber(const TypeInfo& type, const void* value, std::string_view nam
 
 double LastAngle(const TypeInfo& scan, const void* value) {
   const FieldInfo* const ranges = scan.FindField("ranges");
-  const auto count = static_cast<double>(
-      ranges->type->elements().columns(ranges->address(ForLooking(value))));
-  return FieldNumber(scan, value, "start_angle") +
-         FieldNumber(scan, value, "angle_step") * std::max(count - 1, 0.0);
+  const auto count = static_cast<double>(ranges->type->elements().columns(ranges->address(ForLooking(value))));
+  return FieldNumber(scan, value, "start_angle") + FieldNumber(scan, value, "angle_step") * std::max(count - 1, 0.0);
 }
 
 class StepWriter {

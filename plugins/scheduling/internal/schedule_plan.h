@@ -44,8 +44,7 @@ struct PlannedElement {
 
 /// One thread: what it runs, and in which order.
 struct ThreadSchedule {
-  explicit ThreadSchedule(std::shared_ptr<CycleRunner> cycle_runner)
-      : runner(std::move(cycle_runner)) {}
+  explicit ThreadSchedule(std::shared_ptr<CycleRunner> cycle_runner) : runner(std::move(cycle_runner)) {}
 
   const std::shared_ptr<CycleRunner> runner;
   std::string name;             ///< of the container
@@ -68,8 +67,7 @@ class TasksOfGroups {
 
   /// Calls `visit` with each task that publishes through `output` and each that reads `input`, of one thread.
   template <typename Visit>
-  void ForEachPair(const FrameworkElement& output, const FrameworkElement& input,
-                   const Visit& visit) const {
+  void ForEachPair(const FrameworkElement& output, const FrameworkElement& input, const Visit& visit) const {
     ForEach(output, &Tasks::writers, [&](PlannedTask& writer) {
       ForEach(input, &Tasks::readers, [&](PlannedTask& reader) {
         if (writer.element->thread == reader.element->thread) visit(writer, reader);
@@ -89,16 +87,14 @@ class TasksOfGroups {
     for (const FrameworkElement* group : task.task.writes) Each(group, &Tasks::writers, change);
   }
   template <typename Change>
-  void Each(const FrameworkElement* group, std::vector<PlannedTask*> Tasks::*which,
-            const Change& change) {
+  void Each(const FrameworkElement* group, std::vector<PlannedTask*> Tasks::*which, const Change& change) {
     if (group == nullptr) return;
     Tasks& tasks = groups_[group];
     change(tasks.*which);
     if (tasks.readers.empty() && tasks.writers.empty()) groups_.erase(group);
   }
   template <typename Visit>
-  void ForEach(const FrameworkElement& port, std::vector<PlannedTask*> Tasks::*which,
-               const Visit& visit) const {
+  void ForEach(const FrameworkElement& port, std::vector<PlannedTask*> Tasks::*which, const Visit& visit) const {
     for (const FrameworkElement* at = &port; at != nullptr; at = at->parent()) {
       const auto found = groups_.find(at);
       if (found == groups_.end()) continue;
@@ -119,8 +115,8 @@ void VisitPorts(const FrameworkElement* group, const std::function<void(Port&)>&
 /// New data at `inputs`, and what else sets it off (WakeSource), set off the element, in `runner`'s thread; nullptr: they
 /// set off nobody any more. Data that came before it was tied count as new. What has come by then, the runner finds when
 /// a schedule with the element is installed.
-void BindTriggers(const FrameworkElement& element, const std::vector<InputBase*>& inputs,
-                  ScheduledElement& state, CycleRunner* runner);
+void BindTriggers(const FrameworkElement& element, const std::vector<InputBase*>& inputs, ScheduledElement& state,
+                  CycleRunner* runner);
 
 /// That somebody has paused the element, or lets it run again. It goes along with the element's other annotations.
 struct PauseMark final : Annotation {

@@ -25,8 +25,7 @@ constexpr std::array kPhaseTexts{" sense", "", " control"};
 
 void AppendSimulatedTime(Time time, std::string& json) {
   const std::int64_t count = time.time_since_epoch().count();
-  fmt::format_to(std::back_inserter(json), "\"simulated_s\":{}.{:09}", count / 1'000'000'000,
-                 count % 1'000'000'000);
+  fmt::format_to(std::back_inserter(json), "\"simulated_s\":{}.{:09}", count / 1'000'000'000, count % 1'000'000'000);
 }
 
 TraceWriter::TraceWriter(TraceFile file, const std::string& application, bool is_simulated)
@@ -89,20 +88,17 @@ void TraceWriter::WriteEvent(KnownThread& known, const TraceEvent& event) {
     case Kind::kUpdate:
       name_ = names_[event.number];
       name_.insert(name_.size() - 1, kPhaseTexts[static_cast<std::size_t>(event.phase)]);
-      return file_.AddSlice(known.track, name_, "update", TimeAt(event.words[0]),
-                            TimeAt(event.words[1]), "");
+      return file_.AddSlice(known.track, name_, "update", TimeAt(event.words[0]), TimeAt(event.words[1]), "");
     case Kind::kPublication:
       arguments_ = fmt::format("\"values\":{}", event.words[1]);
-      return file_.AddInstant(known.track, names_[event.number], "publish", TimeAt(event.words[0]),
-                              arguments_);
+      return file_.AddInstant(known.track, names_[event.number], "publish", TimeAt(event.words[0]), arguments_);
     case Kind::kFault:
       known.fault = OpenFault{TimeAt(event.words[0]), names_[event.number], {}};
       return;
     case Kind::kArrow:
       return file_.AddArrow(known.track, names_[event.number],
                             std::array{'s', 't', 'f'}.at(static_cast<std::size_t>(event.words[1])),
-                            TimeAt(event.words[0]),
-                            fmt::format("{}.{}", event.number, event.words[2]));
+                            TimeAt(event.words[0]), fmt::format("{}.{}", event.number, event.words[2]));
     case Kind::kText:
       return;
   }
@@ -114,8 +110,7 @@ void TraceWriter::WriteCycle(const KnownThread& known, const TraceEvent& event) 
     arguments_ += ',';
     AppendSimulatedTime(TimeAt(event.words[2]), arguments_);
   }
-  file_.AddSlice(known.track, "\"cycle\"", "cycle", TimeAt(event.words[0]), TimeAt(event.words[1]),
-                 arguments_);
+  file_.AddSlice(known.track, "\"cycle\"", "cycle", TimeAt(event.words[0]), TimeAt(event.words[1]), arguments_);
 }
 
 void TraceWriter::CloseFault(KnownThread& known) {
@@ -129,16 +124,14 @@ void TraceWriter::CloseFault(KnownThread& known) {
 void TraceWriter::TellOfLost(int track, std::uint64_t lost) {
   if (lost == 0) return;
   lost_ += lost;
-  file_.AddInstant(track, "\"lost events\"", "tracing", SteadyClock().Now(),
-                   fmt::format("\"count\":{}", lost));
+  file_.AddInstant(track, "\"lost events\"", "tracing", SteadyClock().Now(), fmt::format("\"count\":{}", lost));
 }
 
 Result<TraceSummary> TraceWriter::Finish() {
   for (KnownThread& each : threads_) CloseFault(each);
   file_.UseReserve();
-  file_.AddInstant(
-      kChanges, "\"end of the trace\"", "tracing", SteadyClock().Now(),
-      fmt::format("\"lost_events\":{},\"left_out_events\":{}", lost_, file_.left_out()));
+  file_.AddInstant(kChanges, "\"end of the trace\"", "tracing", SteadyClock().Now(),
+                   fmt::format("\"lost_events\":{},\"left_out_events\":{}", lost_, file_.left_out()));
   if (auto closed = file_.Close(); !closed) return closed.error();
   return TraceSummary{file_.events(), lost_, file_.left_out()};
 }

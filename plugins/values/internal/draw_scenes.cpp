@@ -52,8 +52,7 @@ void AppendBall(const Place& place, const Colour& colour, std::string& json, dou
   AppendColour(colour, ball.Key("color"));
 }
 
-void AppendLabel(const Place& place, std::string_view text, double size, const Colour& colour,
-                 std::string& json) {
+void AppendLabel(const Place& place, std::string_view text, double size, const Colour& colour, std::string& json) {
   JsonObject label(json);
   AppendPose({place, 0.0}, label.Key("pose"));
   label.Add("billboard", true).Add("font_size", size).Add("scale_invariant", false);
@@ -62,8 +61,8 @@ void AppendLabel(const Place& place, std::string_view text, double size, const C
 }
 
 // `height` above where its points are.
-void AppendLine(const ValueView& points, double height, const Colour& colour, std::string& json,
-                bool is_closed = true, double width = kLineWidth) {
+void AppendLine(const ValueView& points, double height, const Colour& colour, std::string& json, bool is_closed = true,
+                double width = kLineWidth) {
   JsonObject line(json);
   line.Add("type", is_closed ? 1 : 0);  // LINE_LOOP, LINE_STRIP
   AppendPose({}, line.Key("pose"));
@@ -167,8 +166,7 @@ void AddGoal(Scene& scene, std::string_view id, const ValueView& goal) {
   });
 }
 
-void AddNumbered(Scene& scene, const ValueView& places, const std::string& name,
-                 const Colour& colour) {
+void AddNumbered(Scene& scene, const ValueView& places, const std::string& name, const Colour& colour) {
   scene.Add(name, [&](JsonObject& entity) {
     {
       JsonArray balls(entity.Key("spheres"));
@@ -194,9 +192,7 @@ struct Item {
   std::string_view text;
 };
 
-std::string_view TextOf(const ValueView& value) {
-  return *static_cast<const std::string*>(value.value());
-}
+std::string_view TextOf(const ValueView& value) { return *static_cast<const std::string*>(value.value()); }
 
 Item ItemOf(const ValueView& value) {
   const ValueView kind = value.Field("kind");
@@ -206,8 +202,8 @@ Item ItemOf(const ValueView& value) {
   const auto named = std::ranges::find(names, number, &EnumeratorInfo::value);
   return {named == names.end() ? std::string_view() : named->name,
           value.Field("points"),
-          {colour.Field("red").number(), colour.Field("green").number(),
-           colour.Field("blue").number(), colour.Field("alpha").number()},
+          {colour.Field("red").number(), colour.Field("green").number(), colour.Field("blue").number(),
+           colour.Field("alpha").number()},
           value.Field("size").number(),
           TextOf(value.Field("text"))};
 }
@@ -223,8 +219,8 @@ bool HasItems(const TypeInfo& type) {
   const FieldInfo* const kind = item->FindField("kind");
   const FieldInfo* const colour = item->FindField("colour");
   return kind != nullptr && kind->type->kind() == TypeKind::kEnumeration && colour != nullptr &&
-         HasNumbers(*colour->type, {"red", "green", "blue", "alpha"}) &&
-         HasNumbers(*item, {"size"}) && IsText(*item, "text");
+         HasNumbers(*colour->type, {"red", "green", "blue", "alpha"}) && HasNumbers(*item, {"size"}) &&
+         IsText(*item, "text");
 }
 
 void AppendDrawing(const ValueView& drawing, Time timestamp, std::string& json) {
@@ -289,9 +285,7 @@ void AppendWorldMap(const ValueView& map, Time timestamp, std::string& json) {
     AppendSides(map, entity.Key("triangles"));
   });
   if (has("start", IsPose)) {
-    scene.Add("start", [&](JsonObject& entity) {
-      AppendStart(PoseOf(map.Field("start")), entity.Key("arrows"));
-    });
+    scene.Add("start", [&](JsonObject& entity) { AppendStart(PoseOf(map.Field("start")), entity.Key("arrows")); });
   }
   if (has("goal", IsPlace)) AddGoal(scene, "goal", map.Field("goal"));
 }

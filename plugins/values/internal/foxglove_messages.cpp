@@ -23,9 +23,8 @@ constexpr std::array<Entry, 7> kLeaves{{
     {"string", R"({"type":"string"})"},
     {"count", R"({"type":"integer","minimum":0})"},
     {"bytes", R"({"type":"string","contentEncoding":"base64"})"},
-    {"time",
-     R"({"type":"object","title":"time","properties":{"sec":{"type":"integer","minimum":0},)"
-     R"("nsec":{"type":"integer","minimum":0,"maximum":999999999}}})"},
+    {"time", R"({"type":"object","title":"time","properties":{"sec":{"type":"integer","minimum":0},)"
+             R"("nsec":{"type":"integer","minimum":0,"maximum":999999999}}})"},
     {"duration", R"({"type":"object","title":"duration","properties":{"sec":{"type":"integer"},)"
                  R"("nsec":{"type":"integer","minimum":0,"maximum":999999999}}})"},
 }};
@@ -46,8 +45,7 @@ constexpr std::array<Entry, 23> kMessages{{
     {"Color", "r number g number b number a number"},
     {"PoseInFrame", "timestamp time frame_id string pose Pose"},
     {"PosesInFrame", "timestamp time frame_id string poses Pose[]"},
-    {"Log",
-     "timestamp time level LogLevel message string name string file string line count"},
+    {"Log", "timestamp time level LogLevel message string name string file string line count"},
     {"FrameTransform",
      "timestamp time parent_frame_id string child_frame_id string translation Vector3 "
      "rotation Quaternion"},
@@ -70,13 +68,11 @@ constexpr std::array<Entry, 23> kMessages{{
      "head_diameter number color Color"},
     {"CubePrimitive", "pose Pose size Vector3 color Color"},
     {"SpherePrimitive", "pose Pose size Vector3 color Color"},
-    {"CylinderPrimitive",
-     "pose Pose size Vector3 bottom_scale number top_scale number color Color"},
+    {"CylinderPrimitive", "pose Pose size Vector3 bottom_scale number top_scale number color Color"},
     {"LinePrimitive",
      "type LineType pose Pose thickness number scale_invariant boolean points Point3[] "
      "color Color colors Color[] indices count[]"},
-    {"TriangleListPrimitive",
-     "pose Pose points Point3[] color Color colors Color[] indices count[]"},
+    {"TriangleListPrimitive", "pose Pose points Point3[] color Color colors Color[] indices count[]"},
     {"TextPrimitive",
      "pose Pose billboard boolean font_size number scale_invariant boolean color Color "
      "text string"},
@@ -183,14 +179,11 @@ void AppendRangeScan(const ValueView& scan, Time timestamp, std::string& json) {
 bool IsImage(const TypeInfo& type) {
   const FieldInfo* const encoding = type.FindField("encoding");
   return HasNumbers(type, {"width", "height", "row_stride"}) && encoding != nullptr &&
-         encoding->type == &TypeOf<std::string>() &&
-         ElementsOf(type, "data") == &TypeOf<std::uint8_t>();
+         encoding->type == &TypeOf<std::string>() && ElementsOf(type, "data") == &TypeOf<std::uint8_t>();
 }
 
 void AppendImage(const ValueView& image, Time timestamp, std::string& json) {
-  const auto count = [&](std::string_view name) {
-    return static_cast<std::uint32_t>(image.Field(name).number());
-  };
+  const auto count = [&](std::string_view name) { return static_cast<std::uint32_t>(image.Field(name).number()); };
   const ValueView data = image.Field("data");
   JsonObject message(json);
   AddHead(message, timestamp, kBodyFrame);

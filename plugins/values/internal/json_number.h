@@ -13,8 +13,7 @@
 namespace runnel::internal {
 
 [[nodiscard]] inline bool IsNumber(const ValueToken& token) {
-  return token.kind == ValueToken::Kind::kWord &&
-         token.text.find_first_of("0123456789") != std::string::npos;
+  return token.kind == ValueToken::Kind::kWord && token.text.find_first_of("0123456789") != std::string::npos;
 }
 
 /// Nothing if the token is no number, or one that does not fit: not finite in `N`, though a double could say it; or
@@ -27,8 +26,8 @@ template <typename N>
   // So large or small that only this has room for it; or 3.0 and 1e3, which are whole numbers, too.
   const auto wide = NumberIn<long double>(token.text).value_or(0);
   if constexpr (std::floating_point<N>) {
-    const bool is_too_large = std::abs(wide) <= std::numeric_limits<double>::max() &&
-                              std::abs(wide) > std::numeric_limits<N>::max();
+    const bool is_too_large =
+        std::abs(wide) <= std::numeric_limits<double>::max() && std::abs(wide) > std::numeric_limits<N>::max();
     return is_too_large ? std::nullopt : std::optional(static_cast<N>(wide));
   } else {
     constexpr long double kSurelyWhole = 9007199254740992;  // so far as a double can tell

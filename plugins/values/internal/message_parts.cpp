@@ -15,13 +15,10 @@ bool HasPlaces(const TypeInfo& type, std::string_view list) {
 
 Place PlaceOf(const ValueView& value) {
   const bool has_height = HasNumbers(value.type(), {"z"});
-  return {value.Field("x").number(), value.Field("y").number(),
-          has_height ? value.Field("z").number() : 0.0};
+  return {value.Field("x").number(), value.Field("y").number(), has_height ? value.Field("z").number() : 0.0};
 }
 
-PlaceAndHeading PoseOf(const ValueView& value) {
-  return {PlaceOf(value), value.Field("heading").number()};
-}
+PlaceAndHeading PoseOf(const ValueView& value) { return {PlaceOf(value), value.Field("heading").number()}; }
 
 void AppendTime(Time time, std::string& json) {
   const std::int64_t since_start = std::max<std::int64_t>(0, time.time_since_epoch().count());

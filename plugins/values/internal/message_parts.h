@@ -32,8 +32,7 @@ class ValueView {
   }
   [[nodiscard]] double number() const {
     return WithLeafType(*type_, [this]<typename T>(std::type_identity<T>) -> double {
-      if constexpr (std::is_arithmetic_v<T>)
-        return static_cast<double>(*static_cast<const T*>(value_));
+      if constexpr (std::is_arithmetic_v<T>) return static_cast<double>(*static_cast<const T*>(value_));
       return 0;
     });
   }
@@ -44,15 +43,13 @@ class ValueView {
 };
 
 [[nodiscard]] inline bool IsNumber(const TypeInfo& type) {
-  return type.kind() == TypeKind::kLeaf &&
-         WithLeafType(type, []<typename T>(std::type_identity<T>) {
+  return type.kind() == TypeKind::kLeaf && WithLeafType(type, []<typename T>(std::type_identity<T>) {
            return std::is_arithmetic_v<T> && !std::same_as<T, bool>;
          });
 }
 
 /// Whether it is a structure with numbers of these names.
-[[nodiscard]] inline bool HasNumbers(const TypeInfo& type,
-                                     std::initializer_list<std::string_view> names) {
+[[nodiscard]] inline bool HasNumbers(const TypeInfo& type, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
     const FieldInfo* const field = type.FindField(name);
     if (field == nullptr || !IsNumber(*field->type)) return false;

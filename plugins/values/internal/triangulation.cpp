@@ -42,8 +42,7 @@ bool IsEar(const std::vector<Place>& ring, const std::vector<std::size_t>& left,
 
 }  // namespace
 
-std::vector<std::array<std::size_t, 3>> TrianglesOf(const std::vector<Place>& ring,
-                                                    std::size_t most) {
+std::vector<std::array<std::size_t, 3>> TrianglesOf(const std::vector<Place>& ring, std::size_t most) {
   std::vector<std::array<std::size_t, 3>> triangles;
   if (ring.size() < 3 || ring.size() > most) return triangles;
   std::vector<std::size_t> left(ring.size());

@@ -19,14 +19,12 @@ using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
 /// Serves one connection that has been accepted, until it ends or becomes a session. `user`: whose process of this
 /// machine is at the other end, if the rules ask for that and the system says.
-void ServeHttp(ConnectionRegistry& registry, boost::asio::ip::tcp::socket socket,
-               std::optional<std::uint32_t> user);
+void ServeHttp(ConnectionRegistry& registry, boost::asio::ip::tcp::socket socket, std::optional<std::uint32_t> user);
 
 /// Goes on with a connection whose request for a WebSocket has been granted. `name`: of the protocol,
 /// as it is answered. `role`: what the client may do.
-void ServeWebSocket(ConnectionRegistry& registry, boost::asio::ip::tcp::socket socket,
-                    HttpRequest request, const WebProtocol& protocol, std::string name,
-                    WebRole role);
+void ServeWebSocket(ConnectionRegistry& registry, boost::asio::ip::tcp::socket socket, HttpRequest request,
+                    const WebProtocol& protocol, std::string name, WebRole role);
 
 /// Whose process is at the other end of a connection within this machine. Nothing: it is another machine, the
 /// process has closed its end already, or the system does not say. Asks the system, and waits for no process.
@@ -37,8 +35,8 @@ class TlsIdentity;
 
 /// Reads both (PEM). `key_file` "": it is in the file of the certificate. Errors: a file cannot be read, has none, is
 /// read by everybody (the key's), or the two do not belong together; with the file, and how it is mended.
-[[nodiscard]] Result<std::shared_ptr<TlsIdentity>> LoadTlsIdentity(
-    const std::filesystem::path& certificate_file, const std::filesystem::path& key_file);
+[[nodiscard]] Result<std::shared_ptr<TlsIdentity>> LoadTlsIdentity(const std::filesystem::path& certificate_file,
+                                                                   const std::filesystem::path& key_file);
 
 /// Agrees on keys with a client that has been accepted; then serves what it says, in the clear within this process, by
 /// ServeHttp(). `user`: see ServeHttp().

@@ -6,12 +6,8 @@
 namespace runnel::internal {
 
 ConnectionRegistry::ConnectionRegistry(WebServerOptions options, AccessRules rules,
-                                       const std::vector<WebResource>& resources,
-                                       std::vector<WebProtocol> protocols)
-    : options_(std::move(options)),
-      rules_(std::move(rules)),
-      resources_(resources),
-      protocols_(std::move(protocols)) {}
+                                       const std::vector<WebResource>& resources, std::vector<WebProtocol> protocols)
+    : options_(std::move(options)), rules_(std::move(rules)), resources_(resources), protocols_(std::move(protocols)) {}
 
 const WebResource* ConnectionRegistry::FindResource(std::string_view path) const {
   const auto found = std::ranges::find(resources_, path, &WebResource::path);
@@ -19,9 +15,8 @@ const WebResource* ConnectionRegistry::FindResource(std::string_view path) const
 }
 
 const WebProtocol* ConnectionRegistry::FindProtocol(std::string_view name) const {
-  const auto found = std::ranges::find_if(protocols_, [&](const WebProtocol& each) {
-    return std::ranges::find(each.names, name) != each.names.end();
-  });
+  const auto found = std::ranges::find_if(
+      protocols_, [&](const WebProtocol& each) { return std::ranges::find(each.names, name) != each.names.end(); });
   return found == protocols_.end() ? nullptr : &*found;
 }
 
@@ -61,8 +56,7 @@ bool ConnectionRegistry::MakeRoomFor(WebRole role, bool is_kept) {
     if (!each->is_session() || each->is_kept() != is_kept) continue;
     ++alike;
     if (each->role() >= role) continue;
-    if (least == nullptr || std::pair(each->role(), each->since()) <
-                                std::pair(least->role(), least->since())) {
+    if (least == nullptr || std::pair(each->role(), each->since()) < std::pair(least->role(), least->since())) {
       least = each;
     }
   }

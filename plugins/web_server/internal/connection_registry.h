@@ -53,8 +53,8 @@ class WebConnection {
 /// What the connections of one server share. Threads: the server's; `sessions` any.
 class ConnectionRegistry {
  public:
-  ConnectionRegistry(WebServerOptions options, AccessRules rules,
-                     const std::vector<WebResource>& resources, std::vector<WebProtocol> protocols);
+  ConnectionRegistry(WebServerOptions options, AccessRules rules, const std::vector<WebResource>& resources,
+                     std::vector<WebProtocol> protocols);
 
   [[nodiscard]] boost::asio::io_context& context() noexcept { return context_; }
   [[nodiscard]] const WebLimits& limits() const noexcept { return options_.limits; }

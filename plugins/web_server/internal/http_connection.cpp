@@ -49,11 +49,9 @@ std::string ContentPolicy(const HttpRequest& request) {
 }
 
 /// One connection, request by request.
-class HttpConnection final : public WebConnection,
-                             public std::enable_shared_from_this<HttpConnection> {
+class HttpConnection final : public WebConnection, public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(ConnectionRegistry& registry, tcp::socket socket,
-                 std::optional<std::uint32_t> user)
+  HttpConnection(ConnectionRegistry& registry, tcp::socket socket, std::optional<std::uint32_t> user)
       : WebConnection(std::nullopt), registry_(registry), user_(user), stream_(std::move(socket)) {}
 
   void Read() {
@@ -81,9 +79,8 @@ class HttpConnection final : public WebConnection,
     if (error == http::error::body_limit || error == http::error::unexpected_body) {
       return Refuse(http::status::payload_too_large, "requests to this server have no body");
     }
-    const bool is_malformed =
-        error.category() == http::make_error_code(http::error::bad_value).category() &&
-        error != http::error::end_of_stream && error != http::error::partial_message;
+    const bool is_malformed = error.category() == http::make_error_code(http::error::bad_value).category() &&
+                              error != http::error::end_of_stream && error != http::error::partial_message;
     if (is_malformed) return Refuse(http::status::bad_request, "this is no HTTP request");
     Remove();  // gone, or too slow
   }
@@ -127,24 +124,20 @@ class HttpConnection final : public WebConnection,
       const WebProtocol* const protocol = registry_.FindProtocol(View(each));
       if (protocol == nullptr) continue;
       if (!registry_.MakeRoomFor(role, View(each) == protocol->kept_name)) {
-        return Refuse(http::status::service_unavailable,
-                      "there are " + std::to_string(registry_.limits().clients) + " clients already; close one of them");
+        return Refuse(http::status::service_unavailable, "there are " + std::to_string(registry_.limits().clients) +
+                                                             " clients already; close one of them");
       }
       std::string name(View(each));
       const auto self = shared_from_this();
       registry_.Remove(self);
-      return ServeWebSocket(registry_, stream_.release_socket(), std::move(request_), *protocol,
-                            std::move(name), role);
+      return ServeWebSocket(registry_, stream_.release_socket(), std::move(request_), *protocol, std::move(name), role);
     }
-    Refuse(http::status::bad_request,
-           (offered.empty() ? "no protocol is asked for (Sec-WebSocket-Protocol)"
-                            : "none of the protocols that are asked for is known here") +
-               ("; there is " + registry_.ProtocolNames()));
+    Refuse(http::status::bad_request, (offered.empty() ? "no protocol is asked for (Sec-WebSocket-Protocol)"
+                                                       : "none of the protocols that are asked for is known here") +
+                                          ("; there is " + registry_.ProtocolNames()));
   }
 
-  void Refuse(const AccessRules::Refusal& refusal) {
-    Refuse(static_cast<http::status>(refusal.status), refusal.text);
-  }
+  void Refuse(const AccessRules::Refusal& refusal) { Refuse(static_cast<http::status>(refusal.status), refusal.text); }
   void Refuse(http::status status, std::string text) {
     text_ = std::move(text) + "\n";
     Send(status, "text/plain; charset=utf-8", text_, false);
@@ -174,8 +167,7 @@ class HttpConnection final : public WebConnection,
     response_.content_length(body.size());
     if (!is_head) response_.body() = {body.data(), body.size()};
     stream_.expires_after(registry_.limits().request_time);
-    http::async_write(stream_, response_,
-                      beast::bind_front_handler(&HttpConnection::OnSent, shared_from_this()));
+    http::async_write(stream_, response_, beast::bind_front_handler(&HttpConnection::OnSent, shared_from_this()));
   }
 
   void OnSent(beast::error_code error, std::size_t /*bytes*/) {
@@ -213,8 +205,7 @@ class HttpConnection final : public WebConnection,
 
 }  // namespace
 
-void ServeHttp(ConnectionRegistry& registry, tcp::socket socket,
-               std::optional<std::uint32_t> user) {
+void ServeHttp(ConnectionRegistry& registry, tcp::socket socket, std::optional<std::uint32_t> user) {
   registry.EvictOldest();
   const auto connection = std::make_shared<HttpConnection>(registry, std::move(socket), user);
   registry.Add(connection);

@@ -1,5 +1,3 @@
-#include "plugins/web_server/internal/beast_connections.h"
-
 #include <cstring>
 
 #include <linux/inet_diag.h>
@@ -8,6 +6,8 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "plugins/web_server/internal/beast_connections.h"
 
 namespace runnel::internal {
 

@@ -1,5 +1,3 @@
-#include "plugins/web_server/internal/beast_connections.h"
-
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -12,6 +10,8 @@
 #include <boost/asio/write.hpp>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "plugins/web_server/internal/beast_connections.h"
 
 namespace runnel::internal {
 
@@ -65,11 +65,10 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
 
   void Begin() {
     CutAfter(registry_.limits().request_time);
-    outer_.next_layer().async_wait(tcp::socket::wait_read,
-                                   [self = shared_from_this()](error_code error) {
-                                     if (error) return self->Remove();
-                                     self->Greet();
-                                   });
+    outer_.next_layer().async_wait(tcp::socket::wait_read, [self = shared_from_this()](error_code error) {
+      if (error) return self->Remove();
+      self->Greet();
+    });
   }
 
   void Cut() noexcept override {
@@ -103,11 +102,10 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
 
   // Closing while something is still to be read would take the answer from the client.
   void DrainOuter() {
-    outer_.next_layer().async_read_some(asio::buffer(in_),
-                                        [self = shared_from_this()](error_code error, std::size_t) {
-                                          if (error) return self->Remove();
-                                          self->DrainOuter();
-                                        });
+    outer_.next_layer().async_read_some(asio::buffer(in_), [self = shared_from_this()](error_code error, std::size_t) {
+      if (error) return self->Remove();
+      self->DrainOuter();
+    });
   }
 
   // From here on the end that speaks HTTP counts, and ends this one by closing.
@@ -132,32 +130,28 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
   }
 
   void Decrypt() {
-    outer_.async_read_some(
-        asio::buffer(in_), [self = shared_from_this()](error_code error, std::size_t bytes) {
-          error_code ignored;
-          // The other end reads what has come, and closes.
-          if (error) return void(self->inner_.shutdown(tcp::socket::shutdown_send, ignored));
-          asio::async_write(self->inner_, asio::buffer(self->in_, bytes),
-                            [self](error_code why, std::size_t) {
-                              if (why) return;
-                              self->Decrypt();
-                            });
-        });
+    outer_.async_read_some(asio::buffer(in_), [self = shared_from_this()](error_code error, std::size_t bytes) {
+      error_code ignored;
+      // The other end reads what has come, and closes.
+      if (error) return void(self->inner_.shutdown(tcp::socket::shutdown_send, ignored));
+      asio::async_write(self->inner_, asio::buffer(self->in_, bytes), [self](error_code why, std::size_t) {
+        if (why) return;
+        self->Decrypt();
+      });
+    });
   }
 
   void Encrypt() {
-    inner_.async_read_some(
-        asio::buffer(out_), [self = shared_from_this()](error_code error, std::size_t bytes) {
-          if (error) return self->Shutdown();
-          // A client that takes nothing of it all that time is not there any more.
-          self->CutAfter(self->registry_.limits().idle_time);
-          asio::async_write(self->outer_, asio::buffer(self->out_, bytes),
-                            [self](error_code why, std::size_t) {
-                              self->timer_.cancel();
-                              if (why) return self->Cut();
-                              self->Encrypt();
-                            });
-        });
+    inner_.async_read_some(asio::buffer(out_), [self = shared_from_this()](error_code error, std::size_t bytes) {
+      if (error) return self->Shutdown();
+      // A client that takes nothing of it all that time is not there any more.
+      self->CutAfter(self->registry_.limits().idle_time);
+      asio::async_write(self->outer_, asio::buffer(self->out_, bytes), [self](error_code why, std::size_t) {
+        self->timer_.cancel();
+        if (why) return self->Cut();
+        self->Encrypt();
+      });
+    });
   }
 
   void Shutdown() {
@@ -183,7 +177,7 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
   ssl::stream<tcp::socket> outer_;
   tcp::socket inner_;
   asio::steady_timer timer_;
-  std::array<char, 16 * 1024> in_;   // a record of TLS at most
+  std::array<char, 16 * 1024> in_;  // a record of TLS at most
   std::array<char, 16 * 1024> out_;
 };
 
@@ -200,15 +194,15 @@ Result<std::shared_ptr<TlsIdentity>> LoadTlsIdentity(const std::filesystem::path
     return ErrorOf("this key has no certificate", key, "give its certificate, too");
   }
   if (access(certificate_file.c_str(), R_OK) != 0) {
-    return ErrorOf(std::string("the certificate cannot be read: ") + std::strerror(errno), certificate_file, kHowToMake);
+    return ErrorOf(std::string("the certificate cannot be read: ") + std::strerror(errno), certificate_file,
+                   kHowToMake);
   }
   if (auto secret = CheckSecretFile(key); !secret) return secret.error();
   auto identity = std::make_shared<TlsIdentity>();
   error_code error;
   identity->context.use_certificate_chain_file(certificate_file.string(), error);
   if (error) {
-    return ErrorOf("there is no certificate (PEM) in it: " + error.message(), certificate_file,
-                   kHowToMake);
+    return ErrorOf("there is no certificate (PEM) in it: " + error.message(), certificate_file, kHowToMake);
   }
   identity->context.use_private_key_file(key.string(), ssl::context::pem, error);
   if (!error) return identity;
@@ -220,8 +214,8 @@ Result<std::shared_ptr<TlsIdentity>> LoadTlsIdentity(const std::filesystem::path
                  "a password is taken off by openssl pkey -in KEY -out KEY_WITHOUT");
 }
 
-void ServeTls(ConnectionRegistry& registry, const std::shared_ptr<TlsIdentity>& identity,
-              tcp::socket socket, std::optional<std::uint32_t> user) {
+void ServeTls(ConnectionRegistry& registry, const std::shared_ptr<TlsIdentity>& identity, tcp::socket socket,
+              std::optional<std::uint32_t> user) {
   registry.EvictOldest();
   const auto relay = std::make_shared<TlsRelay>(registry, identity, std::move(socket), user);
   registry.Add(relay);

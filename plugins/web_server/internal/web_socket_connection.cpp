@@ -86,12 +86,10 @@ class WebSocketConnection final : public WebConnection,
 
   void Accept() {
     const WebLimits& limits = registry_.limits();
-    socket_.set_option(
-        websocket::stream_base::timeout{limits.request_time, limits.idle_time, true});
-    socket_.set_option(
-        websocket::stream_base::decorator([this](websocket::response_type& response) {
-          response.set(beast::http::field::sec_websocket_protocol, name_);
-        }));
+    socket_.set_option(websocket::stream_base::timeout{limits.request_time, limits.idle_time, true});
+    socket_.set_option(websocket::stream_base::decorator([this](websocket::response_type& response) {
+      response.set(beast::http::field::sec_websocket_protocol, name_);
+    }));
     socket_.read_message_max(limits.message_bytes);
     socket_.auto_fragment(false);
     socket_.control_callback([this](websocket::frame_type kind, beast::string_view text) {
@@ -99,9 +97,7 @@ class WebSocketConnection final : public WebConnection,
       bucket_.Consume(text.size(), Now());
       if (bucket_.IsFlood()) Close("too many pings");
     });
-    socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
-      self->OnAccepted(error);
-    });
+    socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) { self->OnAccepted(error); });
   }
 
   bool SendText(std::string text) override { return Send({std::move(text), true}); }
@@ -169,9 +165,8 @@ class WebSocketConnection final : public WebConnection,
   }
 
   void Read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-      self->OnRead(error);
-    });
+    socket_.async_read(buffer_,
+                       [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnRead(error); });
   }
 
   void OnRead(beast::error_code error) {
@@ -234,8 +229,7 @@ class WebSocketConnection final : public WebConnection,
 
   bool Send(Message message) {
     if (is_closing_) return false;
-    if (waiting_bytes_ > 0 &&
-        waiting_bytes_ + message.bytes.size() > registry_.limits().waiting_bytes) {
+    if (waiting_bytes_ > 0 && waiting_bytes_ + message.bytes.size() > registry_.limits().waiting_bytes) {
       return false;
     }
     waiting_bytes_ += message.bytes.size();
@@ -250,9 +244,7 @@ class WebSocketConnection final : public WebConnection,
     // A client that takes nothing of it all that time is not there any more.
     At(Now() + registry_.limits().idle_time, write_timer_, &WebSocketConnection::Cut);
     socket_.async_write(boost::asio::buffer(message.bytes),
-                        [self = shared_from_this()](beast::error_code error, std::size_t) {
-                          self->OnWritten(error);
-                        });
+                        [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnWritten(error); });
   }
 
   void OnWritten(beast::error_code error) {
@@ -308,9 +300,9 @@ class WebSocketConnection final : public WebConnection,
   boost::asio::steady_timer write_timer_;
   beast::flat_buffer buffer_;
   TokenBucket bucket_;
-  SteadyTime next_at_{};       // the next message may be handed over
-  std::deque<Message> early_;  // that have been read and not handed over yet
-  double early_cost_ = 0;      // of those
+  SteadyTime next_at_{};               // the next message may be handed over
+  std::deque<Message> early_;          // that have been read and not handed over yet
+  double early_cost_ = 0;              // of those
   std::optional<WebArrival> arrival_;  // of the message that is being handed over
   std::deque<Message> waiting_;
   std::size_t waiting_bytes_ = 0;
@@ -323,10 +315,10 @@ class WebSocketConnection final : public WebConnection,
 
 }  // namespace
 
-void ServeWebSocket(ConnectionRegistry& registry, tcp::socket socket, HttpRequest request,
-                    const WebProtocol& protocol, std::string name, WebRole role) {
-  const auto connection = std::make_shared<WebSocketConnection>(
-      registry, std::move(socket), std::move(request), protocol, std::move(name), role);
+void ServeWebSocket(ConnectionRegistry& registry, tcp::socket socket, HttpRequest request, const WebProtocol& protocol,
+                    std::string name, WebRole role) {
+  const auto connection = std::make_shared<WebSocketConnection>(registry, std::move(socket), std::move(request),
+                                                                protocol, std::move(name), role);
   registry.Add(connection);
   connection->Accept();
 }

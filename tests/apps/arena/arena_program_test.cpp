@@ -33,10 +33,9 @@ TEST_F(ArenaTest, WritesTheRunsExactlyAsPublished) {
   ASSERT_EQ(runs.size(), 2u);
   for (const auto& run : runs) {
     EXPECT_THAT(KeysOf(run),
-                testing::UnorderedElementsAre("world", "variant", "sensor", "direction", "seed",
-                                              "outcome", "path_length_m", "sim_time_s",
-                                              "wall_time_s", "cycles", "hits", "leaves", "path", "noise_m",
-                                              "remark", "is_right", "shortest_path_m", "ratio"));
+                testing::UnorderedElementsAre("world", "variant", "sensor", "direction", "seed", "outcome",
+                                              "path_length_m", "sim_time_s", "wall_time_s", "cycles", "hits", "leaves",
+                                              "path", "noise_m", "remark", "is_right", "shortest_path_m", "ratio"));
     EXPECT_EQ(run["world"], "one_obstacle");
     EXPECT_EQ(run["variant"], "bug2");
     EXPECT_EQ(run["direction"], "right");
@@ -74,8 +73,7 @@ TEST_F(ArenaTest, ItsRunsAreNotAmongTheRunningApplicationsThatAreOfferedToOthers
   const char* const before = std::getenv("XDG_RUNTIME_DIR");
   const std::string kept = before != nullptr ? before : "";
   setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
-  const Ended ended =
-      Arena("--world one_obstacle --variant bug2 --quiet --json " + File("runs.json"));
+  const Ended ended = Arena("--world one_obstacle --variant bug2 --quiet --json " + File("runs.json"));
   if (before != nullptr) {
     setenv("XDG_RUNTIME_DIR", kept.c_str(), 1);
   } else {
@@ -89,10 +87,9 @@ TEST_F(ArenaTest, ItsRunsAreNotAmongTheRunningApplicationsThatAreOfferedToOthers
 TEST_F(ArenaTest, TellsOutcomeLengthRatioAndBoundOnTheTerminal) {
   const Ended ended = Arena("--world one_obstacle unreachable --variant bug2 --quiet");
   EXPECT_EQ(ended.code, 0) << ended.text;
-  EXPECT_THAT(ended.text,
-              AllOf(HasSubstr("one_obstacle: shortest path 12.58 m"),
-                    HasSubstr("unreachable: the goal cannot be reached"), HasSubstr("25.00"),
-                    HasSubstr("100.0 %"), HasSubstr("simulated seconds per real second and core")));
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("one_obstacle: shortest path 12.58 m"),
+                                HasSubstr("unreachable: the goal cannot be reached"), HasSubstr("25.00"),
+                                HasSubstr("100.0 %"), HasSubstr("simulated seconds per real second and core")));
   EXPECT_THAT(ended.text, Not(HasSubstr("WRONG")));
 }
 
@@ -110,16 +107,16 @@ TEST_F(ArenaTest, GivesTheSameRunsForTheSameSeed) {
 }
 
 TEST_F(ArenaTest, DrawsEachRunAndAPageWithoutANetwork) {
-  const Ended ended = Arena("--world one_obstacle --variant bug1,bug2 --quiet --svg " +
-                            File("pictures") + " --html " + File("page.html"));
+  const Ended ended = Arena("--world one_obstacle --variant bug1,bug2 --quiet --svg " + File("pictures") + " --html " +
+                            File("page.html"));
   EXPECT_EQ(ended.code, 0) << ended.text;
   for (const std::string variant : {"bug1", "bug2"}) {
     const std::string picture = Text("pictures/one_obstacle-" + variant + "-laser-left-1.svg");
     EXPECT_THAT(picture, AllOf(HasSubstr("<svg"), HasSubstr("reached"), HasSubstr("</svg>")));
   }
   const std::string page = Text("page.html");
-  EXPECT_THAT(page, AllOf(HasSubstr("<!doctype html>"), HasSubstr("prefers-color-scheme: dark"),
-                          HasSubstr("aria-sort"), HasSubstr("12.58 m")));
+  EXPECT_THAT(page, AllOf(HasSubstr("<!doctype html>"), HasSubstr("prefers-color-scheme: dark"), HasSubstr("aria-sort"),
+                          HasSubstr("12.58 m")));
   EXPECT_THAT(page, AllOf(Not(HasSubstr("http:")), Not(HasSubstr("https:")), Not(HasSubstr("src=")),
                           Not(HasSubstr("@import"))));
   std::size_t figures = 0;
@@ -174,8 +171,7 @@ TEST_F(ArenaTest, GoesOnAfterItHasBeenKilled) {
   ASSERT_TRUE(arena.WaitFor("[1/6]"));
   arena.Send(SIGKILL);
   EXPECT_EQ(arena.Wait().signal, SIGKILL);
-  EXPECT_THAT(Runnel(words + " --resume").text,
-              ContainsRegex("[1-5] of 6 runs are finished already"));
+  EXPECT_THAT(Runnel(words + " --resume").text, ContainsRegex("[1-5] of 6 runs are finished already"));
   EXPECT_EQ(Json("runs.json").size(), 6u);
 }
 
@@ -189,8 +185,7 @@ TEST_F(ArenaTest, RefusesToMixRunsOfOtherSettings) {
 
 TEST_F(ArenaTest, DoesNotOverwriteRunsThatItCannotGoOnWith) {
   Write("runs.json", "[]");
-  const Ended ended =
-      Arena("--world open --variant bug2 --resume --quiet --json " + File("runs.json"));
+  const Ended ended = Arena("--world open --variant bug2 --resume --quiet --json " + File("runs.json"));
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.text, HasSubstr("have no journal"));
   EXPECT_EQ(Text("runs.json"), "[]");
@@ -210,28 +205,26 @@ TEST_P(ArenaRefuses, WithTheNearestName) {
 
 INSTANTIATE_TEST_SUITE_P(
     BadWords, ArenaRefuses,
-    testing::Values(
-        Refusal{"--world spirale", "there is no world 'spirale'; did you mean 'spiral'?"},
-        Refusal{"--world " RUNNEL_XML "/worlds/comb1.xml", "/worlds/comb.xml'?"},
-        Refusal{"--world open --variant bugg1", "no variant 'bugg1'; did you mean 'bug1'?"},
-        Refusal{"--world open --sensor lazer", "there is no sensor 'lazer'; did you mean 'laser'?"},
-        Refusal{"--world open --direction rigth", "did you mean 'right'?"},
-        Refusal{"--world open --jobs 0", "--jobs must be between 1 and 1000"},
-        Refusal{"--world open --noise nan", "--noise must be between 0 and 10 m"},
-        Refusal{"--world open --resume", "--resume needs --json"},
-        Refusal{"--world open --json /nowhere/runs.json",
-                "/nowhere/runs.json: error: the file "
-                "cannot be written"},
-        Refusal{"--world open --svg /proc/pictures", "/proc/pictures"},
-        Refusal{"--world open --plugin nothing", "nothing"},
-        Refusal{"--variant bug1", "--world is required"}));
+    testing::Values(Refusal{"--world spirale", "there is no world 'spirale'; did you mean 'spiral'?"},
+                    Refusal{"--world " RUNNEL_XML "/worlds/comb1.xml", "/worlds/comb.xml'?"},
+                    Refusal{"--world open --variant bugg1", "no variant 'bugg1'; did you mean 'bug1'?"},
+                    Refusal{"--world open --sensor lazer", "there is no sensor 'lazer'; did you mean 'laser'?"},
+                    Refusal{"--world open --direction rigth", "did you mean 'right'?"},
+                    Refusal{"--world open --jobs 0", "--jobs must be between 1 and 1000"},
+                    Refusal{"--world open --noise nan", "--noise must be between 0 and 10 m"},
+                    Refusal{"--world open --resume", "--resume needs --json"},
+                    Refusal{"--world open --json /nowhere/runs.json",
+                            "/nowhere/runs.json: error: the file "
+                            "cannot be written"},
+                    Refusal{"--world open --svg /proc/pictures", "/proc/pictures"},
+                    Refusal{"--world open --plugin nothing", "nothing"},
+                    Refusal{"--variant bug1", "--world is required"}));
 
 TEST_F(ArenaTest, TellsAllThatIsWrongAtOnce) {
   Write("bad.xml", "<world name=\"bad\"><start x=\"0\" y=\"0\"/></world>");
   const Ended ended = Arena("--world " + File("bad.xml") + " --variant bug9 --direction up");
   EXPECT_EQ(ended.code, 2);
-  EXPECT_THAT(ended.text, AllOf(HasSubstr("bad.xml:1:1"), HasSubstr("goal"), HasSubstr("'bug9'"),
-                                HasSubstr("'up'")));
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("bad.xml:1:1"), HasSubstr("goal"), HasSubstr("'bug9'"), HasSubstr("'up'")));
 }
 
 }  // namespace

@@ -24,9 +24,7 @@ class ArenaTest : public testing::Test {
   }
   ~ArenaTest() override { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] std::string File(const std::string& name) const {
-    return (folder_ / name).string();
-  }
+  [[nodiscard]] std::string File(const std::string& name) const { return (folder_ / name).string(); }
   [[nodiscard]] static Ended Arena(const std::string& words) { return Runnel("arena " + words); }
   [[nodiscard]] std::string Text(const std::string& name) const {
     std::ifstream stream(File(name), std::ios::binary);
@@ -34,9 +32,7 @@ class ArenaTest : public testing::Test {
     text << stream.rdbuf();
     return text.str();
   }
-  [[nodiscard]] nlohmann::json Json(const std::string& name) const {
-    return nlohmann::json::parse(Text(name));
-  }
+  [[nodiscard]] nlohmann::json Json(const std::string& name) const { return nlohmann::json::parse(Text(name)); }
   void Write(const std::string& name, const std::string& text) const {
     std::ofstream(File(name), std::ios::binary) << text;
   }

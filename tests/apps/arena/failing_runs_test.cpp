@@ -37,13 +37,11 @@ TEST_F(FailingRuns, AreMadeAgainWhenTheArenaGoesOn) {
       File("runs.json");
   ASSERT_EQ(Arena(words).code, 0);
   const Ended ended = Arena(words + " --resume");
-  EXPECT_THAT(ended.text, AllOf(HasSubstr("1 of 2 runs are finished already"),
-                                HasSubstr("[1/1] open broken/crash")));
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("1 of 2 runs are finished already"), HasSubstr("[1/1] open broken/crash")));
 }
 
 TEST_F(FailingRuns, OfTooMuchSimulatedTimeAreTimeouts) {
-  const Ended ended =
-      Arena("--world spiral --variant bug1 --time-limit 20 --quiet --json " + File("runs.json"));
+  const Ended ended = Arena("--world spiral --variant bug1 --time-limit 20 --quiet --json " + File("runs.json"));
   EXPECT_EQ(ended.code, 0) << ended.text;
   const auto runs = Json("runs.json");
   EXPECT_EQ(runs[0]["outcome"], "timeout");

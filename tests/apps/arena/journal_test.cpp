@@ -16,21 +16,21 @@ namespace {
 using testing::HasSubstr;
 
 RunRecord SomeRecord(const std::string& variant = "bug1") {
-  return {.key = {"spiral", variant, "laser", "left", 3},
-          .result = {.outcome = "reached",
-                     .remark = "",
-                     .path_length = 12.5,
-                     .simulated_time = 40.05,
-                     .cycles = 801,
-                     .robot_radius = 0.15,
-                     .hits = {{1, 2}, {3, 4}},
-                     .leaves = {{5, 6}},
-                     .path = {{{0, 0}, PathMode::kDrivingToGoal, 0.5, 0},
-                              {{1, 0}, PathMode::kGoingToLeavePoint, -0.5, 2}}},
-          .wall_time = 0.25,
-          .processor_time = 0.125,
-          .noise = 0.02,
-          .shortest_path = 10.0};
+  return {
+      .key = {"spiral", variant, "laser", "left", 3},
+      .result = {.outcome = "reached",
+                 .remark = "",
+                 .path_length = 12.5,
+                 .simulated_time = 40.05,
+                 .cycles = 801,
+                 .robot_radius = 0.15,
+                 .hits = {{1, 2}, {3, 4}},
+                 .leaves = {{5, 6}},
+                 .path = {{{0, 0}, PathMode::kDrivingToGoal, 0.5, 0}, {{1, 0}, PathMode::kGoingToLeavePoint, -0.5, 2}}},
+      .wall_time = 0.25,
+      .processor_time = 0.125,
+      .noise = 0.02,
+      .shortest_path = 10.0};
 }
 
 PlannedRun PlannedFor(const RunRecord& record, const std::string& made_of = "abc") {

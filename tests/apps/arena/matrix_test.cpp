@@ -12,8 +12,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::vector<std::string> kTypes{"other/planner", "planning/alg1", "planning/bug",
-                                      "planning/bug1"};
+const std::vector<std::string> kTypes{"other/planner", "planning/alg1", "planning/bug", "planning/bug1"};
 
 std::vector<std::string> NamesOf(const std::vector<Variant>& variants) {
   std::vector<std::string> names;
@@ -52,8 +51,8 @@ TEST(Variants, ThatAreNotThereAreToldWithTheNearest) {
 TEST(ApplicationTexts, HaveThePlannerAndThePluginsAskedFor) {
   for (const std::string sensor : {"laser", "infrared", "bumper"}) {
     const auto file = std::filesystem::path(RUNNEL_XML) / "apps" / "arena" / (sensor + ".xml");
-    const auto text = ApplicationText(
-        file, {"mine", "other/planner", "<parameter name=\"x\" value=\"1\"/>"}, {"other"});
+    const auto text =
+        ApplicationText(file, {"mine", "other/planner", "<parameter name=\"x\" value=\"1\"/>"}, {"other"});
     ASSERT_TRUE(text) << text.error().ToString();
     EXPECT_THAT(*text, HasSubstr("<module name=\"planner\" type=\"other/planner\"><parameter "
                                  "name=\"x\" value=\"1\"/>"));
@@ -88,8 +87,8 @@ TEST(Matrices, HaveEveryCombinationOnce) {
 
 TEST(Courses, KnowWhatIsRight) {
   Diagnostics diagnostics;
-  const ArenaArguments arguments{.worlds = {"cup", "goal_in_obstacle", "goal_too_near_wall",
-                                            "start_walled_in", "scatter_unreachable", "maze"}};
+  const ArenaArguments arguments{
+      .worlds = {"cup", "goal_in_obstacle", "goal_too_near_wall", "start_walled_in", "scatter_unreachable", "maze"}};
   const auto matrix = MakeMatrix(arguments, FindProduct(), diagnostics);
   ASSERT_TRUE(matrix) << diagnostics.ToString();
   std::vector<bool> can_be_reached;

@@ -29,8 +29,7 @@ class PaperWorlds : public ArenaTest {
 };
 
 double DistanceBetween(const json& a, const json& b) {
-  return std::hypot(a[0].get<double>() - b[0].get<double>(),
-                    a[1].get<double>() - b[1].get<double>());
+  return std::hypot(a[0].get<double>() - b[0].get<double>(), a[1].get<double>() - b[1].get<double>());
 }
 
 json PlaceOf(const json& path_point) { return {path_point[1], path_point[2]}; }

@@ -1,9 +1,8 @@
-#include "apps/arena/report.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "apps/arena/progress.h"
+#include "apps/arena/report.h"
 
 namespace runnel::arena {
 namespace {
@@ -21,8 +20,8 @@ Matrix OneCourse() {
   return matrix;
 }
 
-RunRecord Record(const std::string& variant, const std::string& outcome, double length,
-                 double time = 50, double wall = 0.5) {
+RunRecord Record(const std::string& variant, const std::string& outcome, double length, double time = 50,
+                 double wall = 0.5) {
   return {.key = {"<open>", variant, "laser", "left", 1},
           .result = {.outcome = outcome, .path_length = length, .simulated_time = time},
           .wall_time = wall};
@@ -31,8 +30,7 @@ RunRecord Record(const std::string& variant, const std::string& outcome, double 
 TEST(Tables, CountRightVerdictsAndTheMeanRatioOfThose) {
   const Matrix matrix = OneCourse();
   const std::vector<RunRecord> records{Record("bug1", "reached", 12), Record("bug1", "reached", 14),
-                                       Record("bug1", "unreachable", 99),
-                                       Record("bug2", "collision", 3)};
+                                       Record("bug1", "unreachable", 99), Record("bug2", "collision", 3)};
   const auto rows = RowsOf(matrix, records);
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_TRUE(rows[0].is_right);
@@ -61,16 +59,14 @@ TEST(Tables, TellTheSpeedOfThoseThatRanToTheirEnd) {
 }
 
 TEST(Pages, DoNotTakeNamesForTags) {
-  const std::string page =
-      HtmlReport(OneCourse(), {Record("a<b>&\"", "reached", 12)}, RunSettings{});
+  const std::string page = HtmlReport(OneCourse(), {Record("a<b>&\"", "reached", 12)}, RunSettings{});
   EXPECT_THAT(page, HasSubstr("a&lt;b&gt;&amp;&quot;"));
   EXPECT_THAT(page, HasSubstr("&lt;open&gt;"));
   EXPECT_THAT(page, testing::Not(HasSubstr("a<b>")));
 }
 
 TEST(ProgressLines, TellHowFarItIsAndWhatRemains) {
-  EXPECT_EQ(ProgressLine(15, 60, 10.0),
-            "[#######-----------------------]  25 %  15 of 60  0:30 left");
+  EXPECT_EQ(ProgressLine(15, 60, 10.0), "[#######-----------------------]  25 %  15 of 60  0:30 left");
   EXPECT_EQ(ProgressLine(0, 60, 10.0), "[------------------------------]   0 %  0 of 60");
   EXPECT_EQ(ProgressLine(60, 60, 99.0), "[##############################] 100 %  60 of 60");
   EXPECT_THAT(ProgressLine(1, 601, 1.5), HasSubstr("15:00 left"));

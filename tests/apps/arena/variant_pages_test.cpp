@@ -14,8 +14,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string PageOf(const BugVariant& variant) {
-  std::ifstream stream(std::filesystem::path(RUNNEL_VARIANTS) /
-                       (std::string(variant.name) + ".md"));
+  std::ifstream stream(std::filesystem::path(RUNNEL_VARIANTS) / (std::string(variant.name) + ".md"));
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();
@@ -37,9 +36,7 @@ TEST(VariantPages, NameTheComponentsOfTheTable) {
     EXPECT_THAT(page, HasSubstr(Row("direction", components.direction->name()))) << name;
     EXPECT_THAT(page, HasSubstr(Row("leave condition", components.leave->name()))) << name;
     EXPECT_THAT(page, HasSubstr(Row("revisit", components.revisit->name()))) << name;
-    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(RUNNEL_VARIANTS) / "pictures" /
-                                        (name + ".svg")))
-        << name;
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(RUNNEL_VARIANTS) / "pictures" / (name + ".svg"))) << name;
   }
 }
 

@@ -19,8 +19,7 @@ TEST_F(WorldProgram, WritesTheSameBytesForTheSameSeed) {
     ASSERT_EQ(Runnel(words + " --out " + File("b.xml")).code, 0);
     EXPECT_EQ(Text("a.xml"), Text("b.xml"));
     EXPECT_EQ(Runnel(words).text, Text("a.xml"));
-    EXPECT_THAT(Text("a.xml"),
-                StartsWith("<!-- Made by: runnel world --kind " + kind + " --seed 12 -->\n"));
+    EXPECT_THAT(Text("a.xml"), StartsWith("<!-- Made by: runnel world --kind " + kind + " --seed 12 -->\n"));
     Diagnostics diagnostics;
     const auto world = ReadWorldFile(File("a.xml"), diagnostics);
     ASSERT_TRUE(world) << diagnostics.ToString();
@@ -29,8 +28,7 @@ TEST_F(WorldProgram, WritesTheSameBytesForTheSameSeed) {
 }
 
 TEST_F(WorldProgram, SaysHowAWorldIsMadeAgain) {
-  const std::string words =
-      "world --kind scatter --seed 5 --width 20 --height 9.5 --gap 1.25 --count 4 --enclosed";
+  const std::string words = "world --kind scatter --seed 5 --width 20 --height 9.5 --gap 1.25 --count 4 --enclosed";
   EXPECT_THAT(Runnel(words).text, StartsWith("<!-- Made by: runnel " + words + " -->"));
 }
 

@@ -7,10 +7,9 @@
 #include <filesystem>
 #include <thread>
 
+#include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <gmock/gmock.h>
 
 #include "plugins/genom_description/description.h"
 #include "plugins/genom_templates/template_run.h"
@@ -34,10 +33,14 @@ std::string ModelOf(const std::string& text) {
 // A task that drives and one that looks, with an activity each, and what is asked between them.
 std::string Component(const std::string& drive, const std::string& look, const std::string& more = "") {
   return "component robot { ids { long speed; boolean seen; };\n"
-         "task drive { period 20 ms; codel<start> init(out speed) yield ether; codel<stop> quiet(out speed) yield ether; };\n"
+         "task drive { period 20 ms; codel<start> init(out speed) yield ether; codel<stop> quiet(out speed) yield "
+         "ether; };\n"
          "task look;\n"
-         "activity go(in long s) { task drive; interrupts go;\n  " + drive + " };\n"
-         "activity watch() { task look;\n  " + look + " };\n" + more + "};\n";
+         "activity go(in long s) { task drive; interrupts go;\n  " +
+         drive +
+         " };\n"
+         "activity watch() { task look;\n  " +
+         look + " };\n" + more + "};\n";
 }
 
 const std::string kGoes =
@@ -67,17 +70,20 @@ TEST_F(ComponentCheckTest, FindsNothingWhereNothingIsWrong) {
 // Once it holds, it never gets to ether again.
 TEST_F(ComponentCheckTest, FindsAnActivityThatDoesNotEndWhenItIsInterrupted) {
   std::string stays = kGoes;
-  stays.replace(stays.find("yield ether, pause::stop"), 24, "yield ether, hold; codel<hold> h_hold() yield pause::hold");
+  stays.replace(stays.find("yield ether, pause::stop"), 24,
+                "yield ether, hold; codel<hold> h_hold() yield pause::hold");
   const std::string errors = ErrorsOf(Component(stays, kWatches));
-  EXPECT_THAT(errors, AllOf(HasSubstr("test.gen:4:10: error: activity go can "), HasSubstr("\n    activity go: brake yields hold\n"),
-                            HasSubstr("\n  over and over:\n"), HasSubstr("\n    activity go: h_hold yields pause::hold")));
+  EXPECT_THAT(errors, AllOf(HasSubstr("test.gen:4:10: error: activity go can "),
+                            HasSubstr("\n    activity go: brake yields hold\n"), HasSubstr("\n  over and over:\n"),
+                            HasSubstr("\n    activity go: h_hold yields pause::hold")));
 }
 
 // Its task wakes up when something else happens, and nothing does.
 TEST_F(ComponentCheckTest, FindsAStandstill) {
-  const std::string errors = ErrorsOf(Component(
-      kGoes, "codel<start> w_start(out seen) yield pause::start; codel<stop> w_stop() yield pause::done;\n"
-             "  codel<done> w_done() yield ether;"));
+  const std::string errors =
+      ErrorsOf(Component(kGoes,
+                         "codel<start> w_start(out seen) yield pause::start; codel<stop> w_stop() yield pause::done;\n"
+                         "  codel<done> w_done() yield ether;"));
   EXPECT_THAT(errors, AllOf(HasSubstr("test.gen:1:11: error: component robot can come to a standstill:\n"),
                             HasSubstr("\n    the component is told to end\n"),
                             HasSubstr("\n    activity watch: w_stop yields pause::done\n    and nothing more")));
@@ -85,13 +91,14 @@ TEST_F(ComponentCheckTest, FindsAStandstill) {
 
 // Without mutual exclusion: what it is there for is seen.
 TEST_F(ComponentCheckTest, CodelsThatConflictAreKeptApartByExclusion) {
-  const auto made = genom::RunTemplate(RUNNEL_GENOM_TEMPLATE_FOLDER "/promela", ModelOf(Component(kGoes, kWatches, kClears)),
-                                       {{"exclusion", "none"}});
+  const auto made = genom::RunTemplate(RUNNEL_GENOM_TEMPLATE_FOLDER "/promela",
+                                       ModelOf(Component(kGoes, kWatches, kClears)), {{"exclusion", "none"}});
   ASSERT_TRUE(made) << made.error().ToString();
   const auto answer = RunSpin(made->files.at(0).text, {.options = {"-bfs"}});
   ASSERT_TRUE(answer) << answer.error().ToString();
   ASSERT_FALSE(answer->holds);
-  EXPECT_THAT(answer->run.back(), AllOf(HasSubstr("fault test.gen\t"), HasSubstr(" can run at once, and both use ids.")));
+  EXPECT_THAT(answer->run.back(),
+              AllOf(HasSubstr("fault test.gen\t"), HasSubstr(" can run at once, and both use ids.")));
 }
 
 // Whether a process called `pan`, or whatever its name is, works somewhere below the folder.

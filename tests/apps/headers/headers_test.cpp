@@ -14,7 +14,9 @@ struct Battery {
   double charge = 0;
 };
 
-[[maybe_unused]] void Describe(TypeBuilder<Battery>& type) { type.Name("TestBattery").Field("charge", &Battery::charge); }
+[[maybe_unused]] void Describe(TypeBuilder<Battery>& type) {
+  type.Name("TestBattery").Field("charge", &Battery::charge);
+}
 
 class Brake final : public Module {
  public:

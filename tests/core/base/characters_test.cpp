@@ -25,7 +25,10 @@ TEST(Characters, AreNotCutInTwo) {
 TEST(Characters, AreShownAndNotObeyedByTerminals) {
   EXPECT_EQ(Printable("a planner, 20 °C €"), "a planner, 20 °C €");
   EXPECT_EQ(Printable("evil \x1b[31m\n12.0s error"), "evil \\x1b[31m\\x0a12.0s error");
-  EXPECT_EQ(Printable("a\r\x7f\xff\xc2\x9b" "31m", "\n"), "a\\x0d\\x7f\\xff\\xc2\\x9b31m");
+  EXPECT_EQ(Printable("a\r\x7f\xff\xc2\x9b"
+                      "31m",
+                      "\n"),
+            "a\\x0d\\x7f\\xff\\xc2\\x9b31m");
   EXPECT_EQ(Printable("two\nlines\t.", "\n\t"), "two\nlines\t.");
   EXPECT_EQ(Printable("\xe2\x82"), "\\xe2\\x82") << "cut in two";
 }

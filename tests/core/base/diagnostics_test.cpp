@@ -10,9 +10,7 @@ TEST(ErrorTest, NamesFileLineColumnPathMessageAndHint) {
   EXPECT_EQ(error.ToString(), "app.xml:3:7: /robot/guard: no port 'scna'; did you mean 'scan'?");
 }
 
-TEST(ErrorTest, LeavesOutWhatIsUnknown) {
-  EXPECT_EQ(Error{.message = "it failed"}.ToString(), "it failed");
-}
+TEST(ErrorTest, LeavesOutWhatIsUnknown) { EXPECT_EQ(Error{.message = "it failed"}.ToString(), "it failed"); }
 
 TEST(DiagnosticsTest, WarningsDoNotMakeAnInputWrong) {
   Diagnostics diagnostics;

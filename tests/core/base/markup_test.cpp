@@ -1,6 +1,6 @@
-#include "core/base/characters.h"
-
 #include <gtest/gtest.h>
+
+#include "core/base/characters.h"
 
 namespace runnel {
 namespace {

@@ -28,8 +28,7 @@ TEST(NearestNameTest, OffersNothingThatIsFar) { EXPECT_EQ(NearestName("temperatu
 
 TEST(NearestNameHintTest, ListsWhatThereIsWhenNothingIsNear) {
   EXPECT_EQ(NearestNameHint("scna", kPorts), "did you mean 'scan'?");
-  EXPECT_EQ(NearestNameHint("temperature", kPorts),
-            "there is 'scan', 'pose', 'velocity', 'goal_reached'");
+  EXPECT_EQ(NearestNameHint("temperature", kPorts), "there is 'scan', 'pose', 'velocity', 'goal_reached'");
   EXPECT_EQ(NearestNameHint("x", {}), "there is none");
 }
 

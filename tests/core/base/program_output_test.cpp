@@ -1,6 +1,7 @@
+#include "core/base/program_output.h"
+
 #include <gmock/gmock.h>
 
-#include "core/base/program_output.h"
 #include "core/base/temporary_folder.h"
 
 namespace runnel {

@@ -91,7 +91,9 @@ TEST(SharedVector, WhatCouldChangeItMakesItOwn) {
   };
   becomes({1, 5, 3}, [](Numbers& list) { list[1] = 5; });
   becomes({1, 2, 5}, [](Numbers& list) { list.back() = 5; });
-  becomes({2, 3, 4}, [](Numbers& list) { for (int& each : list) ++each; });
+  becomes({2, 3, 4}, [](Numbers& list) {
+    for (int& each : list) ++each;
+  });
   becomes({1, 2, 3}, [](Numbers& list) { list.resize(3); });
   becomes({1, 2}, [](Numbers& list) { list.resize(2); });
   becomes({1, 2, 3, 9}, [](Numbers& list) { list.resize(4, 9); });

@@ -1,3 +1,5 @@
+#include "core/base/temporary_folder.h"
+
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -6,8 +8,6 @@
 
 #include <gmock/gmock.h>
 #include <stdlib.h>
-
-#include "core/base/temporary_folder.h"
 
 namespace runnel {
 namespace {

@@ -15,23 +15,22 @@ TEST(SplitPathTest, LeavesOutEmptyParts) {
 }
 
 TEST(CheckElementNameTest, AcceptsLettersOfAnyLanguageAndSigns) {
-  for (const char* name : {"laser", "größe_2", "日本", "?loc", "a?", "\"a\"", "a&b<c>", "a;b#c",
-                           "*", "-", "...", "a\\b", "{a=b}", "🤖"}) {
+  for (const char* name : {"laser", "größe_2", "日本", "?loc", "a?", "\"a\"", "a&b<c>", "a;b#c", "*", "-", "...",
+                           "a\\b", "{a=b}", "🤖"}) {
     const auto good = CheckElementName(name);
     EXPECT_TRUE(good) << name << ": " << good.error().message;
   }
 }
 
 TEST(CheckElementNameTest, RefusesWhatWouldMakePathsAmbiguous) {
-  for (const char* name :
-       {"", ".", "..", "a/b", " a", "a ", "front laser", "a\tb", "a\nb", "a,b"}) {
+  for (const char* name : {"", ".", "..", "a/b", " a", "a ", "front laser", "a\tb", "a\nb", "a,b"}) {
     EXPECT_FALSE(CheckElementName(name)) << "'" << name << "'";
   }
 }
 
 TEST(CheckElementNameTest, RefusesWhatNoFileCanCarry) {
-  for (const char* name : {"\x01", "a\x1b[2J", "\x7f", "a\xff", "\xc3", "\xc2\x85", "\xef\xbf\xbe",
-                           "\xed\xa0\x80", "\xc0\xaf"}) {
+  for (const char* name :
+       {"\x01", "a\x1b[2J", "\x7f", "a\xff", "\xc3", "\xc2\x85", "\xef\xbf\xbe", "\xed\xa0\x80", "\xc0\xaf"}) {
     const auto refused = CheckElementName(name);
     ASSERT_FALSE(refused) << "'" << name << "'";
     // Whoever shows the error shows no control character.

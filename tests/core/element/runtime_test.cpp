@@ -151,9 +151,7 @@ TEST(RuntimeTest, ExceptionOfUnknownTypeInPrepareIsAnErrorToo) {
 TEST(RuntimeTest, OneThatThrowsInItsConstructorLeavesNothingBehind) {
   class Broken final : public FrameworkElement {
    public:
-    explicit Broken(const Placement& placement) : FrameworkElement(placement) {
-      throw std::runtime_error("broken");
-    }
+    explicit Broken(const Placement& placement) : FrameworkElement(placement) { throw std::runtime_error("broken"); }
   };
   Runtime runtime;
   EXPECT_THROW(runtime.Create<Broken>(runtime.root(), "broken"), std::runtime_error);

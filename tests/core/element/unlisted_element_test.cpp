@@ -34,9 +34,7 @@ class EventJournal final : public ElementListener {
  public:
   std::vector<std::string> events;
   void OnReady(FrameworkElement& element) override { events.push_back("ready " + element.path()); }
-  void OnDeleted(FrameworkElement& element) override {
-    events.push_back("deleted " + element.path());
-  }
+  void OnDeleted(FrameworkElement& element) override { events.push_back("deleted " + element.path()); }
 };
 
 class UnlistedElementTest : public testing::Test {
@@ -44,8 +42,7 @@ class UnlistedElementTest : public testing::Test {
   UnlistedElementTest() { runtime.AddListener(listener); }
   ~UnlistedElementTest() override { runtime.RemoveListener(listener); }
   UnlistedElement Make(const std::string& name) {
-    return UnlistedElement(
-        std::make_unique<UnlistedNode>(Placement{runtime.root(), name, false}, &journal));
+    return UnlistedElement(std::make_unique<UnlistedNode>(Placement{runtime.root(), name, false}, &journal));
   }
   std::vector<std::string> Names() {
     std::vector<std::string> names;

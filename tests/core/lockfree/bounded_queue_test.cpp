@@ -69,9 +69,7 @@ TEST(BoundedQueueTest, DestroysWhatIsLeft) {
   EXPECT_TRUE(watch.expired());
 }
 
-TEST(BoundedQueueTest, RoomForNothingIsAProgrammingError) {
-  EXPECT_THROW(BoundedQueue<int>(0), ProgrammingError);
-}
+TEST(BoundedQueueTest, RoomForNothingIsAProgrammingError) { EXPECT_THROW(BoundedQueue<int>(0), ProgrammingError); }
 
 TEST(BoundedQueueTest, UsesTheHeapInItsConstructorOnly) {
   BoundedQueue<int> queue(2);
@@ -114,8 +112,7 @@ void EachValueIsTakenOnceAndInOrder(std::size_t capacity, int per_writer) {
       if (item.number <= last[item.writer]) ++disorder;
       last[item.writer] = item.number;
       if (item.whole == nullptr || *item.whole != item.number) ++empty;
-      ++count[item.writer * static_cast<std::size_t>(per_writer) +
-              static_cast<std::size_t>(item.number)];
+      ++count[item.writer * static_cast<std::size_t>(per_writer) + static_cast<std::size_t>(item.number)];
     }
   });
   EXPECT_EQ(disorder, 0);

@@ -49,9 +49,7 @@ struct CountedSuite : rl::test_suite<CountedSuite, 2>, Rig<SearchedPlain, 1> {
   }
 };
 
-TEST(BufferSearch, LeasedValueDoesNotChangeWithoutASlot) {
-  EXPECT_TRUE(Search<CountedSuite>(kIterations, 2));
-}
+TEST(BufferSearch, LeasedValueDoesNotChangeWithoutASlot) { EXPECT_TRUE(Search<CountedSuite>(kIterations, 2)); }
 
 // A lease is copied, and the copy outlasts it: there is no moment at which neither is seen.
 struct CopyingSuite : rl::test_suite<CopyingSuite, 2>, Rig<SearchedPlain, 1> {
@@ -70,9 +68,7 @@ struct CopyingSuite : rl::test_suite<CopyingSuite, 2>, Rig<SearchedPlain, 1> {
   }
 };
 
-TEST(BufferSearch, CopyOfALeaseHoldsWithoutAGap) {
-  EXPECT_TRUE(Search<CopyingSuite>(kIterations, 3));
-}
+TEST(BufferSearch, CopyOfALeaseHoldsWithoutAGap) { EXPECT_TRUE(Search<CopyingSuite>(kIterations, 3)); }
 
 // The same while the publisher looks for a free buffer, and the leased one is no longer the newest: a
 // schedule that begins there, since hardly any gets there if each step is drawn.
@@ -94,9 +90,7 @@ struct CopyingLateSuite : rl::test_suite<CopyingLateSuite, 2>, Rig<SearchedPlain
   Lease lease;
 };
 
-TEST(BufferSearch, CopyOfAnOldLeaseHoldsWithoutAGap) {
-  EXPECT_TRUE(Search<CopyingLateSuite>(kIterations, 4));
-}
+TEST(BufferSearch, CopyOfAnOldLeaseHoldsWithoutAGap) { EXPECT_TRUE(Search<CopyingLateSuite>(kIterations, 4)); }
 
 // A lease is handed to another thread, which drops it, while the first uses the slot again.
 struct HandingOnSuite : rl::test_suite<HandingOnSuite, 3>, Rig<SearchedPlain, 1> {
@@ -120,9 +114,7 @@ struct HandingOnSuite : rl::test_suite<HandingOnSuite, 3>, Rig<SearchedPlain, 1>
   void after() { handed = {}; }
 };
 
-TEST(BufferSearch, LeaseMayBeDroppedByAnotherThread) {
-  EXPECT_TRUE(Search<HandingOnSuite>(kIterations, 1));
-}
+TEST(BufferSearch, LeaseMayBeDroppedByAnotherThread) { EXPECT_TRUE(Search<HandingOnSuite>(kIterations, 1)); }
 
 // Another thread empties a slot, which is then filled anew: a publisher that sees only the latter
 // has the other's look behind it.
@@ -167,9 +159,7 @@ struct GrowingSuite : rl::test_suite<GrowingSuite, 2>, Rig<SearchedPlain, 1> {
   void after() { in_slot = {}; }
 };
 
-TEST(BufferSearch, BuffersThatAreNewAreCompleteForWhoCounts) {
-  EXPECT_TRUE(Search<GrowingSuite>(kIterations, 3));
-}
+TEST(BufferSearch, BuffersThatAreNewAreCompleteForWhoCounts) { EXPECT_TRUE(Search<GrowingSuite>(kIterations, 3)); }
 
 // The publisher reads what it has published, and spares itself the fence, while another reads too.
 struct OwnReaderSuite : rl::test_suite<OwnReaderSuite, 2>, Rig<SearchedPlain, 2> {
@@ -245,12 +235,9 @@ struct ThreeValues {
   SearchedPlain values[3];
   std::size_t made = 0;
 };
-struct TakingOverAtOnceSuite : rl::test_suite<TakingOverAtOnceSuite, 2>,
-                               ThreeValues,
-                               TakingOverRig<Elsewhere> {
+struct TakingOverAtOnceSuite : rl::test_suite<TakingOverAtOnceSuite, 2>, ThreeValues, TakingOverRig<Elsewhere> {
   TakingOverAtOnceSuite()
-      : TakingOverRig({.buffers = 3, .may_grow = false},
-                      [this] { return Elsewhere{&values[made++]}; }) {}
+      : TakingOverRig({.buffers = 3, .may_grow = false}, [this] { return Elsewhere{&values[made++]}; }) {}
 
   void before() { PublishAndLook(4); }
   void thread(unsigned index) {
@@ -273,9 +260,7 @@ struct LateRecord {  // a base, since a record is there for as long as its domai
   std::optional<typename Rig<SearchedPlain, kBefore>::Domain::Record> late;
 };
 template <std::size_t kBefore>
-struct AddingSuite : rl::test_suite<AddingSuite<kBefore>, 2>,
-                     LateRecord<kBefore>,
-                     Rig<SearchedPlain, kBefore> {
+struct AddingSuite : rl::test_suite<AddingSuite<kBefore>, 2>, LateRecord<kBefore>, Rig<SearchedPlain, kBefore> {
   using Base = Rig<SearchedPlain, kBefore>;
   AddingSuite() : Base({.buffers = 2, .may_grow = false}) {}
 
@@ -310,9 +295,7 @@ struct SharedBitSuite : rl::test_suite<SharedBitSuite, 3>, Rig<SearchedPlain, 11
   }
 };
 
-TEST(BufferSearch, ReadersThatShareABitAreSeenEach) {
-  EXPECT_TRUE(Search<SharedBitSuite>(5 * kIterations, 1));
-}
+TEST(BufferSearch, ReadersThatShareABitAreSeenEach) { EXPECT_TRUE(Search<SharedBitSuite>(5 * kIterations, 1)); }
 
 }  // namespace
 }  // namespace runnel::test

@@ -54,9 +54,7 @@ struct EpochSuite : rl::test_suite<EpochSuite, 3>, Parts {
   }
 };
 
-TEST(EpochSearch, PartIsDestroyedOnlyWhenNobodyLooks) {
-  EXPECT_TRUE(Search<EpochSuite>(kIterations, 1));
-}
+TEST(EpochSearch, PartIsDestroyedOnlyWhenNobodyLooks) { EXPECT_TRUE(Search<EpochSuite>(kIterations, 1)); }
 
 // A thread that ends hands its participant to the next one: who sees that one inside, in a new
 // epoch, sees as done what the first one did.
@@ -75,9 +73,7 @@ struct HandedOverSuite : rl::test_suite<HandedOverSuite, 3>, Parts {
   }
 };
 
-TEST(EpochSearch, ParticipantMayBeHandedToAnotherThread) {
-  EXPECT_TRUE(Search<HandedOverSuite>(kIterations, 3));
-}
+TEST(EpochSearch, ParticipantMayBeHandedToAnotherThread) { EXPECT_TRUE(Search<HandedOverSuite>(kIterations, 3)); }
 
 }  // namespace
 }  // namespace runnel::test

@@ -84,9 +84,7 @@ struct SharingSuite : rl::test_suite<SharingSuite, 3> {
   }
 };
 
-TEST(EventCountSearch, OneNotificationWakesAllWhoSleep) {
-  EXPECT_TRUE(Search<SharingSuite>(kIterations, 4));
-}
+TEST(EventCountSearch, OneNotificationWakesAllWhoSleep) { EXPECT_TRUE(Search<SharingSuite>(kIterations, 4)); }
 
 // After a wait that has run out of time, a notification wakes the next one all the same; and one that came
 // in the last moment is taken.

@@ -27,8 +27,7 @@ struct WaitingSuite : rl::test_suite<WaitingSuite<kNotifiers>, kNotifiers + 1> {
       return;
     }
     for (auto& each : there) {
-      RL_ASSERT(event.Wait(SearchedFutex::kNever,
-                           [&] { return each.load(std::memory_order_relaxed) == 1; }));
+      RL_ASSERT(event.Wait(SearchedFutex::kNever, [&] { return each.load(std::memory_order_relaxed) == 1; }));
     }
   }
 };
@@ -56,9 +55,7 @@ struct TimeOutSuite : rl::test_suite<TimeOutSuite, 2> {
   }
 };
 
-TEST(EventSearch, AWaitThatRanOutOfTimeTakesNothingFromTheNext) {
-  EXPECT_TRUE(Search<TimeOutSuite>(kIterations, 4));
-}
+TEST(EventSearch, AWaitThatRanOutOfTimeTakesNothingFromTheNext) { EXPECT_TRUE(Search<TimeOutSuite>(kIterations, 4)); }
 
 }  // namespace
 }  // namespace runnel::test

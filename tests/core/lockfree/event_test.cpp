@@ -62,8 +62,7 @@ void PlayPingPong(int rounds) {
   RunTogether(2, [&](unsigned index) {
     for (int round = 0; round < rounds; ++round) {
       const int mine = 2 * round + static_cast<int>(index);
-      ASSERT_TRUE(
-          events[index].Wait(Late(), [&] { return ball.load(std::memory_order_relaxed) == mine; }));
+      ASSERT_TRUE(events[index].Wait(Late(), [&] { return ball.load(std::memory_order_relaxed) == mine; }));
       ball.store(mine + 1, std::memory_order_relaxed);
       events[1 - index].Notify();
     }

@@ -60,9 +60,7 @@ struct ForwardingSuite : rl::test_suite<ForwardingSuite, 3>, ForwardingRig<Searc
   }
 };
 
-TEST(ForwardingSearch, ForwardedValueDoesNotChange) {
-  EXPECT_TRUE(Search<ForwardingSuite>(kIterations, 1));
-}
+TEST(ForwardingSearch, ForwardedValueDoesNotChange) { EXPECT_TRUE(Search<ForwardingSuite>(kIterations, 1)); }
 
 // The same with nothing but the forwarding that holds the value, which ends just now; begins there,
 // since hardly any schedule gets there if each step is drawn.
@@ -131,9 +129,7 @@ struct ChainSuite : rl::test_suite<ChainSuite, 3>, ForwardingRig<SearchedPlain, 
   void after() { LookAtForwarded(last.Lease(readers[1])); }
 };
 
-TEST(ForwardingSearch, ChainHoldsTheValueWithoutAGap) {
-  EXPECT_TRUE(Search<ChainSuite>(kIterations, 1));
-}
+TEST(ForwardingSearch, ChainHoldsTheValueWithoutAGap) { EXPECT_TRUE(Search<ChainSuite>(kIterations, 1)); }
 
 // Both pools are closed while a reader still has what was forwarded: it all goes, once, and not before.
 struct ClosingSuite : rl::test_suite<ClosingSuite, 3>, ForwardingRig<Mortal, 2> {
@@ -166,9 +162,7 @@ TEST(ForwardingSearch, ClosedPoolsGoWithTheLastHolderOfWhatWasForwarded) {
 }
 
 // A publisher writes into memory of its own again as soon as it gets it back.
-struct InPlaceSuite : rl::test_suite<InPlaceSuite, 2>,
-                      Rig<SearchedPlain, 1>,
-                      ValueOwner<SearchedPlain> {
+struct InPlaceSuite : rl::test_suite<InPlaceSuite, 2>, Rig<SearchedPlain, 1>, ValueOwner<SearchedPlain> {
   InPlaceSuite() : Rig({.buffers = 2, .may_grow = false}) {}
   SearchedPlain values[2];
   bool is_out[2] = {};

@@ -41,9 +41,7 @@ struct SharedBitSuite : rl::test_suite<SharedBitSuite, 2> {
   std::array<Record, 2> added;
 };
 
-TEST(HazardSearch, RecordsThatAreAddedAtOnceAreAllLookedAt) {
-  EXPECT_TRUE(Search<SharedBitSuite>(kIterations, 4));
-}
+TEST(HazardSearch, RecordsThatAreAddedAtOnceAreAllLookedAt) { EXPECT_TRUE(Search<SharedBitSuite>(kIterations, 4)); }
 
 // Two threads retire a part each, and look at what waits. Each part is held when it is first looked at:
 // one thread at a time looks at it, and it is deleted once.

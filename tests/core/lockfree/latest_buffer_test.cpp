@@ -20,8 +20,7 @@ namespace {
 using test::Counted;
 
 /// A pool with its newest buffer, and the records of `kReaders` threads with `kSlots` slots each.
-template <typename T, std::size_t kReaders = 1, template <typename> class Atomic = std::atomic,
-          std::size_t kSlots = 7>
+template <typename T, std::size_t kReaders = 1, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
 struct Rig {
   using Pool = BufferPool<T, Atomic, kSlots>;
   using Lease = BufferLease<T, Atomic, kSlots>;
@@ -100,8 +99,7 @@ TEST(LatestBufferTest, LeaseOfThePublishersOwnThreadHoldsAsAnyOther) {
 TEST(LatestBufferTest, LeasesHoldHoweverOftenThePublisherChanges) {
   Rig<int, 2> rig({.buffers = 2, .may_grow = false});
   for (std::size_t i = 0; i < 40; ++i) {
-    auto& publisher =
-        rig.readers[i / 2 % 2];  // each of them twice, and so it reads as the only one
+    auto& publisher = rig.readers[i / 2 % 2];  // each of them twice, and so it reads as the only one
     ASSERT_NE(PublishAs(rig, publisher), nullptr);
     auto lease = rig.latest->Lease(publisher);
     ASSERT_NE(PublishAs(rig, publisher), nullptr);

@@ -23,8 +23,7 @@ struct LatestValueSuite : rl::test_suite<LatestValueSuite<kCells>, 2> {
   void thread(unsigned index) {
     if (index == 0) {
       for (std::uint64_t i = 1; i <= 4; ++i) {
-        latest.Publish({i, 10 * i}, static_cast<std::int64_t>(100 * i),
-                       static_cast<std::int64_t>(200 * i), 1000 * i);
+        latest.Publish({i, 10 * i}, static_cast<std::int64_t>(100 * i), static_cast<std::int64_t>(200 * i), 1000 * i);
       }
       return;
     }

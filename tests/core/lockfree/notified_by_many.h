@@ -11,9 +11,7 @@
 namespace runnel::test {
 
 /// Only against hanging for ever: a lost wake-up shows as a wait that ran out of this time.
-inline KernelFutex::Deadline Late() {
-  return std::chrono::steady_clock::now() + std::chrono::seconds(30);
-}
+inline KernelFutex::Deadline Late() { return std::chrono::steady_clock::now() + std::chrono::seconds(30); }
 
 /// Three threads put things somewhere and notify `event`, all at once; one waits until it has seen all.
 /// `wait(put, seen)` waits for more than `seen` and says whether it came.

@@ -34,15 +34,12 @@ struct LoanSuite : rl::test_suite<LoanSuite, 2>, Rig<SearchedPlain, 1> {
     }
   }
   void after() {
-    auto* const out =
-        again != nullptr || is_dropped ? again : loaned.load(std::memory_order_relaxed);
+    auto* const out = again != nullptr || is_dropped ? again : loaned.load(std::memory_order_relaxed);
     if (out != nullptr) out->DropLoan();
   }
 };
 
-TEST(PoolSearch, LoanGivenBackIsWrittenAgainOnlyThen) {
-  EXPECT_TRUE(Search<LoanSuite>(kIterations, 4));
-}
+TEST(PoolSearch, LoanGivenBackIsWrittenAgainOnlyThen) { EXPECT_TRUE(Search<LoanSuite>(kIterations, 4)); }
 
 // Buffers are reserved while the publisher loans: they are complete when it comes upon them.
 struct ReservingSuite : rl::test_suite<ReservingSuite, 2>, Rig<SearchedPlain, 1> {
@@ -68,9 +65,7 @@ struct ReservingSuite : rl::test_suite<ReservingSuite, 2>, Rig<SearchedPlain, 1>
   }
 };
 
-TEST(PoolSearch, ReservedBuffersAreCompleteWhenTheyArrive) {
-  EXPECT_TRUE(Search<ReservingSuite>(kIterations, 2));
-}
+TEST(PoolSearch, ReservedBuffersAreCompleteWhenTheyArrive) { EXPECT_TRUE(Search<ReservingSuite>(kIterations, 2)); }
 
 // The owner closes the pool while there are a lease in a slot, its copy, and a loan, each given up
 // by another thread: the buffers go with whoever comes last, once.
@@ -104,9 +99,7 @@ struct ClosingSuite : rl::test_suite<ClosingSuite, 3>, Rig<Mortal, 1> {
   }
 };
 
-TEST(PoolSearch, ClosedPoolGoesWithItsLastHolder) {
-  EXPECT_TRUE(Search<ClosingSuite>(kIterations, 3));
-}
+TEST(PoolSearch, ClosedPoolGoesWithItsLastHolder) { EXPECT_TRUE(Search<ClosingSuite>(kIterations, 3)); }
 
 // The same with nothing but a lease in a slot, so that the closer and the reader meet there alone.
 struct ClosingSlotSuite : rl::test_suite<ClosingSlotSuite, 2>, Rig<Mortal, 1> {
@@ -131,9 +124,7 @@ struct ClosingSlotSuite : rl::test_suite<ClosingSlotSuite, 2>, Rig<Mortal, 1> {
   }
 };
 
-TEST(PoolSearch, ClosedPoolGoesWithTheLastSlot) {
-  EXPECT_TRUE(Search<ClosingSlotSuite>(kIterations, 4));
-}
+TEST(PoolSearch, ClosedPoolGoesWithTheLastSlot) { EXPECT_TRUE(Search<ClosingSlotSuite>(kIterations, 4)); }
 
 // The pool is closed already, and its holders make further ones before they go.
 struct ClosedSuite : rl::test_suite<ClosedSuite, 3>, Rig<Mortal, 1> {
@@ -171,9 +162,7 @@ struct ClosedSuite : rl::test_suite<ClosedSuite, 3>, Rig<Mortal, 1> {
   }
 };
 
-TEST(PoolSearch, HoldersOfAClosedPoolMayMakeFurtherOnes) {
-  EXPECT_TRUE(Search<ClosedSuite>(kIterations, 4));
-}
+TEST(PoolSearch, HoldersOfAClosedPoolMayMakeFurtherOnes) { EXPECT_TRUE(Search<ClosedSuite>(kIterations, 4)); }
 
 // Two counted holders, of which either may be the last, and its closer.
 struct ClosingCountedSuite : rl::test_suite<ClosingCountedSuite, 3>, Rig<Mortal, 1> {
@@ -196,9 +185,7 @@ struct ClosingCountedSuite : rl::test_suite<ClosingCountedSuite, 3>, Rig<Mortal,
   }
 };
 
-TEST(PoolSearch, ClosedPoolGoesWithTheLastOfTwoCounted) {
-  EXPECT_TRUE(Search<ClosingCountedSuite>(kIterations, 4));
-}
+TEST(PoolSearch, ClosedPoolGoesWithTheLastOfTwoCounted) { EXPECT_TRUE(Search<ClosingCountedSuite>(kIterations, 4)); }
 
 // A lease in a slot is dropped by another thread, while the slot's own thread leases the same newest
 // buffer anew, and then the pool is closed: it is the second lease that counts.
@@ -272,9 +259,7 @@ struct ClosingTwoSuite : rl::test_suite<ClosingTwoSuite, 3>, Rig<Mortal, 1> {
   }
 };
 
-TEST(PoolSearch, EachOfTwoClosedPoolsGetsItsAnswer) {
-  EXPECT_TRUE(Search<ClosingTwoSuite>(kIterations, 1));
-}
+TEST(PoolSearch, EachOfTwoClosedPoolsGetsItsAnswer) { EXPECT_TRUE(Search<ClosingTwoSuite>(kIterations, 1)); }
 
 }  // namespace
 }  // namespace runnel::test

@@ -133,9 +133,7 @@ struct ReadingInPlaceSuite : rl::test_suite<ReadingInPlaceSuite, 2> {
   }
 };
 
-TEST(StreamQueueSearch, WriterLeavesTheFrontToTheReader) {
-  EXPECT_TRUE(Search<ReadingInPlaceSuite>(kIterations, 3));
-}
+TEST(StreamQueueSearch, WriterLeavesTheFrontToTheReader) { EXPECT_TRUE(Search<ReadingInPlaceSuite>(kIterations, 3)); }
 
 // Either side may pass to another thread, if that is ordered; a third one may ask for the size.
 struct HandingOverSuite : rl::test_suite<HandingOverSuite, 4> {
@@ -165,9 +163,7 @@ struct HandingOverSuite : rl::test_suite<HandingOverSuite, 4> {
   }
 };
 
-TEST(StreamQueueSearch, WritersMayTakeTurns) {
-  EXPECT_TRUE(Search<HandingOverSuite>(kIterations, 2));
-}
+TEST(StreamQueueSearch, WritersMayTakeTurns) { EXPECT_TRUE(Search<HandingOverSuite>(kIterations, 2)); }
 
 using SearchedOverwriting = OverwritingQueue<Grounded, SearchedAtomic, SearchedNote>;
 
@@ -284,9 +280,7 @@ struct SharedQueueSuite : rl::test_suite<SharedQueueSuite, 4> {
   }
 };
 
-TEST(BoundedQueueSearch, EachCellBelongsToOneAtATime) {
-  EXPECT_TRUE(Search<SharedQueueSuite>(kIterations, 1));
-}
+TEST(BoundedQueueSearch, EachCellBelongsToOneAtATime) { EXPECT_TRUE(Search<SharedQueueSuite>(kIterations, 1)); }
 
 }  // namespace
 }  // namespace runnel::test

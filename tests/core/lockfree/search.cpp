@@ -14,9 +14,7 @@ namespace {
 class SearchOutput : public std::streambuf {
  public:
   SearchOutput() { setp(text_.data(), text_.data() + text_.size()); }
-  [[nodiscard]] std::string_view text() const {
-    return {pbase(), static_cast<std::size_t>(pptr() - pbase())};
-  }
+  [[nodiscard]] std::string_view text() const { return {pbase(), static_cast<std::size_t>(pptr() - pbase())}; }
 
  private:
   int_type overflow(int_type) override { return 0; }

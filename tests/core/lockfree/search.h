@@ -34,12 +34,9 @@ class SuiteInstance {
 
  public:
   static constexpr SearchedSuite kCalls{
-      Suite::params::thread_count,
-      [] { std::construct_at(reinterpret_cast<Suite*>(memory_)); },
-      [] { Get().before(); },
-      [](unsigned index) { Get().thread(index); },
-      [] { Get().after(); },
-      [] { Get().invariant(); },
+      Suite::params::thread_count,     [] { std::construct_at(reinterpret_cast<Suite*>(memory_)); },
+      [] { Get().before(); },          [](unsigned index) { Get().thread(index); },
+      [] { Get().after(); },           [] { Get().invariant(); },
       [] { std::destroy_at(&Get()); },
   };
 };

@@ -75,8 +75,8 @@ inline rl::memory_order Searched(std::memory_order order) {
 /// Relacy takes no failure order above the order of success, as C++ did once. The structures have none
 /// either; but they are weakened to see what the search says (weaken).
 inline rl::memory_order SearchedFailure(std::memory_order ok, std::memory_order fail) {
-  const bool acquires = ok == std::memory_order_acquire || ok == std::memory_order_acq_rel ||
-                        ok == std::memory_order_seq_cst;
+  const bool acquires =
+      ok == std::memory_order_acquire || ok == std::memory_order_acq_rel || ok == std::memory_order_seq_cst;
   return acquires ? Searched(fail) : rl::mo_relaxed;
 }
 
@@ -107,13 +107,11 @@ class SearchedAtomic {
     return Living().rmw(rl::rmw_type_t<rl::rmw_type_or>(), value, Searched(order), $);
   }
   bool compare_exchange_weak(T& expected, T desired, std::memory_order ok, std::memory_order fail) {
-    return Living().compare_exchange(rl::bool_t<true>(), expected, desired, Searched(ok),
-                                     SearchedFailure(ok, fail), $);
+    return Living().compare_exchange(rl::bool_t<true>(), expected, desired, Searched(ok), SearchedFailure(ok, fail), $);
   }
-  bool compare_exchange_strong(T& expected, T desired, std::memory_order ok,
-                               std::memory_order fail) {
-    return Living().compare_exchange(rl::bool_t<false>(), expected, desired, Searched(ok),
-                                     SearchedFailure(ok, fail), $);
+  bool compare_exchange_strong(T& expected, T desired, std::memory_order ok, std::memory_order fail) {
+    return Living().compare_exchange(rl::bool_t<false>(), expected, desired, Searched(ok), SearchedFailure(ok, fail),
+                                     $);
   }
 
  private:

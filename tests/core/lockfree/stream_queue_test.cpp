@@ -108,9 +108,7 @@ TEST(StreamQueueTest, DestroysWhatIsTakenOutAndWhatIsLeft) {
   EXPECT_EQ(value.use_count(), 1);
 }
 
-TEST(StreamQueueTest, RoomForNothingIsAProgrammingError) {
-  EXPECT_THROW(StreamQueue<int>(0), ProgrammingError);
-}
+TEST(StreamQueueTest, RoomForNothingIsAProgrammingError) { EXPECT_THROW(StreamQueue<int>(0), ProgrammingError); }
 
 TEST(StreamQueueTest, UsesTheHeapInItsConstructorOnly) {
   StreamQueue<int> queue(2);

@@ -1,7 +1,6 @@
+#include "core/lockfree/taking_turns.h"
 #include "tests/core/lockfree/search.h"
 #include "tests/core/lockfree/searched_atomic.h"
-
-#include "core/lockfree/taking_turns.h"
 
 namespace runnel::test {
 namespace {

@@ -63,9 +63,7 @@ void PassNotificationsOn(int rounds) {
 }
 
 TEST(EventCount, LosesNoNotification) { PassNotificationsOn<std::atomic>(10000); }
-TEST(EventCount, LosesNoNotificationWhenOthersComeBetweenAnyTwoSteps) {
-  PassNotificationsOn<YieldingAtomic>(5000);
-}
+TEST(EventCount, LosesNoNotificationWhenOthersComeBetweenAnyTwoSteps) { PassNotificationsOn<YieldingAtomic>(5000); }
 
 TEST(WakeEvent, IsNotifiedByManyAtOnce) {
   WakeEvent event;

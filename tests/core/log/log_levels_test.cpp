@@ -1,5 +1,4 @@
 #include "core/log/log_level.h"
-
 #include "tests/core/log/logger_fixture.h"
 
 namespace runnel::test {

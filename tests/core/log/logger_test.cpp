@@ -156,8 +156,8 @@ TEST(LoggerRingTest, WhatFindsNoRoomIsCounted) {
   const auto messages = listener.messages();
   ASSERT_GT(messages.size(), 100u);
   EXPECT_EQ(messages.back().level, LogLevel::kWarning);
-  EXPECT_EQ(messages.back().text, std::to_string(400 - (messages.size() - 1)) +
-                                      " messages were lost: the log is read too slowly");
+  EXPECT_EQ(messages.back().text,
+            std::to_string(400 - (messages.size() - 1)) + " messages were lost: the log is read too slowly");
 }
 
 // For ThreadSanitizer: rings change hands, elements go, sinks come and go meanwhile.

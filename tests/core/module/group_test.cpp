@@ -12,9 +12,8 @@ using testing::ElementsAre;
 class GroupTest : public testing::Test {
  protected:
   GroupTest() {
-    for (const auto& connected :
-         {Port::Connect(source.doubled, in), Port::Connect(in, inner->value),
-          Port::Connect(inner->doubled, out), Port::Connect(out, sink.value)}) {
+    for (const auto& connected : {Port::Connect(source.doubled, in), Port::Connect(in, inner->value),
+                                  Port::Connect(inner->doubled, out), Port::Connect(out, sink.value)}) {
       EXPECT_TRUE(connected);
     }
   }
@@ -23,8 +22,7 @@ class GroupTest : public testing::Test {
   Doubler& source = runtime.Create<Doubler>(runtime.root(), "source");
   Group& group = runtime.Create<Group>(runtime.root(), "group");
   ProxyPort& in = runtime.Create<ProxyPort>(group, "in", Port::Direction::kInput, TypeOf<double>());
-  ProxyPort& out =
-      runtime.Create<ProxyPort>(group, "out", Port::Direction::kOutput, TypeOf<double>());
+  ProxyPort& out = runtime.Create<ProxyPort>(group, "out", Port::Direction::kOutput, TypeOf<double>());
   Doubler* inner = &runtime.Create<Doubler>(group, "inner");
   Doubler& sink = runtime.Create<Doubler>(runtime.root(), "sink");
 };
@@ -36,8 +34,7 @@ TEST_F(GroupTest, DataFlowsThroughItsInterface) {
   RunOnce(*inner);
   RunOnce(sink);
   double last = 0;
-  sink.doubled.VisitLatest(
-      [&](const void* value, Time) { last = *static_cast<const double*>(value); });
+  sink.doubled.VisitLatest([&](const void* value, Time) { last = *static_cast<const double*>(value); });
   EXPECT_EQ(last, 4.0);
 }
 

@@ -32,8 +32,7 @@ TEST(AbiDifferenceTest, NamesAllFlagsThatDiffer) {
 }
 
 TEST(AbiDifferenceTest, AnotherCompilerIsToldWithBothFingerprints) {
-  const AbiDifference difference =
-      FindAbiDifference("runnel-abi-1 gxx1018 libstdcxx13 cxx11abi1 pointer8 avx", kPlain);
+  const AbiDifference difference = FindAbiDifference("runnel-abi-1 gxx1018 libstdcxx13 cxx11abi1 pointer8 avx", kPlain);
   EXPECT_THAT(difference.why, testing::HasSubstr("libstdcxx13 cxx11abi1 pointer8 avx', this core with '"));
   EXPECT_EQ(difference.cure, "rebuild the plugin with the compiler of the core");
   EXPECT_THAT(FindAbiDifference("", kPlain).cure, testing::HasSubstr("the compiler"));

@@ -36,13 +36,14 @@ class LibraryFileTest : public testing::Test {
 
 TEST_F(LibraryFileTest, ThatLacksItsEndIsRefused) {
   ASSERT_GT(whole.size(), 5000U);
-  for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{16}, std::size_t{63}, std::size_t{64}, std::size_t{1000},
-                                 std::size_t{4096}, whole.size() / 2, whole.size() - 1}) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{16}, std::size_t{63}, std::size_t{64},
+                                 std::size_t{1000}, std::size_t{4096}, whole.size() / 2, whole.size() - 1}) {
     Put(std::string_view(whole).substr(0, size));
     EXPECT_FALSE(CheckIsWhole(file)) << size;
     const auto loaded = manager.Load("good");
     ASSERT_FALSE(loaded) << size;
-    EXPECT_THAT(loaded.error().message, AllOf(HasSubstr("the plugin " + file.string() + " is refused"), HasSubstr("it is cut short")));
+    EXPECT_THAT(loaded.error().message,
+                AllOf(HasSubstr("the plugin " + file.string() + " is refused"), HasSubstr("it is cut short")));
     EXPECT_THAT(loaded.error().hint, HasSubstr("rename it when it is whole"));
   }
   Put(whole);

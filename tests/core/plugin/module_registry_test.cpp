@@ -96,8 +96,7 @@ TEST(ModuleRegistryTest, WhatAConstructorThrowsIsAnErrorAndLeavesNothingBehind) 
   const auto made = registry.Create("failing", runtime.root(), "robot");
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().path, "/");
-  EXPECT_EQ(made.error().message,
-            "a module of type 'failing' could not be made: the device is missing");
+  EXPECT_EQ(made.error().message, "a module of type 'failing' could not be made: the device is missing");
   const auto other = registry.Create("odd", runtime.root(), "robot");
   ASSERT_FALSE(other);
   EXPECT_THAT(other.error().message, HasSubstr("exception of type int"));

@@ -111,9 +111,8 @@ TEST_F(PluginManagerTest, EmptyEntryIsRefused) {
 TEST_F(PluginManagerTest, OtherAbiVersionIsRefusedWithBothVersions) {
   const Error error = RefusalOf("other_abi_version");
   EXPECT_EQ(error.message,
-            Refused("other_abi_version",
-                    "it was built for plugin ABI " + std::to_string(kPluginAbiVersion + 1) +
-                        ", this core has " + std::to_string(kPluginAbiVersion)));
+            Refused("other_abi_version", "it was built for plugin ABI " + std::to_string(kPluginAbiVersion + 1) +
+                                             ", this core has " + std::to_string(kPluginAbiVersion)));
   EXPECT_EQ(error.hint, "rebuild the plugin");
 }
 
@@ -124,9 +123,8 @@ TEST_F(PluginManagerTest, OtherSizeOfTheEntryIsRefused) {
 
 TEST_F(PluginManagerTest, OtherCompilerIsRefusedWithBothFingerprints) {
   const Error error = RefusalOf("other_fingerprint");
-  EXPECT_EQ(error.message, Refused("other_fingerprint",
-                                   "it was built with 'some other compiler', this core with '" +
-                                       std::string(CoreAbiFingerprint()) + "'"));
+  EXPECT_EQ(error.message, Refused("other_fingerprint", "it was built with 'some other compiler', this core with '" +
+                                                            std::string(CoreAbiFingerprint()) + "'"));
   EXPECT_EQ(error.hint, "rebuild the plugin with the compiler of the core");
 }
 
@@ -137,8 +135,7 @@ TEST_F(PluginManagerTest, OtherLayoutOfTheSameClassesIsRefused) {
   const Error alignment = RefusalOf("other_alignment");
   EXPECT_THAT(alignment.message, HasSubstr("for AVX"));
   EXPECT_THAT(alignment.hint, HasSubstr("-march=native"));
-  EXPECT_THAT(CoreAbiFingerprint(),
-              testing::StartsWith("runnel-abi-" + std::to_string(kPluginAbiVersion) + " "));
+  EXPECT_THAT(CoreAbiFingerprint(), testing::StartsWith("runnel-abi-" + std::to_string(kPluginAbiVersion) + " "));
 }
 
 TEST_F(PluginManagerTest, OneFileMayBeNamedInManyWays) {
@@ -154,16 +151,14 @@ TEST_F(PluginManagerTest, OtherFileOfALoadedNameIsRefused) {
   fs::copy_file(kFolder / "throws.so", folder / "good.so", fs::copy_options::overwrite_existing);
   const auto result = manager.Load((folder / "good.so").string());
   ASSERT_FALSE(result);
-  EXPECT_THAT(result.error().message,
-              HasSubstr("is refused: a plugin 'good' is loaded already from " +
-                        fs::canonical(kFolder / "good.so").string()));
+  EXPECT_THAT(result.error().message, HasSubstr("is refused: a plugin 'good' is loaded already from " +
+                                                fs::canonical(kFolder / "good.so").string()));
   EXPECT_THAT(manager.loaded(), ElementsAre("good"));
 }
 
 TEST_F(PluginManagerTest, RegistrationThatThrowsLeavesNothingBehind) {
   EXPECT_EQ(RefusalOf("throws").message, Refused("throws", "its registration failed: no driver"));
-  EXPECT_EQ(RefusalOf("throws_int").message,
-            Refused("throws_int", "its registration failed: exception of type int"));
+  EXPECT_EQ(RefusalOf("throws_int").message, Refused("throws_int", "its registration failed: exception of type int"));
   EXPECT_EQ(RefusalOf("throws").message,  // and it may be tried again
             Refused("throws", "its registration failed: no driver"));
 }
@@ -194,8 +189,7 @@ TEST_F(PluginManagerTest, WhatNeedsALibraryThatHasChangedCannotBeLoadedAnew) {
   put("needed_2", "librunnel_test_needed.so");
   const auto reload = manager.Reload("needing");
   ASSERT_FALSE(reload);
-  EXPECT_THAT(reload.error().message,
-              AllOf(HasSubstr("librunnel_test_needed.so"), HasSubstr("has been built anew")));
+  EXPECT_THAT(reload.error().message, AllOf(HasSubstr("librunnel_test_needed.so"), HasSubstr("has been built anew")));
   EXPECT_NE(manager.modules().Find("needing/version_1"), nullptr);
   put("needed_1", "librunnel_test_needed.so");
   EXPECT_TRUE(manager.Reload("needing")) << "what was built anew and has not changed";
@@ -207,8 +201,7 @@ TEST_F(PluginManagerTest, TypeOfAnotherPluginCannotBeTakenOver) {
             Refused("duplicate", "module type 'good/counter' comes with plugin 'good' already"));
   EXPECT_EQ(manager.modules().Find("good/counter")->plugin, "good");
   EXPECT_EQ(RefusalOf("same_name_in_itself").message,
-            Refused("same_name_in_itself",
-                    "module type 'twice/idle' comes with plugin 'same_name_in_itself' already"));
+            Refused("same_name_in_itself", "module type 'twice/idle' comes with plugin 'same_name_in_itself' already"));
 }
 
 TEST_F(PluginManagerTest, FileThatIsNoLibraryIsRefused) {
@@ -244,8 +237,7 @@ TEST(PluginSearchPathTest, BuildTreeIsSearchedWithoutAnyHelp) {
   unsetenv("RUNNEL_PLUGIN_PATH");
   const PluginManager manager;
   ASSERT_EQ(manager.search_path().size(), 1u);
-  EXPECT_EQ(fs::weakly_canonical(manager.search_path()[0]),
-            fs::weakly_canonical(RUNNEL_BUILD_PLUGINS));
+  EXPECT_EQ(fs::weakly_canonical(manager.search_path()[0]), fs::weakly_canonical(RUNNEL_BUILD_PLUGINS));
 }
 
 TEST(PluginSearchPathTest, FoldersOfTheEnvironmentComeFirst) {

@@ -15,9 +15,7 @@ class TagRegistry final : public OfferedRegistry {
   void Add(const std::string& tag, const std::string& plugin) { plugin_of[tag] = plugin; }
   std::function<void()> SetAside(std::string_view plugin) override {
     std::map<std::string, std::string> removed;
-    std::erase_if(plugin_of, [&](const auto& entry) {
-      return entry.second == plugin && removed.insert(entry).second;
-    });
+    std::erase_if(plugin_of, [&](const auto& entry) { return entry.second == plugin && removed.insert(entry).second; });
     return [this, removed] { plugin_of.insert(removed.begin(), removed.end()); };
   }
   void set_plugin(const std::string& plugin) override { plugins_told.push_back(plugin); }

@@ -27,9 +27,7 @@ struct ManySpeeds {
 
 class BrakingTest : public StopTest {
  protected:
-  static InputOptions Brakes(int time = 100) {
-    return {.unit = "m/s", .drives = true, .brake = milliseconds(time)};
-  }
+  static InputOptions Brakes(int time = 100) { return {.unit = "m/s", .drives = true, .brake = milliseconds(time)}; }
   void Pass(int time) { clock.Advance(milliseconds(time)); }
 };
 
@@ -209,7 +207,8 @@ TEST_F(BrakingTest, IsRefusedWhereNothingIsBetweenTwoValues) {
                                                      HasSubstr("leave out how long it brakes")));
   EXPECT_FALSE(name.in.is_driving());
   EXPECT_TRUE(name.in.SetDriving(true, std::string("stand")));
-  EXPECT_THROW(MakeReceiver<Speeds>("far", {.drives = true, .brake = std::chrono::seconds(3000)}), ElementError) << "3000 ms were meant";
+  EXPECT_THROW(MakeReceiver<Speeds>("far", {.drives = true, .brake = std::chrono::seconds(3000)}), ElementError)
+      << "3000 ms were meant";
   EXPECT_THROW(MakeReceiver<bool>("lamp", {.drives = true, .safe_value = false, .brake = milliseconds(1)}),
                ElementError);
 }

@@ -67,8 +67,7 @@ TEST_F(ByHandTest, AllWhoReadFromAnOutputFindIt) {
 
 TEST_F(ByHandTest, AnInterfacePortPassesItOn) {
   auto& sender = MakeSender<double>();
-  auto& proxy = runtime.Create<ProxyPort>(runtime.root(), "interface", Port::Direction::kInput,
-                                          TypeOf<double>());
+  auto& proxy = runtime.Create<ProxyPort>(runtime.root(), "interface", Port::Direction::kInput, TypeOf<double>());
   auto& receiver = MakeReceiver<double>();
   Connect(sender.out, proxy);
   Connect(proxy, receiver.in);
@@ -77,8 +76,7 @@ TEST_F(ByHandTest, AnInterfacePortPassesItOn) {
   sender.out.Publish(2.0);
   EXPECT_EQ(receiver.in.Get(), 4.0);
   double shown = 0;
-  EXPECT_TRUE(proxy.VisitLatest(
-      [&](const void* value, ValueTimes) { shown = *static_cast<const double*>(value); }));
+  EXPECT_TRUE(proxy.VisitLatest([&](const void* value, ValueTimes) { shown = *static_cast<const double*>(value); }));
   EXPECT_EQ(shown, 4.0);
   EXPECT_TRUE(proxy.Release());
   EXPECT_EQ(receiver.in.Get(), 2.0);
@@ -125,8 +123,7 @@ TEST_F(ByHandTest, WhatCannotBeFilledChangesNothing) {
   auto& receiver = MakeReceiver<double>();
   Connect(sender.out, receiver.in);
   sender.out.Publish(1.0);
-  EXPECT_FALSE(
-      receiver.in.PublishByHand([](void*) -> Result<void> { return Error{.message = "no"}; }));
+  EXPECT_FALSE(receiver.in.PublishByHand([](void*) -> Result<void> { return Error{.message = "no"}; }));
   EXPECT_FALSE(receiver.in.is_set_by_hand());
   EXPECT_EQ(receiver.in.Get(), 1.0);
   auto& sealed = runtime.Create<Receiver<Sealed>>(runtime.root(), "sealed");

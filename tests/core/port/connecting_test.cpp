@@ -152,13 +152,11 @@ TEST_F(ConnectingTest, ListenersAreToldOfEachConnectionAndItsEnd) {
   Connect(sender.out, receiver.in);
   ASSERT_TRUE(runtime.Delete(sender));
   runtime.RemoveListener(journal);
-  EXPECT_THAT(journal.events,
-              ElementsAre("/sender/out > /receiver/in", "/sender/out | /receiver/in"));
+  EXPECT_THAT(journal.events, ElementsAre("/sender/out > /receiver/in", "/sender/out | /receiver/in"));
 }
 
 TEST_F(ConnectingTest, OptionsOfAPortCanBeAskedFor) {
-  auto& receiver = MakeReceiver<int>(
-      "receiver", {.description = "what comes", .required = true, .trigger = true});
+  auto& receiver = MakeReceiver<int>("receiver", {.description = "what comes", .required = true, .trigger = true});
   EXPECT_EQ(receiver.in.description(), "what comes");
   EXPECT_TRUE(receiver.in.is_required());
   EXPECT_TRUE(receiver.in.is_trigger());

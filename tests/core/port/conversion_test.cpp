@@ -18,9 +18,7 @@ struct Place {
   double heading = 0;
 };
 inline void Describe(TypeBuilder<Place>& type) {
-  type.Name("test::Place")
-      .Field("x", &Place::x, {.unit = "m"})
-      .Field("heading", &Place::heading, {.unit = "rad"});
+  type.Name("test::Place").Field("x", &Place::x, {.unit = "m"}).Field("heading", &Place::heading, {.unit = "rad"});
 }
 
 struct Sweep {
@@ -99,15 +97,12 @@ TEST(ConversionTest, UnitsBecomeUnits) {
   const ConversionRequest degrees{TypeOf<Place>(), TypeOf<double>(), "heading", {}, {}, "deg"};
   EXPECT_DOUBLE_EQ((Converted<Place, double>({.heading = std::numbers::pi}, degrees)).value(), 180);
   EXPECT_THAT(Conversion::Find(degrees).value()->text(), HasSubstr("rad to deg"));
-  const auto wrong =
-      Conversion::Find({TypeOf<Place>(), TypeOf<double>(), "heading", {}, {}, "m"});
+  const auto wrong = Conversion::Find({TypeOf<Place>(), TypeOf<double>(), "heading", {}, {}, "m"});
   ASSERT_FALSE(wrong);
   EXPECT_THAT(wrong.error().message, HasSubstr("in rad"));
-  const auto whole =
-      Conversion::Find({TypeOf<std::int32_t>(), TypeOf<std::int32_t>(), {}, {}, "m", "km"});
+  const auto whole = Conversion::Find({TypeOf<std::int32_t>(), TypeOf<std::int32_t>(), {}, {}, "m", "km"});
   EXPECT_FALSE(whole) << "whole kilometres would be another length";
-  EXPECT_EQ((Converted<std::int32_t, double>(
-                1500, {TypeOf<std::int32_t>(), TypeOf<double>(), {}, {}, "m", "km"})),
+  EXPECT_EQ((Converted<std::int32_t, double>(1500, {TypeOf<std::int32_t>(), TypeOf<double>(), {}, {}, "m", "km"})),
             1.5);
 }
 
@@ -121,13 +116,11 @@ TEST(ConversionTest, AnythingBecomesATextOrASignal) {
 
 TEST(ConversionTest, PluginsBringMore) {
   EXPECT_FALSE((IsPossible<Place, Sweep>("test/ends")));
-  RegisterConversion<Place, Sweep>(
-      "test/ends", [](const Place& place, Sweep& sweep) { sweep.ends = {place, place}; });
+  RegisterConversion<Place, Sweep>("test/ends", [](const Place& place, Sweep& sweep) { sweep.ends = {place, place}; });
   EXPECT_FALSE((IsPossible<Place, Sweep>())) << "only by its name";
   EXPECT_EQ((Converted<Place, Sweep>({.x = 3}, "test/ends"))->ends[1].x, 3);
   RegisterConversion<Place, Sweep>(
-      "test/ends",
-      [](const Place&, Sweep&) -> bool { throw std::runtime_error("not today"); }, "", true);
+      "test/ends", [](const Place&, Sweep&) -> bool { throw std::runtime_error("not today"); }, "", true);
   EXPECT_TRUE((IsPossible<Place, Sweep>()));
   EXPECT_EQ((Converted<Place, Sweep>({}, "test/ends")).has_value(), false) << "what it throws is nothing";
   const auto unknown = Conversion::Find({TypeOf<Place>(), TypeOf<Sweep>(), {}, "test/end"});
@@ -173,10 +166,8 @@ TEST_F(ConvertedConnectionTest, ReadersQueuesAndWakersFindWhatAValueHasBecome) {
 TEST_F(ConvertedConnectionTest, ItPassesInterfacePortsOneAfterTheOther) {
   auto& sender = MakeSender<Sweep>();
   auto& other = MakeSender<Sweep>("other");
-  auto& outer = runtime.Create<ProxyPort>(runtime.root(), "outer", Port::Direction::kInput,
-                                          TypeOf<Sweep>());
-  auto& inner = runtime.Create<ProxyPort>(runtime.root(), "inner", Port::Direction::kInput,
-                                          TypeOf<float>());
+  auto& outer = runtime.Create<ProxyPort>(runtime.root(), "outer", Port::Direction::kInput, TypeOf<Sweep>());
+  auto& inner = runtime.Create<ProxyPort>(runtime.root(), "inner", Port::Direction::kInput, TypeOf<float>());
   auto& receiver = MakeReceiver<double>();
   Connect(inner, receiver.in);  // float to double
   Connect(outer, inner, {.part = "ranges[0]"});
@@ -235,8 +226,7 @@ TEST_F(ConvertedConnectionTest, AWrongPairIsToldWithWhatWouldFit) {
   auto& receiver = MakeReceiver<double>();
   const auto refused = Port::Connect(sender.out, receiver.in);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message,
-              HasSubstr("carries test::Place, but /receiver/in takes double"));
+  EXPECT_THAT(refused.error().message, HasSubstr("carries test::Place, but /receiver/in takes double"));
   EXPECT_THAT(refused.error().hint, HasSubstr("from=\"….x\", or from=\"….heading\""));
   auto& counter = MakeReceiver<int>("counter");
   const auto lossy = Port::Connect(sender.out, counter.in, {.part = "x"});
@@ -264,9 +254,7 @@ TEST_F(ConvertedConnectionTest, NeitherAllocatesNorCostsWhoIsNotConverted) {
 }
 
 TEST_F(ConvertedConnectionTest, RulesSayWhyNot) {
-  AddConnectionRule({.name = "test/one_way",
-                     .summary = "",
-                     .check = [](const Port& from, const Port&) -> Result<void> {
+  AddConnectionRule({.name = "test/one_way", .summary = "", .check = [](const Port& from, const Port&) -> Result<void> {
                        if (from.path() != "/sender/out") return {};
                        return Error{.message = "nobody may listen"};
                      }});

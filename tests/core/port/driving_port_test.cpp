@@ -7,8 +7,7 @@ using testing::HasSubstr;
 
 TEST_F(StopTest, AMarkedOutputStopsAllWhoReadFromItAlsoBehindAConversionOrAValueByHand) {
   auto& sender = MakeSender<Speeds>();
-  auto& group = runtime.Create<ProxyPort>(runtime.root(), "passes", Port::Direction::kOutput,
-                                          TypeOf<Speeds>());
+  auto& group = runtime.Create<ProxyPort>(runtime.root(), "passes", Port::Direction::kOutput, TypeOf<Speeds>());
   auto& whole = MakeReceiver<Speeds>("whole");
   auto& part = MakeReceiver<double>("part");
   Connect(sender.out, group);
@@ -147,16 +146,15 @@ TEST_F(StopTest, APortWithoutASafeValueDoesNotDrive) {
   EXPECT_FALSE(position.in.Block());
   EXPECT_TRUE(position.in.SetDriving(true, 1.5));
   EXPECT_THROW(MakeReceiver<double>("arm", {.unit = "m", .drives = true}), ElementError);
-  EXPECT_THROW(MakeReceiver<double>("arm", {.unit = "m", .drives = true, .safe_value = 1}),
-               ElementError);
+  EXPECT_THROW(MakeReceiver<double>("arm", {.unit = "m", .drives = true, .safe_value = 1}), ElementError);
   EXPECT_TRUE(
-      MakeReceiver<double>("arm", {.unit = "m", .limits = {.default_value = 2.0}, .drives = true})
-          .in.is_driving());
+      MakeReceiver<double>("arm", {.unit = "m", .limits = {.default_value = 2.0}, .drives = true}).in.is_driving());
 }
 
 TEST_F(StopTest, TheSafeValueOfAVelocityIsZeroWhateverIsReadWhileNothingComes) {
   auto& speed = MakeReceiver<double>("speed", {.unit = "m/s", .limits = {.default_value = 0.2}, .drives = true});
-  auto& slow = MakeReceiver<double>("slow", {.unit = "m/s", .limits = {.default_value = 0.2}, .drives = true, .safe_value = 0.1});
+  auto& slow = MakeReceiver<double>(
+      "slow", {.unit = "m/s", .limits = {.default_value = 0.2}, .drives = true, .safe_value = 0.1});
   auto& marked = MakeReceiver<double>("marked", {.unit = "m/s", .limits = {.default_value = 0.2}});
   ASSERT_TRUE(runtime.MakeReady(runtime.root()));
   ASSERT_TRUE(marked.in.SetDriving(true));
@@ -169,8 +167,7 @@ TEST_F(StopTest, TheSafeValueOfAVelocityIsZeroWhateverIsReadWhileNothingComes) {
 
 TEST_F(StopTest, TheSafeValueIsTheOneOfTheModuleThatIsThereNow) {
   auto& sender = MakeSender<double>();
-  auto& before =
-      MakeReceiver<double>("before", {.unit = "m", .drives = true, .safe_value = 1.0});
+  auto& before = MakeReceiver<double>("before", {.unit = "m", .drives = true, .safe_value = 1.0});
   Connect(sender.out, before.in);
   auto& after = MakeReceiver<double>("after", {.unit = "m", .drives = true, .safe_value = 2.0});
   after.in.TakeOver(before.in);

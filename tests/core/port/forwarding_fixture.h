@@ -61,12 +61,9 @@ std::shared_ptr<ValueOwner<T>> Of(ValueOwner<T>& owner) {
 class Ring final : public ValueOwner<Scan> {
  public:
   Ring() {
-    for (int i = 0; i < 4; ++i)
-      scans[static_cast<std::size_t>(i)] = {{static_cast<float>(i), 2.0F}, i};
+    for (int i = 0; i < 4; ++i) scans[static_cast<std::size_t>(i)] = {{static_cast<float>(i), 2.0F}, i};
   }
-  void TakeBack(const Scan& scan) noexcept override {
-    back.push_back(static_cast<int>(&scan - scans.data()));
-  }
+  void TakeBack(const Scan& scan) noexcept override { back.push_back(static_cast<int>(&scan - scans.data())); }
   std::array<Scan, 4> scans;
   std::vector<int> back;
 };

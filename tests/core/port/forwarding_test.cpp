@@ -27,8 +27,7 @@ TYPED_TEST(ForwardingEachTypeTest, PublicationDataAreThoseOfEachPublication) {
   for (int i = 1; i <= 3; ++i) origin.out.Publish(TypeParam{}, Time(i * 1s));
   this->clock.Set(Time(7s));
   EXPECT_EQ(next.out.Forward(near.in.Read()), PublishStatus::kPublished);
-  const auto expect = [](const Lease<TypeParam>& lease, Time publication_time,
-                         std::uint64_t sequence) {
+  const auto expect = [](const Lease<TypeParam>& lease, Time publication_time, std::uint64_t sequence) {
     ASSERT_TRUE(lease);
     EXPECT_EQ(lease.timestamp(), Time(3s));
     EXPECT_EQ(lease.publication_time(), publication_time);

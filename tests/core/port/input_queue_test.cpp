@@ -15,8 +15,7 @@ using testing::IsEmpty;
 // The queue itself, of both kinds, for values of type int.
 class IntQueue {
  public:
-  IntQueue(std::size_t capacity, OnFull on_full, Writers writers)
-      : queue_(capacity, on_full, writers) {}
+  IntQueue(std::size_t capacity, OnFull on_full, Writers writers) : queue_(capacity, on_full, writers) {}
 
   bool Push(int value, const Publication& publication, std::uint64_t source) {
     return queue_.Push(&value, publication, source);
@@ -77,9 +76,8 @@ TEST(InputQueueTest, EachPolicyCountsWhatIsLostWhateverTheWriters) {
     std::vector<int> left;
   };
   for (const Writers writers : {Writers::kOne, Writers::kSeveral}) {
-    for (const Case& each :
-         {Case{OnFull::kDropOldest, true, {4, 5}}, Case{OnFull::kDropNewest, true, {1, 2}},
-          Case{OnFull::kRefuse, false, {1, 2}}}) {
+    for (const Case& each : {Case{OnFull::kDropOldest, true, {4, 5}}, Case{OnFull::kDropNewest, true, {1, 2}},
+                             Case{OnFull::kRefuse, false, {1, 2}}}) {
       IntQueue queue(2, each.on_full, writers);
       for (int i = 1; i <= 5; ++i) {
         EXPECT_EQ(queue.Push(i, {0, static_cast<std::uint64_t>(i), 0}, 7), i <= 2 || each.taken);

@@ -34,16 +34,12 @@ TEST_F(LimitsTest, TheDefaultIsReadWhileThereIsNothingElse) {
 TEST_F(LimitsTest, WhatIsOutOfBoundsIsWhatThePortSays) {
   auto& sender = MakeSender<double>();
   auto& discards = MakeLimited({.minimum = 0, .maximum = 1}, "discards");
-  auto& clamps =
-      MakeLimited({.minimum = 0, .maximum = 1, .out_of_bounds = OutOfBounds::kClamp}, "clamps");
-  auto& replaces = MakeLimited({.default_value = 0.25,
-                                .minimum = 0,
-                                .maximum = 1,
-                                .out_of_bounds = OutOfBounds::kDefault},
-                               "replaces");
+  auto& clamps = MakeLimited({.minimum = 0, .maximum = 1, .out_of_bounds = OutOfBounds::kClamp}, "clamps");
+  auto& replaces = MakeLimited(
+      {.default_value = 0.25, .minimum = 0, .maximum = 1, .out_of_bounds = OutOfBounds::kDefault}, "replaces");
   auto& free = MakeReceiver<double>("free").in;
-  for (Port* each : {static_cast<Port*>(&discards), static_cast<Port*>(&clamps),
-                     static_cast<Port*>(&replaces), static_cast<Port*>(&free)}) {
+  for (Port* each : {static_cast<Port*>(&discards), static_cast<Port*>(&clamps), static_cast<Port*>(&replaces),
+                     static_cast<Port*>(&free)}) {
     Connect(sender.out, *each, {.queue = 8});
   }
   for (const double value : {0.5, 3.0, -1.0, std::nan("")}) sender.out.Publish(value);
@@ -70,8 +66,7 @@ TEST_F(LimitsTest, AfterAConversionItIsLookedAtToo) {
 TEST_F(LimitsTest, EachInputKeepsItsOwnWhenItTakesOver) {
   auto& sender = MakeSender<double>();
   auto& before = MakeLimited({.minimum = 0, .maximum = 1}, "before");
-  auto& after =
-      MakeLimited({.minimum = 0, .maximum = 5, .out_of_bounds = OutOfBounds::kClamp}, "after");
+  auto& after = MakeLimited({.minimum = 0, .maximum = 5, .out_of_bounds = OutOfBounds::kClamp}, "after");
   Connect(sender.out, before, {.queue = 4});
   sender.out.Publish(0.5);
   after.TakeOver(before);

@@ -88,8 +88,8 @@ TEST_F(PooledPortTest, TypesThatCannotBeCopiedAreMoved) {
 }
 
 TEST_F(PooledPortTest, TypesThatCannotEvenBeMovedAreFilledInPlace) {
-  auto& sender = runtime.Create<Sender<Sealed>>(
-      runtime.root(), "sender", OutputOptions{.pool = {.buffers = 2}}, [] { return Sealed(-1); });
+  auto& sender = runtime.Create<Sender<Sealed>>(runtime.root(), "sender", OutputOptions{.pool = {.buffers = 2}},
+                                                [] { return Sealed(-1); });
   auto& receiver = MakeReceiver<Sealed>();
   Connect(sender.out, receiver.in);
   auto loan = sender.out.Loan();

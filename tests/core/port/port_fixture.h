@@ -71,8 +71,7 @@ class Box : public FrameworkElement {
 template <typename T>
 class Sender final : public Box {
  public:
-  explicit Sender(const Placement& placement, OutputOptions options = {},
-                  typename Output<T>::Factory factory = {})
+  explicit Sender(const Placement& placement, OutputOptions options = {}, typename Output<T>::Factory factory = {})
       : Box(placement), out(*this, "out", std::move(options), std::move(factory)) {}
   Output<T> out;
 };

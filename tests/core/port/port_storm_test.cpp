@@ -48,30 +48,21 @@ void Describe(TypeBuilder<MiddleStormValue>& type) { type.Name("test::MiddleStor
 void Describe(TypeBuilder<ListStormValue>& type) { type.Name("test::ListStormValue"); }
 void Describe(TypeBuilder<MovedStormValue>& type) { type.Name("test::MovedStormValue"); }
 
-std::uint32_t CheckOf(std::uint32_t source, std::uint32_t number) {
-  return source * 2654435761u ^ number;
-}
+std::uint32_t CheckOf(std::uint32_t source, std::uint32_t number) { return source * 2654435761u ^ number; }
 void Seal(SmallStormValue& value) { value.check = CheckOf(value.source, value.number); }
 void Seal(MiddleStormValue& value) { value.checks.fill(CheckOf(value.source, value.number)); }
-void Seal(ListStormValue& value) {
-  value.checks.assign(value.number % 40, CheckOf(value.source, value.number));
-}
+void Seal(ListStormValue& value) { value.checks.assign(value.number % 40, CheckOf(value.source, value.number)); }
 void Seal(MovedStormValue& value) {
   value.check = std::make_unique<std::uint32_t>(CheckOf(value.source, value.number));
 }
-bool IsWhole(const SmallStormValue& value) {
-  return value.check == CheckOf(value.source, value.number);
-}
+bool IsWhole(const SmallStormValue& value) { return value.check == CheckOf(value.source, value.number); }
 template <typename T>
 bool AllEqual(const T& checks, std::uint32_t check) {
   return std::ranges::all_of(checks, [check](std::uint32_t each) { return each == check; });
 }
-bool IsWhole(const MiddleStormValue& value) {
-  return AllEqual(value.checks, CheckOf(value.source, value.number));
-}
+bool IsWhole(const MiddleStormValue& value) { return AllEqual(value.checks, CheckOf(value.source, value.number)); }
 bool IsWhole(const ListStormValue& value) {
-  return value.checks.size() == value.number % 40 &&
-         AllEqual(value.checks, CheckOf(value.source, value.number));
+  return value.checks.size() == value.number % 40 && AllEqual(value.checks, CheckOf(value.source, value.number));
 }
 bool IsWhole(const MovedStormValue& value) {
   return value.check && *value.check == CheckOf(value.source, value.number);
@@ -125,9 +116,7 @@ class Storm {
   std::vector<Lease<T>> kept;
 
  private:
-  static ConnectOptions Refusing(std::size_t queue) {
-    return {.queue = queue, .on_full = OnFull::kRefuse};
-  }
+  static ConnectOptions Refusing(std::size_t queue) { return {.queue = queue, .on_full = OnFull::kRefuse}; }
   static void Connect(Port& from, Port& to, const ConnectOptions& options) {
     const auto connected = Port::Connect(from, to, options);
     ASSERT_TRUE(connected) << connected.error().ToString();
@@ -246,8 +235,8 @@ class Storm {
     std::mt19937 random(7);
     for (int i = 0; i < kStormRounds / 2; ++i) {
       const auto source = static_cast<std::uint32_t>(4 + i);
-      auto& sender = runtime_.Create<Sender<T>>(runtime_.root(), "sender",
-                                                OutputOptions{.pool = {.buffers = 1 + source % 4}});
+      auto& sender =
+          runtime_.Create<Sender<T>>(runtime_.root(), "sender", OutputOptions{.pool = {.buffers = 1 + source % 4}});
       auto& receiver = runtime_.Create<Receiver<T>>(runtime_.root(), "receiver");
       (void)PublishOne(sender.out, source, 1);
       Connect(sender.out, wandering_, {.queue = random() % 3});

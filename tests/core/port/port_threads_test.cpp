@@ -86,8 +86,7 @@ TEST_F(PortThreadsTest, SmallTypesToo) {
       }
     } else {
       for (int i = 0; i < kThreadRounds || read == 0; ++i) {
-        EXPECT_TRUE(
-            Port::Connect(sender.out, receiver.in, {.queue = static_cast<std::size_t>(i) % 3}));
+        EXPECT_TRUE(Port::Connect(sender.out, receiver.in, {.queue = static_cast<std::size_t>(i) % 3}));
         std::this_thread::yield();
         EXPECT_TRUE(Port::Disconnect(sender.out, receiver.in));
       }
@@ -124,8 +123,7 @@ TEST_F(PortThreadsTest, WhoFindsACountFindsThatValueOrALaterOne) {
 TEST_F(PortThreadsTest, InterfacePortsAreConnectedAnewWhileTwoSourcesPublish) {
   auto& a = MakeSender<Scan>("a");
   auto& b = MakeSender<Scan>("b");
-  auto& proxy =
-      runtime.Create<ProxyPort>(runtime.root(), "proxy", Port::Direction::kInput, TypeOf<Scan>());
+  auto& proxy = runtime.Create<ProxyPort>(runtime.root(), "proxy", Port::Direction::kInput, TypeOf<Scan>());
   auto& receiver = MakeReceiver<Scan>();
   Connect(proxy, receiver.in, {.queue = 3});
   std::atomic<int> changing{2};

@@ -18,8 +18,7 @@ class ProbePortTest : public PortTest {
  protected:
   template <typename T>
   std::unique_ptr<ProbePort> MakeProbe(std::size_t capacity = ProbePort::kCapacity) {
-    return std::make_unique<ProbePort>(box, "probe" + std::to_string(++made), TypeOf<T>(),
-                                       capacity);
+    return std::make_unique<ProbePort>(box, "probe" + std::to_string(++made), TypeOf<T>(), capacity);
   }
 
   Box& box = runtime.Create<Box>(runtime.root(), "recorder");
@@ -28,8 +27,7 @@ class ProbePortTest : public PortTest {
 
 std::vector<int> TakeAllInts(ProbePort& probe) {
   std::vector<int> values;
-  while (probe.Take(
-      [&](const void* value, Time) { values.push_back(*static_cast<const int*>(value)); })) {
+  while (probe.Take([&](const void* value, Time) { values.push_back(*static_cast<const int*>(value)); })) {
   }
   return values;
 }
@@ -44,9 +42,8 @@ TEST_F(ProbePortTest, EachValueOfAnUnknownTypeIsTakenOnceInOrderWithItsTime) {
     sender.out.Publish(i);
   }
   EXPECT_EQ(probe->waiting(), 3u);
-  while (probe->Take([&](const void* value, Time timestamp) {
-    taken.emplace_back(*static_cast<const int*>(value), timestamp);
-  })) {
+  while (probe->Take(
+      [&](const void* value, Time timestamp) { taken.emplace_back(*static_cast<const int*>(value), timestamp); })) {
   }
   EXPECT_THAT(taken, ElementsAre(std::pair(1, Time(Duration(10))), std::pair(2, Time(Duration(20))),
                                  std::pair(3, Time(Duration(30)))));
@@ -76,16 +73,14 @@ TEST_F(ProbePortTest, WhatTravelsInBuffersIsNotCopiedAndItsBufferIsKeptMeanwhile
 }
 
 TEST_F(ProbePortTest, TakesValuesThatCanNeitherBeCopiedNorMoved) {
-  auto& sender = runtime.Create<Sender<Sealed>>(runtime.root(), "sealed", OutputOptions{},
-                                                [] { return Sealed(7); });
+  auto& sender = runtime.Create<Sender<Sealed>>(runtime.root(), "sealed", OutputOptions{}, [] { return Sealed(7); });
   const auto probe = MakeProbe<Sealed>();
   Connect(sender.out, *probe);
   auto loan = sender.out.Loan();
   loan->number = 9;
   sender.out.Publish(std::move(loan));
   int number = 0;
-  EXPECT_TRUE(probe->Take(
-      [&](const void* value, Time) { number = static_cast<const Sealed*>(value)->number; }));
+  EXPECT_TRUE(probe->Take([&](const void* value, Time) { number = static_cast<const Sealed*>(value)->number; }));
   EXPECT_EQ(number, 9);
 }
 

@@ -10,8 +10,7 @@ using testing::IsEmpty;
 
 class ProxyPortTest : public PortTest {
  protected:
-  ProxyPort& MakeProxy(const std::string& name,
-                       Port::Direction direction = Port::Direction::kInput) {
+  ProxyPort& MakeProxy(const std::string& name, Port::Direction direction = Port::Direction::kInput) {
     return runtime.Create<ProxyPort>(runtime.root(), name, direction, TypeOf<Scan>(), "passes on");
   }
 };
@@ -114,9 +113,7 @@ TEST_F(ProxyPortTest, ViewersSeeWhatPassesThrough) {
   auto& proxy = MakeProxy("proxy");
   Connect(sender.out, proxy);
   int seen = 0;
-  const auto look = [&](const void* value, Time) {
-    seen = static_cast<const Scan*>(value)->number;
-  };
+  const auto look = [&](const void* value, Time) { seen = static_cast<const Scan*>(value)->number; };
   EXPECT_FALSE(proxy.VisitLatest(look));
   sender.out.Publish(Scan{{}, 3});
   EXPECT_TRUE(proxy.VisitLatest(look));

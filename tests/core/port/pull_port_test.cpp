@@ -37,8 +37,7 @@ TEST_F(PullPortTest, ReadingMakesAValueOnlyIfTheInputPulls) {
 }
 
 TEST_F(PullPortTest, SoItIsWithValuesInBuffers) {
-  auto& sender =
-      MakeSender<Scan>("sender", {.pool = {.buffers = 3, .may_grow = false}, .pullable = true});
+  auto& sender = MakeSender<Scan>("sender", {.pool = {.buffers = 3, .may_grow = false}, .pullable = true});
   auto& pulling = MakeReceiver<Scan>("pulling", kPulls);
   auto& queued = MakeReceiver<Scan>("queued");
   Connect(sender.out, pulling.in);
@@ -94,8 +93,7 @@ TEST_F(PullPortTest, WhoPullsDoesNotMakeItOld) {
 TEST_F(PullPortTest, AConnectionMayAskForIt) {
   auto& sender = MakeSender<int>("sender", kPullable);
   auto& receiver = MakeReceiver<int>("receiver");
-  auto& proxy =
-      runtime.Create<ProxyPort>(runtime.root(), "proxy", Port::Direction::kInput, TypeOf<int>());
+  auto& proxy = runtime.Create<ProxyPort>(runtime.root(), "proxy", Port::Direction::kInput, TypeOf<int>());
   sender.out.SetProvider([this](int& value) { return Count(value, counter); });
   Connect(sender.out, receiver.in, {.pull = true});
   EXPECT_EQ(*receiver.in.Read(), 1);
@@ -174,8 +172,7 @@ TEST_F(PullPortTest, AProviderThatThrowsIsCountedAndTheNextPullWorks) {
 }
 
 TEST_F(PullPortTest, AnExhaustedFixedPoolIsAFailureToo) {
-  auto& sender =
-      MakeSender<Scan>("sender", {.pool = {.buffers = 1, .may_grow = false}, .pullable = true});
+  auto& sender = MakeSender<Scan>("sender", {.pool = {.buffers = 1, .may_grow = false}, .pullable = true});
   auto& receiver = MakeReceiver<Scan>("receiver", kPulls);
   Connect(sender.out, receiver.in);
   sender.out.SetProvider([this](Scan& value) { return Count(value, counter); });

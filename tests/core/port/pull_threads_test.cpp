@@ -18,8 +18,8 @@ using PullThreadsTest = PullTest;
 // Two readers pull, a third one reads what is pushed, the publisher publishes, and somebody changes
 // strategies and providers. What a provider refers to goes when SetProvider() has returned.
 template <typename T, typename Number, typename Make>
-void ChangeUnderFire(Sender<T>& sender, const std::vector<Receiver<T>*>& receivers,
-                     const Number& number_of, const Make& make) {
+void ChangeUnderFire(Sender<T>& sender, const std::vector<Receiver<T>*>& receivers, const Number& number_of,
+                     const Make& make) {
   constexpr int kGone = -1;
   std::atomic<bool> stop{false};
   std::atomic<int> torn{0}, backward{0}, after_its_end{0}, together{0}, running{0};
@@ -82,8 +82,7 @@ TEST_F(PullThreadsTest, SmallTypesArePulledAndPushedWhileAllChanges) {
   auto& sender = MakeSender<std::array<int, 8>>("sender", kPullable);
   std::vector<Receiver<std::array<int, 8>>*> receivers;
   for (const char* name : {"a", "b", "c"}) {
-    receivers.push_back(
-        &MakeReceiver<std::array<int, 8>>(name, name[0] == 'c' ? InputOptions{} : kPulls));
+    receivers.push_back(&MakeReceiver<std::array<int, 8>>(name, name[0] == 'c' ? InputOptions{} : kPulls));
     Connect(sender.out, receivers.back()->in);
   }
   ChangeUnderFire(

@@ -35,13 +35,9 @@ static_assert(!kIsInlined<Interrupting> && kLiesInQueuesAsCopy<Interrupting>);
 namespace runnel::internal {
 using test::Interrupting;
 template <>
-QueuedCopy<sizeof(Interrupting), alignof(Interrupting)>::QueuedCopy(Content copied,
-                                                                    const Publication& of,
+QueuedCopy<sizeof(Interrupting), alignof(Interrupting)>::QueuedCopy(Content copied, const Publication& of,
                                                                     std::uint64_t from) noexcept
-    : source(from),
-      timestamp(of.timestamp),
-      publication_time(of.publication_time),
-      own_sequence(of.sequence) {
+    : source(from), timestamp(of.timestamp), publication_time(of.publication_time), own_sequence(of.sequence) {
   std::memcpy(value, copied, sizeof value);
   if (Interrupting::interrupt) std::exchange(Interrupting::interrupt, nullptr)();
 }

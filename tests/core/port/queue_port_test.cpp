@@ -141,8 +141,7 @@ TEST_F(QueuePortTest, PoolHasRoomForAllThatMayWait) {
     ASSERT_EQ(sender.out.Publish(Scan{{}, i}), PublishStatus::kPublished);
   }
   int next = 0;
-  EXPECT_EQ(receiver.in.Drain([&](const Lease<Scan>& scan) { EXPECT_EQ(scan->number, next++); }),
-            20u);
+  EXPECT_EQ(receiver.in.Drain([&](const Lease<Scan>& scan) { EXPECT_EQ(scan->number, next++); }), 20u);
 }
 
 TEST_F(QueuePortTest, DisconnectedInputHasNothingToTake) {
@@ -242,13 +241,11 @@ TEST_F(QueuePortTest, NothingIsLostBetweenTwoThreadsIfThePublisherTriesAgain) {
       if (index == 0) {
         Block block;
         block.words.fill(i);
-        test::YieldUntil("there is room",
-                         [&] { return sender.out.Publish(block) != PublishStatus::kRefused; });
+        test::YieldUntil("there is room", [&] { return sender.out.Publish(block) != PublishStatus::kRefused; });
         continue;
       }
       Lease<Block> lease;
-      test::YieldUntil("there is a value",
-                       [&] { return static_cast<bool>(lease = receiver.in.Take()); });
+      test::YieldUntil("there is a value", [&] { return static_cast<bool>(lease = receiver.in.Take()); });
       for (const std::uint64_t word : lease->words) wrong += word != i;
     }
   });

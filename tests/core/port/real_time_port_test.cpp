@@ -63,8 +63,7 @@ TEST_F(RealTimePortTest, TypesInBuffersNeitherAllocateNorLockNorCallTheSystem) {
   auto& latest = MakeReceiver<Scan>("latest");
   auto& queued = MakeReceiver<Scan>("queued");
   auto& dropping = MakeReceiver<Scan>("dropping");
-  auto& proxy =
-      runtime.Create<ProxyPort>(runtime.root(), "proxy", Port::Direction::kInput, TypeOf<Scan>());
+  auto& proxy = runtime.Create<ProxyPort>(runtime.root(), "proxy", Port::Direction::kInput, TypeOf<Scan>());
   Connect(sender.out, proxy);
   Connect(proxy, latest.in);
   Connect(sender.out, queued.in, {.queue = 3, .on_full = OnFull::kRefuse});

@@ -31,8 +31,7 @@ TEST_F(StopTest, ADrivingInputHasItsSafeValueWhoeverPublishes) {
   EXPECT_EQ(wheels.in.Get(), 0.0);
   EXPECT_EQ(wheels.in.Peek().value_or(-1), 0.0);
   double shown = -1;
-  wheels.in.VisitLatest(
-      [&](const void* value, ValueTimes) { shown = *static_cast<const double*>(value); });
+  wheels.in.VisitLatest([&](const void* value, ValueTimes) { shown = *static_cast<const double*>(value); });
   EXPECT_EQ(shown, 0.0) << "what is shown is what is read";
   EXPECT_EQ(display.in.Get(), 4.0) << "what does not drive goes on";
 }
@@ -80,8 +79,7 @@ TEST_F(StopTest, APersonsValueARulesAndTheEdgesComeAfterIt) {
   Set(wheels.in, 3.5);
   EXPECT_EQ(wheels.in.Get(), 0.0);
   Release();
-  EXPECT_EQ(wheels.in.Get(), 0.0)
-      << "a value by hand from before the release is a command from before it";
+  EXPECT_EQ(wheels.in.Get(), 0.0) << "a value by hand from before the release is a command from before it";
   Set(wheels.in, 4.0);
   EXPECT_EQ(wheels.in.Get(), 4.0);
   EXPECT_TRUE(wheels.in.Release(Port::Setter::kRule));
@@ -128,9 +126,8 @@ TEST_F(StopTest, APressWakesWhoWaits) {
   std::atomic<bool> has_taken{false};
   while (queued.in.Take()) {
   }
-  std::thread reader([&] {
-    has_taken = queued.in.Wait(std::chrono::minutes(1)) && queued.in.Take().value_or(-1) == 0.0;
-  });
+  std::thread reader(
+      [&] { has_taken = queued.in.Wait(std::chrono::minutes(1)) && queued.in.Take().value_or(-1) == 0.0; });
   Press();
   reader.join();
   EXPECT_TRUE(has_taken);
@@ -171,9 +168,8 @@ TEST_F(StopTest, TellsWhoListensAndWhoChangedIt) {
   EXPECT_EQ(stop.state().changes, 0u);
   std::vector<std::string> heard;
   {
-    const auto listening = stop.signal()->Listen([&] {
-      heard.push_back((stop.in_force() ? "stopped by " : "released by ") + stop.state().by);
-    });
+    const auto listening = stop.signal()->Listen(
+        [&] { heard.push_back((stop.in_force() ? "stopped by " : "released by ") + stop.state().by); });
     EXPECT_TRUE(stop.Press("a button"));
     EXPECT_FALSE(stop.Press("a page"));
     EXPECT_EQ(stop.state().since, At(10));

@@ -179,8 +179,7 @@ TEST_F(TakeOverTest, ViewersAndReadersAtTheOtherEndNoticeNothing) {
   std::thread viewer([&] {
     while (!done) {
       for (auto* port : {&a, &b}) {
-        port->VisitLatest(
-            [](const void* value, Time) { EXPECT_GT(static_cast<const Scan*>(value)->number, 0); });
+        port->VisitLatest([](const void* value, Time) { EXPECT_GT(static_cast<const Scan*>(value)->number, 0); });
       }
     }
   });

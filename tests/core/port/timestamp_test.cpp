@@ -44,8 +44,7 @@ TYPED_TEST(TimestampTest, IsWhatThePublisherSaysHoweverItPublishes) {
   this->ExpectTimes(this->receiver.in.Read(), this->kMeasured + 1s);
   this->sender.out.Publish(this->sender.out.Loan(), this->kMeasured - 1s);
   this->ExpectTimes(this->receiver.in.Read(), this->kMeasured - 1s);
-  ASSERT_TRUE(this->sender.out.PublishFilled([](void*) -> Result<void> { return {}; },
-                                             this->kMeasured + 2s));
+  ASSERT_TRUE(this->sender.out.PublishFilled([](void*) -> Result<void> { return {}; }, this->kMeasured + 2s));
   this->ExpectTimes(this->receiver.in.Read(), this->kMeasured + 2s);
   for (const Duration later : {0s, 1s, -1s, 2s}) {
     this->ExpectTimes(this->receiver.in.Take(), this->kMeasured + later);

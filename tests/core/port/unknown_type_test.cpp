@@ -42,8 +42,7 @@ TEST_F(UnknownTypeTest, WhatCannotBeFilledIsNotPublished) {
   auto& receiver = MakeReceiver<Scan>();
   Connect(sender.out, receiver.in);
   for (int i = 0; i < 3; ++i) {  // the loan goes back: else the second time would find no buffer
-    const auto published =
-        sender.out.PublishFilled([](void*) -> Result<void> { return Error{.message = "no"}; });
+    const auto published = sender.out.PublishFilled([](void*) -> Result<void> { return Error{.message = "no"}; });
     ASSERT_FALSE(published);
     EXPECT_EQ(published.error().message, "no");
   }
@@ -81,8 +80,7 @@ TEST_F(UnknownTypeTest, InputsAndOutputsMakeAnotherOutputOfTheirType) {
 }
 
 TEST_F(UnknownTypeTest, MakesNoOutputForATypeThatOnlyItsModuleCanMake) {
-  auto& sender = runtime.Create<Sender<Sealed>>(runtime.root(), "sealed", OutputOptions{},
-                                                [] { return Sealed(7); });
+  auto& sender = runtime.Create<Sender<Sealed>>(runtime.root(), "sealed", OutputOptions{}, [] { return Sealed(7); });
   auto& box = runtime.Create<Box>(runtime.root(), "player");
   EXPECT_EQ(static_cast<const Port&>(sender.out).MakeOutput(box, "sealed", {}), nullptr);
 }

@@ -65,8 +65,7 @@ TEST_F(WaitingPortTest, WakesForAPublication) {
   auto& receiver = MakeReceiver<int>();
   Connect(sender.out, receiver.in);
   for (int i = 1; i <= 5; ++i) {
-    ActWhileAsleep([&] { sender.out.Publish(i); },
-                   [&] { EXPECT_TRUE(receiver.in.Wait(Duration::max())); });
+    ActWhileAsleep([&] { sender.out.Publish(i); }, [&] { EXPECT_TRUE(receiver.in.Wait(Duration::max())); });
     EXPECT_EQ(*receiver.in.Read(), i);
   }
 }
@@ -75,11 +74,7 @@ TEST_F(WaitingPortTest, WakesForAValueInABuffer) {
   auto& sender = MakeSender<Scan>();
   auto& receiver = MakeReceiver<Scan>("receiver", {.waits = true});
   Connect(sender.out, receiver.in);
-  ActWhileAsleep(
-      [&] {
-        sender.out.Publish(Scan{{}, 7});
-      },
-      [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
+  ActWhileAsleep([&] { sender.out.Publish(Scan{{}, 7}); }, [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
   EXPECT_EQ(receiver.in.Read()->number, 7);
 }
 
@@ -87,8 +82,7 @@ TEST_F(WaitingPortTest, WakesWhenAnOutputThatHasAValueIsConnected) {
   auto& sender = MakeSender<int>();
   auto& receiver = MakeReceiver<int>();
   sender.out.Publish(1);
-  ActWhileAsleep([&] { Connect(sender.out, receiver.in); },
-                 [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
+  ActWhileAsleep([&] { Connect(sender.out, receiver.in); }, [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
   EXPECT_EQ(*receiver.in.Read(), 1);
 }
 
@@ -97,9 +91,8 @@ TEST_F(WaitingPortTest, WakesForAQueueToo) {
   auto& other = MakeSender<int>("other");
   auto& receiver = MakeReceiver<int>();
   sender.out.Publish(1);
-  ActWhileAsleep(
-      [&] { Connect(sender.out, receiver.in, {.queue = 4, .on_full = OnFull::kRefuse}); },
-      [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
+  ActWhileAsleep([&] { Connect(sender.out, receiver.in, {.queue = 4, .on_full = OnFull::kRefuse}); },
+                 [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
   EXPECT_THAT(TakeAll(receiver.in), testing::ElementsAre(1));
   EXPECT_FALSE(receiver.in.Wait(milliseconds(1))) << "what has never been Read() does not count";
   ActWhileAsleep([&] { sender.out.Publish(2); }, [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
@@ -186,9 +179,8 @@ TEST_F(WaitingPortTest, AnInputThatSaysThatItWaitsNeitherAllocatesNorLocksWhenIt
 
 // A publisher that waits for all answers before it goes on: a lost wake-up stops it for good.
 template <typename T, typename Make>
-void PlayRounds(Sender<T>& sender, std::vector<Receiver<T>*> receivers,
-                std::vector<Receiver<int>*> answers, std::vector<Sender<int>*> answerers,
-                const Make& make) {
+void PlayRounds(Sender<T>& sender, std::vector<Receiver<T>*> receivers, std::vector<Receiver<int>*> answers,
+                std::vector<Sender<int>*> answerers, const Make& make) {
   const auto count = static_cast<unsigned>(receivers.size());
   std::atomic<int> lost{0}, wrong{0};
   RunTogether(count + 1, [&](unsigned index) {

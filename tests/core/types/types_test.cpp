@@ -154,8 +154,8 @@ TEST(TextFormat, LeavesFieldsThatAreNotNamedAsTheyAre) {
 }
 
 TEST(TextFormat, KeepsEveryNumberExactly) {
-  for (const double number : {0.1, 1.0 / 3, 5e-324, std::numeric_limits<double>::max(),
-                              -std::numeric_limits<double>::infinity()}) {
+  for (const double number :
+       {0.1, 1.0 / 3, 5e-324, std::numeric_limits<double>::max(), -std::numeric_limits<double>::infinity()}) {
     EXPECT_EQ(*FromText<double>(TextOf(number)), number);
   }
   EXPECT_NE(*FromText<double>("nan"), *FromText<double>("nan"));
@@ -167,8 +167,7 @@ TEST(TextFormat, SaysWhatIsWrong) {
   EXPECT_THAT(WhyNot<double>("1,5"), HasSubstr("'1,5' is no number"));
   EXPECT_THAT(WhyNot<double>(""), HasSubstr("is no number"));
   EXPECT_THAT(WhyNot<std::int32_t>("1.5"), HasSubstr("no whole number"));
-  EXPECT_THAT(WhyNot<std::uint8_t>("256"),
-              HasSubstr("does not fit into uint8 | allowed is 0 .. 255"));
+  EXPECT_THAT(WhyNot<std::uint8_t>("256"), HasSubstr("does not fit into uint8 | allowed is 0 .. 255"));
   EXPECT_THAT(WhyNot<bool>("yes"), HasSubstr("neither true nor false"));
   EXPECT_THAT(WhyNot<Side>("lfet"), HasSubstr("there is no Side 'lfet' | did you mean 'left'?"));
   EXPECT_THAT(WhyNot<Point>("{z: 1}"), HasSubstr("Point has no field 'z'"));
@@ -176,8 +175,7 @@ TEST(TextFormat, SaysWhatIsWrong) {
   EXPECT_THAT(WhyNot<Point>("{x: 1"), HasSubstr("expected ',' or '}' at the end"));
   EXPECT_THAT(WhyNot<Point>("{x: 1} y"), HasSubstr("expected the end before 'y'"));
   EXPECT_THAT(WhyNot<std::vector<double>>("[1, , 2]"), HasSubstr("is no number"));
-  EXPECT_EQ(FromText<std::vector<std::string>>("[a, \"b c\"]").value(),
-            (std::vector<std::string>{"a", "b c"}));
+  EXPECT_EQ(FromText<std::vector<std::string>>("[a, \"b c\"]").value(), (std::vector<std::string>{"a", "b c"}));
   EXPECT_THAT(WhyNot<std::vector<std::string>>("[[a]]"), HasSubstr("quotation marks"));
   EXPECT_THAT(WhyNot<Point>("[1]"), HasSubstr("expected '{' before a Point, found '['"));
   EXPECT_THAT(WhyNot<Point>("{x: 1, x: 2}"), HasSubstr("'x' is given twice"));
@@ -248,8 +246,7 @@ TEST(TextFormat, ShortensListsAndTextsForPeople) {
 
 TEST(TextFormat, EndsAfterItsLimitHoweverLargeTheValueIs) {
   const std::vector<std::vector<double>> table(1000, std::vector<double>(1000, 0.125));
-  EXPECT_LT(ToText(TypeOf<std::vector<std::vector<double>>>(), &table, {.all = 5'000}).size(),
-            5'300U);
+  EXPECT_LT(ToText(TypeOf<std::vector<std::vector<double>>>(), &table, {.all = 5'000}).size(), 5'300U);
   const std::vector<std::string> texts{"a\r\n\t\"\\"};
   EXPECT_EQ(*FromText<std::vector<std::string>>(TextOf(texts)), texts);
 }

@@ -86,8 +86,7 @@ TEST(XmlDocumentTest, EntitiesInAttributesAreResolved) {
 }
 
 TEST(XmlDocumentTest, CommentsAndCharacterDataDoNotDisturbThePlaces) {
-  const XmlDocument document =
-      Parsed("<?xml version='1.0'?>\n<!-- <x y='>'>\n -->\n<a> <![CDATA[<b>]]> <b/></a>");
+  const XmlDocument document = Parsed("<?xml version='1.0'?>\n<!-- <x y='>'>\n -->\n<a> <![CDATA[<b>]]> <b/></a>");
   EXPECT_EQ(document.root().position(), At(4, 1));
   ASSERT_EQ(document.root().children().size(), 1U);
   EXPECT_EQ(document.root().children()[0].position(), At(4, 21));
@@ -137,54 +136,45 @@ TEST(XmlDocumentErrorTest, ControlCharactersAreRefusedWithTheirPlace) {
 
 TEST(XmlDocumentErrorTest, OtherEncodingsAreRefused) {
   EXPECT_THAT(ErrorOf("<a b='\xE4'/>"), StartsWith("a.xml:1:7: byte 0xe4, which is no UTF-8"));
-  EXPECT_THAT(ErrorOf(std::string_view("\xFF\xFE<\0", 4)),
-              StartsWith("a.xml:1:1: the file is UTF-16"));
+  EXPECT_THAT(ErrorOf(std::string_view("\xFF\xFE<\0", 4)), StartsWith("a.xml:1:1: the file is UTF-16"));
 }
 
 TEST(XmlDocumentErrorTest, NamesAreUtf8Too) {
-  EXPECT_THAT(ErrorOf("<a>\n<n\xE4me/></a>"),
-              StartsWith("a.xml:2:3: byte 0xe4, which is no UTF-8"));
-  EXPECT_THAT(ErrorOf("<a n\xC3\xA4=''\xFF=''/>"),
-              StartsWith("a.xml:1:9: byte 0xff, which is no UTF-8"));
+  EXPECT_THAT(ErrorOf("<a>\n<n\xE4me/></a>"), StartsWith("a.xml:2:3: byte 0xe4, which is no UTF-8"));
+  EXPECT_THAT(ErrorOf("<a n\xC3\xA4=''\xFF=''/>"), StartsWith("a.xml:1:9: byte 0xff, which is no UTF-8"));
   EXPECT_THAT(ErrorOf("<a></a\xE4>"), StartsWith("a.xml:1:7: byte 0xe4, which is no UTF-8"));
   EXPECT_TRUE(XmlDocument::Parse("<\xC3\xA4 \xC3\xB6=''></\xC3\xA4>", "a.xml"));
 }
 
 TEST(XmlDocumentErrorTest, EntitiesHaveLettersOnly) {
-  EXPECT_THAT(ErrorOf("<a b='&am\xE4p;'/>"),
-              StartsWith("a.xml:1:7: '&' begins an entity that no ';' ends"));
-  EXPECT_THAT(ErrorOf("<a>&am\1p;</a>"),
-              StartsWith("a.xml:1:4: '&' begins an entity that no ';' ends"));
+  EXPECT_THAT(ErrorOf("<a b='&am\xE4p;'/>"), StartsWith("a.xml:1:7: '&' begins an entity that no ';' ends"));
+  EXPECT_THAT(ErrorOf("<a>&am\1p;</a>"), StartsWith("a.xml:1:4: '&' begins an entity that no ';' ends"));
 }
 
 TEST(XmlDocumentErrorTest, DeclaredEncodingMustBeOneThatIsRead) {
   EXPECT_THAT(ErrorOf("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><a/>"),
               StartsWith("a.xml:1:1: the file says that it is ISO-8859-1"));
   for (const char* readable : {"UTF-8", "utf-8", "US-ASCII"}) {
-    const std::string declaration =
-        std::string("<?xml version='1.0' encoding='") + readable + "'?>";
+    const std::string declaration = std::string("<?xml version='1.0' encoding='") + readable + "'?>";
     EXPECT_TRUE(XmlDocument::Parse(declaration + "<a/>", "a.xml")) << readable;
   }
 }
 
 TEST(XmlDocumentErrorTest, AttributeTwiceIsRefusedAtTheSecond) {
-  EXPECT_EQ(ErrorOf("<a b='1' b='2'/>"),
-            "a.xml:1:10: attribute 'b' stands here twice; leave one out");
+  EXPECT_EQ(ErrorOf("<a b='1' b='2'/>"), "a.xml:1:10: attribute 'b' stands here twice; leave one out");
 }
 
 TEST(XmlDocumentErrorTest, AttributesOfWrongFormAreRefused) {
   EXPECT_THAT(ErrorOf("<a b=1/>"), StartsWith("a.xml:1:6: the value of 'b' is not in quotes"));
   EXPECT_EQ(ErrorOf("<a b/>"), "a.xml:1:4: attribute 'b' has no value");
   EXPECT_EQ(ErrorOf("<a b='1'c='2'/>"), "a.xml:1:9: no space before attribute 'c'");
-  EXPECT_THAT(ErrorOf("<a b='1/>\n<c/>"),
-              StartsWith("a.xml:1:4: the value of 'b' has no closing quote"));
+  EXPECT_THAT(ErrorOf("<a b='1/>\n<c/>"), StartsWith("a.xml:1:4: the value of 'b' has no closing quote"));
   EXPECT_THAT(ErrorOf("<a b='1"), StartsWith("a.xml:1:4: the value of 'b' has no closing quote"));
   EXPECT_EQ(ErrorOf("<a 1b='1'/>"), "a.xml:1:4: an attribute must begin with a letter");
 }
 
 TEST(XmlDocumentErrorTest, EntitiesUnknownOrUnfinishedAreRefused) {
-  EXPECT_EQ(ErrorOf("<a b='&nbsp;'/>"),
-            "a.xml:1:7: no entity '&nbsp;'; write &amp; for the character '&'");
+  EXPECT_EQ(ErrorOf("<a b='&nbsp;'/>"), "a.xml:1:7: no entity '&nbsp;'; write &amp; for the character '&'");
   EXPECT_THAT(ErrorOf("<a>R&D</a>"), HasSubstr("a.xml:1:5: '&' begins an entity"));
   EXPECT_THAT(ErrorOf("<a>&#0;</a>"), HasSubstr("no entity '&#0;'"));
   EXPECT_THAT(ErrorOf("<a>&#xD800;</a>"), HasSubstr("no entity"));
@@ -192,8 +182,7 @@ TEST(XmlDocumentErrorTest, EntitiesUnknownOrUnfinishedAreRefused) {
 
 TEST(XmlDocumentErrorTest, UnfinishedConstructsAreNamedWhereTheyBegin) {
   EXPECT_THAT(ErrorOf("<a><!-- b</a>"), StartsWith("a.xml:1:4: a comment that is never closed"));
-  EXPECT_THAT(ErrorOf("<a><![CDATA[ b</a>"),
-              StartsWith("a.xml:1:4: a CDATA section that is never closed"));
+  EXPECT_THAT(ErrorOf("<a><![CDATA[ b</a>"), StartsWith("a.xml:1:4: a CDATA section that is never closed"));
   EXPECT_EQ(ErrorOf("<a b='1'"), "a.xml:1:1: the tag <a> has no '>'");
   EXPECT_THAT(ErrorOf("<a>1 < 2</a>"), StartsWith("a.xml:1:6: '<' without a name"));
   EXPECT_EQ(ErrorOf("<a></a"), "a.xml:1:4: an end tag without '>'");
@@ -215,11 +204,10 @@ TEST(XmlDocumentErrorTest, NestingBeyondTheLimitIsRefusedRatherThanOverflowingTh
 
 /// Whatever is cut off or changed in a document, it is read or refused with a place, never worse.
 TEST(XmlDocumentErrorTest, DamagedTextIsReadOrRefusedWithItsPlace) {
-  const std::string whole =
-      "<?xml version='1.0'?>\n<a b='1' c=\"&lt;\"><!-- x --><b>t&amp;</b><![CDATA[<]]></a>";
+  const std::string whole = "<?xml version='1.0'?>\n<a b='1' c=\"&lt;\"><!-- x --><b>t&amp;</b><![CDATA[<]]></a>";
   for (std::size_t i = 0; i < whole.size(); ++i) {
-    for (const std::string& piece : {std::string(), std::string("<"), std::string(">"),
-                                     std::string("&"), std::string("\""), std::string("\xC3")}) {
+    for (const std::string& piece : {std::string(), std::string("<"), std::string(">"), std::string("&"),
+                                     std::string("\""), std::string("\xC3")}) {
       for (const std::string& damaged :
            {whole.substr(0, i) + piece, whole.substr(0, i) + piece + whole.substr(i + 1)}) {
         const auto document = XmlDocument::Parse(damaged, "a.xml");
@@ -234,9 +222,9 @@ TEST(XmlDocumentErrorTest, DamagedTextIsReadOrRefusedWithItsPlace) {
 class XmlFileTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "." +
-               std::to_string(getpid()));
+    folder_ =
+        std::filesystem::path(testing::TempDir()) /
+        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "." + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

@@ -10,8 +10,7 @@
 namespace runnel {
 namespace {
 
-std::string Edited(const std::string& text,
-                   const std::function<void(XmlEditor&, XmlElement root)>& change) {
+std::string Edited(const std::string& text, const std::function<void(XmlEditor&, XmlElement root)>& change) {
   const auto document = XmlDocument::Parse(text, "test.xml");
   if (!document) return document.error().ToString();
   XmlEditor editor(*document, text);
@@ -49,24 +48,19 @@ TEST(XmlEditor, SetsTextsAndLeavesComments) {
   };
   EXPECT_EQ(set("<r><v> 1 </v></r>"), "<r><v> a&lt;b </v></r>");
   EXPECT_EQ(set("<r><v/><v></v></r>"), "<r><v>a&lt;b</v><v>a&lt;b</v></r>");
-  EXPECT_EQ(set("<r><v><!-- x -->1<!-- y -->2</v></r>"),
-            "<r><v><!-- x -->a&lt;b<!-- y --></v></r>");
+  EXPECT_EQ(set("<r><v><!-- x -->1<!-- y -->2</v></r>"), "<r><v><!-- x -->a&lt;b<!-- y --></v></r>");
   EXPECT_EQ(set("<r><v><![CDATA[1]]></v></r>"), "<r><v>a&lt;b</v></r>");
   EXPECT_EQ(set("<r><v>a&lt;b<!-- x --></v></r>"), "<r><v>a&lt;b<!-- x --></v></r>");
 }
 
 TEST(XmlEditor, LeavesWhatIsNotChangedAsItIs) {
-  const std::string text =
-      "\xEF\xBB\xBF<?xml version='1.0'?>\r\n<!-- ä -->\r\n<a  x = '&#65;' >\r\n\t<b/></a>\r\n\r\n";
+  const std::string text = "\xEF\xBB\xBF<?xml version='1.0'?>\r\n<!-- ä -->\r\n<a  x = '&#65;' >\r\n\t<b/></a>\r\n\r\n";
   EXPECT_EQ(Edited(text, [](XmlEditor&, XmlElement) {}), text);
 }
 
 TEST(XmlEditor, RewritesAnAttributeWithinItsQuotes) {
-  const auto set = [](XmlEditor& editor, XmlElement root) {
-    editor.SetAttribute(root, "x", "\"&<'\n");
-  };
-  EXPECT_EQ(Edited("<a w='1'  x = 'old' y='2'/>", set),
-            "<a w='1'  x = '\"&amp;&lt;&apos;&#10;' y='2'/>");
+  const auto set = [](XmlEditor& editor, XmlElement root) { editor.SetAttribute(root, "x", "\"&<'\n"); };
+  EXPECT_EQ(Edited("<a w='1'  x = 'old' y='2'/>", set), "<a w='1'  x = '\"&amp;&lt;&apos;&#10;' y='2'/>");
   EXPECT_EQ(Edited("<a x=\"old\"/>", set), "<a x=\"&quot;&amp;&lt;'&#10;\"/>");
 }
 
@@ -87,9 +81,8 @@ TEST(XmlEditor, RemovesAnAttributeWithTheWhitespaceBeforeIt) {
 
 TEST(XmlEditor, TakesWordsOutOfAList) {
   const auto without = [](std::set<std::size_t> words) {
-    return Edited("<a to=' one  two\n three '/>", [&](XmlEditor& editor, XmlElement root) {
-      editor.RemoveWords(*root.Attribute("to"), words);
-    });
+    return Edited("<a to=' one  two\n three '/>",
+                  [&](XmlEditor& editor, XmlElement root) { editor.RemoveWords(*root.Attribute("to"), words); });
   };
   EXPECT_EQ(without({0}), "<a to=' two\n three '/>");
   EXPECT_EQ(without({1}), "<a to=' one\n three '/>");
@@ -101,8 +94,7 @@ TEST(XmlEditor, TakesWordsOutOfAList) {
 
 TEST(XmlEditor, RemovesAnElementWithItsLine) {
   const auto remove = [](XmlEditor& editor, XmlElement root) { editor.Remove(root.children()[0]); };
-  EXPECT_EQ(Edited("<a>\n  <!-- c -->\n  <b>\n  </b> \n  <d/>\n</a>", remove),
-            "<a>\n  <!-- c -->\n  <d/>\n</a>");
+  EXPECT_EQ(Edited("<a>\n  <!-- c -->\n  <b>\n  </b> \n  <d/>\n</a>", remove), "<a>\n  <!-- c -->\n  <d/>\n</a>");
   EXPECT_EQ(Edited("<a>\r\n  <b/>\r\n  <d/>\r\n</a>", remove), "<a>\r\n  <d/>\r\n</a>");
   EXPECT_EQ(Edited("<a>\n  <b/> <d/>\n</a>", remove), "<a>\n  <d/>\n</a>");
   EXPECT_EQ(Edited("<a>\n  <b/> <!-- c -->\n</a>", remove), "<a>\n  <!-- c -->\n</a>");
@@ -121,8 +113,7 @@ TEST(XmlEditor, RemovesNeighboursOfOneLine) {
 TEST(XmlEditor, AppendsInTheMannerOfTheFile) {
   const auto append = [](XmlEditor& editor, XmlElement root) { editor.Append(root, kNew); };
   EXPECT_EQ(Edited("<a>\n\t<b/>\n</a>", append), "<a>\n\t<b/>\n\t<new a=\"1\"/>\n</a>");
-  EXPECT_EQ(Edited("<a>\r\n    <b/>\r\n</a>", append),
-            "<a>\r\n    <b/>\r\n    <new a=\"1\"/>\r\n</a>");
+  EXPECT_EQ(Edited("<a>\r\n    <b/>\r\n</a>", append), "<a>\r\n    <b/>\r\n    <new a=\"1\"/>\r\n</a>");
   EXPECT_EQ(Edited("<a/>\n", append), "<a>\n  <new a=\"1\"/>\n</a>\n");
   EXPECT_EQ(Edited("<a x='1' />", append), "<a x='1'>\n  <new a=\"1\"/>\n</a>");
   EXPECT_EQ(Edited("<a></a>", append), "<a>\n  <new a=\"1\"/>\n</a>");
@@ -141,13 +132,9 @@ TEST(XmlEditor, AppendsToAnInnerElementThatWasEmpty) {
 }
 
 TEST(XmlEditor, InsertsBehindASibling) {
-  const auto insert = [](XmlEditor& editor, XmlElement root) {
-    editor.InsertAfter(root.children()[0], kNew);
-  };
-  EXPECT_EQ(Edited("<a>\n  <b/>\n  <c/>\n</a>", insert),
-            "<a>\n  <b/>\n  <new a=\"1\"/>\n  <c/>\n</a>");
-  EXPECT_EQ(Edited("<a>\n  <b/> <!-- of b -->\n</a>", insert),
-            "<a>\n  <b/>\n  <new a=\"1\"/> <!-- of b -->\n</a>");
+  const auto insert = [](XmlEditor& editor, XmlElement root) { editor.InsertAfter(root.children()[0], kNew); };
+  EXPECT_EQ(Edited("<a>\n  <b/>\n  <c/>\n</a>", insert), "<a>\n  <b/>\n  <new a=\"1\"/>\n  <c/>\n</a>");
+  EXPECT_EQ(Edited("<a>\n  <b/> <!-- of b -->\n</a>", insert), "<a>\n  <b/>\n  <new a=\"1\"/> <!-- of b -->\n</a>");
 }
 
 TEST(XmlEditor, InsertsAsTheFirst) {

@@ -8,16 +8,13 @@
 namespace runnel {
 namespace {
 
-XmlDocument DocumentOf(std::string_view text) {
-  return std::move(XmlDocument::Parse(text, "a.xml").value());
-}
+XmlDocument DocumentOf(std::string_view text) { return std::move(XmlDocument::Parse(text, "a.xml").value()); }
 
 TEST(ParseNumberTest, TakesFiniteDecimalNumbersOnly) {
   EXPECT_EQ(ParseNumber("1.5"), 1.5);
   EXPECT_EQ(ParseNumber(" -2e-3\n"), -0.002);
   EXPECT_EQ(ParseNumber("+4"), 4.0);
-  for (const char* text :
-       {"", " ", "1,5", "1.5m", "0x10", "nan", "inf", "1e999", "--1", "+-1", "+"}) {
+  for (const char* text : {"", " ", "1,5", "1.5m", "0x10", "nan", "inf", "1e999", "--1", "+-1", "+"}) {
     EXPECT_EQ(ParseNumber(text), std::nullopt) << text;
   }
 }
@@ -62,8 +59,7 @@ TEST(CheckAttributesTest, UnknownOneIsNamedWithTheNearestNotYetGiven) {
   Diagnostics diagnostics;
   const std::vector<std::string> known{"x", "y", "radius"};
   CheckAttributes(document.root(), known, diagnostics);
-  EXPECT_EQ(diagnostics.ToString(),
-            "a.xml:1:23: error: <cylinder> knows no 'raduis'; did you mean 'radius'?\n");
+  EXPECT_EQ(diagnostics.ToString(), "a.xml:1:23: error: <cylinder> knows no 'raduis'; did you mean 'radius'?\n");
 }
 
 TEST(CheckAttributesTest, HintsToLeaveItOutIfAllKnownOnesAreGiven) {

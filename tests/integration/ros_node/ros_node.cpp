@@ -37,7 +37,8 @@ dds_qos_t* Qos(bool is_reliable, bool is_latched) {
 }
 
 template <typename Message, typename Print>
-void Read(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* name, dds_qos_t* qos, const Print& print) {
+void Read(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* name, dds_qos_t* qos,
+          const Print& print) {
   const dds_entity_t topic = dds_create_topic(participant, &type, name, nullptr, nullptr);
   const dds_entity_t reader = dds_create_reader(participant, topic, qos, nullptr);
   for (;;) {
@@ -93,8 +94,8 @@ void PutId(dds_entity_t entity, rmw_dds_common_msg_dds__Gid_& gid) {
 
 // That the writer is one of the node's.
 void TellNode(dds_entity_t participant, dds_entity_t writer, const char* name_space, const char* name) {
-  const dds_entity_t topic =
-      dds_create_topic(participant, &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, "ros_discovery_info", nullptr, nullptr);
+  const dds_entity_t topic = dds_create_topic(participant, &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc,
+                                              "ros_discovery_info", nullptr, nullptr);
   const dds_entity_t nodes = dds_create_writer(participant, topic, Qos(true, true), nullptr);
   rmw_dds_common_msg_dds__Gid_ gid{};
   PutId(writer, gid);
@@ -139,19 +140,22 @@ int main(int argc, char** argv) {
   if (what == "scan") {
     Read<sensor_msgs_msg_dds__LaserScan_>(
         participant, sensor_msgs_msg_dds__LaserScan__desc, "rt/scan", Qos(false, false), [](const auto& scan) {
-          std::printf("scan frame %s ranges %u from %.3f step %.5f most %.2f first %.3f stamped %s\n", scan.header.frame_id,
-                      scan.ranges._length, static_cast<double>(scan.angle_min), static_cast<double>(scan.angle_increment),
-                      static_cast<double>(scan.range_max), static_cast<double>(scan.ranges._buffer[0]),
+          std::printf("scan frame %s ranges %u from %.3f step %.5f most %.2f first %.3f stamped %s\n",
+                      scan.header.frame_id, scan.ranges._length, static_cast<double>(scan.angle_min),
+                      static_cast<double>(scan.angle_increment), static_cast<double>(scan.range_max),
+                      static_cast<double>(scan.ranges._buffer[0]),
                       scan.header.stamp.sec > 0 || scan.header.stamp.nanosec > 0 ? "yes" : "no");
         });
   }
   if (what == "clock") {
-    Read<rosgraph_msgs_msg_dds__Clock_>(participant, rosgraph_msgs_msg_dds__Clock__desc, "rt/clock", Qos(false, false),
-                                        [](const auto& time) { std::printf("clock %d.%09u\n", time.clock.sec, time.clock.nanosec); });
+    Read<rosgraph_msgs_msg_dds__Clock_>(
+        participant, rosgraph_msgs_msg_dds__Clock__desc, "rt/clock", Qos(false, false),
+        [](const auto& time) { std::printf("clock %d.%09u\n", time.clock.sec, time.clock.nanosec); });
   }
   if (what == "log") {
-    Read<rcl_interfaces_msg_dds__Log_>(participant, rcl_interfaces_msg_dds__Log__desc, "rt/rosout", Qos(true, true),
-                                       [](const auto& log) { std::printf("log %u %s: %s\n", log.level, log.name, log.msg); });
+    Read<rcl_interfaces_msg_dds__Log_>(
+        participant, rcl_interfaces_msg_dds__Log__desc, "rt/rosout", Qos(true, true),
+        [](const auto& log) { std::printf("log %u %s: %s\n", log.level, log.name, log.msg); });
   }
   if (what == "graph") {
     Read<rmw_dds_common_msg_dds__ParticipantEntitiesInfo_>(
@@ -173,7 +177,8 @@ int main(int argc, char** argv) {
   if (what == "other_scan") Ask(participant, rosgraph_msgs_msg_dds__Clock__desc, "rt/scan", Qos(false, false));
   if (what == "tf" || what == "tf_static") {
     Read<tf2_msgs_msg_dds__TFMessage_>(
-        participant, tf2_msgs_msg_dds__TFMessage__desc, ("rt/" + what).c_str(), Qos(true, what == "tf_static"), [](const auto& message) {
+        participant, tf2_msgs_msg_dds__TFMessage__desc, ("rt/" + what).c_str(), Qos(true, what == "tf_static"),
+        [](const auto& message) {
           for (std::uint32_t i = 0; i < message.transforms._length; ++i) {
             const auto& each = message.transforms._buffer[i];
             std::printf("transform %s to %s at %.1f %.1f turned %.1f\n", each.header.frame_id, each.child_frame_id,
@@ -181,7 +186,8 @@ int main(int argc, char** argv) {
           }
         });
   }
-  const dds_entity_t topic = dds_create_topic(participant, &geometry_msgs_msg_dds__Twist__desc, "rt/cmd_vel", nullptr, nullptr);
+  const dds_entity_t topic =
+      dds_create_topic(participant, &geometry_msgs_msg_dds__Twist__desc, "rt/cmd_vel", nullptr, nullptr);
   const dds_entity_t writer = dds_create_writer(participant, topic, Qos(true, false), nullptr);
   TellNode(participant, writer, "/pilots", "joystick");
   for (;;) {

@@ -107,7 +107,8 @@ void Pause() { std::this_thread::sleep_for(std::chrono::milliseconds(5)); }
 /// A writer and a reader, of which one is of requests and the other of replies.
 class Ends {
  public:
-  Ends(dds::DomainParticipant& participant, const std::string& service, const std::string& type, Kind request, bool is_server) {
+  Ends(dds::DomainParticipant& participant, const std::string& service, const std::string& type, Kind request,
+       bool is_server) {
     const auto topic = [&](const std::string& name, Kind kind, const std::string& suffix) {
       const dds::TypeSupport support(new MessageType(kind, "std_srvs::srv::dds_::" + type + suffix));
       (void)support.register_type(&participant);
@@ -127,7 +128,8 @@ class Ends {
   std::pair<Message, dds::SampleInfo> Take() const {
     for (;;) {
       std::pair<Message, dds::SampleInfo> taken;
-      const bool has_come = reader_->take_next_sample(&taken.first, &taken.second) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+      const bool has_come =
+          reader_->take_next_sample(&taken.first, &taken.second) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
       if (has_come && taken.second.valid_data) return taken;
       if (!has_come) Pause();
     }

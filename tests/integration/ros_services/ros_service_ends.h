@@ -57,8 +57,10 @@ struct Ends {
 
 inline Ends MakeClient(dds_entity_t participant, const std::string& service, const dds_topic_descriptor_t& request,
                        const dds_topic_descriptor_t& response) {
-  const dds_entity_t out = dds_create_topic(participant, &request, ("rq/" + service + "Request").c_str(), nullptr, nullptr);
-  const dds_entity_t in = dds_create_topic(participant, &response, ("rr/" + service + "Reply").c_str(), nullptr, nullptr);
+  const dds_entity_t out =
+      dds_create_topic(participant, &request, ("rq/" + service + "Request").c_str(), nullptr, nullptr);
+  const dds_entity_t in =
+      dds_create_topic(participant, &response, ("rr/" + service + "Reply").c_str(), nullptr, nullptr);
   return {dds_create_writer(participant, out, ServiceQos("clientid=1;"), nullptr),
           dds_create_reader(participant, in, ServiceQos("clientid=1;"), nullptr)};
 }

@@ -22,7 +22,8 @@ constexpr const char* kSettings =
     "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/></Interfaces></General>";
 
 void Call(dds_entity_t participant) {
-  const Ends lamp = MakeClient(participant, "lamp/switch", std_srvs_srv_dds__SetBool_Request__desc, std_srvs_srv_dds__SetBool_Response__desc);
+  const Ends lamp = MakeClient(participant, "lamp/switch", std_srvs_srv_dds__SetBool_Request__desc,
+                               std_srvs_srv_dds__SetBool_Response__desc);
   for (int count = 1; count <= 3; ++count) {
     std_srvs_srv_dds__SetBool_Request_ request{};
     request.data = count != 2;
@@ -30,18 +31,23 @@ void Call(dds_entity_t participant) {
       std::printf("switch %d: %s '%s'\n", count, response.success ? "done" : "refused", response.message);
     });
   }
-  const Ends warm = MakeClient(participant, "lamp/warm", std_srvs_srv_dds__Trigger_Request__desc, std_srvs_srv_dds__Trigger_Response__desc);
+  const Ends warm = MakeClient(participant, "lamp/warm", std_srvs_srv_dds__Trigger_Request__desc,
+                               std_srvs_srv_dds__Trigger_Response__desc);
   CallOnce<std_srvs_srv_dds__Trigger_Response_>(warm, std_srvs_srv_dds__Trigger_Request_{}, [](const auto& response) {
     std::printf("warm: %s '%s'\n", response.success ? "done" : "refused", response.message);
   });
-  const Ends reset = MakeClient(participant, "lamp/reset", std_srvs_srv_dds__Empty_Request__desc, std_srvs_srv_dds__Empty_Response__desc);
-  CallOnce<std_srvs_srv_dds__Empty_Response_>(reset, std_srvs_srv_dds__Empty_Request_{}, [](const auto&) { std::printf("reset: done\n"); });
+  const Ends reset = MakeClient(participant, "lamp/reset", std_srvs_srv_dds__Empty_Request__desc,
+                                std_srvs_srv_dds__Empty_Response__desc);
+  CallOnce<std_srvs_srv_dds__Empty_Response_>(reset, std_srvs_srv_dds__Empty_Request_{},
+                                              [](const auto&) { std::printf("reset: done\n"); });
 }
 
 // As clients do that call as soon as they know the service, which may know their readers later.
 void CallEarly(dds_entity_t participant) {
-  const dds_entity_t out = dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Request__desc, "rq/lamp/switchRequest", nullptr, nullptr);
-  const dds_entity_t in = dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Response__desc, "rr/lamp/switchReply", nullptr, nullptr);
+  const dds_entity_t out = dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Request__desc,
+                                            "rq/lamp/switchRequest", nullptr, nullptr);
+  const dds_entity_t in =
+      dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Response__desc, "rr/lamp/switchReply", nullptr, nullptr);
   const dds_entity_t writer = dds_create_writer(participant, out, ServiceQos("clientid=5.6;"), nullptr);
   dds_publication_matched_status_t readers{};
   while (readers.current_count == 0) {
@@ -63,7 +69,8 @@ void CallEarly(dds_entity_t participant) {
 }
 
 void Stop(dds_entity_t participant) {
-  const Ends stop = MakeClient(participant, "house/stop", std_srvs_srv_dds__SetBool_Request__desc, std_srvs_srv_dds__SetBool_Response__desc);
+  const Ends stop = MakeClient(participant, "house/stop", std_srvs_srv_dds__SetBool_Request__desc,
+                               std_srvs_srv_dds__SetBool_Response__desc);
   for (const bool data : {true, false}) {
     std_srvs_srv_dds__SetBool_Request_ request{};
     request.data = data;
@@ -74,8 +81,10 @@ void Stop(dds_entity_t participant) {
 }
 
 void Serve(dds_entity_t participant) {
-  const dds_entity_t in = dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Request__desc, "rq/house/switchRequest", nullptr, nullptr);
-  const dds_entity_t out = dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Response__desc, "rr/house/switchReply", nullptr, nullptr);
+  const dds_entity_t in = dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Request__desc,
+                                           "rq/house/switchRequest", nullptr, nullptr);
+  const dds_entity_t out = dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Response__desc,
+                                            "rr/house/switchReply", nullptr, nullptr);
   const Ends ends{dds_create_writer(participant, out, ServiceQos("serviceid=2;"), nullptr),
                   dds_create_reader(participant, in, ServiceQos("serviceid=2;"), nullptr)};
   int count = 0;
@@ -97,11 +106,16 @@ void Serve(dds_entity_t participant) {
 
 std::string TextOf(const rcl_interfaces_msg_dds__ParameterValue_& value) {
   switch (value.type) {
-    case 1: return value.bool_value ? "true" : "false";
-    case 2: return std::to_string(value.integer_value);
-    case 3: return std::to_string(value.double_value);
-    case 4: return "'" + std::string(value.string_value) + "'";
-    default: return "type " + std::to_string(value.type);
+    case 1:
+      return value.bool_value ? "true" : "false";
+    case 2:
+      return std::to_string(value.integer_value);
+    case 3:
+      return std::to_string(value.double_value);
+    case 4:
+      return "'" + std::string(value.string_value) + "'";
+    default:
+      return "type " + std::to_string(value.type);
   }
 }
 
@@ -129,41 +143,50 @@ Request Names(char** names, std::uint32_t count) {
   return request;
 }
 
-#define CLIENT(participant, name, type)                                                                  \
+#define CLIENT(participant, name, type)                                                                 \
   MakeClient(participant, std::string("house/") + name, rcl_interfaces_srv_dds__##type##_Request__desc, \
              rcl_interfaces_srv_dds__##type##_Response__desc)
 
 void Parameters(dds_entity_t participant) {
-  const Ends list = CLIENT(participant, "list_parameters", ListParameters), get = CLIENT(participant, "get_parameters", GetParameters),
+  const Ends list = CLIENT(participant, "list_parameters", ListParameters),
+             get = CLIENT(participant, "get_parameters", GetParameters),
              types = CLIENT(participant, "get_parameter_types", GetParameterTypes),
              describe = CLIENT(participant, "describe_parameters", DescribeParameters),
              set = CLIENT(participant, "set_parameters", SetParameters),
              atomically = CLIENT(participant, "set_parameters_atomically", SetParametersAtomically);
-  CallOnce<rcl_interfaces_srv_dds__ListParameters_Response_>(list, rcl_interfaces_srv_dds__ListParameters_Request_{}, [](const auto& response) {
-    for (std::uint32_t i = 0; i < response.result.names._length; ++i) std::printf("listed %s\n", response.result.names._buffer[i]);
-    for (std::uint32_t i = 0; i < response.result.prefixes._length; ++i) std::printf("prefix %s\n", response.result.prefixes._buffer[i]);
-  });
-  char* names[] = {const_cast<char*>("lamp.is_broken"), const_cast<char*>("lamp.level"), const_cast<char*>("lamp.nothing")};
+  CallOnce<rcl_interfaces_srv_dds__ListParameters_Response_>(
+      list, rcl_interfaces_srv_dds__ListParameters_Request_{}, [](const auto& response) {
+        for (std::uint32_t i = 0; i < response.result.names._length; ++i)
+          std::printf("listed %s\n", response.result.names._buffer[i]);
+        for (std::uint32_t i = 0; i < response.result.prefixes._length; ++i)
+          std::printf("prefix %s\n", response.result.prefixes._buffer[i]);
+      });
+  char* names[] = {const_cast<char*>("lamp.is_broken"), const_cast<char*>("lamp.level"),
+                   const_cast<char*>("lamp.nothing")};
   CallOnce<rcl_interfaces_srv_dds__GetParameterTypes_Response_>(
       types, Names<rcl_interfaces_srv_dds__GetParameterTypes_Request_>(names, 3), [](const auto& response) {
-        for (std::uint32_t i = 0; i < response.types._length; ++i) std::printf("type %u is %u\n", i, response.types._buffer[i]);
+        for (std::uint32_t i = 0; i < response.types._length; ++i)
+          std::printf("type %u is %u\n", i, response.types._buffer[i]);
       });
   CallOnce<rcl_interfaces_srv_dds__DescribeParameters_Response_>(
       describe, Names<rcl_interfaces_srv_dds__DescribeParameters_Request_>(names + 1, 1), [](const auto& response) {
         const auto& level = response.descriptors._buffer[0];
         std::printf("described %s: '%s' %s", level.name, level.description, level.read_only ? "read only" : "open");
         if (level.floating_point_range._length == 1) {
-          std::printf(" from %g to %g", level.floating_point_range._buffer[0].from_value, level.floating_point_range._buffer[0].to_value);
+          std::printf(" from %g to %g", level.floating_point_range._buffer[0].from_value,
+                      level.floating_point_range._buffer[0].to_value);
         }
         std::printf("\n");
       });
-  rcl_interfaces_msg_dds__Parameter_ wanted[] = {Wanted("lamp.level", 3.5), Wanted("lamp.level", 99), Wanted("lamp.levl", 1), Wanted("lamp.is_broken", 1)};
+  rcl_interfaces_msg_dds__Parameter_ wanted[] = {Wanted("lamp.level", 3.5), Wanted("lamp.level", 99),
+                                                 Wanted("lamp.levl", 1), Wanted("lamp.is_broken", 1)};
   rcl_interfaces_srv_dds__SetParameters_Request_ setting{};
   setting.parameters._buffer = wanted;
   setting.parameters._length = setting.parameters._maximum = 4;
   CallOnce<rcl_interfaces_srv_dds__SetParameters_Response_>(set, setting, [](const auto& response) {
     for (std::uint32_t i = 0; i < response.results._length; ++i) {
-      std::printf("set %u: %s '%s'\n", i, response.results._buffer[i].successful ? "done" : "refused", response.results._buffer[i].reason);
+      std::printf("set %u: %s '%s'\n", i, response.results._buffer[i].successful ? "done" : "refused",
+                  response.results._buffer[i].reason);
     }
   });
   rcl_interfaces_msg_dds__Parameter_ both[] = {Wanted("lamp.level", 7), Wanted("lamp.level", 77)};
@@ -175,12 +198,14 @@ void Parameters(dds_entity_t participant) {
   });
   CallOnce<rcl_interfaces_srv_dds__GetParameters_Response_>(
       get, Names<rcl_interfaces_srv_dds__GetParameters_Request_>(names, 3), [&](const auto& response) {
-        for (std::uint32_t i = 0; i < response.values._length; ++i) std::printf("got %s %s\n", names[i], TextOf(response.values._buffer[i]).c_str());
+        for (std::uint32_t i = 0; i < response.values._length; ++i)
+          std::printf("got %s %s\n", names[i], TextOf(response.values._buffer[i]).c_str());
       });
 }
 
 dds_entity_t Reader(dds_entity_t participant, const char* topic, const dds_topic_descriptor_t& type) {
-  return dds_create_reader(participant, dds_create_topic(participant, &type, topic, nullptr, nullptr), ServiceQos("", 1000), nullptr);
+  return dds_create_reader(participant, dds_create_topic(participant, &type, topic, nullptr, nullptr),
+                           ServiceQos("", 1000), nullptr);
 }
 
 void Events(dds_entity_t participant) {
@@ -215,7 +240,8 @@ void Diagnostics(dds_entity_t participant) {
 void TellTime(dds_entity_t participant) {
   dds_qos_t* const qos = ServiceQos("", 1);
   dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
-  const dds_entity_t topic = dds_create_topic(participant, &rosgraph_msgs_msg_dds__Clock__desc, "rt/clock", nullptr, nullptr);
+  const dds_entity_t topic =
+      dds_create_topic(participant, &rosgraph_msgs_msg_dds__Clock__desc, "rt/clock", nullptr, nullptr);
   const dds_entity_t writer = dds_create_writer(participant, topic, qos, nullptr);
   for (std::int64_t milliseconds = 100'000;; milliseconds += 50) {
     rosgraph_msgs_msg_dds__Clock_ clock{};

@@ -33,10 +33,13 @@ class ServicesOfRos : public testing::Test {
                         const std::string& period = "20ms") {
     const std::string path = folder_ / (name + ".xml");
     std::ofstream(path) << "<application name=\"" << name << "\" thread=\"control\">\n<load plugin=\"switches\"/>\n"
-                        << "<thread name=\"control\" period=\"" << period << "\"/>\n" << lines << "\n</application>\n";
+                        << "<thread name=\"control\" period=\"" << period << "\"/>\n"
+                        << lines << "\n</application>\n";
     return command + " " + path;
   }
-  static Program Node(const std::string& what) { return Program(std::to_string(OwnDomain()) + " " + what, RUNNEL_ROS_NODE); }
+  static Program Node(const std::string& what) {
+    return Program(std::to_string(OwnDomain()) + " " + what, RUNNEL_ROS_NODE);
+  }
 
   const TemporaryFolder folder_;
 };
@@ -50,14 +53,17 @@ constexpr const char* kHouse = R"(<module name="lamp" type="switches/lamp"/>
   </network>)";
 
 TEST_F(ServicesOfRos, TheStopIsPressedByNodesAndReleasedWhereTheFileSaysSo) {
-  const std::string with_ros = std::string(kHouse).replace(std::string(kHouse).find("<offer"), 0, "<ros distribution=\"jazzy\"/>\n");
+  const std::string with_ros =
+      std::string(kHouse).replace(std::string(kHouse).find("<offer"), 0, "<ros distribution=\"jazzy\"/>\n");
   {
     const Program house(Arguments("run", "house", with_ros));
     const Ended called = Node("stop").Wait();
-    EXPECT_THAT(called.text, AllOf(HasSubstr("stop 1: refused 'STOP is in force, but no port"), HasSubstr("stop 0: refused 'the STOP is not released")));
+    EXPECT_THAT(called.text, AllOf(HasSubstr("stop 1: refused 'STOP is in force, but no port"),
+                                   HasSubstr("stop 0: refused 'the STOP is not released")));
     EXPECT_THAT(Runnel("ps").text, AllOf(HasSubstr("STOP"), HasSubstr("the service /house/stop")));
   }
-  const std::string may_release = std::string(with_ros).replace(with_ros.find("<ros "), 5, "<ros stop_releases=\"true\" ");
+  const std::string may_release =
+      std::string(with_ros).replace(with_ros.find("<ros "), 5, "<ros stop_releases=\"true\" ");
   const Program house(Arguments("run", "house", may_release));
   EXPECT_THAT(Node("stop").Wait().text, HasSubstr("stop 0: done 'the STOP is released'"));
 }
@@ -72,7 +78,8 @@ TEST_F(ServicesOfRos, AStopOfOneByItsServiceStopsTheOtherWhereTheFilesSaySo) {
   <group name="panel"><port name="pressed" type="bool" direction="input"/></group>
   <stop_button port="panel/pressed"/>
   <network name="room"><take topic="/stopped" as="std_msgs/msg/Bool" to="panel/pressed"/></network>)"));
-  WaitUntil("they have found each other", [] { return Runnel("network --app house").text.find("read by room") != std::string::npos; });
+  WaitUntil("they have found each other",
+            [] { return Runnel("network --app house").text.find("read by room") != std::string::npos; });
   EXPECT_THAT(Node("stop").Wait().text, HasSubstr("stop 1: done 'the robot is stopped'"));
   ASSERT_TRUE(room.WaitFor("STOP, by the button /room/panel/pressed"));
   const std::string both = Runnel("ps").text;
@@ -84,9 +91,10 @@ TEST_F(ServicesOfRos, AreOfferedToNodes) {
   Program node = Node("call");
   const Ended called = node.Wait();
   EXPECT_EQ(called.code, 0);
-  EXPECT_THAT(called.text, AllOf(HasSubstr("switch 1: done 'it burns'"), HasSubstr("switch 2: refused 'it burns for ever'"),
-                                 HasSubstr("switch 3: done 'it burns'"), HasSubstr("warm: done 'it is warm'"),
-                                 HasSubstr("reset: done")));
+  EXPECT_THAT(
+      called.text,
+      AllOf(HasSubstr("switch 1: done 'it burns'"), HasSubstr("switch 2: refused 'it burns for ever'"),
+            HasSubstr("switch 3: done 'it burns'"), HasSubstr("warm: done 'it is warm'"), HasSubstr("reset: done")));
   EXPECT_THAT(Runnel("get /lamp/lit").text, HasSubstr("false"));
   EXPECT_THAT(Runnel("network").text,
               AllOf(HasSubstr("/lamp/switch  std_srvs::srv::dds_::SetBool_Request_, 2 answered, 1 failed"),
@@ -128,7 +136,8 @@ TEST_F(ServicesOfRos, GoFromOneApplicationToAnother) {
 }
 
 std::string HouseWith(const std::string& ros) {
-  return R"(<module name="lamp" type="switches/lamp"/> <network name="house"> <ros distribution="jazzy" )" + ros + "/> </network>";
+  return R"(<module name="lamp" type="switches/lamp"/> <network name="house"> <ros distribution="jazzy" )" + ros +
+         "/> </network>";
 }
 
 TEST_F(ServicesOfRos, ShowParametersAndSetThem) {
@@ -140,8 +149,9 @@ TEST_F(ServicesOfRos, ShowParametersAndSetThem) {
   EXPECT_THAT(node.text,
               AllOf(HasSubstr("listed lamp.is_broken\nlisted lamp.level\nlisted lamp.make\nprefix lamp\n"),
                     HasSubstr("type 0 is 1\ntype 1 is 3\ntype 2 is 0\n"),
-                    HasSubstr("described lamp.level: 'how bright [cd]' open from 0 to 10\n"), HasSubstr("set 0: done ''\n"),
-                    HasSubstr("set 1: refused '"), HasSubstr("set 2: refused 'there is no parameter 'lamp.levl'; did you mean 'lamp.level'?'"),
+                    HasSubstr("described lamp.level: 'how bright [cd]' open from 0 to 10\n"),
+                    HasSubstr("set 0: done ''\n"), HasSubstr("set 1: refused '"),
+                    HasSubstr("set 2: refused 'there is no parameter 'lamp.levl'; did you mean 'lamp.level'?'"),
                     HasSubstr("set 3: refused '"), HasSubstr("together: refused '"),
                     HasSubstr("got lamp.is_broken false\ngot lamp.level 3.500000\ngot lamp.nothing type 0\n")));
   EXPECT_TRUE(events.WaitFor("event of /house\nchanged lamp.level 3.500000"));
@@ -152,10 +162,10 @@ TEST_F(ServicesOfRos, ShowParametersAndSetThem) {
 TEST_F(ServicesOfRos, SetNoParameterUnlessTheFileAllowsIt) {
   const Program house(Arguments("run", "house", HouseWith("parameters=\"read\"")));
   const Ended node = Node("parameters").Wait();
-  EXPECT_THAT(node.text,
-              AllOf(HasSubstr("described lamp.level: 'how bright [cd]' read only"),
-                    HasSubstr("set 0: refused 'parameters may not be set from elsewhere; the application's file is to say <ros parameters=\"write\"/>'"),
-                    HasSubstr("got lamp.level 1.000000")));
+  EXPECT_THAT(node.text, AllOf(HasSubstr("described lamp.level: 'how bright [cd]' read only"),
+                               HasSubstr("set 0: refused 'parameters may not be set from elsewhere; the application's "
+                                         "file is to say <ros parameters=\"write\"/>'"),
+                               HasSubstr("got lamp.level 1.000000")));
 }
 
 TEST_F(ServicesOfRos, TellHowTheApplicationIs) {
@@ -195,7 +205,9 @@ TEST_F(ServicesOfRos, TellNoTimeToClocksOfOthers) {
 
 #ifdef RUNNEL_FAST_NODE
 // Where requests and replies say beside the message which call they belong to.
-std::string OverFastDds(std::string lines) { return lines.replace(lines.find("<network "), 9, "<network engine=\"fast\" reach=\"machine\" "); }
+std::string OverFastDds(std::string lines) {
+  return lines.replace(lines.find("<network "), 9, "<network engine=\"fast\" reach=\"machine\" ");
+}
 
 TEST_F(ServicesOfRos, GoOverFastDdsAsWell) {
   const Program house(Arguments("run", "house", OverFastDds(kHouse)));
@@ -210,8 +222,10 @@ TEST_F(ServicesOfRos, AreOfferedToNodesOnFastDds) {
   const Ended called = node.Wait();
   EXPECT_EQ(called.code, 0);
   EXPECT_EQ(called.text,
-            "switch 1: done 'it burns'\nswitch 2: refused 'it burns for ever'\nswitch 3: done 'it burns'\nwarm: done 'it is warm'\n");
-  EXPECT_THAT(Runnel("network").text, HasSubstr("/lamp/switch  std_srvs::srv::dds_::SetBool_Request_, 2 answered, 1 failed"));
+            "switch 1: done 'it burns'\nswitch 2: refused 'it burns for ever'\nswitch 3: done 'it burns'\nwarm: done "
+            "'it is warm'\n");
+  EXPECT_THAT(Runnel("network").text,
+              HasSubstr("/lamp/switch  std_srvs::srv::dds_::SetBool_Request_, 2 answered, 1 failed"));
 }
 
 class OfFastDds : public ServicesOfRos, public testing::WithParamInterface<const char*> {};
@@ -243,12 +257,13 @@ TEST_F(ServicesOfRos, MistakesAreToldWithTheirPlaces) {
       <take service="/x" topic="/y" to="button/set"/>
     </network>)"));
   EXPECT_EQ(checked.code, kBadInput);
-  EXPECT_THAT(checked.text,
-              AllOf(HasSubstr("there is no service type 'std_srvs/srv/SetBol'; did you mean 'std_srvs/srv/SetBool'?"),
-                    HasSubstr("lamp/output/lit is no service"), HasSubstr("qos is said of topics, and this is a service"),
-                    HasSubstr("has nothing of a std_srvs/srv/SetBool_Request"),
-                    HasSubstr("<take> says which topic, or which service"),
-                    HasSubstr("topic is said of topics, and this is a service")));
+  EXPECT_THAT(
+      checked.text,
+      AllOf(HasSubstr("there is no service type 'std_srvs/srv/SetBol'; did you mean 'std_srvs/srv/SetBool'?"),
+            HasSubstr("lamp/output/lit is no service"), HasSubstr("qos is said of topics, and this is a service"),
+            HasSubstr("has nothing of a std_srvs/srv/SetBool_Request"),
+            HasSubstr("<take> says which topic, or which service"),
+            HasSubstr("topic is said of topics, and this is a service")));
 }
 
 }  // namespace

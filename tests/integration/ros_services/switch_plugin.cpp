@@ -18,7 +18,8 @@ class Lamp final : public Module {
 
   Output<bool> lit{this, "lit"};
   Parameter<bool> is_broken{this, "is_broken", {.default_value = false}};
-  Parameter<double> level{this, "level", {.default_value = 1.0, .bounds = {0.0, 10.0}, .unit = "cd", .description = "how bright"}};
+  Parameter<double> level{
+      this, "level", {.default_value = 1.0, .bounds = {0.0, 10.0}, .unit = "cd", .description = "how bright"}};
   StaticParameter<std::string> make{this, "make", {.default_value = "old"}};
   Service<std::string(bool)> set{this, "set", &Lamp::Set};
   Service<std::string()> warm{this, "warm", &Lamp::Warm};

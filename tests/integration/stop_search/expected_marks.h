@@ -55,7 +55,8 @@ class ExpectedMarks {
     if (from.empty()) return;
     for (Paths* const paths : {&marked, &blocked}) {
       Paths moved;
-      for (const std::string& path : *paths) moved.insert(path.starts_with(from + "/") ? to + path.substr(from.size()) : path);
+      for (const std::string& path : *paths)
+        moved.insert(path.starts_with(from + "/") ? to + path.substr(from.size()) : path);
       *paths = std::move(moved);
     }
   }

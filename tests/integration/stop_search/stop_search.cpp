@@ -70,8 +70,8 @@ class Search {
         throw std::runtime_error(added.error().ToString());
       }
     }
-    const BuildOutcome built = BuildApplication(
-        *document, folder, {*runtime_, plugins_, tags_, configuration}, BuildMode::kConstruct);
+    const BuildOutcome built =
+        BuildApplication(*document, folder, {*runtime_, plugins_, tags_, configuration}, BuildMode::kConstruct);
     if (built.application == nullptr) throw std::runtime_error(built.diagnostics.ToString());
     SchedulerOptions options = SchedulerOptionsOf(*built.application);
     options.speed = 0;
@@ -115,8 +115,7 @@ class Search {
   }
   // What was marked or blocked and is still there has to be so still.
   void CheckMarks() {
-    const auto check = [&](std::set<std::string>& paths, bool (Port::*is)() const noexcept,
-                           const char* what) {
+    const auto check = [&](std::set<std::string>& paths, bool (Port::*is)() const noexcept, const char* what) {
       std::set<std::string> there;
       for (Port* const port : Ports([&](const Port& each) { return paths.contains(each.path()); })) {
         if ((port->*is)()) {
@@ -132,22 +131,18 @@ class Search {
     NoteMarks();  // copies
   }
   void Violate(const std::string& what) {
-    result_.violations.push_back("step " + std::to_string(result_.steps) + ", after '" + last_ +
-                                 "': " + what);
+    result_.violations.push_back("step " + std::to_string(result_.steps) + ", after '" + last_ + "': " + what);
   }
   std::vector<FrameworkElement*> Parts() {
     std::vector<FrameworkElement*> parts;
     application()->Visit([&](FrameworkElement& element) {
-      const bool is_part =
-          element.kind() == ElementKind::kModule || element.kind() == ElementKind::kGroup;
+      const bool is_part = element.kind() == ElementKind::kModule || element.kind() == ElementKind::kGroup;
       if (is_part && &element != application()) parts.push_back(&element);
     });
     return parts;
   }
 
-  std::size_t Below(std::size_t count) {
-    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
-  }
+  std::size_t Below(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
   template <typename T>
   T* OneOf(const std::vector<T*>& all) {
     return all.empty() ? nullptr : all[Below(all.size())];
@@ -209,9 +204,8 @@ class Search {
       Change({DisconnectPorts{to->incoming().front()->path(), to->path()}});
       return;
     }
-    Port* const from = OneOf(Ports([&](const Port& port) {
-      return &port.type() == &to->type() && port.direction() == Port::Direction::kOutput;
-    }));
+    Port* const from = OneOf(Ports(
+        [&](const Port& port) { return &port.type() == &to->type() && port.direction() == Port::Direction::kOutput; }));
     if (from) Change({ConnectPorts{from->path(), to->path()}});
   }
   void RunCycles(std::size_t cycles) {
@@ -277,8 +271,7 @@ class Search {
     static const char* const kPlanners[] = {"bug1", "bug2", "tangent_bug", "dist_bug"};
     const std::string type = FindModuleType(*part);
     const bool is_planner = type.starts_with("planning/");
-    Change({ReplaceModule{part->path(),
-                          is_planner ? std::string("planning/") + kPlanners[Below(4)] : type}});
+    Change({ReplaceModule{part->path(), is_planner ? std::string("planning/") + kPlanners[Below(4)] : type}});
   }
   void Reload() {
     static const char* const kPlugins[] = {"motion", "planning", "simulation", "adaptors"};
@@ -317,8 +310,8 @@ class Search {
     reader.VisitLatest([&](const void* value, ValueTimes times) {
       if (IsSafe(port, value)) return;
       ++result_.moving;
-      const bool is_late_enough = !released_at_ || (times.timestamp > *released_at_ &&
-                                                    times.publication_time > *released_at_);
+      const bool is_late_enough =
+          !released_at_ || (times.timestamp > *released_at_ && times.publication_time > *released_at_);
       if (!is_stopped_ && !expected_.blocked.contains(port.path()) && is_late_enough) return;
       Violate(reader.path() + " is " + ToText(port.type(), value));
     });
@@ -343,8 +336,6 @@ class Search {
 
 }  // namespace
 
-StopSearchResult SearchForWaysAroundStop(std::uint64_t seed, std::uint64_t steps) {
-  return Search(seed, steps).Run();
-}
+StopSearchResult SearchForWaysAroundStop(std::uint64_t seed, std::uint64_t steps) { return Search(seed, steps).Run(); }
 
 }  // namespace runnel::test

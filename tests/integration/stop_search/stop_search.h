@@ -11,11 +11,10 @@ struct StopSearchResult {
   std::uint64_t steps = 0;
   std::uint64_t presses = 0;
   std::uint64_t reloads = 0;
-  std::uint64_t refused = 0;  ///< changes that the editor refused: of what was not there any more
-  std::uint64_t checks = 0;   ///< driving ports looked at
+  std::uint64_t refused = 0;          ///< changes that the editor refused: of what was not there any more
+  std::uint64_t checks = 0;           ///< driving ports looked at
   std::uint64_t checks_in_force = 0;  ///< of those, while STOP was in force
-  std::uint64_t moving =
-      0;  ///< of those, that had another value than the safe one, as they may when it is not
+  std::uint64_t moving = 0;     ///< of those, that had another value than the safe one, as they may when it is not
   std::uint64_t came_back = 0;  ///< marks and blocks of what was away and has come back by undo or redo
   std::vector<std::string> violations;  ///< with the step and what was done last
 };

@@ -17,8 +17,7 @@ TEST(LaserToSurroundings, GivesOneViewForEachScan) {
   ASSERT_TRUE(rig.module.safe_distance.SetFromText("0.5"));
   ASSERT_TRUE(rig.Prepare());
   rig.Feed(rig.module.pose, {});
-  rig.Feed(rig.module.measurement,
-           RangeScan{-0.1, 0.1, 0.02, 4, {static_cast<float>(kNothing), 1.5F, 1.5F}});
+  rig.Feed(rig.module.measurement, RangeScan{-0.1, 0.1, 0.02, 4, {static_cast<float>(kNothing), 1.5F, 1.5F}});
   rig.RunCycle();
   rig.RunCycle();
   EXPECT_EQ(rig.module.surroundings.publications(), 1u);
@@ -59,11 +58,9 @@ TEST(InfraredToSurroundings, GivesOneVagueViewForEachMeasurement) {
   test::ModuleRig<InfraredToSurroundings> rig;
   ASSERT_TRUE(rig.Prepare());
   rig.Feed(rig.module.pose, {});
-  rig.Feed(rig.module.measurement, {.front = kNothing,
-                                    .left = 0.8,
-                                    .right = kNothing,
-                                    .range_maximum = 2,
-                                    .field_of_view = DegreesToRadians(26)});
+  rig.Feed(
+      rig.module.measurement,
+      {.front = kNothing, .left = 0.8, .right = kNothing, .range_maximum = 2, .field_of_view = DegreesToRadians(26)});
   rig.RunCycle();
   rig.RunCycle();
   EXPECT_EQ(rig.module.surroundings.publications(), 1u);

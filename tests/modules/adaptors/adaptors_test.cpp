@@ -1,9 +1,10 @@
+#include "modules/adaptors/algorithm/adaptors.h"
+
 #include <cmath>
 #include <limits>
 #include <type_traits>
 
 #include "gmock/gmock.h"
-#include "modules/adaptors/algorithm/adaptors.h"
 #include "tests/modules/distances.h"
 
 namespace runnel {
@@ -15,15 +16,12 @@ constexpr double kField = DegreesToRadians(26.0);
 
 static_assert(std::is_trivially_copyable_v<Surroundings>);
 
-RangeScan Scan(float everywhere) {
-  return {-kPi / 2, kPi / 180, 0.02, 4.0, std::vector<float>(181, everywhere)};
-}
+RangeScan Scan(float everywhere) { return {-kPi / 2, kPi / 180, 0.02, 4.0, std::vector<float>(181, everywhere)}; }
 /// What a laser sees of a wall x = 1 in the world.
 RangeScan ScanOfWall(const Pose2& pose) {
   RangeScan scan = Scan(kNothing);
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    const double direction =
-        pose.heading + scan.start_angle + static_cast<double>(i) * scan.angle_step;
+    const double direction = pose.heading + scan.start_angle + static_cast<double>(i) * scan.angle_step;
     const double range = (1.0 - pose.x) / std::cos(direction);
     if (range > 0.0 && range <= 4.0) scan.ranges[i] = static_cast<float>(range);
   }
@@ -62,9 +60,7 @@ TEST(LocalMap, DoesNotTakeAPlaceForAnotherOneWindowAway) {
   EXPECT_FALSE(map.IsFree({0.51 + window, 0.51}));
 }
 
-TEST(LaserAdaptor, KnowsNothingWithoutRays) {
-  EXPECT_EQ(LaserAdaptor().Update(RangeScan{}, {}), Surroundings{});
-}
+TEST(LaserAdaptor, KnowsNothingWithoutRays) { EXPECT_EQ(LaserAdaptor().Update(RangeScan{}, {}), Surroundings{}); }
 
 TEST(LaserAdaptor, TellsRangesByBearing) {
   RangeScan scan = Scan(kNothing);
@@ -151,23 +147,21 @@ TEST(InfraredAdaptor, KnowsNothingFromRangersWithoutRange) {
 
 TEST(InfraredAdaptor, KnowsNothingWhereARangerSaysNothing) {
   const double no_number = std::nan("");
-  for (const InfraredRanges& ranges : {InfraredRanges{no_number, 1.0, 1.0, 2.0, kField},
-                                       InfraredRanges{1.0, no_number, 1.0, 2.0, kField},
-                                       InfraredRanges{1.0, 1.0, no_number, 2.0, kField}}) {
+  for (const InfraredRanges& ranges :
+       {InfraredRanges{no_number, 1.0, 1.0, 2.0, kField}, InfraredRanges{1.0, no_number, 1.0, 2.0, kField},
+        InfraredRanges{1.0, 1.0, no_number, 2.0, kField}}) {
     EXPECT_FALSE(InfraredAdaptor().Update(ranges, {}).is_measured);
   }
 }
 
 TEST(InfraredAdaptor, WhatIsTooNearToMeasureIsABoundary) {
-  const Surroundings surroundings =
-      InfraredAdaptor().Update({-kInfinity, kInfinity, kInfinity, 2.0, kField}, {});
+  const Surroundings surroundings = InfraredAdaptor().Update({-kInfinity, kInfinity, kInfinity, 2.0, kField}, {});
   EXPECT_TRUE(surroundings.is_measured);
   EXPECT_EQ(FreeRange(surroundings, 0.0, 0.3), 0.0);
 }
 
 TEST(InfraredAdaptor, TakesAnEchoForItsWholeArc) {
-  const Surroundings surroundings =
-      InfraredAdaptor().Update({1.0, kInfinity, kInfinity, 2.0, kField}, {});
+  const Surroundings surroundings = InfraredAdaptor().Update({1.0, kInfinity, kInfinity, 2.0, kField}, {});
   EXPECT_TRUE(surroundings.is_vague);
   EXPECT_NEAR(NearestBoundary(surroundings, 0.0, 0.05).distance, 1.0, 0.01);
   EXPECT_NEAR(NearestBoundary(surroundings, 0.2, 0.03).distance, 1.0, 0.01);
@@ -185,8 +179,7 @@ TEST(InfraredAdaptor, LooksThroughThePartsOfAnArcThatAreFree) {
   InfraredAdaptor adaptor;
   (void)adaptor.Update({1.0, kInfinity, kInfinity, 2.0, kField}, {});
   // Turned left by 13 degrees the cone sees nothing: the left half of the arc was free.
-  const Surroundings surroundings =
-      adaptor.Update({kInfinity, kInfinity, kInfinity, 2.0, kField}, {0, 0, kField / 2});
+  const Surroundings surroundings = adaptor.Update({kInfinity, kInfinity, kInfinity, 2.0, kField}, {0, 0, kField / 2});
   EXPECT_EQ(NearestBoundary(surroundings, 0.0, 0.1).distance, kInfinity);
   EXPECT_NEAR(NearestBoundary(surroundings, -kField / 2 - 0.1, 0.08).distance, 1.0, 0.01);
 }
@@ -194,8 +187,7 @@ TEST(InfraredAdaptor, LooksThroughThePartsOfAnArcThatAreFree) {
 TEST(InfraredAdaptor, DoesNotBelieveInWhatItLookedThroughBefore) {
   InfraredAdaptor adaptor;
   (void)adaptor.Update({kInfinity, kInfinity, kInfinity, 2.0, kField}, {});
-  const Surroundings surroundings =
-      adaptor.Update({1.0, kInfinity, kInfinity, 2.0, kField}, {0, 0, kField / 2});
+  const Surroundings surroundings = adaptor.Update({1.0, kInfinity, kInfinity, 2.0, kField}, {0, 0, kField / 2});
   // The right half of the cone lies where nothing was.
   EXPECT_EQ(NearestBoundary(surroundings, -kField / 4, 0.05).distance, kInfinity);
   EXPECT_NEAR(NearestBoundary(surroundings, kField / 4, 0.05).distance, 1.0, 0.01);
@@ -211,16 +203,14 @@ TEST(InfraredAdaptor, BelievesANewEchoWhereAllWasFree) {
 TEST(InfraredAdaptor, AddsNothingToAnEchoThatIsExplained) {
   InfraredAdaptor adaptor;
   (void)adaptor.Update({1.0, kInfinity, kInfinity, 2.0, kField}, {});
-  const Surroundings surroundings =
-      adaptor.Update({1.0, kInfinity, kInfinity, 2.0, kField}, {0, 0, kField / 2});
+  const Surroundings surroundings = adaptor.Update({1.0, kInfinity, kInfinity, 2.0, kField}, {0, 0, kField / 2});
   EXPECT_EQ(NearestBoundary(surroundings, 0.3, 0.1).distance, kInfinity);
 }
 
 TEST(InfraredAdaptor, RemembersAWallBehindIt) {
   InfraredAdaptor adaptor;
   (void)adaptor.Update({0.5, kInfinity, kInfinity, 2.0, kField}, {});
-  const Surroundings surroundings =
-      adaptor.Update({kInfinity, kInfinity, kInfinity, 2.0, kField}, {0.1, 0.0, kPi});
+  const Surroundings surroundings = adaptor.Update({kInfinity, kInfinity, kInfinity, 2.0, kField}, {0.1, 0.0, kPi});
   EXPECT_NEAR(NearestBoundary(surroundings).distance, 0.4, 0.02);
 }
 

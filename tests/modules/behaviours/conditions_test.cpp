@@ -1,9 +1,9 @@
+#include "modules/behaviours/algorithm/conditions.h"
+
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include "modules/behaviours/algorithm/conditions.h"
 
 namespace runnel {
 namespace {

@@ -1,9 +1,9 @@
+#include "modules/behaviours/algorithm/curve.h"
+
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
-
-#include "modules/behaviours/algorithm/curve.h"
 
 namespace runnel {
 namespace {
@@ -48,10 +48,14 @@ TEST(CurveTest, AgreesWithAnIndependentReckoning) {
     };
     const bool has_two = curve.kind == CurveKind::kRiseFall || curve.kind == CurveKind::kFallRise;
     double up = 1;  // of the one that goes up first
-    if (x < curve.start) up = 0;
-    else if (x < curve.end) up = smooth(curve.start, curve.end);
-    else if (has_two && x > curve.second_end) up = 0;
-    else if (has_two && x > curve.second_start) up = 1 - smooth(curve.second_start, curve.second_end);
+    if (x < curve.start)
+      up = 0;
+    else if (x < curve.end)
+      up = smooth(curve.start, curve.end);
+    else if (has_two && x > curve.second_end)
+      up = 0;
+    else if (has_two && x > curve.second_start)
+      up = 1 - smooth(curve.second_start, curve.second_end);
     const bool is_down = curve.kind == CurveKind::kFall || curve.kind == CurveKind::kFallRise;
     const double value = ValueAt(curve, x);
     EXPECT_NEAR(value, is_down ? 1 - up : up, 1e-9);

@@ -1,3 +1,5 @@
+#include "modules/behaviours/fusion.h"
+
 #include <array>
 #include <string>
 #include <vector>
@@ -6,7 +8,6 @@
 
 #include "core/log/log_sink.h"
 #include "core/port/output.h"
-#include "modules/behaviours/fusion.h"
 #include "modules/types/pose.h"
 #include "plugins/testing/matchers.h"
 #include "plugins/testing/module_rig.h"
@@ -121,18 +122,18 @@ TEST_F(FusionTest, WhatIsNoNumberIsTheWinners) {
   FeedChannel(rig, 1, 0.25, 0.0, Mixed{{1, 2}, 10, true});
   FeedChannel(rig, 2, 0.75, 0.0, Mixed{{3, 6}, 20, false});
   rig.RunCycle();
-  EXPECT_THAT(rig.output<Mixed>("out"),
-              HasPublished(AllOf(Field(&Mixed::pair, ElementsAre(2.5F, 5.0F)), Field(&Mixed::whole, 18),
-                                 Field(&Mixed::flag, false))));
+  EXPECT_THAT(rig.output<Mixed>("out"), HasPublished(AllOf(Field(&Mixed::pair, ElementsAre(2.5F, 5.0F)),
+                                                           Field(&Mixed::whole, 18), Field(&Mixed::flag, false))));
 }
 
 TEST_F(FusionTest, TextsCannotBeWeighed) {
   rig.Set("type", "TestNamed");
   const auto prepared = rig.Prepare();
   ASSERT_FALSE(prepared);
-  EXPECT_EQ(prepared.error().ToString(),
-            "/module/parameter/method: values of type TestNamed cannot be weighted: there is 'string' in them, which is "
-            "neither a number nor of a fixed size; the method winner_takes_all takes values of any type");
+  EXPECT_EQ(
+      prepared.error().ToString(),
+      "/module/parameter/method: values of type TestNamed cannot be weighted: there is 'string' in them, which is "
+      "neither a number nor of a fixed size; the method winner_takes_all takes values of any type");
 }
 
 TEST_F(FusionTest, TheWinnersTextIsPassedOnAsItIs) {

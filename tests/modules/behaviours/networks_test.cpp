@@ -53,8 +53,8 @@ class Network {
     root = dynamic_cast<FusionBehaviour*>(level.front().first);
     EXPECT_TRUE(runtime_.MakeReady(runtime_.root()));
     CreateThread(runtime_, "control", {.period = 10ms});
-    scheduler_ = std::make_unique<Scheduler>(
-        runtime_, SchedulerOptions{.clock = SchedulerOptions::ClockKind::kSimulated});
+    scheduler_ =
+        std::make_unique<Scheduler>(runtime_, SchedulerOptions{.clock = SchedulerOptions::ClockKind::kSimulated});
   }
 
   /// Long enough for values to come through from the leaves.
@@ -79,9 +79,7 @@ class Network {
     port.VisitLatest([&](const void* newest, ValueTimes) { value = static_cast<const T*>(newest)->value(); });
     return value;
   }
-  static void Enable(Behaviour& behaviour) {
-    ASSERT_TRUE(behaviour.stimulation_mode.Set(StimulationMode::kEnabled));
-  }
+  static void Enable(Behaviour& behaviour) { ASSERT_TRUE(behaviour.stimulation_mode.Set(StimulationMode::kEnabled)); }
   std::vector<std::pair<Behaviour*, Port*>> Fused(const std::vector<std::pair<Behaviour*, Port*>>& level) {
     std::vector<std::pair<Behaviour*, Port*>> next;
     for (std::size_t i = 0; i < level.size();) {

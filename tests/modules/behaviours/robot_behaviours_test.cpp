@@ -1,10 +1,11 @@
+#include "modules/behaviours/robot_behaviours.h"
+
 #include <chrono>
 #include <cmath>
 
 #include <gmock/gmock.h>
 
 #include "modules/behaviours/planner_status_teller.h"
-#include "modules/behaviours/robot_behaviours.h"
 #include "plugins/testing/matchers.h"
 #include "plugins/testing/module_rig.h"
 
@@ -106,8 +107,8 @@ TEST(FollowWallTest, KeepsTheWallOnItsHand) {
   Rig<FollowWallBehaviour> rig;
   rig.Feed("surroundings", WallAt(0.31, -kPi / 2, 1.2));
   rig.RunCycle();
-  EXPECT_THAT(rig.module.twist.port,
-              HasPublished(AllOf(Field(&Twist2::forward, Gt(0.2)), Field(&Twist2::turn, ::testing::DoubleNear(0.0, 0.5)))));
+  EXPECT_THAT(rig.module.twist.port, HasPublished(AllOf(Field(&Twist2::forward, Gt(0.2)),
+                                                        Field(&Twist2::turn, ::testing::DoubleNear(0.0, 0.5)))));
   rig.Feed("surroundings", WallAt(0.31, 0.0, 1.2));
   rig.RunCycle();
   EXPECT_THAT(rig.module.twist.port, HasPublished(Field(&Twist2::turn, Gt(0.5))));
@@ -261,9 +262,9 @@ TEST(PlannerStatusTellerTest, SaysHowTheNetworkGetsOn) {
   rig.Feed("detour", Activity(1.0));
   rig.Feed("pose", Pose2{1.0, 0.0, 0.0});
   rig.RunCycle();
-  EXPECT_THAT(rig.module.status, HasPublished(AllOf(Field(&PlannerStatus::mode, PlannerMode::kFollowingBoundary),
-                                                    Field(&PlannerStatus::path_length, 1.0),
-                                                    Field(&PlannerStatus::hits, 1u))));
+  EXPECT_THAT(rig.module.status,
+              HasPublished(AllOf(Field(&PlannerStatus::mode, PlannerMode::kFollowingBoundary),
+                                 Field(&PlannerStatus::path_length, 1.0), Field(&PlannerStatus::hits, 1u))));
   rig.Feed("detour", Activity(0.0));
   rig.Feed("content", TargetRating(0.0));
   rig.RunCycle();

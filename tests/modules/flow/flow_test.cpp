@@ -27,9 +27,7 @@ struct Unique {
   Unique& operator=(Unique&&) = default;
   std::int32_t number = 0;
 };
-void Describe(TypeBuilder<Unique>& type) {
-  type.Name("test_unique").Field("number", &Unique::number);
-}
+void Describe(TypeBuilder<Unique>& type) { type.Name("test_unique").Field("number", &Unique::number); }
 
 /// All that has come since the last call.
 template <typename T>
@@ -174,7 +172,8 @@ class StoppedPassing {
   StoppedPassing(const char* parameter, const char* value) : out(rig.template output<double>("out")) {
     rig.Set(parameter, value);
     EXPECT_TRUE(rig.Prepare());
-    EXPECT_TRUE(rig.template input<double>("in").SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
+    EXPECT_TRUE(rig.template input<double>("in").SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {},
+                                                            DrivingKind::kEffort));
     Run(1);
     Run(2);
     EXPECT_TRUE(rig.runtime.robot_stop().Press("a test"));
@@ -235,7 +234,8 @@ TEST(StopTest, OfAQueueNothingOfBeforePasses) {
   rig.UseQueue("in", 10);
   rig.Feed("in", 1.0);
   rig.RunCycle();
-  ASSERT_TRUE(rig.input<double>("in").SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
+  ASSERT_TRUE(rig.input<double>("in").SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {},
+                                                 DrivingKind::kEffort));
   for (const double value : {2.0, 3.0}) rig.Feed("in", value);
   ASSERT_TRUE(rig.runtime.robot_stop().Press("a test"));
   auto& out = rig.Follow(rig.output<double>("out"));

@@ -39,8 +39,7 @@ double Grown(const Polygon& polygon) { return Grown(Perimeter(polygon)); }
 
 // A cup 4 m wide and 3 m deep that opens to the left, walls of 0.1 m.
 Polygon Cup() {
-  return {{-1.5, -2},  {1.5, -2},  {1.5, 2},    {-1.5, 2},
-          {-1.5, 1.9}, {1.4, 1.9}, {1.4, -1.9}, {-1.5, -1.9}};
+  return {{-1.5, -2}, {1.5, -2}, {1.5, 2}, {-1.5, 2}, {-1.5, 1.9}, {1.4, 1.9}, {1.4, -1.9}, {-1.5, -1.9}};
 }
 
 // A spiral wall, 1.4 m from turn to turn; its mouth is at the lower left.
@@ -50,8 +49,7 @@ Polygon Spiral() {
   Polygon outer, inner;
   for (std::size_t i = 0; i < middle.size(); ++i) {
     const Point2 before = i == 0 ? middle[i] - middle[1] + middle[0] : middle[i - 1];
-    const Point2 after =
-        i + 1 == middle.size() ? middle[i] + middle[i] - middle[i - 1] : middle[i + 1];
+    const Point2 after = i + 1 == middle.size() ? middle[i] + middle[i] - middle[i - 1] : middle[i + 1];
     const auto unit = [](Point2 v) { return (1 / Norm(v)) * v; };
     const Point2 in = unit(middle[i] - before), out = unit(after - middle[i]);
     const Point2 left_in = {-in.y, in.x}, left_out = {-out.y, out.x};
@@ -86,9 +84,7 @@ std::vector<Scene> Scenes() {
       {"ThinWall", {World({Box(0, 0.3, 0.1, 3)}), {-2, 0}, {2, 0}}, kReached, Grown(6.2)},
       {"LongWall", {World({Box(0, 5, 0.1, 20)}), {-2, 0}, {2, 0}}, kReached, Grown(40.2)},
       {"ManyBoxes",
-       {World({Box(0, 0, 1, 1), Box(2, 1, 1, 1), Box(2, -1.2, 1, 1.5), Box(4, 0.2, 0.6, 1.2)}),
-        {-2, 0},
-        {6, 0}},
+       {World({Box(0, 0, 1, 1), Box(2, 1, 1, 1), Box(2, -1.2, 1, 1.5), Box(4, 0.2, 0.6, 1.2)}), {-2, 0}, {6, 0}},
        kReached,
        Grown(4) + Grown(4) + Grown(5) + Grown(3.6)},
       {"Cup", {World({Cup()}), {-3, 0.1}, {3, 0.2}}, kReached, Grown(Cup()), 2},
@@ -97,21 +93,12 @@ std::vector<Scene> Scenes() {
       {"Spiral", {World({Spiral()}), {-5, 0.7}, {0.6, 0.9}}, kReached, Grown(Spiral()), 4},
       {"OutOfTheSpiral", {World({Spiral()}), {0.6, 0.9}, {6, 1.3}}, kReached, Grown(Spiral()), 4},
       {"Comb", {World({Comb()}), {-5, 0.4}, {5, 0.5}}, kReached, Grown(Comb()), 12},
-      {"GoalWalledIn",
-       {World({Box(0, 0, 3, 3), Box(0, 0, 2.8, 2.8)}), {-4, 0}, {0.3, 0.2}},
-       kUnreachable,
-       Grown(12)},
+      {"GoalWalledIn", {World({Box(0, 0, 3, 3), Box(0, 0, 2.8, 2.8)}), {-4, 0}, {0.3, 0.2}}, kUnreachable, Grown(12)},
       {"StartWalledIn", {World({room}), {0.3, 0.2}, {5, 0}}, kUnreachable, Grown(16)},
       {"StartAndGoalInARoom", {World({room}), {-1.2, -1}, {1.2, 1.3}}, kReached, 0.001},
       {"GoalInsideABox", {World({Box(0, 0, 2, 2)}), {-3, 0}, {0.2, 0.1}}, kUnreachable, Grown(8)},
-      {"GoalNearAWallInFront",
-       {World({Box(0, 0, 1, 3)}), {-3, 0}, {-0.6, 0.1}},
-       kUnreachable,
-       Grown(8)},
-      {"GoalNearAWallBehind",
-       {World({Box(0, 0, 1, 3)}), {-3, 0}, {0.6, 0.1}},
-       kUnreachable,
-       Grown(8)},
+      {"GoalNearAWallInFront", {World({Box(0, 0, 1, 3)}), {-3, 0}, {-0.6, 0.1}}, kUnreachable, Grown(8)},
+      {"GoalNearAWallBehind", {World({Box(0, 0, 1, 3)}), {-3, 0}, {0.6, 0.1}}, kUnreachable, Grown(8)},
       {"GapTooNarrow",
        {World({Box(0, 1.25, 0.2, 2), Box(0, -1.25, 0.2, 2)}), {-2, 0}, {2, 0}},
        kReached,
@@ -121,14 +108,7 @@ std::vector<Scene> Scenes() {
        kReached,
        2 * Grown(4.4)},
       {"NarrowCorridor",
-       {World({{{-2, 0.5},
-                {3, 0.5},
-                {3, -0.5},
-                {-2, -0.5},
-                {-2, -0.6},
-                {3.1, -0.6},
-                {3.1, 0.6},
-                {-2, 0.6}}}),
+       {World({{{-2, 0.5}, {3, 0.5}, {3, -0.5}, {-2, -0.5}, {-2, -0.6}, {3.1, -0.6}, {3.1, 0.6}, {-2, 0.6}}}),
         {-3, 0.05},
         {5, 0}},
        kReached,
@@ -137,23 +117,11 @@ std::vector<Scene> Scenes() {
        0.25,
        false},
       {"AcuteWedge",
-       {World({{{-2, 1.6}, {-2, 1.4}, {0.9, 0}, {-2, -1.4}, {-2, -1.6}, {1.5, 0}}}),
-        {-3, 0.1},
-        {3, 0}},
+       {World({{{-2, 1.6}, {-2, 1.4}, {0.9, 0}, {-2, -1.4}, {-2, -1.6}, {1.5, 0}}}), {-3, 0.1}, {3, 0}},
        kReached,
        Grown(15)},
-      {"StartNearAWall",
-       {World({Box(0, 0, 1, 2)}), {-0.72, 0.2}, {3, 0.1}},
-       kReached,
-       Grown(6),
-       2,
-       0.20},
-      {"StartTouchingAWall",
-       {World({Box(0, 0, 1, 2)}), {-0.655, 0.2}, {3, 0.1}},
-       kReached,
-       Grown(6),
-       2,
-       0.15},
+      {"StartNearAWall", {World({Box(0, 0, 1, 2)}), {-0.72, 0.2}, {3, 0.1}}, kReached, Grown(6), 2, 0.20},
+      {"StartTouchingAWall", {World({Box(0, 0, 1, 2)}), {-0.655, 0.2}, {3, 0.1}}, kReached, Grown(6), 2, 0.15},
       {"StartIsGoal", {World({Box(0, 0, 1, 2)}), {-2, 0}, {-2, 0}}, kReached, 0.001},
       {"NoRoom", {World({Box(0, 0, 0.62, 0.62)}), {0, 0}, {3, 0}}, kUnreachable},
       {"TinyRoom", {World({Box(0, 0, 0.85, 0.85)}), {0, 0}, {3, 0}}, kUnreachable},
@@ -174,12 +142,12 @@ class BugInWorlds : public testing::TestWithParam<std::tuple<Scene, BugVariant, 
   static BoundaryDirection Direction() {
     const auto& [scene, variant, sensor] = GetParam();
     const char* wanted = std::getenv("RUNNEL_TURN");
-    const bool is_left = wanted == nullptr
-                             ? (std::string_view(scene.name).size() + VariantIndex(variant.name) +
-                                (sensor == Sensor::kLaser ? 0 : 1)) %
-                                       2 ==
-                                   0
-                             : std::string_view(wanted) == "left";
+    const bool is_left =
+        wanted == nullptr
+            ? (std::string_view(scene.name).size() + VariantIndex(variant.name) + (sensor == Sensor::kLaser ? 0 : 1)) %
+                      2 ==
+                  0
+            : std::string_view(wanted) == "left";
     return is_left ? BoundaryDirection::kLeft : BoundaryDirection::kRight;
   }
 };
@@ -251,9 +219,8 @@ class MetAgain : public testing::Test {
   /// The passage of xml/worlds/met_again.xml: the line from start to goal crosses its walls again
   /// and again.
   static Task Passage() {
-    const Polygon inside = {{-5, -4}, {-3, -4},   {-3, 2},   {-2.5, 2}, {-2.5, -4}, {2, -4},
-                            {2, 2},   {2.5, 2},   {2.5, -4}, {4.5, -4}, {4.5, 4},   {0, 4},
-                            {0, -2},  {-0.5, -2}, {-0.5, 4}, {-5, 4}};
+    const Polygon inside = {{-5, -4},  {-3, -4},  {-3, 2},  {-2.5, 2}, {-2.5, -4}, {2, -4},    {2, 2},    {2.5, 2},
+                            {2.5, -4}, {4.5, -4}, {4.5, 4}, {0, 4},    {0, -2},    {-0.5, -2}, {-0.5, 4}, {-5, 4}};
     return {World({inside}), {-4, 0.2}, {3.6, -0.3}};
   }
 };

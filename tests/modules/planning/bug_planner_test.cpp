@@ -22,8 +22,7 @@ class BugPlannerTest : public testing::Test {
   /// One cycle in the open, at `pose`.
   void Step(const Pose2& pose) {
     rig.Feed(rig.module.pose, pose);
-    rig.Feed(rig.module.surroundings,
-             Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
+    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
     rig.RunCycle();
   }
   PlannerStatus status() const { return rig.Last(rig.module.status); }
@@ -51,8 +50,7 @@ TEST_F(BugPlannerTest, IsSilentWhenNobodyTellsItWhereItIs) {
   rig.Feed(rig.module.goal, {3, 0});
   Step({});
   for (int i = 0; i < 10; ++i) {  // the sensor goes on, the localisation does not
-    rig.Feed(rig.module.surroundings,
-             Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
+    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
     rig.RunCycle();
   }
   EXPECT_EQ(rig.module.twist.publications(), 5u) << "for 0.2 s, not longer";
@@ -67,8 +65,7 @@ TEST_F(BugPlannerTest, IsSilentWithWhatIsOldOrNoNumber) {
   EXPECT_EQ(rig.module.twist.publications(), 0u) << "the goal is no number";
   rig.Feed(rig.module.goal, {3, 0});
   rig.Feed(rig.module.pose, {});
-  rig.Feed(rig.module.surroundings,
-           Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
+  rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
   rig.Wait(std::chrono::seconds(1));
   rig.RunCycle();
   EXPECT_EQ(rig.module.twist.publications(), 0u) << "view and pose are of one time, and old";
@@ -161,8 +158,7 @@ TEST_F(BugPlannerTest, GoesOnWhereAnotherPlannerWas) {
   other.module.TakeOver(rig.module.state());
   other.Feed(other.module.goal, {3, 0});
   other.Feed(other.module.pose, {0.6, 0, 0});
-  other.Feed(other.module.surroundings,
-             Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
+  other.Feed(other.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
   other.RunCycle();
   EXPECT_EQ(other.module.state().start, (Point2{0, 0})) << "the same task";
   EXPECT_NEAR(other.Last(other.module.status).path_length, 0.6, 1e-9);
@@ -183,8 +179,7 @@ TEST(BugState, IsDescribedFieldByField) {
     const bool is_missing = gone_over[i] == 0;
     EXPECT_TRUE(is_missing || missing == 0 || i % 4 == 0) << "a member ends at byte " << i;
     missing = is_missing ? missing + 1 : 0;
-    ASSERT_LT(missing, alignof(BugState))
-        << "a member is missing in its description, at byte " << i;
+    ASSERT_LT(missing, alignof(BugState)) << "a member is missing in its description, at byte " << i;
   }
 }
 
@@ -236,8 +231,7 @@ TEST(ComposedBugPlanner, DrivesLikeTheVariantOfTheSameComponents) {
   rig.Feed(rig.module.goal, {3, 0});
   for (const double x : {0.0, 0.1}) {
     rig.Feed(rig.module.pose, {x, 0.2 * x, 0});
-    rig.Feed(rig.module.surroundings,
-             Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
+    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
     rig.RunCycle();
   }
   EXPECT_LT(rig.Last(rig.module.twist).turn, 0.0) << "back to the line";

@@ -14,8 +14,8 @@ class Session {
 
   BugOutput Step(const BugAlgorithm& algorithm) {
     const Pose2 pose = robot_.pose();
-    const BugOutput out = algorithm.Update(
-        state, {kTimeStep, pose, laser_.Update(world_.Scan(pose), pose), start_, goal_});
+    const BugOutput out =
+        algorithm.Update(state, {kTimeStep, pose, laser_.Update(world_.Scan(pose), pose), start_, goal_});
     robot_.Drive(out.twist, kTimeStep);
     return out;
   }
@@ -145,10 +145,8 @@ TEST(BugRules, Bug1GoesBackTheShorterWay) {
   for (const double side : {1.5, -1.5}) {
     Session session(World({Box(0, 0, 0.4, 4)}), {-2, 0}, {2, side});
     const BugAlgorithm bug = Make("bug1");
-    const double lap =
-        session
-            .StepUntil(bug, [](const auto& s) { return s.mode == PlannerMode::kGoingToLeavePoint; })
-            .status.path_length;
+    const double lap = session.StepUntil(bug, [](const auto& s) { return s.mode == PlannerMode::kGoingToLeavePoint; })
+                           .status.path_length;
     const double back = session.StepUntil(bug, HasLeft).status.path_length - lap;
     const double perimeter = lap - 1.45;
     EXPECT_LT(back, 0.5 * perimeter);
@@ -193,8 +191,7 @@ TEST(BugRules, AStepOfHalfASecondIsEnoughForASlowRobot) {
       PlannerStatus status;
       double clearance = 1.0;
       for (int step = 0; step < 2000 && !IsFinished(status); ++step) {
-        const BugOutput out =
-            algorithm.Update(state, {0.5, vehicle.pose(), vehicle.Look(), task.start, task.goal});
+        const BugOutput out = algorithm.Update(state, {0.5, vehicle.pose(), vehicle.Look(), task.start, task.goal});
         status = out.status;
         vehicle.Drive(out.twist, 0.5);
         clearance = std::min(clearance, task.world.Clearance(Position(vehicle.pose())));
@@ -236,8 +233,7 @@ TEST(BugRules, TellsWhyAGoalIsUnreachable) {
   const PlannerStatus status = session.StepUntil(Make("bug2"), IsFinished).status;
   EXPECT_EQ(status.unreachability, Unreachability::kNoRoom);
   Session other(World({Box(0, 0, 3, 3)}), {0, 0}, {3, 0});
-  EXPECT_EQ(other.StepUntil(Make("bug2"), IsFinished).status.unreachability,
-            Unreachability::kEnclosed);
+  EXPECT_EQ(other.StepUntil(Make("bug2"), IsFinished).status.unreachability, Unreachability::kEnclosed);
 }
 
 }  // namespace

@@ -31,9 +31,7 @@ struct Situation {
   void AddWall(double distance, double low, double high) {
     for (double y = low; y <= high; y += 0.02) AddPoint({distance, y});
   }
-  void AddPoint(Point2 point) {
-    AddBoundaryPoint(input.surroundings, {Norm(point), Direction(point)});
-  }
+  void AddPoint(Point2 point) { AddBoundaryPoint(input.surroundings, {Norm(point), Direction(point)}); }
   [[nodiscard]] BugView view() const { return {configuration, state, input}; }
 
   BugConfiguration configuration;
@@ -90,10 +88,8 @@ TEST(TangentMotion, GoesUpToAWallOfWhichNoEndIsNearerToTheGoal) {
 TEST(FixedDirection, IsTheOneToldWhateverIsInTheWay) {
   Situation situation;
   for (const double bearing : {-1.0, 0.0, 1.0}) {
-    EXPECT_EQ(ComponentFor(DirectionKind::kLeft).Choose(situation.view(), bearing),
-              BoundaryDirection::kLeft);
-    EXPECT_EQ(ComponentFor(DirectionKind::kRight).Choose(situation.view(), bearing),
-              BoundaryDirection::kRight);
+    EXPECT_EQ(ComponentFor(DirectionKind::kLeft).Choose(situation.view(), bearing), BoundaryDirection::kLeft);
+    EXPECT_EQ(ComponentFor(DirectionKind::kRight).Choose(situation.view(), bearing), BoundaryDirection::kRight);
   }
 }
 
@@ -111,8 +107,7 @@ TEST(LocalDirection, TurnsLeast) {
 TEST(LocalDirection, TakesTheSideOfTheLastTangentNode) {
   Situation situation;
   situation.state.node_side = BoundaryDirection::kLeft;
-  EXPECT_EQ(ComponentFor(DirectionKind::kLocal).Choose(situation.view(), 0.5),
-            BoundaryDirection::kLeft);
+  EXPECT_EQ(ComponentFor(DirectionKind::kLocal).Choose(situation.view(), 0.5), BoundaryDirection::kLeft);
 }
 
 TEST(AlternateDirection, IsOppositeToTheOneBefore) {
@@ -232,8 +227,7 @@ TEST(ReachBelowFollowed, KeepsTheNearestPointOfTheBoundaryOnItsHand) {
   situation.state.least_distance = 5.0;
   situation.state.follower.Start(BoundaryDirection::kLeft, {}, -kPi / 2);
   for (double x = -1; x <= 2.0; x += 0.02) situation.AddPoint({x, -0.37});
-  const double along =
-      ComponentFor(LeaveKind::kReachBelowFollowed).FollowedDistance(situation.view());
+  const double along = ComponentFor(LeaveKind::kReachBelowFollowed).FollowedDistance(situation.view());
   EXPECT_NEAR(along, 3.0, 0.5) << "its end at x = 2";
   situation.AddPoint({3.5, 0.8});  // beyond a gap: another obstacle
   EXPECT_EQ(ComponentFor(LeaveKind::kReachBelowFollowed).FollowedDistance(situation.view()), along);

@@ -29,8 +29,7 @@ enum class Sensor { kLaser, kInfrared, kBumper };
 /// A robot in a world with a sensor and its adaptor.
 class Vehicle {
  public:
-  Vehicle(const World& world, Sensor sensor, const Pose2& pose)
-      : world_(world), sensor_(sensor), robot_(pose) {}
+  Vehicle(const World& world, Sensor sensor, const Pose2& pose) : world_(world), sensor_(sensor), robot_(pose) {}
 
   [[nodiscard]] Surroundings Look() {
     const Pose2 pose = robot_.pose();
@@ -71,9 +70,7 @@ inline std::vector<BugVariant> VariantsThatEnd() {
   return variants;
 }
 
-inline bool IsVerdict(PlannerMode mode) {
-  return mode == PlannerMode::kReached || mode == PlannerMode::kUnreachable;
-}
+inline bool IsVerdict(PlannerMode mode) { return mode == PlannerMode::kReached || mode == PlannerMode::kUnreachable; }
 
 struct Outcome {
   PlannerStatus status;
@@ -103,9 +100,9 @@ class Trace {
         file_ << "# " << hits_ << ' ' << point.x << ' ' << point.y << '\n';
       }
     }
-    file_ << pose.x << ' ' << pose.y << ' ' << pose.heading << ' ' << out.twist.forward << ' '
-          << out.twist.turn << ' ' << static_cast<int>(out.status.mode) << ' ' << out.status.hits
-          << ' ' << out.status.leaves << ' ' << out.status.path_length << '\n';
+    file_ << pose.x << ' ' << pose.y << ' ' << pose.heading << ' ' << out.twist.forward << ' ' << out.twist.turn << ' '
+          << static_cast<int>(out.status.mode) << ' ' << out.status.hits << ' ' << out.status.leaves << ' '
+          << out.status.path_length << '\n';
   }
 
  private:
@@ -114,8 +111,7 @@ class Trace {
 };
 
 /// A published variant.
-inline BugAlgorithm Make(std::string_view variant,
-                         BoundaryDirection direction = BoundaryDirection::kLeft) {
+inline BugAlgorithm Make(std::string_view variant, BoundaryDirection direction = BoundaryDirection::kLeft) {
   BugConfiguration configuration;
   configuration.first_direction = direction;
   BugComposition composition = kBugVariants.at(VariantIndex(variant)).composition;
@@ -125,8 +121,8 @@ inline BugAlgorithm Make(std::string_view variant,
   return BugAlgorithm(configuration, Assemble(composition));
 }
 
-inline Outcome Drive(std::string_view variant, BoundaryDirection direction, Sensor sensor,
-                     const Task& task, const std::string& run = "") {
+inline Outcome Drive(std::string_view variant, BoundaryDirection direction, Sensor sensor, const Task& task,
+                     const std::string& run = "") {
   const BugAlgorithm algorithm = Make(variant, direction);
   Vehicle vehicle(task.world, sensor, {task.start.x, task.start.y, task.heading});
   BugState state;
@@ -135,12 +131,10 @@ inline Outcome Drive(std::string_view variant, BoundaryDirection direction, Sens
   for (int step = 0; step < kMostSteps; ++step) {
     const Pose2 pose = vehicle.pose();
     const Surroundings surroundings = vehicle.Look();
-    const BugOutput out =
-        algorithm.Update(state, {kTimeStep, pose, surroundings, task.start, task.goal});
+    const BugOutput out = algorithm.Update(state, {kTimeStep, pose, surroundings, task.start, task.goal});
     trace.Write(pose, out, surroundings);
     outcome.status = out.status;
-    outcome.least_clearance =
-        std::min(outcome.least_clearance, task.world.Clearance(Position(pose)));
+    outcome.least_clearance = std::min(outcome.least_clearance, task.world.Clearance(Position(pose)));
     if (IsVerdict(out.status.mode)) break;
     vehicle.Drive(out.twist, kTimeStep);
   }

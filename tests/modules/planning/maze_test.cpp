@@ -19,8 +19,7 @@ struct Wall {
 World Maze(std::initializer_list<Wall> walls) {
   World world({Box(0, 0, 7 * kPitch, 7 * kPitch)});
   for (const Wall& wall : walls) {
-    world.Add(Box(kPitch * wall.column, kPitch * wall.row, kPitch * wall.columns + kWall,
-                  kPitch * wall.rows + kWall));
+    world.Add(Box(kPitch * wall.column, kPitch * wall.row, kPitch * wall.columns + kWall, kPitch * wall.rows + kWall));
   }
   return world;
 }
@@ -28,11 +27,10 @@ World Maze(std::initializer_list<Wall> walls) {
 // What `runnel world --kind maze --seed 102 --width 8 --height 8 --gap 0.9` makes, but for the round
 // ends of its walls.
 Task Maze102() {
-  return {Maze({{-2.5, 1.0, 0, 3}, {-1.5, -1.0, 0, 1}, {-1.5, 1.0, 0, 1}, {-0.5, -2.0, 0, 3},
-                {-0.5, 1.5, 0, 2}, {0.5, 0.0, 0, 1},   {0.5, 3.0, 0, 1},  {1.5, -1.0, 0, 1},
-                {1.5, 1.5, 0, 2},  {2.5, -2.0, 0, 1},  {2.5, 0.0, 0, 1},  {-1.5, -2.5, 2, 0},
-                {1.5, -2.5, 2, 0}, {-2.5, -1.5, 2, 0}, {0.0, -1.5, 1, 0}, {2.0, -1.5, 1, 0},
-                {1.0, -0.5, 1, 0}, {0.0, 0.5, 1, 0},   {2.0, 0.5, 1, 0},  {-1.0, 1.5, 1, 0},
+  return {Maze({{-2.5, 1.0, 0, 3}, {-1.5, -1.0, 0, 1}, {-1.5, 1.0, 0, 1}, {-0.5, -2.0, 0, 3}, {-0.5, 1.5, 0, 2},
+                {0.5, 0.0, 0, 1},  {0.5, 3.0, 0, 1},   {1.5, -1.0, 0, 1}, {1.5, 1.5, 0, 2},   {2.5, -2.0, 0, 1},
+                {2.5, 0.0, 0, 1},  {-1.5, -2.5, 2, 0}, {1.5, -2.5, 2, 0}, {-2.5, -1.5, 2, 0}, {0.0, -1.5, 1, 0},
+                {2.0, -1.5, 1, 0}, {1.0, -0.5, 1, 0},  {0.0, 0.5, 1, 0},  {2.0, 0.5, 1, 0},   {-1.0, 1.5, 1, 0},
                 {1.0, 1.5, 1, 0},  {3.0, 1.5, 1, 0},   {-2.0, 2.5, 1, 0}, {2.0, 2.5, 1, 0}}),
           {-3 * kPitch, -2 * kPitch},
           {3 * kPitch, 2 * kPitch}};

@@ -14,7 +14,7 @@ namespace {
 using namespace testing_world;
 
 constexpr double kJudgedHalf = 4.0;  // m
-constexpr double kCell = 0.05;      // m
+constexpr double kCell = 0.05;       // m
 
 /// Whether the goal can be reached at all, by flooding a grid: an independent judge.
 class Judge {
@@ -24,8 +24,7 @@ class Judge {
     std::vector<char> blocked(static_cast<std::size_t>(cells * cells));
     const auto centre = [&](int i) { return -kReach + (i + 0.5) * kCell; };
     for (int i = 0; i < cells * cells; ++i) {
-      blocked[static_cast<std::size_t>(i)] =
-          world.Clearance({centre(i % cells), centre(i / cells)}) < radius;
+      blocked[static_cast<std::size_t>(i)] = world.Clearance({centre(i % cells), centre(i / cells)}) < radius;
     }
     std::vector<int> open = {static_cast<int>((start.y + kReach) / kCell) * cells +
                              static_cast<int>((start.x + kReach) / kCell)};
@@ -56,9 +55,7 @@ class Judge {
 class Dice {
  public:
   explicit Dice(std::uint32_t seed) : engine_(seed) {}
-  double Between(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_()) / 4294967296.0;
-  }
+  double Between(double low, double high) { return low + (high - low) * static_cast<double>(engine_()) / 4294967296.0; }
   Point2 Place() {
     const double x = Between(-kJudgedHalf, kJudgedHalf);
     return {x, Between(-kJudgedHalf, kJudgedHalf)};
@@ -81,8 +78,7 @@ Polygon RandomPolygon(Dice& dice) {
   if (kind < 1) return Placed(Box(0, 0, a, b), angle, place);
   if (kind < 2) return Placed(Box(0, 0, 0.1, 1.5 * a), angle, place);
   if (kind < 3) return Placed(Cylinder(0, 0, a / 2), angle, place);
-  return Placed({{0, 0}, {a + 0.5, 0}, {a + 0.5, 0.15}, {0.15, 0.15}, {0.15, b}, {0, b}}, angle,
-                place);
+  return Placed({{0, 0}, {a + 0.5, 0}, {a + 0.5, 0.15}, {0.15, 0.15}, {0.15, b}, {0, b}}, angle, place);
 }
 
 struct RandomTask {
@@ -107,8 +103,7 @@ RandomTask MakeTask(std::uint32_t seed, double sure_radius) {
     random.task.goal = dice.Place();
   } while (Distance(random.task.start, random.task.goal) < 2.0);
   random.task.heading = dice.Between(-kPi, kPi);
-  random.surely =
-      Judge(random.task.world, random.task.start, random.task.goal, sure_radius).nearest();
+  random.surely = Judge(random.task.world, random.task.start, random.task.goal, sure_radius).nearest();
   random.possibly = Judge(random.task.world, random.task.start, random.task.goal, 0.27).nearest();
   return random;
 }
@@ -126,13 +121,11 @@ TEST_P(RandomWorlds, GiveTheVerdictOfAnIndependentJudge) {
   const int first = 1 + 1000 * static_cast<int>(VariantIndex(variant.name));
   for (int seed = first; seed < first + JudgedWorlds(); ++seed) {
     const RandomTask random =
-        MakeTask(static_cast<std::uint32_t>(seed),
-                 sensor == Sensor::kLaser ? kSurelyWithLaser : kSurelyWithInfrared);
+        MakeTask(static_cast<std::uint32_t>(seed), sensor == Sensor::kLaser ? kSurelyWithLaser : kSurelyWithInfrared);
     const auto direction = seed % 2 == 0 ? BoundaryDirection::kLeft : BoundaryDirection::kRight;
-    SCOPED_TRACE("world " + std::to_string(seed) + ", surely to " + std::to_string(random.surely) +
-                 " m, possibly to " + std::to_string(random.possibly) + " m");
-    const Outcome outcome =
-        Drive(variant.name, direction, sensor, random.task, "world" + std::to_string(seed));
+    SCOPED_TRACE("world " + std::to_string(seed) + ", surely to " + std::to_string(random.surely) + " m, possibly to " +
+                 std::to_string(random.possibly) + " m");
+    const Outcome outcome = Drive(variant.name, direction, sensor, random.task, "world" + std::to_string(seed));
     EXPECT_GT(outcome.least_clearance, sensor == Sensor::kLaser ? 0.25 : Robot::kRadius + 0.02);
     const PlannerMode verdict = outcome.status.mode;
     EXPECT_THAT(verdict, testing::AnyOf(PlannerMode::kReached, PlannerMode::kUnreachable));

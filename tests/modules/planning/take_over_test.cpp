@@ -13,13 +13,10 @@ using namespace testing_world;
 
 // A hook round the goal, a box before it: variants differ here in where they hit and leave.
 Task HookWorld() {
-  const Polygon hook = {{-1.5, -2},  {1.5, -2},  {1.5, 2},    {-1.5, 2},
-                        {-1.5, 1.9}, {1.4, 1.9}, {1.4, -1.9}, {-1.5, -1.9}};
+  const Polygon hook = {{-1.5, -2}, {1.5, -2}, {1.5, 2}, {-1.5, 2}, {-1.5, 1.9}, {1.4, 1.9}, {1.4, -1.9}, {-1.5, -1.9}};
   return {World({hook, Box(-3.2, 0.3, 0.6, 1.0)}), {-5, 0.1}, {3, 0.2}};
 }
-Task WalledInWorld() {
-  return {World({Box(0, 0, 3, 3), Box(0, 0, 2.8, 2.8)}), {-4, 0}, {0.3, 0.2}};
-}
+Task WalledInWorld() { return {World({Box(0, 0, 3, 3), Box(0, 0, 2.8, 2.8)}), {-4, 0}, {0.3, 0.2}}; }
 
 /// Drives with `first` for so many steps along boundaries, then with `second` to the end.
 PlannerStatus DriveWithTakeOver(const Task& task, std::string_view first, std::string_view second,
@@ -31,8 +28,7 @@ PlannerStatus DriveWithTakeOver(const Task& task, std::string_view first, std::s
   double clearance = 1.0;
   for (int step = 0; step < kMostSteps; ++step) {
     const BugAlgorithm& now = steps_at_boundary > 0 ? before : after;
-    const BugOutput out =
-        now.Update(state, {kTimeStep, vehicle.pose(), vehicle.Look(), task.start, task.goal});
+    const BugOutput out = now.Update(state, {kTimeStep, vehicle.pose(), vehicle.Look(), task.start, task.goal});
     status = out.status;
     if (status.mode == PlannerMode::kReached || status.mode == PlannerMode::kUnreachable) break;
     if (status.mode != PlannerMode::kMotionToGoal) --steps_at_boundary;
@@ -78,8 +74,7 @@ TEST(TakeOver, ALineVariantDrawsItsLineFromWhereTheObstacleWasHit) {
   const Task task = {World({Box(0, 0, 0.4, 6), Box(2.0, 4.2, 1.0, 1.0)}), {-2, 2.0}, {4, 4.6}};
   for (const char* second : {"bug2", "alg1", "rev1"}) {
     for (const int moment : {40, 200, 400, 600, 800}) {
-      EXPECT_EQ(int(DriveWithTakeOver(task, "bug1", second, moment).mode),
-                int(PlannerMode::kReached))
+      EXPECT_EQ(int(DriveWithTakeOver(task, "bug1", second, moment).mode), int(PlannerMode::kReached))
           << second << " at step " << moment;
     }
   }
@@ -90,8 +85,7 @@ TEST(TakeOver, IsNoNewTask) {
   Vehicle vehicle(task.world, Sensor::kLaser, {task.start.x, task.start.y, 0.0});
   BugState state;
   const auto step = [&](const BugAlgorithm& algorithm) {
-    const BugOutput out =
-        algorithm.Update(state, {kTimeStep, vehicle.pose(), vehicle.Look(), task.start, task.goal});
+    const BugOutput out = algorithm.Update(state, {kTimeStep, vehicle.pose(), vehicle.Look(), task.start, task.goal});
     vehicle.Drive(out.twist, kTimeStep);
     return out.status;
   };

@@ -80,8 +80,7 @@ class World {
     const auto cone = [&](double bearing) {
       double nearest = std::numeric_limits<double>::infinity();
       for (int i = -13; i <= 13; ++i) {
-        nearest = std::min(
-            nearest, CastRay(Position(pose), pose.heading + bearing + DegreesToRadians(i), 2.0));
+        nearest = std::min(nearest, CastRay(Position(pose), pose.heading + bearing + DegreesToRadians(i), 2.0));
       }
       return nearest;
     };

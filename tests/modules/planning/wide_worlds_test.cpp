@@ -20,10 +20,9 @@ namespace {
 
 using namespace testing_world;
 
-constexpr double kSafeDistance = 0.35;  // m
-constexpr double kGap =
-    2 * Robot::kRadius + 2 * kSafeDistance;  // m, between two obstacles at least
-constexpr double kHalfArena = 4.0;           // m
+constexpr double kSafeDistance = 0.35;                           // m
+constexpr double kGap = 2 * Robot::kRadius + 2 * kSafeDistance;  // m, between two obstacles at least
+constexpr double kHalfArena = 4.0;                               // m
 // What a controller adds to the way of an ideal point.
 constexpr double kMarginPerMetre = 0.05;
 constexpr double kMargin = 0.5;  // m
@@ -59,16 +58,15 @@ WideWorld MakeWorld(std::uint32_t seed) {
   };
   WideWorld wide;
   for (int attempt = 0; attempt < 40; ++attempt) {
-    Polygon polygon = between(0, 1) < 0.6 ? Box(0, 0, between(0.1, 2.5), between(0.3, 2.5))
-                                          : Cylinder(0, 0, between(0.1, 1.0));
+    Polygon polygon =
+        between(0, 1) < 0.6 ? Box(0, 0, between(0.1, 2.5), between(0.3, 2.5)) : Cylinder(0, 0, between(0.1, 1.0));
     const Point2 middle = place();
     const double angle = between(-kPi, kPi);
     for (Point2& corner : polygon) corner = ToWorld({middle.x, middle.y, angle}, corner);
     bool is_apart = true;
     for (const Polygon& other : wide.polygons) {
-      is_apart = is_apart && DistanceBetween(polygon, other) > kGap &&
-                 DistanceBetween(other, polygon) > kGap && !Contains(other, polygon[0]) &&
-                 !Contains(polygon, other[0]);
+      is_apart = is_apart && DistanceBetween(polygon, other) > kGap && DistanceBetween(other, polygon) > kGap &&
+                 !Contains(other, polygon[0]) && !Contains(polygon, other[0]);
     }
     if (is_apart) wide.polygons.push_back(polygon);
   }
@@ -79,8 +77,7 @@ WideWorld MakeWorld(std::uint32_t seed) {
   };
   do {
     wide.task.start = place();
-  } while (wide.task.world.Clearance(wide.task.start) < kSafeDistance + 0.05 ||
-           is_inside(wide.task.start));
+  } while (wide.task.world.Clearance(wide.task.start) < kSafeDistance + 0.05 || is_inside(wide.task.start));
   double clearance = 0.0;
   do {
     wide.task.goal = place();
@@ -105,14 +102,12 @@ const Polygon& PolygonAt(const WideWorld& wide, Point2 point) {
 /// How often the line from start to goal crosses the boundary of the polygon grown.
 int Crossings(const Task& task, const Polygon& polygon) {
   // Convex: the line goes in and out, or only in if it ends there.
-  return World({polygon}).Clearance(task.goal) < kSafeDistance || Contains(polygon, task.goal) ? 1
-                                                                                               : 2;
+  return World({polygon}).Clearance(task.goal) < kSafeDistance || Contains(polygon, task.goal) ? 1 : 2;
 }
 
 /// m, from the start on, of an ideal point that meets these obstacles; nothing if the authors of the
 /// variant have given no bound.
-std::optional<double> Bound(std::string_view variant, const WideWorld& wide,
-                            const PointHistory& hits) {
+std::optional<double> Bound(std::string_view variant, const WideWorld& wide, const PointHistory& hits) {
   const std::array<std::string_view, 4> bounded = {"bug1", "bug2", "alg1", "alg2"};
   if (std::find(bounded.begin(), bounded.end(), variant) == bounded.end()) return std::nullopt;
   double bound = Distance(wide.task.start, wide.task.goal);
@@ -146,15 +141,12 @@ TEST_P(WideWorlds, EndRightlyWithinTheBound) {
   const double tolerance = sensor == Sensor::kLaser ? kLaserTolerance : kInfraredTolerance;
   for (int i = 0; i < WideWorldCount(); ++i) {
     // Other worlds for every variant.
-    const auto seed =
-        static_cast<std::uint32_t>(1 + i + 1000 * static_cast<int>(VariantIndex(variant.name)));
+    const auto seed = static_cast<std::uint32_t>(1 + i + 1000 * static_cast<int>(VariantIndex(variant.name)));
     SCOPED_TRACE("world " + std::to_string(seed));
     const WideWorld wide = MakeWorld(seed);
     const auto direction = seed % 2 == 0 ? BoundaryDirection::kLeft : BoundaryDirection::kRight;
-    const Outcome outcome =
-        Drive(variant.name, direction, sensor, wide.task, "wide" + std::to_string(seed));
-    EXPECT_EQ(int(outcome.status.mode),
-              int(wide.is_reachable ? PlannerMode::kReached : PlannerMode::kUnreachable));
+    const Outcome outcome = Drive(variant.name, direction, sensor, wide.task, "wide" + std::to_string(seed));
+    EXPECT_EQ(int(outcome.status.mode), int(wide.is_reachable ? PlannerMode::kReached : PlannerMode::kUnreachable));
     EXPECT_GT(outcome.least_clearance, sensor == Sensor::kLaser ? 0.25 : Robot::kRadius + 0.02);
     if (const auto bound = Bound(variant.name, wide, outcome.hits)) {
       EXPECT_LT(outcome.status.path_length, (1 + kMarginPerMetre) * *bound + kMargin);

@@ -80,8 +80,10 @@ TEST_F(KindOfDriving, IsThatOfWhatARampIsConnectedToNow) {
 
 TEST_F(KindOfDriving, IsThatOfTheModuleThatIsThereNow) {
   ModuleRegistry modules;
-  ASSERT_TRUE(modules.Add({"test/turning", "", "test", [](const Placement& at) { return std::make_unique<Turning>(at); }}));
-  ASSERT_TRUE(modules.Add({"test/reaching", "", "test", [](const Placement& at) { return std::make_unique<Reaching>(at); }}));
+  ASSERT_TRUE(
+      modules.Add({"test/turning", "", "test", [](const Placement& at) { return std::make_unique<Turning>(at); }}));
+  ASSERT_TRUE(
+      modules.Add({"test/reaching", "", "test", [](const Placement& at) { return std::make_unique<Reaching>(at); }}));
   StructureEditor editor{rig.runtime, modules, nullptr};
   ASSERT_TRUE(editor.Apply({CreateModule{"/motor", "test/turning"}, ConnectPorts{rig.module.out.path(), "/motor/in"}}));
   Wish(3, 10);
@@ -100,8 +102,10 @@ struct OfItsOwn final : Module {
 
 TEST_F(KindOfDriving, IsKnownFartherUpOnceAModuleIsThereThatPassesOn) {
   ModuleRegistry modules;
-  ASSERT_TRUE(modules.Add({"test/own", "", "test", [](const Placement& at) { return std::make_unique<OfItsOwn>(at); }}));
-  ASSERT_TRUE(modules.Add({"test/linear", "", "test", [](const Placement& at) { return std::make_unique<LinearFilter>(at); }}));
+  ASSERT_TRUE(
+      modules.Add({"test/own", "", "test", [](const Placement& at) { return std::make_unique<OfItsOwn>(at); }}));
+  ASSERT_TRUE(
+      modules.Add({"test/linear", "", "test", [](const Placement& at) { return std::make_unique<LinearFilter>(at); }}));
   StructureEditor editor{rig.runtime, modules, nullptr};
   Input<double> motor(others, "motor", {.unit = "rad/s", .drives = true});
   ASSERT_TRUE(editor.Apply({CreateModule{"/between", "test/own"}, ConnectPorts{rig.module.out.path(), "/between/in"},
@@ -151,8 +155,10 @@ TEST_F(KindOfDriving, OfAVelocityMayStandStillAtAnotherNumber) {
 
 // The default may well move; zero of what is only said to be a velocity may be a place farther on.
 TEST_F(KindOfDriving, OfAVelocityWithoutAUnitNeedsASafeValue) {
-  EXPECT_THROW(Input<double>(others, "belt", {.limits = {.default_value = AnyValue(0.3)}, .drives = true, .command = DrivingKind::kVelocity}),
-               ElementError);
+  EXPECT_THROW(
+      Input<double>(others, "belt",
+                    {.limits = {.default_value = AnyValue(0.3)}, .drives = true, .command = DrivingKind::kVelocity}),
+      ElementError);
   auto& border = rig.runtime.Create<ProxyPort>(others, "border", Port::Direction::kInput, TypeOf<double>());
   const auto refused = border.SetDriving(true, {}, {}, DrivingKind::kVelocity);
   ASSERT_FALSE(refused);
@@ -164,7 +170,8 @@ TEST_F(KindOfDriving, IsNotAnotherOneThanItsUnitSays) {
   Input<double> joint(others, "joint", {.unit = "rad"});
   const auto refused = joint.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kVelocity);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().ToString(), HasSubstr("/others/joint: is in rad, which is that of a position, and is said to be a velocity"));
+  EXPECT_THAT(refused.error().ToString(),
+              HasSubstr("/others/joint: is in rad, which is that of a position, and is said to be a velocity"));
   EXPECT_TRUE(joint.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kPosition));
 }
 
@@ -177,8 +184,10 @@ struct Composite final : Group {
 TEST(DrivingKindOfComposites, IsThatOfTheModulesInside) {
   Runtime runtime;
   ModuleRegistry modules;
-  ASSERT_TRUE(modules.Add({"test/arm", "", "test", [](const Placement& at) { return std::make_unique<Composite<Reaching>>(at); }}));
-  ASSERT_TRUE(modules.Add({"test/wheel", "", "test", [](const Placement& at) { return std::make_unique<Composite<Turning>>(at); }}));
+  ASSERT_TRUE(modules.Add(
+      {"test/arm", "", "test", [](const Placement& at) { return std::make_unique<Composite<Reaching>>(at); }}));
+  ASSERT_TRUE(modules.Add(
+      {"test/wheel", "", "test", [](const Placement& at) { return std::make_unique<Composite<Turning>>(at); }}));
   StructureEditor editor{runtime, modules, nullptr};
   ASSERT_TRUE(editor.Apply({CreateModule{"/hand", "test/arm"}}));
   EXPECT_FALSE(editor.Apply({ReplaceModule{"/hand", "test/wheel"}}));
@@ -216,7 +225,8 @@ TEST(DrivingKindOfMarks, FollowsTheUnitsOfWhatIsThere) {
   EXPECT_FALSE(metres.in.is_driving());
   const auto refused = Port::CheckTakeOver(speeds.in, numbers.in);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().ToString(), HasSubstr("is in m/s, which is that of a velocity, and is said to be a position; it cannot take over from /numbers/input/in"));
+  EXPECT_THAT(refused.error().ToString(), HasSubstr("is in m/s, which is that of a velocity, and is said to be a "
+                                                    "position; it cannot take over from /numbers/input/in"));
 }
 
 }  // namespace

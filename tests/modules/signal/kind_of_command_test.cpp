@@ -81,13 +81,17 @@ T HeldMeanwhile(const T& wish, const T& held) {
   return read;
 }
 
-TEST(KindOfCommand, ACarWithASpeedOfItsSteeringDoesNotGoOn) { EXPECT_EQ(HeldMeanwhile<Ackermann>({0.1, 0, 1}, {}).speed, 0); }
+TEST(KindOfCommand, ACarWithASpeedOfItsSteeringDoesNotGoOn) {
+  EXPECT_EQ(HeldMeanwhile<Ackermann>({0.1, 0, 1}, {}).speed, 0);
+}
 
 TEST(KindOfCommand, APlaceBesideItsVelocityStaysAlsoWhereBothAreTypes) {
   EXPECT_EQ(HeldMeanwhile<Drone>({{7}, {}}, {{7}, {}}).position.x, 7);
 }
 
-TEST(KindOfCommand, PlacesOfAnArrayStay) { EXPECT_EQ(HeldMeanwhile<Arm>({{{{7}, {3}}}}, {{{{7}, {3}}}}).joints[1].x, 3); }
+TEST(KindOfCommand, PlacesOfAnArrayStay) {
+  EXPECT_EQ(HeldMeanwhile<Arm>({{{{7}, {3}}}}, {{{{7}, {3}}}}).joints[1].x, 3);
+}
 
 template <Ageing kAgeing>
 struct Gear final : Module {
@@ -141,13 +145,17 @@ struct Steered {
   double steering = 0, speed = 0;
 };
 void Describe(TypeBuilder<Steered>& type) {
-  type.Name("Steered").Field("steering", &Steered::steering, {.unit = "rad"}).Field("speed", &Steered::speed, {.unit = "m/s"});
+  type.Name("Steered")
+      .Field("steering", &Steered::steering, {.unit = "rad"})
+      .Field("speed", &Steered::speed, {.unit = "m/s"});
 }
 struct Stamped {
   double stamp = 0;
   Twist2 twist;
 };
-void Describe(TypeBuilder<Stamped>& type) { type.Name("Stamped").Field("stamp", &Stamped::stamp, {.unit = "s"}).Field("twist", &Stamped::twist); }
+void Describe(TypeBuilder<Stamped>& type) {
+  type.Name("Stamped").Field("stamp", &Stamped::stamp, {.unit = "s"}).Field("twist", &Stamped::twist);
+}
 
 Twist2 Made(double speed, Twist2 /*kind*/) { return {speed, 0}; }
 Steered Made(double speed, Steered /*kind*/) { return {0.1, speed}; }
@@ -200,9 +208,15 @@ template <typename T>
 class Composed : public ::testing::Test {};
 using Composites = ::testing::Types<Twist2, Steered, Stamped>;
 TYPED_TEST_SUITE(Composed, Composites);
-TYPED_TEST(Composed, BeginsFromStandstillWhereNumbersTimeOut) { ComposedFromStandstill<TypeParam, Ageing::kTimesOut>(); }
-TYPED_TEST(Composed, BeginsFromStandstillWhereNothingIsSaid) { ComposedFromStandstill<TypeParam, Ageing::kUnspecified>(); }
-TYPED_TEST(Composed, BeginsFromStandstillWhereNumbersArePassedOn) { ComposedFromStandstill<TypeParam, Ageing::kPassedOn>(); }
+TYPED_TEST(Composed, BeginsFromStandstillWhereNumbersTimeOut) {
+  ComposedFromStandstill<TypeParam, Ageing::kTimesOut>();
+}
+TYPED_TEST(Composed, BeginsFromStandstillWhereNothingIsSaid) {
+  ComposedFromStandstill<TypeParam, Ageing::kUnspecified>();
+}
+TYPED_TEST(Composed, BeginsFromStandstillWhereNumbersArePassedOn) {
+  ComposedFromStandstill<TypeParam, Ageing::kPassedOn>();
+}
 
 TEST_F(Commands, WhatAPersonHasLetGoWhileARuleHeldDoesNotDriveWhenTheRuleEnds) {
   Output<double> planner(others, "planner");

@@ -97,7 +97,8 @@ TEST(MarkedCar, IsAVelocityAlsoWithAnAngleBesideIt) {
   ASSERT_TRUE(car.SetDriving(true, AnyValue(TypeOf<Car>(), std::make_shared<const Car>())));
   ASSERT_TRUE(Port::Connect(planner, car));
   planner.Publish({1, 0.1});
-  ASSERT_TRUE(car.PublishByHand([](void* value) -> Result<void> { return *static_cast<Car*>(value) = {}, Result<void>(); }));
+  ASSERT_TRUE(
+      car.PublishByHand([](void* value) -> Result<void> { return *static_cast<Car*>(value) = {}, Result<void>(); }));
   rig.Wait(10s);
   ASSERT_TRUE(car.Release());
   EXPECT_EQ(car.Get().speed, 0);
@@ -121,7 +122,9 @@ TEST(MarkedJoint, IsAPositionAlsoWithItsSpeedBesideIt) {
   ASSERT_TRUE(joint.SetDriving(true, AnyValue(TypeOf<Joint>(), std::make_shared<const Joint>())));
   ASSERT_TRUE(Port::Connect(planner, joint));
   planner.Publish({1.2, 0});
-  ASSERT_TRUE(joint.PublishByHand([](void* value) -> Result<void> { return *static_cast<Joint*>(value) = {1.2, 0}, Result<void>(); }));
+  ASSERT_TRUE(joint.PublishByHand([](void* value) -> Result<void> {
+    return *static_cast<Joint*>(value) = {1.2, 0}, Result<void>();
+  }));
   rig.Wait(1s);
   ASSERT_TRUE(joint.Release());
   EXPECT_EQ(joint.Get().angle, 1.2);

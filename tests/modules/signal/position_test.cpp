@@ -18,7 +18,8 @@ class Arm : public ::testing::Test {
   Arm() {
     AddType<RateLimiterFilter>("signal/rate_limiter");
     AddType<LowPassFilter>("signal/low_pass");
-    MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0.5)}, {}, DrivingKind::kEffort));
+    MustSucceed(
+        robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0.5)}, {}, DrivingKind::kEffort));
     MustSucceed(Port::Disconnect(robot.laser.out, robot.reader.in));
     robot.laser.action = [this](Doing& module) {
       if (cycle_++ % every == 0) module.out.Publish(wish);
@@ -28,7 +29,8 @@ class Arm : public ::testing::Test {
   }
   template <typename Filter>
   void AddType(const char* name) {
-    MustSucceed(robot.modules.Add({name, "", "test", [](const Placement& at) { return std::make_unique<Filter>(at); }}));
+    MustSucceed(
+        robot.modules.Add({name, "", "test", [](const Placement& at) { return std::make_unique<Filter>(at); }}));
   }
   void Apply(const ChangeSet& changes) {
     const ChangeOutcome outcome = robot.editor.Apply(changes);
@@ -91,7 +93,8 @@ TEST_F(Arm, GoesFromWhereItWasHeld) {
 }
 
 TEST_F(Arm, GoesFromItsSafePlaceAlsoOverAnInterfacePort) {
-  auto& border = robot.runtime.Create<ProxyPort>(robot.runtime.root(), "border", Port::Direction::kInput, TypeOf<double>());
+  auto& border =
+      robot.runtime.Create<ProxyPort>(robot.runtime.root(), "border", Port::Direction::kInput, TypeOf<double>());
   Apply({DisconnectPorts{"/ramp/out", robot.reader.in.path()}, ConnectPorts{"/ramp/out", border.path()},
          ConnectPorts{border.path(), robot.reader.in.path()}});
   Run(10s);
@@ -195,7 +198,12 @@ TEST(PoseThatIsHeld, GoesOnFromThereWhenThatEnds) {
 
 struct Motor final : Module {
   Motor(const Placement& placement, const std::string& unit)
-      : Module(placement), command(this, "command", {.unit = unit, .drives = true, .command = unit.empty() ? DrivingKind::kVelocity : DrivingKind::kUnspecified, .safe_value = AnyValue(0.0)}) {}
+      : Module(placement),
+        command(this, "command",
+                {.unit = unit,
+                 .drives = true,
+                 .command = unit.empty() ? DrivingKind::kVelocity : DrivingKind::kUnspecified,
+                 .safe_value = AnyValue(0.0)}) {}
   Input<double> command;
   double seen = 0;
   void Update() override { seen = command.Get(); }

@@ -49,7 +49,9 @@ void SmoothedDistanceIsNoVelocity() {
   keep.distance.DisconnectAll();
 }
 TEST(SmoothedMeasurement, OfADistanceIsNoVelocityWhereItTimesOut) { SmoothedDistanceIsNoVelocity<Ageing::kTimesOut>(); }
-TEST(SmoothedMeasurement, OfADistanceIsNoVelocityWhereNothingIsSaid) { SmoothedDistanceIsNoVelocity<Ageing::kUnspecified>(); }
+TEST(SmoothedMeasurement, OfADistanceIsNoVelocityWhereNothingIsSaid) {
+  SmoothedDistanceIsNoVelocity<Ageing::kUnspecified>();
+}
 
 struct KeepSpeed final : Module {
   using Module::Module;

@@ -117,9 +117,11 @@ TEST_F(UnitOfCommand, HasToBeSaidOrElseWhatItIs) {
   EXPECT_FALSE(motor.is_driving());
   EXPECT_THROW(Input<double>(others, "other", {.drives = true, .safe_value = AnyValue(0.0)}), ElementError);
   EXPECT_EQ(others.Find("motor").has_value(), true);
-  Input<double> drive(others, "drive", {.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(0.0)});
+  Input<double> drive(others, "drive",
+                      {.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(0.0)});
   EXPECT_EQ(drive.stop()->command(), DrivingKind::kVelocity);
-  Input<bool> lamp(others, "lamp", {.drives = true, .safe_value = AnyValue(false)});  // there is nothing between its values
+  Input<bool> lamp(others, "lamp",
+                   {.drives = true, .safe_value = AnyValue(false)});  // there is nothing between its values
   EXPECT_EQ(lamp.stop()->command(), DrivingKind::kEffort);
 }
 

@@ -1,7 +1,6 @@
-#include "modules/simulation/sensors.h"
-
 #include <gmock/gmock.h>
 
+#include "modules/simulation/sensors.h"
 #include "plugins/testing/allocation_guard.h"
 #include "plugins/testing/module_rig.h"
 #include "tests/modules/simulation/simulation_fixture.h"

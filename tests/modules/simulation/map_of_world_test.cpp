@@ -1,9 +1,8 @@
-#include "modules/simulation/algorithm/outline.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "modules/simulation/algorithm/outline.h"
 #include "modules/simulation/algorithm/random.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 
@@ -62,8 +61,7 @@ TEST(MapOfAWorld, HasEverythingThatStandsThere) {
   world.boxes.push_back({.pose = {2, 0, 0}, .length = 1, .width = 4, .height = 0.3});
   world.cylinders.push_back({.centre = {7, 7}, .radius = 1});
   world.walls.push_back({.points = {{0, 0}, {1, 0}}, .thickness = 0.1});
-  world.polygons.push_back(
-      {.outline = {{0, 0}, {9, 0}, {9, 9}, {0, 9}}, .holes = {{{1, 1}, {2, 1}, {2, 2}}}});
+  world.polygons.push_back({.outline = {{0, 0}, {9, 0}, {9, 9}, {0, 9}}, .holes = {{{1, 1}, {2, 1}, {2, 2}}}});
   world.bounds = Ring{{-9, -9}, {9, -9}, {0, 9}};
   const WorldMap map = MapOf(world);
   EXPECT_EQ(map.name, "all");

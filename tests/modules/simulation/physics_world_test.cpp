@@ -128,8 +128,7 @@ TEST(PhysicsWorld, StopsForNumbersThatAreNone) {
   PhysicsWorld world(World{});
   world.SetWheelSpeeds(Drive(0.5, 0.0));
   world.Advance(1.0);
-  world.SetWheelSpeeds(
-      {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()});
+  world.SetWheelSpeeds({std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()});
   world.Advance(1.0);
   EXPECT_NEAR(world.twist().forward, 0.0, 1e-9);
 }
@@ -160,8 +159,7 @@ std::vector<Barrier> Barriers() {
           {"ThinWall", {.walls = {{.points = {{2.05, -2}, {2.05, 2}}, .thickness = 0.1}}}},
           {"EndOfAWall", {.walls = {{.points = {{2.05, 0}, {4, 0}}, .thickness = 0.1}}}},
           {"Polygon", {.polygons = {{.outline = square}}}},
-          {"PolygonTheOtherWayRound",
-           {.polygons = {{.outline = Ring(square.rbegin(), square.rend())}}}},
+          {"PolygonTheOtherWayRound", {.polygons = {{.outline = Ring(square.rbegin(), square.rend())}}}},
           {"HoleOfAPolygon", {.polygons = {{.outline = outer, .holes = {around}}}}},
           {"CornerOfAPolygon", {.polygons = {{.outline = {{2, 0}, {4, -2}, {4, 2}}}}}},
           {"Bounds", {.bounds = around}}};
@@ -200,8 +198,7 @@ TEST(PhysicsWorld, FeelsAWallBehindAndToTheSideAtItsBearing) {
   EXPECT_NEAR(std::abs(behind.contact().bearing), kPi, 0.1);
 
   // 45 degrees into a wall ahead: it is felt half right.
-  PhysicsWorld oblique(
-      World{.start = {0, 0, kPi / 4}, .walls = {{.points = {{1, -5}, {1, 5}}, .thickness = 0.1}}});
+  PhysicsWorld oblique(World{.start = {0, 0, kPi / 4}, .walls = {{.points = {{1, -5}, {1, 5}}, .thickness = 0.1}}});
   oblique.SetWheelSpeeds(Drive(0.3, 0.0));
   oblique.Advance(5.0);
   EXPECT_TRUE(oblique.contact().is_touching);
@@ -219,8 +216,7 @@ TEST(PhysicsWorld, TurnsAwayFromAWallItStandsAt) {
 }
 
 TEST(PhysicsWorld, PassesOverWhatIsLowerThanItsBody) {
-  PhysicsWorld world(
-      World{.boxes = {{.pose = {1, 0, 0}, .length = 1, .width = 1, .height = 0.01}}});
+  PhysicsWorld world(World{.boxes = {{.pose = {1, 0, 0}, .length = 1, .width = 1, .height = 0.01}}});
   world.SetWheelSpeeds(Drive(0.5, 0.0));
   world.Advance(10.0);
   EXPECT_GT(world.pose().x, 4.0);
@@ -231,9 +227,7 @@ World Clutter() {
   for (int i = 0; i < 8; ++i) {
     const double angle = i * kPi / 4;
     world.cylinders.push_back({.centre = 1.2 * UnitVector(angle), .radius = 0.12});
-    world.boxes.push_back({.pose = {1.6 * std::cos(angle), 1.6 * std::sin(angle), angle},
-                           .length = 0.2,
-                           .width = 0.4});
+    world.boxes.push_back({.pose = {1.6 * std::cos(angle), 1.6 * std::sin(angle), angle}, .length = 0.2, .width = 0.4});
   }
   world.walls.push_back({.points = {{-0.6, -0.6}, {-0.6, 0.6}, {0, 0.7}}, .thickness = 0.05});
   return world;
@@ -246,8 +240,8 @@ std::vector<double> BumpAround(PhysicsWorld& world) {
     world.Advance(0.05);
     const Pose2 pose = world.pose();
     const Contact contact = world.contact();
-    history.insert(history.end(), {pose.x, pose.y, pose.heading, world.twist().forward,
-                                   contact.is_touching ? 1.0 : 0.0, contact.bearing});
+    history.insert(history.end(), {pose.x, pose.y, pose.heading, world.twist().forward, contact.is_touching ? 1.0 : 0.0,
+                                   contact.bearing});
   }
   return history;
 }

@@ -16,9 +16,7 @@
 namespace runnel {
 namespace {
 
-TEST(RayCaster, SeesNothingInAnEmptyWorld) {
-  EXPECT_EQ(Rays(World{}).Cast({0, 0}, 1.0, 100.0), kInfinity);
-}
+TEST(RayCaster, SeesNothingInAnEmptyWorld) { EXPECT_EQ(Rays(World{}).Cast({0, 0}, 1.0, 100.0), kInfinity); }
 
 TEST(RayCaster, MeasuresABoxAtItsFacesAndCorners) {
   const RayCaster rays = Rays({.boxes = {{.pose = {3, 1, 0}, .length = 2, .width = 4}}});
@@ -32,8 +30,7 @@ TEST(RayCaster, MeasuresABoxAtItsFacesAndCorners) {
 }
 
 TEST(RayCaster, MeasuresATurnedBox) {
-  const RayCaster rays =
-      Rays({.boxes = {{.pose = {3, 0, kPi / 4}, .length = std::sqrt(2), .width = std::sqrt(2)}}});
+  const RayCaster rays = Rays({.boxes = {{.pose = {3, 0, kPi / 4}, .length = std::sqrt(2), .width = std::sqrt(2)}}});
   EXPECT_NEAR(rays.Cast({0, 0}, 0.0, 10.0), 2.0, 1e-12);
   EXPECT_NEAR(rays.Cast({0, 0.5}, 0.0, 10.0), 2.5, 1e-12);
 }
@@ -57,8 +54,7 @@ TEST(RayCaster, SeesARoomFromWithinTheHoleOfAPolygon) {
 }
 
 TEST(RayCaster, MeasuresAThinWallWithRoundEnds) {
-  const RayCaster rays =
-      Rays({.walls = {{.points = {{2, -1}, {2, 1}, {4, 1}}, .thickness = 0.02}}});
+  const RayCaster rays = Rays({.walls = {{.points = {{2, -1}, {2, 1}, {4, 1}}, .thickness = 0.02}}});
   EXPECT_NEAR(rays.Cast({0, 0}, 0.0, 10.0), 1.99, 1e-12);
   EXPECT_NEAR(rays.Cast({3, 0}, kPi, 10.0), 0.99, 1e-12);
   EXPECT_NEAR(rays.Cast({2, -3}, kPi / 2, 10.0), 1.99, 1e-12);
@@ -73,9 +69,8 @@ TEST(RayCaster, SeesNoFurtherThanItsRange) {
 }
 
 TEST(RayCaster, LooksOverWhatIsLowerThanItsEye) {
-  const RayCaster rays =
-      Rays({.boxes = {{.pose = {2, 0, 0}, .length = 1, .width = 1, .height = 0.1},
-                      {.pose = {5, 0, 0}, .length = 1, .width = 1}}});
+  const RayCaster rays = Rays({.boxes = {{.pose = {2, 0, 0}, .length = 1, .width = 1, .height = 0.1},
+                                         {.pose = {5, 0, 0}, .length = 1, .width = 1}}});
   EXPECT_NEAR(rays.Cast({0, 0}, 0.0, 10.0), 4.5, 1e-12);
 }
 
@@ -97,8 +92,7 @@ World RandomWorld(GaussianNoise& noise) {
     const Point2 place = {noise(3.0), noise(3.0)};
     const double size = 0.05 + std::abs(noise(0.4));
     world.cylinders.push_back({.centre = place, .radius = size});
-    world.boxes.push_back(
-        {.pose = {noise(3.0), noise(3.0), noise(2.0)}, .length = size, .width = 0.3});
+    world.boxes.push_back({.pose = {noise(3.0), noise(3.0), noise(2.0)}, .length = size, .width = 0.3});
     world.walls.push_back({.points = {place, {noise(3.0), noise(3.0)}}, .thickness = 0.05});
   }
   return world;

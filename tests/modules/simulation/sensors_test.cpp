@@ -12,9 +12,7 @@
 namespace runnel {
 namespace {
 
-World WallAhead(double x) {
-  return {.boxes = {{.pose = {x + 1, 0, 0}, .length = 2, .width = 100}}};
-}
+World WallAhead(double x) { return {.boxes = {{.pose = {x + 1, 0, 0}, .length = 2, .width = 100}}}; }
 
 TEST(LaserScanner, SweepsFromTheRightToTheLeftOfTheBody) {
   // A wall 1 m to the left of a body that looks along +y at (5, 5) is at x = 4.

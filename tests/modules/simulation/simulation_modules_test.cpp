@@ -147,8 +147,7 @@ TEST(SimulatedWorld, SaysWhatIsWrongWithItsFile) {
   test::ModuleRig<SimulatedWorld> without;
   EXPECT_THAT(without.Prepare().error().ToString(), HasSubstr("no world file is named"));
 
-  const TemporaryFile file(".xml",
-                           "<world name=\"x\">\n <start x=\"0\" y=\"0\"/>\n <box/>\n</world>");
+  const TemporaryFile file(".xml", "<world name=\"x\">\n <start x=\"0\" y=\"0\"/>\n <box/>\n</world>");
   test::ModuleRig<SimulatedWorld> rig;
   ASSERT_TRUE(rig.module.world.SetFromText(file.path()));
   const auto prepared = rig.Prepare();

@@ -82,9 +82,8 @@ TEST(TrajectorySvg, LeavesHolesFree) {
 
 TEST(TrajectorySvg, TellsNameVerdictLengthAndTime) {
   const std::string svg = TrajectorySvg(ExampleWorld(), ExampleTrajectory());
-  EXPECT_THAT(svg, AllOf(HasSubstr(">cup &amp; &lt;saucer&gt;<"), HasSubstr(">goal reached<"),
-                         HasSubstr("path 8.50 m"), HasSubstr("straight line 6.08 m"),
-                         HasSubstr("time 31.2 s")));
+  EXPECT_THAT(svg, AllOf(HasSubstr(">cup &amp; &lt;saucer&gt;<"), HasSubstr(">goal reached<"), HasSubstr("path 8.50 m"),
+                         HasSubstr("straight line 6.08 m"), HasSubstr("time 31.2 s")));
 }
 
 TEST(TrajectorySvg, ColoursThePathByMode) {
@@ -127,8 +126,7 @@ TEST(TrajectorySvg, LegendNamesOnlyWhatIsThere) {
 
 TEST(TrajectorySvg, IsACompleteFileAndTheSameEveryTime) {
   const std::string svg = TrajectorySvg(ExampleWorld(), ExampleTrajectory());
-  EXPECT_THAT(svg,
-              AllOf(StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\""), EndsWith("</svg>\n")));
+  EXPECT_THAT(svg, AllOf(StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\""), EndsWith("</svg>\n")));
   EXPECT_EQ(Count(svg, "<g "), Count(svg, "</g>"));
   EXPECT_EQ(svg, TrajectorySvg(ExampleWorld(), ExampleTrajectory()));
 }

@@ -42,9 +42,7 @@ TEST(FaultsOf, FindsRingsThatCrossTouchOrFoldBack) {
   EXPECT_THAT(FaultsOf(WithPolygon({{1, 1}, {5, 1}, {5, 3}, {3, 1}, {1, 3}})), crossing);
   EXPECT_THAT(FaultsOf(WithPolygon({{1, 1}, {3, 1}, {2, 1}, {2, 3}})), crossing);
   EXPECT_THAT(FaultsOf(WithPolygon({{1, 1}, {2, 1}, {3, 1}})), crossing);
-  EXPECT_THAT(
-      FaultsOf(WithPolygon({{1, 1}, {4, 1}, {4, 2}, {3, 2}, {3, 1}, {2, 1}, {2, 3}, {1, 3}})),
-      crossing);
+  EXPECT_THAT(FaultsOf(WithPolygon({{1, 1}, {4, 1}, {4, 2}, {3, 2}, {3, 1}, {2, 1}, {2, 3}, {1, 3}})), crossing);
 }
 
 TEST(FaultsOf, FindsAPointGivenTwice) {
@@ -89,11 +87,10 @@ TEST(FaultsOf, FindsWhatIsNotFinite) {
                     .goal = {0, none},
                     .polygons = {{.outline = {{1, 1}, {none, 1}, {1, 3}}}},
                     .boxes = {{.pose = {5, 5, none}, .length = 1, .width = none}}};
-  EXPECT_THAT(FaultsOf(world), ElementsAre(Fault(WorldPart::kStart, 0, "not finite"),
-                                           Fault(WorldPart::kGoal, 0, "not finite"),
-                                           Fault(WorldPart::kPolygon, 0, "not finite"),
-                                           Fault(WorldPart::kBox, 0, "not finite"),
-                                           Fault(WorldPart::kBox, 0, "the width")));
+  EXPECT_THAT(FaultsOf(world),
+              ElementsAre(Fault(WorldPart::kStart, 0, "not finite"), Fault(WorldPart::kGoal, 0, "not finite"),
+                          Fault(WorldPart::kPolygon, 0, "not finite"), Fault(WorldPart::kBox, 0, "not finite"),
+                          Fault(WorldPart::kBox, 0, "the width")));
 }
 
 TEST(ClearanceAt, IsTheDistanceToTheNearestSurface) {

@@ -1,9 +1,8 @@
-#include "modules/simulation/world_file/world_file.h"
-
 #include <fstream>
 
 #include <gmock/gmock.h>
 
+#include "modules/simulation/world_file/world_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::test {

@@ -43,8 +43,7 @@ TEST_P(WorldOfTheTree, LeavesRoomForTheRobotAtTheStart) {
 TEST_P(WorldOfTheTree, SurvivesWritingAndReading) {
   const World world = Load();
   Diagnostics diagnostics;
-  EXPECT_EQ(ReadWorld(WriteWorld(world), "again.xml", diagnostics), world)
-      << diagnostics.ToString();
+  EXPECT_EQ(ReadWorld(WriteWorld(world), "again.xml", diagnostics), world) << diagnostics.ToString();
 }
 
 TEST(WorldsOfTheTree, AreAllThere) {

@@ -27,15 +27,13 @@ TEST(ModuleTypes, ReadBackFromText) {
   ExpectReadsBack(Pose2{1, 2, 3.1});
   ExpectReadsBack(Twist2{0.5, -1.5});
   ExpectReadsBack(WheelSpeeds{3, 4});
-  ExpectReadsBack(
-      RangeScan{-1.5, 0.1, 0.02, 4, {0.5f, std::numeric_limits<float>::infinity(), 3.25f}});
+  ExpectReadsBack(RangeScan{-1.5, 0.1, 0.02, 4, {0.5f, std::numeric_limits<float>::infinity(), 3.25f}});
   ExpectReadsBack(InfraredRanges{1, std::numeric_limits<double>::infinity(), 2, 2, 0.45});
   ExpectReadsBack(Contact{true, -0.7});
   ExpectReadsBack(HitAndLeavePoints{{{1, 2}, {3, 4}}, {{5, 6}}});
   ExpectReadsBack(Path2{{{1, 2}, {3, 4}}});
   ExpectReadsBack(Image{2, 1, "rgb8", 6, {1, 2, 3, 255, 0, 4}});
-  ExpectReadsBack(
-      WorldMap{"a", {1, 2, 3}, {4, 5}, {{{{0, 0}, {1, 0}, {0, 1}}, 0.5, true}}, {{7, 7}}});
+  ExpectReadsBack(WorldMap{"a", {1, 2, 3}, {4, 5}, {{{{0, 0}, {1, 0}, {0, 1}}, 0.5, true}}, {{7, 7}}});
   ExpectReadsBack(std::vector<Pose2>{{1, 2, 3}, {4, 5, 6}});
 }
 
@@ -46,8 +44,7 @@ TEST(ModuleTypes, ReadAsAPersonWouldWriteThem) {
 
 // core/types/README.md promises these fields to viewers.
 TEST(ModuleTypes, HaveTheFieldsThatTheirTagsPromise) {
-  const auto expect = [](const TypeInfo& type, const std::string& meaning,
-                         std::initializer_list<const char*> fields) {
+  const auto expect = [](const TypeInfo& type, const std::string& meaning, std::initializer_list<const char*> fields) {
     EXPECT_EQ(type.semantic_tag(), meaning) << type.name();
     for (const char* field : fields) {
       EXPECT_NE(type.FindField(field), nullptr) << type.name() << "." << field;
@@ -56,8 +53,7 @@ TEST(ModuleTypes, HaveTheFieldsThatTheirTagsPromise) {
   expect(TypeOf<Point2>(), "point", {"x", "y"});
   expect(TypeOf<Pose2>(), "pose", {"x", "y", "heading"});
   expect(TypeOf<Twist2>(), "twist", {"forward", "turn"});
-  expect(TypeOf<RangeScan>(), "range_scan",
-         {"start_angle", "angle_step", "range_minimum", "range_maximum", "ranges"});
+  expect(TypeOf<RangeScan>(), "range_scan", {"start_angle", "angle_step", "range_minimum", "range_maximum", "ranges"});
   expect(TypeOf<Contact>(), "contact", {"is_touching", "bearing"});
   expect(TypeOf<Path2>(), "path", {"points"});
   expect(TypeOf<HitAndLeavePoints>(), "hit_and_leave_points", {"hits", "leaves"});

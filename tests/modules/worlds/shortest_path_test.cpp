@@ -52,8 +52,7 @@ TEST(ShortestPath, RoundsTwoCornersOfABox) {
   // The direction from the corner to where the tangent touches it, against straight up.
   const double touch = Direction(gap) + 2 * kPi - std::acos(kRadius / Norm(gap));
   const double arc = kRadius * std::abs(touch - kPi / 2);
-  EXPECT_NEAR(LengthBetween(WithBox(2, 2), start, {away, 0}), 2 * (tangent + arc) + 2 * half,
-              1e-12);
+  EXPECT_NEAR(LengthBetween(WithBox(2, 2), start, {away, 0}), 2 * (tangent + arc) + 2 * half, 1e-12);
 }
 
 TEST(ShortestPath, GoesThroughAGapIfTheRobotFits) {
@@ -68,8 +67,7 @@ TEST(ShortestPath, IsNotThereWhereTheGoalIsWalledInOrInsideOrOutside) {
   World walled;
   walled.walls.push_back({.points = {{1, 1}, {3, 1}, {3, -1}, {1, -1}, {1, 1}}, .thickness = 0.1});
   EXPECT_EQ(FindShortestPath(ConfigurationSpace(walled, kRadius), {-5, 0}, {2, 0}), std::nullopt);
-  EXPECT_EQ(FindShortestPath(ConfigurationSpace(WithBox(4, 4), kRadius), {-5, 0}, {0, 0}),
-            std::nullopt);
+  EXPECT_EQ(FindShortestPath(ConfigurationSpace(WithBox(4, 4), kRadius), {-5, 0}, {0, 0}), std::nullopt);
   World bounded;
   bounded.bounds = Ring{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
   EXPECT_EQ(FindShortestPath(ConfigurationSpace(bounded, kRadius), {0, 0}, {5, 0}), std::nullopt);
@@ -86,8 +84,7 @@ TEST(ShortestPath, MovesAnEndThatIsTooNearToAWallWithinReach) {
 
 TEST(ShortestPath, IsAsLongAsItsLine) {
   const World world = GenerateWorld({.kind = WorldKind::kScatter, .seed = 5});
-  const auto path =
-      FindShortestPath(ConfigurationSpace(world, kRadius), Position(world.start), world.goal);
+  const auto path = FindShortestPath(ConfigurationSpace(world, kRadius), Position(world.start), world.goal);
   ASSERT_TRUE(path);
   double length = 0.0;
   for (std::size_t i = 1; i < path->points.size(); ++i) {
@@ -118,8 +115,7 @@ class SampledGraph {
     for (;;) {
       std::size_t next = places_.size();
       for (std::size_t i = 0; i < places_.size(); ++i) {
-        if (!is_done[i] && length[i] < kFar && (next == places_.size() || length[i] < length[next]))
-          next = i;
+        if (!is_done[i] && length[i] < kFar && (next == places_.size() || length[i] < length[next])) next = i;
       }
       if (next == places_.size() || next == 1) return length[1];
       is_done[next] = true;
@@ -137,16 +133,14 @@ class SampledGraph {
 
   void Strew(Point2 centre, double radius) {
     for (int i = 0; i < kDirections; ++i) {
-      const Point2 place =
-          centre + kStretch * (radius + kRadius) * UnitVector(2 * kPi * i / kDirections);
+      const Point2 place = centre + kStretch * (radius + kRadius) * UnitVector(2 * kPi * i / kDirections);
       if (ClearanceAt(world_, place) >= kRadius - 1e-9) places_.push_back(place);
     }
   }
   bool IsClear(Point2 from, Point2 to) const {
     const int steps = 2 + static_cast<int>(Distance(from, to) / 0.05);
     for (int i = 0; i <= steps; ++i) {
-      if (ClearanceAt(world_, from + (1.0 * i / steps) * (to - from)) < kRadius - 1e-3)
-        return false;
+      if (ClearanceAt(world_, from + (1.0 * i / steps) * (to - from)) < kRadius - 1e-3) return false;
     }
     return true;
   }
@@ -163,11 +157,8 @@ class ShortestPathInRandomWorlds : public testing::TestWithParam<Sampled> {};
 
 TEST_P(ShortestPathInRandomWorlds, IsALittleShorterThanASampledOne) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const World world = GenerateWorld({.kind = GetParam().kind,
-                                       .seed = seed,
-                                       .width = 9,
-                                       .height = 8,
-                                       .count = GetParam().count});
+    const World world =
+        GenerateWorld({.kind = GetParam().kind, .seed = seed, .width = 9, .height = 8, .count = GetParam().count});
     const double sampled = SampledGraph(world, Position(world.start), world.goal).Length();
     const double exact = LengthBetween(world, Position(world.start), world.goal);
     EXPECT_LE(exact, sampled + 0.01) << world.name;
@@ -176,10 +167,8 @@ TEST_P(ShortestPathInRandomWorlds, IsALittleShorterThanASampledOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ShortestPathInRandomWorlds,
-                         testing::Values(Sampled{WorldKind::kScatter, 6},
-                                         Sampled{WorldKind::kMaze, 0},
-                                         Sampled{WorldKind::kSpiral, 1},
-                                         Sampled{WorldKind::kComb, 3}));
+                         testing::Values(Sampled{WorldKind::kScatter, 6}, Sampled{WorldKind::kMaze, 0},
+                                         Sampled{WorldKind::kSpiral, 1}, Sampled{WorldKind::kComb, 3}));
 
 double Perimeter(const World& world) {
   double length = 0.0;
@@ -189,9 +178,7 @@ double Perimeter(const World& world) {
   return length;
 }
 
-std::size_t LoopCount(const World& world) {
-  return ConfigurationSpace(world, kRadius).Boundaries().size();
-}
+std::size_t LoopCount(const World& world) { return ConfigurationSpace(world, kRadius).Boundaries().size(); }
 
 TEST(Boundaries, AreAsLongAsTheGrownObstacles) {
   EXPECT_NEAR(Perimeter(WithBox(2, 3)), 10 + 2 * kPi * kRadius, 1e-6);

@@ -24,9 +24,7 @@ std::vector<std::string> MessagesOf(const std::vector<WorldFault>& faults) {
   return messages;
 }
 
-bool IsWholeMillimetre(double length) {
-  return std::abs(length * 1000 - std::round(length * 1000)) < 1e-6;
-}
+bool IsWholeMillimetre(double length) { return std::abs(length * 1000 - std::round(length * 1000)) < 1e-6; }
 
 class GeneratedWorlds : public testing::TestWithParam<WorldKind> {
  protected:
@@ -84,8 +82,8 @@ TEST_P(GeneratedWorlds, HaveCoordinatesThatCanBeRead) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, GeneratedWorlds,
-                         testing::Values(WorldKind::kScatter, WorldKind::kMaze, WorldKind::kSpiral,
-                                         WorldKind::kComb, WorldKind::kRing));
+                         testing::Values(WorldKind::kScatter, WorldKind::kMaze, WorldKind::kSpiral, WorldKind::kComb,
+                                         WorldKind::kRing));
 
 // Distances between the obstacles of a scatter, by points on one and the distance to the other.
 std::vector<Point2> PointsOn(const Ring& ring) {
@@ -127,8 +125,7 @@ TEST(ScatterAndRing, LeaveGapsBetweenAnyTwoObstacles) {
 }
 
 TEST(Scatter, HasAsManyShapesAsAskedForIfThereIsRoom) {
-  const World world = GenerateWorld(
-      {.kind = WorldKind::kScatter, .seed = 3, .width = 40, .height = 40, .count = 9});
+  const World world = GenerateWorld({.kind = WorldKind::kScatter, .seed = 3, .width = 40, .height = 40, .count = 9});
   EXPECT_EQ(world.polygons.size() + world.boxes.size() + world.cylinders.size(), 9u);
 }
 
@@ -167,12 +164,8 @@ TEST(GeneratorOptions, HoldAtTheirEnds) {
        {WorldKind::kScatter, WorldKind::kMaze, WorldKind::kSpiral, WorldKind::kComb, WorldKind::kRing}) {
     for (const bool is_enclosed : {false, true}) {
       for (const double gap : {kLeastGap, kGreatestGap}) {
-        const GeneratorOptions options{.kind = kind,
-                                       .width = 25,
-                                       .height = 25,
-                                       .gap = gap,
-                                       .count = 12,
-                                       .is_enclosed = is_enclosed};
+        const GeneratorOptions options{
+            .kind = kind, .width = 25, .height = 25, .gap = gap, .count = 12, .is_enclosed = is_enclosed};
         ASSERT_EQ(FaultOf(options), "");
         const World world = GenerateWorld(options);
         EXPECT_THAT(MessagesOf(FaultsOf(world)), testing::IsEmpty());

@@ -14,9 +14,7 @@ using testing::HasSubstr;
 class ApplicationAccess : public testing::Test {
  protected:
   ApplicationAccess() : loaded_(LoadCounting(kCounting)), application_(*loaded_) {}
-  double Newest(std::string_view path) {
-    return application_.Read<double>(path).value().value_or(0);
-  }
+  double Newest(std::string_view path) { return application_.Read<double>(path).value().value_or(0); }
   LoadedApplication loaded_;
   Application& application_;
 };
@@ -36,12 +34,10 @@ TEST_F(ApplicationAccess, FindsPortsAndParametersByTheirPaths) {
 }
 
 TEST_F(ApplicationAccess, NamesTheNearestOfWhatIsNotThere) {
-  EXPECT_THAT(application_.Find<Output<double>>("/source/cont").error().ToString(),
-              HasSubstr("did you mean 'count'?"));
+  EXPECT_THAT(application_.Find<Output<double>>("/source/cont").error().ToString(), HasSubstr("did you mean 'count'?"));
   EXPECT_THAT(application_.Find<Parameter<double>>("/source/facto").error().ToString(),
               HasSubstr("did you mean 'factor'?"));
-  EXPECT_THAT(application_.Find<CountingFilter>("/fliter").error().ToString(),
-              HasSubstr("did you mean 'filter'?"));
+  EXPECT_THAT(application_.Find<CountingFilter>("/fliter").error().ToString(), HasSubstr("did you mean 'filter'?"));
   EXPECT_FALSE(application_.Set("/source/facto", "1"));
   EXPECT_FALSE(application_.Get("/source/facto"));
 }
@@ -52,8 +48,7 @@ TEST_F(ApplicationAccess, SaysWhatIsThereInstead) {
             "type int32");
   EXPECT_THAT(application_.Find<Output<double>>("/filter/in").error().message,
               "this is an input of type double, not an output of type double");
-  EXPECT_THAT(application_.Find<CountingSource>("/filter").error().message,
-              HasSubstr("this is a module"));
+  EXPECT_THAT(application_.Find<CountingSource>("/filter").error().message, HasSubstr("this is a module"));
   EXPECT_THAT(application_.Read<int>("/source/count").error().message,
               "this is an output of type double, not a port of type int32");
 }
@@ -89,8 +84,7 @@ TEST_F(ApplicationAccess, ReadsAndPublishesThroughPortsThatOutliveSwaps) {
 
 TEST_F(ApplicationAccess, TiesNothingToWhatIsNotThere) {
   const std::size_t before = application_.runtime().root().children().size();
-  EXPECT_THAT(application_.InputFrom<double>("/judge/outt").error().ToString(),
-              HasSubstr("did you mean 'out'?"));
+  EXPECT_THAT(application_.InputFrom<double>("/judge/outt").error().ToString(), HasSubstr("did you mean 'out'?"));
   EXPECT_FALSE(application_.OutputTo<std::string>("/judge/in")) << "a text is read by name only";
   EXPECT_EQ(application_.runtime().root().children().size(), before);
 }

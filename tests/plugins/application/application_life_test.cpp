@@ -6,9 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include <sys/stat.h>
-
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "tests/plugins/application/counting_modules.h"
 #include "tests/support/temporary_folder.h"
@@ -70,8 +69,7 @@ TEST(ApplicationLife, IsChangedByOneThreadWhileItRunsAndReadByAnother) {
     while (!stop.stop_requested()) (void)application->Read<double>("/judge/out");
   });
   for (int round = 0; round < 20; ++round) {
-    const auto outcome =
-        application->Swap("/judge", round % 2 == 0 ? "counting/filter" : "counting/judge");
+    const auto outcome = application->Swap("/judge", round % 2 == 0 ? "counting/filter" : "counting/judge");
     ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
   }
   reader.request_stop();
@@ -142,7 +140,8 @@ TEST_F(ApplicationWithSlow, WhatWasAskedForBeforeAStopIsNotDoneAfterIt) {
     EXPECT_TRUE(stop.Release("a test"));
     CountingSlow::may_end.release();
     changes.join();
-    EXPECT_THAT(outcome.diagnostics.ToString(), testing::HasSubstr("STOP was pressed or released after this was asked for"));
+    EXPECT_THAT(outcome.diagnostics.ToString(),
+                testing::HasSubstr("STOP was pressed or released after this was asked for"));
     return outcome.is_done;
   };
   EXPECT_FALSE(over([&] { return application->Apply("connect /source/count /judge/in; create /new counting/slow"); }));

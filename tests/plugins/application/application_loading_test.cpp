@@ -46,8 +46,7 @@ TEST(ApplicationLoading, TellsAllThatIsWrongOfTextAndSettingsAtOnce) {
 TEST(ApplicationLoading, SaysWhatCannotBePreparedWithItsPlace) {
   const auto application = LoadCounting(kCounting, {.settings = {{"label", "broken"}}});
   ASSERT_FALSE(application);
-  EXPECT_EQ(application.diagnostics().ToString(),
-            "counting.xml:3:3: error: /counting/source: it is broken\n");
+  EXPECT_EQ(application.diagnostics().ToString(), "counting.xml:3:3: error: /counting/source: it is broken\n");
 }
 
 TEST(ApplicationLoading, OfAFileThatIsNotThereIsAnError) {
@@ -69,8 +68,7 @@ TEST(ApplicationLoading, ReadsAFileAndRemembersWhereItWas) {
 TEST(ApplicationLoading, RefusesASpeedOfRealTime) {
   const auto application = LoadCounting(CountingInRealTime(), {.speed = 2});
   ASSERT_FALSE(application);
-  EXPECT_THAT(application.error().ToString(),
-              HasSubstr("/counting: the speed of real time cannot be chosen"));
+  EXPECT_THAT(application.error().ToString(), HasSubstr("/counting: the speed of real time cannot be chosen"));
 }
 
 // Notes when it is called; throws or fails at one of its calls.
@@ -112,8 +110,7 @@ TEST(ApplicationLoading, AsksExtensionsAtEachOfItsSteps) {
     ASSERT_TRUE(application->RunCycles(1));
     application->NoteEnd("fine");
   }
-  EXPECT_THAT(notes->calls,
-              ElementsAre("prepare", "hooks", "begin", "start", "end: fine", "end", "release"));
+  EXPECT_THAT(notes->calls, ElementsAre("prepare", "hooks", "begin", "start", "end: fine", "end", "release"));
 }
 
 TEST(ApplicationLoading, FailsWithAnExtensionAndGivesBackWhatItHas) {
@@ -165,8 +162,7 @@ TEST(ApplicationLoading, LeavesNothingBehindWhereverMemoryRunsOut) {
 }
 
 TEST(ApplicationLoading, ComposesInCodeWhatFilesCompose) {
-  const auto application =
-      Application::Compose("composed", {.clock = SchedulerOptions::ClockKind::kSimulated});
+  const auto application = Application::Compose("composed", {.clock = SchedulerOptions::ClockKind::kSimulated});
   ASSERT_TRUE(application);
   AddCountingTypes(application->plugins());
   auto& source = application->Create<CountingSource>("source");
@@ -189,8 +185,7 @@ TEST(ApplicationLoading, SaysWhatCannotBeComposed) {
   EXPECT_THAT(missing.error().ToString(), HasSubstr("counting/flter"));
   ASSERT_TRUE(application->CreateModule("counting/filter", "filter"));
   EXPECT_FALSE(application->CreateModule("counting/filter", "filter")) << "the name is taken";
-  EXPECT_THAT(application->Connect("/filter/out", "/filter/inn").error().ToString(),
-              HasSubstr("did you mean 'in'?"));
+  EXPECT_THAT(application->Connect("/filter/out", "/filter/inn").error().ToString(), HasSubstr("did you mean 'in'?"));
   EXPECT_FALSE(Application::Compose("a/b"));
 }
 

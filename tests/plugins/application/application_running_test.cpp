@@ -54,8 +54,7 @@ TEST(ApplicationRunning, RunsUntilItIsStoppedAndAgain) {
       EXPECT_TRUE(application->is_running());
       EXPECT_FALSE(application->Start()) << "it runs already";
       EXPECT_FALSE(application->Run()) << "it runs already";
-      WaitUntil("some cycles have run",
-                [&] { return Newest(*application, "/source/count") > before + 3; });
+      WaitUntil("some cycles have run", [&] { return Newest(*application, "/source/count") > before + 3; });
       application->Stop();
       EXPECT_FALSE(application->is_running());
     }
@@ -153,9 +152,8 @@ TEST(ApplicationRunning, TwoInOneProcessOnDifferentClocksKnowNothingOfEachOther)
   ASSERT_TRUE(simulated && real);
   ASSERT_TRUE(real->Start());
   ASSERT_TRUE(simulated->Start());
-  WaitUntil("both have run", [&] {
-    return Newest(*simulated, "/source/count") > 10 && Newest(*real, "/source/count") < -5;
-  });
+  WaitUntil("both have run",
+            [&] { return Newest(*simulated, "/source/count") > 10 && Newest(*real, "/source/count") < -5; });
   simulated->Stop();
   const double at = Newest(*real, "/source/count");
   WaitUntil("the other one goes on", [&] { return Newest(*real, "/source/count") < at; });

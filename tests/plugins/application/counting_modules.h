@@ -92,11 +92,9 @@ class CountingTalker final : public Module {
 
 template <typename M>
 void AddType(PluginManager& plugins, std::string name) {
-  const auto added =
-      plugins.modules().Add({std::move(name), "", "test",
-                             [](const Placement& placement) -> std::unique_ptr<FrameworkElement> {
-                               return std::make_unique<M>(placement);
-                             }});
+  const auto added = plugins.modules().Add(
+      {std::move(name), "", "test",
+       [](const Placement& placement) -> std::unique_ptr<FrameworkElement> { return std::make_unique<M>(placement); }});
   if (!added) throw std::logic_error(added.error().ToString());
 }
 

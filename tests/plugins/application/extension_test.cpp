@@ -84,10 +84,8 @@ TEST(Extension, RefusesWhatItsOptionsAreNot) {
 }
 
 TEST_F(Described, AndNotInstalledIsToldByItsNameOnceWithAllOtherMistakes) {
-  ASSERT_TRUE(
-      Read("<extension summary=\"sees\"><tag name=\"see\"/><option name=\"see\"/></extension>"));
-  const std::string text =
-      LoadWith("\n<see port=\"1\"/><module/>", {}, folder_.path()).diagnostics().ToString();
+  ASSERT_TRUE(Read("<extension summary=\"sees\"><tag name=\"see\"/><option name=\"see\"/></extension>"));
+  const std::string text = LoadWith("\n<see port=\"1\"/><module/>", {}, folder_.path()).diagnostics().ToString();
   EXPECT_THAT(text, HasSubstr(":2:1: error: /: <see> needs the extension 'absent', which is not "
                               "installed; it sees\n"));
   EXPECT_THAT(text, AllOf(HasSubstr("<module> has no 'name'"), Not(HasSubstr("unknown"))));
@@ -126,8 +124,7 @@ TEST_F(Described, WronglyIsToldWithItsPlace) {
            {"<extension", ""}}) {
     const auto read = Read(text);
     ASSERT_FALSE(read) << text;
-    EXPECT_THAT(read.error().ToString(),
-                AllOf(HasSubstr("absent.extension.xml:"), HasSubstr(message)));
+    EXPECT_THAT(read.error().ToString(), AllOf(HasSubstr("absent.extension.xml:"), HasSubstr(message)));
   }
 }
 
@@ -154,16 +151,14 @@ TEST(Extension, OfThisTreeHasTheWordsOfItsDescription) {
       EXPECT_TRUE(is_form_of_file || application.tags().FindTag(tag) != nullptr) << tag;
     }
   }
-  EXPECT_THAT(names,
-              ElementsAre("finroc_files", "network", "real_time_check", "recording", "tracing", "viewers"));
+  EXPECT_THAT(names, ElementsAre("finroc_files", "network", "real_time_check", "recording", "tracing", "viewers"));
 }
 
 // Once for each option, so that one that the library does not read shows.
 TEST(Extension, OfThisTreeRefusesWhatItsOptionsCannotBe) {
-  const auto message = [](const std::string& extension, const std::string& option,
-                          const std::string& value) {
-    const auto application = Application::LoadText(
-        "<application name=\"a\"/>", {.extensions_by_name = {{extension, {{{option, value}}}}}});
+  const auto message = [](const std::string& extension, const std::string& option, const std::string& value) {
+    const auto application =
+        Application::LoadText("<application name=\"a\"/>", {.extensions_by_name = {{extension, {{{option, value}}}}}});
     return application ? "" : application.error().ToString();
   };
   EXPECT_THAT(message("viewers", "inspect", "x"), HasSubstr("'x' is not a port"));
@@ -184,8 +179,7 @@ TEST(Extension, OfThisTreeReadsFilesOfFinroc) {
   const TemporaryFolder folder;
   const std::string file = folder / "old.finroc";
   std::ofstream(file) << "<Finstructable defaultname=\"Old One\"/>";
-  const auto application =
-      Application::Load(file, {.clock = SchedulerOptions::ClockKind::kSimulated});
+  const auto application = Application::Load(file, {.clock = SchedulerOptions::ClockKind::kSimulated});
   ASSERT_TRUE(application) << application.diagnostics().ToString();
   EXPECT_EQ(application->name(), "old_one");
 }

@@ -21,19 +21,18 @@ class Greeting final : public runnel::ApplicationExtension {
 
 RUNNEL_PLUGIN(greeting, registry) {
   if (auto* const tags = registry.Find<runnel::XmlTagRegistry>()) {
-    tags->AddTag({.name = "greeting",
-                  .parents = {"application", "group"},
-                  .handle = [](const runnel::TagUse& use) { return &use.parent; }});
+    tags->AddTag({.name = "greeting", .parents = {"application", "group"}, .handle = [](const runnel::TagUse& use) {
+                    return &use.parent;
+                  }});
   }
   auto* const extensions = registry.Find<runnel::ExtensionRegistry>();
   if (extensions == nullptr) return;
-  extensions->Add(
-      [](const runnel::ExtensionArguments& arguments) -> runnel::Result<runnel::Extensions> {
-        std::string text = "hello";
-        for (const std::string& name : arguments.All("name")) {
-          if (name == "nobody") return runnel::Error{.message = "--name: nobody is greeted"};
-          text += " " + name;
-        }
-        return runnel::Extensions{std::make_shared<Greeting>(text)};
-      });
+  extensions->Add([](const runnel::ExtensionArguments& arguments) -> runnel::Result<runnel::Extensions> {
+    std::string text = "hello";
+    for (const std::string& name : arguments.All("name")) {
+      if (name == "nobody") return runnel::Error{.message = "--name: nobody is greeted"};
+      text += " " + name;
+    }
+    return runnel::Extensions{std::make_shared<Greeting>(text)};
+  });
 }

@@ -38,7 +38,8 @@ TEST(HeldByRules, ASaveTellsWhichOfThemTheFileLoses) {
   TemporaryFolder folder;
   const auto file = folder.path() / "app.xml";
   std::string text = kTrialText;
-  text.insert(text.find("</application>"), "<on_stale input=\"sink/in\" after=\"1s\"><publish port=\"source/out\" value=\"0\"/></on_stale>\n");
+  text.insert(text.find("</application>"),
+              "<on_stale input=\"sink/in\" after=\"1s\"><publish port=\"source/out\" value=\"0\"/></on_stale>\n");
   std::ofstream(file) << text;
   setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
   AddWireEngine("fake", MakeFakeWire());

@@ -137,8 +137,10 @@ TEST_F(Composite, IsMadeAnewByItsStaticParameterWithItsConnections) {
 
 TEST_F(Composite, WhatIsSetAtItsPortsGoesAlongAndWhatHoldsAPartIsNotLost) {
   const auto port = [&](const char* path) { return application_->Find<Port>(path).value(); };
-  ASSERT_TRUE(port("/stairs/in")->SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}, {}, DrivingKind::kEffort));
-  ASSERT_TRUE(port("/stairs/out")->SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}, {}, DrivingKind::kEffort));
+  ASSERT_TRUE(
+      port("/stairs/in")->SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}, {}, DrivingKind::kEffort));
+  ASSERT_TRUE(
+      port("/stairs/out")->SetDriving(true, {TypeOf<double>(), std::make_shared<double>(0)}, {}, DrivingKind::kEffort));
   ASSERT_TRUE(port("/stairs/out")->Block());
   ASSERT_TRUE(application_->PublishByHand("/stairs/stair3/in", "7"));
   const auto is_kept = [&] {
@@ -162,8 +164,11 @@ TEST_F(Composite, WhatIsSetAtItsPortsGoesAlongAndWhatHoldsAPartIsNotLost) {
   EXPECT_TRUE(is_set());
   ASSERT_TRUE(application_->RunCycles(1));
   EXPECT_EQ(Out(), 0) << "still blocked";
-  for (const auto& refused : {application_->Apply({SetParameter{"/stairs/stairs", "1"}}), application_->Swap("/stairs", "counting/filter")}) {
-    EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/stairs/stair3/input/in: it is held, and the new module has no such port; release it first"));
+  for (const auto& refused :
+       {application_->Apply({SetParameter{"/stairs/stairs", "1"}}), application_->Swap("/stairs", "counting/filter")}) {
+    EXPECT_THAT(
+        refused.diagnostics.ToString(),
+        HasSubstr("/stairs/stair3/input/in: it is held, and the new module has no such port; release it first"));
     EXPECT_TRUE(is_kept());
     EXPECT_TRUE(is_set());
   }
@@ -172,7 +177,8 @@ TEST_F(Composite, WhatIsSetAtItsPortsGoesAlongAndWhatHoldsAPartIsNotLost) {
   EXPECT_TRUE(is_kept());
   Undo();
   EXPECT_TRUE(is_kept());
-  EXPECT_THAT(application_->Swap("/stairs", "counting/filter").diagnostics.ToString(), HasSubstr("moves nothing, or not in the same way"));
+  EXPECT_THAT(application_->Swap("/stairs", "counting/filter").diagnostics.ToString(),
+              HasSubstr("moves nothing, or not in the same way"));
   EXPECT_TRUE(is_kept());
 }
 
@@ -184,8 +190,7 @@ TEST_F(Composite, MakesRoomForAModuleAndComesBack) {
   Undo();
   ASSERT_TRUE(application_->RunCycles(1));
   EXPECT_EQ(Out(), -(2 + 3 * 10));
-  EXPECT_THAT(application_->Swap("/stairs", "counting/talker").diagnostics.ToString(),
-              HasSubstr("has no port"));
+  EXPECT_THAT(application_->Swap("/stairs", "counting/talker").diagnostics.ToString(), HasSubstr("has no port"));
   ASSERT_TRUE(application_->Apply("delete /stairs"));
   Undo();
   ASSERT_TRUE(application_->RunCycles(1));
@@ -218,15 +223,13 @@ TEST_F(RequestTest, IsCarriedOutBetweenCycles) {
   EXPECT_EQ(finder().allocations, 0u);
   const double first = application_->Read<double>("/judge/out").value().value_or(0);
   EXPECT_LT(first, 0);
-  EXPECT_THAT(
-      application_->TakeEvents(),
-      Contains(Field(&ApplicationEvent::text, HasSubstr("has had it done: create /found"))));
+  EXPECT_THAT(application_->TakeEvents(),
+              Contains(Field(&ApplicationEvent::text, HasSubstr("has had it done: create /found"))));
   const LoadedApplication again = Load(kFinder);
-  ASSERT_TRUE(again->Apply({SetParameter{
-      "/finder/wish", "create /found counting/source factor=3; connect /found/count /judge/in"}}));
+  ASSERT_TRUE(again->Apply(
+      {SetParameter{"/finder/wish", "create /found counting/source factor=3; connect /found/count /judge/in"}}));
   ASSERT_TRUE(again->RunCycles(20));
-  EXPECT_EQ(again->Read<double>("/judge/out").value().value_or(0), first)
-      << "in the same cycle in every run";
+  EXPECT_EQ(again->Read<double>("/judge/out").value().value_or(0), first) << "in the same cycle in every run";
 }
 
 TEST_F(RequestTest, IsDoneAsAWholeOrNotAtAll) {

@@ -22,11 +22,14 @@ namespace {
 TEST(SlowLibrary, KeepsNobodyFromTheStructure) {
   const TemporaryFolder folder;
   const std::string hold = folder / "hold";
-  const auto application = Application::LoadText("<application name=\"app\"/>", {.plugin_folders = {RUNNEL_TEST_SLOW_PLUGIN}});
+  const auto application =
+      Application::LoadText("<application name=\"app\"/>", {.plugin_folders = {RUNNEL_TEST_SLOW_PLUGIN}});
   ASSERT_TRUE(application) << application.diagnostics().ToString();
   std::ofstream(hold) << "as long as it is here";
   setenv("RUNNEL_TEST_HOLD", hold.c_str(), 1);
-  auto made = std::async(std::launch::async, [&] { return application->Apply({CreateModule{"/late", "slow/late"}}).diagnostics.ToString(); });
+  auto made = std::async(std::launch::async, [&] {
+    return application->Apply({CreateModule{"/late", "slow/late"}}).diagnostics.ToString();
+  });
   WaitUntil("it is being opened", [&] { return std::filesystem::exists(hold + ".begun"); });
   EXPECT_TRUE(TryStructureLock(application->runtime(), std::chrono::seconds(20)));
   EXPECT_EQ(made.wait_for(std::chrono::seconds(0)), std::future_status::timeout) << "it is still being opened";

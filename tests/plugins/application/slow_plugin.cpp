@@ -17,7 +17,8 @@ namespace {
   const char* const hold = std::getenv("RUNNEL_TEST_HOLD");
   if (hold == nullptr) return true;
   std::ofstream(std::string(hold) + ".begun") << "is being opened";
-  for (int i = 0; i < 60'000 && std::filesystem::exists(hold); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (int i = 0; i < 60'000 && std::filesystem::exists(hold); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   return true;
 }();
 

@@ -70,7 +70,10 @@ inline const std::vector<Operation>& Operations() {
          trial.Do({CopyElement{trial.module, "n"}});
          trial.module = "/app/g/n";
        }},
-      {"move to a thread", [](Trial& trial) { trial.Do({AssignToThread{"/app/g", "slow"}}); }},
+      {"move to a thread",
+       [](Trial& trial) {
+         trial.Do({AssignToThread{"/app/g", "slow"}});
+       }},
       {"save + load",
        [](Trial& trial) {
          const auto file = trial.folder.path() / "saved.xml";
@@ -91,7 +94,8 @@ inline const std::vector<Operation>& Operations() {
       {"replay",
        [](Trial& trial) {
          const std::string file = (trial.folder.path() / "played.mcap").string();
-         auto recorder = Recorder::Start(trial.application->runtime(), nullptr, {.file = file, .ports = {"/app/source/out"}});
+         auto recorder =
+             Recorder::Start(trial.application->runtime(), nullptr, {.file = file, .ports = {"/app/source/out"}});
          if (!recorder) throw std::runtime_error(recorder.error().ToString());
          Require(trial.application->RunCycles(3));
          recorder->reset();
@@ -104,18 +108,21 @@ inline const std::vector<Operation>& Operations() {
          Require(trial.application->RunCycles(3));
        }},
       {"reload of the plugin", [](Trial& trial) { trial.Note(trial.application->Reload("states")); }},
-      {"restart of the module", [](Trial& trial) { trial.Do({ReplaceModule{trial.module, "states/filter"}}); }},
+      {"restart of the module",
+       [](Trial& trial) {
+         trial.Do({ReplaceModule{trial.module, "states/filter"}});
+       }},
       {"disconnect + undo", undone([](Trial& trial) {
          ChangeSet changes;
          for (const char* each : {"in", "queued", "pulled", "late", "rounded", "taken"}) {
-           for (const Port* from : trial.In(each).incoming()) changes.push_back(DisconnectPorts{from->path(), trial.In(each).path()});
+           for (const Port* from : trial.In(each).incoming())
+             changes.push_back(DisconnectPorts{from->path(), trial.In(each).path()});
          }
          changes.push_back(DisconnectPorts{trial.module + "/out", "/app/sink/in"});
          trial.Do(changes);
        })},
-      {"another period", [](Trial& trial) {
-         trial.Do({ScheduleThread{.thread = "fast", .period = std::chrono::milliseconds(5)}});
-       }},
+      {"another period",
+       [](Trial& trial) { trial.Do({ScheduleThread{.thread = "fast", .period = std::chrono::milliseconds(5)}}); }},
   };
   return operations;
 }

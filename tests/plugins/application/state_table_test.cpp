@@ -26,8 +26,8 @@
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/value_by_hand.h"
-#include "tests/support/fake_wire.h"
 #include "tests/plugins/application/state_operations.h"
+#include "tests/support/fake_wire.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {
@@ -46,8 +46,11 @@ struct State {
 };
 
 State OfConnection(const std::string& name, const std::string& input, const ConnectOptions& options) {
-  return {name, {"connect", "has been changed"},
-          [=](Trial& trial) { trial.Must({ConnectPorts{"/app/source/out", trial.module + "/" + input, options}}); },
+  return {name,
+          {"connect", "has been changed"},
+          [=](Trial& trial) {
+            trial.Must({ConnectPorts{"/app/source/out", trial.module + "/" + input, options}});
+          },
           [=](Trial& trial) {
             const Port& to = trial.In(input);
             for (const Connection& each : trial.At<Port>("/app/source/output/out").outgoing()) {
@@ -64,12 +67,15 @@ State OfConnection(const std::string& name, const std::string& input, const Conn
 const std::vector<State>& States() {
   static const double five = 5;
   static const std::vector<State> states{
-      {"value by hand", {"value by hand"}, [](Trial& trial) { Require(PublishByHand(trial.In(), &five)); },
+      {"value by hand",
+       {"value by hand"},
+       [](Trial& trial) { Require(PublishByHand(trial.In(), &five)); },
        [](Trial& trial) {
          const auto found = trial.In().ValueByHand();
          return found && *static_cast<const double*>(found->value.get()) == five;
        }},
-      {"deadline of it", {"value by hand"},
+      {"deadline of it",
+       {"value by hand"},
        [](Trial& trial) {
          Require(PublishByHand(trial.In("late"), &five));
          const auto slot = HandSlot::Of(trial.In("late"));
@@ -81,43 +87,60 @@ const std::vector<State>& States() {
          const auto found = trial.In("late").ValueByHand();
          return found && *static_cast<const double*>(found->value.get()) == 0.0;
        }},
-      {"block of the port", {"block"}, [](Trial& trial) { Require(trial.In().Block()); },
+      {"block of the port",
+       {"block"},
+       [](Trial& trial) { Require(trial.In().Block()); },
        [](Trial& trial) { return trial.In().is_blocked(); }},
-      {"STOP of the robot", {"STOP", "driving", "has been changed"},
+      {"STOP of the robot",
+       {"STOP", "driving", "has been changed"},
        [](Trial& trial) { trial.application->runtime().robot_stop().Press("the test"); },
-       [](Trial& trial) {
-         return trial.In().is_driving() && trial.application->runtime().robot_stop().in_force();
-       }},
-      {"limits", {"limits", "has been changed"},
+       [](Trial& trial) { return trial.In().is_driving() && trial.application->runtime().robot_stop().in_force(); }},
+      {"limits",
+       {"limits", "has been changed"},
        [](Trial& trial) {
          const InputLimits limits{.minimum = 0, .maximum = 9};
          Require(trial.In().SetLimits(limits));
          trial.In().Annotate(std::make_unique<GivenLimits>(limits));
        },
        [](Trial& trial) { return BoundsText(trial.In().limits()) == "0 .. 9"; }},
-      {"paused", {"pause"}, [](Trial& trial) { Require(trial.application->Pause(trial.module)); },
+      {"paused",
+       {"pause"},
+       [](Trial& trial) { Require(trial.application->Pause(trial.module)); },
        [](Trial& trial) { return trial.application->scheduler().IsPaused(trial.Module()); }},
-      {"log level", {"log", "has been changed"}, [](Trial& trial) { SetLogLevel(trial.application->runtime(), trial.module, LogLevel::kDebug); },
+      {"log level",
+       {"log", "has been changed"},
+       [](Trial& trial) { SetLogLevel(trial.application->runtime(), trial.module, LogLevel::kDebug); },
        [](Trial& trial) {
          for (const auto& [path, level] : ReadLogLevels(trial.application->runtime())) {
            if (path == trial.module) return level == LogLevel::kDebug;
          }
          return false;
        }},
-      {"tag", {"tags", "has been changed"}, [](Trial& trial) { Require(SetTags(trial.Module(), {"safety"})); },
+      {"tag",
+       {"tags", "has been changed"},
+       [](Trial& trial) { Require(SetTags(trial.Module(), {"safety"})); },
        [](Trial& trial) { return TagsText(trial.Module()) == "safety"; }},
-      {"parameter", {"gain", "has been changed"}, [](Trial& trial) { trial.Must({SetParameter{trial.module + "/gain", "3"}}); },
+      {"parameter",
+       {"gain", "has been changed"},
+       [](Trial& trial) {
+         trial.Must({SetParameter{trial.module + "/gain", "3"}});
+       },
        [](Trial& trial) { return trial.application->Get(trial.module + "/gain").value() == "3"; }},
-      {"thread", {"thread", "has been changed"}, [](Trial& trial) { trial.Must({AssignToThread{trial.module, "fast"}}); },
+      {"thread",
+       {"thread", "has been changed"},
+       [](Trial& trial) {
+         trial.Must({AssignToThread{trial.module, "fast"}});
+       },
        [](Trial& trial) {
          const auto* const thread = OwnThread(trial.Module());
          return thread != nullptr && thread->name() != "slow";
        }},
-      {"recorded", {"record"},
+      {"recorded",
+       {"record"},
        [](Trial& trial) {
-         auto started = Recorder::Start(trial.application->runtime(), nullptr,
-                                        {.file = (trial.folder.path() / "run.mcap").string(),
-                                         .ports = {trial.module + "/out"}});
+         auto started =
+             Recorder::Start(trial.application->runtime(), nullptr,
+                             {.file = (trial.folder.path() / "run.mcap").string(), .ports = {trial.module + "/out"}});
          if (!started) throw std::runtime_error(started.error().ToString());
          trial.recorder = std::move(*started);
        },
@@ -127,7 +150,8 @@ const std::vector<State>& States() {
          }
          return false;
        }},
-      {"offered", {"offer", "has been changed"},
+      {"offered",
+       {"offer", "has been changed"},
        [](Trial& trial) {
          const auto connections = [&] {
            const std::lock_guard lock(trial.application->runtime().structure_mutex());
@@ -144,11 +168,14 @@ const std::vector<State>& States() {
            return port && *port == &trial.Out() && each.topic == "/x" && each.quality == ValueQuality::kLatched;
          });
        }},
-      {"taken", {"take", "connect", "has been changed"}, [](Trial& trial) { Say(trial, "take /y " + trial.module + "/taken live=true exclusive=true"); },
+      {"taken",
+       {"take", "connect", "has been changed"},
+       [](Trial& trial) { Say(trial, "take /y " + trial.module + "/taken live=true exclusive=true"); },
        [](Trial& trial) {
          const auto& takes = NetworkElement::FindIn(trial.application->element())->takes();
          return std::ranges::any_of(takes, [&](const NetworkElement::Take& each) {
-           return each.options.topic == "/y" && each.options.is_exclusive && std::ranges::count(trial.In("taken").incoming(), each.output) == 1;
+           return each.options.topic == "/y" && each.options.is_exclusive &&
+                  std::ranges::count(trial.In("taken").incoming(), each.output) == 1;
          });
        }},
       OfConnection("queue option", "queued", {.queue = 4}),
@@ -182,8 +209,12 @@ class StateTable : public ::testing::Test {
           is_there = each->is_there(trial);
         } catch (const std::exception&) {  // nor is its port
         }
-        const bool is_told = std::ranges::any_of(each->words, [&](const std::string& word) { return trial.told.find(word) != std::string::npos; });
-        cells.emplace_back(trial.is_refused ? (trial.told.empty() ? "SILENT" : "refused") : is_there ? "kept" : is_told ? "told" : "SILENT");
+        const bool is_told = std::ranges::any_of(
+            each->words, [&](const std::string& word) { return trial.told.find(word) != std::string::npos; });
+        cells.emplace_back(trial.is_refused ? (trial.told.empty() ? "SILENT" : "refused")
+                           : is_there       ? "kept"
+                           : is_told        ? "told"
+                                            : "SILENT");
         last_told_ = trial.told;
       }
     } catch (const std::exception& error) {
@@ -234,8 +265,10 @@ TEST_P(StatesBesideEachOther, AreTheSameAsAlone) {
       const State &one = States()[i], &other = States()[j];
       const auto cells = Try({&one, &other}, each);
       const bool is_refused = alone[i] == "refused" || alone[j] == "refused";
-      EXPECT_EQ(cells[0], is_refused ? "refused" : alone[i]) << one.name << " beside " << other.name << ": " << last_told_;
-      EXPECT_EQ(cells[1], is_refused ? "refused" : alone[j]) << other.name << " beside " << one.name << ": " << last_told_;
+      EXPECT_EQ(cells[0], is_refused ? "refused" : alone[i])
+          << one.name << " beside " << other.name << ": " << last_told_;
+      EXPECT_EQ(cells[1], is_refused ? "refused" : alone[j])
+          << other.name << " beside " << one.name << ": " << last_told_;
     }
   }
 }
@@ -243,9 +276,10 @@ TEST_P(StatesBesideEachOther, AreTheSameAsAlone) {
 // They run beside each other.
 INSTANTIATE_TEST_SUITE_P(Under, StatesBesideEachOther, ::testing::Range(std::size_t{0}, Operations().size()),
                          [](auto at) {
-  std::string name = Operations()[at.param].name;
-  std::ranges::replace_if(name, [](char each) { return std::isalnum(each) == 0; }, '_');
-  return name;
-});
+                           std::string name = Operations()[at.param].name;
+                           std::ranges::replace_if(
+                               name, [](char each) { return std::isalnum(each) == 0; }, '_');
+                           return name;
+                         });
 }  // namespace
 }  // namespace runnel::test

@@ -39,7 +39,8 @@ struct Trial {
   }
 
   static LoadedApplication Load(const std::filesystem::path& file) {
-    auto loaded = Application::Load(file, {.plugin_folders = {RUNNEL_TEST_STATES_PLUGIN, RUNNEL_TEST_PLUGIN_FOLDER}, .keeps_stop = true});
+    auto loaded = Application::Load(
+        file, {.plugin_folders = {RUNNEL_TEST_STATES_PLUGIN, RUNNEL_TEST_PLUGIN_FOLDER}, .keeps_stop = true});
     if (!loaded) throw std::runtime_error(loaded.diagnostics().ToString());
     return loaded;
   }

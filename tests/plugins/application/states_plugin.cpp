@@ -59,7 +59,8 @@ class StatesBox final : public Group {
   Result<void> Construct() override {
     auto& part = runtime().Create<StatesFilter>(*this, "part");
     runtime().Create<GroupParameter>(*this, "gain", std::vector<std::string>{"part/gain"}, "");
-    for (Port* each : std::initializer_list<Port*>{&part.in, &part.queued, &part.pulled, &part.late, &part.taken, &part.rounded, &part.out}) {
+    for (Port* each : std::initializer_list<Port*>{&part.in, &part.queued, &part.pulled, &part.late, &part.taken,
+                                                   &part.rounded, &part.out}) {
       const bool is_input = each->direction() == Port::Direction::kInput;
       auto& port = runtime().Create<ProxyPort>(*this, each->name(), each->direction(), each->type());
       if (auto tied = is_input ? Port::Connect(port, *each) : Port::Connect(*each, port); !tied) return tied;

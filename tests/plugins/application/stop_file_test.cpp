@@ -1,17 +1,17 @@
 // STOP outlives the process that had it.
 
+#include "plugins/application/internal/stop_file.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <gmock/gmock.h>
-
 #include "plugins/application/application.h"
-#include "plugins/application/internal/stop_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wait_until.h"
 
@@ -28,9 +28,7 @@ class StopFileTest : public testing::Test {
     if (const char* const before = std::getenv("XDG_RUNTIME_DIR")) before_ = before;
     setenv("XDG_RUNTIME_DIR", run_time.path().c_str(), 1);
   }
-  ~StopFileTest() override {
-    before_ ? setenv("XDG_RUNTIME_DIR", before_->c_str(), 1) : unsetenv("XDG_RUNTIME_DIR");
-  }
+  ~StopFileTest() override { before_ ? setenv("XDG_RUNTIME_DIR", before_->c_str(), 1) : unsetenv("XDG_RUNTIME_DIR"); }
   // Of the application in a file of this folder; each is as a process of its own.
   LoadedApplication Run(const std::string& folder = "a", bool clears = false, bool keeps = true) {
     const fs::path file = files.path() / folder / "robot.xml";
@@ -38,9 +36,7 @@ class StopFileTest : public testing::Test {
     std::ofstream(file) << "<application name=\"robot\"/>";
     return Application::Load(file, {.keeps_stop = keeps, .clears_stop = clears});
   }
-  static bool IsStopped(const LoadedApplication& application) {
-    return application->runtime().robot_stop().in_force();
-  }
+  static bool IsStopped(const LoadedApplication& application) { return application->runtime().robot_stop().in_force(); }
   [[nodiscard]] fs::path Folder() const { return run_time.path() / "runnel"; }
   [[nodiscard]] std::size_t Files() const {
     std::error_code none;
@@ -65,7 +61,8 @@ TEST_F(StopFileTest, TheNextProcessBeginsUnderStopAndSaysSoUntilItIsReleased) {
     const auto next = Run();
     ASSERT_TRUE(next) << next.diagnostics().ToString();
     EXPECT_TRUE(IsStopped(next));
-    EXPECT_THAT(next.diagnostics().ToString(), HasSubstr("begins under STOP, pressed by a viewer, in a process before"));
+    EXPECT_THAT(next.diagnostics().ToString(),
+                HasSubstr("begins under STOP, pressed by a viewer, in a process before"));
   }
   EXPECT_TRUE(IsStopped(Run())) << "still";
   EXPECT_EQ(Run()->runtime().robot_stop().state().by, "a viewer, in a process before this one");
@@ -191,21 +188,28 @@ TEST_F(StopFileTest, WhereThereCanBeNoFolderItSaysThatStopEndsWithTheProcess) {
 
 // Nobody is there who could be heard.
 TEST_F(StopFileTest, WhereOperatorsMustBeHeardItIsPressedFromTheStartOn) {
-  const auto application = Application::LoadText("<application name=\"robot\"><operators timeout=\"200ms\"/></application>", {});
+  const auto application =
+      Application::LoadText("<application name=\"robot\"><operators timeout=\"200ms\"/></application>", {});
   ASSERT_TRUE(application) << application.diagnostics().ToString();
   WaitUntil("it is pressed", [&] { return IsStopped(application); });
-  WaitUntil("it is noted by whom",
-            [&] { return application->runtime().robot_stop().state().by == "<operators>: none of them has been heard for 200ms, nor before"; });
+  WaitUntil("it is noted by whom", [&] {
+    return application->runtime().robot_stop().state().by ==
+           "<operators>: none of them has been heard for 200ms, nor before";
+  });
 }
 
 TEST_F(StopFileTest, ASaveAndTheEndOfARunTellOfItOnlyWhereItIsLost) {
-  const auto quit = [](const LoadedApplication& application) { return application->service().application().hooks.quit().value(); };
+  const auto quit = [](const LoadedApplication& application) {
+    return application->service().application().hooks.quit().value();
+  };
   const auto kept = Run();
   kept->runtime().robot_stop().Press("a viewer");
   ASSERT_TRUE(kept->Save({}));
-  for (const ApplicationEvent& each : kept->TakeEvents()) EXPECT_THAT(each.text, testing::Not(HasSubstr("the STOP of the robot")));
+  for (const ApplicationEvent& each : kept->TakeEvents())
+    EXPECT_THAT(each.text, testing::Not(HasSubstr("the STOP of the robot")));
   std::ofstream(files.path() / "a" / "robot.xml") << "<application name=\"robot\"></application>";
-  EXPECT_THAT(quit(kept), testing::Not(HasSubstr("not saved"))) << "the next process has what somebody has written there";
+  EXPECT_THAT(quit(kept), testing::Not(HasSubstr("not saved")))
+      << "the next process has what somebody has written there";
   setenv("XDG_RUNTIME_DIR", "/no/such/folder", 1);
   const auto lost = Run("b");
   lost->runtime().robot_stop().Press("a viewer");

@@ -67,8 +67,7 @@ class ConfigurationSaver : public ::testing::Test {
     if (again.Load(file) == nullptr) throw std::runtime_error("the file does not load again");
     return again.Get<Source>(path).gain.Get();
   }
-  static Result<std::string> Save(FrameworkElement& application,
-                                  const std::filesystem::path& to = {}) {
+  static Result<std::string> Save(FrameworkElement& application, const std::filesystem::path& to = {}) {
     return SaveConfiguration(application, to);
   }
   double Gain(const std::string& path) { return shop.Get<Source>(path).gain.Get(); }
@@ -132,8 +131,7 @@ TEST_F(ConfigurationSaver, WritesAFileOfItsOwn) {
   EXPECT_THAT(Save(application).error().message, HasSubstr("without a configuration file"));
   Set("/demo/left/motor/gain", "4");
   ASSERT_TRUE(Save(application, entries));
-  EXPECT_THAT(ReadAll(entries),
-              HasSubstr("<section name=\"motor\">\n        <value name=\"gain\">4</value>"));
+  EXPECT_THAT(ReadAll(entries), HasSubstr("<section name=\"motor\">\n        <value name=\"gain\">4</value>"));
   SavingWorkshop again;
   Diagnostics diagnostics;
   again.configuration.Load(entries, diagnostics);
@@ -156,7 +154,8 @@ TEST_F(ConfigurationSaver, AnotherNameIsNoOtherValue) {
   EXPECT_EQ(Save(application).value(), "no value has changed");
   Set("/demo/left/drive/gain", "4");
   EXPECT_EQ(Save(application).value(), "saved 1 value to " + entries.string());
-  EXPECT_THAT(ReadAll(entries), HasSubstr("<section name=\"motor\"> <value name=\"gain\">4</value> <!-- tried out -->"));
+  EXPECT_THAT(ReadAll(entries),
+              HasSubstr("<section name=\"motor\"> <value name=\"gain\">4</value> <!-- tried out -->"));
   EXPECT_EQ(GainAfterRestart("/demo/left/motor"), 4) << "the file still has the old name";
   ASSERT_TRUE(SaveApplication(application.runtime(), application, shop.tools()));
   EXPECT_EQ(GainAfterRestart("/demo/left/drive"), 4);
@@ -207,11 +206,9 @@ TEST_F(ConfigurationSaver, GroupParametersAreSavedWithTheFile) {
   EXPECT_EQ(shop.Text(application, folder.path()), text);
   Set("/demo/both/power", "3");
   EXPECT_EQ(Gain("/demo/both/b"), 3);
-  EXPECT_THAT(shop.Text(application, folder.path()),
-              HasSubstr(R"(to="a/gain b/gain" value="3"/>)"));
+  EXPECT_THAT(shop.Text(application, folder.path()), HasSubstr(R"(to="a/gain b/gain" value="3"/>)"));
   StructureEditor editor(shop.runtime, shop.plugins.modules(), nullptr);
-  ASSERT_TRUE(editor.Apply({DeleteElement{"/demo/both/power"},
-                            CreateParameter{"/demo/both/number", {"a/count"}},
+  ASSERT_TRUE(editor.Apply({DeleteElement{"/demo/both/power"}, CreateParameter{"/demo/both/number", {"a/count"}},
                             ConnectPorts{"/demo/both/b/value", "/demo/both/a/gain"}}));
   const std::string saved = shop.Text(application, folder.path());
   EXPECT_THAT(saved, ::testing::Not(HasSubstr("power")));

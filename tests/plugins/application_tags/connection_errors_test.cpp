@@ -121,17 +121,16 @@ TEST(ConnectionErrors, TellOfAConnectionThatIsThereAlready) {
 
 TEST(ConnectionErrors, PullOnlyWithoutAQueueAndFromAProvider) {
   Workshop workshop;
-  EXPECT_EQ(
-      workshop.Errors(R"(<application name="demo">
+  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
   <module name="a" type="test/source"/>
   <module name="b" type="test/sink"/>
   <connect from="a/value" to="b/value" queue="2" pull="true"/>
   <connect from="a/value" to="b/second" pull="true"/>
 </application>)"),
-      "app.xml:4:50: error: /demo: a connection that pulls cannot have a queue; what is pulled "
-      "is the newest value; leave out one of the two\n"
-      "app.xml:5:18: error: /demo/a/output/value: cannot be pulled: it has no provider; its "
-      "module has to make it pullable and to set a provider\n");
+            "app.xml:4:50: error: /demo: a connection that pulls cannot have a queue; what is pulled "
+            "is the newest value; leave out one of the two\n"
+            "app.xml:5:18: error: /demo/a/output/value: cannot be pulled: it has no provider; its "
+            "module has to make it pullable and to set a provider\n");
 }
 
 TEST(ConnectionErrors, WantAQueueWhereItIsSaidWhatAFullOneDoes) {

@@ -180,8 +180,7 @@ TEST_F(ConstructedPorts, AnOutputMaySetAParameter) {
     <connect from="source/label" to="other/gain"/>
     <connect from="source/label" to="other/text"/>
   </application>)"),
-              ::testing::AllOf(HasSubstr("carries string, but"),
-                               HasSubstr("is a parameter that no output can set")));
+              ::testing::AllOf(HasSubstr("carries string, but"), HasSubstr("is a parameter that no output can set")));
 }
 
 }  // namespace

@@ -15,7 +15,10 @@ using namespace std::chrono_literals;
 struct Corrected final : Module {
   using Module::Module;
   static inline double safe = 0;
-  Input<double> in{this, "in", safe == 0 ? InputOptions{} : InputOptions{.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(safe)}};
+  Input<double> in{this, "in",
+                   safe == 0
+                       ? InputOptions{}
+                       : InputOptions{.drives = true, .command = DrivingKind::kVelocity, .safe_value = AnyValue(safe)}};
   void Update() override {}
 };
 
@@ -113,7 +116,8 @@ TEST_F(DrivingSwap, OfAMarkedPortThatIsNotConnectedIsRefusedToo) {
   ASSERT_TRUE(history_.Apply({DisconnectPorts{"/demo/s/value", "/demo/m/in"}}));
   const auto refused = history_.Apply({ReplaceModule{"/demo/m", "test/motor"}});
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("is in m/s, which is that of a velocity, and is said to be a position"));
+  EXPECT_THAT(refused.diagnostics.ToString(),
+              HasSubstr("is in m/s, which is that of a velocity, and is said to be a position"));
 }
 
 TEST_F(DrivingSwap, WhatTheFormerModuleHasSaidIsSaved) {

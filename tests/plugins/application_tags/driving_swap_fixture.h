@@ -63,6 +63,15 @@ struct Boxed final : Group {
   }
 };
 
+template <typename Part, int kVersion = 0>
+struct BoxOf final : Group {
+  using Group::Group;
+  Result<void> Construct() override {
+    auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
+    return Port::Connect(in, runtime().Create<Part>(*this, "part").in);
+  }
+};
+
 inline double Number(const AnyValue& value) { return *static_cast<const double*>(value.get()); }
 
 class DrivingSwap : public ::testing::Test {
@@ -83,8 +92,9 @@ class DrivingSwap : public ::testing::Test {
     shop.Add<Declared<DrivingKind::kEffort, 0>>("test/throttle");
   }
   void Load(const std::string& type, const std::string& mark, const std::string& source = "test/source") {
-    WriteAll(folder_ / "app.xml", "<application name=\"demo\">\n  <module name=\"s\" type=\"" + source + "\"/>\n  <module name=\"m\" type=\"" +
-                                      type + "\"/>\n  <connect from=\"s/value\" to=\"m/in\"/>\n" + mark + "</application>\n");
+    WriteAll(folder_ / "app.xml", "<application name=\"demo\">\n  <module name=\"s\" type=\"" + source +
+                                      "\"/>\n  <module name=\"m\" type=\"" + type +
+                                      "\"/>\n  <connect from=\"s/value\" to=\"m/in\"/>\n" + mark + "</application>\n");
     application_ = shop_.Load(folder_ / "app.xml");
     ASSERT_NE(application_, nullptr);
   }
@@ -113,6 +123,7 @@ class DrivingSwap : public ::testing::Test {
   FrameworkElement* application_ = nullptr;
 };
 
-inline constexpr const char* kMarks[] = {"", "  <driving port=\"m/in\"/>\n", "  <driving port=\"m/in\" brake=\"0.4 s\"/>\n"};
+inline constexpr const char* kMarks[] = {"", "  <driving port=\"m/in\"/>\n",
+                                         "  <driving port=\"m/in\" brake=\"0.4 s\"/>\n"};
 
 }  // namespace runnel::testing::driving_swap

@@ -114,9 +114,11 @@ void DrivingSwapHeld::Swap(std::size_t variant, Held how) {
 
 // The parameter is the module that is there first.
 TEST_P(DrivingSwapHeld, MovesNothing) {
-  for (const Held how : {Held::kBlocked, Held::kByRule, Held::kByRuleAtSource, Held::kByPersonWhoIsHeardOf, Held::kByPerson, Held::kStopped}) {
+  for (const Held how : {Held::kBlocked, Held::kByRule, Held::kByRuleAtSource, Held::kByPersonWhoIsHeardOf,
+                         Held::kByPerson, Held::kStopped}) {
     std::size_t first = int(how);  // each second module with one of the marks
-    for (const std::string said : {"", " ", " safe=\"0\" command=\"velocity\"", " safe=\"1500\" command=\"velocity\""}) {
+    for (const std::string said :
+         {"", " ", " safe=\"0\" command=\"velocity\"", " safe=\"1500\" command=\"velocity\""}) {
       for (std::size_t second = first++ % 4; second < kVariants && !HasFailure(); second += 4) {
         if (!Load(Name(GetParam()), said)) break;
         ASSERT_TRUE(Source().PublishFilled(internal::FillWith(AnyValue(kPublished))));

@@ -13,8 +13,12 @@ namespace {
 
 using namespace driving_swap;
 
-const std::array<std::string, 6> kSaid = {"", " ", " safe=\"0\" command=\"velocity\"", " safe=\"1500\" command=\"velocity\"",
-                                          " safe=\"0.3\" command=\"position\"", " safe=\"0\" brake=\"0.4 s\" command=\"effort\""};
+const std::array<std::string, 6> kSaid = {"",
+                                          " ",
+                                          " safe=\"0\" command=\"velocity\"",
+                                          " safe=\"1500\" command=\"velocity\"",
+                                          " safe=\"0.3\" command=\"position\"",
+                                          " safe=\"0\" brake=\"0.4 s\" command=\"effort\""};
 
 struct Place {
   Stop stop;
@@ -28,7 +32,8 @@ struct DrivingSwapTable : TableOfVariants {
     SavingWorkshop other;
     Know(other, std::make_index_sequence<kModules>());
     WriteAll(folder / "again.xml", Text());
-    const auto built = BuildApplication(folder / "again.xml", {other.runtime, other.plugins, other.tags, other.configuration}, BuildMode::kRun);
+    const auto built = BuildApplication(
+        folder / "again.xml", {other.runtime, other.plugins, other.tags, other.configuration}, BuildMode::kRun);
     EXPECT_TRUE(built.diagnostics.ok()) << built.diagnostics.ToString() << Text();
     return built.diagnostics.ok() ? StopAt(other) : Stop{};
   }
@@ -63,12 +68,19 @@ void DrivingSwapTable::ExpectSwapped(const Place& before, std::size_t variant) {
   const bool is_of_part = IsComposite(variant) && reader.is_driving();
   const bool is_said = before.said && !is_of_part;
   const bool says_safe = is_said && before.said->safe_value;
-  EXPECT_EQ(after.safe, says_safe ? Number(before.said->safe_value) : declared.drives ? Number(declared.safe_value) : before.stop.safe);
+  EXPECT_EQ(after.safe, says_safe         ? Number(before.said->safe_value)
+                        : declared.drives ? Number(declared.safe_value)
+                                          : before.stop.safe);
   const DrivingKind known = DrivingKindByUnits(reader.type(), reader.unit());
-  EXPECT_TRUE(known == DrivingKind::kEffort || known == DrivingKind::kUnspecified || after.command == known || IsComposite(variant));
-  const bool is_another_unit = !(declared.drives && !says_safe) && !reader.unit().empty() && reader.unit() != before.unit;
-  EXPECT_TRUE(!is_another_unit || (after.safe == 0 && after.command != DrivingKind::kPosition && known != DrivingKind::kPosition));
-  EXPECT_EQ(after.brake, is_said && before.said->brake ? *before.said->brake : declared.drives ? Duration{} : before.stop.brake);
+  EXPECT_TRUE(known == DrivingKind::kEffort || known == DrivingKind::kUnspecified || after.command == known ||
+              IsComposite(variant));
+  const bool is_another_unit =
+      !(declared.drives && !says_safe) && !reader.unit().empty() && reader.unit() != before.unit;
+  EXPECT_TRUE(!is_another_unit ||
+              (after.safe == 0 && after.command != DrivingKind::kPosition && known != DrivingKind::kPosition));
+  EXPECT_EQ(after.brake, is_said && before.said->brake ? *before.said->brake
+                         : declared.drives             ? Duration{}
+                                                       : before.stop.brake);
 }
 
 void DrivingSwapTable::Swap(std::size_t variant) {

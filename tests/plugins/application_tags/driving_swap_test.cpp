@@ -33,7 +33,8 @@ TEST_F(DrivingSwap, OnesSafeValueIsNotThatOfAnotherUnit) {
   Load("test/esc", "");
   const auto refused = history_.Apply({ReplaceModule{"/demo/m", "test/motor"}});
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.diagnostics.ToString(), HasSubstr("/demo/m/input/in: is in m/s, and its safe value, 1500, is not"));
+  EXPECT_THAT(refused.diagnostics.ToString(),
+              HasSubstr("/demo/m/input/in: is in m/s, and its safe value, 1500, is not"));
   EXPECT_EQ(Safe(), 1500) << "as it was";
 }
 

@@ -33,7 +33,8 @@ inline constexpr std::size_t kModules = kUnits.size() * 5, kVariants = 2 * kModu
 inline bool IsComposite(std::size_t variant) { return variant >= kModules; }
 inline std::string Name(std::size_t variant) {
   const std::size_t module = variant % kModules;
-  return std::string(IsComposite(variant) ? "box/" : "test/") + kDeclarations[module % 5].name + "_" + std::to_string(module / 5);
+  return std::string(IsComposite(variant) ? "box/" : "test/") + kDeclarations[module % 5].name + "_" +
+         std::to_string(module / 5);
 }
 
 inline bool fails = false;  // the module that is made next
@@ -82,9 +83,12 @@ struct TableOfVariants : ::testing::TestWithParam<std::size_t> {
     shop.emplace();
     Know(*shop, std::make_index_sequence<kModules>());
     const std::string mark = said.empty() ? "" : "<driving port=\"m/in\"" + said + "/>";
-    WriteAll(folder / "app.xml", "<application name=\"demo\"><module name=\"s\" type=\"test/keeper\"/><module name=\"m\" type=\"" + type +
-                                     "\"/><connect from=\"s/value\" to=\"m/in\"/>" + mark + "</application>");
-    if (!BuildApplication(folder / "app.xml", {shop->runtime, shop->plugins, shop->tags, shop->configuration}, BuildMode::kRun).diagnostics.ok())
+    WriteAll(folder / "app.xml",
+             "<application name=\"demo\"><module name=\"s\" type=\"test/keeper\"/><module name=\"m\" type=\"" + type +
+                 "\"/><connect from=\"s/value\" to=\"m/in\"/>" + mark + "</application>");
+    if (!BuildApplication(folder / "app.xml", {shop->runtime, shop->plugins, shop->tags, shop->configuration},
+                          BuildMode::kRun)
+             .diagnostics.ok())
       return false;
     scheduler.emplace(shop->runtime, SchedulerOptions{.clock = SchedulerOptions::ClockKind::kSimulated});
     editor.emplace(shop->runtime, shop->plugins.modules(), &*scheduler);

@@ -83,18 +83,21 @@ TEST_F(Driving, MarksInputsAndOutputs) {
 }
 
 TEST_F(Driving, NeedsASafeValueThatIsOne) {
-  EXPECT_THAT(shop_.Errors("<application name='a'>\n<module name='m' type='test/motor'/>\n"
-                           "<driving port='m/angle'/>\n<driving port='m/speed' safe='fast'/>\n<driving port='m/sped'/>\n"
-                           "</application>"),
-              ::testing::AllOf(HasSubstr("app.xml:3:1: error: /a/m/input/angle: something moves by it, and it has no safe value"),
-                               HasSubstr("add safe=\"…\""), HasSubstr("app.xml:4:"), HasSubstr("did you mean 'speed'?")));
+  EXPECT_THAT(
+      shop_.Errors("<application name='a'>\n<module name='m' type='test/motor'/>\n"
+                   "<driving port='m/angle'/>\n<driving port='m/speed' safe='fast'/>\n<driving port='m/sped'/>\n"
+                   "</application>"),
+      ::testing::AllOf(
+          HasSubstr("app.xml:3:1: error: /a/m/input/angle: something moves by it, and it has no safe value"),
+          HasSubstr("add safe=\"…\""), HasSubstr("app.xml:4:"), HasSubstr("did you mean 'speed'?")));
 }
 
 TEST_F(Driving, SaysOfANumberWithoutAUnitWhatItIs) {
-  EXPECT_THAT(shop_.Errors("<application name='a'>\n<module name='s' type='test/source'/>\n"
-                           "<driving port='s/value' safe='0'/>\n</application>"),
-              ::testing::AllOf(HasSubstr("app.xml:3:1: error: /a/s/output/value: something moves by it, and neither a unit"),
-                               HasSubstr("add command=\"velocity\"")));
+  EXPECT_THAT(
+      shop_.Errors("<application name='a'>\n<module name='s' type='test/source'/>\n"
+                   "<driving port='s/value' safe='0'/>\n</application>"),
+      ::testing::AllOf(HasSubstr("app.xml:3:1: error: /a/s/output/value: something moves by it, and neither a unit"),
+                       HasSubstr("add command=\"velocity\"")));
   EXPECT_THAT(shop_.Errors("<application name='a'>\n<module name='s' type='test/source'/>\n"
                            "<driving port='s/value' safe='0' command='speed'/>\n</application>"),
               ::testing::AllOf(HasSubstr("app.xml:3:"), HasSubstr("velocity")));
@@ -103,8 +106,9 @@ TEST_F(Driving, SaysOfANumberWithoutAUnitWhatItIs) {
 // As far as the module that is there now does not say it.
 TEST_F(Driving, IsSavedWithWhatItIsWhenAnotherModuleKnowsNoUnit) {
   shop_.Add<Wheel>("test/wheel");
-  Load("<application name=\"demo\">\n  <module name=\"m\" type=\"test/motor\"/>\n"
-       "  <driving port=\"m/angle\" safe=\"0.5\"/>\n</application>\n");
+  Load(
+      "<application name=\"demo\">\n  <module name=\"m\" type=\"test/motor\"/>\n"
+      "  <driving port=\"m/angle\" safe=\"0.5\"/>\n</application>\n");
   Must({ReplaceModule{"/demo/m", "test/wheel"}});
   const std::string text = Text();
   EXPECT_THAT(text, HasSubstr("<driving port=\"m/angle\" safe=\"0.5\" command=\"position\"/>"));
@@ -128,7 +132,9 @@ TEST_F(Driving, GoesWithAnotherName) {
   Must({RenameElement{"/demo/g/motor", "wheel"}});
   EXPECT_TRUE(At("/demo/g/wheel/input/angle").is_driving());
   const std::string text = Text();
-  EXPECT_THAT(text, HasSubstr("<driving  port=\"wheel/angle\" safe=\"0.5\" brake=\"0.3 s\" command=\"position\"/> <!-- folded -->"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("<driving  port=\"wheel/angle\" safe=\"0.5\" brake=\"0.3 s\" command=\"position\"/> <!-- folded -->"));
   EXPECT_THAT(text, HasSubstr("<driving port=\"wheel/speed\"/>"));
 }
 
@@ -137,7 +143,8 @@ TEST_F(Driving, GoesWithItsModuleAndIsSavedOfACopy) {
   Must({CopyElement{"/demo/g/motor", "second"}, DeleteElement{"/demo/g/motor"}});
   const std::string text = Text();
   EXPECT_THAT(text, ::testing::Not(HasSubstr("port=\"motor")));
-  EXPECT_THAT(text, HasSubstr("<driving port=\"g/second/input/angle\" safe=\"0.5\" brake=\"300ms\" command=\"position\"/>"));
+  EXPECT_THAT(text,
+              HasSubstr("<driving port=\"g/second/input/angle\" safe=\"0.5\" brake=\"300ms\" command=\"position\"/>"));
   SavingWorkshop other;
   other.Add<Motor>("test/motor");
   WriteAll(folder_ / "again.xml", text);

@@ -37,8 +37,7 @@ class ParameterValues : public ::testing::Test {
   std::string Said(std::string_view text = kApplication) { return workshop_.Errors(text); }
 
   const std::string file_ = ::testing::TempDir() + "runnel_configuration_" +
-                            ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-                            ".xml";
+                            ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".xml";
   Workshop workshop_;
 };
 
@@ -51,7 +50,8 @@ TEST_F(ParameterValues, ComeFromTheAuthorIfNobodySaysOtherwise) {
 TEST_F(ParameterValues, InTheFileBeatTheDefault) { EXPECT_EQ(BuiltGain(), 2.0); }
 
 TEST_F(ParameterValues, MayStandUnderTheNameThatTheParameterHadBefore) {
-  EXPECT_THAT(Said("<application name='demo'>\n<module name='a' type='test/source'>\n<parameter name='boost' value='4'/></module></application>"),
+  EXPECT_THAT(Said("<application name='demo'>\n<module name='a' type='test/source'>\n<parameter name='boost' "
+                   "value='4'/></module></application>"),
               HasSubstr("app.xml:3:18: warning: /demo/a: 'boost' is called 'gain' now"));
   EXPECT_EQ(workshop_.Get<Source>("/demo/a").gain.Get(), 4.0);
 }
@@ -63,11 +63,8 @@ TEST_F(ParameterValues, MayHaveUnitsWhereverTheyStand) {
         "<parameter name='gain' value='" +
         value + "' config='/a/gain' command_line='gain'/></module></application>");
   };
-  EXPECT_EQ(
-      gain_of("15 s"),
-      "app.xml:3:31: error: /demo/a/parameter/gain: '15 s' is no value in m; write it in m\n");
-  LoadConfiguration(
-      R"(<configuration><section name="a"><value name="gain">15 cm</value></section></configuration>)");
+  EXPECT_EQ(gain_of("15 s"), "app.xml:3:31: error: /demo/a/parameter/gain: '15 s' is no value in m; write it in m\n");
+  LoadConfiguration(R"(<configuration><section name="a"><value name="gain">15 cm</value></section></configuration>)");
   EXPECT_EQ(gain_of("2 m"), "");
   EXPECT_EQ(workshop_.Get<Source>("/demo/a").gain.Get(), 0.15);
 }
@@ -78,14 +75,12 @@ TEST_F(ParameterValues, OnTheCommandLineMayHaveUnits) {
 }
 
 TEST_F(ParameterValues, OfTheConfigurationBeatTheFile) {
-  LoadConfiguration(
-      R"(<configuration><section name="a"><value name="gain">3</value></section></configuration>)");
+  LoadConfiguration(R"(<configuration><section name="a"><value name="gain">3</value></section></configuration>)");
   EXPECT_EQ(BuiltGain(), 3.0);
 }
 
 TEST_F(ParameterValues, OnTheCommandLineBeatAllOthers) {
-  LoadConfiguration(
-      R"(<configuration><section name="a"><value name="gain">3</value></section></configuration>)");
+  LoadConfiguration(R"(<configuration><section name="a"><value name="gain">3</value></section></configuration>)");
   ASSERT_TRUE(workshop_.configuration.AddArgument("gain=4"));
   EXPECT_EQ(BuiltGain(), 4.0);
 }
@@ -183,8 +178,7 @@ TEST_F(ParameterValues, ForAModuleThatIsMissingAreNotCalledUnknown) {
 }
 
 TEST_F(ParameterValues, MisspeltInTheConfigurationAreWarnedOf) {
-  LoadConfiguration(
-      R"(<configuration><section name="a"><value name="gian">3</value></section></configuration>)");
+  LoadConfiguration(R"(<configuration><section name="a"><value name="gian">3</value></section></configuration>)");
   EXPECT_EQ(Said(),
             "app.xml:3:46: warning: /demo/a: the configuration has no '/a/gain'; did you "
             "mean '/a/gian'?\n");

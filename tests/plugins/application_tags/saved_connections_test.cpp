@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "core/element/tags.h"
-#include "core/paths/late_connections.h"
 #include "core/module/group.h"
+#include "core/paths/late_connections.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 
 namespace runnel::testing {
@@ -26,13 +26,10 @@ class SavedConnections : public ::testing::Test {
   T& Get(const std::string& path) {
     return shop_.Get<T>(path);
   }
-  FrameworkElement& Create(const std::string& type, const std::string& parent,
-                           const std::string& name) {
+  FrameworkElement& Create(const std::string& type, const std::string& parent, const std::string& name) {
     return *shop_.plugins.modules().Create(type, Get<FrameworkElement>(parent), name).value();
   }
-  void Delete(const std::string& path) {
-    ASSERT_TRUE(shop_.runtime.Delete(Get<FrameworkElement>(path)));
-  }
+  void Delete(const std::string& path) { ASSERT_TRUE(shop_.runtime.Delete(Get<FrameworkElement>(path))); }
 
   TestFolder folder_;
   SavingWorkshop shop_;
@@ -71,8 +68,8 @@ TEST_F(SavedConnections, WritesConversionsAndConnectionsThatWaitAnew) {
 </application>
 )");
   ASSERT_TRUE(Port::Connect(Get<Port>("/demo/source/output/value"), Get<Port>("/demo/sink/input/label")));
-  ASSERT_TRUE(Port::Connect(Get<Port>("/demo/source/output/label"),
-                            Get<Port>("/demo/sink/input/value"), {.convert = "parse"}));
+  ASSERT_TRUE(
+      Port::Connect(Get<Port>("/demo/source/output/label"), Get<Port>("/demo/sink/input/value"), {.convert = "parse"}));
   ASSERT_TRUE(LateConnections::Of(shop_.runtime)
                   .Add("/demo/driver/scan", "/demo/sink/second", {.queue = 2, .part = "ranges[0]"}));
   const std::string text = Text();

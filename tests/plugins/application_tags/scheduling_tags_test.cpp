@@ -71,8 +71,7 @@ TEST_F(SchedulingTags, MakeThreadsBelowTheApplication) {
   const ThreadOptions& free = Get<ThreadContainer>("/demo/threads/free").options();
   EXPECT_EQ(free.activation, Activation::kFreeRunning);
   EXPECT_EQ(free.on_overrun, ThreadOptions::OnOverrun::kSkip);
-  EXPECT_EQ(Get<ThreadContainer>("/demo/threads/events").options().activation,
-            Activation::kTrigger);
+  EXPECT_EQ(Get<ThreadContainer>("/demo/threads/events").options().activation, Activation::kTrigger);
 }
 
 TEST_F(SchedulingTags, AssignGroupsAndModulesToThreads) {
@@ -106,8 +105,7 @@ TEST_F(SchedulingTags, NameTheNearestThread) {
 }
 
 TEST_F(SchedulingTags, TellWhatIsWrongWithThreads) {
-  EXPECT_EQ(
-      Errors(R"(<application name="demo">
+  EXPECT_EQ(Errors(R"(<application name="demo">
   <thread name="a"/>
   <thread name="b" period="50"/>
   <thread name="c" period="50ms" priority="100"/>
@@ -115,24 +113,23 @@ TEST_F(SchedulingTags, TellWhatIsWrongWithThreads) {
   <thread name="c" period="5ms"/>
   <thread name="e" period="0ms"/>
 </application>)"),
-      "app.xml:2:3: error: /demo/threads/a: <thread> has no 'period'; add period=\"50ms\", or "
-      "activation=\"trigger\" or activation=\"free_running\"\n"
-      "app.xml:3:28: error: /demo/b: '50' is no duration; write a number and a unit: ns, us, "
-      "ms, s or min, as in 20ms\n"
-      "app.xml:4:44: error: /demo/threads/c: priority 100 is out of bounds; 0 is ordinary "
-      "scheduling, 1 .. 99 is SCHED_FIFO\n"
-      "app.xml:5:20: error: /demo/threads/d: a thread that waits for data has no period; leave out "
-      "either period or activation\n"
-      "app.xml:6:17: error: /demo/threads/c: there is already an element called 'c' in "
-      "/demo/threads; the first is in line 4\n"
-      "app.xml:7:28: error: /demo/e: '0ms' is not longer than nothing\n");
+            "app.xml:2:3: error: /demo/threads/a: <thread> has no 'period'; add period=\"50ms\", or "
+            "activation=\"trigger\" or activation=\"free_running\"\n"
+            "app.xml:3:28: error: /demo/b: '50' is no duration; write a number and a unit: ns, us, "
+            "ms, s or min, as in 20ms\n"
+            "app.xml:4:44: error: /demo/threads/c: priority 100 is out of bounds; 0 is ordinary "
+            "scheduling, 1 .. 99 is SCHED_FIFO\n"
+            "app.xml:5:20: error: /demo/threads/d: a thread that waits for data has no period; leave out "
+            "either period or activation\n"
+            "app.xml:6:17: error: /demo/threads/c: there is already an element called 'c' in "
+            "/demo/threads; the first is in line 4\n"
+            "app.xml:7:28: error: /demo/e: '0ms' is not longer than nothing\n");
   EXPECT_TRUE(runtime.root().children().empty());
 }
 
 TEST_F(SchedulingTags, ChooseTheClock) {
   const auto options = [&](const char* clock) {
-    FrameworkElement* const application =
-        Build(std::string("<application name='demo'>") + clock + "</application>");
+    FrameworkElement* const application = Build(std::string("<application name='demo'>") + clock + "</application>");
     EXPECT_TRUE(application) << diagnostics.ToString();
     const SchedulerOptions chosen = SchedulerOptionsOf(*application);
     EXPECT_TRUE(runtime.Delete(*application));
@@ -156,12 +153,11 @@ TEST_F(SchedulingTags, TellWhatIsWrongWithClocks) {
             "app.xml:2:34: error: /demo: time cannot run backwards; 1 is real time, 0 as fast as "
             "it can\n"
             "app.xml:3:3: error: /demo: the clock is chosen twice; the first is in line 2\n");
-  EXPECT_EQ(
-      Errors(R"(<application name="demo">
+  EXPECT_EQ(Errors(R"(<application name="demo">
   <clock type="simulated" speed="1e-300"/>
 </application>)"),
-      "app.xml:2:34: error: /demo: speed 1e-300 is out of bounds; allowed is 0 (as fast as it "
-      "can), or 1e-6 .. 1e6\n");
+            "app.xml:2:34: error: /demo: speed 1e-300 is out of bounds; allowed is 0 (as fast as it "
+            "can), or 1e-6 .. 1e6\n");
   EXPECT_EQ(Errors(R"(<application name="demo">
   <clock type="real" speed="2"/>
 </application>)"),
@@ -284,8 +280,8 @@ TEST_F(SchedulingTags, SayFromWhichLevelOnModulesAreLogged) {
     <group name="g"> <log level="debug"/> <log level="off" of="a"/> <module name="a" type="test/counter"/> </group>
   </application>)"))
       << diagnostics.ToString();
-  EXPECT_EQ(ReadLogLevels(runtime), (LogLevels{{"/demo", LogLevel::kError}, {"/demo/g", LogLevel::kDebug},
-                                               {"/demo/g/a", LogLevel::kOff}}));
+  EXPECT_EQ(ReadLogLevels(runtime),
+            (LogLevels{{"/demo", LogLevel::kError}, {"/demo/g", LogLevel::kDebug}, {"/demo/g/a", LogLevel::kOff}}));
 }
 
 TEST_F(SchedulingTags, KnowAMisspeltLevelAndWhoIsNotThere) {

@@ -1,7 +1,8 @@
+#include "plugins/behaviours/behaviour_group.h"
+
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
-#include "plugins/behaviours/behaviour_group.h"
 
 namespace runnel {
 namespace {

@@ -1,3 +1,5 @@
+#include "plugins/behaviours/algorithm/behaviour_rules.h"
+
 #include <cmath>
 #include <limits>
 #include <random>
@@ -5,7 +7,6 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/behaviours/algorithm/behaviour_rules.h"
 #include "plugins/testing/allocation_guard.h"
 
 namespace runnel {
@@ -96,10 +97,12 @@ TEST(BehaviourRulesTest, AgreesWithAnIndependentReckoning) {
     const std::vector<double> derived{any(), any()};
     const bool same = round % 2 == 0;
     bool is_right = true;
-    for (const double each : {now.activation, now.activity, now.target_rating}) is_right = is_right && each >= 0 && each <= 1;
+    for (const double each : {now.activation, now.activity, now.target_rating})
+      is_right = is_right && each >= 0 && each <= 1;
     is_right = is_right && !(now.activity > now.activation);
     for (const double each : derived) is_right = is_right && !(each < 0) && !(each > now.activity);
-    const bool is_goal_state = now.target_rating == 0 && before.target_rating == 0 && now.activation == before.activation && same;
+    const bool is_goal_state =
+        now.target_rating == 0 && before.target_rating == 0 && now.activation == before.activation && same;
     is_right = is_right && (!is_goal_state || now.activity == before.activity);
     const std::string violation =
         FindViolation({.now = now, .derived = derived, .before = before, .has_same_activities = same});

@@ -1,6 +1,7 @@
+#include "plugins/behaviours/behaviour.h"
+
 #include <gmock/gmock.h>
 
-#include "plugins/behaviours/behaviour.h"
 #include "plugins/testing/matchers.h"
 #include "plugins/testing/module_rig.h"
 
@@ -135,8 +136,7 @@ TEST(BehaviourTest, WhatIsSetByHandMustBeASignal) {
   ModuleRig<Told> rig;
   auto& port = rig.input<Stimulation>("stimulation");
   ASSERT_TRUE(rig.Prepare());
-  ASSERT_TRUE(port.PublishByHand(
-      [](void* value) { return SetFromText(TypeOf<Stimulation>(), "{value: 7}", value); }));
+  ASSERT_TRUE(port.PublishByHand([](void* value) { return SetFromText(TypeOf<Stimulation>(), "{value: 7}", value); }));
   const auto fault = rig.RunUntilFault();
   ASSERT_TRUE(fault);
   EXPECT_THAT(fault->message, HasSubstr("its stimulation is 7, which is not within 0 and 1"));

@@ -1,3 +1,5 @@
+#include "plugins/behaviours/meta_signal.h"
+
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
@@ -5,7 +7,6 @@
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "core/port/proxy_port.h"
-#include "plugins/behaviours/meta_signal.h"
 
 namespace runnel {
 namespace {

@@ -12,7 +12,9 @@ class Eager final : public Behaviour {
   using Behaviour::Behaviour;
 
  private:
-  std::optional<Outcome> Behave(double activation) override { return Outcome{.activity = activation, .target_rating = 0.5}; }
+  std::optional<Outcome> Behave(double activation) override {
+    return Outcome{.activity = activation, .target_rating = 0.5};
+  }
 };
 
 class OscillationTest : public EditorTest {

@@ -41,8 +41,7 @@ class MapUser final : public Module {
 
  private:
   void Note(const BlackboardWriter<Cells>::Outcome& outcome) {
-    told.push_back(outcome ? (outcome->is_applied ? "applied " : "not applied ") +
-                                 std::to_string(outcome->revision)
+    told.push_back(outcome ? (outcome->is_applied ? "applied " : "not applied ") + std::to_string(outcome->revision)
                            : std::string(outcome.error()));
   }
   void Update() override { action(*this); }
@@ -58,8 +57,7 @@ class BlackboardTest : public EditorTest {
     AddUser("user");
   }
   void AddUser(const std::string& name) {
-    Must({CreateModule{"/app/" + name, "test/map_user"},
-          ConnectPorts{"/app/owner/map", "/app/" + name + "/map"},
+    Must({CreateModule{"/app/" + name, "test/map_user"}, ConnectPorts{"/app/owner/map", "/app/" + name + "/map"},
           ConnectPorts{"/app/owner/map_changes", "/app/" + name + "/map_changes"}});
   }
   Blackboard<Cells>& board() { return At<MapOwner>("/app/owner").map; }

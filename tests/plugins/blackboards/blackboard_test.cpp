@@ -184,8 +184,12 @@ TEST_F(BlackboardTest, IsWhatAPlainListWouldBe) {
         }
         break;
       }
-      case 1: held.push_back(user().map.value().Peek()); break;
-      case 2: held.clear(); break;
+      case 1:
+        held.push_back(user().map.value().Peek());
+        break;
+      case 2:
+        held.clear();
+        break;
       case 3:
         if (random() % 10 == 0) Must({ReplaceModule{"/app/owner", "test/map_owner"}});
         break;

@@ -37,13 +37,12 @@ TEST_F(BlackboardThreads, NoIncrementIsLostAndNoValueIsTorn) {
       };
       static thread_local Shared shared;
       shared = {&left, mine.get(), is_waiting.get()};
-      const CallStatus status =
-          transaction.Commit([to = &shared](const BlackboardWriter<Cells>::Outcome& outcome) {
-            *to->is_waiting = false;
-            if (!outcome || !outcome->is_applied) return;
-            --*to->mine;
-            --*to->left;
-          });
+      const CallStatus status = transaction.Commit([to = &shared](const BlackboardWriter<Cells>::Outcome& outcome) {
+        *to->is_waiting = false;
+        if (!outcome || !outcome->is_applied) return;
+        --*to->mine;
+        --*to->left;
+      });
       *is_waiting = status == CallStatus::kPending;
     };
   }

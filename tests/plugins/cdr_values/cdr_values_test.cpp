@@ -103,6 +103,7 @@ std::string WhyNotCdr(const Octets& octets) {
 }
 
 // The octets of others: by hand, Cyclone and Foxglove wrote the same for a scan of this shape.
+// clang-format off
 TEST(Cdr, IsWhatOthersWrite) {
   const Scan scan{.stamp = Time(Duration(5'000'000'006)),
                   .frame = "laser",
@@ -212,6 +213,7 @@ TEST(WrongCdr, DoesNoHarm) {
 }
 
 // In memory that processes share, whoever writes may change octets while they are read.
+// clang-format on
 TEST(WrongCdr, DoesNoHarmWhileItChanges) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "what is tried is a race";
@@ -249,7 +251,9 @@ TEST(Cdr, OfOpaqueTypesIsRefused) {
 }
 
 TEST(Cdr, LargeListsReferToOctetsThatAreKept) {
-  example::Large large{.name = "x", .bytes = SharedVector<std::uint8_t>(5001, 7), .numbers = SharedVector<double>(1000, 8.0),
+  example::Large large{.name = "x",
+                       .bytes = SharedVector<std::uint8_t>(5001, 7),
+                       .numbers = SharedVector<double>(1000, 8.0),
                        .own = std::vector<float>(2000, 9.0F)};
   // So that what follows the header is aligned.
   const auto kept = std::make_shared<std::vector<double>>(5000);
@@ -283,7 +287,9 @@ TEST(Cdr, LargeListsReferToOctetsThatAreKept) {
   EXPECT_TRUE(is_as_written(read));
 
   // Of another machine's order: bytes are the same, numbers are not.
-  std::ranges::copy(FromHex("00000000" "00001388"), begin);
+  std::ranges::copy(FromHex("00000000"
+                            "00001388"),
+                    begin);
   SharedVector<std::uint8_t> bytes;
   ASSERT_TRUE(ReadCdr(TypeOf<SharedVector<std::uint8_t>>(), {begin, 8 + 5000}, &bytes, kept));
   EXPECT_EQ(bytes.size(), 5000U);

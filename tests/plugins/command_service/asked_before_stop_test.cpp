@@ -82,12 +82,14 @@ class AskedBeforeStop : public ::testing::Test {
     EXPECT_TRUE(runtime.robot_stop().Release("a test"));
   }
   /// What becomes of a request that waits for the worker while `meanwhile` happens.
-  CommandAnswer AskOver(const CommandRequest& request, const std::function<void()>& meanwhile, RobotStop::AsOf as_of = {}) {
+  CommandAnswer AskOver(const CommandRequest& request, const std::function<void()>& meanwhile,
+                        RobotStop::AsOf as_of = {}) {
     std::binary_semaphore may_go(0);
     std::binary_semaphore is_over(0);
     TaskGroup tasks(service().worker());
     tasks.Post([&] { may_go.acquire(); });
-    const auto pending = service().Begin(request, tasks, [&] { is_over.release(); }, as_of);
+    const auto pending = service().Begin(
+        request, tasks, [&] { is_over.release(); }, as_of);
     meanwhile();
     may_go.release();
     is_over.acquire();
@@ -127,13 +129,24 @@ TEST_F(AskedBeforeStop, IsRefusedWhereSomethingMayMoveByIt) {
     ASSERT_TRUE(Ask(UndoRequest{}));
     done.clear();
   };
-  const std::vector<CommandRequest> all{
-      Changes("connect /b/speed /a/wheels"), Changes("disconnect /a/speed /b/wheels"), Changes("create /new test/base"),
-      Changes("create group /new; create /new/base test/base"), Changes("replace /a with test/base"), Changes("copy /a"),
-      Changes("rename /a aa"), Changes("delete /a"), UndoRequest{}, RedoRequest{}, ReloadRequest{"planning"},
-      RestartRequest{}, RestartRequest{"/a"}, PauseRequest{"/a", false}, PublishRequest{"/a/input/wheels", "0.1"},
-      ReleaseRequest{"/b/input/wheels"}};
-  constexpr std::size_t kOfWholeApplication = 5;  // copy, rename, delete: refused while it runs, whenever they are asked for
+  const std::vector<CommandRequest> all{Changes("connect /b/speed /a/wheels"),
+                                        Changes("disconnect /a/speed /b/wheels"),
+                                        Changes("create /new test/base"),
+                                        Changes("create group /new; create /new/base test/base"),
+                                        Changes("replace /a with test/base"),
+                                        Changes("copy /a"),
+                                        Changes("rename /a aa"),
+                                        Changes("delete /a"),
+                                        UndoRequest{},
+                                        RedoRequest{},
+                                        ReloadRequest{"planning"},
+                                        RestartRequest{},
+                                        RestartRequest{"/a"},
+                                        PauseRequest{"/a", false},
+                                        PublishRequest{"/a/input/wheels", "0.1"},
+                                        ReleaseRequest{"/b/input/wheels"}};
+  constexpr std::size_t kOfWholeApplication =
+      5;  // copy, rename, delete: refused while it runs, whenever they are asked for
   for (std::size_t i = 0; i < all.size(); ++i) {
     SCOPED_TRACE("request " + std::to_string(i));
     EXPECT_TRUE(LetsMove(all[i]));
@@ -185,7 +198,8 @@ TEST_F(AskedBeforeStop, WhoSaysWhenHeAskedIsBelieved) {
   const Time before = SteadyClock().Now();
   PressAndRelease();
   const auto nothing = [] {};
-  EXPECT_THAT(ErrorOf(AskOver(Changes("create /new test/base"), nothing, {.asked = before, .requests = {}})), HasSubstr(kPressedSince));
+  EXPECT_THAT(ErrorOf(AskOver(Changes("create /new test/base"), nothing, {.asked = before, .requests = {}})),
+              HasSubstr(kPressedSince));
   EXPECT_THAT(ErrorOf(AskOver(UndoRequest{}, nothing, {.asked = {}, .requests = 1})), HasSubstr(kPressedSince));
   EXPECT_TRUE(AskOver(SaveRequest{"file"}, nothing, {.asked = before, .requests = 1}));
   EXPECT_TRUE(AskOver(Changes("create /new test/base"), nothing, {.asked = SteadyClock().Now(), .requests = 2}));

@@ -1,4 +1,3 @@
-#include "core/port/driving_ports.h"
 #include "plugins/command_service/command_service.h"
 
 #include <atomic>
@@ -13,8 +12,9 @@
 
 #include "core/module/group.h"
 #include "core/module/module.h"
-#include "core/port/input.h"
 #include "core/plugin/module_registry.h"
+#include "core/port/driving_ports.h"
+#include "core/port/input.h"
 #include "plugins/structure/change_history.h"
 
 namespace runnel::test {
@@ -38,8 +38,7 @@ class CommandServiceTest : public ::testing::Test {
  protected:
   CommandServiceTest() {
     EXPECT_TRUE(modules.Add({"test/idle", "", "test", [](const Placement& placement) {
-                               return std::unique_ptr<FrameworkElement>(
-                                   std::make_unique<Idle>(placement));
+                               return std::unique_ptr<FrameworkElement>(std::make_unique<Idle>(placement));
                              }}));
     EXPECT_TRUE(runtime.MakeReady(runtime.root()));
   }
@@ -89,9 +88,8 @@ TEST_F(CommandServiceTest, CarriesOutChangesAndTakesThemBack) {
   EXPECT_FALSE(Has("/a"));
   EXPECT_EQ(Ask(service, RedoRequest{}).text, "redone: create /a test/idle");
   EXPECT_EQ(Ask(service, RedoRequest{}).outcome, Outcome::kRefused);
-  EXPECT_THAT(Logged(),
-              ElementsAre("create /a test/idle", HasSubstr("refused: create /a test/idle"),
-                          "undone: create /a test/idle", "redone: create /a test/idle"));
+  EXPECT_THAT(Logged(), ElementsAre("create /a test/idle", HasSubstr("refused: create /a test/idle"),
+                                    "undone: create /a test/idle", "redone: create /a test/idle"));
 }
 
 TEST_F(CommandServiceTest, SaysWhatTheProgramCannotDo) {
@@ -179,7 +177,8 @@ TEST_F(CommandServiceTest, SaysWhatStopHoldsOrThatItStopsNothing) {
   EXPECT_THAT(nothing.diagnostics.ToString(), HasSubstr("STOP stops nothing, and the robot may move"));
   EXPECT_TRUE(runtime.robot_stop().in_force()) << "for ports that come later";
   EXPECT_FALSE(Ask(service, RobotStopRequest{false, "a test"}).stops_nothing);
-  auto elsewhere = std::make_shared<PortStop>(AnyValue(), Duration{}, DrivingKind::kVelocity, runtime.robot_stop().signal());
+  auto elsewhere =
+      std::make_shared<PortStop>(AnyValue(), Duration{}, DrivingKind::kVelocity, runtime.robot_stop().signal());
   AddWhatDrives(runtime, "/cmd_vel (in the network)", elsewhere);
   const CommandAnswer answer = Ask(service, RobotStopRequest{true, "a test"});
   EXPECT_FALSE(answer.stops_nothing);
@@ -226,8 +225,8 @@ TEST_F(CommandServiceTest, DeletesTheWholeApplicationOnlyWhenThatIsMeant) {
   EXPECT_THAT(ErrorOf(refused), HasSubstr("is the whole application"));
   EXPECT_TRUE(Has("/app"));
   EXPECT_TRUE(Ask(service, ChangeRequest{{.changes = {DeleteElement{"/app/a"}}, .positions = {}}}));
-  EXPECT_TRUE(Ask(service, ChangeRequest{.placed = {.changes = deletion, .positions = {}},
-                                         .may_end_application = true}));
+  EXPECT_TRUE(
+      Ask(service, ChangeRequest{.placed = {.changes = deletion, .positions = {}}, .may_end_application = true}));
   EXPECT_FALSE(Has("/app"));
 }
 

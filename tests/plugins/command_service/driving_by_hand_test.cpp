@@ -110,9 +110,11 @@ TEST_F(DrivingByHand, WhoDrivesMaySayThatHeHasLeft) {
   by_hand.LookAtDeadlines();
   EXPECT_EQ(Read(), Motion{});
   EXPECT_THAT(by_hand.All(), ElementsAre(Pair(kMotion, HandState::kLost)));
-  EXPECT_THAT(log.ReadEntries(0, 9).entries.back().text, HasSubstr("who drove it has left; it is at rest until it is released"));
+  EXPECT_THAT(log.ReadEntries(0, 9).entries.back().text,
+              HasSubstr("who drove it has left; it is at rest until it is released"));
   EXPECT_THAT(Drive(by_hand, "{forward: 0.3}"), HasSubstr("this hold has ended"));
-  EXPECT_THAT(Drive(by_hand, "{forward: 0.3}", "b"), HasSubstr("this hold has ended")) << "what is ended before it begins";
+  EXPECT_THAT(Drive(by_hand, "{forward: 0.3}", "b"), HasSubstr("this hold has ended"))
+      << "what is ended before it begins";
   EXPECT_EQ(Drive(by_hand, "{forward: 0.3}", "c"), "");
 }
 
@@ -216,9 +218,7 @@ TEST_F(DrivingByHand, WhatIsReleasedBehindItsBackIsNotBlockedAnyMore) {
 
 TEST_F(DrivingByHand, ADeadlineMustMakeSense) {
   HandSettings by_hand(runtime, worker, log, &machine);
-  const auto with = [&](Duration deadline) {
-    return Publish(by_hand, {kMotion, "{forward: 0.3}", {}, deadline});
-  };
+  const auto with = [&](Duration deadline) { return Publish(by_hand, {kMotion, "{forward: 0.3}", {}, deadline}); };
   EXPECT_THAT(with(Duration::zero()), HasSubstr("from 10ms to 60s"));
   EXPECT_THAT(with(2min), HasSubstr("from 10ms to 60s"));
   EXPECT_EQ(Read(), (Motion{0.4, 0})) << "nothing has been set";
@@ -231,9 +231,8 @@ TEST_F(DrivingByHand, SomebodyLooksAtTheDeadlinesAllTheTime) {
   EXPECT_EQ(Read(), (Motion{0.3, 0}));
   EXPECT_EQ(Publish(by_hand, {kMotion, "{turn: 1}", {}, PublishRequest::kShortestDeadline}), "");
   WaitUntil("the base is at rest", [&] { return Read() == Motion{}; });
-  WaitUntil("it is said to be lost", [&] {
-    return by_hand.All() == std::vector{std::pair(std::string(kMotion), HandState::kLost)};
-  });
+  WaitUntil("it is said to be lost",
+            [&] { return by_hand.All() == std::vector{std::pair(std::string(kMotion), HandState::kLost)}; });
 }
 
 // As a program in the process does.
@@ -244,7 +243,8 @@ TEST_F(DrivingByHand, AValueFromElsewhereEndsTheHoldOfBefore) {
   EXPECT_THAT(by_hand.All(), ElementsAre(Pair(kMotion, HandState::kSet)));
   std::atomic<int> turns{0};
   TaskGroup tasks(worker);
-  tasks.PostSteps([&]() -> std::optional<Duration> { return ++turns < 5 ? std::optional<Duration>(10ms) : std::nullopt; });
+  tasks.PostSteps(
+      [&]() -> std::optional<Duration> { return ++turns < 5 ? std::optional<Duration>(10ms) : std::nullopt; });
   WaitUntil("the worker has had its turns", [&] { return turns == 5; });
   EXPECT_EQ(Read(), Motion{}) << "nothing of before is published again";
   EXPECT_TRUE(SetPortByHand(runtime, kMotion, "{forward: 0.2}"));
@@ -270,9 +270,8 @@ TEST_F(DrivingByHand, NothingIsPublishedAgainAfterTheDeadline) {
   // The worker has had its turn: whatever it was to publish again it has.
   std::atomic<int> turns{0};
   TaskGroup tasks(worker);
-  tasks.PostSteps([&]() -> std::optional<Duration> {
-    return ++turns < 5 ? std::optional<Duration>(10ms) : std::nullopt;
-  });
+  tasks.PostSteps(
+      [&]() -> std::optional<Duration> { return ++turns < 5 ? std::optional<Duration>(10ms) : std::nullopt; });
   WaitUntil("some turns of the worker", [&] { return turns >= 5; });
   EXPECT_EQ(published(), at_rest);
   EXPECT_EQ(Read(), Motion{});

@@ -39,12 +39,14 @@ TEST(RequestTable, EachRequestSaysWhatItNeeds) {
       fields[std::string(field.name)] = field.name == "level" ? "info" : "a";
     }
     EXPECT_EQ(ErrorOf(each.name.data(), fields), "");
-    EXPECT_EQ(LetsMove(*MakeRequest(each.name, fields, "a test")), each.lets_move) << each.name << " is called otherwise";
+    EXPECT_EQ(LetsMove(*MakeRequest(each.name, fields, "a test")), each.lets_move)
+        << each.name << " is called otherwise";
   }
   EXPECT_EQ((*FindRequest("stop"))->role, "look") << "anybody may press";
   EXPECT_EQ((*FindRequest("release"))->role, "drive");
   for (const char* const name : {"pause", "resume"}) {
-    EXPECT_EQ((*FindRequest(name))->role, "change") << name << " of a module, which may be what keeps the robot from colliding";
+    EXPECT_EQ((*FindRequest(name))->role, "change")
+        << name << " of a module, which may be what keeps the robot from colliding";
     EXPECT_EQ((*FindRequest(name))->role_of_whole, "drive") << name;
   }
 }
@@ -77,7 +79,8 @@ TEST(RequestTable, NumbersAndDurationsAreReadAsTheyCome) {
   EXPECT_EQ(publish.value, "3.5");
   EXPECT_EQ(publish.rate, 20);
   EXPECT_EQ(publish.deadline, Duration(300ms));
-  EXPECT_EQ(Made<PublishRequest>("publish", {{"path", "/a"}, {"value", ""}, {"deadline", 0.25}}).deadline, Duration(250ms));
+  EXPECT_EQ(Made<PublishRequest>("publish", {{"path", "/a"}, {"value", ""}, {"deadline", 0.25}}).deadline,
+            Duration(250ms));
   const auto change = Made<ChangeRequest>("set", {{"path", "/a/speed"}, {"value", "0.3"}});
   EXPECT_EQ(std::get<SetParameter>(change.placed.changes.at(0)).path, "/a/speed");
   EXPECT_EQ(change.client, "a test");

@@ -29,8 +29,8 @@ class SavePlaceTest : public ::testing::Test {
 
 TEST_F(SavePlaceTest, IsBesideTheFileOfTheApplicationOrBelow) {
   for (const std::string& wanted :
-       {std::string("new.xml"), std::string("below/new.xml"), std::string("./below/../new.xml"),
-        file.string(), (root / "apps" / "new.xml").string()}) {
+       {std::string("new.xml"), std::string("below/new.xml"), std::string("./below/../new.xml"), file.string(),
+        (root / "apps" / "new.xml").string()}) {
     const auto place = SavePlace(file.string(), wanted);
     ASSERT_TRUE(place) << wanted << place.error().ToString();
     EXPECT_THAT(*place, ::testing::StartsWith((root / "apps").string()));
@@ -42,9 +42,8 @@ TEST_F(SavePlaceTest, IsNowhereElse) {
   fs::create_directory_symlink(root / "other", root / "apps" / "link");
   fs::create_symlink(root / "other" / "target.xml", root / "apps" / "link.xml");
   for (const std::string& wanted :
-       {std::string("../other/new.xml"), std::string("/etc/new.xml"),
-        std::string("below/../../other/new.xml"), std::string("link/new.xml"),
-        std::string("link.xml"), (root / "apps2" / "new.xml").string(),
+       {std::string("../other/new.xml"), std::string("/etc/new.xml"), std::string("below/../../other/new.xml"),
+        std::string("link/new.xml"), std::string("link.xml"), (root / "apps2" / "new.xml").string(),
         std::string("../app.xml")}) {
     const auto place = SavePlace(file.string(), wanted);
     ASSERT_FALSE(place) << wanted << " -> " << *place;

@@ -11,8 +11,8 @@
 #include <gmock/gmock.h>
 
 #include "core/module/module.h"
-#include "core/port/input.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/input.h"
 #include "plugins/command_service/command_service.h"
 #include "plugins/command_service/hand_settings.h"
 #include "plugins/structure/change_history.h"
@@ -35,8 +35,7 @@ class World {
   World() {
     for (const char* type : {"test/idle", "test/other"}) {
       (void)modules.Add({type, "", "test", [](const Placement& placement) {
-                           return std::unique_ptr<FrameworkElement>(
-                               std::make_unique<Idle>(placement));
+                           return std::unique_ptr<FrameworkElement>(std::make_unique<Idle>(placement));
                          }});
     }
     (void)runtime.MakeReady(runtime.root());
@@ -99,9 +98,7 @@ void Endure(const CommandRequest& request, const std::function<bool(World&)>& is
   EXPECT_GT(nth, 1u);
 }
 
-ChangeRequest Request(ChangeSet changes) {
-  return {{.changes = std::move(changes), .positions = {}}};
-}
+ChangeRequest Request(ChangeSet changes) { return {{.changes = std::move(changes), .positions = {}}}; }
 
 TEST(ServiceFaults, AChangeIsToldAsDoneIfItIs) {
   Endure(Request({CreateModule{"/a_module_with_a_long_name", "test/idle"}}),

@@ -102,8 +102,7 @@ TEST_F(StopAndHand, WhoLooksKeepsNoDeadlineUp) {
   });
   for (int round = 0; round < 20; ++round) {
     for (int i = 0; i < kPorts; ++i) {
-      (void)by_hand.Publish(
-          {"/wheels" + std::to_string(i) + "/in", "0.3", {}, Duration(10ms), ""});
+      (void)by_hand.Publish({"/wheels" + std::to_string(i) + "/in", "0.3", {}, Duration(10ms), ""});
     }
     std::this_thread::sleep_for(12ms);
   }

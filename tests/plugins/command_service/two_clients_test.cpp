@@ -42,8 +42,7 @@ std::chrono::milliseconds TimeToRun() {
 }
 
 /// One way to ask an application for something; nothing: the connection is gone.
-using Ask =
-    std::function<std::optional<bool>(const std::string& what, const std::string& argument)>;
+using Ask = std::function<std::optional<bool>(const std::string& what, const std::string& argument)>;
 
 /// The few changes of this test, as the page tells them.
 std::string ChangeMessage(const std::string& text) {
@@ -83,8 +82,7 @@ class TwoClients : public ::testing::Test {
     EXPECT_TRUE(runtime.MakeReady(runtime.root()));
     const auto outcome = editor.Apply({CreateGroup{"/app"}, AssignToThread{"/app", "main"},
                                        CreateModule{"/app/kept", "counting/counting"},
-                                       CreateModule{"/app/a", "counting/counting"},
-                                       AssignToThread{"/app/a", "other"}});
+                                       CreateModule{"/app/a", "counting/counting"}, AssignToThread{"/app/a", "other"}});
     EXPECT_TRUE(outcome) << outcome.diagnostics.ToString();
     EXPECT_TRUE(scheduler.Start());
     hooks.reload = [this](const std::string& plugin) -> Result<std::string> {
@@ -93,16 +91,13 @@ class TwoClients : public ::testing::Test {
       if (!reloaded) return reloaded.diagnostics.errors().front();
       return "loaded " + plugin + " anew";
     };
-    service.emplace(ServedApplication{runtime, plugins.modules(), editor, log, hooks, &history,
-                                      &scheduler.pace()});
-    auto control =
-        ControlServer::Start(*service, {.application = "app", .folder = folder.path() / "sockets"});
+    service.emplace(ServedApplication{runtime, plugins.modules(), editor, log, hooks, &history, &scheduler.pace()});
+    auto control = ControlServer::Start(*service, {.application = "app", .folder = folder.path() / "sockets"});
     EXPECT_TRUE(control) << control.error().ToString();
     server = std::move(*control);
-    inspector =
-        std::make_unique<Inspector>(*service, scheduler, InspectorOptions{.application = "app"});
-    auto web_started = WebServer::Start({.port = 0, .limits = {.messages_per_second = 1e6}}, {},
-                                        {inspector->Protocol()});
+    inspector = std::make_unique<Inspector>(*service, scheduler, InspectorOptions{.application = "app"});
+    auto web_started =
+        WebServer::Start({.port = 0, .limits = {.messages_per_second = 1e6}}, {}, {inspector->Protocol()});
     EXPECT_TRUE(web_started) << web_started.error().ToString();
     web = std::move(*web_started);
   }
@@ -118,8 +113,8 @@ class TwoClients : public ::testing::Test {
   void Build(const std::string& version) const {
     fs::create_directories(folder.path() / "plugins");
     const fs::path library = folder.path() / "plugins" / "counting.so";
-    fs::copy_file(fs::path(RUNNEL_TEST_PLUGINS) / ("counting_" + version + ".so"),
-                  folder.path() / "new", fs::copy_options::overwrite_existing);
+    fs::copy_file(fs::path(RUNNEL_TEST_PLUGINS) / ("counting_" + version + ".so"), folder.path() / "new",
+                  fs::copy_options::overwrite_existing);
     fs::rename(folder.path() / "new", library);
   }
 
@@ -162,36 +157,30 @@ class TwoClients : public ::testing::Test {
   Heard WorkAsTerminal() {
     auto client = ControlClient::Connect(server->socket());
     EXPECT_TRUE(client) << client.error().ToString();
-    return Work("terminal",
-                [&](const std::string& what, const std::string& argument) -> std::optional<bool> {
-                  const std::string request =
-                      what == "change" ? "change\n" + argument : what + " " + argument;
-                  const auto ignored = [](std::string_view) { return true; };
-                  const auto code = client->Ask(request, ignored, ignored);
-                  if (!code) return {};
-                  return *code == 0;
-                });
+    return Work("terminal", [&](const std::string& what, const std::string& argument) -> std::optional<bool> {
+      const std::string request = what == "change" ? "change\n" + argument : what + " " + argument;
+      const auto ignored = [](std::string_view) { return true; };
+      const auto code = client->Ask(request, ignored, ignored);
+      if (!code) return {};
+      return *code == 0;
+    });
   }
   Heard WorkAsBrowser() {
     RawClient client(web->port());
     EXPECT_THAT(client.Upgrade("runnel.inspector.v1"), ::testing::HasSubstr("101 "));
     int number = 0;
-    return Work("browser",
-                [&](const std::string& what, const std::string& argument) -> std::optional<bool> {
-                  std::string message =
-                      "{\"op\":\"" + what + "\",\"request\":" + std::to_string(++number);
-                  if (what == "change") message += ",\"changes\":[" + ChangeMessage(argument) + "]";
-                  if (what == "reload") message += ",\"plugin\":\"" + argument + "\"";
-                  client.SendText(message + "}");
-                  const std::string head =
-                      "{\"op\":\"reply\",\"request\":" + std::to_string(number) + ",\"ok\":";
-                  for (;;) {
-                    const auto reply = client.Receive(1);
-                    if (!reply) return {};
-                    if (reply->payload.starts_with(head))
-                      return reply->payload.starts_with(head + "true");
-                  }
-                });
+    return Work("browser", [&](const std::string& what, const std::string& argument) -> std::optional<bool> {
+      std::string message = "{\"op\":\"" + what + "\",\"request\":" + std::to_string(++number);
+      if (what == "change") message += ",\"changes\":[" + ChangeMessage(argument) + "]";
+      if (what == "reload") message += ",\"plugin\":\"" + argument + "\"";
+      client.SendText(message + "}");
+      const std::string head = "{\"op\":\"reply\",\"request\":" + std::to_string(number) + ",\"ok\":";
+      for (;;) {
+        const auto reply = client.Receive(1);
+        if (!reply) return {};
+        if (reply->payload.starts_with(head)) return reply->payload.starts_with(head + "true");
+      }
+    });
   }
 
   TemporaryFolder folder;

@@ -75,8 +75,8 @@ TEST_F(CallCommandTest, TimesOutWhenNobodyServes) {
 }
 
 TEST_F(CallCommandTest, ListsActivitiesAndAbortsThem) {
-  EXPECT_THAT(Ask("activities").output, ::testing::AllOf(HasSubstr("/app/clerk/output/sort: 0 waiting"),
-                                                         ::testing::Not(HasSubstr("write"))));
+  EXPECT_THAT(Ask("activities").output,
+              ::testing::AllOf(HasSubstr("/app/clerk/output/sort: 0 waiting"), ::testing::Not(HasSubstr("write"))));
   EXPECT_THAT(Ask("activities all=yes").output, HasSubstr("write: 0 waiting"));
   EXPECT_THAT(Ask("activities /clerk/sort abort=yes").errors, HasSubstr("no call is under way"));
   Told told;

@@ -117,15 +117,13 @@ TEST_F(ControlTest, CountsAtThePublisher) {
 }
 
 TEST_F(ControlTest, CarriesOutChangesTogetherOrNotAtAll) {
-  const Told refused =
-      Ask("change file=plan.txt\ncreate /c test/counter\nset /c/parameter/sped 3\n");
+  const Told refused = Ask("change file=plan.txt\ncreate /c test/counter\nset /c/parameter/sped 3\n");
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.errors, HasSubstr("did you mean 'speed'?"));
   EXPECT_EQ(Ask("ls /c").code, 2);
   const Told unreadable = Ask("change file=plan.txt\ncreate /c test/counter\n  sett /c 3\n");
   EXPECT_EQ(unreadable.code, 2);
-  EXPECT_EQ(unreadable.errors,
-            "plan.txt:2:3: error: there is no change 'sett'; did you mean 'set'?\n");
+  EXPECT_EQ(unreadable.errors, "plan.txt:2:3: error: there is no change 'sett'; did you mean 'set'?\n");
   const Told done = Change("create /c test/counter speed=2\nconnect /c/out /b/in");
   EXPECT_EQ(done.code, 0) << done.errors;
   EXPECT_THAT(Ask("ls /c").output, HasSubstr("double = 2 m/s"));
@@ -173,8 +171,7 @@ TEST_F(ControlTest, SaysFromWhichLevelOnModulesAreLogged) {
   EXPECT_EQ(Ask("log level=/a=debug").output, "/app/a: logs debug and more\n");
   EXPECT_EQ(Ask("log level=error").output, "/: logs error and more\n");
   EXPECT_THAT(ReadLogLevels(runtime),
-              testing::ElementsAre(testing::Pair("", LogLevel::kError),
-                                   testing::Pair("/app/a", LogLevel::kDebug)));
+              testing::ElementsAre(testing::Pair("", LogLevel::kError), testing::Pair("/app/a", LogLevel::kDebug)));
   EXPECT_EQ(Ask("log level=/a=inherit").output, "/app/a: logs as what is around it\n");
   EXPECT_THAT(ReadLogLevels(runtime), testing::ElementsAre(testing::Pair("", LogLevel::kError)));
   EXPECT_THAT(Ask("undo").output, HasSubstr("undone: log /a inherit"));
@@ -207,9 +204,7 @@ TEST_F(ControlTest, SavesIfItsProgramCan) {
     if (file == "bad") return Error{.message = "disk full"};
     return "saved to " + file;
   };
-  hooks.save_configuration = [](const std::string& file) -> Result<std::string> {
-    return "saved values to " + file;
-  };
+  hooks.save_configuration = [](const std::string& file) -> Result<std::string> { return "saved values to " + file; };
   StartServer({.application = "app", .folder = folder.path() / "runnel"});
   EXPECT_EQ(Ask("save good").output, "saved to good\n");
   EXPECT_EQ(Ask("save bad").code, 1);
@@ -232,8 +227,7 @@ TEST_F(ControlTest, LoadsThePluginsThatTypesNeed) {
 
 TEST_F(ControlTest, AnswersSeveralRequestsOneAfterTheOther) {
   const int client = RawClient();
-  SendAll(client, FrameBytes("request", "paths") + FrameBytes("request", "types") +
-                      FrameBytes("request", "nonsense"));
+  SendAll(client, FrameBytes("request", "paths") + FrameBytes("request", "types") + FrameBytes("request", "nonsense"));
   shutdown(client, SHUT_WR);
   const std::string all = ReadAll(client);
   const auto ends = [&](const std::string& text) {
@@ -254,8 +248,7 @@ TEST(SimulatedControl, IsReachedWhileTimeRunsAsFastAsItCan) {
   Runtime runtime;
   ModuleRegistry modules;
   ASSERT_TRUE(modules.Add({"test/counter", "", "test", [](const Placement& placement) {
-                             return std::unique_ptr<FrameworkElement>(
-                                 std::make_unique<Counter>(placement));
+                             return std::unique_ptr<FrameworkElement>(std::make_unique<Counter>(placement));
                            }}));
   Scheduler scheduler(runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
   auto& app = runtime.Create<Group>(runtime.root(), "app");
@@ -264,8 +257,7 @@ TEST(SimulatedControl, IsReachedWhileTimeRunsAsFastAsItCan) {
   StructureEditor editor(runtime, modules, &scheduler);
   ApplicationLog log(runtime.clock());
   CommandService service({runtime, modules, editor, log});
-  auto server =
-      ControlServer::Start(service, {.application = "app", .folder = folder.path() / "runnel"});
+  auto server = ControlServer::Start(service, {.application = "app", .folder = folder.path() / "runnel"});
   ASSERT_TRUE(server);
   std::atomic<bool> ends{false};
   std::thread runner([&] {
@@ -277,14 +269,12 @@ TEST(SimulatedControl, IsReachedWhileTimeRunsAsFastAsItCan) {
     EXPECT_EQ(test::Ask(*client, "echo /a/out count=3").code, 0);
     EXPECT_EQ(test::Ask(*client, "ls long=yes").code, 0);
     for (int i = 0; i < 20; ++i) {
-      const Told told =
-          test::Ask(*client, "change\nset /a/parameter/speed 2; create /b test/counter");
+      const Told told = test::Ask(*client, "change\nset /a/parameter/speed 2; create /b test/counter");
       EXPECT_EQ(told.code, 0) << told.errors;
       EXPECT_EQ(test::Ask(*client, "change\nreplace /b with test/counter probation=3").code, 0);
       EXPECT_EQ(test::Ask(*client, "change\ndelete /b").code, 0);
     }
-    EXPECT_THAT(test::Ask(*client, "hz /a/out count=1").output,
-                HasSubstr("of the application's time"));
+    EXPECT_THAT(test::Ask(*client, "hz /a/out count=1").output, HasSubstr("of the application's time"));
   }
   server->reset();
   ends.store(true);

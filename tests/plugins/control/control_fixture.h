@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -142,15 +142,13 @@ class ControlTest : public ::testing::Test {
   template <typename M>
   void Register(const std::string& name) {
     EXPECT_TRUE(modules.Add({name, "does it", "test", [](const Placement& placement) {
-                               return std::unique_ptr<FrameworkElement>(
-                                   std::make_unique<M>(placement));
+                               return std::unique_ptr<FrameworkElement>(std::make_unique<M>(placement));
                              }}));
   }
   void StartServer(ControlOptions options) {
     server.reset();
     service = std::make_unique<CommandService>(
-        ServedApplication{runtime, modules, editor, log, hooks, &history, &scheduler.pace(),
-                          &scheduler});
+        ServedApplication{runtime, modules, editor, log, hooks, &history, &scheduler.pace(), &scheduler});
     auto started = ControlServer::Start(*service, std::move(options));
     ASSERT_TRUE(started) << started.error().ToString();
     server = std::move(*started);

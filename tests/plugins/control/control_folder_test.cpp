@@ -61,8 +61,7 @@ TEST(ControlFolder, IsRefusedIfOthersCouldGetIn) {
   EXPECT_THAT(FindControlSockets(open).error().message, HasSubstr("is open to others"));
   ASSERT_EQ(mkdir((folder.path() / "mine").c_str(), 0700), 0);
   std::filesystem::create_directory_symlink(folder.path() / "mine", folder.path() / "link");
-  EXPECT_THAT(MakeControlFolder(folder.path() / "link").error().message,
-              HasSubstr("is not a folder"));
+  EXPECT_THAT(MakeControlFolder(folder.path() / "link").error().message, HasSubstr("is not a folder"));
   std::ofstream(folder.path() / "file") << "x";
   EXPECT_FALSE(ListenInFolder(folder.path() / "file"));
   EXPECT_FALSE(ListenInFolder(folder.path() / "not" / "there"));
@@ -87,7 +86,8 @@ TEST(ControlFolder, LosesTheSocketsOfTheDead) {
   const auto found = FindControlSockets(folder.path());
   ASSERT_TRUE(found);
   EXPECT_THAT(*found, ::testing::ElementsAre(listening->path));
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "1.sock")) << "who has that number lives, and may begin to listen";
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "1.sock"))
+      << "who has that number lives, and may begin to listen";
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "999999999.sock"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "2.sock"));
   close(listening->descriptor);

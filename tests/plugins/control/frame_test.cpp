@@ -43,10 +43,9 @@ TEST(Frame, IsRefusedBeforeItHasComeIfItIsTooLong) {
 }
 
 TEST(Frame, IsRefusedIfItIsNone) {
-  for (const char* bytes :
-       {"x\n", "\n", "Request 1\n", "request -1\n", "request 1x\n", "request 1 \n", " 1\n",
-        "request 99999999999999999999999\n", "request 1\nabc", "averyveryverylongkind 1\n",
-        "no end of line in the first forty bytes"}) {
+  for (const char* bytes : {"x\n", "\n", "Request 1\n", "request -1\n", "request 1x\n", "request 1 \n", " 1\n",
+                            "request 99999999999999999999999\n", "request 1\nabc", "averyveryverylongkind 1\n",
+                            "no end of line in the first forty bytes"}) {
     FrameReader reader(100);
     reader.Add(bytes);
     EXPECT_FALSE(reader.Take()) << bytes;

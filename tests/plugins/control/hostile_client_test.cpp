@@ -107,8 +107,8 @@ TEST_F(ControlTest, RefusesWhatIsTooLongBeforeItHasCome) {
 }
 
 TEST_F(ControlTest, RefusesWhatIsNoFrameAndHangsUp) {
-  for (const char* bytes : {"GET / HTTP/1.1\r\n\r\n", "\n", "reply 2\nls\n", "request 2\nlsX",
-                            "request 99999999999999999999\n"}) {
+  for (const char* bytes :
+       {"GET / HTTP/1.1\r\n\r\n", "\n", "reply 2\nls\n", "request 2\nlsX", "request 99999999999999999999\n"}) {
     const int client = RawClient();
     SendAll(client, bytes);
     EXPECT_THAT(ReadAll(client), HasSubstr("error: ")) << bytes;

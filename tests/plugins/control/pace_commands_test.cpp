@@ -22,8 +22,7 @@ class PacedControlTest : public ::testing::Test {
     CreateThread(runtime, "main", {.period = 10ms});
     counter = &runtime.Create<Counter>(runtime.root(), "counter");
     EXPECT_TRUE(runtime.MakeReady(runtime.root()));
-    auto started =
-        ControlServer::Start(service, {.application = "app", .folder = folder.path() / "runnel"});
+    auto started = ControlServer::Start(service, {.application = "app", .folder = folder.path() / "runnel"});
     EXPECT_TRUE(started) << started.error().ToString();
     server = std::move(*started);
     running = std::thread([this] {
@@ -46,15 +45,11 @@ class PacedControlTest : public ::testing::Test {
   TemporaryFolder folder;
   Runtime runtime;
   ModuleRegistry modules;
-  Scheduler scheduler{runtime,
-                      {.clock = SchedulerOptions::ClockKind::kSimulated, .is_paused = true}};
+  Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated, .is_paused = true}};
   StructureEditor editor{runtime, modules, &scheduler};
   ApplicationLog log{runtime.clock()};
-  CommandService service{{.runtime = runtime,
-                          .modules = modules,
-                          .editor = editor,
-                          .log = log,
-                          .pace = &scheduler.pace()}};
+  CommandService service{
+      {.runtime = runtime, .modules = modules, .editor = editor, .log = log, .pace = &scheduler.pace()}};
   Counter* counter = nullptr;
   std::unique_ptr<ControlServer> server;
   std::thread running;
@@ -84,8 +79,8 @@ TEST_F(PacedControlTest, ChangesTheSpeed) {
 }
 
 TEST_F(PacedControlTest, RefusesWhatIsNoCountOrSpeed) {
-  for (const std::string request : {"step 0", "step x", "step 2x", "speed fast", "speed -1",
-                                    "speed nan", "speed 1e9", "pause now", "step 1 2"}) {
+  for (const std::string request :
+       {"step 0", "step x", "step 2x", "speed fast", "speed -1", "speed nan", "speed 1e9", "pause now", "step 1 2"}) {
     const Told told = Ask(request);
     EXPECT_EQ(told.code, 2) << request;
     EXPECT_THAT(told.errors, HasSubstr("error: ")) << request;

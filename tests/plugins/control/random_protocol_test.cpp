@@ -45,8 +45,8 @@ std::string StructureOf(Runtime& runtime) {
 class RandomProtocol : public ControlTest {
  protected:
   // How the command ended; nothing if it would go on for ever, or waits for time to pass.
-  std::optional<ControlCode> Carry(const std::string& request, Answer& answer,
-                                   CommandService& commands, TaskGroup& tasks) {
+  std::optional<ControlCode> Carry(const std::string& request, Answer& answer, CommandService& commands,
+                                   TaskGroup& tasks) {
     auto command = MakeCommand(request, commands, tasks);
     if (!command) {
       answer.WriteError(ErrorLine(command.error()));
@@ -65,8 +65,8 @@ class RandomProtocol : public ControlTest {
     if (StructureOf(runtime).size() < 4'000) return;
     (void)editor.Apply({DeleteElement{"/app"}});
     (void)editor.Apply({CreateGroup{"/app"}});
-    (void)editor.Apply({CreateModule{"/app/a", "test/counter"}, CreateModule{"/app/b", "test/sink"},
-                        AssignToThread{"/app", "main"}});
+    (void)editor.Apply(
+        {CreateModule{"/app/a", "test/counter"}, CreateModule{"/app/b", "test/sink"}, AssignToThread{"/app", "main"}});
   }
 };
 

@@ -23,8 +23,7 @@ class RandomRequests {
     std::ranges::sort(files);
     for (const auto& file : files) {
       std::ifstream stream(file, std::ios::binary);
-      corpus_.emplace_back(std::istreambuf_iterator<char>(stream),
-                           std::istreambuf_iterator<char>());
+      corpus_.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
     }
   }
 
@@ -42,16 +41,13 @@ class RandomRequests {
     std::string payload = Next();
     std::string length = std::to_string(payload.size());
     if (Below(20) == 0) length = OneOf({"0", "-1", "1048577", "18446744073709551616", "x", ""});
-    std::string bytes = (Below(20) == 0 ? OneOf({"reply", "", "Request", "end", "re quest"})
-                                        : std::string("request")) +
+    std::string bytes = (Below(20) == 0 ? OneOf({"reply", "", "Request", "end", "re quest"}) : std::string("request")) +
                         " " + length + "\n" + payload + "\n";
     if (Below(10) == 0) Damage(bytes);
     return bytes;
   }
 
-  std::size_t Below(std::size_t count) {
-    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
-  }
+  std::size_t Below(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
 
  private:
   std::string OneOf(const std::vector<std::string>& texts) { return texts[Below(texts.size())]; }
@@ -82,8 +78,7 @@ class RandomRequests {
                   "/c/parameter/speed"});
   }
   std::string Type() {
-    return OneOf(
-        {"test/counter", "test/sink", "test/failing", "test/nothing", "int32", "double", ""});
+    return OneOf({"test/counter", "test/sink", "test/failing", "test/nothing", "int32", "double", ""});
   }
   std::string Change() {
     switch (Below(10)) {
@@ -116,12 +111,11 @@ class RandomRequests {
       case 1:
         return OneOf({"echo ", "hz "}) + Path() + OneOf({"", " count=2", " full=yes", " count=0"});
       case 2:
-        return OneOf({"log", "log follow=yes", "paths", "types", "save", "save x", "lss", "pause",
-                      "resume", "step", "step 3", "speed 2", "speed x", "undo", "redo", ""});
+        return OneOf({"log", "log follow=yes", "paths", "types", "save", "save x", "lss", "pause", "resume", "step",
+                      "step 3", "speed 2", "speed x", "undo", "redo", ""});
       default: {
         std::string text = "change" + OneOf({"", " file=f"}) + "\n";
-        for (std::size_t left = 1 + Below(5); left > 0; --left)
-          text += Change() + OneOf({"\n", "; "});
+        for (std::size_t left = 1 + Below(5); left > 0; --left) text += Change() + OneOf({"\n", "; "});
         return text;
       }
     }

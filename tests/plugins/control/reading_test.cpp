@@ -15,8 +15,7 @@ using ::testing::Not;
 TEST(ReadableNumbersTest, HaveSixDigitsOutsideOfQuotationMarks) {
   EXPECT_EQ(ReadableNumbers("{forward: 0.39933782972553455, turn: -0.00397302164679287}"),
             "{forward: 0.399338, turn: -0.00397302}");
-  EXPECT_EQ(ReadableNumbers("[1234567890123, 0.1, 1e-07, 1.23456789e+22]"),
-            "[1234567890123, 0.1, 1e-07, 1.23457e+22]");
+  EXPECT_EQ(ReadableNumbers("[1234567890123, 0.1, 1e-07, 1.23456789e+22]"), "[1234567890123, 0.1, 1e-07, 1.23457e+22]");
   EXPECT_EQ(ReadableNumbers("{name: \"v0.123456789 \\\"0.123456789\\\"\", x: 2}"),
             "{name: \"v0.123456789 \\\"0.123456789\\\"\", x: 2}");
   EXPECT_EQ(ReadableNumbers("left_0.12345678 v1.23456789"), "left_0.12345678 v1.23456789");
@@ -96,7 +95,8 @@ TEST(SilenceTest, IsCountedInTheStateOfTheApplication) {
   Scheduler scheduler(runtime);
   StructureEditor editor(runtime, modules, &scheduler);
   ApplicationLog log(runtime.clock());
-  const ServedApplication application{.runtime = runtime, .modules = modules, .editor = editor, .log = log, .scheduler = &scheduler};
+  const ServedApplication application{
+      .runtime = runtime, .modules = modules, .editor = editor, .log = log, .scheduler = &scheduler};
   auto& app = runtime.Create<Group>(runtime.root(), "app");
   AssignThread(app, CreateThread(runtime, "main", {.period = 1ms}));
   auto& counter = runtime.Create<Counter>(app, "counter");

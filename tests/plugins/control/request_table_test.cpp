@@ -27,7 +27,8 @@ class RequestsOfTerminals : public ControlTest {
  protected:
   std::string AskAsOf(Time asked, const std::string& request) {
     const int client = RawClient();
-    SendAll(client, FrameBytes("at", std::to_string(asked.time_since_epoch().count())) + FrameBytes("request", request));
+    SendAll(client,
+            FrameBytes("at", std::to_string(asked.time_since_epoch().count())) + FrameBytes("request", request));
     std::string answer = ReadAll(client, "end ");
     close(client);
     return answer;

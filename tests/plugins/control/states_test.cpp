@@ -49,8 +49,8 @@ TEST_F(StatesTest, TheStopOfTheRobotIsToldWithWhoPressedIt) {
   EXPECT_THAT(Ask("ls /b").output, AllOf(HasSubstr(", driving"), Not(HasSubstr("STOP"))));
   runtime.robot_stop().Press("a terminal");
   EXPECT_THAT(State(), ::testing::MatchesRegex("running, STOP in force for [0-9]+ s, by a terminal"));
-  EXPECT_THAT(Ask("ls /b").output, AllOf(HasSubstr("by a terminal: all that drives has its safe value\n"),
-                                         HasSubstr(", driving, IN STOP")));
+  EXPECT_THAT(Ask("ls /b").output,
+              AllOf(HasSubstr("by a terminal: all that drives has its safe value\n"), HasSubstr(", driving, IN STOP")));
   (void)runtime.robot_stop().Release("a terminal");
   EXPECT_EQ(State(), "running");
   EXPECT_THAT(Ask("ls /b").output, Not(HasSubstr("STOP")));
@@ -108,8 +108,10 @@ TEST_F(StatesTest, WhatDrivesIsNamed) {
     const std::lock_guard lock(runtime.structure_mutex());
     EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0), {}, DrivingKind::kEffort));
   }
-  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force; 'runnel release' ends it; what drives: /app/b/input/in\n"));
-  EXPECT_THAT(Ask("release").output, HasSubstr("released the STOP that a terminal had pressed; what drives: /app/b/input/in\n"));
+  EXPECT_THAT(Ask("stop").output,
+              HasSubstr("STOP is in force; 'runnel release' ends it; what drives: /app/b/input/in\n"));
+  EXPECT_THAT(Ask("release").output,
+              HasSubstr("released the STOP that a terminal had pressed; what drives: /app/b/input/in\n"));
   const Told again = Ask("release");
   EXPECT_EQ(again.code, 2);
   EXPECT_THAT(again.errors, HasSubstr("STOP is not in force"));
@@ -155,7 +157,8 @@ TEST_F(StatesTest, ATerminalIsHeardAsOfWhenItHasAsked) {
 TEST_F(StatesTest, WhatWasAskedForBeforeTheLastPressNeitherReleasesNorMoves) {
   const auto ask = [&](Time asked, const std::string& request) {
     const int client = RawClient();
-    SendAll(client, FrameBytes("at", std::to_string(asked.time_since_epoch().count())) + FrameBytes("request", request));
+    SendAll(client,
+            FrameBytes("at", std::to_string(asked.time_since_epoch().count())) + FrameBytes("request", request));
     const std::string answer = ReadAll(client, "end ");
     close(client);
     return answer;
@@ -165,11 +168,12 @@ TEST_F(StatesTest, WhatWasAskedForBeforeTheLastPressNeitherReleasesNorMoves) {
   runtime.robot_stop().Press("the test, once more");
   EXPECT_THAT(ask(between, "release stop"), HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_THAT(ask(between, "publish /b/in 1"), HasSubstr("STOP was pressed or released after this was asked for"));
-  for (const char* const late : {"change\nconnect /a/out /b/in", "undo", "redo", "restart /app/a", "resume", "resume /app/a", "step 1",
-                                 "speed 1", "call /a/out"}) {
+  for (const char* const late : {"change\nconnect /a/out /b/in", "undo", "redo", "restart /app/a", "resume",
+                                 "resume /app/a", "step 1", "speed 1", "call /a/out"}) {
     EXPECT_THAT(ask(between, late), HasSubstr("STOP was pressed or released after this was asked for")) << late;
   }
-  EXPECT_THAT(ask(between, "change\nlog /app/a debug"), HasSubstr("/app/a: logs debug and more")) << "nothing moves by it";
+  EXPECT_THAT(ask(between, "change\nlog /app/a debug"), HasSubstr("/app/a: logs debug and more"))
+      << "nothing moves by it";
   EXPECT_TRUE(runtime.robot_stop().in_force());
   EXPECT_THAT(ask(between, "stop"), testing::Not(HasSubstr("STOP was pressed after")));
   EXPECT_THAT(ask(SteadyClock().Now(), "release stop"), HasSubstr("released the STOP"));

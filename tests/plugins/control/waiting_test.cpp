@@ -32,8 +32,7 @@ TEST(WaitingCommand, IsDueWhenTheWorkerIsDoneAndNotBefore) {
   std::binary_semaphore may_go(0);
   std::counting_semaphore<> done(0);
   TaskGroup tasks(service.worker(), [&] { done.release(); });
-  for (const char* request :
-       {"save", "reload planning", "change\ncreate group /g", "undo", "redo"}) {
+  for (const char* request : {"save", "reload planning", "change\ncreate group /g", "undo", "redo"}) {
     tasks.Post([&] { may_go.acquire(); });
     auto command = MakeCommand(request, service, tasks);
     ASSERT_TRUE(command) << request;

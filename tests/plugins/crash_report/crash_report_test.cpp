@@ -19,10 +19,11 @@ TEST(CrashReportDeathTest, TheProcessEndsWhenItsHandlerCrashesToo) {
   const auto crash = [] {
     alarm(20);
     const pthread_t crashed = pthread_self();
-    const CrashReport report({.rescue = [crashed](const Crash&) {
-                                pthread_kill(crashed, SIGABRT);
-                                std::this_thread::sleep_for(std::chrono::hours(1));
-                              },
+    const CrashReport report({.rescue =
+                                  [crashed](const Crash&) {
+                                    pthread_kill(crashed, SIGABRT);
+                                    std::this_thread::sleep_for(std::chrono::hours(1));
+                                  },
                               .patience = std::chrono::hours(1)});
     raise(SIGSEGV);
   };

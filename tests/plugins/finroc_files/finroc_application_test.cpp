@@ -9,8 +9,8 @@
 
 #include "core/paths/late_connections.h"
 #include "core/port/proxy_port.h"
-#include "plugins/application_tags/run_description.h"
 #include "plugins/application_files/saving/application_saver.h"
+#include "plugins/application_tags/run_description.h"
 #include "plugins/scheduling/thread_container.h"
 #include "tests/plugins/application_files/reading/test_application.h"
 #include "tests/plugins/application_files/saving/application_text.h"
@@ -35,15 +35,14 @@ class FinrocApplication : public ::testing::Test {
       return nullptr;
     }
     EXPECT_TRUE(IsFinrocFile(document->root()));
-    const BuildOutcome outcome = BuildFinrocApplication(
-        *document, folder_ / "robot.finroc",
-        {shop_.runtime, shop_.plugins, shop_.tags, shop_.configuration}, BuildMode::kRun);
+    const BuildOutcome outcome =
+        BuildFinrocApplication(*document, folder_ / "robot.finroc",
+                               {shop_.runtime, shop_.plugins, shop_.tags, shop_.configuration}, BuildMode::kRun);
     said_ = outcome.diagnostics.ToString();
     return outcome.application;
   }
 
-  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) /
-                                  "finroc_application_test" /
+  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "finroc_application_test" /
                                   ::testing::UnitTest::GetInstance()->current_test_info()->name();
   Workshop shop_;
   std::string said_;
@@ -142,8 +141,7 @@ TEST_F(FinrocApplication, TellsOfEachThatHasNoCounterpart) {
     EXPECT_THAT(said_, HasSubstr(expected));
   }
   EXPECT_EQ(shop_.Get<Port>("/robot/c/input/value").Sources().size(), 1u);
-  EXPECT_EQ(shop_.Get<ThreadContainer>("/robot/threads/main").options().period,
-            std::chrono::milliseconds(40));
+  EXPECT_EQ(shop_.Get<ThreadContainer>("/robot/threads/main").options().period, std::chrono::milliseconds(40));
 }
 
 TEST_F(FinrocApplication, TakesValuesAsNewerVersionsNestThem) {

@@ -18,9 +18,8 @@ TEST_F(FoxgloveTest, GreetsWithWhatItCanDo) {
   const auto greetings = Take("serverInfo");
   ASSERT_EQ(greetings.size(), 1u);
   EXPECT_EQ(greetings[0]["name"], "demo");
-  EXPECT_THAT(greetings[0]["capabilities"],
-              UnorderedElementsAre("time", "parameters", "parametersSubscribe", "connectionGraph",
-                                   "clientPublish", "services"));
+  EXPECT_THAT(greetings[0]["capabilities"], UnorderedElementsAre("time", "parameters", "parametersSubscribe",
+                                                                 "connectionGraph", "clientPublish", "services"));
   EXPECT_EQ(greetings[0]["supportedEncodings"], Json({"json"}));
   EXPECT_FALSE(greetings[0]["sessionId"].get<std::string>().empty());
   EXPECT_THAT(protocol.names, ElementsAre("foxglove.websocket.v1", "foxglove.sdk.v1"));
@@ -30,8 +29,8 @@ TEST_F(FoxgloveTest, AdvertisesAllThatComesOut) {
   Begin();
   std::vector<std::string> topics;
   for (const auto& [topic, channel] : Channels()) topics.push_back(topic);
-  EXPECT_THAT(topics, ElementsAre("/log", "/robot/pose", "/robot/pose/foxglove", "/robot/scan",
-                                  "/robot/scan/foxglove", "/robot/speed", "/stop", "/tf"));
+  EXPECT_THAT(topics, ElementsAre("/log", "/robot/pose", "/robot/pose/foxglove", "/robot/scan", "/robot/scan/foxglove",
+                                  "/robot/speed", "/stop", "/tf"));
   const Json pose = channels["/robot/pose/foxglove"];
   EXPECT_EQ(pose["encoding"], "json");
   EXPECT_EQ(pose["schemaEncoding"], "jsonschema");
@@ -102,8 +101,7 @@ TEST_F(FoxgloveTest, FollowsTheStructure) {
 
 TEST_F(FoxgloveTest, CallsByTheWholePathWhatHasNoNameOfItsOwn) {
   auto& group = runtime.Create<Group>(application, "group");
-  runtime.Create<ProxyPort>(runtime.Create<Group>(group, "inner"), "x", Port::Direction::kOutput,
-                            TypeOf<double>());
+  runtime.Create<ProxyPort>(runtime.Create<Group>(group, "inner"), "x", Port::Direction::kOutput, TypeOf<double>());
   auto& first = runtime.Create<PortGroup>(group, "first");
   auto& second = runtime.Create<PortGroup>(group, "second");
   for (auto* ports : {&first, &second}) {
@@ -199,8 +197,7 @@ TEST_F(FoxgloveTest, KeepsItsPromisesToASlowClientInOrder) {
   for (int i = 0; i < 100000; ++i) SayRaw("no JSON");
   client.is_slow = false;
   ASSERT_TRUE(Wait([this] {
-    return std::ranges::any_of(client.texts,
-                               [](const Json& each) { return each["op"] == "parameterValues"; });
+    return std::ranges::any_of(client.texts, [](const Json& each) { return each["op"] == "parameterValues"; });
   }));
   EXPECT_EQ(client.texts.at(0)["op"], "serverInfo");
   EXPECT_LE(Take("status").size(), 100u) << "complaints are not kept without end";
@@ -293,12 +290,10 @@ TEST_F(FoxgloveTest, ShowsWhoPublishesAndWhoReads) {
   ASSERT_TRUE(Port::Disconnect(robot.speed, other.limit));
   Turn();
   const Json change = Take("connectionGraphUpdate").at(0);
-  EXPECT_EQ(change["subscribedTopics"],
-            (Json{{{"name", "/robot/speed"}, {"subscriberIds", Json::array()}}}));
+  EXPECT_EQ(change["subscribedTopics"], (Json{{{"name", "/robot/speed"}, {"subscriberIds", Json::array()}}}));
   ASSERT_TRUE(runtime.Delete(other));
   Turn();
-  EXPECT_EQ(Take("connectionGraphUpdate").at(0)["removedTopics"],
-            (Json{"/other/pose", "/other/scan", "/other/speed"}));
+  EXPECT_EQ(Take("connectionGraphUpdate").at(0)["removedTopics"], (Json{"/other/pose", "/other/scan", "/other/speed"}));
   Say({{"op", "unsubscribeConnectionGraph"}});
   ASSERT_TRUE(Port::Connect(robot.speed, robot.limit));
   Turn();

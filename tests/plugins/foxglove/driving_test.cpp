@@ -15,7 +15,8 @@ class Base final : public Module {
  public:
   using Module::Module;
   Input<double> wheels{this, "wheels", {.unit = "m/s", .drives = true}};
-  Input<double> lift{this, "lift", {.limits = {.default_value = 0.2}, .drives = true, .command = DrivingKind::kPosition}};
+  Input<double> lift{
+      this, "lift", {.limits = {.default_value = 0.2}, .drives = true, .command = DrivingKind::kPosition}};
 
  private:
   void Update() override {}
@@ -27,7 +28,8 @@ class FoxgloveDriving : public FoxgloveTest {
   ~FoxgloveDriving() override { session = nullptr; }
 
   void Advertise(std::uint32_t id, const std::string& topic) {
-    Say({{"op", "advertise"}, {"channels", {{{"id", id}, {"topic", topic}, {"encoding", "json"}, {"schemaName", "any"}}}}});
+    Say({{"op", "advertise"},
+         {"channels", {{{"id", id}, {"topic", topic}, {"encoding", "json"}, {"schemaName", "any"}}}}});
   }
   bool Reads(const Input<double>& input, double wanted) {
     return Wait([&] { return input.Get() == wanted; });
@@ -71,7 +73,8 @@ TEST_F(FoxgloveDriving, IsByHandAndEndsWithTheChannel) {
   EXPECT_TRUE(Reads(base.wheels, 0));
   EXPECT_TRUE(Wait([&] { return IsLost(); }));
   EXPECT_THAT(Hands(), ElementsAre(Pair(kWheels, HandState::kLost)));
-  EXPECT_THAT(log.ReadEntries(0, 99).entries.back().text, HasSubstr("who drove it has left; it is at rest until it is released"));
+  EXPECT_THAT(log.ReadEntries(0, 99).entries.back().text,
+              HasSubstr("who drove it has left; it is at rest until it is released"));
   EXPECT_EQ(Complaint(), "");
 }
 
@@ -101,7 +104,8 @@ TEST_F(FoxgloveDriving, WhoIsSilentDrivesNoLongerUntilHeSaysSomethingAnew) {
   Publish(1, "0.2");
   EXPECT_TRUE(Wait([&] {
     const auto entries = log.ReadEntries(0, 99).entries;
-    return std::ranges::any_of(entries, [](const auto& each) { return each.text.starts_with("publish /application/base/input/wheels 0.2"); });
+    return std::ranges::any_of(
+        entries, [](const auto& each) { return each.text.starts_with("publish /application/base/input/wheels 0.2"); });
   }));
   EXPECT_TRUE(Reads(base.wheels, 0)) << "once more";
   EXPECT_EQ(Complaint(), "");

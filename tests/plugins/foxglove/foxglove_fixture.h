@@ -40,9 +40,7 @@ using testing::IsEmpty;
 /// Another thread that has the structure lock, for as long as this lives.
 class HeldStructure {
  public:
-  explicit HeldStructure(Runtime& runtime) : other_([this, &runtime] { HoldIn(runtime); }) {
-    is_held_.acquire();
-  }
+  explicit HeldStructure(Runtime& runtime) : other_([this, &runtime] { HoldIn(runtime); }) { is_held_.acquire(); }
   ~HeldStructure() {
     is_over_.release();
     other_.join();
@@ -112,8 +110,7 @@ class Robot final : public Module {
   Input<Point2> goal{this, "goal"};
   Input<double> limit{this, "limit"};
   Input<Hidden> secret{this, "secret"};
-  Parameter<double> gain{
-      this, "gain", {.default_value = 0.5, .bounds = {0.0, 2.0}, .unit = "1", .description = ""}};
+  Parameter<double> gain{this, "gain", {.default_value = 0.5, .bounds = {0.0, 2.0}, .unit = "1", .description = ""}};
   Parameter<int> count{this, "count", {.default_value = 3}};
   Parameter<bool> is_on{this, "is_on", {.default_value = true}};
   Parameter<Side> side{this, "side", {.default_value = Side::kLeft}};
@@ -199,15 +196,13 @@ class FoxgloveTest : public testing::Test {
   std::vector<Value> TakeValues() {
     std::vector<Value> values;
     for (const std::string& bytes : client.binaries) {
-      if (bytes[0] == 1)
-        values.push_back({Number<4>(bytes, 1), Number<8>(bytes, 5), Json::parse(bytes.substr(13))});
+      if (bytes[0] == 1) values.push_back({Number<4>(bytes, 1), Number<8>(bytes, 5), Json::parse(bytes.substr(13))});
     }
     client.binaries.clear();
     return values;
   }
   template <int size>
-  static std::conditional_t<size == 4, std::uint32_t, std::uint64_t> Number(
-      const std::string& bytes, std::size_t at) {
+  static std::conditional_t<size == 4, std::uint32_t, std::uint64_t> Number(const std::string& bytes, std::size_t at) {
     using N = std::conditional_t<size == 4, std::uint32_t, std::uint64_t>;
     N number = 0;
     for (std::size_t i = size; i > 0; --i) {

@@ -19,18 +19,14 @@ TEST_F(FoxgloveHostileTest, EveryMistakeIsNamed) {
   for (const char* text : {"[]", "5", "null", "{}", R"({"op":5})", R"({"op":null})"}) {
     EXPECT_EQ(complaint_of(text), "a message is a JSON object with an \"op\"") << text;
   }
-  EXPECT_EQ(complaint_of(R"({"op":"subcribe"})"),
-            "there is no operation 'subcribe' here; did you mean 'subscribe'?");
+  EXPECT_EQ(complaint_of(R"({"op":"subcribe"})"), "there is no operation 'subcribe' here; did you mean 'subscribe'?");
   EXPECT_THAT(complaint_of(R"({"op":"fetchAsset","uri":"file:///etc/passwd","requestId":1})"),
               HasSubstr("there is no operation 'fetchAsset' here"));
   EXPECT_EQ(complaint_of(R"({"op":"subscribe"})"), "subscribe: \"subscriptions\" is missing");
-  EXPECT_EQ(complaint_of(R"({"op":"subscribe","subscriptions":5})"),
-            "subscribe: \"subscriptions\" must be a list");
-  EXPECT_EQ(complaint_of(R"({"op":"subscribe","subscriptions":[5]})"),
-            "subscribe: \"id\" is missing");
+  EXPECT_EQ(complaint_of(R"({"op":"subscribe","subscriptions":5})"), "subscribe: \"subscriptions\" must be a list");
+  EXPECT_EQ(complaint_of(R"({"op":"subscribe","subscriptions":[5]})"), "subscribe: \"id\" is missing");
   for (const char* id : {"-1", "1.5", "4294967296", "\"1\"", "[]", "1e2"}) {
-    EXPECT_EQ(complaint_of(R"({"op":"subscribe","subscriptions":[{"id":)" + std::string(id) +
-                           R"(,"channelId":1}]})"),
+    EXPECT_EQ(complaint_of(R"({"op":"subscribe","subscriptions":[{"id":)" + std::string(id) + R"(,"channelId":1}]})"),
               "subscribe: \"id\" must be a count, at most 4294967295")
         << id;
   }
@@ -40,19 +36,18 @@ TEST_F(FoxgloveHostileTest, EveryMistakeIsNamed) {
             "advertise: \"topic\" must be a text");
   EXPECT_EQ(complaint_of(R"({"op":"getParameters","parameterNames":[5]})"),
             "getParameters: \"parameterNames\" must be a list of texts");
-  EXPECT_EQ(complaint_of(R"({"op":"setParameters","parameters":[{"value":5}]})"),
-            "setParameters: \"name\" is missing");
-  EXPECT_EQ(complaint_of(R"({"op":"setParameters","parameters":["a"]})"),
-            "setParameters: \"name\" is missing");
-  EXPECT_EQ(complaint_of(R"({"op":"setParameters","parameters":[],"Id":"7"})"), "setParameters: has no \"Id\"; did you mean 'id'?");
-  EXPECT_EQ(complaint_of(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":1,"rate":5}]})"), "subscribe: has no \"rate\"");
+  EXPECT_EQ(complaint_of(R"({"op":"setParameters","parameters":[{"value":5}]})"), "setParameters: \"name\" is missing");
+  EXPECT_EQ(complaint_of(R"({"op":"setParameters","parameters":["a"]})"), "setParameters: \"name\" is missing");
+  EXPECT_EQ(complaint_of(R"({"op":"setParameters","parameters":[],"Id":"7"})"),
+            "setParameters: has no \"Id\"; did you mean 'id'?");
+  EXPECT_EQ(complaint_of(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":1,"rate":5}]})"),
+            "subscribe: has no \"rate\"");
 }
 
 TEST_F(FoxgloveHostileTest, BinaryGarbageIsRefused) {
   Begin();
-  for (const std::string& bytes :
-       {std::string(), std::string("\x01"), std::string("\x01\x00\x00\x00", 4),
-        std::string("\x05\x00\x00\x00\x00", 5), std::string(100, '\xff')}) {
+  for (const std::string& bytes : {std::string(), std::string("\x01"), std::string("\x01\x00\x00\x00", 4),
+                                   std::string("\x05\x00\x00\x00\x00", 5), std::string(100, '\xff')}) {
     session->OnBinary(bytes);
     EXPECT_THAT(Complaint(), HasSubstr("no binary message of this kind"));
   }

@@ -25,9 +25,7 @@ class FoxgloveParametersTest : public FoxgloveTest {
     }));
     return answer;
   }
-  static Json Setting(const char* name, const Json& value) {
-    return {{{"name", name}, {"value", value}}};
-  }
+  static Json Setting(const char* name, const Json& value) { return {{{"name", name}, {"value", value}}}; }
 };
 
 TEST_F(FoxgloveParametersTest, AreToldInTheFormOfTheProtocol) {
@@ -40,13 +38,9 @@ TEST_F(FoxgloveParametersTest, AreToldInTheFormOfTheProtocol) {
   EXPECT_THAT(all, Contains(Json{{"name", "/robot/side"}, {"value", "left"}}));
   EXPECT_THAT(all, Contains(Json{{"name", "/robot/patience"}, {"value", "20ms"}}));
   EXPECT_THAT(all, Contains(Json{{"name", "/robot/title"}, {"value", "R2"}}));
-  EXPECT_THAT(all, Contains(Json{{"name", "/robot/offset"},
-                                 {"value", {{"x", 1}, {"y", 2}, {"heading", 3}}}}));
-  EXPECT_THAT(
-      all,
-      Contains(Json{{"name", "/robot/weights"}, {"value", {0.5, 1}}, {"type", "float64_array"}}));
-  EXPECT_THAT(all,
-              Contains(Json{{"name", "/robot/bytes"}, {"value", "Af8="}, {"type", "byte_array"}}));
+  EXPECT_THAT(all, Contains(Json{{"name", "/robot/offset"}, {"value", {{"x", 1}, {"y", 2}, {"heading", 3}}}}));
+  EXPECT_THAT(all, Contains(Json{{"name", "/robot/weights"}, {"value", {0.5, 1}}, {"type", "float64_array"}}));
+  EXPECT_THAT(all, Contains(Json{{"name", "/robot/bytes"}, {"value", "Af8="}, {"type", "byte_array"}}));
 }
 
 TEST_F(FoxgloveParametersTest, AreSetAndToldAsTheyAreThen) {
@@ -82,8 +76,7 @@ TEST_F(FoxgloveParametersTest, AreNotSetToWhatTheyCannotBe) {
   EXPECT_THAT(complaint_of(Setting("/robot/gian", 1)), HasSubstr("did you mean '/robot/gain'?"));
   EXPECT_THAT(complaint_of(Setting("/robot/offset", {{"z", 1}})), HasSubstr("no field 'z'"));
   EXPECT_THAT(complaint_of({{{"name", "/robot/gain"}}}), HasSubstr("cannot be removed"));
-  EXPECT_THAT(complaint_of({{{"name", "/robot/gain"}, {"value", "%"}, {"type", "byte_array"}}}),
-              HasSubstr("base64"));
+  EXPECT_THAT(complaint_of({{{"name", "/robot/gain"}, {"value", "%"}, {"type", "byte_array"}}}), HasSubstr("base64"));
   EXPECT_THAT(complaint_of({{{"name", "/robot/gain"}, {"value", "AAA="}, {"type", "byte_array"}}}),
               HasSubstr("no list of bytes"));
   EXPECT_THAT(complaint_of(Setting("/robot/title", "R3")), HasSubstr("title"))
@@ -114,8 +107,7 @@ TEST_F(FoxgloveParametersTest, AreToldWhenTheyChange) {
   ASSERT_TRUE(robot.is_on.Set(false));
   std::vector<Json> told;
   EXPECT_TRUE(Wait([&] { return !(told = Take("parameterValues")).empty(); }));
-  EXPECT_EQ(told.at(0)["parameters"],
-            (Json{{{"name", "/robot/gain"}, {"value", 1.5}, {"type", "float64"}}}));
+  EXPECT_EQ(told.at(0)["parameters"], (Json{{{"name", "/robot/gain"}, {"value", 1.5}, {"type", "float64"}}}));
   Say({{"op", "unsubscribeParameterUpdates"}, {"parameterNames", Json::array()}});
   ASSERT_TRUE(robot.gain.Set(1.75));
   // Long after it would have been told.

@@ -9,8 +9,7 @@ class FoxglovePublishingTest : public FoxgloveTest {
  protected:
   void Advertise(std::uint32_t id, const std::string& topic, const std::string& encoding = "json") {
     Say({{"op", "advertise"},
-         {"channels",
-          {{{"id", id}, {"topic", topic}, {"encoding", encoding}, {"schemaName", "any"}}}}});
+         {"channels", {{{"id", id}, {"topic", topic}, {"encoding", encoding}, {"schemaName", "any"}}}}});
   }
   bool WaitForGoal(const Point2& wanted) {
     return Wait([&] {
@@ -64,10 +63,8 @@ TEST_F(FoxglovePublishingTest, TakesPathsAndBareValues) {
 TEST_F(FoxglovePublishingTest, GoesThroughTheInterfaceOfAGroup) {
   auto& group = runtime.Create<Group>(application, "group");
   auto& inner = runtime.Create<Robot>(group, "inner");
-  auto& way_in =
-      runtime.Create<ProxyPort>(group, "goal", Port::Direction::kInput, TypeOf<Point2>());
-  auto& blind =
-      runtime.Create<ProxyPort>(group, "blind", Port::Direction::kInput, TypeOf<Point2>());
+  auto& way_in = runtime.Create<ProxyPort>(group, "goal", Port::Direction::kInput, TypeOf<Point2>());
+  auto& blind = runtime.Create<ProxyPort>(group, "blind", Port::Direction::kInput, TypeOf<Point2>());
   ASSERT_TRUE(runtime.MakeReady(group));
   ASSERT_TRUE(Port::Connect(way_in, inner.goal));
   Begin();
@@ -88,8 +85,7 @@ TEST_F(FoxglovePublishingTest, TellsWhatIsWrongWithAValue) {
   Publish(5, R"({"x":3,"y":4})");
   ASSERT_TRUE(WaitForGoal({3, 4}));
   Publish(5, R"({"x":1,"z":4})");
-  EXPECT_EQ(Complaint(),
-            "/application/robot/input/goal: Point2 has no field 'z'; did you mean 'x'?");
+  EXPECT_EQ(Complaint(), "/application/robot/input/goal: Point2 has no field 'z'; did you mean 'x'?");
   Publish(5, "");
   EXPECT_THAT(Complaint(), HasSubstr("unexpected end of input"));
   EXPECT_EQ(*robot.goal.Read(), (Point2{3, 4})) << "nothing of it is published";

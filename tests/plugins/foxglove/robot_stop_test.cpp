@@ -58,7 +58,8 @@ TEST_F(FoxgloveStop, IsNoSuccessWhereItStopsNothing) {
   Begin();
   const Json reply = Call("/stop", R"({"data":true})");
   EXPECT_EQ(reply["success"], false);
-  EXPECT_THAT(reply["message"].get<std::string>(), testing::AllOf(HasSubstr("STOP is in force"), HasSubstr("STOP stops nothing")));
+  EXPECT_THAT(reply["message"].get<std::string>(),
+              testing::AllOf(HasSubstr("STOP is in force"), HasSubstr("STOP stops nothing")));
   EXPECT_TRUE(in_force()) << "for ports that come later";
 }
 
@@ -66,7 +67,9 @@ TEST_F(FoxgloveStop, OvertakesWhatIsSaidTooFast) {
   client.its_role = WebRole::kLook;
   Begin();
   EXPECT_EQ(Call("/stop", "{}")["success"], true);
-  const auto call = [&](const std::string& name) { return "\x02" + Word(services.at(name)) + Word(1) + Word(4) + "json{}"; };
+  const auto call = [&](const std::string& name) {
+    return "\x02" + Word(services.at(name)) + Word(1) + Word(4) + "json{}";
+  };
   const auto outranks = [&](const std::string& message) { return session->OnArrival(message, false).outranks; };
   EXPECT_TRUE(outranks(call("/stop")));
   EXPECT_FALSE(session->OnArrival(call("/stop"), true).outranks);
@@ -144,7 +147,8 @@ TEST_F(FoxgloveStop, IsPressedByATopicThatClientsPublish) {
 TEST_F(FoxgloveStop, WhatWaitedMeanwhileIsNotCarriedOut) {
   Begin();
   Turn();
-  Say({{"op", "advertise"}, {"channels", {{{"id", 3}, {"topic", "/application/robot/input/limit"}, {"encoding", "json"}}}}});
+  Say({{"op", "advertise"},
+       {"channels", {{{"id", 3}, {"topic", "/application/robot/input/limit"}, {"encoding", "json"}}}}});
   ASSERT_EQ(Complaint(), "");
   client.its_arrival = session->OnArrival("", false);
   EXPECT_EQ(Call("/stop", "{}")["success"], true) << "the newest STOP counts whatever was before";

@@ -52,8 +52,7 @@ TEST_F(FoxgloveTest, EveryOperationIsForItsRolesOnly) {
 TEST_F(FoxgloveTest, WhoMayOnlyLookPublishesNothingAndSetsNothing) {
   client.its_role = WebRole::kLook;
   Begin();
-  Say({{"op", "advertise"},
-       {"channels", {{{"id", 1}, {"topic", "/robot/goal"}, {"encoding", "json"}}}}});
+  Say({{"op", "advertise"}, {"channels", {{{"id", 1}, {"topic", "/robot/goal"}, {"encoding", "json"}}}}});
   Publish(1, R"({"x":1,"y":2})");
   EXPECT_THAT(Complaint(), HasSubstr("publishing: viewers may only look"));
   Say({{"op", "setParameters"}, {"parameters", {{{"name", "/robot/gain"}, {"value", 1}}}}});
@@ -66,8 +65,7 @@ TEST_F(FoxgloveTest, WhoMayDrivePublishesAndSetsNothing) {
   client.its_role = WebRole::kDrive;
   Begin();
   EXPECT_THAT(Take("serverInfo").at(0)["capabilities"], testing::Contains("clientPublish"));
-  Say({{"op", "advertise"},
-       {"channels", {{{"id", 1}, {"topic", "/robot/goal"}, {"encoding", "json"}}}}});
+  Say({{"op", "advertise"}, {"channels", {{{"id", 1}, {"topic", "/robot/goal"}, {"encoding", "json"}}}}});
   Publish(1, R"({"x":1,"y":2})");
   EXPECT_TRUE(Wait([&] { return robot.goal.Read().has_value(); }));
   Say({{"op", "setParameters"}, {"parameters", {{{"name", "/robot/gain"}, {"value", 1}}}}});

@@ -70,7 +70,8 @@ TEST_F(FoxgloveServices, AreAdvertisedWithTheirSchemas) {
   EXPECT_EQ(where["request"]["encoding"], "json");
   EXPECT_EQ(Json::parse(where["request"]["schema"].get<std::string>())["properties"]["name"]["type"], "string");
   EXPECT_TRUE(Json::parse(where["responseSchema"].get<std::string>())["properties"].contains("heading"));
-  EXPECT_TRUE(Json::parse(services.at("/clerk/half")["requestSchema"].get<std::string>())["properties"].contains("value"));
+  EXPECT_TRUE(
+      Json::parse(services.at("/clerk/half")["requestSchema"].get<std::string>())["properties"].contains("value"));
 }
 
 TEST_F(FoxgloveServices, AreCalledAndAnswer) {

@@ -104,17 +104,22 @@ TEST(GenomInterfacesTest, WhatIsProvided) {
       {kWrong, stop + "component c { provides stoppable, stoppable; };"},
       {kRight, stop + "interface other { function halt(in long how); }; component c { provides stoppable, other; };"},
       {kWrong, stop + "interface other { function halt(in double how); }; component c { provides stoppable, other; };"},
-      {kRight, "interface i { ids { long a; }; }; component c { ids { long b; }; provides i; function f() { codel k(in a, in b); }; };"},
+      {kRight,
+       "interface i { ids { long a; }; }; component c { ids { long b; }; provides i; function f() { codel k(in a, in "
+       "b); }; };"},
       {kWrong, "interface i { ids { long a; }; }; component c { ids { long a; }; provides i; };"},
       {kRight, "interface i { version \"3\"; doc \"d\"; }; component c { version \"4\"; doc \"e\"; provides i; };"},
       {kRight, "interface i { typedef long a; }; component c { provides i; typedef i::a b; };"},
       {kWrong, "interface i { typedef long a; }; component c { provides i; typedef a b; };"},
       {kRight, "interface i { activity go() { doc \"d\"; }; };"},
       {kWrong, "interface i { activity go() { doc \"d\"; }; }; component c { provides i; };"},
-      {kRight, "interface i { activity go(); }; component c { provides i; task t; activity go() { task t; codel<start> k() yield ether; }; };"},
+      {kRight,
+       "interface i { activity go(); }; component c { provides i; task t; activity go() { task t; codel<start> k() "
+       "yield ether; }; };"},
       {kRight, "interface i { function f(); }; interface j { extends i; }; component c { provides j; function f(); };"},
       {kWrong, "interface i { extends i; };"},
-      {kWrong, "interface i { typedef long d; port in d p; }; component c { typedef long d; port in d p; provides i; };"},
+      {kWrong,
+       "interface i { typedef long d; port in d p; }; component c { typedef long d; port in d p; provides i; };"},
   });
 }
 
@@ -124,11 +129,17 @@ TEST(GenomInterfacesTest, WhatIsUsed) {
       {kWrong, "interface i { function f(); }; component c { uses i; function f(); };"},
       {kWrong, "interface i { function f(); }; component c { provides i; uses i; };"},
       {kWrong, "interface i { typedef long d; port out d p; }; component c { provides i; uses i; };"},
-      {kRight, "interface i { typedef long d; port out d p; }; component c { uses i; task t { codel<start> k(in p) yield ether; }; };"},
-      {kWrong, "interface i { typedef long d; port out d p; }; component c { uses i; task t { codel<start> k(out p) yield ether; }; };"},
-      {kRight, "interface i { struct s { long a; }; }; interface j { struct s { double a; }; }; component c { uses i, j; };"},
+      {kRight,
+       "interface i { typedef long d; port out d p; }; component c { uses i; task t { codel<start> k(in p) yield "
+       "ether; }; };"},
+      {kWrong,
+       "interface i { typedef long d; port out d p; }; component c { uses i; task t { codel<start> k(out p) yield "
+       "ether; }; };"},
+      {kRight,
+       "interface i { struct s { long a; }; }; interface j { struct s { double a; }; }; component c { uses i, j; };"},
       {kRight, "interface i { function f(); }; component c { uses i; task t { codel<start> k(in f) yield ether; }; };"},
-      {kWrong, "interface i { function f(); }; component c { uses i; task t { codel<start> k(out f) yield ether; }; };"},
+      {kWrong,
+       "interface i { function f(); }; component c { uses i; task t { codel<start> k(out f) yield ether; }; };"},
       {kWrong, "interface i { function f(); }; component c { uses i; function g() { codel k(remote in f); }; };"},
   });
 }

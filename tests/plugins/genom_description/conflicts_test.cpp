@@ -46,15 +46,17 @@ TEST_F(GenomConflictsTest, OfAComponentWithNearlyEverything) {
   EXPECT_DOUBLE_EQ(description_->FindComponent("courier")->clock_rate, 5e-3);
   const auto& services = description_->FindComponent("courier")->services;
   const genom::Service* halt = genom::FindByName(services, "halt");
-  EXPECT_TRUE(std::ranges::all_of(services, [&](const genom::Service* each) { return genom::Interrupts(*halt, *each); }));
+  EXPECT_TRUE(
+      std::ranges::all_of(services, [&](const genom::Service* each) { return genom::Interrupts(*halt, *each); }));
 }
 
 TEST_F(GenomConflictsTest, PathsAndDirections) {
-  Read("component courier { ids { struct s { long a, b; } x; long y[3]; };"
-       " task t { codel<start> whole(in x) yield two; codel<two> part(out x.a) yield three;"
-       "          codel<three> first(out y[0]) yield four; codel<four> reader(in y) yield ether; };"
-       " task u { codel<start> other_part(out x.b) yield two; codel<two> same_part(in x.a) yield three;"
-       "          codel<three> second(out y[1]) yield four; codel<four> also_reads(in y, in x) yield ether; }; };");
+  Read(
+      "component courier { ids { struct s { long a, b; } x; long y[3]; };"
+      " task t { codel<start> whole(in x) yield two; codel<two> part(out x.a) yield three;"
+      "          codel<three> first(out y[0]) yield four; codel<four> reader(in y) yield ether; };"
+      " task u { codel<start> other_part(out x.b) yield two; codel<two> same_part(in x.a) yield three;"
+      "          codel<three> second(out y[1]) yield four; codel<four> also_reads(in y, in x) yield ether; }; };");
   EXPECT_THAT(ExcludedBy("whole"), ElementsAre("other_part"));
   EXPECT_THAT(ExcludedBy("part"), ElementsAre("also_reads", "same_part"));
   EXPECT_THAT(ExcludedBy("first"), ElementsAre("also_reads"));
@@ -62,9 +64,11 @@ TEST_F(GenomConflictsTest, PathsAndDirections) {
 }
 
 TEST_F(GenomConflictsTest, PortsAndInterruptedServices) {
-  Read("component courier { typedef double d; port in d p; ids { long v; }; task t; task u;"
-       " activity a() { task t; codel<start> reads(in p) yield two; codel<two> writes(out v) yield ether; };"
-       " activity b() { task u; interrupts a; codel<start> reads_too(in p) yield two; codel<two> writes_too(out v) yield ether; }; };");
+  Read(
+      "component courier { typedef double d; port in d p; ids { long v; }; task t; task u;"
+      " activity a() { task t; codel<start> reads(in p) yield two; codel<two> writes(out v) yield ether; };"
+      " activity b() { task u; interrupts a; codel<start> reads_too(in p) yield two; codel<two> writes_too(out v) "
+      "yield ether; }; };");
   // a's codels have ended before b's run; b may begin while a runs, seen from b.
   EXPECT_THAT(ExcludedBy("reads"), IsEmpty());
   EXPECT_THAT(ExcludedBy("reads_too"), ElementsAre("reads"));

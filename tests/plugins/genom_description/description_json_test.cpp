@@ -49,10 +49,11 @@ TEST(GenomJsonTest, HasAllOfAComponent) {
 }
 
 TEST(GenomJsonTest, TypesHaveTheLayoutOfC) {
-  const json types = JsonOf("struct s { octet a; double b; short c; }; enum e { A, B }; native n;"
-                            "typedef sequence<s, 2> bounded; typedef sequence<s> unbounded; typedef optional<double> maybe;"
-                            "union u switch(e) { case A: octet a; default: double b; };"
-                            "struct all { char text[3]; string<5> name; string any_length; long grid[2][3]; n own; };")["types"];
+  const json types = JsonOf(
+      "struct s { octet a; double b; short c; }; enum e { A, B }; native n;"
+      "typedef sequence<s, 2> bounded; typedef sequence<s> unbounded; typedef optional<double> maybe;"
+      "union u switch(e) { case A: octet a; default: double b; };"
+      "struct all { char text[3]; string<5> name; string any_length; long grid[2][3]; n own; };")["types"];
   EXPECT_EQ(Named(types, "s")["size"], 24);
   EXPECT_EQ(Named(types, "s")["members"][2]["offset"], 16);
   EXPECT_EQ(Named(types, "bounded")["size"], 56);
@@ -71,7 +72,8 @@ TEST(GenomJsonTest, TheDigestIsThatOfWhatOthersSee) {
     return JsonOf("struct s { long a; }; component c { " + items + " };")["components"][0]["digest"];
   };
   const json plain = digest("port in s p; function f(in long a);");
-  EXPECT_EQ(plain, digest("doc \"d\"; port in s p { doc \"e\"; }; function f(in long a = 3) { codel k(in a); }; task t;"));
+  EXPECT_EQ(plain,
+            digest("doc \"d\"; port in s p { doc \"e\"; }; function f(in long a = 3) { codel k(in a); }; task t;"));
   EXPECT_NE(plain, digest("port out s p; function f(in long a);"));
   EXPECT_NE(plain, digest("port in s p; function f(in short a);"));
   EXPECT_NE(plain, digest("port in s p; function f(in long a); function g();"));

@@ -23,9 +23,10 @@ TEST(GenomDiagnosticsTest, ThePlaceTheMistakeAndTheCure) {
 }
 
 TEST(GenomDiagnosticsTest, SeveralMistakesAreToldAtOnce) {
-  EXPECT_THAT(Wrongs("typedef one a;\ncomponent c {\n  port in two p;\n  task t { priod 3; };\n  task u { period -1; };\n};\n"),
-              AllOf(HasSubstr("test.gen:1:9"), HasSubstr("test.gen:3:11"), HasSubstr("test.gen:4:12"),
-                    HasSubstr("test.gen:5:19")));
+  EXPECT_THAT(
+      Wrongs("typedef one a;\ncomponent c {\n  port in two p;\n  task t { priod 3; };\n  task u { period -1; };\n};\n"),
+      AllOf(HasSubstr("test.gen:1:9"), HasSubstr("test.gen:3:11"), HasSubstr("test.gen:4:12"),
+            HasSubstr("test.gen:5:19")));
 }
 
 TEST(GenomDiagnosticsTest, AMistakeIsNotToldAgainByItsUsers) {
@@ -46,9 +47,9 @@ TEST(GenomDiagnosticsTest, PlacesAreThoseOfTheTextAsWritten) {
 
 // What led to it, or from it, is not wrong.
 TEST(GenomDiagnosticsTest, ACodelThatIsLeftOutIsNotMissedByOthers) {
-  const std::string wrongs =
-      WrongsInComponent("ids { double x; };\ntask t {\n codel<start> a() yield go;\n codel<go> b(in y) yield more;\n"
-                        " codel<more> c() yield ether;\n};\nactivity f() { task t; codel<start> d(in z) yield ether; };");
+  const std::string wrongs = WrongsInComponent(
+      "ids { double x; };\ntask t {\n codel<start> a() yield go;\n codel<go> b(in y) yield more;\n"
+      " codel<more> c() yield ether;\n};\nactivity f() { task t; codel<start> d(in z) yield ether; };");
   EXPECT_THAT(wrongs, AllOf(HasSubstr("there is no 'y'"), HasSubstr("there is no 'z'")));
   EXPECT_EQ(std::ranges::count(wrongs, '\n'), 2) << wrongs;
 }
@@ -70,9 +71,11 @@ TEST(GenomDiagnosticsTest, ServicesThatCanNeverStartAreWarnedOf) {
               AllOf(HasSubstr("test.gen:2:10: warning: function 'one' can never start"),
                     HasSubstr("test.gen:3:10: warning: function 'two' can never start"), Not(HasSubstr("three"))));
   EXPECT_THAT(warnings("function g() { after g; };"), HasSubstr("function 'g' can never start"));
-  EXPECT_THAT(warnings("function a();\nfunction b() { after a; before a; };"), HasSubstr("function 'b' can never start"));
+  EXPECT_THAT(warnings("function a();\nfunction b() { after a; before a; };"),
+              HasSubstr("function 'b' can never start"));
   EXPECT_EQ(warnings("function a();\nfunction b() { after a; before c; };\nfunction c() { after all; };\n"
-                     "function d() { before all; };"), "");
+                     "function d() { before all; };"),
+            "");
 }
 
 TEST(GenomDiagnosticsTest, CodelsWithNamesOfTheHeadersAreWarnedOf) {
@@ -83,10 +86,14 @@ TEST(GenomDiagnosticsTest, CodelsWithNamesOfTheHeadersAreWarnedOf) {
     return diagnostics.ToString();
   };
   const std::string task = "task t { codel<start> begin() yield on; codel<on> lamp_on() yield pause::on; };";
-  EXPECT_THAT(warnings(task), HasSubstr("test.gen:2:51: warning: codel 'lamp_on' has the name that event lamp::on has in the headers in C; "
-                                        "codels do not compile with both"));
-  EXPECT_THAT(warnings("task t { codel<start> lamp_pause_start() yield pause::start; };"), HasSubstr("lamp_pause_start"));
-  EXPECT_THAT(warnings("exception dark; task t { codel<start> lamp_dark() yield ether; };"), HasSubstr("exception lamp::dark"));
+  EXPECT_THAT(
+      warnings(task),
+      HasSubstr("test.gen:2:51: warning: codel 'lamp_on' has the name that event lamp::on has in the headers in C; "
+                "codels do not compile with both"));
+  EXPECT_THAT(warnings("task t { codel<start> lamp_pause_start() yield pause::start; };"),
+              HasSubstr("lamp_pause_start"));
+  EXPECT_THAT(warnings("exception dark; task t { codel<start> lamp_dark() yield ether; };"),
+              HasSubstr("exception lamp::dark"));
   EXPECT_THAT(warnings("task t { codel<start> lamp_ether() yield ether; };"), HasSubstr("lamp_ether"));
   EXPECT_EQ(warnings("lang \"c++\"; " + task), "") << "where they have namespaces";
   EXPECT_EQ(warnings("function f() { codel lamp_start(); };"), "") << "no codel runs in start";

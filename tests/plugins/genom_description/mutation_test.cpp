@@ -1,12 +1,13 @@
 // Descriptions with mistakes put in at random neither crash nor hang what reads them; meant to be run with the
 // sanitizers, too.
 
+#include "tests/plugins/genom_description/mutation.h"
+
 #include <cstdlib>
 
 #include <gtest/gtest.h>
 
 #include "plugins/genom_description/description.h"
-#include "tests/plugins/genom_description/mutation.h"
 #include "tests/plugins/genom_description/verdict.h"
 
 namespace runnel::test {
@@ -21,7 +22,8 @@ int Count() {
 TEST(GenomMutationTest, WhateverIsReadEnds) {
   const std::vector<std::string> seeds = {
       FileText("courier.gen"),
-      "#define A(x) x ## 1\n#if defined(A) && 2 > 1\ntypedef long A(b);\n#else\n#endif\nstruct s; typedef sequence<s> t;\n"
+      "#define A(x) x ## 1\n#if defined(A) && 2 > 1\ntypedef long A(b);\n#else\n#endif\nstruct s; typedef sequence<s> "
+      "t;\n"
       "struct s { t under; };\nunion u switch(long) { case 1: case 2: s a; default: double b; };\n"};
   const int count = Count();
   std::mt19937 random(20);

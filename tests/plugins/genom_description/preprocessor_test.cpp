@@ -24,7 +24,8 @@ TEST(GenomPreprocessorTest, MacrosAndConditions) {
       {kRight, "#define LONG \\\n  long\ntypedef LONG a;"},
       {kRight, "#define X\n#undef X\n#ifdef X\n#error here\n#endif\n"},
       {kRight, "#if defined(X) || !defined Y && 2 * 3 == 6 && (1 ? 1 : 0)\ntypedef long a;\n#endif\ntypedef a b;"},
-      {kRight, "#if 0\n don't \"care\n#if 1\n#else\n#endif\n#elif 1\ntypedef long a;\n#else\n ???\n#endif\ntypedef a b;"},
+      {kRight,
+       "#if 0\n don't \"care\n#if 1\n#else\n#endif\n#elif 1\ntypedef long a;\n#else\n ???\n#endif\ntypedef a b;"},
       {kRight, "#ifndef __GENOM__\n#error no\n#endif\n"},
       {kWrong, "#if 1\n"},
       {kWrong, "#endif\n"},
@@ -65,8 +66,8 @@ TEST(GenomPreprocessorTest, IncludesAndWhatTheyAreRelativeTo) {
   write("own/base.idl", "typedef long base;\n");
   write("shared/b.idl", "typedef long b;\n");
   Diagnostics diagnostics;
-  const auto description = genom::ReadDescription({(folder.path() / "main.gen").string()},
-                                                  {.include_folders = {(folder.path() / "shared").string()}}, diagnostics);
+  const auto description = genom::ReadDescription(
+      {(folder.path() / "main.gen").string()}, {.include_folders = {(folder.path() / "shared").string()}}, diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.ToString();
   EXPECT_EQ(description->problems.files().size(), 4u);
 }

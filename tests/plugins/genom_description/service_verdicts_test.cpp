@@ -60,7 +60,8 @@ TEST(GenomStateMachinesTest, OfTasks) {
 
 TEST(GenomStateMachinesTest, OfActivities) {
   ExpectVerdictsInComponent({
-      {kRight, "task t; activity f() { task t; codel<start> k() yield pause::start, ether; codel<stop> l() yield ether; };"},
+      {kRight,
+       "task t; activity f() { task t; codel<start> k() yield pause::start, ether; codel<stop> l() yield ether; };"},
       {kRight, "task t; activity f() { task t; codel<start> k() yield pause::start; };"},
       {kWrong, "task t; activity f() { task t; codel<run> k() yield ether; };"},
       {kWrong, "task t; activity f() { task t; };"},
@@ -70,7 +71,8 @@ TEST(GenomStateMachinesTest, OfActivities) {
       {kWrong, "task t; activity f() { task t; codel<start> k() yield ether; codel<odd> l() yield ether; };"},
       {kRight, "task t; task u; activity f() { task t; task u; codel<start> k() yield ether; };"},  // the first holds
       {kWrong, "task t; activity f() { task t; period 5 ms; codel<start> k() yield ether; };"},
-      {kRight, "task t; activity f(in long a) { task t; }; activity f(in long a) { codel<start> k(in a) yield ether; };"},
+      {kRight,
+       "task t; activity f(in long a) { task t; }; activity f(in long a) { codel<start> k(in a) yield ether; };"},
   });
 }
 
@@ -149,7 +151,8 @@ TEST(GenomServicesTest, Defaults) {
       {kWrong, "function f(in double v[2] = { .a = 1 });"},
       {kRight, "function f(in sequence<long> v = { 1, [70] = 2 });"},
       {kWrong, "function f(in sequence<long, 2> v = { [2] = 2 });"},
-      {kRight, types + "function f(in e v = B, in boolean w = TRUE, in optional<s> x = { 1 }, in optional<long> y = 2);"},
+      {kRight,
+       types + "function f(in e v = B, in boolean w = TRUE, in optional<s> x = { 1 }, in optional<long> y = 2);"},
       {kWrong, types + "function f(in e v = 1);"},
       {kRight, "function f(in string<3> v = \"four\");"},
       {kWrong, "function f(in string v = 4);"},
@@ -193,7 +196,9 @@ TEST(GenomCodelParametersTest, WhereTheirDataAre) {
   });
   ExpectVerdictsInComponent({
       {kWrong, "typedef double d; ids { d p; }; port out d p; task t { codel<start> k(out p) yield ether; };"},
-      {kRight, "typedef double d; ids { d p; }; port out d p; task t { codel<start> k(port out p, ids in p::q) yield ether; };"},
+      {kRight,
+       "typedef double d; ids { d p; }; port out d p; task t { codel<start> k(port out p, ids in p::q) yield ether; "
+       "};"},
       {kWrong, "task t { codel<start> k(out v) yield ether; }; typedef double d; port out d v;"},
       {kWrong, "task t { codel<start> k(out ::ids) yield ether; };"},
       {kWrong, "typedef double d; port in d p; function f() { codel k(in p); };"},

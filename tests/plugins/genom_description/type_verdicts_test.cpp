@@ -80,7 +80,8 @@ TEST(GenomTypesTest, Structs) {
 }
 
 TEST(GenomTypesTest, WhatDoesNotExist) {
-  for (const char* type : {"int", "void", "long double", "unsigned char", "wchar", "wstring", "fixed<3,1>", "any", "size_t"}) {
+  for (const char* type :
+       {"int", "void", "long double", "unsigned char", "wchar", "wstring", "fixed<3,1>", "any", "size_t"}) {
     EXPECT_NE(Wrongs("typedef " + std::string(type) + " a;"), "") << type;
   }
 }

@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <thread>
+
+#include <gtest/gtest.h>
 
 #include "tests/plugins/genom_execution/sketch.h"
 
@@ -11,7 +11,8 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(Exclusion, IsFirstComeFirstServed) {
-  constexpr std::array<CodelTable, 3> kCodels{{{"a", nullptr, false, false}, {"b", nullptr, false, false}, {"c", nullptr, false, false}}};
+  constexpr std::array<CodelTable, 3> kCodels{
+      {{"a", nullptr, false, false}, {"b", nullptr, false, false}, {"c", nullptr, false, false}}};
   constexpr std::array<Conflict, 2> kConflicts{{{0, 1}, {1, 2}}};
   const ComponentTable component{.name = "x", .codels = kCodels, .conflicts = kConflicts};
   const ConflictMatrix conflicts(component);
@@ -52,8 +53,8 @@ TEST(Exclusion, KeepsConflictingCodelsApartAndLetsEachRunAtLast) {
   std::array<std::atomic<int>, 3> runs{};
   int at = 0;
   for (const char* name : {"c_one", "c_two", "c_three"}) {
-    sketch.Do(name, [&data, &sketch, &count = runs.at(static_cast<std::size_t>(at++)), event = sketch.Of("start")](
-                        const Invocation&) {
+    sketch.Do(name, [&data, &sketch, &count = runs.at(static_cast<std::size_t>(at++)),
+                     event = sketch.Of("start")](const Invocation&) {
       if (data.inside.fetch_add(1) != 0) data.was_shared = true;
       std::this_thread::yield();
       data.inside.fetch_sub(1);
@@ -88,9 +89,9 @@ TEST(Exclusion, OfAsynchronousCodelsHoldsUpOnlyTheirTask) {
   static AsyncWork* given = nullptr;
   given = nullptr;
   sketch.Start({.is_single_threaded = true, .run_async = [](void*, std::size_t place, AsyncWork& work) {
-    EXPECT_EQ(place, 1u);
-    given = &work;
-  }});
+                  EXPECT_EQ(place, 1u);
+                  given = &work;
+                }});
   sketch.RunAt(0ms);
   EXPECT_EQ(sketch.Trace(), "dial step");
   Request& send = sketch.Send("send");
@@ -116,8 +117,8 @@ TEST(Exclusion, WithoutWaitingComesAgain) {
   sketch.Exclude("write", "quiet");
   sketch.Do("write", [&](const Invocation&) { return sketch.Of("ether"); });
   static AsyncWork* given = nullptr;
-  Engine& engine = sketch.Start({.is_single_threaded = true,
-                                 .run_async = [](void*, std::size_t, AsyncWork& work) { given = &work; }});
+  Engine& engine = sketch.Start(
+      {.is_single_threaded = true, .run_async = [](void*, std::size_t, AsyncWork& work) { given = &work; }});
   sketch.RunAt(0ms);
   (void)sketch.Send("send");
   sketch.RunAt(1ms);

@@ -12,10 +12,16 @@ class Interruption : public testing::Test {
  protected:
   void SetUp() override {
     sketch.AddTask({.name = "main", .period = 10ms});
-    sketch.AddService({"go", ServiceKind::kActivity, "main", {{"start", "go1", {"pause::start"}}, {"stop", "halt1", {"pause::rest"}},
-                                 {"rest", "halt2", {"ether"}}}});
-    sketch.AddService({.name = "turn", .kind = ServiceKind::kActivity, .task = "main",
-                .states = {{"start", "turn1", {"pause::start"}}}, .interrupts = {"go", "turn"}});
+    sketch.AddService(
+        {"go",
+         ServiceKind::kActivity,
+         "main",
+         {{"start", "go1", {"pause::start"}}, {"stop", "halt1", {"pause::rest"}}, {"rest", "halt2", {"ether"}}}});
+    sketch.AddService({.name = "turn",
+                       .kind = ServiceKind::kActivity,
+                       .task = "main",
+                       .states = {{"start", "turn1", {"pause::start"}}},
+                       .interrupts = {"go", "turn"}});
     sketch.AddService({.name = "quiet", .codels = {"q"}, .interrupts = {"go", "turn"}});
     sketch.Start();
     sketch.RunAt(0ms);

@@ -39,11 +39,14 @@ TEST(Life, EndsAtOnceIfATaskCannotBegin) {
 TEST(Life, EndsActivitiesThenTasksInReverseOrder) {
   Sketch sketch;
   sketch.AddTask({.name = "first", .states = {{"start", "init1", {"pause::start"}}, {"stop", "stop1", {"ether"}}}});
-  sketch.AddTask({.name = "second", .period = 10ms,
-              .states = {{"start", "init2", {"ether"}}, {"stop", "stop2", {"rest"}}, {"rest", "rest2", {"ether"}}}});
+  sketch.AddTask(
+      {.name = "second",
+       .period = 10ms,
+       .states = {{"start", "init2", {"ether"}}, {"stop", "stop2", {"rest"}}, {"rest", "rest2", {"ether"}}}});
   sketch.AddTask({.name = "third", .states = {{"stop", "stop3", {"ether"}}}});
   sketch.AddTask({.name = "fourth", .states = {{"start", "init4", {"pause::start"}}}});
-  sketch.AddService({"go", ServiceKind::kActivity, "second", {{"start", "go1", {"pause::start"}}, {"stop", "halt", {"ether"}}}});
+  sketch.AddService(
+      {"go", ServiceKind::kActivity, "second", {{"start", "go1", {"pause::start"}}, {"stop", "halt", {"ether"}}}});
   sketch.Start();
   sketch.RunAt(0ms);
   Request& go = sketch.Send("go");
@@ -71,8 +74,11 @@ TEST(Life, EndsActivitiesThenTasksInReverseOrder) {
 
 TEST(Life, ComesToAnEndWithoutTimePassing) {
   Sketch sketch;
-  sketch.AddTask({.name = "main", .period = 1000ms, .states = {{"start", "init", {"pause::start"}}, {"stop", "quiet", {"ether"}}}});
-  sketch.AddService({"go", ServiceKind::kActivity, "main", {{"start", "go1", {"pause::start"}}, {"stop", "halt", {"ether"}}}});
+  sketch.AddTask({.name = "main",
+                  .period = 1000ms,
+                  .states = {{"start", "init", {"pause::start"}}, {"stop", "quiet", {"ether"}}}});
+  sketch.AddService(
+      {"go", ServiceKind::kActivity, "main", {{"start", "go1", {"pause::start"}}, {"stop", "halt", {"ether"}}}});
   Engine& engine = sketch.Start();
   sketch.RunAt(0ms);
   (void)sketch.Send("go");

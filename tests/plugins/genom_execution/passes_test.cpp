@@ -8,7 +8,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-
 TEST(Passes, RunOneCodelOfEachActivityInTheOrderOfTheirSlots) {
   Sketch sketch;
   sketch.AddTask({.name = "main", .states = {{"start", "init", {"pause::start"}}}});
@@ -33,8 +32,11 @@ TEST(Passes, RunOneCodelOfEachActivityInTheOrderOfTheirSlots) {
 
 TEST(Passes, OfAPeriodicTaskPauseUntilItsNextTick) {
   Sketch sketch;
-  sketch.AddTask({.name = "drive", .period = 20ms, .delay = 5ms,
-              .states = {{"start", "init", {"loop"}}, {"loop", "loop1", {"second"}}, {"second", "loop2", {"pause::loop"}}}});
+  sketch.AddTask(
+      {.name = "drive",
+       .period = 20ms,
+       .delay = 5ms,
+       .states = {{"start", "init", {"loop"}}, {"loop", "loop1", {"second"}}, {"second", "loop2", {"pause::loop"}}}});
   sketch.Start();
   sketch.RunAt(100ms);
   EXPECT_EQ(sketch.Trace(), "") << "the first tick is as late as the delay says";
@@ -70,8 +72,8 @@ TEST(Passes, OfAPeriodicTaskBeginAnewWhenTheClockIsSetBack) {
 TEST(Passes, OfAPeriodicTaskSeeStartAndStopOnATickOnly) {
   Sketch sketch;
   sketch.AddTask({.name = "drive", .period = 20ms});
-  sketch.AddService({"go", ServiceKind::kActivity, "drive",
-              {{"start", "begin", {"pause::start"}}, {"stop", "end", {"ether"}}}});
+  sketch.AddService(
+      {"go", ServiceKind::kActivity, "drive", {{"start", "begin", {"pause::start"}}, {"stop", "end", {"ether"}}}});
   sketch.Start();
   sketch.RunAt(0ms);
   Request& go = sketch.Send("go");
@@ -84,7 +86,8 @@ TEST(Passes, OfAPeriodicTaskSeeStartAndStopOnATickOnly) {
   ASSERT_TRUE(sketch.engine().Send(abort));
   sketch.RunAt(30ms);
   EXPECT_EQ(sketch.Trace(), "");
-  EXPECT_TRUE(abort.state() == Request::State::kDone && abort.outcome().is_success()) << "does not wait for what it ends";
+  EXPECT_TRUE(abort.state() == Request::State::kDone && abort.outcome().is_success())
+      << "does not wait for what it ends";
   sketch.RunAt(40ms);
   EXPECT_EQ(sketch.Trace(), "end");
   EXPECT_EQ(go.state(), Request::State::kDone);
@@ -122,8 +125,11 @@ TEST(Passes, EndActivitiesThatReturnWhatIsNotTheirs) {
 TEST(Passes, EndActivitiesByExceptionsWithTheirDetails) {
   Sketch sketch;
   sketch.AddTask({.name = "main"});
-  sketch.AddService({.name = "go", .kind = ServiceKind::kActivity, .task = "main", .states = {{"start", "begin", {"ether"}}},
-              .throws = {"bad_speed"}});
+  sketch.AddService({.name = "go",
+                     .kind = ServiceKind::kActivity,
+                     .task = "main",
+                     .states = {{"start", "begin", {"ether"}}},
+                     .throws = {"bad_speed"}});
   sketch.Do("begin", [&](const Invocation& call) {
     const int limit = 7;
     return call.context->raise(sketch.Of("bad_speed"), &limit, sizeof limit, call.context);

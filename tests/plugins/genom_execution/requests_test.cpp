@@ -44,12 +44,16 @@ TEST(Requests, EndWithTheFirstException) {
 TEST(Requests, OfAttributesWriteAndReadTheIds) {
   Sketch sketch;
   sketch.AddTask({.name = "main"});
-  sketch.AddService({.name = "set", .kind = ServiceKind::kAttribute, .validates = {"check"}, .assign =
-      [](void* ids, void* data) { *static_cast<int*>(ids) = *static_cast<int*>(data); }});
-  sketch.AddService({.name = "get", .kind = ServiceKind::kAttribute, .assign =
-      [](void* ids, void* data) { *static_cast<int*>(data) = *static_cast<int*>(ids); }});
+  sketch.AddService(
+      {.name = "set", .kind = ServiceKind::kAttribute, .validates = {"check"}, .assign = [](void* ids, void* data) {
+         *static_cast<int*>(ids) = *static_cast<int*>(data);
+       }});
+  sketch.AddService({.name = "get", .kind = ServiceKind::kAttribute, .assign = [](void* ids, void* data) {
+                       *static_cast<int*>(data) = *static_cast<int*>(ids);
+                     }});
   int ids = 1;
-  sketch.Do("check", [&](const Invocation& call) { return *static_cast<int*>(call.data) < 10 ? nullptr : kDisallowed; });
+  sketch.Do("check",
+            [&](const Invocation& call) { return *static_cast<int*>(call.data) < 10 ? nullptr : kDisallowed; });
   sketch.Start({.ids = &ids});
   sketch.RunAt(0ms);
   Request& set = sketch.Send("set");

@@ -64,20 +64,32 @@ std::span<const Event> Sketch::Events(const std::vector<std::string>& names) {
 
 Engine& Sketch::Start(EngineOptions options) {
   for (const TaskOf& each : tasks_of_) {
-    tasks_.push_back({.name = each.name.c_str(), .period = each.period, .delay = each.delay,
-                      .machine = Machine(each.states), .throws = Events(each.throws)});
+    tasks_.push_back({.name = each.name.c_str(),
+                      .period = each.period,
+                      .delay = each.delay,
+                      .machine = Machine(each.states),
+                      .throws = Events(each.throws)});
   }
   for (const ServiceOf& each : services_of_) {
     const auto task = std::ranges::find(tasks_of_, each.task, &TaskOf::name) - tasks_of_.begin();
-    services_.push_back({.name = each.name.c_str(), .kind = each.kind, .number = Service(each.name),
-                         .task = static_cast<std::uint16_t>(task), .validates = Codels(each.validates),
-                         .codels = Codels(each.codels), .machine = Machine(each.states),
-                         .throws = Events(each.throws), .interrupts = Services(each.interrupts),
-                         .before = Services(each.before), .after = Services(each.after),
+    services_.push_back({.name = each.name.c_str(),
+                         .kind = each.kind,
+                         .number = Service(each.name),
+                         .task = static_cast<std::uint16_t>(task),
+                         .validates = Codels(each.validates),
+                         .codels = Codels(each.codels),
+                         .machine = Machine(each.states),
+                         .throws = Events(each.throws),
+                         .interrupts = Services(each.interrupts),
+                         .before = Services(each.before),
+                         .after = Services(each.after),
                          .make = [] { return static_cast<void*>(new int(0)); },
-                         .destroy = [](void* data) { delete static_cast<int*>(data); }, .assign = each.assign});
-    for (const auto& name : each.throws) exceptions_.push_back({Of(name), kept_names_.emplace_back(name).c_str(),
-        [](const void* detail) { return "{limit: " + std::to_string(*static_cast<const int*>(detail)) + "}"; }});
+                         .destroy = [](void* data) { delete static_cast<int*>(data); },
+                         .assign = each.assign});
+    for (const auto& name : each.throws)
+      exceptions_.push_back({Of(name), kept_names_.emplace_back(name).c_str(), [](const void* detail) {
+                               return "{limit: " + std::to_string(*static_cast<const int*>(detail)) + "}";
+                             }});
   }
   static constexpr auto kCalls = Calls(std::make_index_sequence<32>());
   for (std::size_t i = 0; i < codel_names_.size(); ++i) {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <memory>
 #include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "core/element/configurable.h"
 #include "core/types/text_format.h"
@@ -46,13 +46,16 @@ class ComponentTest : public testing::Test {
   /// What has come of it: the reply as text, the error, or "pending".
   std::string Outcome(const std::string& service, AnyCall& call) {
     switch (call.Poll(rig.now())) {
-      case CallStatus::kPending: return "pending";
+      case CallStatus::kPending:
+        return "pending";
       case CallStatus::kAnswered: {
         const TypeInfo* const reply = ServiceAt(service).reply();
         return reply != nullptr ? ToText(*reply, call.reply()) : "done";
       }
-      case CallStatus::kAborted: return "aborted: " + call.error();
-      default: return call.error();
+      case CallStatus::kAborted:
+        return "aborted: " + call.error();
+      default:
+        return call.error();
     }
   }
   /// The same, until something has.

@@ -37,16 +37,18 @@ TEST_F(ComponentInCxxTest, RunsItsCodelsInTheirOrder) {
   grain.Publish(2.5);
   EXPECT_EQ(Call("pour", "{from: left, to: a, names: [one, two]}"), "{value: 2.5, said: \"onetwo\"}");
   EXPECT_EQ(Call("turns", "{times: 0}"), "0");
-  EXPECT_EQ(Call("get_trace"),
-            R"(["begin", "nothing seen", "pass", "check", "beep", "pass", "pass", "open", "pour", "pass", "last onetwo", "pass", "first"])");
+  EXPECT_EQ(
+      Call("get_trace"),
+      R"(["begin", "nothing seen", "pass", "check", "beep", "pass", "pass", "open", "pour", "pass", "last onetwo", "pass", "first"])");
 }
 
 TEST_F(ComponentInCxxTest, ReadsAndWritesItsPorts) {
   rig.RunCycle();
   Feed("{at: {x: 2, y: 1}, where: right, name: wall, grid: [[1, 2], [3, 4]], trace: [{x: 1, y: 0}], level: [5]}");
   rig.RunCycles(2);
-  EXPECT_EQ(Newest("ground"), "{at: {x: 4, y: 1}, where: right, name: \"wall\", grid: [[1, 2], [3, 4]], "
-                              "trace: [{x: 1, y: 0}, {x: 2, y: 1}], level: [5]}");
+  EXPECT_EQ(Newest("ground"),
+            "{at: {x: 4, y: 1}, where: right, name: \"wall\", grid: [[1, 2], [3, 4]], "
+            "trace: [{x: 1, y: 0}, {x: 2, y: 1}], level: [5]}");
   rig.RunCycles(2);
   EXPECT_EQ(Newest("way"), "[{x: 2, y: 1}, {x: 2, y: 1}]") << "a list without a bound";
   EXPECT_THAT(Call("get_all"), HasSubstr("last: {at: {x: 2, y: 1}, where: right, name: \"wall\""));
@@ -55,7 +57,8 @@ TEST_F(ComponentInCxxTest, ReadsAndWritesItsPorts) {
 TEST_F(ComponentInCxxTest, TakesValuesOfEveryKind) {
   rig.RunCycle();
   EXPECT_EQ(Call("set_all", "{corners: [{x: 1, y: 2}], level: [7], words: [up, down], flags: [true, false]}"), "done");
-  EXPECT_THAT(Call("get_all"), HasSubstr(R"(corners: [{x: 1, y: 2}], level: [7], words: ["up", "down"], flags: [true, false])"));
+  EXPECT_THAT(Call("get_all"),
+              HasSubstr(R"(corners: [{x: 1, y: 2}], level: [7], words: ["up", "down"], flags: [true, false])"));
   const auto call = ServiceAt("set_all").NewCall();
   EXPECT_FALSE(SetFromText(*ServiceAt("set_all").arguments(), "{corners: [{}, {}, {}, {}]}", call->arguments()));
 }
@@ -63,9 +66,10 @@ TEST_F(ComponentInCxxTest, TakesValuesOfEveryKind) {
 TEST_F(ComponentInCxxTest, TakesWhatACallLeavesOutFromTheDescription) {
   rig.RunCycle();
   const auto call = ServiceAt("say").NewCall();
-  EXPECT_EQ(ToText(*ServiceAt("say").arguments(), call->arguments()),
-            "{what: \"a \\\"word\\\"\", where: right, three: [1, 0, 3], seen: {at: {x: 0, y: 2}, where: left, name: \"\", "
-            "grid: [[0, 0], [0, 0]], trace: [{x: 0, y: 0}, {x: 3, y: 4}], level: []}, level: [7]}");
+  EXPECT_EQ(
+      ToText(*ServiceAt("say").arguments(), call->arguments()),
+      "{what: \"a \\\"word\\\"\", where: right, three: [1, 0, 3], seen: {at: {x: 0, y: 2}, where: left, name: \"\", "
+      "grid: [[0, 0], [0, 0]], trace: [{x: 0, y: 0}, {x: 3, y: 4}], level: []}, level: [7]}");
   EXPECT_EQ(Call("say", "{}"), "a \"word\" right 11 2 2");
   EXPECT_EQ(Call("say", "{what: no, seen: {at: {y: 3}}, level: []}"), "no right 11 3 2");
 }
@@ -88,7 +92,8 @@ TEST_F(ComponentInCxxTest, EndsItsActivitiesByTheirLastCodels) {
   EXPECT_TRUE(ServiceAt("turns").Abort());
   rig.RunCycles(4);
   EXPECT_THAT(Outcome("turns", *second), testing::StartsWith("10"));
-  EXPECT_THAT(Call("get_trace"), HasSubstr(R"("first", "nothing seen", "nothing seen", "stop", "nothing seen", "first")"));
+  EXPECT_THAT(Call("get_trace"),
+              HasSubstr(R"("first", "nothing seen", "nothing seen", "stop", "nothing seen", "first")"));
 }
 
 TEST_F(ComponentInCxxTest, IsStoppedByWhatIsNoExceptionOfIts) {

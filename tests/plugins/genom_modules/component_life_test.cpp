@@ -40,8 +40,7 @@ TEST_F(ComponentLifeTest, EndsActivitiesBeforeAnotherTakesItsPlaceAndBeginsAfres
   rig.RunCycles(2);
   const auto again = Begin("wait", "{turns: 2}");
   rig.RunCycles(10);
-  EXPECT_THAT(Outcome("wait", *again),
-              testing::Not(testing::AnyOf("pending", HasSubstr("interrupted"))));
+  EXPECT_THAT(Outcome("wait", *again), testing::Not(testing::AnyOf("pending", HasSubstr("interrupted"))));
 }
 
 // Also if another was to take its place, and has not.
@@ -68,8 +67,8 @@ TEST_F(ComponentLifeTest, IsStoppedByAPermanentActivityThatFails) {
   Port& seen = PortAt("seen");
   auto source = seen.MakeOutput(rig.runtime.root(), "source", {});
   ASSERT_TRUE(Port::Connect(*source, seen));
-  ASSERT_TRUE(source->PublishFilled(
-      [&](void* value) { return SetFromText(seen.type(), "{at: {x: 99}}", value); }, rig.now()));
+  ASSERT_TRUE(
+      source->PublishFilled([&](void* value) { return SetFromText(seen.type(), "{at: {x: 99}}", value); }, rig.now()));
   const auto fault = rig.RunUntilFault(3);
   ASSERT_TRUE(fault.has_value());
   EXPECT_THAT(fault->message, HasSubstr("probe::wrong {which: left, limit: 99}"));

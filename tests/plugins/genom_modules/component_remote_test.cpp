@@ -36,7 +36,8 @@ class ComponentRemoteTest : public ComponentTest {
     const auto call = callable.NewCall();
     EXPECT_TRUE(SetFromText(*callable.arguments(), arguments, call->arguments()));
     EXPECT_EQ(call->Begin(clock_.Now(), kLongEnough), CallStatus::kPending);
-    WaitUntil("it is answered", [&] { return call->Poll(clock_.Now()) != CallStatus::kPending; }, kLongEnough);
+    WaitUntil(
+        "it is answered", [&] { return call->Poll(clock_.Now()) != CallStatus::kPending; }, kLongEnough);
     return call->Poll(clock_.Now()) == CallStatus::kAnswered ? ToText(*callable.reply(), call->reply()) : call->error();
   }
 
@@ -75,10 +76,13 @@ TEST_F(ComponentRemoteTest, ComesBackFromOneThatDoesNotAnswer) {
   Port& beep = PortOf(*mill_, "beep");
   rig.RunCycles(2);  // and those of the other never
   const auto call = Begin("ask", "{times: 3}");
-  WaitUntil("it has called", [&] {
-    rig.RunCycle();
-    return beep.FindAnnotation<Callable>()->state().waiting == 1;
-  }, kLongEnough);
+  WaitUntil(
+      "it has called",
+      [&] {
+        rig.RunCycle();
+        return beep.FindAnnotation<Callable>()->state().waiting == 1;
+      },
+      kLongEnough);
   ASSERT_TRUE(rig.runtime.Delete(rig.module));
   EXPECT_NE(call->Poll(clock_.Now()), CallStatus::kPending) << "the component has come to its end";
 }

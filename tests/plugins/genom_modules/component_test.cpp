@@ -8,8 +8,9 @@ namespace {
 
 TEST_F(ComponentTest, OffersItsAttributesAsServicesAndParameters) {
   rig.RunCycles(2);  // the task begins 10 ms late
-  EXPECT_EQ(Call("get"), "{gain: 2, list: [], last: {at: {x: 0, y: 0}, where: left, name: \"\", grid: [[0, 0], [0, 0]], "
-                         "trace: [], level: []}}");
+  EXPECT_EQ(Call("get"),
+            "{gain: 2, list: [], last: {at: {x: 0, y: 0}, where: left, name: \"\", grid: [[0, 0], [0, 0]], "
+            "trace: [], level: []}}");
   EXPECT_EQ(Call("set_gain", "{gain: 3}"), "done");
   EXPECT_EQ(Call("set_list", "{list: [1, 2]}"), "done");
   EXPECT_EQ(Parameter("set_gain"), "3") << "parameters follow calls";
@@ -64,8 +65,9 @@ TEST_F(ComponentTest, ReadsAndWritesItsPortsInItsPasses) {
   };
   feed("{at: {x: 2, y: 1}, where: right, name: wall, grid: [[1, 2], [3, 4]], trace: [{x: 1, y: 0}], level: [5]}");
   rig.RunCycles(2);
-  EXPECT_EQ(Newest("echo"), "{at: {x: 4, y: 1}, where: right, name: \"wall\", grid: [[1, 2], [3, 4]], "
-                            "trace: [{x: 1, y: 0}], level: [5]}");
+  EXPECT_EQ(Newest("echo"),
+            "{at: {x: 4, y: 1}, where: right, name: \"wall\", grid: [[1, 2], [3, 4]], "
+            "trace: [{x: 1, y: 0}], level: [5]}");
   feed("{at: {x: 3}}");
   rig.RunCycle();
   EXPECT_THAT(Newest("echo"), HasSubstr("x: 4")) << "between two ticks nothing runs";
@@ -101,7 +103,8 @@ TEST_F(ComponentTest, HasMultiplePortsOfTheNamesThatAreGiven) {
   ASSERT_TRUE(Port::Connect(source, left));
   source.Publish(2.5);
   EXPECT_EQ(Call("copy", "{from: left, to: a}"), "2.5");
-  const auto& copy = dynamic_cast<Output<double>&>(*rig.module.FindChild("output")->FindChild("copies")->FindChild("a"));
+  const auto& copy =
+      dynamic_cast<Output<double>&>(*rig.module.FindChild("output")->FindChild("copies")->FindChild("a"));
   EXPECT_EQ(rig.Last(copy), 2.5);
   EXPECT_EQ(Call("copy", "{from: right, to: a}"), "-1") << "nothing has come there";
   EXPECT_THAT(Call("copy", "{from: left, to: b}"), HasSubstr("mwerr"));

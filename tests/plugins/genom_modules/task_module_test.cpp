@@ -34,7 +34,7 @@ class TaskModuleTest : public ComponentTest {
   }
   Time Now(Scheduler& scheduler) {
     return scheduler.options().clock == SchedulerOptions::ClockKind::kSimulated ? scheduler.simulated_clock().Now()
-                                                                               : SteadyClock().Now();
+                                                                                : SteadyClock().Now();
   }
 };
 
@@ -48,7 +48,10 @@ TEST_F(TaskModuleTest, HasTheTicksOfItsOwnThread) {
   std::vector<std::int64_t> ticks;
   for (Time end{}; end < Time(200ms); end += 10ms) {
     ASSERT_TRUE(source->PublishFilled(
-        [&](void* value) { return SetFromText(echo.type(), "{at: {x: " + std::to_string(ToSeconds(end)) + "}}", value); }, end));
+        [&](void* value) {
+          return SetFromText(echo.type(), "{at: {x: " + std::to_string(ToSeconds(end)) + "}}", value);
+        },
+        end));
     (void)scheduler.RunUntil(end + 10ms);
     Time published{};
     echo.VisitLatest([&](const void*, ValueTimes times) { published = times.timestamp; });
@@ -70,7 +73,8 @@ TEST_F(TaskModuleTest, SaysWhatIsWrongWithItsThread) {
 TEST_F(TaskModuleTest, SaysThatItMissesTicks) {
   (void)CreateThread(rig.runtime, "fast", {.period = 15ms});
   rig.Set("thread_of_drive", "fast");
-  EXPECT_THAT(Refusal(), HasSubstr("task 'drive' has a period of 20ms and a delay of 10ms, and its thread a period of 15ms"));
+  EXPECT_THAT(Refusal(),
+              HasSubstr("task 'drive' has a period of 20ms and a delay of 10ms, and its thread a period of 15ms"));
 }
 TEST_F(TaskModuleTest, SaysThatItHasNoTicks) {
   (void)CreateThread(rig.runtime, "data", {.activation = Activation::kTrigger});
@@ -85,7 +89,8 @@ TEST_F(TaskModuleTest, FailsAsItsComponent) {
   Port& seen = PortAt("seen");
   auto source = seen.MakeOutput(rig.runtime.root(), "source", {});
   ASSERT_TRUE(Port::Connect(*source, seen));
-  ASSERT_TRUE(source->PublishFilled([&](void* value) { return SetFromText(seen.type(), "{at: {x: 99}}", value); }, Time()));
+  ASSERT_TRUE(
+      source->PublishFilled([&](void* value) { return SetFromText(seen.type(), "{at: {x: 99}}", value); }, Time()));
   (void)scheduler.RunUntil(Time(200ms));
   const auto faults = scheduler.TakeFaults();
   ASSERT_EQ(faults.size(), 1u);
@@ -109,7 +114,8 @@ TEST_F(TaskModuleTest, WorksInRealThreads) {
   ASSERT_TRUE(scheduler.Start());
   const auto answer = [&](const std::string& service, const std::string& arguments) {
     const auto call = Ask(scheduler, service, arguments);
-    WaitUntil("it is answered", [&] { return call->Poll(Time()) != CallStatus::kPending; }, kPatience);
+    WaitUntil(
+        "it is answered", [&] { return call->Poll(Time()) != CallStatus::kPending; }, kPatience);
     return Outcome(service, *call);
   };
   EXPECT_EQ(answer("slow", ""), "true");

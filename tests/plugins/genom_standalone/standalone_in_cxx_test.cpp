@@ -39,21 +39,25 @@ TEST(StandaloneInCxxTest, RunsTheSameCodelsAsTheModule) {
             Json::parse(R"({"failed":"beeper::tired","detail":{"which":"right","limit":11}})"));
   EXPECT_EQ(after_a_step(R"({"call": "set_gain", "with": {"gain": -1}})")["failed"], "mill::worn");
   EXPECT_EQ(after_a_step(R"({"call": "pour", "with": {"from": "left", "to": "a", "names": ["one", "two"]}})"), Json());
-  EXPECT_EQ(after_a_step(R"({"call": "get_trace"})")["done"]["trace"],
-            Json::parse(R"(["begin","nothing seen","pass","check","pass","beep","pass","check","pass","beep","pass","check",
+  EXPECT_EQ(
+      after_a_step(R"({"call": "get_trace"})")["done"]["trace"],
+      Json::parse(R"(["begin","nothing seen","pass","check","pass","beep","pass","check","pass","beep","pass","check",
                             "pass","pass","open","pour"])"));
 }
 
 TEST(StandaloneInCxxTest, TakesValuesOfEveryKind) {
   StandaloneProcess mill(RUNNEL_TEST_MILL);
-  const std::string all = R"({"corners":[{"x":1.0,"y":2.0}],"level":7,"words":["up","down"],"flags":[true,false],"load":{"name":"hay"}})";
+  const std::string all =
+      R"({"corners":[{"x":1.0,"y":2.0}],"level":7,"words":["up","down"],"flags":[true,false],"load":{"name":"hay"}})";
   EXPECT_EQ(mill.Ask({{"call", "set_all"}, {"with", Json::parse(all)}}), Json::parse(R"({"done":{}})"));
   Json got = mill.Ask({{"call", "get_all"}})["done"];
   got.erase("last");
   EXPECT_EQ(got, Json::parse(all));
-  EXPECT_EQ(mill.Ask(Json::parse(R"({"call":"say","with":{"seen":{"at":{"y":3}}}})"))["done"]["said"], "a \"word\" right 11 3 2");
-  EXPECT_THAT(mill.Ask(Json::parse(R"({"call":"set_all","with":{"corners":[{},{},{},{}]}})"))["error"].get<std::string>(),
-              HasSubstr("corners: has more than 3"));
+  EXPECT_EQ(mill.Ask(Json::parse(R"({"call":"say","with":{"seen":{"at":{"y":3}}}})"))["done"]["said"],
+            "a \"word\" right 11 3 2");
+  EXPECT_THAT(
+      mill.Ask(Json::parse(R"({"call":"set_all","with":{"corners":[{},{},{},{}]}})"))["error"].get<std::string>(),
+      HasSubstr("corners: has more than 3"));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-#include "plugins/genom_standalone/standalone_component.h"
-
 #include <gtest/gtest.h>
+
+#include "plugins/genom_standalone/standalone_component.h"
 
 namespace runnel::genom_standalone {
 namespace {

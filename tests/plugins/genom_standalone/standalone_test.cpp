@@ -32,8 +32,10 @@ void WaitUntilItTurns(StandaloneProcess& meter) {
 
 TEST(StandaloneTest, AnswersRequests) {
   StandaloneProcess meter(kMeter);
-  EXPECT_EQ(meter.Ask({{"as", 1}, {"call", "set_gain"}, {"with", {{"gain", 3}}}}), Json::parse(R"({"as":1,"done":{}})"));
-  EXPECT_EQ(meter.Ask({{"call", "get"}}), Json::parse(R"({"done":{"gain":3.0,"list":[],"name":"","which":"left","mark":{"level":0},"best":null}})"));
+  EXPECT_EQ(meter.Ask({{"as", 1}, {"call", "set_gain"}, {"with", {{"gain", 3}}}}),
+            Json::parse(R"({"as":1,"done":{}})"));
+  EXPECT_EQ(meter.Ask({{"call", "get"}}),
+            Json::parse(R"({"done":{"gain":3.0,"list":[],"name":"","which":"left","mark":{"level":0},"best":null}})"));
   EXPECT_EQ(meter.Ask({{"as", "x"}, {"call", "set_gain"}, {"with", {{"gain", 11}}}}),
             Json::parse(R"({"as":"x","failed":"meter::wrong","detail":{"which":"right","limit":10}})"));
   EXPECT_EQ(meter.Ask(Json::parse(R"({"call":"sum","with":{"values":[1,2,3],"total":10,"name":"map"}})")),
@@ -53,7 +55,8 @@ TEST(StandaloneTest, UnionsOwnWhatIsSet) {
     EXPECT_EQ(meter.Ask({{"call", "say"}, {"with", {{"said", value}}}}), Json::parse(R"({"done":{}})"));
     return meter.Ask({{"call", "get_said"}})["done"]["said"];
   };
-  for (const std::string value : {R"({"text":"a text that is longer than any place"})", R"({"numbers":[1,2,3]})", R"({"text":"b"})"}) {
+  for (const std::string value :
+       {R"({"text":"a text that is longer than any place"})", R"({"numbers":[1,2,3]})", R"({"text":"b"})"}) {
     EXPECT_EQ(said(value), Json::parse(value));
     EXPECT_EQ(said(value), Json::parse(value));
   }
@@ -71,10 +74,14 @@ TEST(StandaloneTest, SaysWhatIsWrong) {
   EXPECT_THAT(error(R"({"call":"summ"})"), HasSubstr("there is no service 'summ'; did you mean 'sum'?"));
   EXPECT_THAT(error(R"({"call":"sum"})"), HasSubstr("values: is not given"));
   EXPECT_THAT(error(R"({"call":"sum","with":{"values":[1,2,3,4,5],"total":0}})"), HasSubstr("values: has more than 4"));
-  EXPECT_THAT(error(R"({"call":"sum","with":{"values":[1,true],"total":0}})"), HasSubstr("values[1]: is no whole number"));
-  EXPECT_THAT(error(R"({"call":"sum","with":{"vlaues":[]}})"), HasSubstr("there is no input 'vlaues'; did you mean 'values'?"));
-  EXPECT_THAT(error(R"({"call":"mark","with":{"which":"rigth","mark":{"level":1},"best":1}})"), HasSubstr("which: there is no 'rigth'"));
-  EXPECT_THAT(error(R"({"call":"mark","with":{"which":"left","mark":{"level":300},"best":1}})"), HasSubstr("mark.level: 300 does not fit"));
+  EXPECT_THAT(error(R"({"call":"sum","with":{"values":[1,true],"total":0}})"),
+              HasSubstr("values[1]: is no whole number"));
+  EXPECT_THAT(error(R"({"call":"sum","with":{"vlaues":[]}})"),
+              HasSubstr("there is no input 'vlaues'; did you mean 'values'?"));
+  EXPECT_THAT(error(R"({"call":"mark","with":{"which":"rigth","mark":{"level":1},"best":1}})"),
+              HasSubstr("which: there is no 'rigth'"));
+  EXPECT_THAT(error(R"({"call":"mark","with":{"which":"left","mark":{"level":300},"best":1}})"),
+              HasSubstr("mark.level: 300 does not fit"));
   EXPECT_THAT(error(R"({"abort":4294967297})"), HasSubstr("'abort' is the id of an activity"));
   const std::size_t deep = 200'000;  // that is also given back to who has said it
   EXPECT_THAT(error(R"({"describe":true,"as":)" + std::string(deep, '[') + std::string(deep, ']') + "}"),
@@ -127,7 +134,8 @@ TEST(StandaloneTest, ActivitiesAreInterruptedAndTheEndIsClean) {
 TEST(StandaloneTest, PortsAndTimeByRequests) {
   StandaloneProcess meter(kMeter, {"--stepped"});
   EXPECT_EQ(meter.Ask({{"get", "echo"}}), Json::parse(R"({"done":null})"));
-  EXPECT_EQ(meter.Ask(Json::parse(R"({"put":{"seen":{"at":[0.1,0.2],"trace":[1,2,3,4]},"range/left":0.25}})")), Json::parse(R"({"done":{}})"));
+  EXPECT_EQ(meter.Ask(Json::parse(R"({"put":{"seen":{"at":[0.1,0.2],"trace":[1,2,3,4]},"range/left":0.25}})")),
+            Json::parse(R"({"done":{}})"));
   EXPECT_EQ(meter.Ask({{"step", 0.02}}), Json::parse(R"({"done":{"time":0.02}})"));
   EXPECT_EQ(meter.Ask({{"get", "echo"}}), Json::parse(R"({"done":{"at":[0.2,0.4],"trace":[1,2,3,4]}})"));
   EXPECT_EQ(meter.Ask({{"get", "each/copy"}}), Json::parse(R"({"done":0.25})"));
@@ -163,7 +171,8 @@ TEST(StandaloneTest, DoesTheSameAsInRunnelBitForBit) {
     around.sensor_range = 2;
     around.safe_distance = 0.3F + static_cast<float>(noise(random)) / 10;
     around.is_measured = true;
-    for (auto& each : around.contour) each = random() % 3 == 0 ? static_cast<std::uint16_t>(1500 + random() % 6000) : 65535;
+    for (auto& each : around.contour)
+      each = random() % 3 == 0 ? static_cast<std::uint16_t>(1500 + random() % 6000) : 65535;
     rig.Feed("pose", pose);
     rig.Feed("surroundings", around);
     EXPECT_EQ(process.Ask({{"put",

@@ -71,7 +71,10 @@ TEST_F(GeneratedFilesTest, WhatIsAdoptedStaysAndIsMergedWithLaterChanges) {
 TEST_F(GeneratedFilesTest, NothingIsWrittenOutsideOfTheFolder) {
   for (const char* path : {"../out", "/tmp/out", ".generated/a", "a/../../out", ""}) {
     Diagnostics diagnostics;
-    EXPECT_TRUE(WriteFiles(folder_.path(), {{"good", "a", false}, {path, "a", false}}, WhatIsThere::kIsOverwritten, diagnostics).empty()) << path;
+    EXPECT_TRUE(
+        WriteFiles(folder_.path(), {{"good", "a", false}, {path, "a", false}}, WhatIsThere::kIsOverwritten, diagnostics)
+            .empty())
+        << path;
     EXPECT_FALSE(diagnostics.ok());
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "good")) << "all or nothing";
   }

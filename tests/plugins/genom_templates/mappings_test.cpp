@@ -15,16 +15,20 @@ namespace runnel::genom {
 namespace {
 
 constexpr const char* kDescription =
-    "module m { enum e { A, B }; struct tree; typedef sequence<tree> trees; struct tree { trees under; long v[2][3]; };\n"
-    "  union u switch(e) { case A: string<4> s; default: tree t; }; const double half = 0.5; const boolean yes = TRUE;\n"
+    "module m { enum e { A, B }; struct tree; typedef sequence<tree> trees; struct tree { trees under; long v[2][3]; "
+    "};\n"
+    "  union u switch(e) { case A: string<4> s; default: tree t; }; const double half = 0.5; const boolean yes = "
+    "TRUE;\n"
     "  typedef string<8> name; typedef double row[3]; typedef sequence<row, 2> rows; typedef optional<u> maybe; };\n"
     "interface other { function f(in m::u a, out m::name n, in string s, out double d); };\n"
     "component c { uses other; native tool; exception late { double by; }; exception lost;\n"
-    "  ids { tool own; m::trees ts; m::u uu; m::rows r; m::maybe o; string s; struct part { octet a; short b; } parts[2];\n"
+    "  ids { tool own; m::trees ts; m::u uu; m::rows r; m::maybe o; string s; struct part { octet a; short b; } "
+    "parts[2];\n"
     "        sequence<sequence<long, 2>, 3> deep; sequence<string> texts; sequence<m::name> names; };\n"
     "  port in m::u p; port out m::row w; port multiple out m::name q; task t;\n"
     "  activity a(in sequence<double> z, in m::e k, out string x, inout m::row row) { task t; throw late, lost;\n"
-    "    codel<start> filled(in own, out own::made, inout ts, in uu, out s, in k, in z, in p, out w, port out q, in f,\n"
+    "    codel<start> filled(in own, out own::made, inout ts, in uu, out s, in k, in z, in p, out w, port out q, in "
+    "f,\n"
     "                        out x, inout row, in ::all) yield pause::start, ether; }; };\n";
 
 constexpr const char* kFilled =
@@ -37,7 +41,8 @@ constexpr const char* kFilled =
     "  const m_u *seen;\n  m_name name;\n  double d;\n  c_late_detail detail;\n  genom_event e;\n"
     "  if (genom_sequence_reserve(ts, 3)) return c_lost(self);\n"
     "  ts->_buffer[0].v[1][2] = (int32_t)z->_length + (uu->_d == m_A ? uu->_u.s[0] : uu->_u.t.v[0][0]);\n"
-    "  e = (*p->read)(self);\n  if (e != genom_ok) return e;\n  seen = p->data(self);\n  if (!seen) return c_pause_start;\n"
+    "  e = (*p->read)(self);\n  if (e != genom_ok) return e;\n  seen = p->data(self);\n  if (!seen) return "
+    "c_pause_start;\n"
     "  w->data(self)[0][1] = m_half;\n  w->write(self);\n"
     "  q->open(\"one\", self);\n  (*q->data(\"one\", self))[0] = 'x';\n"
     "  e = f->call(seen, name, *s, &d, self);\n  detail.by = d + row[0];\n"
@@ -45,7 +50,8 @@ constexpr const char* kFilled =
     "  *x = *s;\n  *made = (c_tool *)0;\n  return own ? c_ether : e;\n}\n";
 
 bool Compiles(const std::filesystem::path& folder, const std::string& compiler, const std::string& file) {
-  return std::system(("cd '" + folder.string() + "' && " + compiler + " -Wall -Wextra -Werror -fsyntax-only " + file).c_str()) == 0;
+  return std::system(("cd '" + folder.string() + "' && " + compiler + " -Wall -Wextra -Werror -fsyntax-only " + file)
+                         .c_str()) == 0;
 }
 
 TEST(MappingsTest, CodelsInCAndCppCompileAgainstThem) {

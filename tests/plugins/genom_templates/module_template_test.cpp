@@ -30,13 +30,15 @@ TEST(ModuleTemplateTest, ASequenceOfAUnionThatIsAnnounced) {
   const auto output = ModuleOf(
       "union either; typedef sequence<either> many; struct all { many each; };\n"
       "union either switch (boolean) { case TRUE: long number; case FALSE: double real; };\n"
-      "component c { port in all seen; ids { all last; }; task t { codel<start> k(in seen, out last) yield ether; }; };\n");
+      "component c { port in all seen; ids { all last; }; task t { codel<start> k(in seen, out last) yield ether; }; "
+      "};\n");
   ASSERT_TRUE(output) << output.error().ToString();
   const test::TemporaryFolder folder;
   Diagnostics diagnostics;
   (void)WriteFiles(folder.path(), output->files, WhatIsThere::kIsMerged, diagnostics);
   const std::string command = "cd '" + folder.path().string() +
-                              "' && g++ -std=c++20 -fsyntax-only -Wall -Werror -I. -I" RUNNEL_TEST_ROOT " c_module.cpp 2>&1";
+                              "' && g++ -std=c++20 -fsyntax-only -Wall -Werror -I. -I" RUNNEL_TEST_ROOT
+                              " c_module.cpp 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
@@ -49,7 +51,8 @@ TEST(ModuleTemplateTest, WordsOfCxxAreNoNames) {
               HasSubstr("a parameter of codel 'g' cannot be called 'this'"));
   EXPECT_THAT(Refusal("struct template { long x; }; component c { port in template p; };\n"),
               HasSubstr("c.gen:1:8: a struct cannot be called 'template'"));
-  EXPECT_EQ(Refusal("module m { struct template { long x; }; }; component c { port in m::template p; };\n"), "") << "m_template";
+  EXPECT_EQ(Refusal("module m { struct template { long x; }; }; component c { port in m::template p; };\n"), "")
+      << "m_template";
 }
 
 }  // namespace

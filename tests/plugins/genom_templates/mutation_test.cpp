@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 
 #include "plugins/genom_description/description.h"
-#include "plugins/genom_text/file_text.h"
 #include "plugins/genom_templates/template_run.h"
+#include "plugins/genom_text/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::genom {
@@ -21,17 +21,65 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNavDescription =
     "module m { struct s { double x; }; typedef sequence<s, 4> route; enum e { A, B }; };\n"
-    "component nav { version \"1\"; lang \"c\"; exception lost { m::e why; }; ids { m::s goal; string<8> name; m::route way; };\n"
+    "component nav { version \"1\"; lang \"c\"; exception lost { m::e why; }; ids { m::s goal; string<8> name; "
+    "m::route way; };\n"
     "  port in m::s pose; port out m::s wish; port multiple in m::s others;\n"
-    "  task drive { period 20 ms; codel<start> init(out goal, in name) yield ether; codel<stop> quiet(out wish) yield ether; };\n"
+    "  task drive { period 20 ms; codel<start> init(out goal, in name) yield ether; codel<stop> quiet(out wish) yield "
+    "ether; };\n"
     "  attribute set_goal(in goal = { 3 : \"m\" }); function reset() { codel clear(out way); interrupts go; };\n"
     "  activity go(in m::s to = { 1 }, out m::e how) { task drive; validate check(local in to); throw lost;\n"
-    "    codel<start> begin(in to, out how) yield step; codel<step> step(in goal, in pose) yield pause::step, ether; };\n};\n";
+    "    codel<start> begin(in to, out how) yield step; codel<step> step(in goal, in pose) yield pause::step, ether; "
+    "};\n};\n";
 
-constexpr std::array kTemplatePieces = {"<%", "%>", "<%=", "<%= nil %>", "<% end %>", "<% if true then %>", "<% for i = 1, 3 do %>", "<% while true do %>",
-                                "<% error({}) %>", "<% write() %>", "<%= text('nowhere.in') %>", "<%= library('show') %>", "end ", "do ", "(", ")", "{", "}",
-                                "\"", "'", "[[", "]]", "--", "--[[", "nil ", "model ", "model.", "local ", "return ", "function() ", "..", "#", "=", "~",
-                                "goto a ", "::a::", "0x", "1e400", "\\", "\n", "\r", "\xff", "%", ",", ";", " and ", " or ", " not ", ":gsub('(a*)*b', '%1')"};
+constexpr std::array kTemplatePieces = {"<%",
+                                        "%>",
+                                        "<%=",
+                                        "<%= nil %>",
+                                        "<% end %>",
+                                        "<% if true then %>",
+                                        "<% for i = 1, 3 do %>",
+                                        "<% while true do %>",
+                                        "<% error({}) %>",
+                                        "<% write() %>",
+                                        "<%= text('nowhere.in') %>",
+                                        "<%= library('show') %>",
+                                        "end ",
+                                        "do ",
+                                        "(",
+                                        ")",
+                                        "{",
+                                        "}",
+                                        "\"",
+                                        "'",
+                                        "[[",
+                                        "]]",
+                                        "--",
+                                        "--[[",
+                                        "nil ",
+                                        "model ",
+                                        "model.",
+                                        "local ",
+                                        "return ",
+                                        "function() ",
+                                        "..",
+                                        "#",
+                                        "=",
+                                        "~",
+                                        "goto a ",
+                                        "::a::",
+                                        "0x",
+                                        "1e400",
+                                        "\\",
+                                        "\n",
+                                        "\r",
+                                        "\xff",
+                                        "%",
+                                        ",",
+                                        ";",
+                                        " and ",
+                                        " or ",
+                                        " not ",
+                                        ":gsub('(a*)*b', '%1')"};
 
 int MutationCount() {
   const char* const said = std::getenv("RUNNEL_MUTATIONS");
@@ -41,7 +89,8 @@ int MutationCount() {
 class TemplateMutationTest : public testing::Test {
  protected:
   TemplateMutationTest() {
-    fs::copy(RUNNEL_GENOM_TEMPLATE_FOLDER, folder_.path(), fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    fs::copy(RUNNEL_GENOM_TEMPLATE_FOLDER, folder_.path(),
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
     for (const auto& each : fs::recursive_directory_iterator(folder_.path())) {
       if (each.is_regular_file()) files_.push_back(each.path());
     }
@@ -59,15 +108,21 @@ class TemplateMutationTest : public testing::Test {
     for (int i = 0; i < count; ++i) {
       // Mostly where scripts are.
       std::size_t at = Below(text.size() + 1);
-      if (const std::size_t marker = text.find("<%", at); marker != std::string::npos && random_() % 4 != 0) at = std::min(text.size(), marker + Below(40));
+      if (const std::size_t marker = text.find("<%", at); marker != std::string::npos && random_() % 4 != 0)
+        at = std::min(text.size(), marker + Below(40));
       const std::size_t length = Below(std::min<std::size_t>(text.size() - at + 1, 30));
       switch (random_() % 5) {
-        case 0: text.erase(at, length); break;
-        case 1: text.insert(at, text.substr(at, length)); break;
+        case 0:
+          text.erase(at, length);
+          break;
+        case 1:
+          text.insert(at, text.substr(at, length));
+          break;
         case 2:
           if (at < text.size()) text[at] = static_cast<char>(random_());
           break;
-        default: text.insert(at, kTemplatePieces[Below(kTemplatePieces.size())]);
+        default:
+          text.insert(at, kTemplatePieces[Below(kTemplatePieces.size())]);
       }
     }
     return text;

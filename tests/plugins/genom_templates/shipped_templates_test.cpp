@@ -7,8 +7,8 @@
 
 #include "core/xml/xml_document.h"
 #include "plugins/genom_description/description.h"
-#include "plugins/genom_text/file_text.h"
 #include "plugins/genom_templates/template_run.h"
+#include "plugins/genom_text/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::genom {
@@ -22,7 +22,8 @@ std::vector<GeneratedFile> FilesOf(const std::string& name, const std::string& t
   Diagnostics diagnostics;
   const auto description = ReadDescriptionText(text, "test.gen", {}, diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.ToString();
-  const auto output = RunTemplate(std::string(RUNNEL_GENOM_TEMPLATE_FOLDER) + "/" + name, DescriptionJson(*description), {});
+  const auto output =
+      RunTemplate(std::string(RUNNEL_GENOM_TEMPLATE_FOLDER) + "/" + name, DescriptionJson(*description), {});
   EXPECT_TRUE(output) << output.error().ToString();
   return output ? output->files : std::vector<GeneratedFile>{};
 }
@@ -36,13 +37,19 @@ std::string TextOfFile(const std::vector<GeneratedFile>& files, const std::strin
 
 std::string Component(const std::string& more_parameters, const std::string& more_codels) {
   return "/*/ Somebody's. */\nmodule m { struct s { double x; }; typedef sequence<s, 4> route; };\n"
-         "component nav { doc \"Drives.\"; ids { m::s goal; string text; string<8> name; long grid[2][3]; m::route way; native_ n; };\n"
+         "component nav { doc \"Drives.\"; ids { m::s goal; string text; string<8> name; long grid[2][3]; m::route "
+         "way; native_ n; };\n"
          "  port in m::s pose { doc \"where | it is\"; };\n"
-         "  task drive { period 20 ms; codel<start> init(out goal, out text, out name, in grid, inout way) yield ether; };\n"
-         "  activity go(in m::s to = { 3 : \"m\" }" + more_parameters + ") { task drive; validate check(local in to);\n"
-         "    codel<start> begin(in to, out goal" + (more_parameters.empty() ? "" : ", in fast") + ") yield step;\n"
-         "    codel<step> step(in goal, in pose) yield pause::step, " + (more_codels.empty() ? "ether" : "finish, ether") + ";" +
-         more_codels + " };\n};\n";
+         "  task drive { period 20 ms; codel<start> init(out goal, out text, out name, in grid, inout way) yield "
+         "ether; };\n"
+         "  activity go(in m::s to = { 3 : \"m\" }" +
+         more_parameters +
+         ") { task drive; validate check(local in to);\n"
+         "    codel<start> begin(in to, out goal" +
+         (more_parameters.empty() ? "" : ", in fast") +
+         ") yield step;\n"
+         "    codel<step> step(in goal, in pose) yield pause::step, " +
+         (more_codels.empty() ? "ether" : "finish, ether") + ";" + more_codels + " };\n};\n";
 }
 
 std::string Described(const std::string& parameters = "", const std::string& codels = "") {
@@ -62,7 +69,9 @@ TEST(SkeletonTest, SignaturesAreThoseOfTheOriginal) {
   EXPECT_THAT(text, HasSubstr("#include \"acnav.h\"\n\n#include \"nav_c_types.h\"\n"));
   EXPECT_THAT(TextOfFile(files, "codels/nav_codels.c"),
               HasSubstr("check(const m_s *to, const genom_context self)\n{\n  return genom_ok;\n}\n"));
-  EXPECT_THAT(TextOfFile(files, "CMakeLists.txt"), HasSubstr("  DESCRIPTION \"test.gen\"\n  CODELS\n    codels/nav_codels.c\n    codels/nav_drive_codels.c\n  )\n"));
+  EXPECT_THAT(
+      TextOfFile(files, "CMakeLists.txt"),
+      HasSubstr("  DESCRIPTION \"test.gen\"\n  CODELS\n    codels/nav_codels.c\n    codels/nav_drive_codels.c\n  )\n"));
 }
 
 TEST(SkeletonTest, MadeAnewItKeepsWhatWasFilledIn) {
@@ -75,7 +84,8 @@ TEST(SkeletonTest, MadeAnewItKeepsWhatWasFilledIn) {
   text.replace(text.find(untouched), untouched.size(), "  *goal = *to;\n  goal->x += 1;\n  return nav_step;\n");
   std::ofstream(file) << text;
   // A parameter and a state more.
-  (void)WriteFiles(folder.path(), FilesOf("skeleton", Described(", in boolean fast", " codel<finish> finish(out goal) yield ether;")),
+  (void)WriteFiles(folder.path(),
+                   FilesOf("skeleton", Described(", in boolean fast", " codel<finish> finish(out goal) yield ether;")),
                    WhatIsThere::kIsMerged, diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.ToString();
   EXPECT_THAT(TextOf(file).value(),
@@ -86,7 +96,8 @@ TEST(SkeletonTest, MadeAnewItKeepsWhatWasFilledIn) {
   text = TextOf(file).value();
   text.replace(text.find("bool fast"), 9, "int fast");
   std::ofstream(file) << text;
-  const auto written = WriteFiles(folder.path(), FilesOf("skeleton", Described(", in long fast")), WhatIsThere::kIsMerged, diagnostics);
+  const auto written =
+      WriteFiles(folder.path(), FilesOf("skeleton", Described(", in long fast")), WhatIsThere::kIsMerged, diagnostics);
   EXPECT_EQ(std::ranges::count(written, WrittenFile::What::kConflict, &WrittenFile::what), 1);
   EXPECT_THAT(TextOf(file).value(), HasSubstr("<<<<<<< yours\n"));
 }

@@ -30,7 +30,8 @@ class TemplateRunTest : public testing::Test {
 };
 
 TEST_F(TemplateRunTest, MakesFilesOfTextsAndTheModel) {
-  Write("own/template.lua", "file('a.in', model.name .. '.txt', {what = 'this'})\nkeep('a.in', 'kept', {what = options.style})\n");
+  Write("own/template.lua",
+        "file('a.in', model.name .. '.txt', {what = 'this'})\nkeep('a.in', 'kept', {what = options.style})\n");
   Write("own/a.in", "<% for i, each in ipairs(model.list) do %>\n<%= what %> <%= i %>: <%= each %>\n<% end %>\n");
   const auto result = Run();
   ASSERT_TRUE(result) << result.error().ToString();
@@ -86,8 +87,10 @@ TEST_F(TemplateRunTest, WhatDoesNotComeToAnEndIsEnded) {
   };
   EXPECT_THAT(wrong("\nwhile true do\nend\n"), HasSubstr("the template does not come to an end"));
   EXPECT_THAT(wrong("\nwhile true do\nend\n"), HasSubstr("own/template.lua:2: "));
-  EXPECT_THAT(wrong("local function f() return f() end f()"), HasSubstr("own/template.lua:1: the template does not come to an end"));
-  EXPECT_THAT(wrong("local function f() return 1 + f() end f()", 500'000'000), HasSubstr("own/template.lua:1: stack overflow"));
+  EXPECT_THAT(wrong("local function f() return f() end f()"),
+              HasSubstr("own/template.lua:1: the template does not come to an end"));
+  EXPECT_THAT(wrong("local function f() return 1 + f() end f()", 500'000'000),
+              HasSubstr("own/template.lua:1: stack overflow"));
   EXPECT_THAT(wrong("local all = {} while true do all[#all + 1] = string.rep('a', 1000000 + #all) end"),
               HasSubstr("own/template.lua: the template needs too much memory"));
   EXPECT_THAT(wrong("local text = string.rep('a', 1000000) while true do text = ('b' .. text):sub(1, 1000000) end"),

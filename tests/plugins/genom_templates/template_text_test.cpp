@@ -1,8 +1,8 @@
-#include "plugins/genom_templates/template_run.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
+
+#include "plugins/genom_templates/template_run.h"
 
 namespace runnel::genom {
 namespace {

@@ -1,6 +1,6 @@
-#include "plugins/genom_templates/generated_files.h"
-
 #include <gtest/gtest.h>
+
+#include "plugins/genom_templates/generated_files.h"
 
 namespace runnel::genom {
 namespace {

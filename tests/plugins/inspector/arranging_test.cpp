@@ -28,8 +28,8 @@ TEST_F(Arranging, IsToldToAllViewersAndKeptBesideTheApplication) {
   Viewer viewer = View();
   Viewer other = View();
   other.Next("structure");
-  const Json reply = viewer.Ask(
-      {{"op", "arrange"}, {"entries", {{"place /app/a", "12 40"}, {"note /app/a", "a \"fast\" one"}}}});
+  const Json reply =
+      viewer.Ask({{"op", "arrange"}, {"entries", {{"place /app/a", "12 40"}, {"note /app/a", "a \"fast\" one"}}}});
   EXPECT_EQ(reply["ok"], true) << reply.dump();
   EXPECT_EQ(other.Next("layout")["entries"]["place /app/a"], "12 40");
   EXPECT_EQ(Read("robot.layout.json"),

@@ -26,9 +26,7 @@ inline Json ChangeMessage(const std::string& text) {
       for (const auto& [name, value] : change.settings) json["settings"][name] = value;
       return json;
     }
-    Json operator()(const CreateGroup& change) const {
-      return {{"change", "create_group"}, {"path", change.path}};
-    }
+    Json operator()(const CreateGroup& change) const { return {{"change", "create_group"}, {"path", change.path}}; }
     Json operator()(const CreatePort& change) const {
       const bool is_input = change.direction == Port::Direction::kInput;
       return {{"change", "create_port"},
@@ -39,14 +37,9 @@ inline Json ChangeMessage(const std::string& text) {
     Json operator()(const CreateParameter& change) const {
       return {{"change", "create_parameter"}, {"path", change.path}, {"targets", change.targets}};
     }
-    Json operator()(const DeleteElement& change) const {
-      return {{"change", "delete"}, {"path", change.path}};
-    }
+    Json operator()(const DeleteElement& change) const { return {{"change", "delete"}, {"path", change.path}}; }
     Json operator()(const ConnectPorts& change) const {
-      return {{"change", "connect"},
-              {"from", change.from},
-              {"to", change.to},
-              {"queue", change.options.queue}};
+      return {{"change", "connect"}, {"from", change.from}, {"to", change.to}, {"queue", change.options.queue}};
     }
     Json operator()(const DisconnectPorts& change) const {
       return {{"change", "disconnect"}, {"from", change.from}, {"to", change.to}};
@@ -55,10 +48,8 @@ inline Json ChangeMessage(const std::string& text) {
       return {{"change", "set"}, {"path", change.path}, {"value", change.value}};
     }
     Json operator()(const ReplaceModule& change) const {
-      return {{"change", "replace"},
-              {"path", change.path},
-              {"type", change.type},
-              {"probation", change.probation_cycles}};
+      return {
+          {"change", "replace"}, {"path", change.path}, {"type", change.type}, {"probation", change.probation_cycles}};
     }
     Json operator()(const AssignToThread& change) const {
       return {{"change", "move"}, {"path", change.path}, {"thread", change.thread}};

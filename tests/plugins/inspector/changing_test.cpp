@@ -12,8 +12,7 @@ TEST_F(Changing, IsAnsweredAndToldToAllViewers) {
   Viewer viewer = View();
   Viewer other = View();
   other.Next("structure");
-  const Json reply =
-      viewer.Change({"create /app/c test/sink", "connect /app/a/out /app/c/in queue=3"});
+  const Json reply = viewer.Change({"create /app/c test/sink", "connect /app/a/out /app/c/in queue=3"});
   EXPECT_EQ(reply["ok"], true) << reply.dump();
   EXPECT_THAT(reply["text"], HasSubstr("done; threads stood still for"));
   const Json told = other.Next("structure_change");
@@ -31,8 +30,7 @@ TEST_F(Changing, IsAnsweredAndToldToAllViewers) {
 TEST_F(Changing, IsAllOrNothingAndSaysWhichChangeIsWrong) {
   Start();
   Viewer viewer = View();
-  const Json reply =
-      viewer.Change({"set /app/a/speed 2", "set /app/a/sped 3", "set /app/a/speed 99"});
+  const Json reply = viewer.Change({"set /app/a/speed 2", "set /app/a/sped 3", "set /app/a/speed 99"});
   EXPECT_EQ(reply["ok"], false);
   ASSERT_EQ(reply["errors"].size(), 2U) << reply.dump();
   EXPECT_EQ(reply["errors"][0]["change"], 1);
@@ -47,9 +45,7 @@ TEST_F(Changing, LogLevelsAreSetAndToldToAllViewers) {
   Viewer viewer = View();
   Viewer other = View();
   const auto levels = [](const Json& expected) {
-    return [expected](const Json& each) {
-      return each["op"] == "state" && each["log_levels"] == expected;
-    };
+    return [expected](const Json& each) { return each["op"] == "state" && each["log_levels"] == expected; };
   };
   other.Next(levels(Json::object()), "state without levels");
   const Json reply = viewer.Ask({{"op", "log"}, {"path", "/app/a"}, {"level", "debug"}});
@@ -63,12 +59,12 @@ TEST_F(Changing, LogLevelsAreSetAndToldToAllViewers) {
 
 TEST_F(Changing, WordsThatAreNoneAreToldWithTheNearest) {
   Start();
-  const Json reply = View().ChangeAsTold(
-      {ChangeMessage("set /app/a/speed 2"), {{"change", "craete"}, {"path", "/app/c"}}});
+  const Json reply =
+      View().ChangeAsTold({ChangeMessage("set /app/a/speed 2"), {{"change", "craete"}, {"path", "/app/c"}}});
   EXPECT_EQ(reply["errors"][0]["change"], 1);
   EXPECT_THAT(reply["errors"][0]["hint"], HasSubstr("create"));
-  const Json member = View().ChangeAsTold(
-      Json::array({{{"change", "set"}, {"path", "/app/a/speed"}, {"value", "2"}, {"vale", "3"}}}));
+  const Json member =
+      View().ChangeAsTold(Json::array({{{"change", "set"}, {"path", "/app/a/speed"}, {"value", "2"}, {"vale", "3"}}}));
   EXPECT_EQ(member["errors"][0]["message"], "'set': has no \"vale\"");
   EXPECT_EQ(member["errors"][0]["hint"], "did you mean 'value'?");
   EXPECT_EQ(View().ChangeAsTold(Json::array())["ok"], false);
@@ -80,10 +76,8 @@ TEST_F(Changing, TakesNamesAndValuesAsTheyAreWhateverIsInThem) {
   Start();
   Viewer viewer = View();
   const std::string title = "a \"b\"; delete /app/a # \\ \n\t}{";
-  const Json done = viewer.ChangeAsTold(Json::array({{{"change", "create"},
-                                                      {"path", "/app/c"},
-                                                      {"type", "test/counter"},
-                                                      {"settings", {{"title", title}}}}}));
+  const Json done = viewer.ChangeAsTold(Json::array(
+      {{{"change", "create"}, {"path", "/app/c"}, {"type", "test/counter"}, {"settings", {{"title", title}}}}}));
   EXPECT_EQ(done["ok"], true) << done.dump();
   EXPECT_EQ(View().Element("/app/c/parameter/title")["value"], title);
 }
@@ -96,35 +90,24 @@ TEST_F(Changing, EachKindOfChangeIsReadAndADetailThatIsWrongIsNamed) {
     return reply["ok"] == true ? "done" : reply["errors"][0]["message"].get<std::string>();
   };
   EXPECT_EQ(told({{"change", "create_group"}, {"path", "/app/g"}}), "done");
-  EXPECT_EQ(told({{"change", "create_port"},
-                  {"path", "/app/g/n"},
-                  {"direction", "output"},
-                  {"type", "int32"}}),
+  EXPECT_EQ(told({{"change", "create_port"}, {"path", "/app/g/n"}, {"direction", "output"}, {"type", "int32"}}),
             "done");
   EXPECT_EQ(told({{"change", "disconnect"}, {"from", "/app/a/out"}, {"to", "/app/b/in"}}), "done");
-  EXPECT_EQ(told({{"change", "connect"},
-                  {"from", "/app/a/out"},
-                  {"to", "/app/b/in"},
-                  {"queue", 4},
-                  {"on_full", "refuse"}}),
-            "done");
+  EXPECT_EQ(
+      told({{"change", "connect"}, {"from", "/app/a/out"}, {"to", "/app/b/in"}, {"queue", 4}, {"on_full", "refuse"}}),
+      "done");
   EXPECT_EQ(told({{"change", "move"}, {"path", "/app/g"}, {"thread", "main"}}), "done");
-  EXPECT_EQ(told({{"change", "connect"},
-                  {"from", "/app/a/out"},
-                  {"to", "/app/b/in"},
-                  {"on_full", "refus"}}),
+  EXPECT_EQ(told({{"change", "connect"}, {"from", "/app/a/out"}, {"to", "/app/b/in"}, {"on_full", "refus"}}),
             "'connect': \"on_full\" cannot be 'refus'");
   EXPECT_EQ(told({{"change", "connect"}, {"from", "/a"}, {"to", "/b"}, {"queue", -1}}),
             "'connect': \"queue\" must be a count, at most 1000000000");
   EXPECT_EQ(told({{"change", "connect"}, {"from", "/a"}, {"to", "/b"}, {"pull", 1}}),
             "'connect': \"pull\" must be true or false");
-  EXPECT_EQ(
-      told({{"change", "connect"}, {"from", "/app/a/out"}, {"to", "/app/b/in"}, {"pull", true}}),
-      "cannot be pulled: it has no provider");
+  EXPECT_EQ(told({{"change", "connect"}, {"from", "/app/a/out"}, {"to", "/app/b/in"}, {"pull", true}}),
+            "cannot be pulled: it has no provider");
   EXPECT_EQ(told({{"change", "create"}, {"path", "/x"}, {"type", "t"}, {"settings", {{"a", 1}}}}),
             "'create': the setting 'a' must be a text");
-  EXPECT_EQ(told({{"change", "set"}, {"path", 3}, {"value", "2"}}),
-            "'set': \"path\" must be a text");
+  EXPECT_EQ(told({{"change", "set"}, {"path", 3}, {"value", "2"}}), "'set': \"path\" must be a text");
 }
 
 TEST_F(Changing, ASwapKeepsThePathsAndIsNoLoss) {
@@ -159,9 +142,7 @@ TEST_F(Changing, IsUndoneAndDoneAgain) {
   Start();
   Viewer viewer = View();
   EXPECT_EQ(viewer.Ask({{"op", "undo"}})["ok"], false);
-  viewer.Ask({{"op", "change"},
-              {"label", "faster"},
-              {"changes", Json::array({ChangeMessage("set /app/a/speed 3")})}});
+  viewer.Ask({{"op", "change"}, {"label", "faster"}, {"changes", Json::array({ChangeMessage("set /app/a/speed 3")})}});
   EXPECT_EQ(viewer.Ask({{"op", "undo"}})["text"], "undone: faster");
   EXPECT_EQ(View().Element("/app/a/parameter/speed")["value"], "1");
   const Json redone = View().Ask({{"op", "redo"}});
@@ -188,9 +169,7 @@ TEST_F(Changing, NamesTheTypesThatCouldStandIn) {
   for (const Json& each : reply["types"]) types.push_back(each["type"]);
   EXPECT_THAT(types, ElementsAre("test/counter", "test/failing", "test/fast_counter"));
   EXPECT_THAT(reply["types"][0]["lost"], IsEmpty());
-  EXPECT_EQ(
-      viewer.Change({"replace /app/a with test/fast_counter", "create /app/s test/sink"})["ok"],
-      true);
+  EXPECT_EQ(viewer.Change({"replace /app/a with test/fast_counter", "create /app/s test/sink"})["ok"], true);
   const Json none = viewer.Ask({{"op", "compatible"}, {"path", "/app/none"}});
   EXPECT_EQ(none["ok"], false);
   EXPECT_EQ(none["errors"][0]["path"], "/app/none");
@@ -200,8 +179,7 @@ TEST_F(Changing, NamesTheConversionsByWhichPortsOfDifferentTypesCouldBeConnected
   Start();
   Viewer viewer = View();
   ASSERT_EQ(viewer.Change({"create /app/s test/sink", "tag /app/s loud new"})["ok"], true);
-  const Json reply =
-      viewer.Ask({{"op", "conversions"}, {"from", "/app/a/output/out"}, {"to", "/app/s/input/in"}});
+  const Json reply = viewer.Ask({{"op", "conversions"}, {"from", "/app/a/output/out"}, {"to", "/app/s/input/in"}});
   ASSERT_EQ(reply["ok"], true) << reply.dump();
   EXPECT_THAT(reply["conversions"], testing::Contains(Json{{"part", ""}, {"convert", "round"}}));
   EXPECT_EQ(viewer.Ask({{"op", "conversions"}, {"from", "/app/a/output/ou"}, {"to", "/app/s/input/in"}})["ok"], false);

@@ -83,8 +83,7 @@ TEST_F(Driving, ReadOnlyAPanelIsSeenAndNothingDriven) {
   Viewer viewer = View();
   EXPECT_EQ(viewer.Ask({{"op", "panel"}})["ok"], true);
   for (const char* op : {"publish", "save_panel", "release"}) {
-    EXPECT_THAT(viewer.Ask({{"op", op}, {"path", kIn}})["errors"][0]["message"],
-                HasSubstr("read-only"));
+    EXPECT_THAT(viewer.Ask({{"op", op}, {"path", kIn}})["errors"][0]["message"], HasSubstr("read-only"));
   }
 }
 

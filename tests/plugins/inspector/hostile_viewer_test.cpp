@@ -29,15 +29,11 @@ TEST_F(HostileViewer, IsAnsweredWithTheNumberOfItsRequestWhateverIsWrong) {
   };
   Start();
   Viewer viewer = View();
-  const auto refused = [&](Json message) {
-    return viewer.Ask(std::move(message))["errors"][0]["message"];
-  };
-  EXPECT_THAT(
-      refused({{"op", "publish"}, {"path", "/app/a/output/out"}, {"value", "7"}, {"rate", -5}}),
-      HasSubstr("\"rate\" must be a number, not below 0"));
+  const auto refused = [&](Json message) { return viewer.Ask(std::move(message))["errors"][0]["message"]; };
+  EXPECT_THAT(refused({{"op", "publish"}, {"path", "/app/a/output/out"}, {"value", "7"}, {"rate", -5}}),
+              HasSubstr("\"rate\" must be a number, not below 0"));
   EXPECT_THAT(refused({{"op", "speed"}, {"speed", -1}}), HasSubstr("\"speed\" must be"));
-  EXPECT_THAT(refused({{"op", "profile"}, {"on", "no"}}),
-              HasSubstr("\"on\" must be true or false"));
+  EXPECT_THAT(refused({{"op", "profile"}, {"on", "no"}}), HasSubstr("\"on\" must be true or false"));
   EXPECT_THAT(refused({{"op", "save"}, {"overwrite", 1}}), HasSubstr("must be true or false"));
   EXPECT_THAT(refused({{"op", 7}}), HasSubstr("must be a text"));
   EXPECT_THAT(refused({{"path", "/"}}), HasSubstr("no \"op\""));
@@ -56,15 +52,20 @@ TEST_F(HostileViewer, SaysNothingThatItsOperationDoesNotHave) {
   Viewer viewer = View();
   const auto refused = [&](Json message) {
     const Json error = viewer.Ask(std::move(message))["errors"][0];
-    return error["message"].get<std::string>() + (error["hint"].is_null() ? "" : "; " + error["hint"].get<std::string>());
+    return error["message"].get<std::string>() +
+           (error["hint"].is_null() ? "" : "; " + error["hint"].get<std::string>());
   };
   EXPECT_EQ(refused({{"op", "save"}, {"fiel", "other.xml"}}), "'save' has no \"fiel\"; did you mean 'file'?");
-  EXPECT_THAT(refused({{"op", "save"}, {"what", "config"}}), HasSubstr("\"what\" is 'configuration' or left out, not 'config'"));
+  EXPECT_THAT(refused({{"op", "save"}, {"what", "config"}}),
+              HasSubstr("\"what\" is 'configuration' or left out, not 'config'"));
   EXPECT_THAT(refused({{"op", "save"}, {"path", "/app/a"}}), HasSubstr("'save' has no \"path\""));
   EXPECT_THAT(refused({{"op", "pause"}, {"Path", "/app/a"}}), HasSubstr("did you mean 'path'?"));
-  EXPECT_THAT(refused({{"op", "publish"}, {"path", "/app/a/out"}, {"value", "7"}, {"dedline", 1}}), HasSubstr("did you mean 'deadline'?"));
-  EXPECT_THAT(refused({{"op", "arrange"}, {"entries", {{"note /app/a", 5}}}}), HasSubstr("'note /app/a' must be a text"));
-  EXPECT_THAT(refused({{"op", "watch"}, {"path", "/app/a/out"}, {"as", "picture"}}), HasSubstr("\"as\" is 'image' or left out"));
+  EXPECT_THAT(refused({{"op", "publish"}, {"path", "/app/a/out"}, {"value", "7"}, {"dedline", 1}}),
+              HasSubstr("did you mean 'deadline'?"));
+  EXPECT_THAT(refused({{"op", "arrange"}, {"entries", {{"note /app/a", 5}}}}),
+              HasSubstr("'note /app/a' must be a text"));
+  EXPECT_THAT(refused({{"op", "watch"}, {"path", "/app/a/out"}, {"as", "picture"}}),
+              HasSubstr("\"as\" is 'image' or left out"));
   EXPECT_FALSE(has_saved);
   ExpectThatAllIsWell();
 }
@@ -143,8 +144,7 @@ TEST_F(HostileViewer, OneThatDoesNotReadMissesValuesAndIsLetGo) {
   Apply("create /app/lists test/lists");
   Viewer viewer = View();
   for (int i = 0; i < 400; ++i) {
-    viewer.Send(
-        {{"op", "watch"}, {"path", "/app/lists/output/list"}, {"rate", 60}, {"elements", 1000}});
+    viewer.Send({{"op", "watch"}, {"path", "/app/lists/output/list"}, {"rate", 60}, {"elements", 1000}});
   }
   WaitUntil("the client that does not read is gone", [&] { return server->clients() == 0; });
   ExpectThatAllIsWell();
@@ -179,9 +179,8 @@ TEST_F(HostileViewer, RandomMessagesDoNoHarm) {
                                  Json::object()};
   const std::vector<Json> members{"path",  "rate", "changes", "elements", "cycles",
                                   "speed", "file", "plugin",  "request",  "label"};
-  const std::vector<Json> ops{"watch", "unwatch",    "watch_rates", "change", "undo",
-                              "redo",  "compatible", "save",        "pause",  "resume",
-                              "step",  "speed",      "reload",      "x"};
+  const std::vector<Json> ops{"watch", "unwatch", "watch_rates", "change", "undo",  "redo",   "compatible",
+                              "save",  "pause",   "resume",      "step",   "speed", "reload", "x"};
   for (int i = 0; i < 2000; ++i) {
     Json message{{"op", any(ops)}};
     for (int j = 0; j < 3; ++j) message[any(members).get<std::string>()] = any(values);

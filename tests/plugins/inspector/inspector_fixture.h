@@ -42,9 +42,7 @@ class Counter : public Module {
   using Module::Module;
   Output<int> out{this, "out", {.description = "how many so far"}};
   Parameter<double> speed{
-      this,
-      "speed",
-      {.default_value = 1, .bounds = {0, 9}, .unit = "m/s", .description = "how fast it would be"}};
+      this, "speed", {.default_value = 1, .bounds = {0, 9}, .unit = "m/s", .description = "how fast it would be"}};
   StaticParameter<std::string> title{this, "title", {.default_value = "none"}};
 
  protected:
@@ -136,9 +134,8 @@ class Viewer {
     const int request = ++requests_;
     message["request"] = request;
     Send(message);
-    return Next(
-        [&](const Json& reply) { return reply["op"] == "reply" && reply["request"] == request; },
-        "reply to " + message.dump());
+    return Next([&](const Json& reply) { return reply["op"] == "reply" && reply["request"] == request; },
+                "reply to " + message.dump());
   }
   Json Change(const std::vector<std::string>& texts) {
     Json changes = Json::array();
@@ -159,11 +156,9 @@ class Viewer {
   /// The element as it is told the next time.
   Json Element(const std::string& path) {
     for (;;) {
-      const Json told = Next(
-          [](const Json& each) {
-            return each["op"] == "structure" || each["op"] == "structure_change";
-          },
-          "news of " + path);
+      const Json told =
+          Next([](const Json& each) { return each["op"] == "structure" || each["op"] == "structure_change"; },
+               "news of " + path);
       if (!told.contains("elements")) return {};
       for (const Json& element : told["elements"]) {
         if (element["path"] == path) return element;
@@ -217,13 +212,10 @@ class InspectorTest : public ::testing::Test {
   template <typename M>
   void Register(const std::string& name) {
     EXPECT_TRUE(modules.Add({name, "does it", "test", [](const Placement& placement) {
-                               return std::unique_ptr<FrameworkElement>(
-                                   std::make_unique<M>(placement));
+                               return std::unique_ptr<FrameworkElement>(std::make_unique<M>(placement));
                              }}));
   }
-  Port& PortAt(const std::string& path) {
-    return dynamic_cast<Port&>(*runtime.root().Find(path).value());
-  }
+  Port& PortAt(const std::string& path) { return dynamic_cast<Port&>(*runtime.root().Find(path).value()); }
   void Set(const std::string& path, const std::string& value) {
     auto* const parameter = dynamic_cast<Configurable*>(*runtime.root().Find(path));
     ASSERT_NE(parameter, nullptr);
@@ -235,8 +227,7 @@ class InspectorTest : public ::testing::Test {
     Diagnostics diagnostics;
     const PlacedChanges placed = ParseChanges(changes, {}, diagnostics);
     const auto outcome = editor.Apply(placed.changes);
-    EXPECT_TRUE(diagnostics.ok() && outcome)
-        << diagnostics.ToString() << outcome.diagnostics.ToString();
+    EXPECT_TRUE(diagnostics.ok() && outcome) << diagnostics.ToString() << outcome.diagnostics.ToString();
   }
 
   Runtime runtime;

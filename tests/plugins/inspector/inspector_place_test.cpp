@@ -24,8 +24,8 @@ TEST(InspectorPlace, IsReadWithAndWithoutAnAddress) {
 }
 
 TEST(InspectorPlace, WhatIsNoneIsRefusedWithACure) {
-  for (const char* text : {"", "x", "-1", "65536", "80 ", ":80", "0.0.0.0", "0.0.0.0:", "here:80",
-                           "127.0.0.1:x", "1.2.3:80"}) {
+  for (const char* text :
+       {"", "x", "-1", "65536", "80 ", ":80", "0.0.0.0", "0.0.0.0:", "here:80", "127.0.0.1:x", "1.2.3:80"}) {
     const auto place = ParseInspectorPlace(text);
     ASSERT_FALSE(place) << text;
     EXPECT_NE(place.error().hint, "") << text;

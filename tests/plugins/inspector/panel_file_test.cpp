@@ -20,9 +20,7 @@ std::string Problem(const std::string& text) {
   return good ? "" : good.error().message + "; " + good.error().hint;
 }
 
-std::string Widget(const std::string& members) {
-  return R"({"panel": 1, "widgets": [{)" + members + "}]}";
-}
+std::string Widget(const std::string& members) { return R"({"panel": 1, "widgets": [{)" + members + "}]}"; }
 
 TEST(CheckPanel, SaysWhatIsWrong) {
   EXPECT_EQ(Problem(kPanel), "");
@@ -49,22 +47,19 @@ TEST(CheckPanel, SaysWhatIsWrong) {
 
 TEST(CheckPanel, RefusesASettingOfAWrongKind) {
   const auto with = [](const std::string& setting) {
-    return Problem(
-        Widget(R"("id": "a", "kind": "plot", "x": 0, "y": 0, "w": 1, "h": 1, )" + setting));
+    return Problem(Widget(R"("id": "a", "kind": "plot", "x": 0, "y": 0, "w": 1, "h": 1, )" + setting));
   };
-  for (const char* good :
-       {R"("minimum": -1.5)", R"("title": "x", "held": false)", R"("step": null)",
-        R"("curves": [])", R"("curves": [{"target": "/a"}, {"target": "/b", "field": "x"}])"}) {
+  for (const char* good : {R"("minimum": -1.5)", R"("title": "x", "held": false)", R"("step": null)", R"("curves": [])",
+                           R"("curves": [{"target": "/a"}, {"target": "/b", "field": "x"}])"}) {
     EXPECT_EQ(with(good), "") << good;
   }
   EXPECT_THAT(with(R"("minimum": "0")"), HasSubstr("\"minimum\" must be a number"));
   EXPECT_THAT(with(R"("maximum": 1e999)"), HasSubstr("must be a number"));
   EXPECT_THAT(with(R"("title": 7)"), HasSubstr("\"title\" must be a text"));
   EXPECT_THAT(with(R"("held": "yes")"), HasSubstr("\"held\" must be true or false"));
-  for (const char* wrong : {R"("x")", R"([7])", R"([{"field": "x"}])", R"([{"target": 7}])",
-                            R"([{"target": "/a", "more": 1}])"}) {
-    EXPECT_THAT(with(R"("curves": )" + std::string(wrong)), HasSubstr("\"curves\" must be a list"))
-        << wrong;
+  for (const char* wrong :
+       {R"("x")", R"([7])", R"([{"field": "x"}])", R"([{"target": 7}])", R"([{"target": "/a", "more": 1}])"}) {
+    EXPECT_THAT(with(R"("curves": )" + std::string(wrong)), HasSubstr("\"curves\" must be a list")) << wrong;
   }
 }
 

@@ -52,36 +52,21 @@ class Roles : public SimulatedInspectorTest {
 
 // What each operation takes, said a second time: an operation that is new, or has got another role, fails here.
 const std::map<std::string, std::pair<WebRole, WebRole>, std::less<>> kNeeded{
-    {"watch", {WebRole::kLook, WebRole::kLook}},
-    {"unwatch", {WebRole::kLook, WebRole::kLook}},
-    {"watch_rates", {WebRole::kLook, WebRole::kLook}},
-    {"alive", {WebRole::kLook, WebRole::kLook}},
-    {"compatible", {WebRole::kLook, WebRole::kLook}},
-    {"conversions", {WebRole::kLook, WebRole::kLook}},
-    {"panel", {WebRole::kLook, WebRole::kLook}},
-    {"save_panel", {WebRole::kChange, WebRole::kChange}},
-    {"arrange", {WebRole::kChange, WebRole::kChange}},
-    {"publish", {WebRole::kDrive, WebRole::kDrive}},
-    {"release", {WebRole::kDrive, WebRole::kDrive}},
-    {"call", {WebRole::kDrive, WebRole::kDrive}},
-    {"abort", {WebRole::kDrive, WebRole::kDrive}},
-    {"pause", {WebRole::kDrive, WebRole::kChange}},
-    {"resume", {WebRole::kDrive, WebRole::kChange}},
-    {"change", {WebRole::kChange, WebRole::kChange}},
-    {"undo", {WebRole::kChange, WebRole::kChange}},
-    {"redo", {WebRole::kChange, WebRole::kChange}},
-    {"save", {WebRole::kChange, WebRole::kChange}},
-    {"step", {WebRole::kChange, WebRole::kChange}},
-    {"speed", {WebRole::kChange, WebRole::kChange}},
-    {"reload", {WebRole::kChange, WebRole::kChange}},
-    {"log", {WebRole::kChange, WebRole::kChange}},
-    {"profile", {WebRole::kChange, WebRole::kChange}},
-    {"latency", {WebRole::kChange, WebRole::kChange}},
-    {"preview", {WebRole::kChange, WebRole::kChange}},
-    {"restart", {WebRole::kChange, WebRole::kChange}},
-    {"quit", {WebRole::kChange, WebRole::kChange}},
-    {"stop", {WebRole::kLook, WebRole::kLook}},
-    {"block", {WebRole::kDrive, WebRole::kDrive}}};
+    {"watch", {WebRole::kLook, WebRole::kLook}},       {"unwatch", {WebRole::kLook, WebRole::kLook}},
+    {"watch_rates", {WebRole::kLook, WebRole::kLook}}, {"alive", {WebRole::kLook, WebRole::kLook}},
+    {"compatible", {WebRole::kLook, WebRole::kLook}},  {"conversions", {WebRole::kLook, WebRole::kLook}},
+    {"panel", {WebRole::kLook, WebRole::kLook}},       {"save_panel", {WebRole::kChange, WebRole::kChange}},
+    {"arrange", {WebRole::kChange, WebRole::kChange}}, {"publish", {WebRole::kDrive, WebRole::kDrive}},
+    {"release", {WebRole::kDrive, WebRole::kDrive}},   {"call", {WebRole::kDrive, WebRole::kDrive}},
+    {"abort", {WebRole::kDrive, WebRole::kDrive}},     {"pause", {WebRole::kDrive, WebRole::kChange}},
+    {"resume", {WebRole::kDrive, WebRole::kChange}},   {"change", {WebRole::kChange, WebRole::kChange}},
+    {"undo", {WebRole::kChange, WebRole::kChange}},    {"redo", {WebRole::kChange, WebRole::kChange}},
+    {"save", {WebRole::kChange, WebRole::kChange}},    {"step", {WebRole::kChange, WebRole::kChange}},
+    {"speed", {WebRole::kChange, WebRole::kChange}},   {"reload", {WebRole::kChange, WebRole::kChange}},
+    {"log", {WebRole::kChange, WebRole::kChange}},     {"profile", {WebRole::kChange, WebRole::kChange}},
+    {"latency", {WebRole::kChange, WebRole::kChange}}, {"preview", {WebRole::kChange, WebRole::kChange}},
+    {"restart", {WebRole::kChange, WebRole::kChange}}, {"quit", {WebRole::kChange, WebRole::kChange}},
+    {"stop", {WebRole::kLook, WebRole::kLook}},        {"block", {WebRole::kDrive, WebRole::kDrive}}};
 
 TEST_F(Roles, MayDoOfEveryOperationWhatTheyMay) {
   hooks.save = [](const std::string&) -> Result<std::string> { return std::string("saved"); };
@@ -96,8 +81,7 @@ TEST_F(Roles, MayDoOfEveryOperationWhatTheyMay) {
       const auto needed = kNeeded.find(operation.name);
       ASSERT_NE(needed, kNeeded.end()) << operation.name << " has no role in this test";
       const std::string op(operation.name);
-      EXPECT_EQ(IsRefused(viewer, op, ""), role < needed->second.first)
-          << op << " by " << WebRoleName(role);
+      EXPECT_EQ(IsRefused(viewer, op, ""), role < needed->second.first) << op << " by " << WebRoleName(role);
       EXPECT_EQ(IsRefused(viewer, op, "/app/a"), role < needed->second.second)
           << op << " of a module, by " << WebRoleName(role);
     }
@@ -118,8 +102,8 @@ TEST(OperationsOfViewers, AreTheRequestsOfTheTable) {
   for (const Operation& each : AllOperations()) {
     if (!FindRequest(each.name)) others.insert(each.name);
   }
-  EXPECT_THAT(others, ElementsAre("abort", "alive", "arrange", "compatible", "conversions", "latency", "panel", "preview", "profile",
-                                  "save_panel", "unwatch", "watch", "watch_rates"));
+  EXPECT_THAT(others, ElementsAre("abort", "alive", "arrange", "compatible", "conversions", "latency", "panel",
+                                  "preview", "profile", "save_panel", "unwatch", "watch", "watch_rates"));
 }
 
 TEST_F(Roles, WhoLooksSeesAllAndChangesNothing) {

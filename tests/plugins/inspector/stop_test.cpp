@@ -61,8 +61,7 @@ TEST_F(ViewersStop, NeedsNeitherWorkerNorStructureNorRoomForRequests) {
   saving.get_future().wait();
   const std::unique_lock lock(runtime.structure_mutex());
   for (int i = 0; i < 100; ++i) viewer.Send({{"op", "undo"}});
-  viewer.Next([](const Json& each) { return each["op"] == "reply" && each["ok"] == false; },
-              "refusal");
+  viewer.Next([](const Json& each) { return each["op"] == "reply" && each["ok"] == false; }, "refusal");
   EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true);
   EXPECT_TRUE(in_force());
   EXPECT_EQ(stop.Ask({{"op", "release"}, {"path", "stop"}})["ok"], true);
@@ -79,10 +78,12 @@ TEST_F(ViewersStop, ItsSignsOfLifeSayWhatItHoldsWhileItIsInForce) {
   EXPECT_FALSE(viewer.Next(InForce(false), "no STOP")["stop"].contains("drives"));
   runtime.robot_stop().Press("a test");
   const auto holds = [](const std::string& what) {
-    return [what](const Json& each) { return each["op"] == "alive" && each["stop"].value("drives", "not told") == what; };
+    return
+        [what](const Json& each) { return each["op"] == "alive" && each["stop"].value("drives", "not told") == what; };
   };
   viewer.Next(holds(""), "that it holds nothing");
-  const auto elsewhere = std::make_shared<PortStop>(AnyValue(), Duration{}, DrivingKind::kVelocity, runtime.robot_stop().signal());
+  const auto elsewhere =
+      std::make_shared<PortStop>(AnyValue(), Duration{}, DrivingKind::kVelocity, runtime.robot_stop().signal());
   AddWhatDrives(runtime, "/cmd_vel (in the network)", elsewhere);
   viewer.Next(holds("/cmd_vel (in the network)"), "what leaves over the network");
   {
@@ -275,11 +276,13 @@ TEST_F(ViewersStop, IsNotReleasedByAnOldRelease) {
   const double before = viewer.Next("alive")["at"].get<double>();
   EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true);
   const auto release = [&](double at) { return viewer.Ask({{"op", "release"}, {"path", "stop"}, {"at", at}}); };
-  EXPECT_THAT(release(before)["errors"][0]["message"], HasSubstr("STOP was pressed or released after this was asked for"));
+  EXPECT_THAT(release(before)["errors"][0]["message"],
+              HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_TRUE(in_force());
   const double seen = viewer.Next("alive")["at"].get<double>();
   EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true) << "by whoever, while it is in force";
-  EXPECT_THAT(release(seen)["errors"][0]["message"], HasSubstr("STOP was pressed or released after this was asked for"));
+  EXPECT_THAT(release(seen)["errors"][0]["message"],
+              HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_TRUE(in_force());
   EXPECT_EQ(release(viewer.Next("alive")["at"].get<double>())["ok"], true);
   EXPECT_FALSE(in_force());

@@ -156,8 +156,8 @@ TEST_F(StructureMirrorTest, WhoFollowsTheChangesKnowsTheWhole) {
                                        "set " + name() + "/speed " + std::to_string(below(9)),
                                        "delete " + name() + "; create " + name() + " test/sink"};
     Diagnostics diagnostics;
-    const auto placed = ParseChanges(
-        all[static_cast<std::size_t>(below(static_cast<int>(all.size())))], {}, diagnostics);
+    const auto placed =
+        ParseChanges(all[static_cast<std::size_t>(below(static_cast<int>(all.size())))], {}, diagnostics);
     done += editor.Apply(placed.changes) ? 1 : 0;
     if (below(3) == 0) continue;  // several in one look
     LookUntilDone();
@@ -183,8 +183,8 @@ TEST_F(StructureMirrorTest, WhereverMemoryEndsItKnowsTheWholeAfterwards) {
   const auto change = [&] {
     const std::string last = "/app/n" + std::to_string((number + 1) % 2);
     const std::string next = "/app/n" + std::to_string(number % 2);
-    Apply((number++ > 0 ? "delete " + last + "; " : "") + "create " + next +
-          " test/sink; connect /app/a/out " + next + "/in");
+    Apply((number++ > 0 ? "delete " + last + "; " : "") + "create " + next + " test/sink; connect /app/a/out " + next +
+          "/in");
   };
   change();
   const auto points = AtEachPoint(

@@ -70,17 +70,13 @@ TEST(ViewerMessage, IsNotReadIntoDepths) {
 TEST(ViewerMessage, SurvivesWhateverComes) {
   std::mt19937 random(5);
   const std::string characters = R"({}[]",:0123456789.eE+-truefalsn \u"op""watch""path")";
-  const std::string good =
-      R"({"op":"change","changes":[{"change":"set","path":"/a","value":"3"}],"rate":2})";
-  const auto below = [&](std::size_t end) {
-    return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
-  };
+  const std::string good = R"({"op":"change","changes":[{"change":"set","path":"/a","value":"3"}],"rate":2})";
+  const auto below = [&](std::size_t end) { return std::uniform_int_distribution<std::size_t>(0, end - 1)(random); };
   int read = 0;
   for (int i = 0; i < 50'000; ++i) {
     std::string text = good;
     for (std::size_t changes = below(6); changes > 0; --changes) {
-      text[below(text.size())] =
-          below(10) == 0 ? static_cast<char>(below(256)) : characters[below(characters.size())];
+      text[below(text.size())] = below(10) == 0 ? static_cast<char>(below(256)) : characters[below(characters.size())];
     }
     if (below(4) == 0) text.resize(below(text.size()));
     if (ParseViewerMessage(text)) ++read;

@@ -14,17 +14,14 @@ inline WebServerOptions LookAndDrive() {
 }
 
 inline auto InForce(bool in_force) {
-  return [in_force](const Json& each) {
-    return each["op"] == "alive" && each["stop"]["in_force"] == in_force;
-  };
+  return [in_force](const Json& each) { return each["op"] == "alive" && each["stop"]["in_force"] == in_force; };
 }
 
 /// Viewers of all roles, and the STOP of their robot.
 class ViewersStop : public RunningInspectorTest {
  protected:
   [[nodiscard]] Viewer Connect(const std::string& protocol, WebRole role) const {
-    return Viewer(server->port(), "runnel.token.secret-of-" + std::string(WebRoleName(role)),
-                  protocol);
+    return Viewer(server->port(), "runnel.token.secret-of-" + std::string(WebRoleName(role)), protocol);
   }
   [[nodiscard]] bool in_force() { return runtime.robot_stop().in_force(); }
 };

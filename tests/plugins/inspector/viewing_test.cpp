@@ -44,8 +44,7 @@ TEST_F(Viewing, TellsAllModuleTypesWithPortsAndParameters) {
   const Json catalogue = View().Next("catalogue");
   std::vector<std::string> types;
   for (const Json& module : catalogue["modules"]) types.push_back(module["type"]);
-  EXPECT_THAT(types, ElementsAre("test/counter", "test/failing", "test/fast_counter", "test/lists",
-                                 "test/sink"));
+  EXPECT_THAT(types, ElementsAre("test/counter", "test/failing", "test/fast_counter", "test/lists", "test/sink"));
   const Json& counter = catalogue["modules"][0];
   EXPECT_EQ(counter["summary"], "does it");
   EXPECT_EQ(counter["plugin"], "test");
@@ -146,8 +145,7 @@ TEST_F(Viewing, CutsListsAsTheViewerWantsThem) {
   const Json cut = viewer.Value("/app/lists/output/list");
   EXPECT_EQ(cut["value"], Json({0.5, 0.5, 0.5}));
   EXPECT_EQ(cut["cut"], true);
-  viewer.Send(
-      {{"op", "watch"}, {"path", "/app/lists/output/list"}, {"rate", 60}, {"elements", 5000}});
+  viewer.Send({{"op", "watch"}, {"path", "/app/lists/output/list"}, {"rate", 60}, {"elements", 5000}});
   for (;;) {
     const Json whole = viewer.Value("/app/lists/output/list");
     if (whole.contains("cut")) continue;  // it was on its way

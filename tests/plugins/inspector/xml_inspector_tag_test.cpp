@@ -13,8 +13,7 @@ class InspectorTag : public ::testing::Test {
   InspectorTag() { AddInspectorTag(shop.tags); }
 
   FrameworkElement* Load(const std::string& tag) {
-    WriteAll(folder / "app.xml",
-             "<application name=\"a\">\n  " + tag + "\n  <group name=\"g\"/>\n</application>\n");
+    WriteAll(folder / "app.xml", "<application name=\"a\">\n  " + tag + "\n  <group name=\"g\"/>\n</application>\n");
     return shop.Load(folder / "app.xml");
   }
 
@@ -23,8 +22,8 @@ class InspectorTag : public ::testing::Test {
 };
 
 TEST_F(InspectorTag, SaysWhereTheInspectorIs) {
-  FrameworkElement* const application =
-      Load(R"(<inspector port="9000" address="0.0.0.0" read_only="true" token="look:open-sesame" token_file="/t" all_users="true"/>)");
+  FrameworkElement* const application = Load(
+      R"(<inspector port="9000" address="0.0.0.0" read_only="true" token="look:open-sesame" token_file="/t" all_users="true"/>)");
   ASSERT_NE(application, nullptr);
   const auto place = InspectorPlaceOf(*application);
   ASSERT_TRUE(place);
@@ -53,9 +52,8 @@ TEST_F(InspectorTag, WithoutItThereIsNone) {
 }
 
 TEST_F(InspectorTag, IsSavedAsItWas) {
-  for (const std::string tag :
-       {R"(<inspector/>)", R"(<inspector port="8765"   read_only="false" />)",
-        R"(<inspector token="open-sesame" port="0" address="0.0.0.0"/>)"}) {
+  for (const std::string tag : {R"(<inspector/>)", R"(<inspector port="8765"   read_only="false" />)",
+                                R"(<inspector token="open-sesame" port="0" address="0.0.0.0"/>)"}) {
     SavingWorkshop own;
     AddInspectorTag(own.tags);
     WriteAll(folder / "own.xml", "<application name=\"a\">\n  " + tag + "\n</application>\n");
@@ -70,8 +68,7 @@ TEST_F(InspectorTag, IsWrittenIntoANewFile) {
   ASSERT_NE(application, nullptr);
   const auto saved = SaveApplication(application->runtime(), *application, shop.tools(), folder / "other.xml");
   ASSERT_TRUE(saved) << saved.error().ToString();
-  EXPECT_THAT(ReadAll(folder / "other.xml"),
-              ::testing::HasSubstr(R"(<inspector port="9000" read_only="true"/>)"));
+  EXPECT_THAT(ReadAll(folder / "other.xml"), ::testing::HasSubstr(R"(<inspector port="9000" read_only="true"/>)"));
 }
 
 }  // namespace

@@ -45,9 +45,7 @@ class Sonar final : public Module {
 
 class Broken final : public Module {
  public:
-  explicit Broken(const Placement& placement) : Module(placement) {
-    throw std::runtime_error("there is no driver");
-  }
+  explicit Broken(const Placement& placement) : Module(placement) { throw std::runtime_error("there is no driver"); }
 
  private:
   void Update() override {}
@@ -64,9 +62,8 @@ class PluginManifestTest : public testing::Test {
 
   template <typename M>
   void Add(const std::string& name) {
-    const auto added = modules.Add({name, "a summary", "test", [](const Placement& placement) {
-                                      return std::make_unique<M>(placement);
-                                    }});
+    const auto added = modules.Add(
+        {name, "a summary", "test", [](const Placement& placement) { return std::make_unique<M>(placement); }});
     EXPECT_TRUE(added);
   }
   PluginManifest Made() {
@@ -76,9 +73,7 @@ class PluginManifestTest : public testing::Test {
     }
     return manifest;
   }
-  void Write(const std::string& text) {
-    std::ofstream(ManifestFileOf(library), std::ios::trunc) << text;
-  }
+  void Write(const std::string& text) { std::ofstream(ManifestFileOf(library), std::ios::trunc) << text; }
   ModuleDescriber Describer() {
     return {runtime, modules, [this](const std::string&) { return library.string(); }};
   }

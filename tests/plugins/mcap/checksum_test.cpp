@@ -1,8 +1,8 @@
-#include "plugins/mcap/mcap_bytes.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "plugins/mcap/mcap_bytes.h"
 
 namespace runnel::test {
 namespace {

@@ -31,12 +31,9 @@ TEST(Compression, SaysWhatIsBroken) {
     std::string compressed, uncompressed;
     const std::string bytes = Repeated(100);
     ASSERT_TRUE(Compress(compression, bytes, compressed));
-    EXPECT_FALSE(Decompress(compression, compressed, bytes.size() + 1, uncompressed))
-        << compression;
-    EXPECT_FALSE(Decompress(compression, compressed, bytes.size() - 1, uncompressed))
-        << compression;
-    EXPECT_FALSE(Decompress(compression, compressed.substr(0, compressed.size() / 2), bytes.size(),
-                            uncompressed))
+    EXPECT_FALSE(Decompress(compression, compressed, bytes.size() + 1, uncompressed)) << compression;
+    EXPECT_FALSE(Decompress(compression, compressed, bytes.size() - 1, uncompressed)) << compression;
+    EXPECT_FALSE(Decompress(compression, compressed.substr(0, compressed.size() / 2), bytes.size(), uncompressed))
         << compression;
     EXPECT_FALSE(Decompress(compression, "", bytes.size(), uncompressed)) << compression;
   }

@@ -46,8 +46,7 @@ TEST_F(HostileFileTest, SurvivesChangedBytes) {
       for (int k = 0; k < changes; ++k) {
         // Small and large numbers do more harm than random ones.
         constexpr std::string_view kBad{"\x00\x01\x7f\x80\xff\xfe", 6};
-        bytes[random() % bytes.size()] =
-            random() % 2 == 0 ? static_cast<char>(random()) : kBad[random() % kBad.size()];
+        bytes[random() % bytes.size()] = random() % 2 == 0 ? static_cast<char>(random()) : kBad[random() % kBad.size()];
       }
       WriteBytes(Path("changed"), bytes);
       EXPECT_LE(ReadAsFarAsItGoes(Path("changed")), 60u);

@@ -5,11 +5,10 @@
 
 namespace runnel::test {
 
-std::string McapTest::WriteFile(const std::string& name, const std::string& compression,
-                                int messages, bool finish, std::size_t chunk_bytes) {
+std::string McapTest::WriteFile(const std::string& name, const std::string& compression, int messages, bool finish,
+                                std::size_t chunk_bytes) {
   auto writer = Must(McapWriter::Create(
-      Path(name),
-      {.header = {"runnel", "a test"}, .compression = compression, .chunk_bytes = chunk_bytes}));
+      Path(name), {.header = {"runnel", "a test"}, .compression = compression, .chunk_bytes = chunk_bytes}));
   Must(writer->AddMetadata({"about", {{"clock", "simulated"}, {"seed", "7"}}}));
   Must(writer->AddAttachment({5, 6, "app.xml", "application/xml", "<application/>\n"}));
   const auto schema = Must(writer->AddSchema("Pose2", "jsonschema", R"({"type":"object"})"));
@@ -18,8 +17,7 @@ std::string McapTest::WriteFile(const std::string& name, const std::string& comp
   for (int i = 0; i < messages; ++i) {
     const std::string data = "{\"x\":" + std::to_string(i) + "}";
     const auto time = static_cast<std::uint64_t>(i) * 1000;
-    Must(writer->AddMessage(
-        {i % 5 == 4 ? number : pose, static_cast<std::uint32_t>(i), time, time, data}));
+    Must(writer->AddMessage({i % 5 == 4 ? number : pose, static_cast<std::uint32_t>(i), time, time, data}));
   }
   if (finish) Must(writer->Finish());
   return Path(name);
@@ -37,8 +35,7 @@ void McapTest::WriteBytes(const std::string& file, std::string_view bytes) {
 std::vector<ReadMessage> McapTest::ReadAll(McapReader& reader) {
   std::vector<ReadMessage> messages;
   Must(reader.ReadMessages([&](const McapMessage& message) -> Result<void> {
-    messages.push_back(
-        {message.channel, message.sequence, message.log_time, std::string(message.data)});
+    messages.push_back({message.channel, message.sequence, message.log_time, std::string(message.data)});
     return {};
   }));
   return messages;

@@ -27,8 +27,8 @@ class McapTest : public testing::Test {
   [[nodiscard]] std::string Path(const std::string& name) const { return folder_ / name; }
   /// A file with two channels, `messages` messages and all that a file can have; chunks of about
   /// `chunk_bytes`. Without `finish`, as a killed process leaves it.
-  std::string WriteFile(const std::string& name, const std::string& compression, int messages,
-                        bool finish = true, std::size_t chunk_bytes = 300);
+  std::string WriteFile(const std::string& name, const std::string& compression, int messages, bool finish = true,
+                        std::size_t chunk_bytes = 300);
 
   [[nodiscard]] static std::string ReadBytes(const std::string& file);
   static void WriteBytes(const std::string& file, std::string_view bytes);

@@ -9,7 +9,6 @@ namespace runnel::test {
 [[nodiscard]] std::string WhyNoOracle();
 
 /// What one of the oracle's scripts prints. Fails the test with what it says if it does.
-[[nodiscard]] std::string AskOracle(const std::string& script,
-                                    const std::vector<std::string>& arguments);
+[[nodiscard]] std::string AskOracle(const std::string& script, const std::vector<std::string>& arguments);
 
 }  // namespace runnel::test

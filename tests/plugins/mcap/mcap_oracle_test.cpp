@@ -36,11 +36,9 @@ TEST_F(McapOracleTest, ReadsOurFilesByIndexAndAsAStreamWithAllChecksums) {
     EXPECT_EQ(indexed["metadata"][0]["texts"]["seed"], "7");
     EXPECT_EQ(indexed["attachments"][0]["data"], "<application/>\n");
     ASSERT_THAT(indexed["messages"], SizeIs(100));
-    EXPECT_EQ(indexed["messages"][37], (Json{{"channel", 0},
-                                             {"sequence", 37},
-                                             {"time", "37000"},
-                                             {"publishTime", "37000"},
-                                             {"data", "{\"x\":37}"}}));
+    EXPECT_EQ(
+        indexed["messages"][37],
+        (Json{{"channel", 0}, {"sequence", 37}, {"time", "37000"}, {"publishTime", "37000"}, {"data", "{\"x\":37}"}}));
     EXPECT_EQ(said["streamed"]["messages"], indexed["messages"]);
     EXPECT_TRUE(said["streamed"]["done"]);
     for (const auto& each : indexed["chunks"]) EXPECT_EQ(each, compression);

@@ -26,8 +26,7 @@ TEST_F(McapReaderTest, ReadsWhatWasWrittenInEachCompression) {
     EXPECT_EQ(contents.statistics.end, 99'000u);
     EXPECT_GT(contents.chunks.size(), 5u);
     EXPECT_EQ(contents.chunks.front().compression, compression);
-    EXPECT_EQ(reader->FindMetadata("about")->texts,
-              (McapTexts{{"clock", "simulated"}, {"seed", "7"}}));
+    EXPECT_EQ(reader->FindMetadata("about")->texts, (McapTexts{{"clock", "simulated"}, {"seed", "7"}}));
     EXPECT_EQ(Must(reader->ReadAttachment(contents.attachments.at(0))), "<application/>\n");
     const auto messages = ReadAll(*reader);
     ASSERT_THAT(messages, SizeIs(100));
@@ -69,8 +68,7 @@ TEST_F(McapReaderTest, SaysWhatIsNoRecording) {
              "ELF\x02\x01\x01\x01\x01");
   const auto elf = McapReader::Open(Path("elf"));
   ASSERT_FALSE(elf);
-  EXPECT_THAT(elf.error().message,
-              HasSubstr("begins with 7f 45 4c 46 02 01 01 01, expected 89 4d 43 41 50 30 0d 0a"));
+  EXPECT_THAT(elf.error().message, HasSubstr("begins with 7f 45 4c 46 02 01 01 01, expected 89 4d 43 41 50 30 0d 0a"));
   WriteBytes(Path("empty"), "");
   EXPECT_THAT(McapReader::Open(Path("empty")).error().message, HasSubstr("it is empty"));
   EXPECT_THAT(McapReader::Open(Path("missing")).error().message, HasSubstr("No such file"));

@@ -52,8 +52,7 @@ TEST_F(McapWriterTest, OfAFullDiskWhatWasWrittenBeforeCanBeRead) {
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, old_handler);
   ASSERT_FALSE(added);
-  EXPECT_THAT(added.error().ToString(),
-              HasSubstr("full.mcap: cannot be written on: File too large"));
+  EXPECT_THAT(added.error().ToString(), HasSubstr("full.mcap: cannot be written on: File too large"));
   EXPECT_FALSE(writer->AddMessage({channel, 0, 0, 0, "1"})) << "the error stays";
   EXPECT_FALSE(writer->Finish());
   writer.reset();

@@ -21,8 +21,7 @@ class WriterFaultsTest : public McapTest {
       const McapMetadata about{"about", {{"clock", "simulated"}}};
       if (!to.AddMetadata(about)) return false;
       for (std::uint32_t i = 0; i < 10; ++i) {
-        if (!to.AddMessage({*channel, i, i, i, "{\"x\":\"a number of some length\"}"}))
-          return false;
+        if (!to.AddMessage({*channel, i, i, i, "{\"x\":\"a number of some length\"}"})) return false;
       }
       return to.Finish().has_value();
     } catch (const std::bad_alloc&) {

@@ -29,8 +29,12 @@ class OneCycle {
 class AfterCycleSending : public testing::Test {
  protected:
   void Begin(ValueQuality quality = ValueQuality::kNewest) {
-    a_.Offer({.port = "/application/module/place", .topic = "/place", .quality = quality, .sending = ValueSending::kAfterCycle});
-    a_.Offer({.port = "/application/module/row", .topic = "/row", .quality = quality, .sending = ValueSending::kAfterCycle});
+    a_.Offer({.port = "/application/module/place",
+              .topic = "/place",
+              .quality = quality,
+              .sending = ValueSending::kAfterCycle});
+    a_.Offer(
+        {.port = "/application/module/row", .topic = "/row", .quality = quality, .sending = ValueSending::kAfterCycle});
     b_.Take({.topic = "/place"}, b_.module.goal);
     b_.Take({.topic = "/row"}, b_.module.wanted);
     a_.Begin();

@@ -1,4 +1,6 @@
 // Values that the thread of a cycle sends itself, when its cycle has ended, beside those that the network's thread sends.
+#include "tests/plugins/network/after_cycle_sending.h"
+
 #include <atomic>
 #include <stop_token>
 #include <thread>
@@ -9,7 +11,6 @@
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/testing/allocation_guard.h"
 #include "plugins/testing/system_call_probe.h"
-#include "tests/plugins/network/after_cycle_sending.h"
 
 namespace runnel::test {
 namespace {
@@ -100,7 +101,10 @@ TEST_F(AfterCycleSending, ACycleDoesNotWaitForWhoIsSendingAndItsValueIsSentNext)
     GatedEngine engine(MakeFakeWire(), gate);
     Member a(engine, "a");
     Member b(engine, "b");
-    a.Offer({.port = "/application/module/place", .topic = "/place", .quality = quality, .sending = ValueSending::kAfterCycle});
+    a.Offer({.port = "/application/module/place",
+             .topic = "/place",
+             .quality = quality,
+             .sending = ValueSending::kAfterCycle});
     b.Take({.topic = "/place"}, b.module.goal);
     a.Begin();
     b.Begin();
@@ -203,7 +207,8 @@ TEST_F(AfterCycleSending, OfAQueueEachValueComesInItsOrderWhicheverWayTheyGo) {
       }
     }
     WaitUntil("all have come", [&] {
-      while (all.Take([&](const void* value, ValueTimes) { EXPECT_EQ(static_cast<const Place*>(value)->x, ++expected); })) {
+      while (all.Take(
+          [&](const void* value, ValueTimes) { EXPECT_EQ(static_cast<const Place*>(value)->x, ++expected); })) {
       }
       return expected >= first + 60;
     });

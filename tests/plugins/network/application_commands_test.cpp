@@ -1,14 +1,14 @@
 // What one application has another one do: not when it comes so late that nobody waits for it any more.
 
+#include "plugins/network/application_commands.h"
+
 #include <thread>
 
-#include <gmock/gmock.h>
-
 #include <fmt/ranges.h>
+#include <gmock/gmock.h>
 
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
-#include "plugins/network/application_commands.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/ros_messages/names.h"
 #include "tests/plugins/network/network_member.h"
@@ -125,7 +125,9 @@ TEST_F(ApplicationCommandsTest, NothingIsDoneWithoutATokenThatHasJustBeenGiven) 
   EXPECT_EQ(robot.planner.speed.Get(), 1);
   ASSERT_THAT(given.token, ::testing::StartsWith(asker.id + ":"));
   const std::int64_t at = std::stoll(given.token.substr(asker.id.size() + 1));
-  const auto with = [&](std::int64_t time) { return asker.Ask("set /planner/speed 3", asker.id + ":" + std::to_string(time)); };
+  const auto with = [&](std::int64_t time) {
+    return asker.Ask("set /planner/speed 3", asker.id + ":" + std::to_string(time));
+  };
   for (const std::int64_t other : {at - 5'000'000'000, at + 3'600'000'000'000, std::int64_t{0}, INT64_MIN, INT64_MAX}) {
     const Answer late = with(other);
     EXPECT_FALSE(late.is_done) << other;

@@ -1,8 +1,9 @@
 // "//other/module/angle" where another type, or another unit, is wanted than the other application has.
+#include "core/paths/distant_ports.h"
+
 #include <numbers>
 #include <optional>
 
-#include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "core/types/signal.h"
 #include "tests/plugins/network/network_member.h"
@@ -52,7 +53,8 @@ class Taker final : public Module {
 template <typename ModuleType>
 class Peer {
  public:
-  Peer(WireEngine& engine, const std::string& name, const NetworkOptions& options = {}) : engine_(engine), options_(options) {
+  Peer(WireEngine& engine, const std::string& name, const NetworkOptions& options = {})
+      : engine_(engine), options_(options) {
     options_.member.name = name;
     network = &runtime.template Create<NetworkElement>(group, "network", options_);
     (void)runtime.MakeReady(runtime.root());
@@ -240,10 +242,12 @@ TEST_F(DistantPortsTest, WhatIsNotOfferedIsToldOfWhatIsConnectedOnly) {
   robot.Begin();
   WaitUntil("both are told", [&] {
     const std::string said = taker_.said();
-    return said.find("my-robot offers no //my_robot/module/plase; did you mean '//my_robot/module/place'?") != std::string::npos &&
+    return said.find("my-robot offers no //my_robot/module/plase; did you mean '//my_robot/module/place'?") !=
+               std::string::npos &&
            said.find("my-robot offers no //my_robot/runnel_structur") != std::string::npos;
   });
-  EXPECT_THAT(taker_.said(), testing::AllOf(testing::Not(HasSubstr("runnel_structure")), testing::Not(HasSubstr("kount"))));
+  EXPECT_THAT(taker_.said(),
+              testing::AllOf(testing::Not(HasSubstr("runnel_structure")), testing::Not(HasSubstr("kount"))));
 }
 
 TEST_F(DistantPortsTest, ANetworkThatEndsLeavesWhatIsConnected) {

@@ -73,7 +73,8 @@ TEST_F(NetworkLinkTest, OfAQueueEachValueComesInItsOrder) {
   for (int i = 0; i < 100; ++i) a.module.row.Publish({{1.0 * i}});
   std::vector<double> values;
   WaitUntil("all have come", [&] {
-    while (all.Take([&](const void* value, ValueTimes) { values.push_back(static_cast<const Row*>(value)->values[0]); })) {
+    while (
+        all.Take([&](const void* value, ValueTimes) { values.push_back(static_cast<const Row*>(value)->values[0]); })) {
     }
     return values.size() >= 100;
   });
@@ -134,14 +135,15 @@ TEST_F(NetworkLinkTest, AnotherTypeUnderTheSameNameIsToldWithBothSidesWords) {
     void OnEndpointGone(const WireId&) override {}
   } nobody;
   const auto other = Must(engine_->Join({.name = "other"}, nobody));
-  const auto of_other_version = Must(other->MakeWriter(
-      {.topic = "rt/a/place",
-       .type = Must(ValueForm::Make(TypeOf<Place>(), "", ""))->codec->dds_type(),
-       .user_data = "runnel_type={x:double[m],y:float[m]};"},
-      {}));
+  const auto of_other_version =
+      Must(other->MakeWriter({.topic = "rt/a/place",
+                              .type = Must(ValueForm::Make(TypeOf<Place>(), "", ""))->codec->dds_type(),
+                              .user_data = "runnel_type={x:double[m],y:float[m]};"},
+                             {}));
   b.WaitFor("y:float[m]");
-  EXPECT_THAT(b.said(), HasSubstr("/a/place of other does not fit: they are of two versions: the writer's has 'y:float[m]' "
-                                  "where the reader's has 'y:double[m]'"));
+  EXPECT_THAT(b.said(),
+              HasSubstr("/a/place of other does not fit: they are of two versions: the writer's has 'y:float[m]' "
+                        "where the reader's has 'y:double[m]'"));
   EXPECT_THAT(b.Text(), HasSubstr("NOT MATCHED, they are of two versions"));
   ASSERT_TRUE(of_other_version->Write(std::make_shared<Octets>(Octets(20)), 1));
   WaitUntilQuiet(*engine_);
@@ -158,16 +160,19 @@ TEST_F(NetworkLinkTest, OfAMessageOneFieldIsTaken) {
   b.Begin();
   const auto again = [&](const std::string& field, const TypeInfo& type) {
     const std::lock_guard lock(b.runtime.structure_mutex());
-    const auto taken = b.network->AddTake({.topic = "/area", .as = "geometry_msgs/msg/PolygonStamped", .field = field}, type);
+    const auto taken =
+        b.network->AddTake({.topic = "/area", .as = "geometry_msgs/msg/PolygonStamped", .field = field}, type);
     return taken ? "" : taken.error().ToString();
   };
   EXPECT_EQ(again("polygon.points[1]", TypeOf<Place>()), "");
-  for (const std::string& refused : {again("polygon.points[0]", TypeOf<Place>()), again("polygon.points[1].x", TypeOf<double>())}) {
+  for (const std::string& refused :
+       {again("polygon.points[0]", TypeOf<Place>()), again("polygon.points[1].x", TypeOf<double>())}) {
     EXPECT_THAT(refused, testing::AllOf(HasSubstr("'/area' is taken"), HasSubstr("of one topic one field is taken")));
   }
   DiscoveryTable table([] {});
   const auto other = Must(engine_->Join({.name = "other"}, table));
-  const auto writer = Must(other->MakeWriter({.topic = "rt/area", .type = "geometry_msgs::msg::dds_::PolygonStamped_"}, {}));
+  const auto writer =
+      Must(other->MakeWriter({.topic = "rt/area", .type = "geometry_msgs::msg::dds_::PolygonStamped_"}, {}));
   WaitUntil("it is read", [&] { return b.Text().find("written by other") != std::string::npos; });
   const auto write = [&](std::uint32_t points) {
     auto octets = std::make_shared<Octets>();
@@ -185,7 +190,8 @@ TEST_F(NetworkLinkTest, OfAMessageOneFieldIsTaken) {
   ASSERT_TRUE(write(1));
   b.WaitFor("polygon.points: it has no element [1], but 1 of them");
   EXPECT_EQ(b.module.goal.Get().x, 3);
-  EXPECT_THAT(b.Text(), testing::AllOf(HasSubstr("takes /area.polygon.points[1] to "), HasSubstr("1 came, 1 could not be read")));
+  EXPECT_THAT(b.Text(),
+              testing::AllOf(HasSubstr("takes /area.polygon.points[1] to "), HasSubstr("1 came, 1 could not be read")));
 }
 
 TEST_F(NetworkLinkTest, OctetsThatAreNoValueAreCountedAndChangeNothing) {
@@ -194,13 +200,15 @@ TEST_F(NetworkLinkTest, OctetsThatAreNoValueAreCountedAndChangeNothing) {
   b.Begin();
   DiscoveryTable table([] {});
   const auto other = Must(engine_->Join({.name = "other"}, table));
-  const auto writer = Must(other->MakeWriter({.topic = "rt/a/row", .type = Must(ValueForm::Make(TypeOf<Row>(), "", ""))->codec->dds_type()}, {}));
+  const auto writer = Must(other->MakeWriter(
+      {.topic = "rt/a/row", .type = Must(ValueForm::Make(TypeOf<Row>(), "", ""))->codec->dds_type()}, {}));
   WaitUntil("it is read", [&] { return b.Text().find("written by other") != std::string::npos; });
   std::mt19937 random(1);
   for (int i = 0; i < 300; ++i) {
     auto octets = std::make_shared<Octets>(random() % 40);
     for (std::byte& each : *octets) each = std::byte(random());
-    if (octets->size() > 3) (*octets)[0] = (*octets)[2] = (*octets)[3] = std::byte(0), (*octets)[1] = std::byte(random() % 2);
+    if (octets->size() > 3)
+      (*octets)[0] = (*octets)[2] = (*octets)[3] = std::byte(0), (*octets)[1] = std::byte(random() % 2);
     ASSERT_TRUE(writer->Write(octets, static_cast<std::int64_t>(random())));
   }
   WaitUntilQuiet(*engine_);
@@ -298,7 +306,8 @@ TEST_F(NetworkLinkTest, WhatOneIsMadeOfGoesWithItAndComesAnew) {
       return looks("//robt").find("there is no 'robt' in the network; did you mean 'robot'?") != std::string::npos;
     });
     a.End();
-    WaitUntil("that it is gone is told", [&] { return looks("//robot").find("there is no 'robot' in the network") != std::string::npos; });
+    WaitUntil("that it is gone is told",
+              [&] { return looks("//robot").find("there is no 'robot' in the network") != std::string::npos; });
     b.WaitFor("robot has left the network");
   }
 }

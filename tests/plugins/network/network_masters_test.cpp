@@ -108,7 +108,8 @@ TEST_P(ForeignMastersTest, AHandThatRestsKeepsWhatItHas) {
   };
   const auto make = [&] {
     Node node{.participant = Must(engine_->Join({.name = GetParam(), .user_data = "enclave=/;"}, table)), .writer = {}};
-    node.writer = Must(node.participant->MakeWriter({.topic = "rt/drive", .type = form->codec->dds_type(), .user_data = form->user_data}, {}));
+    node.writer = Must(node.participant->MakeWriter(
+        {.topic = "rt/drive", .type = form->codec->dds_type(), .user_data = form->user_data}, {}));
     return node;
   };
   const auto write = [&](Node& node, double x) {
@@ -154,7 +155,8 @@ TEST_F(NetworkMastersTest, WhatIsLatchedComesOnce) {
     WaitUntilHeard(person, 8);
   }
   WaitUntil("it is so for the latched one alone", [&] {
-    return robot_.Text().find("by person") == std::string::npos && robot_.Text().find("Place_, reliable, latched") != std::string::npos;
+    return robot_.Text().find("by person") == std::string::npos &&
+           robot_.Text().find("Place_, reliable, latched") != std::string::npos;
   });
   WaitUntilQuiet(*engine_);
   EXPECT_EQ(robot_.module.goal.Get().x, 8);
@@ -203,9 +205,7 @@ TEST_F(NetworkMastersTest, WhatIsLatchedAndOlderThanTheLastIsNewAllTheSameWhenAL
   Member planner(*engine_, "planner");
   planner.Offer({.port = "/application/module/place", .topic = "/drive", .quality = ValueQuality::kLatched});
   planner.Begin();
-  const auto is_heard = [&](double x) {
-    WaitUntil("it is heard", [&] { return robot_.module.goal.Get().x == x; });
-  };
+  const auto is_heard = [&](double x) { WaitUntil("it is heard", [&] { return robot_.module.goal.Get().x == x; }); };
   planner.module.place.Publish({7, 0});
   is_heard(7);
   const auto set_by_hand = [&](double x) {
@@ -238,7 +238,8 @@ TEST_F(NetworkMastersTest, WhoSaysAStrengthCountsMoreThanWhoSaysNone) {
     Offer(strong, 5);
     WaitUntilHeard(strong, 2);
     robot_.WaitFor("strong (strength 5) has it now");
-    robot_.WaitFor("/drive of plain does not fit: the reader takes the strongest only, and the writer says no strength");
+    robot_.WaitFor(
+        "/drive of plain does not fit: the reader takes the strongest only, and the writer says no strength");
   }
   WaitUntilHeard(plain, 3);
 }

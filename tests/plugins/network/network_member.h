@@ -72,7 +72,8 @@ class Member {
     network = &runtime.Create<NetworkElement>(group, "network", options_);
     for (const auto& [take, to] : takes_) {
       Port* const output = Must(network->AddTake(take, to->type()));
-      if (const auto connected = Port::Connect(*output, *to); !connected) throw std::runtime_error(connected.error().ToString());
+      if (const auto connected = Port::Connect(*output, *to); !connected)
+        throw std::runtime_error(connected.error().ToString());
     }
     (void)runtime.MakeReady(runtime.root());
     link_ = Must(NetworkLink::Start(group, *network, engine_, is_simulated, [this] { return structure; }));

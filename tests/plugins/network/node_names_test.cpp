@@ -1,10 +1,9 @@
 // Nodes of ROS 2 are called by their names, though all their members may have one name or none; and no name of others can do
 // more than be read.
-#include "plugins/network_discovery/discovery_table.h"
-
 #include <gmock/gmock.h>
 
 #include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/network_discovery/discovery_table.h"
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {
@@ -82,10 +81,12 @@ class ForeignNode {
   ForeignNode(WireEngine& engine, const std::string& member) {
     participant_ = Must(engine.Join({.name = member, .user_data = "enclave=/;"}, table_));
     const auto form = Must(ValueForm::Make(TypeOf<Place>(), "", ""));
-    writer_ = Must(participant_->MakeWriter({.topic = "rt/drive", .type = form->codec->dds_type(), .user_data = form->user_data}, {}));
+    writer_ = Must(participant_->MakeWriter(
+        {.topic = "rt/drive", .type = form->codec->dds_type(), .user_data = form->user_data}, {}));
   }
   void Tell(const std::string& name) {
-    nodes_ = Must(participant_->MakeWriter({.topic = kNodesTopic, .type = kNodesType, .qos = {.is_latched = true}}, {}));
+    nodes_ =
+        Must(participant_->MakeWriter({.topic = kNodesTopic, .type = kNodesType, .qos = {.is_latched = true}}, {}));
     const auto octets = std::make_shared<Octets>(Said(participant_->id(), {{"/", name, {}, {writer_->id()}}}, false));
     EXPECT_TRUE(nodes_->Write(octets, 1));
   }
@@ -110,8 +111,9 @@ TEST(NamesOfOthersTest, NodesAreCalledByTheirNames) {
   robot.WaitFor("/joystick is in the network");
   robot.WaitFor("/navigator is in the network");
   robot.WaitFor("write it, and all of them are heard");
-  EXPECT_THAT(robot.Text(), AllOf(HasSubstr("member /joystick\n"), HasSubstr("member /navigator\n"), HasSubstr("written by /joystick (reliable"),
-                                  HasSubstr("written by /navigator (reliable")));
+  EXPECT_THAT(robot.Text(),
+              AllOf(HasSubstr("member /joystick\n"), HasSubstr("member /navigator\n"),
+                    HasSubstr("written by /joystick (reliable"), HasSubstr("written by /navigator (reliable")));
 }
 
 TEST(NamesOfOthersTest, CannotWriteToTheTerminal) {

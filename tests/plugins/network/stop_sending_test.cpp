@@ -172,7 +172,8 @@ TEST_P(StopSendingTest, ASpeedThatIsANumberStopsAndWhatIsMeasuredGoesOn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Qualities, StopSendingTest,
-                         testing::Values(ValueQuality::kNewest, ValueQuality::kEach, ValueQuality::kSensor, ValueQuality::kLatched));
+                         testing::Values(ValueQuality::kNewest, ValueQuality::kEach, ValueQuality::kSensor,
+                                         ValueQuality::kLatched));
 
 }  // namespace
 }  // namespace runnel::test

@@ -1,8 +1,9 @@
 // Values of a machine with another clock.
+#include "plugins/network_discovery/writer_clock.h"
+
 #include <cstring>
 #include <thread>
 
-#include "plugins/network_discovery/writer_clock.h"
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {
@@ -37,7 +38,9 @@ TEST(WriterClockTest, WhatIsHeldUpIsOldHoweverLong) {
 TEST(WriterClockTest, WhatTakesMuchLongerThanOthersWasHeldUp) {
   WriterClock clock;
   Time now(seconds(1000));
-  const auto held_up = [&](Duration delay, Duration gap = milliseconds(100)) { return clock.HeldUp(delay, now += gap); };
+  const auto held_up = [&](Duration delay, Duration gap = milliseconds(100)) {
+    return clock.HeldUp(delay, now += gap);
+  };
   EXPECT_EQ(held_up(milliseconds(400)), Duration{}) << "nobody knows: its clock may be behind";
   EXPECT_EQ(held_up(milliseconds(430)), Duration{});
   EXPECT_NEAR(ToSeconds(held_up(seconds(3), seconds(3))), 2.6, 0.01) << "a link that was down";
@@ -81,7 +84,8 @@ TEST(WriterClockTest, OfAWriterThatNobodyKnowsWhatComesMayHaveBeenHeldUp) {
 TEST(WriterClockTest, OfABurstThatWasHeldUpNothingIsNew) {
   WriterClock clock;
   Time now(seconds(1000));
-  for (int i = 0; i < 100; ++i) {  // written 100 ms apart, come 10 ms apart: of 1 s, so that it takes longer than is waited
+  for (int i = 0; i < 100;
+       ++i) {  // written 100 ms apart, come 10 ms apart: of 1 s, so that it takes longer than is waited
     const Duration delay = seconds(9) - milliseconds(90) * i;
     (void)clock.HeldUp(delay, now += milliseconds(10));
     ASSERT_EQ(now - clock.sent(), delay > WriterClock::kMostOfNetworks ? delay : Duration{}) << i;
@@ -120,7 +124,8 @@ class OtherClockTest : public testing::Test {
     robot_.Begin();
     other_ = Must(engine_->Join({.name = "other"}, table_));
     const auto form = Must(ValueForm::Make(TypeOf<Place>(), "", ""));
-    writer_ = Must(other_->MakeWriter({.topic = "rt/a/place", .type = form->codec->dds_type(), .user_data = form->user_data}, {}));
+    writer_ = Must(
+        other_->MakeWriter({.topic = "rt/a/place", .type = form->codec->dds_type(), .user_data = form->user_data}, {}));
     WaitUntil("it is read", [&] { return robot_.Text().find("written by other") != std::string::npos; });
   }
 

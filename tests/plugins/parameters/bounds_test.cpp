@@ -1,8 +1,8 @@
-#include "plugins/parameters/parameter_base.h"
-
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "plugins/parameters/parameter_base.h"
 
 namespace runnel {
 namespace {

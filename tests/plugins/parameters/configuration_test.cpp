@@ -27,15 +27,14 @@ class ConfigurationFile : public ::testing::Test {
     }
     for (const Error& error : diagnostics.errors()) {
       EXPECT_EQ(error.position.file, file_);
-      said += std::to_string(error.position.line) + ":" + std::to_string(error.position.column) +
-              ": " + error.message + "; " + error.hint + "\n";
+      said += std::to_string(error.position.line) + ":" + std::to_string(error.position.column) + ": " + error.message +
+              "; " + error.hint + "\n";
     }
     return said;
   }
 
   const std::string file_ = ::testing::TempDir() + "runnel_configuration_file_" +
-                            ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-                            ".xml";
+                            ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".xml";
   Configuration configuration_;
 };
 
@@ -55,8 +54,7 @@ TEST_F(ConfigurationFile, NamesValuesByTheirSections) {
   EXPECT_EQ(configuration_.FindEntry("/safety/front/width")->text, "1 < 2");
   EXPECT_EQ(configuration_.FindEntry("speed")->text, "") << "the first '/' may be left out";
   EXPECT_EQ(configuration_.FindEntry("/safety/back"), nullptr);
-  EXPECT_THAT(configuration_.EntryPaths(),
-              ElementsAre("/safety/front/width", "/safety/stop_distance", "/speed"));
+  EXPECT_THAT(configuration_.EntryPaths(), ElementsAre("/safety/front/width", "/safety/stop_distance", "/speed"));
 }
 
 TEST_F(ConfigurationFile, TellsAllThatIsWrongAndAddsNothing) {
@@ -94,8 +92,7 @@ TEST_F(ConfigurationFile, MayBeOneOfFinroc) {
 </root>)"),
             "");
   EXPECT_EQ(configuration_.FindEntry("/noiselevel")->text, "15 cm");
-  EXPECT_EQ(configuration_.FindEntry("/some structural element/destructive_collision_speed")->text,
-            "0.1");
+  EXPECT_EQ(configuration_.FindEntry("/some structural element/destructive_collision_speed")->text, "0.1");
   EXPECT_EQ(configuration_.FindEntry("/some structural element/inner/x")->text, "2");
   // As FINROC itself saves one.
   ASSERT_EQ(Load("<node><value name='noiselevel'>20 cm</value></node>"), "");

@@ -14,9 +14,7 @@ namespace runnel {
 namespace {
 
 enum class Side { kLeft, kRight };
-void Describe(TypeBuilder<Side>& type) {
-  type.Name("Side").Value("left", Side::kLeft).Value("right", Side::kRight);
-}
+void Describe(TypeBuilder<Side>& type) { type.Name("Side").Value("left", Side::kLeft).Value("right", Side::kRight); }
 
 // Its halves are always equal, so that a torn value shows.
 struct Pair {
@@ -104,8 +102,7 @@ TEST_F(ParameterTest, ReadsTheTextFormatOfAllKindsOfTypes) {
 TEST_F(ParameterTest, RefusesWhatIsOutOfBoundsAndKeepsItsValue) {
   const auto set = guard_.stop_distance.SetFromText("5.1");
   ASSERT_FALSE(set);
-  EXPECT_EQ(set.error().ToString(),
-            "/guard/parameter/stop_distance: 5.1 m is out of bounds; allowed is 0.05 .. 5 m");
+  EXPECT_EQ(set.error().ToString(), "/guard/parameter/stop_distance: 5.1 m is out of bounds; allowed is 0.05 .. 5 m");
   EXPECT_EQ(guard_.stop_distance.Get(), 0.3);
   EXPECT_TRUE(guard_.stop_distance.SetFromText("5"));
   EXPECT_FALSE(guard_.stop_distance.SetFromText("nan"));
@@ -144,8 +141,7 @@ TEST_F(ParameterTest, CannotBeSetAnyMoreIfStatic) {
   const auto set = guard_.label.SetFromText("left");
   ASSERT_FALSE(set);
   EXPECT_EQ(set.error().path, "/guard/parameter/label");
-  EXPECT_EQ(set.error().hint,
-            "set it in the application file, or have a change do it, which makes the module anew");
+  EXPECT_EQ(set.error().hint, "set it in the application file, or have a change do it, which makes the module anew");
   EXPECT_EQ(guard_.label.Get(), "rear");
 }
 
@@ -158,11 +154,9 @@ TEST_F(ParameterTest, TakesValuesOfItsTypeAsTheyAre) {
   const double far = 7;
   const auto set = guard_.stop_distance.SetFrom(&far);
   ASSERT_FALSE(set);
-  EXPECT_EQ(set.error().ToString(),
-            "/guard/parameter/stop_distance: 7 m is out of bounds; allowed is 0.05 .. 5 m");
+  EXPECT_EQ(set.error().ToString(), "/guard/parameter/stop_distance: 7 m is out of bounds; allowed is 0.05 .. 5 m");
   const std::string label = "a\x01";
-  EXPECT_EQ(guard_.label.SetFrom(&label).error().message,
-            "the value contains control character 0x01");
+  EXPECT_EQ(guard_.label.SetFrom(&label).error().message, "the value contains control character 0x01");
 }
 
 template <typename P>
@@ -188,8 +182,7 @@ std::string WhyNotMade(Runtime& runtime, ParameterOptions<double> options) {
 
 TEST_F(ParameterTest, IsRefusedWithADefaultOutsideOfItsOwnBounds) {
   const ParameterOptions<double> forgotten{.bounds = {0.05, 5.0}, .unit = "m"};
-  const std::string why =
-      "/module/parameter/distance: its default, 0 m, is out of its bounds; they are 0.05 .. 5 m";
+  const std::string why = "/module/parameter/distance: its default, 0 m, is out of its bounds; they are 0.05 .. 5 m";
   EXPECT_EQ(WhyNotMade<Parameter<double>>(runtime_, forgotten), why);
   EXPECT_EQ(WhyNotMade<StaticParameter<double>>(runtime_, forgotten), why);
   EXPECT_EQ(runtime_.root().FindChild("module"), nullptr);

@@ -50,8 +50,7 @@ TEST(NumberInUnit, OfSomethingElseIsRefusedWithTheUnitThatIsWanted) {
   EXPECT_THAT(In("m", "15 s"), AllOf(HasSubstr("'15 s'"), HasSubstr("write it in m")));
   EXPECT_THAT(In("rad", "15 m"), HasSubstr("write it in rad"));
   EXPECT_THAT(In("m/s", "15 m"), HasSubstr("write it in m/s"));
-  EXPECT_THAT(In("m", "15 cmm"),
-              AllOf(HasSubstr("no number with a unit"), HasSubstr("write it in m")));
+  EXPECT_THAT(In("m", "15 cmm"), AllOf(HasSubstr("no number with a unit"), HasSubstr("write it in m")));
   EXPECT_THAT(In("B", "15 m"), HasSubstr("write it in B"));
   EXPECT_THAT(In("", "15 m"), HasSubstr("write the number only"));
   for (const char* text : {"1 /", "1 m/", "1 m//s^", "1 m^9", "1 ^2", "1 m^", "1 \xff"}) {
@@ -62,8 +61,7 @@ TEST(NumberInUnit, OfSomethingElseIsRefusedWithTheUnitThatIsWanted) {
 class MeasuredGuard final : public Module {
  public:
   using Module::Module;
-  Parameter<double> distance{
-      this, "distance", {.default_value = 0.3, .bounds = {0.0, 5.0}, .unit = "m"}};
+  Parameter<double> distance{this, "distance", {.default_value = 0.3, .bounds = {0.0, 5.0}, .unit = "m"}};
   Parameter<int> count{this, "count", {.default_value = 2}};
   StaticParameter<std::string> word{this, "word"};
 

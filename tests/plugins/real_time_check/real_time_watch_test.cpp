@@ -59,8 +59,8 @@ class RealTimeWatchTest : public testing::Test {
     watch_.emplace(*RunnelRealTimeHooks(), first_cycles);
     runtime_.emplace();
     make(*runtime_);
-    scheduler_.emplace(*runtime_, SchedulerOptions{.clock = SchedulerOptions::ClockKind::kSimulated,
-                                                   .watch = &*watch_});
+    scheduler_.emplace(*runtime_,
+                       SchedulerOptions{.clock = SchedulerOptions::ClockKind::kSimulated, .watch = &*watch_});
     ASSERT_TRUE(runtime_->MakeReady(runtime_->root()));
     for (int i = 0; i < cycles; ++i) ASSERT_TRUE(scheduler_->Step());
   }
@@ -93,9 +93,7 @@ TEST_F(RealTimeWatchTest, NamesTheModuleAndHowOftenItDidIt) {
 }
 
 TEST_F(RealTimeWatchTest, FirstCyclesAreLetThrough) {
-  make = [](Runtime& runtime) {
-    runtime.Create<Allocator>(runtime.root(), "slow_starter").first_allocations = 5;
-  };
+  make = [](Runtime& runtime) { runtime.Create<Allocator>(runtime.root(), "slow_starter").first_allocations = 5; };
   Run(6, 10);
   EXPECT_THAT(watch_->Breaches(), IsEmpty());
 }

@@ -10,16 +10,15 @@ using testing::ElementsAre;
 // The file has values at 0, 1000, … ns; every fifth is of channel 1.
 class PlayedValuesTest : public McapTest {
  protected:
-  std::unique_ptr<PlayedValues> Play(int messages, std::optional<Duration> from = {},
-                                     std::optional<Duration> to = {}, bool loops = false) {
-    auto values = std::make_unique<PlayedValues>(
-        Must(McapReader::Open(WriteFile("a.mcap", "", messages))), from, to, loops);
+  std::unique_ptr<PlayedValues> Play(int messages, std::optional<Duration> from = {}, std::optional<Duration> to = {},
+                                     bool loops = false) {
+    auto values =
+        std::make_unique<PlayedValues>(Must(McapReader::Open(WriteFile("a.mcap", "", messages))), from, to, loops);
     values->Want(0);
     values->Want(1);
     return values;
   }
-  static std::vector<std::string> TakeAll(PlayedValues& values, std::uint16_t channel,
-                                          std::int64_t now) {
+  static std::vector<std::string> TakeAll(PlayedValues& values, std::uint16_t channel, std::int64_t now) {
     std::vector<std::string> all;
     while (auto value = values.Take(channel, Time(Duration(now)))) {
       all.push_back(std::to_string(value->time.time_since_epoch().count()) + value->json);
@@ -54,8 +53,8 @@ TEST_F(PlayedValuesTest, FromLaterOnBeginsWithWhatWasNewestThen) {
   values->Start(values->start());
   EXPECT_THAT(TakeAll(*values, 0, 42'500), ElementsAre("42000{\"x\":42}"));
   EXPECT_THAT(TakeAll(*values, 1, 42'500), ElementsAre("39000{\"x\":39}"));
-  EXPECT_THAT(TakeAll(*values, 0, 99'000), ElementsAre("43000{\"x\":43}", "45000{\"x\":45}",
-                                                       "46000{\"x\":46}", "47000{\"x\":47}"));
+  EXPECT_THAT(TakeAll(*values, 0, 99'000),
+              ElementsAre("43000{\"x\":43}", "45000{\"x\":45}", "46000{\"x\":46}", "47000{\"x\":47}"));
   EXPECT_THAT(TakeAll(*values, 1, 99'000), ElementsAre("44000{\"x\":44}"));
   EXPECT_TRUE(values->is_over());
 }
@@ -118,8 +117,8 @@ TEST_F(PlayedValuesTest, ARoundDoesNotWaitForWhoIsPaused) {
     while (const auto value = values.Take(taken, Time(FromSeconds(now)))) times.push_back(ToSeconds(value->time));
   }
   using ::testing::DoubleNear;
-  EXPECT_THAT(times, ElementsAre(DoubleNear(0, 0.02), DoubleNear(1, 0.02), DoubleNear(2, 0.02), DoubleNear(3, 0.03), DoubleNear(4, 0.03),
-                                 DoubleNear(5, 0.04), DoubleNear(6, 0.05)));
+  EXPECT_THAT(times, ElementsAre(DoubleNear(0, 0.02), DoubleNear(1, 0.02), DoubleNear(2, 0.02), DoubleNear(3, 0.03),
+                                 DoubleNear(4, 0.03), DoubleNear(5, 0.04), DoubleNear(6, 0.05)));
 }
 
 TEST_F(PlayedValuesTest, ABrokenChunkEndsThePlaying) {

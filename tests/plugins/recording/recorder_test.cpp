@@ -81,8 +81,7 @@ TEST_F(RecorderTest, TellsApartWhenAValueWasPublishedAndWhenItWasMeasured) {
   Runtime runtime;
   auto& source = runtime.Create<Source>(runtime.root(), "source");
   Must(runtime.MakeReady(runtime.root()));
-  auto recorder =
-      Must(Recorder::Start(runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}}));
+  auto recorder = Must(Recorder::Start(runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}}));
   {
     const CycleScope cycle({.now = Time(milliseconds(30))});
     source.number.Publish(1, Time(milliseconds(10)));
@@ -95,8 +94,7 @@ TEST_F(RecorderTest, TellsApartWhenAValueWasPublishedAndWhenItWasMeasured) {
     times.emplace_back(message.log_time, message.publish_time);
     return {};
   }));
-  EXPECT_THAT(
-      times, ElementsAre(std::pair(30'000'000u, 10'000'000u), std::pair(30'000'000u, 30'000'000u)));
+  EXPECT_THAT(times, ElementsAre(std::pair(30'000'000u, 10'000'000u), std::pair(30'000'000u, 30'000'000u)));
 }
 
 TEST_F(RecorderTest, OfASimulatedRunNothingIsMissingHoweverFastItGoes) {
@@ -116,8 +114,7 @@ TEST_F(RecorderTest, WhatTheApplicationComputesDoesNotDependOnIt) {
   (void)Record("a.mcap", recorded, seconds(2));
   const auto last = [](Application& application) {
     double sum = 0;
-    application.sink->sum.VisitLatest(
-        [&](const void* value, Time) { sum = *static_cast<const double*>(value); });
+    application.sink->sum.VisitLatest([&](const void* value, Time) { sum = *static_cast<const double*>(value); });
     return sum;
   };
   EXPECT_EQ(last(alone), last(recorded));
@@ -126,9 +123,8 @@ TEST_F(RecorderTest, WhatTheApplicationComputesDoesNotDependOnIt) {
 
 TEST_F(RecorderTest, RecordsWhatFitsAndSaysWhatCannotBeWritten) {
   Application application;
-  auto recorder = Must(
-      Recorder::Start(application.runtime, &application.scheduler,
-                      {.file = Path("a.mcap"), .ports = {"/source/*", "/sorce/*", "!sample"}}));
+  auto recorder = Must(Recorder::Start(application.runtime, &application.scheduler,
+                                       {.file = Path("a.mcap"), .ports = {"/source/*", "/sorce/*", "!sample"}}));
   application.Run(milliseconds(20));
   Must(recorder->Finish());
   EXPECT_THAT(recorder->status().left_out, ElementsAre("/source/output/secret"));
@@ -141,8 +137,7 @@ TEST_F(RecorderTest, RecordsWhatFitsAndSaysWhatCannotBeWritten) {
 TEST_F(RecorderTest, ANameThatIsNotThereIsAnErrorAndNoFileIsMade) {
   Application application;
   const auto start = [&](const std::string& port) {
-    const auto started =
-        Recorder::Start(application.runtime, nullptr, {.file = Path("a.mcap"), .ports = {port}});
+    const auto started = Recorder::Start(application.runtime, nullptr, {.file = Path("a.mcap"), .ports = {port}});
     EXPECT_FALSE(std::filesystem::exists(Path("a.mcap")));
     return started ? std::string("started") : started.error().ToString();
   };
@@ -154,8 +149,8 @@ TEST_F(RecorderTest, ANameThatIsNotThereIsAnErrorAndNoFileIsMade) {
 
 TEST_F(RecorderTest, FollowsModulesThatComeAndGo) {
   Application application;
-  auto recorder = Must(Recorder::Start(application.runtime, &application.scheduler,
-                                       {.file = Path("a.mcap"), .ports = {"**/number"}}));
+  auto recorder = Must(
+      Recorder::Start(application.runtime, &application.scheduler, {.file = Path("a.mcap"), .ports = {"**/number"}}));
   application.Run(milliseconds(20));
   auto& late = application.runtime.Create<Source>(application.runtime.root(), "late");
   Must(application.runtime.MakeReady(late));
@@ -185,8 +180,8 @@ TEST_F(RecorderTest, WhatIsRenamedGoesOnUnderItsNewNameAndItsOldNameIsFree) {
   };
   application.runtime.Create<Group>(application.runtime.root(), "app");
   change({CreateModule{"/app/first", "test/source"}});
-  auto recorder = Must(Recorder::Start(application.runtime, &application.scheduler,
-                                       {.file = Path("a.mcap"), .ports = {"**/number"}}));
+  auto recorder = Must(
+      Recorder::Start(application.runtime, &application.scheduler, {.file = Path("a.mcap"), .ports = {"**/number"}}));
   application.Run(milliseconds(30));
   change({RenameElement{"/app/first", "second"}});
   change({CreateModule{"/app/first", "test/source"}});
@@ -201,8 +196,7 @@ TEST_F(RecorderTest, CountsWhatComesTooFastOnARealClock) {
   Runtime runtime;
   auto& source = runtime.Create<Source>(runtime.root(), "source");
   Must(runtime.MakeReady(runtime.root()));
-  auto recorder = Must(Recorder::Start(
-      runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}, .capacity = 4}));
+  auto recorder = Must(Recorder::Start(runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}, .capacity = 4}));
   constexpr int kValues = 50'000;
   for (int i = 0; i < kValues; ++i) source.number.Publish(i);
   Must(recorder->Finish());
@@ -220,8 +214,7 @@ TEST_F(RecorderTest, CountsWhatComesTooFastOnARealClock) {
 // A limit on the size of files stands for a full disk.
 TEST_F(RecorderTest, AFullDiskEndsTheRecordingAndNotTheApplication) {
   Application application;
-  auto recorder =
-      Must(Recorder::Start(application.runtime, &application.scheduler, {.file = Path("a.mcap")}));
+  auto recorder = Must(Recorder::Start(application.runtime, &application.scheduler, {.file = Path("a.mcap")}));
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -248,8 +241,7 @@ TEST_F(RecorderTest, OfAKilledProcessAllButTheLastSecondIsThere) {
     Runtime runtime;
     auto& source = runtime.Create<Source>(runtime.root(), "source");
     (void)runtime.MakeReady(runtime.root());
-    auto recorder =
-        Recorder::Start(runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}});
+    auto recorder = Recorder::Start(runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}});
     for (int i = 0; i < 100; ++i) source.number.Publish(i);
     // The chunk is written within a second and a little.
     while (recorder && !Must(McapReader::Open(Path("a.mcap")))->contents().statistics.messages) {

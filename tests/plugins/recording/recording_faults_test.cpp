@@ -49,16 +49,14 @@ TEST_F(RecordingFaults, ARecordingBeginsOrLeavesNothingBehind) {
   const std::string file = Path("a.mcap");
   auto application = std::make_unique<Application>();
   std::unique_ptr<Recorder> recorder;
-  const RecorderOptions options{.file = file,
-                                .ports = {"**"},
-                                .about = {.name = "the name of an application", .text = "<a/>"}};
+  const RecorderOptions options{
+      .file = file, .ports = {"**"}, .about = {.name = "the name of an application", .text = "<a/>"}};
   RecorderOptions given = options;
   const std::size_t points = AtEachPoint(
       InjectedFault::kAllocation,
       [&] {
         try {
-          auto started =
-              Recorder::Start(application->runtime, &application->scheduler, std::move(given));
+          auto started = Recorder::Start(application->runtime, &application->scheduler, std::move(given));
           if (started) recorder = std::move(*started);
         } catch (const std::bad_alloc&) {
         }

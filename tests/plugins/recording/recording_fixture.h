@@ -93,16 +93,15 @@ class RecordingTest : public McapTest {
   /// Records what fits while an application runs for so long.
   std::string Record(const std::string& name, Application& application, Duration duration,
                      std::vector<std::string> ports = {}) {
-    auto recorder = Must(Recorder::Start(application.runtime, &application.scheduler,
-                                         {.file = Path(name), .ports = std::move(ports)}));
+    auto recorder = Must(
+        Recorder::Start(application.runtime, &application.scheduler, {.file = Path(name), .ports = std::move(ports)}));
     application.Run(duration);
     Must(recorder->Finish());
     EXPECT_EQ(recorder->status().dropped, 0u);
     return Path(name);
   }
   /// "time json" of each value of a port.
-  [[nodiscard]] static std::vector<std::string> ValuesOf(const std::string& file,
-                                                         const std::string& path) {
+  [[nodiscard]] static std::vector<std::string> ValuesOf(const std::string& file, const std::string& path) {
     auto reader = Must(McapReader::Open(file));
     std::vector<std::string> values;
     Must(reader->ReadMessages([&](const McapMessage& message) -> Result<void> {

@@ -10,15 +10,13 @@ using RecordingInfoTest = RecordingTest;
 
 TEST_F(RecordingInfoTest, SaysWhatWasRecordedOfWhat) {
   Application application;
-  auto recorder = Must(Recorder::Start(application.runtime, &application.scheduler,
-                                       {.file = Path("a.mcap"),
-                                        .ports = {"**/sum"},
-                                        .compression = "none",
-                                        .about = {.name = "app",
-                                                  .file = "/x/app.xml",
-                                                  .text = "<application/>",
-                                                  .settings = "seed=3",
-                                                  .version = "9.9"}}));
+  auto recorder = Must(Recorder::Start(
+      application.runtime, &application.scheduler,
+      {.file = Path("a.mcap"),
+       .ports = {"**/sum"},
+       .compression = "none",
+       .about = {
+           .name = "app", .file = "/x/app.xml", .text = "<application/>", .settings = "seed=3", .version = "9.9"}}));
   application.Run(std::chrono::milliseconds(1010));
   Must(recorder->Finish());
   const auto reader = Must(McapReader::Open(Path("a.mcap")));

@@ -40,8 +40,8 @@ TEST_F(RecordingPlayerTest, WhatReadsThePlayedPublishesTheSameBitForBitAtTheSame
 TEST_F(RecordingPlayerTest, PlayedValuesWereMeasuredAsLongBeforeTheirPublicationAsRecorded) {
   auto writer = Must(McapWriter::Create(Path("lag.mcap"), {}));
   const auto schema = Must(writer->AddSchema("double", "jsonschema", kNumberSchema));
-  const auto channel = Must(
-      writer->AddChannel(schema, "/source/number", "json", {{kPortKey, "/source/output/number"}}));
+  const auto channel =
+      Must(writer->AddChannel(schema, "/source/number", "json", {{kPortKey, "/source/output/number"}}));
   Must(writer->AddMessage({channel, 0, 20'000'000, 5'000'000, "{\"value\":1}"}));
   Must(writer->Finish());
   Application application;
@@ -98,7 +98,8 @@ TEST_F(RecordingPlayerTest, AFileThatIsSavedMeanwhileKeepsTheConnections) {
   const auto connected = [&] {
     std::string text;
     for (const ChangeSet& back : switched.back()()) {
-      for (const Change& each : back) text += std::get<ConnectPorts>(each).from + " " + std::get<ConnectPorts>(each).to + "\n";
+      for (const Change& each : back)
+        text += std::get<ConnectPorts>(each).from + " " + std::get<ConnectPorts>(each).to + "\n";
     }
     return text;
   };
@@ -170,17 +171,14 @@ TEST_F(RecordingPlayerTest, SaysWhatCannotBePlayed) {
     const auto player = Play(other, file, {.ports = {port}});
     return player ? std::string("plays") : player.error().ToString();
   };
-  EXPECT_THAT(
-      refusal("/source/numbr"),
-      HasSubstr("the recording has no port '/source/numbr'; did you mean '/source/number'?"));
-  EXPECT_THAT(refusal("/nothing/**"),
-              HasSubstr("the recording has no port that fits '/nothing/**'"));
+  EXPECT_THAT(refusal("/source/numbr"),
+              HasSubstr("the recording has no port '/source/numbr'; did you mean '/source/number'?"));
+  EXPECT_THAT(refusal("/nothing/**"), HasSubstr("the recording has no port that fits '/nothing/**'"));
   EXPECT_THAT(refusal("/sourc/*"), HasSubstr("there is '/source/number'"));
   Runtime empty;
   const auto player = Player::Prepare(empty, Must(McapReader::Open(file)), {});
   ASSERT_FALSE(player);
-  EXPECT_THAT(player.error().ToString(),
-              HasSubstr("the application has none of the ports that were recorded"));
+  EXPECT_THAT(player.error().ToString(), HasSubstr("the application has none of the ports that were recorded"));
   Application other;
   EXPECT_THAT(Play(other, file, {.from = seconds(5)}).error().message,
               HasSubstr("the recording ends before that: it has 0.09"));
@@ -211,8 +209,7 @@ TEST_F(RecordingPlayerTest, AValueThatCannotBeReadEndsThePlayingWithItsPlace) {
   player->Start(Time{});
   other.Run(milliseconds(100));
   ASSERT_TRUE(player->failure());
-  EXPECT_THAT(player->failure()->ToString(),
-              HasSubstr("/source/output/number: the value recorded at 0.02"));
+  EXPECT_THAT(player->failure()->ToString(), HasSubstr("/source/output/number: the value recorded at 0.02"));
   EXPECT_EQ(player->published(), 1u);
 }
 

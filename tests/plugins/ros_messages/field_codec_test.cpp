@@ -92,7 +92,8 @@ TEST(FieldCodec, ConvertsAsWholeMessagesDo) {
   odometry.pose.covariance[35] = 7;
   const Octets octets = OctetsOf(TypeOf<nav_msgs::Odometry>(), &odometry);
   const auto read = [&]<typename T>(const std::string& field, T value) {
-    const auto codec = MessageCodec::Make(TypeOf<T>(), {.as = "nav_msgs/Odometry", .field = field}, MessageLibrary::Standard());
+    const auto codec =
+        MessageCodec::Make(TypeOf<T>(), {.as = "nav_msgs/Odometry", .field = field}, MessageLibrary::Standard());
     EXPECT_TRUE(codec) << (codec ? "" : codec.error().ToString());
     EXPECT_EQ(codec ? Problem(**codec, octets, &value) : "none", "");
     return value;
@@ -116,34 +117,44 @@ TEST(FieldCodec, ALaterElementIsFoundBehindOnesOfAnyLength) {
   }
   const Octets octets = OctetsOf(TypeOf<diagnostic_msgs::DiagnosticArray>(), &array);
   const auto codec = [](const std::string& field) {
-    return *MessageCodec::Make(TypeOf<std::string>(), {.as = "diagnostic_msgs/msg/DiagnosticArray", .field = field}, MessageLibrary::Standard());
+    return *MessageCodec::Make(TypeOf<std::string>(), {.as = "diagnostic_msgs/msg/DiagnosticArray", .field = field},
+                               MessageLibrary::Standard());
   };
   std::string value;
   EXPECT_EQ(Problem(*codec("status[2].values[2].value"), octets, &value), "");
   EXPECT_EQ(value, "2");
   EXPECT_EQ(Problem(*codec("status[3].name"), octets, &value), "status: it has no element [3], but 3 of them");
-  EXPECT_EQ(Problem(*codec("status[1].values[2].value"), octets, &value), "status.values: it has no element [2], but 2 of them");
+  EXPECT_EQ(Problem(*codec("status[1].values[2].value"), octets, &value),
+            "status.values: it has no element [2], but 2 of them");
   EXPECT_EQ(value, "2") << "nothing has been read";
 }
 
 TEST(FieldCodec, TellsWhatIsNotThere) {
   const TypeInfo& number = TypeOf<double>();
   const std::string battery = "sensor_msgs/msg/BatteryState";
-  EXPECT_EQ(WhyNot(number, battery, "percentag"), "sensor_msgs/msg/BatteryState has no field 'percentag'; did you mean 'percentage'?");
-  EXPECT_THAT(WhyNot(number, "nav_msgs/msg/Odometry", "pose.pose.positon.x"), HasSubstr("geometry_msgs/msg/Pose has no field 'positon'; did you mean 'position'?"));
-  EXPECT_THAT(WhyNot(number, "nav_msgs/msg/Odometry", "pose.covariance[36]"), HasSubstr("'covariance' has no element [36]; it has 36, counted from 0"));
+  EXPECT_EQ(WhyNot(number, battery, "percentag"),
+            "sensor_msgs/msg/BatteryState has no field 'percentag'; did you mean 'percentage'?");
+  EXPECT_THAT(WhyNot(number, "nav_msgs/msg/Odometry", "pose.pose.positon.x"),
+              HasSubstr("geometry_msgs/msg/Pose has no field 'positon'; did you mean 'position'?"));
+  EXPECT_THAT(WhyNot(number, "nav_msgs/msg/Odometry", "pose.covariance[36]"),
+              HasSubstr("'covariance' has no element [36]; it has 36, counted from 0"));
   EXPECT_THAT(WhyNot(number, "nav_msgs/msg/Odometry", "pose.pose.position"),
-              HasSubstr("a double is no geometry_msgs/msg/Point; say which of its fields: pose.pose.position.x pose.pose.position.y"));
-  EXPECT_THAT(WhyNot(number, battery, "cell_voltage"), HasSubstr("a double is no float32[]; of its elements, the first is cell_voltage[0]"));
-  EXPECT_THAT(WhyNot(number, battery, "cell_voltage[x]"), HasSubstr("'[x]' names no element; write [INDEX], counted from 0"));
+              HasSubstr("a double is no geometry_msgs/msg/Point; say which of its fields: pose.pose.position.x "
+                        "pose.pose.position.y"));
+  EXPECT_THAT(WhyNot(number, battery, "cell_voltage"),
+              HasSubstr("a double is no float32[]; of its elements, the first is cell_voltage[0]"));
+  EXPECT_THAT(WhyNot(number, battery, "cell_voltage[x]"),
+              HasSubstr("'[x]' names no element; write [INDEX], counted from 0"));
   EXPECT_THAT(WhyNot(number, battery, "cell_voltage[-1]"), HasSubstr("names no element"));
   EXPECT_THAT(WhyNot(number, battery, "cell_voltage[1"), HasSubstr("names no element"));
   EXPECT_THAT(WhyNot(number, battery, "voltage[0]"), HasSubstr("'voltage' has no elements"));
   EXPECT_THAT(WhyNot(number, battery, "voltage.x"), HasSubstr("'voltage' has no fields"));
-  EXPECT_THAT(WhyNot(number, "diagnostic_msgs/msg/DiagnosticArray", "status.level"), HasSubstr("'status' is a list; say which of its elements: status[0].level"));
+  EXPECT_THAT(WhyNot(number, "diagnostic_msgs/msg/DiagnosticArray", "status.level"),
+              HasSubstr("'status' is a list; say which of its elements: status[0].level"));
   EXPECT_THAT(WhyNot(number, battery, "location"), HasSubstr("a double is no string"));
   EXPECT_THAT(WhyNot(number, battery, "."), HasSubstr("has no field ''"));
-  EXPECT_THAT(WhyNot(number, "", "percentage"), HasSubstr("nobody says of which; say it: as=\"sensor_msgs/msg/BatteryState\""));
+  EXPECT_THAT(WhyNot(number, "", "percentage"),
+              HasSubstr("nobody says of which; say it: as=\"sensor_msgs/msg/BatteryState\""));
 }
 
 TEST(FieldCodec, SurvivesAnyOctets) {
@@ -171,8 +182,9 @@ TEST(FieldCodec, SurvivesAnyOctets) {
 
 // What claims to be long is held against what is there before anything is made of it, or passed over.
 TEST(FieldCodec, BelievesNoLength) {
-  const auto codec = *MessageCodec::Make(TypeOf<double>(), {.as = "diagnostic_msgs/msg/DiagnosticArray", .field = "status[4000000000].level"},
-                                         MessageLibrary::Standard());
+  const auto codec = *MessageCodec::Make(
+      TypeOf<double>(), {.as = "diagnostic_msgs/msg/DiagnosticArray", .field = "status[4000000000].level"},
+      MessageLibrary::Standard());
   Octets octets;
   CdrWriter writer(octets);
   writer.Put(std::int32_t{1});
@@ -195,7 +207,8 @@ TEST(FieldCodec, AllocatesNothing) {
   state.header.frame_id = "a frame of more than fifteen letters";
   state.cell_voltage = {1, 2, 3};
   const Octets octets = OctetsOf(TypeOf<sensor_msgs::BatteryState>(), &state);
-  const auto codec = *MessageCodec::Make(TypeOf<double>(), {.as = "sensor_msgs/msg/BatteryState", .field = "cell_voltage[2]"}, MessageLibrary::Standard());
+  const auto codec = *MessageCodec::Make(
+      TypeOf<double>(), {.as = "sensor_msgs/msg/BatteryState", .field = "cell_voltage[2]"}, MessageLibrary::Standard());
   double value = 0;
   const AllocationGuard guard;
   const bool is_read = codec->Decode(octets, &value).has_value();

@@ -1,5 +1,3 @@
-#include <sys/wait.h>
-
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +11,7 @@
 #include <sensor_msgs/camera_info.h>
 #include <sensor_msgs/imu.h>
 #include <sensor_msgs/point_cloud2.h>
+#include <sys/wait.h>
 #include <visualization_msgs/marker.h>
 
 #include "plugins/cdr_values/cdr_values.h"
@@ -61,8 +60,10 @@ TEST(ImportedTypes, AreTheirMessages) {
 
 TEST(ImportedTypes, HaveNamesThatCppAllows) {
   MessageLibrary library;
-  ASSERT_TRUE(library.Add(*ParseMessage("string class \"a'b\"\nbool[] flags\nfloat32[2] pair [1, 2]\nstd_msgs/Empty done\n"
-                                        "string NAME='x'\nuint64 big 18446744073709551615", "my_msgs/msg/Track", "")));
+  ASSERT_TRUE(
+      library.Add(*ParseMessage("string class \"a'b\"\nbool[] flags\nfloat32[2] pair [1, 2]\nstd_msgs/Empty done\n"
+                                "string NAME='x'\nuint64 big 18446744073709551615",
+                                "my_msgs/msg/Track", "")));
   const auto files = CppHeadersOf({library.Find("my_msgs/msg/Track")}, library);
   ASSERT_TRUE(files) << files.error().ToString();
   const std::string& text = files->at("my_msgs/track.h");
@@ -96,7 +97,8 @@ Ended RunRos2(const std::string& arguments) {
   FILE* const pipe = popen((RUNNEL_ROS2_PROGRAM " " + arguments + " 2>&1").c_str(), "r");
   std::string said;
   std::array<char, 4096> buffer;
-  for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) said.append(buffer.data(), count);
+  for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    said.append(buffer.data(), count);
   return {WEXITSTATUS(pclose(pipe)), said};
 }
 

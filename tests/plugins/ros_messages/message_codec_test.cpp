@@ -190,11 +190,13 @@ TEST(MessageCodec, PutsStampAndFrameIntoHeaders) {
 }
 
 TEST(MessageCodec, ScansEndAtTheirLastRay) {
-  RangeScan scan{.start_angle = -1, .angle_step = 0.5, .range_minimum = 0.1, .range_maximum = 8, .ranges = {1, 2, INFINITY}};
+  RangeScan scan{
+      .start_angle = -1, .angle_step = 0.5, .range_minimum = 0.1, .range_maximum = 8, .ranges = {1, 2, INFINITY}};
   const Octets octets = Encoded(scan);
   float last = 0;
   auto reader = CdrReader::Begin(octets);
-  ASSERT_TRUE(reader->Skip(4, 2) && reader->Skip(4, 1) && reader->Skip(1, 1) && reader->Skip(4, 1) && reader->Get(last));
+  ASSERT_TRUE(reader->Skip(4, 2) && reader->Skip(4, 1) && reader->Skip(1, 1) && reader->Skip(4, 1) &&
+              reader->Get(last));
   EXPECT_EQ(last, 0.0F);
   const auto back = Decoded<RangeScan>(octets);
   EXPECT_EQ(back.ranges, scan.ranges);
@@ -202,14 +204,16 @@ TEST(MessageCodec, ScansEndAtTheirLastRay) {
 }
 
 TEST(MessageCodec, TellsWhatDoesNotFit) {
-  EXPECT_THAT(WhyNot<RangeScan>({.as = "sensor_msgs/msg/LaserScam"}), HasSubstr("did you mean 'sensor_msgs/msg/LaserScan'?"));
+  EXPECT_THAT(WhyNot<RangeScan>({.as = "sensor_msgs/msg/LaserScam"}),
+              HasSubstr("did you mean 'sensor_msgs/msg/LaserScan'?"));
   EXPECT_EQ(WhyNot<Pose2>({.as = "sensor_msgs/msg/LaserScan"}),
             "a Pose2 has nothing of a sensor_msgs/msg/LaserScan; what fits is geometry_msgs/msg/PoseStamped");
   EXPECT_THAT(WhyNot<example::Velocity>({.as = "geometry_msgs/msg/Twist"}),
               HasSubstr("linear: a string is no geometry_msgs/msg/Vector3"));
   EXPECT_THAT(WhyNot<example::Velocity>({.as = "geometry_msgs/msg/TwistWithCovariance"}),
               HasSubstr("covariance: a float[2] is no float64[36]"));
-  EXPECT_THAT(CodecOf<Pose2>({.as = "tf2_msgs/msg/TFMessage"})->why_no_decoding(), HasSubstr("any number of transforms"));
+  EXPECT_THAT(CodecOf<Pose2>({.as = "tf2_msgs/msg/TFMessage"})->why_no_decoding(),
+              HasSubstr("any number of transforms"));
 }
 
 TEST(MessageCodec, BindsFieldsOfTheSameName) {

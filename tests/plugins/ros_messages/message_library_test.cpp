@@ -78,7 +78,8 @@ TEST(MessageParser, TellsLineAndCure) {
     const auto read = ParseMessage(text, "my_msgs/msg/A", "A.msg");
     return read ? "it could be read" : read.error().ToString();
   };
-  EXPECT_THAT(why_not("float64 x\nflaot64 y"), StartsWith("A.msg:2: there is no type 'flaot64'; did you mean 'float64'?"));
+  EXPECT_THAT(why_not("float64 x\nflaot64 y"),
+              StartsWith("A.msg:2: there is no type 'flaot64'; did you mean 'float64'?"));
   EXPECT_THAT(why_not("float64"), HasSubstr("'float64' has a type and no name"));
   EXPECT_THAT(why_not("float64 maxSpeed"), HasSubstr("write 'max_speed'"));
   EXPECT_THAT(why_not("float64 x\nfloat64 x"), StartsWith("A.msg:2: there is already a field 'x'"));
@@ -109,8 +110,9 @@ class MessageFiles : public testing::Test {
     return read ? "it could be read" : read.error().ToString();
   }
 
-  const fs::path folder_ = fs::path(testing::TempDir()) /
-                           ("message_files_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  const fs::path folder_ =
+      fs::path(testing::TempDir()) /
+      ("message_files_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
 
 TEST_F(MessageFiles, AreReadByTheirPackages) {
@@ -152,7 +154,8 @@ TEST_F(MessageFiles, OfServicesThatAreWrongAreToldWithTheirPlace) {
 
 TEST_F(MessageFiles, ThatAreWrongAreToldWithTheirPlace) {
   Write("my_msgs/msg/Track.msg", "geometry_msgs/Pint at\n");
-  EXPECT_THAT(WhyNot(), HasSubstr("Track.msg: field 'at': there is no message 'geometry_msgs/msg/Pint'; did you mean 'geometry_msgs/msg/Point'?"));
+  EXPECT_THAT(WhyNot(), HasSubstr("Track.msg: field 'at': there is no message 'geometry_msgs/msg/Pint'; did you mean "
+                                  "'geometry_msgs/msg/Point'?"));
   Write("my_msgs/msg/Track.msg", "Track at\n");
   EXPECT_THAT(WhyNot(), HasSubstr("contains itself"));
   Write("my_msgs/msg/Track.msg", "float x\n");

@@ -100,7 +100,8 @@ TEST(RosParameters, AreDescribed) {
   };
   Runtime runtime;
   auto& box = runtime.Create<Box>(runtime.root(), "box");
-  const Parameter<double> distance(&box, "distance", {.default_value = 0.6, .bounds = {0.2, 3.0}, .unit = "m", .description = "to walls"});
+  const Parameter<double> distance(
+      &box, "distance", {.default_value = 0.6, .bounds = {0.2, 3.0}, .unit = "m", .description = "to walls"});
   const auto descriptor = DescribeRosParameter("box.distance", distance);
   EXPECT_EQ(descriptor.type, RosParameterType::kDouble);
   EXPECT_EQ(descriptor.description, "to walls [m]");

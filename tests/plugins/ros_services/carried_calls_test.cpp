@@ -52,8 +52,9 @@ class CarriedCallsTest : public testing::Test {
     (void)taken_->Follow(*near_);
   }
   void Offer() {
-    offered_ = std::make_unique<OfferedService>(runtime_, ServiceOfferOptions{.port = "/a/double", .service = "/double"},
-                                                MessageLibrary::Standard(), ServiceDialect::kInFront, 2, wake_);
+    offered_ =
+        std::make_unique<OfferedService>(runtime_, ServiceOfferOptions{.port = "/a/double", .service = "/double"},
+                                         MessageLibrary::Standard(), ServiceDialect::kInFront, 2, wake_);
     const auto followed = offered_->Follow(*there_, [](std::uint64_t) { return true; });
     ASSERT_TRUE(followed) << followed.error().ToString();
   }
@@ -102,12 +103,15 @@ TEST_F(CarriedCallsTest, ComeBackWithTheReplyOrTheReason) {
 TEST_F(CarriedCallsTest, TheFirstAnswerWaitsForTheReaderOfWhoAsks) {
   DiscoveryTable table([] {});
   const auto serving = std::move(*engine_->Join({.name = "serving"}, table));
-  OfferedService offered(runtime_, {.port = "/a/double", .service = "/double"}, MessageLibrary::Standard(), ServiceDialect::kInFront, 2,
-                         wake_, &table);
+  OfferedService offered(runtime_, {.port = "/a/double", .service = "/double"}, MessageLibrary::Standard(),
+                         ServiceDialect::kInFront, 2, wake_, &table);
   ASSERT_TRUE(offered.Follow(*serving, [](std::uint64_t) { return true; }));
   const ServiceTopics topics = offered.endpoints()->topics();
-  const auto writer = near_->MakeWriter(
-      {.topic = DdsRequestTopic("/double"), .type = topics.request_type, .qos = {.depth = 10}, .user_data = "clientid=1.2;"}, {});
+  const auto writer = near_->MakeWriter({.topic = DdsRequestTopic("/double"),
+                                         .type = topics.request_type,
+                                         .qos = {.depth = 10},
+                                         .user_data = "clientid=1.2;"},
+                                        {});
   WaitUntilQuiet(*engine_);
   Octets message;
   CdrWriter(message).Put(std::int32_t{21});
@@ -149,7 +153,8 @@ TEST_F(CarriedCallsTest, AreNotSentIfStopWasPressedWhileTheyWaitForTheService) {
   Offer();
   const auto outcome = Await(call);
   EXPECT_EQ(outcome.status(), CallStatus::kFailed);
-  EXPECT_THAT(std::string(outcome.error()), testing::HasSubstr("STOP was pressed or released after this was asked for"));
+  EXPECT_THAT(std::string(outcome.error()),
+              testing::HasSubstr("STOP was pressed or released after this was asked for"));
   EXPECT_EQ(service_.state().failed + service_.state().answered, 0u) << "it has not come there";
 }
 
@@ -169,7 +174,8 @@ TEST_F(CarriedCallsTest, FromBeforeAStopAreRefusedThoughNobodyHasTakenThemYet) {
   PressAndRelease();
   const auto outcome = Await(call);
   EXPECT_EQ(outcome.status(), CallStatus::kFailed);
-  EXPECT_THAT(std::string(outcome.error()), testing::HasSubstr("STOP was pressed or released after this was asked for"));
+  EXPECT_THAT(std::string(outcome.error()),
+              testing::HasSubstr("STOP was pressed or released after this was asked for"));
   auto again = client_.Begin(21);
   EXPECT_EQ(*Await(again), 42);
   EXPECT_EQ(doubler_.doubled, 1);
@@ -178,10 +184,9 @@ TEST_F(CarriedCallsTest, FromBeforeAStopAreRefusedThoughNobodyHasTakenThemYet) {
 TEST_F(CarriedCallsTest, FromBeforeAStopAreRefusedThoughTheyComeAfterIt) {
   Offer();
   PressAndRelease();
-  const auto writer = std::move(*near_->MakeWriter({.topic = DdsRequestTopic("/double"),
-                                                    .type = offered_->endpoints()->topics().request_type,
-                                                    .qos = {.depth = 10}},
-                                                   {}));
+  const auto writer = std::move(*near_->MakeWriter(
+      {.topic = DdsRequestTopic("/double"), .type = offered_->endpoints()->topics().request_type, .qos = {.depth = 10}},
+      {}));
   const auto send = [&](std::int64_t number, Duration ago) {
     Octets message;
     CdrWriter(message).Put(std::int32_t{21});

@@ -18,18 +18,23 @@ namespace {
 
 class RosNodeTest : public testing::Test {
  protected:
-  std::unique_ptr<WireReader> Hear(const std::string& topic, const std::string& type, const WireQos& qos = {.is_latched = true}) {
-    return std::move(*there_->MakeReader({.topic = topic, .type = type, .qos = qos},
-                                         [this](const WireSample& sample) { heard_.assign(sample.octets.begin(), sample.octets.end()); }, {}));
+  std::unique_ptr<WireReader> Hear(const std::string& topic, const std::string& type,
+                                   const WireQos& qos = {.is_latched = true}) {
+    return std::move(*there_->MakeReader(
+        {.topic = topic, .type = type, .qos = qos},
+        [this](const WireSample& sample) { heard_.assign(sample.octets.begin(), sample.octets.end()); }, {}));
   }
   std::unique_ptr<RosNode> Start(const RosOptions& options) {
-    return RosNode::Start(options, *here_, group_, false, log_, RosHooks{.health = [] { return std::vector<RosDiagnosticStatus>(); }}, [] {});
+    return RosNode::Start(options, *here_, group_, false, log_,
+                          RosHooks{.health = [] { return std::vector<RosDiagnosticStatus>(); }}, [] {});
   }
 
   struct Listener final : WireDiscovery {
     void OnMember(const WireMember&) override {}
     void OnMemberGone(const WireId&) override {}
-    void OnEndpoint(const WireEndpoint& endpoint) override { said[endpoint.options.topic] = endpoint.options.user_data; }
+    void OnEndpoint(const WireEndpoint& endpoint) override {
+      said[endpoint.options.topic] = endpoint.options.user_data;
+    }
     void OnEndpointGone(const WireId&) override {}
     std::map<std::string, std::string> said;  // by topic
   };
@@ -84,7 +89,11 @@ TEST_F(RosNodeTest, TheTimeIsThatOfItsStamps) {
 }
 
 TEST_F(RosNodeTest, ItsTopicsSayTheHashesOfTheirMessages) {
-  const auto node = Start({.node = "/base", .sends_clock = true, .sends_log = true, .sends_diagnostics = true, .parameters = RosParameterUse::kRead});
+  const auto node = Start({.node = "/base",
+                           .sends_clock = true,
+                           .sends_log = true,
+                           .sends_diagnostics = true,
+                           .parameters = RosParameterUse::kRead});
   WaitUntilQuiet(*engine_);
   EXPECT_THAT(listener_.said["rt/clock"], testing::StartsWith("typehash=RIHS01_692f7a66"));
   for (const char* const topic : {"rt/clock", "rt/rosout", "rt/diagnostics", "rt/parameter_events"}) {
@@ -113,13 +122,15 @@ TEST_F(RosNodeTest, GoesOnWithoutWhatItsPermissionsRefuse) {
   std::string said;
   const LogSink sink(runtime_, [&](const LogMessage& message) { said += message.text + "\n"; });
   RefusingParticipant refusing(*here_);
-  const auto node = RosNode::Start({.distribution = "jazzy", .node = "/base", .sends_clock = true, .parameters = RosParameterUse::kRead}, refusing,
-                                   group_, false, log_, {}, [] {});
+  const auto node = RosNode::Start(
+      {.distribution = "jazzy", .node = "/base", .sends_clock = true, .parameters = RosParameterUse::kRead}, refusing,
+      group_, false, log_, {}, [] {});
   node->Tell({}, {});
   WaitUntilQuiet(*engine_);
   EXPECT_TRUE(listener_.said.contains("rt/clock"));
   FlushLog();
-  EXPECT_THAT(said, testing::HasSubstr("is to have <publish><topics><topic>ros_discovery_info</topic></topics></publish>"));
+  EXPECT_THAT(said,
+              testing::HasSubstr("is to have <publish><topics><topic>ros_discovery_info</topic></topics></publish>"));
   EXPECT_THAT(said, testing::HasSubstr("<topic>rr/base/stopReply</topic>"));
 }
 

@@ -1,4 +1,6 @@
 // The STOP of the robot as a service of its node, called as nodes of ROS 2 call it.
+#include "plugins/ros_services/stop_service.h"
+
 #include <atomic>
 #include <optional>
 #include <thread>
@@ -10,7 +12,6 @@
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/ros_time.h"
-#include "plugins/ros_services/stop_service.h"
 #include "tests/support/fake_wire.h"
 #include "tests/support/wait_until.h"
 
@@ -58,8 +59,9 @@ class OtherClient {
 class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
  protected:
   void Begin(bool may_release) {
-    service_ = std::move(*StopService::Start(runtime_, may_release, "/base", *there_, GetParam(), [this] { return is_kept_.load(); },
-                                                 [this] { return left_ ? Result<void>(*left_) : Result<void>(); }));
+    service_ = std::move(*StopService::Start(
+        runtime_, may_release, "/base", *there_, GetParam(), [this] { return is_kept_.load(); },
+        [this] { return left_ ? Result<void>(*left_) : Result<void>(); }));
     client_ = std::move(*ServiceEndpoints::Start(ServiceEndpoints::Side::kClient,
                                                  {.service = "/base/stop",
                                                   .request_type = "std_srvs::srv::dds_::SetBool_Request_",

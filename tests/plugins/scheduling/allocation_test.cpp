@@ -10,8 +10,8 @@
 namespace runnel {
 namespace {
 
-using testing::AllocationsOfThisThread;
 using test::WaitUntil;
+using testing::AllocationsOfThisThread;
 
 // A periodic thread with a loop and a thread that waits for its data.
 struct Application {
@@ -19,12 +19,10 @@ struct Application {
     MustSucceed(Port::Connect(relay.out, module.in));
     MustSucceed(Port::Connect(module.out, relay.in, {.queue = 2}));
     MustSucceed(Port::Connect(module.out, listener.in));
-    auto& waiting =
-        CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+    auto& waiting = CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
     AssignThread(listener, waiting);
     AssignThread(relay, CreateThread(runtime, "periodic", {.period = 1ms}));
-    AssignThread(module,
-                 *dynamic_cast<ThreadContainer*>(*runtime.root().Find("/threads/periodic")));
+    AssignThread(module, *dynamic_cast<ThreadContainer*>(*runtime.root().Find("/threads/periodic")));
     module.action = [](Doing& each) { each.out.Publish(each.in.Read() ? 1 : 0); };
     MustSucceed(runtime.MakeReady(runtime.root()));
   }

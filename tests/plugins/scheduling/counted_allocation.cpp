@@ -28,9 +28,7 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations_of_this_thread;
   return std::malloc(size == 0 ? 1 : size);
 }
-void* operator new[](std::size_t size, const std::nothrow_t& nothrow) noexcept {
-  return operator new(size, nothrow);
-}
+void* operator new[](std::size_t size, const std::nothrow_t& nothrow) noexcept { return operator new(size, nothrow); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   ++allocations_of_this_thread;
   const auto step = static_cast<std::size_t>(alignment);

@@ -2,11 +2,11 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/scheduling/real_thread.h"
-#include "plugins/timing/cycle_statistics.h"
 #include "plugins/scheduling/due_time.h"
-#include "plugins/timing/pacing.h"
+#include "plugins/scheduling/real_thread.h"
 #include "plugins/scheduling/scheduler.h"
+#include "plugins/timing/cycle_statistics.h"
+#include "plugins/timing/pacing.h"
 #include "tests/plugins/scheduling/test_modules.h"
 
 namespace runnel {
@@ -88,8 +88,7 @@ TEST(Overruns, SkipCyclesByDefault) {
 
 TEST(Overruns, AreCaughtUpIfToldTo) {
   CycleStatistics statistics;
-  EXPECT_THAT(StartsAfterALongCycle(OnOverrun::kCatchUp, statistics),
-              ElementsAre(0, 25, 25, 30, 40));
+  EXPECT_THAT(StartsAfterALongCycle(OnOverrun::kCatchUp, statistics), ElementsAre(0, 25, 25, 30, 40));
   EXPECT_EQ(statistics.overruns, 2u);  // the long cycle, and the one that came 15 ms late after it
   EXPECT_EQ(statistics.jitter_max, 15ms);
 }

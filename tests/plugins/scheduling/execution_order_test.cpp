@@ -74,10 +74,8 @@ TEST_F(OrderOfTasks, FollowsDataThroughTheInterfacesOfGroups) {
   auto& sink = MakeRelay("sink");
   auto& group = runtime.Create<Group>(parent(), "group");
   auto& source = Own(runtime.Create<Relay>(group, "source"));
-  auto& inner =
-      runtime.Create<ProxyPort>(group, "inner", Port::Direction::kOutput, TypeOf<double>());
-  auto& outer =
-      runtime.Create<ProxyPort>(parent(), "outer", Port::Direction::kOutput, TypeOf<double>());
+  auto& inner = runtime.Create<ProxyPort>(group, "inner", Port::Direction::kOutput, TypeOf<double>());
+  auto& outer = runtime.Create<ProxyPort>(parent(), "outer", Port::Direction::kOutput, TypeOf<double>());
   Connect(outer, sink.in);
   Connect(inner, outer);
   Connect(source.out, inner);
@@ -119,8 +117,7 @@ TEST_F(OrderOfTasks, CutsALoopThroughTheWorldInFrontOfSensing) {
   const ExecutionOrder order = OrderTasks(Tasks());
   EXPECT_THAT(Names(order), ElementsAre("base sense", "brain", "base control", "world"));
   ASSERT_THAT(order.cuts, SizeIs(1));
-  EXPECT_THAT(order.cuts[0].message,
-              AllOf(HasSubstr("/world/output/out"), HasSubstr("/base/sensor_input/raw")));
+  EXPECT_THAT(order.cuts[0].message, AllOf(HasSubstr("/world/output/out"), HasSubstr("/base/sensor_input/raw")));
 }
 
 TEST_F(OrderOfTasks, CutsALoopAtTheElementMadeFirst) {

@@ -116,8 +116,7 @@ TEST_F(FaultOf, AModuleCallsWhatTheRuleSays) {
 }
 
 TEST_F(FaultOf, ARuleIsReportedToo) {
-  scheduler.AddFaultRule(
-      {.of = "/robot", .call = [](const Fault&) { throw std::runtime_error("no"); }});
+  scheduler.AddFaultRule({.of = "/robot", .call = [](const Fault&) { throw std::runtime_error("no"); }});
   Ready();
   scheduler.RunUntil(At(100));
   const auto faults = scheduler.TakeFaults();

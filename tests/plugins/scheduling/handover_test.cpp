@@ -38,8 +38,7 @@ struct Watched {
 class Handover : public RealThreads {
  protected:
   // A thread that counts its cycles by a module of its own, the first in each.
-  ThreadContainer& MakeThread(const std::string& name, std::atomic<int>& cycles,
-                              const ThreadOptions& options = kFree) {
+  ThreadContainer& MakeThread(const std::string& name, std::atomic<int>& cycles, const ThreadOptions& options = kFree) {
     auto& thread = CreateThread(runtime, name, options);
     AssignThread(MakeCounter("counter_of_" + name, cycles), thread);
     return thread;
@@ -47,8 +46,7 @@ class Handover : public RealThreads {
   // Or until two threads stand before the gate, which a test has to find then.
   void WaitForCycles(const std::atomic<int>& cycles, int count = 20) {
     const int before = cycles;
-    WaitUntil("the thread has run further cycles",
-              [&] { return cycles > before + count || gate.entered > 1; });
+    WaitUntil("the thread has run further cycles", [&] { return cycles > before + count || gate.entered > 1; });
   }
 
   std::atomic<int> cycles_of_a{0};
@@ -142,8 +140,7 @@ TEST_F(Handover, DoesNotForgetTheDataThatCameMeanwhile) {
   MustSucceed(Port::Connect(source.out, module.in));
   AssignThread(module, a);
   MustSucceed(runtime.MakeReady(module));
-  MustSucceed(
-      runtime.MakeReady(*dynamic_cast<FrameworkElement*>(*runtime.root().Find("/counter_of_a"))));
+  MustSucceed(runtime.MakeReady(*dynamic_cast<FrameworkElement*>(*runtime.root().Find("/counter_of_a"))));
   const Running running(scheduler);
   WaitUntil("the module is in its cycle", [&] { return gate.entered > 0; });
   AssignThread(module, waiting);

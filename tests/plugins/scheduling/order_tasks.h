@@ -9,8 +9,8 @@
 #include "core/base/error.h"
 #include "core/module/executable.h"
 #include "core/port/port.h"
-#include "plugins/task_order/running_order.h"
 #include "plugins/scheduling/internal/schedule_plan.h"
+#include "plugins/task_order/running_order.h"
 
 namespace runnel::testing {
 
@@ -25,9 +25,8 @@ struct OrderedInput : internal::OrderedTask {
 };
 
 inline bool IsAtOrBelowOneOf(const Port& port, const std::vector<const FrameworkElement*>& groups) {
-  return std::ranges::any_of(groups, [&](const FrameworkElement* group) {
-    return group != nullptr && port.IsAtOrBelow(*group);
-  });
+  return std::ranges::any_of(
+      groups, [&](const FrameworkElement* group) { return group != nullptr && port.IsAtOrBelow(*group); });
 }
 
 /// All tasks at once, as the ScheduleCompiler does it bit by bit.

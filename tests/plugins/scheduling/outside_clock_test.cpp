@@ -66,7 +66,8 @@ TEST(OutsideClock, WhereItJumpsWhatRunsGoesOnFromThere) {
     MustSucceed(pace.SetTime(to + 25ms));
     follower.Run();
     EXPECT_EQ(follower.times, (std::vector{At(100'000), At(100'010), At(100'020)}));
-    EXPECT_EQ(follower.runtime.clock().Now() - pace.outside_lead(), to + 25ms) << "by which stamps are that others read";
+    EXPECT_EQ(follower.runtime.clock().Now() - pace.outside_lead(), to + 25ms)
+        << "by which stamps are that others read";
     const auto faults = follower.scheduler.TakeFaults();
     ASSERT_EQ(faults.size(), 1u);
     EXPECT_EQ(faults[0].path, "/clock");

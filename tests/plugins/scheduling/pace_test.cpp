@@ -73,8 +73,8 @@ TEST_F(Paced, RefusesWhatWouldWaitForCyclesOfARunThatHasEnded) {
   MustSucceed(scheduler.pace().StepCycles(3));
   scheduler.pace().End();
   EXPECT_EQ(scheduler.pace().cycles_to_step(), 0u);
-  for (const auto& refused : {scheduler.pace().StepCycles(), scheduler.pace().Pause(),
-                              scheduler.pace().Resume(), scheduler.pace().SetSpeed(2)}) {
+  for (const auto& refused : {scheduler.pace().StepCycles(), scheduler.pace().Pause(), scheduler.pace().Resume(),
+                              scheduler.pace().SetSpeed(2)}) {
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, HasSubstr("the run has ended"));
   }
@@ -168,8 +168,8 @@ TEST_F(Paced, ComputesTheSameWhateverIsPausedSteppedOrSpedUp) {
   };
   Runtime undisturbed_runtime;
   Scheduler undisturbed(undisturbed_runtime, {.clock = kSimulated});
-  const auto expected = trajectory(undisturbed, undisturbed_runtime,
-                                   [](Pace&, unsigned) { std::this_thread::yield(); });
+  const auto expected =
+      trajectory(undisturbed, undisturbed_runtime, [](Pace&, unsigned) { std::this_thread::yield(); });
   ASSERT_EQ(expected.size(), 500U);
   Runtime disturbed_runtime;
   Scheduler disturbed(disturbed_runtime, {.clock = kSimulated, .speed = 1, .is_paused = true});

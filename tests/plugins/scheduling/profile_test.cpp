@@ -17,9 +17,7 @@ using testing::Base;
 class Measured : public ::testing::Test {
  protected:
   Measured() {
-    sensor.action = [this](Doing& each) {
-      each.out.Publish(1, scheduler.simulated_clock().Now() - 3ms);
-    };
+    sensor.action = [this](Doing& each) { each.out.Publish(1, scheduler.simulated_clock().Now() - 3ms); };
     actuator.action = [](Doing& each) { each.out.Publish(each.in.Read() ? *each.in.Read() : 0); };
     MustSucceed(Port::Connect(sensor.out, relay.in));
     MustSucceed(Port::Connect(relay.out, actuator.in));
@@ -92,10 +90,8 @@ TEST_F(Measured, AChainFollowsTheStructure) {
 }
 
 TEST_F(Measured, WhatCannotBeMeasuredIsTold) {
-  EXPECT_THAT(scheduler.AddLatency({"/sensor/out", "/actuator/oot"}).error().hint,
-              HasSubstr("out"));
-  EXPECT_THAT(scheduler.AddLatency({"/actuator/out", "/sensor/out"}).error().message,
-              HasSubstr("no data flow"));
+  EXPECT_THAT(scheduler.AddLatency({"/sensor/out", "/actuator/oot"}).error().hint, HasSubstr("out"));
+  EXPECT_THAT(scheduler.AddLatency({"/actuator/out", "/sensor/out"}).error().message, HasSubstr("no data flow"));
   EXPECT_FALSE(scheduler.RemoveLatency({"/sensor/out", "/actuator/out"}));
   MustSucceed(scheduler.AddLatency({"/sensor/out", "/actuator/out"}));
   MustSucceed(scheduler.AddLatency({"/sensor/out", "/actuator/out"}));

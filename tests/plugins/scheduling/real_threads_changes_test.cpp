@@ -33,8 +33,7 @@ TEST_F(RealThreadsAndChanges, TakeInContainersAddedWhileTheyRunAndLetThemGo) {
     auto& added = CreateThread(runtime, "added", {.period = 1ms});
     AssignThread(module, added);
     const int before = runs;
-    WaitUntil("the added thread runs the module",
-              [&] { return runs > before && added.statistics().cycles > 0; });
+    WaitUntil("the added thread runs the module", [&] { return runs > before && added.statistics().cycles > 0; });
     MustSucceed(runtime.Delete(added));
     const int after = runs;
     WaitUntil("another thread runs the module", [&] { return runs > after; });
@@ -125,10 +124,8 @@ TEST_F(RealThreadsAndChanges, BearEveryChangeOfTheStructure) {
   auto& first = runtime.Create<Relay>(runtime.root(), "first");
   auto& last = runtime.Create<Relay>(runtime.root(), "last");
   auto& periodic = CreateThread(runtime, "periodic", {.period = 200us});
-  auto& free =
-      CreateThread(runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
-  auto& waiting =
-      CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+  auto& free = CreateThread(runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
+  auto& waiting = CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
   AssignThread(first, periodic);
   AssignThread(last, free);
   Ready();

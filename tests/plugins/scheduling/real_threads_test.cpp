@@ -82,8 +82,7 @@ TEST_F(RealThreads, RunOnData) {
   sink.action = [&](Doing& module) { received += module.in.Read().is_new() ? 1 : 0; };
   MustSucceed(Port::Connect(source.out, sink.in));
   AssignThread(source, CreateThread(runtime, "periodic", {.period = 1ms}));
-  AssignThread(
-      sink, CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger}));
+  AssignThread(sink, CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger}));
   Ready();
   const Running running(scheduler);
   WaitUntil("five values have set the module off", [&] { return received >= 5; });
@@ -154,8 +153,7 @@ TEST_F(RealThreads, RunOnWhenAModuleThrows) {
   const Running running(scheduler);
   WaitUntil("the fault rule requests a stop", [&] { return scheduler.stop_requested(); });
   const int runs_then = runs;
-  WaitUntil("the healthy module goes on",
-            [&] { return runs > runs_then + 3; });  // until somebody calls Stop()
+  WaitUntil("the healthy module goes on", [&] { return runs > runs_then + 3; });  // until somebody calls Stop()
   scheduler.Stop();
   EXPECT_EQ(calls, 1);
   const auto faults = scheduler.TakeFaults();

@@ -34,8 +34,7 @@ struct TwoThreads {
   Runtime runtime;
   Doing& gone = runtime.Create<Doing>(runtime.root(), "gone");
   Doing& other = runtime.Create<Doing>(runtime.root(), "other");
-  ThreadContainer& free =
-      CreateThread(runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
+  ThreadContainer& free = CreateThread(runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
   Scheduler scheduler{runtime};
 };
 
@@ -44,8 +43,7 @@ class SchedulingFaults : public ::testing::Test {
   static void ExpectItRuns(TwoThreads& world) {
     const int gone = world.runs_of_gone;
     const int other = world.runs_of_other;
-    WaitUntil("both threads run",
-              [&] { return world.runs_of_gone > gone && world.runs_of_other > other; });
+    WaitUntil("both threads run", [&] { return world.runs_of_gone > gone && world.runs_of_other > other; });
   }
 };
 

@@ -34,8 +34,7 @@ TEST_F(Simulated, RunsConnectedModulesInTheOrderOfTheData) {
   ASSERT_TRUE(scheduler.Step());
   EXPECT_THAT(diary, ElementsAre("first", "last"));
   double result = 0;
-  ASSERT_TRUE(last.out.VisitLatest(
-      [&](const void* value, Time) { result = *static_cast<const double*>(value); }));
+  ASSERT_TRUE(last.out.VisitLatest([&](const void* value, Time) { result = *static_cast<const double*>(value); }));
   EXPECT_EQ(result, 2);  // the value went through both in one cycle
 }
 
@@ -64,8 +63,8 @@ TEST_F(Simulated, RunsPeriodsAtTheirTimes) {
   Ready();
   EXPECT_TRUE(scheduler.RunUntil(At(40)));
   using Run = std::pair<std::string, std::int64_t>;
-  EXPECT_THAT(runs, ElementsAre(Run{"slow", 0}, Run{"fast", 0}, Run{"fast", 10}, Run{"slow", 20},
-                                Run{"fast", 20}, Run{"fast", 30}));
+  EXPECT_THAT(runs, ElementsAre(Run{"slow", 0}, Run{"fast", 0}, Run{"fast", 10}, Run{"slow", 20}, Run{"fast", 20},
+                                Run{"fast", 30}));
   EXPECT_EQ(runtime.clock().Now(), At(40));
 }
 
@@ -76,8 +75,7 @@ TEST_F(Simulated, RunsFreeRunningThreadsOncePerSimulatedDuration) {
     ++runs;
     EXPECT_EQ(Doing::cycle_period(), 0ms);
   };
-  CreateThread(runtime, "free",
-               {.activation = ThreadOptions::Activation::kFreeRunning, .period = 2ms});
+  CreateThread(runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning, .period = 2ms});
   Ready();
   scheduler.RunUntil(At(20));
   EXPECT_EQ(runs, 10);
@@ -135,8 +133,7 @@ TEST_F(Simulated, AssignsGroupsAndLetsModulesOverride) {
 
 TEST_F(Simulated, SendsWhatIsAssignedToNobodyToTheDefaultThread) {
   Runtime other;
-  Scheduler with_default(
-      other, {.clock = SchedulerOptions::ClockKind::kSimulated, .default_thread = "second"});
+  Scheduler with_default(other, {.clock = SchedulerOptions::ClockKind::kSimulated, .default_thread = "second"});
   auto& first = CreateThread(other, "first");
   auto& second = CreateThread(other, "second");
   other.Create<Relay>(other.root(), "module");

@@ -33,12 +33,10 @@ class TickClocks : public ::testing::Test {
   }
   static void Pass(Duration duration, double ticks_per_nanosecond = 3) {
     FakeMachine::now += duration.count();
-    FakeMachine::count +=
-        static_cast<std::uint64_t>(static_cast<double>(duration.count()) * ticks_per_nanosecond);
+    FakeMachine::count += static_cast<std::uint64_t>(static_cast<double>(duration.count()) * ticks_per_nanosecond);
   }
   // Lets `duration` pass in steps of 100 ns; returns how far off the clock was at most.
-  Duration FurthestOff(BasicTickClock<FakeMachine>& clock, Duration duration,
-                       double ticks_per_nanosecond = 3) {
+  Duration FurthestOff(BasicTickClock<FakeMachine>& clock, Duration duration, double ticks_per_nanosecond = 3) {
     Duration furthest{};
     for (Duration passed{}; passed < duration; passed += 100ns) {
       Pass(100ns, ticks_per_nanosecond);

@@ -28,8 +28,7 @@ class Triggered : public ::testing::Test {
   Runtime runtime;
   Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated}};
   ThreadContainer& periodic = CreateThread(runtime, "periodic", {.period = 10ms});
-  ThreadContainer& waiting =
-      CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+  ThreadContainer& waiting = CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
   Doing& listener = runtime.Create<Doing>(runtime.root(), "listener");
   Doing& source = runtime.Create<Doing>(runtime.root(), "source");
   Diary diary;
@@ -123,8 +122,7 @@ TEST_F(Triggered, LetsTimePassDespiteModulesThatSetThemselvesOffForEver) {
   MustSucceed(Port::Connect(listener.out, listener.in));
   Ready();
   EXPECT_TRUE(scheduler.Step());
-  EXPECT_EQ(waiting.statistics().cycles,
-            static_cast<std::uint64_t>(SimulatedExecutor::kMostTriggeredCycles));
+  EXPECT_EQ(waiting.statistics().cycles, static_cast<std::uint64_t>(SimulatedExecutor::kMostTriggeredCycles));
   EXPECT_TRUE(scheduler.RunUntil(At(30)));
   EXPECT_EQ(periodic.statistics().cycles, 3u);
   const auto faults = scheduler.TakeFaults();

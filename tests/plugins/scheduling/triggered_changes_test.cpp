@@ -20,12 +20,10 @@ class TriggeredByAChange : public RealThreads {
   }
   // Until the thread has taken and used up whatever has woken it so far.
   void WaitUntilIdle() {
-    WaitUntil("the waiting thread has nothing more to do",
-              [&] { return !waiting.runner()->is_activated(); });
+    WaitUntil("the waiting thread has nothing more to do", [&] { return !waiting.runner()->is_activated(); });
   }
 
-  ThreadContainer& waiting =
-      CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+  ThreadContainer& waiting = CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
   testing::Feeder& source = runtime.Create<testing::Feeder>(runtime.root(), "source");
 };
 

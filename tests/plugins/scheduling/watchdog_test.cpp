@@ -105,8 +105,7 @@ TEST_F(Watchdog, TheDefaultIsForThoseThatNoOtherRuleIsAbout) {
   const Running running(scheduler);
   EXPECT_THAT(WaitForFault().at(0).message, HasSubstr("at most 50ms"));
   MustSucceed(scheduler.SetStuckLimit("/stays", {}));
-  EXPECT_THAT(scheduler.StuckRules(), SizeIs(3))
-      << "that it may take as long as it likes is a rule, too";
+  EXPECT_THAT(scheduler.StuckRules(), SizeIs(3)) << "that it may take as long as it likes is a rule, too";
   LetGo();
 }
 
@@ -175,8 +174,7 @@ TEST(NotedCycles, AllocateNothingAndKnowWhatRuns) {
   running.reserve(100);
   module.action = [&](Doing&) { running = RunningModulePath(); };
   MustSucceed(runtime.MakeReady(runtime.root()));
-  Scheduler scheduler(runtime, {.clock = SchedulerOptions::ClockKind::kSimulated,
-                                .notes_running_tasks = true});
+  Scheduler scheduler(runtime, {.clock = SchedulerOptions::ClockKind::kSimulated, .notes_running_tasks = true});
   scheduler.RunUntil(testing::At(50));
   const int before = testing::AllocationsOfThisThread();
   scheduler.RunUntil(testing::At(500));

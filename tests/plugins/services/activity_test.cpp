@@ -42,8 +42,7 @@ class ActivityTest : public EditorTest {
     Worker::is_deaf = false;
     Register<Worker>("test/worker");
     Must({CreateModule{"/app/worker", "test/worker"}});
-    client = std::make_unique<Client<int(int)>>(At<Group>("/app"), "client",
-                                                ClientOptions{.timeout = 1h});
+    client = std::make_unique<Client<int(int)>>(At<Group>("/app"), "client", ClientOptions{.timeout = 1h});
     EXPECT_TRUE(Port::Connect(worker().work.port(), client->port()));
   }
   Worker& worker() { return At<Worker>("/app/worker"); }

@@ -8,9 +8,7 @@ namespace {
 
 class AnyCallTest : public ServiceTest {
  protected:
-  Callable& At(const std::string& path) {
-    return *EditorTest::At<Port>(path).FindAnnotation<Callable>();
-  }
+  Callable& At(const std::string& path) { return *EditorTest::At<Port>(path).FindAnnotation<Callable>(); }
   Time now() { return runtime.clock().Now(); }
 };
 
@@ -62,8 +60,8 @@ TEST_F(AnyCallTest, OutlivesTheService) {
 
 TEST_F(AnyCallTest, AServiceNamesAllOfItsArgumentsOrNone) {
   Server& owner = server();
-  EXPECT_THROW((Service<void(int, int)>(EditorTest::At<Group>("/app"), owner, "x",
-                                        [](Server&, int, int) {}, {.arguments = {"one"}})),
+  EXPECT_THROW((Service<void(int, int)>(EditorTest::At<Group>("/app"), owner, "x", [](Server&, int, int) {},
+                                        {.arguments = {"one"}})),
                ProgrammingError);
 }
 

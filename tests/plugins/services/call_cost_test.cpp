@@ -14,8 +14,7 @@ TEST_F(ServiceTest, CallsAllocateNothing) {
   auto& serves = server();
   int sum = 0;
   const auto round = [&] {
-    EXPECT_EQ(asks.twice.Call([&sum](const CallOutcome<int>& outcome) { sum += *outcome; }, 1),
-              CallStatus::kPending);
+    EXPECT_EQ(asks.twice.Call([&sum](const CallOutcome<int>& outcome) { sum += *outcome; }, 1), CallStatus::kPending);
     EXPECT_EQ(asks.twice.Send(2), CallStatus::kPending);
     auto future = asks.reset.Begin();
     serves.twice.Serve();
@@ -38,7 +37,10 @@ TEST_F(ServiceTest, TextsFindTheirMemoryAgain) {
   const std::string text = "a text that is longer than what fits into a string itself";
   auto& asks = asker();
   const OwnCycle cycle(runtime.clock().Now());
-  const auto send = [&] { (void)asks.repeat.Send(text, 0); server().repeat.Serve(); };
+  const auto send = [&] {
+    (void)asks.repeat.Send(text, 0);
+    server().repeat.Serve();
+  };
   send();
   const AllocationGuard guard;
   EXPECT_EQ(asks.repeat.Send(text, 0), CallStatus::kPending);

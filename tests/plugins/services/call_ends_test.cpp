@@ -90,8 +90,7 @@ TEST_F(ServiceTest, DisconnectingEndsWhatHasNotBegun) {
 TEST_F(ServiceTest, ConnectedToAnotherServerTheCallsToTheFirstEnd) {
   ASSERT_TRUE(scheduler.SetPaused("/app/server", true));
   asker().Ask(5);
-  Must({CreateModule{"/app/second", "test/triple_server"},
-        DisconnectPorts{"/app/server/twice", "/app/asker/twice"}});
+  Must({CreateModule{"/app/second", "test/triple_server"}, DisconnectPorts{"/app/server/twice", "/app/asker/twice"}});
   Must({ConnectPorts{"/app/second/twice", "/app/asker/twice"}});
   asker().Ask(6);
   Steps(1);

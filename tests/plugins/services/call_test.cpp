@@ -66,8 +66,7 @@ TEST_F(ServiceTest, WaitingInACycleIsRefused) {
 }
 
 TEST_F(ServiceTest, ManyAskOneServer) {
-  Must({CreateModule{"/app/other", "test/asker"},
-        ConnectPorts{"/app/server/twice", "/app/other/twice"}});
+  Must({CreateModule{"/app/other", "test/asker"}, ConnectPorts{"/app/server/twice", "/app/other/twice"}});
   asker().Ask(1);
   At<Asker>("/app/other").Ask(2);
   Steps(1);
@@ -77,8 +76,7 @@ TEST_F(ServiceTest, ManyAskOneServer) {
 
 TEST_F(ServiceTest, AClientAsksOneServer) {
   Must({CreateModule{"/app/second", "test/server"}});
-  EXPECT_THAT(Refusal({ConnectPorts{"/app/second/twice", "/app/asker/twice"}}),
-              HasSubstr("a client asks one service"));
+  EXPECT_THAT(Refusal({ConnectPorts{"/app/second/twice", "/app/asker/twice"}}), HasSubstr("a client asks one service"));
 }
 
 TEST_F(ServiceTest, AWrongPairIsToldWithItsTypes) {
@@ -121,9 +119,9 @@ TEST_F(ServiceTest, WhatComesOfCallsIsPublished) {
   Steps(1);
   std::vector<std::string> seen;
   input.Drain([&](const auto& record) { seen.push_back(TextOf(*record)); });
-  EXPECT_THAT(seen,
-              ElementsAre("{number: 1, status: answered, begun: 0s, asked_to_end: 0s, arguments: {argument1: 4}, reply: 8, error: \"\"}",
-                          HasSubstr("status: failed, begun: 0s, asked_to_end: 0s, arguments: {argument1: -4}")));
+  EXPECT_THAT(seen, ElementsAre("{number: 1, status: answered, begun: 0s, asked_to_end: 0s, arguments: {argument1: 4}, "
+                                "reply: 8, error: \"\"}",
+                                HasSubstr("status: failed, begun: 0s, asked_to_end: 0s, arguments: {argument1: -4}")));
 }
 
 }  // namespace

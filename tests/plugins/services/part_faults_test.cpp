@@ -23,7 +23,9 @@ class Host final : public Module {
     part.emplace(std::forward<Arguments>(arguments)...);
     return part.has_value();
   }
-  bool MakeService() { return Make(service, this, "double", &Host::Double, ServiceOptions{.description = "doubles what it is given"}); }
+  bool MakeService() {
+    return Make(service, this, "double", &Host::Double, ServiceOptions{.description = "doubles what it is given"});
+  }
   bool MakeActivity() { return Make(service, this, "double", &Host::DoubleSlowly); }
   bool MakeClient() { return Make(client, this, "ask"); }
   bool MakeLateService(bool is_activity = false) {

@@ -11,18 +11,27 @@ const SignatureTypes kRepeat{&TypeOf<std::string>(), {&TypeOf<std::string>(), &T
 // No module in C++ has such services.
 const SignatureTypes kSum{&TypeOf<double>(), {&TypeOf<double>(), &TypeOf<float>()}};
 
-std::string ArgumentsText(const CallForm& form, const CallBase& call) { return ToText(*form.arguments(), form.ArgumentsOf(call)); }
+std::string ArgumentsText(const CallForm& form, const CallBase& call) {
+  return ToText(*form.arguments(), form.ArgumentsOf(call));
+}
 
 class LateServer final : public Module {
  public:
   using Module::Module;
-  ServiceAtRunTime repeat{OutputGroup(), "repeat", kRepeat, {.arguments = {"text", "times"}}, {},
+  ServiceAtRunTime repeat{OutputGroup(),
+                          "repeat",
+                          kRepeat,
+                          {.arguments = {"text", "times"}},
+                          {},
                           [this](const CallForm& form, CallBase& call, Activity*) -> Result<void> {
                             served.push_back(ArgumentsText(form, call));
                             *static_cast<std::string*>(form.ReplyOf(call)) = "late";
                             return {};
                           }};
-  ServiceAtRunTime sum{OutputGroup(), "sum", kSum, {.description = "adds", .arguments = {"a", "b"}},
+  ServiceAtRunTime sum{OutputGroup(),
+                       "sum",
+                       kSum,
+                       {.description = "adds", .arguments = {"a", "b"}},
                        {.defaults = "{a: 1, b: 2}", .are_arguments_optional = true},
                        [this](const CallForm& form, CallBase& call, Activity*) -> Result<void> {
                          served.push_back(ArgumentsText(form, call));
@@ -40,9 +49,12 @@ class LateServer final : public Module {
 class LateAsker final : public Module {
  public:
   using Module::Module;
-  ClientAtRunTime repeat{InputGroup(), "repeat", kRepeat, {.arguments = {"text", "times"}},
-                         [this](CallBase& call, CallStatus status) { Note(repeat, call, status); }};
-  ClientAtRunTime sum{InputGroup(), "sum", kSum, {.calls = 2}, [this](CallBase& call, CallStatus status) { Note(sum, call, status); }};
+  ClientAtRunTime repeat{
+      InputGroup(), "repeat", kRepeat, {.arguments = {"text", "times"}}, [this](CallBase& call, CallStatus status) {
+        Note(repeat, call, status);
+      }};
+  ClientAtRunTime sum{
+      InputGroup(), "sum", kSum, {.calls = 2}, [this](CallBase& call, CallStatus status) { Note(sum, call, status); }};
 
   CallStatus Ask(ClientAtRunTime& client, const std::string& arguments) {
     CallBase* const call = client.Acquire();
@@ -93,7 +105,8 @@ TEST_F(RunTimeTypesTest, SuchAClientCallsAModuleInCpp) {
 
 TEST_F(RunTimeTypesTest, TypesThatNoModuleInCppHasAreConnectedAndRefusedByTheirNames) {
   EXPECT_EQ(late_asker().Ask(late_asker().sum, "{argument1: 1, argument2: 1}"), CallStatus::kNotConnected);
-  EXPECT_THAT(Refusal({ConnectPorts{"/app/late_server/sum", "/app/late_asker/repeat"}}), HasSubstr("service double(double, float)"));
+  EXPECT_THAT(Refusal({ConnectPorts{"/app/late_server/sum", "/app/late_asker/repeat"}}),
+              HasSubstr("service double(double, float)"));
   Must({ConnectPorts{"/app/late_server/sum", "/app/late_asker/sum"}});
   EXPECT_EQ(At<Port>("/app/late_server/output/sum").type().name(), "service double(double, float)");
   for (const char* each : {"{argument1: 1, argument2: 2}", "{argument1: 3, argument2: 4}"}) {

@@ -17,8 +17,7 @@ class Server : public Module {
  public:
   using Module::Module;
   Service<int(int)> twice{this, "twice", &Server::Twice, {.description = "doubles", .queue = 4}};
-  Service<std::string(std::string, int)> repeat{
-      this, "repeat", &Server::Repeat, {.arguments = {"text", "times"}}};
+  Service<std::string(std::string, int)> repeat{this, "repeat", &Server::Repeat, {.arguments = {"text", "times"}}};
   Service<void()> reset{this, "reset", &Server::Reset};
 
   int served = 0;
@@ -70,8 +69,7 @@ class Asker final : public Module {
  private:
   void Note(const CallOutcome<int>& outcome) {
     told.push_back(outcome ? std::to_string(*outcome)
-                           : CallStatusName(outcome.status()) + std::string(": ") +
-                                 std::string(outcome.error()));
+                           : CallStatusName(outcome.status()) + std::string(": ") + std::string(outcome.error()));
   }
   void Update() override { action(*this); }
 };

@@ -62,8 +62,7 @@ TEST_F(TriggeredServiceTest, ACallSetsTheServerOff) {
 TEST_F(TriggeredServiceTest, AnAnswerSetsTheCallerOff) {
   Serve("test/server", "fast");
   std::promise<int> told;
-  ASSERT_EQ(twice().Call([&](const CallOutcome<int>& outcome) { told.set_value(*outcome); }, 4),
-            CallStatus::kPending);
+  ASSERT_EQ(twice().Call([&](const CallOutcome<int>& outcome) { told.set_value(*outcome); }, 4), CallStatus::kPending);
   ASSERT_TRUE(scheduler.Start());
   EXPECT_EQ(told.get_future().get(), 8);
 }

@@ -1,8 +1,8 @@
+#include "plugins/structure/change_history.h"
+
 #include "core/element/tags.h"
 #include "core/log/log_level.h"
 #include "core/paths/late_connections.h"
-#include "plugins/structure/change_history.h"
-
 #include "tests/plugins/structure/editor_fixture.h"
 
 namespace runnel::test {
@@ -11,9 +11,7 @@ namespace {
 class ChangeHistoryTest : public EditorTest {
  protected:
   void MustDo(const ChangeSet& changes) { MustBe(history.Apply(changes)); }
-  void MustBe(const ChangeOutcome& outcome) {
-    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
-  }
+  void MustBe(const ChangeOutcome& outcome) { ASSERT_TRUE(outcome) << outcome.diagnostics.ToString(); }
   std::string TextOf(const std::string& parameter) { return At<Configurable&>(parameter).ToText(); }
   template <typename E>
   std::remove_reference_t<E>& At(const std::string& path) {
@@ -106,8 +104,7 @@ TEST_F(ChangeHistoryTest, MakesWhatWasDeletedAsItWas) {
           CreatePort{"/app/g/out", Port::Direction::kOutput, "int32", "what it counts"},
           ConnectPorts{"/app/g/a/output/out", "/app/g/out"},
           ConnectPorts{"/app/g/out", "/app/b/input/in", {.queue = 5, .on_full = OnFull::kRefuse}},
-          SetParameter{"/app/g/a/step", "4"}, AssignToThread{"/app/g", "slow"},
-          AssignToThread{"/app/g/a", "fast"}});
+          SetParameter{"/app/g/a/step", "4"}, AssignToThread{"/app/g", "slow"}, AssignToThread{"/app/g/a", "fast"}});
   MustDo({DeleteElement{"/app/g"}});
   EXPECT_FALSE(Exists("/app/g"));
   MustBe(history.Undo());
@@ -155,12 +152,13 @@ TEST_F(ChangeHistoryTest, ThreadsComeGoAndChange) {
 
 TEST_F(ChangeHistoryTest, ThreadsBeginTheirCyclesOtherwise) {
   using Activation = ThreadOptions::Activation;
-  MustDo({AddThread{"brisk", {.period = 5ms}}, CreateModule{"/app/a", "test/counter"},
-          AssignToThread{"/app/a", "brisk"}});
+  MustDo(
+      {AddThread{"brisk", {.period = 5ms}}, CreateModule{"/app/a", "test/counter"}, AssignToThread{"/app/a", "brisk"}});
   const auto options = [&] { return At<ThreadContainer>("/threads/brisk").options(); };
   const auto waits = history.Apply({ScheduleThread{.thread = "brisk", .activation = Activation::kTrigger}});
   MustBe(waits);
-  EXPECT_THAT(waits.diagnostics.ToString(), HasSubstr("/app/a: is never run: its thread /threads/brisk waits for data"));
+  EXPECT_THAT(waits.diagnostics.ToString(),
+              HasSubstr("/app/a: is never run: its thread /threads/brisk waits for data"));
   EXPECT_EQ(options().activation, Activation::kTrigger);
   const auto wrong = history.Apply({ScheduleThread{.thread = "brisk", .period = 1ms}});
   EXPECT_THAT(wrong.diagnostics.ToString(), HasSubstr("say activation=period, too"));
@@ -205,8 +203,8 @@ TEST_F(ChangeHistoryTest, WhatIsLoggedIsUndoneAndGoesWithItsElement) {
 }
 
 TEST_F(ChangeHistoryTest, PutsTheOldTypeBackWithItsValues) {
-  MustDo({CreateModule{"/app/a", "test/other_counter", {{"own", "9"}}},
-          CreateModule{"/app/b", "test/sink"}, ConnectPorts{"/app/a/out", "/app/b/in"}});
+  MustDo({CreateModule{"/app/a", "test/other_counter", {{"own", "9"}}}, CreateModule{"/app/b", "test/sink"},
+          ConnectPorts{"/app/a/out", "/app/b/in"}});
   MustDo({ReplaceModule{"/app/a", "test/counter", {{"step", "5"}, {"label", "new"}}, 0}});
   EXPECT_EQ(TextOf("/app/a/parameter/step"), "5");
   MustBe(history.Undo());

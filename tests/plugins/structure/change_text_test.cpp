@@ -40,8 +40,7 @@ std::string ErrorOf(std::string_view text) {
 }  // namespace
 
 TEST(ChangeText, ReadsTheCreationOfModulesWithTheirSettings) {
-  const auto change =
-      ParseOne<CreateModule>("create /robot/filter sensors/scan_filter window=5 label=\"a b\"");
+  const auto change = ParseOne<CreateModule>("create /robot/filter sensors/scan_filter window=5 label=\"a b\"");
   EXPECT_EQ(change.path, "/robot/filter");
   EXPECT_EQ(change.type, "sensors/scan_filter");
   ASSERT_THAT(change.settings, SizeIs(2));
@@ -92,15 +91,13 @@ TEST(ChangeText, ReadsTheCreationOfGroupsAndPorts) {
 }
 
 TEST(ChangeText, ReadsTheCreationOfParametersOfGroups) {
-  const char* const text =
-      "create parameter /robot/radius left/radius right/radius description=\"of both wheels\"";
+  const char* const text = "create parameter /robot/radius left/radius right/radius description=\"of both wheels\"";
   const auto parameter = ParseOne<CreateParameter>(text);
   EXPECT_EQ(parameter.path, "/robot/radius");
   EXPECT_THAT(parameter.targets, ElementsAre("left/radius", "right/radius"));
   EXPECT_EQ(parameter.description, "of both wheels");
   EXPECT_EQ(ChangeText(parameter), text);
-  EXPECT_THAT(ErrorOf("create parameter /robot/radius"),
-              HasSubstr("a parameter that it stands for"));
+  EXPECT_THAT(ErrorOf("create parameter /robot/radius"), HasSubstr("a parameter that it stands for"));
 }
 
 TEST(ChangeText, WritesModulesThatAreCalledLikeAWordSoThatTheyAreReadBack) {
@@ -118,8 +115,7 @@ TEST(ChangeText, ReadsConnections) {
   EXPECT_FALSE(queued.options.pull);
   EXPECT_TRUE(ParseOne<ConnectPorts>("connect /a/x /b/y pull=true").options.pull);
   EXPECT_FALSE(ParseOne<ConnectPorts>("connect /a/x /b/y queue=1 pull=false").options.pull);
-  EXPECT_EQ(ChangeText(ConnectPorts{"/a/x", "/b/y", {.pull = true}}),
-            "connect /a/x /b/y pull=true");
+  EXPECT_EQ(ChangeText(ConnectPorts{"/a/x", "/b/y", {.pull = true}}), "connect /a/x /b/y pull=true");
   const auto late = ParseOne<ConnectPorts>("connect /a/x.y /b/y convert=round when=present late=true");
   EXPECT_EQ(late.from, "/a/x.y");
   EXPECT_EQ(late.options.convert, "round");
@@ -131,8 +127,7 @@ TEST(ChangeText, ReadsConnections) {
 }
 
 TEST(ChangeText, ReadsReplacements) {
-  const auto change =
-      ParseOne<ReplaceModule>("replace /r/p with planning/bug1 step=0.1 probation=3");
+  const auto change = ParseOne<ReplaceModule>("replace /r/p with planning/bug1 step=0.1 probation=3");
   EXPECT_EQ(change.path, "/r/p");
   EXPECT_EQ(change.type, "planning/bug1");
   EXPECT_EQ(change.probation_cycles, 3U);
@@ -145,16 +140,14 @@ TEST(ChangeText, ReadsReplacements) {
 TEST(ChangeText, ReadsValuesInBracketsAsOneWord) {
   EXPECT_EQ(ParseOne<SetParameter>("set /r/p {x: 1, name: \"a ] \\\" }\", l: [1, 2]}").value,
             "{x: 1, name: \"a ] \\\" }\", l: [1, 2]}");
-  const auto change =
-      ParseOne<CreateModule>("create /r/p t a=[[1, 2], [3, 4]] b={} # and that is it");
+  const auto change = ParseOne<CreateModule>("create /r/p t a=[[1, 2], [3, 4]] b={} # and that is it");
   ASSERT_THAT(change.settings, SizeIs(2));
   EXPECT_EQ(change.settings[0].value, "[[1, 2], [3, 4]]");
   EXPECT_EQ(change.settings[1].value, "{}");
 }
 
 TEST(ChangeText, ReadsQuotedWordsAndTheirEscapes) {
-  EXPECT_EQ(ParseOne<SetParameter>(R"(set /r/p "20 ms; \"x\" \\ \n\t#")").value,
-            "20 ms; \"x\" \\ \n\t#");
+  EXPECT_EQ(ParseOne<SetParameter>(R"(set /r/p "20 ms; \"x\" \\ \n\t#")").value, "20 ms; \"x\" \\ \n\t#");
   EXPECT_EQ(ParseOne<SetParameter>("set /r/p \"\"").value, "");
   EXPECT_EQ(ParseOne<AssignToThread>("move /r/p to \"\"").thread, "");
   EXPECT_EQ(ParseOne<SetParameter>("set \"/r/a name\" a=b").path, "/r/a name");
@@ -169,16 +162,13 @@ TEST(ChangeText, ReadsSeveralChangesByLineAndBySemicolon) {
 
 TEST(ChangeText, KnowsWhereEachChangeStands) {
   Diagnostics diagnostics;
-  const auto placed = ParseChanges("delete /a; delete \"/ö\"; delete /b\n delete /c",
-                                   {"f.xml", 7, 20}, diagnostics);
-  EXPECT_THAT(placed.positions,
-              ElementsAre(SourcePosition{"f.xml", 7, 20}, SourcePosition{"f.xml", 7, 31},
-                          SourcePosition{"f.xml", 7, 44}, SourcePosition{"f.xml", 8, 2}));
+  const auto placed = ParseChanges("delete /a; delete \"/ö\"; delete /b\n delete /c", {"f.xml", 7, 20}, diagnostics);
+  EXPECT_THAT(placed.positions, ElementsAre(SourcePosition{"f.xml", 7, 20}, SourcePosition{"f.xml", 7, 31},
+                                            SourcePosition{"f.xml", 7, 44}, SourcePosition{"f.xml", 8, 2}));
 }
 
 TEST(ChangeText, NamesTheNearestWordAndThePlace) {
-  EXPECT_EQ(ErrorOf("\n  conect /a /b"),
-            "rules:2:3: error: there is no change 'conect'; did you mean 'connect'?\n");
+  EXPECT_EQ(ErrorOf("\n  conect /a /b"), "rules:2:3: error: there is no change 'conect'; did you mean 'connect'?\n");
   EXPECT_THAT(ErrorOf("connect /a /b quue=3"),
               HasSubstr("1:15: error: there is no option 'quue'; did you mean 'queue'?"));
   EXPECT_THAT(ErrorOf("connect /a /b queue=3 on_full=refus"), HasSubstr("did you mean 'refuse'?"));
@@ -227,21 +217,18 @@ class RandomText {
  public:
   explicit RandomText(std::uint32_t seed) : random_(seed) {}
 
-  std::size_t Below(std::size_t count) {
-    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
-  }
+  std::size_t Below(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
   std::string Letters() {
     static const std::string kCharacters = "ab/=\"\\ ;#[]{}\n\t\r\x01\x7f\xc3\xb6.,:0";
     std::string text;
-    for (std::size_t left = Below(8); left > 0; --left)
-      text += kCharacters[Below(kCharacters.size())];
+    for (std::size_t left = Below(8); left > 0; --left) text += kCharacters[Below(kCharacters.size())];
     return text;
   }
   std::string Changes() {
-    static const std::vector<std::string> kPieces{
-        "create", "delete", "connect", "disconnect", "set",     "replace",     "move",     "group",
-        "port",   "with",   "to",      "input",      "/a/b",    "queue=3",     "on_full=", "refuse",
-        "{x: 1}", "[1, ",   "\"a b\"", "\"",         "a=\"b\"", "probation=2", ";",        "\n"};
+    static const std::vector<std::string> kPieces{"create",  "delete",  "connect",  "disconnect",  "set",    "replace",
+                                                  "move",    "group",   "port",     "with",        "to",     "input",
+                                                  "/a/b",    "queue=3", "on_full=", "refuse",      "{x: 1}", "[1, ",
+                                                  "\"a b\"", "\"",      "a=\"b\"",  "probation=2", ";",      "\n"};
     std::string text;
     for (std::size_t left = Below(14); left > 0; --left) {
       text += Below(10) == 0 ? Letters() : kPieces[Below(kPieces.size())];

@@ -95,8 +95,9 @@ class CompositeTest : public EditorTest {
     Register<BoxedMeasured>("test/boxed_measured");
   }
   void Make(const std::string& type, const std::string& convert = {}) {
-    Must({CreateModule{"/app/counter", "test/counter"}, CreateModule{"/app/m", type}, CreateModule{"/app/sink", "test/sink"},
-          ConnectPorts{"/app/counter/out", "/app/m/in", {.queue = 20}}, ConnectPorts{"/app/m/out", "/app/sink/in", {.queue = 20, .convert = convert}},
+    Must({CreateModule{"/app/counter", "test/counter"}, CreateModule{"/app/m", type},
+          CreateModule{"/app/sink", "test/sink"}, ConnectPorts{"/app/counter/out", "/app/m/in", {.queue = 20}},
+          ConnectPorts{"/app/m/out", "/app/sink/in", {.queue = 20, .convert = convert}},
           ConnectPorts{"/app/m/out", "/app/sink/side", {.convert = convert}}});
   }
   void Swap(const std::string& type) {
@@ -148,7 +149,8 @@ TEST_F(CompositeTest, WhatIsConnectedToAPartStaysIfTheOtherHasThePart) {
   Swap("test/boxed");
   EXPECT_EQ(At<Passer>("/app/m/part").more.incoming().size(), 1U);
   ExpectItRuns();
-  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/straight"}}), HasSubstr("/app/m/part/input/more: the new module has no port 'more', which is connected"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/straight"}}),
+              HasSubstr("/app/m/part/input/more: the new module has no port 'more', which is connected"));
 }
 
 TEST_F(CompositeTest, ACycleOfInterfacePortsIsRefused) {
@@ -159,12 +161,14 @@ TEST_F(CompositeTest, ACycleOfInterfacePortsIsRefused) {
   EXPECT_EQ(At<Port>("/app/m/out").outgoing().size(), 3U) << "what leads round it stays";
   EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/straight"}}), HasSubstr("would close a cycle of interface ports"));
   Must({DisconnectPorts{"/app/m/out", "/app/sink/in"}, DisconnectPorts{"/app/m/out", "/app/sink/side"}});
-  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/taker"}}), HasSubstr("/app/m/out: the new module has no port 'out', which is connected"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/taker"}}),
+              HasSubstr("/app/m/out: the new module has no port 'out', which is connected"));
   Must({ConnectPorts{"/app/m/out", "/app/sink/in"}, ConnectPorts{"/app/m/out", "/app/sink/side"}});
   Swap("test/passer");
   EXPECT_EQ(At<Passer>("/app/m").out.outgoing().size(), 3U);
-  Must({CreateGroup{"/app/g"}, CreatePort{"/app/g/in", Port::Direction::kInput, "int32"}, CreatePort{"/app/g/out", Port::Direction::kOutput, "int32"},
-        ConnectPorts{"/app/g/in", "/app/g/out"}, DisconnectPorts{"/app/m/out", "/app/m/in"}, ConnectPorts{"/app/m/out", "/app/g/in"},
+  Must({CreateGroup{"/app/g"}, CreatePort{"/app/g/in", Port::Direction::kInput, "int32"},
+        CreatePort{"/app/g/out", Port::Direction::kOutput, "int32"}, ConnectPorts{"/app/g/in", "/app/g/out"},
+        DisconnectPorts{"/app/m/out", "/app/m/in"}, ConnectPorts{"/app/m/out", "/app/g/in"},
         ConnectPorts{"/app/g/out", "/app/m/in"}});
   EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/straight"}}), HasSubstr("would close a cycle of interface ports"));
 }
@@ -173,7 +177,8 @@ TEST_F(CompositeTest, WhatIsSetAtAPortGoesAlong) {
   Make("test/passer");
   for (const char* const type : {"test/boxed", "test/straight", "test/passer"}) {
     for (const std::string port : {"in", "out"}) {
-      auto& before = **PathSearch(At<FrameworkElement>("/app/m")).FindPort(port, port == "in" ? PathKind::kInput : PathKind::kOutput);
+      auto& before = **PathSearch(At<FrameworkElement>("/app/m"))
+                           .FindPort(port, port == "in" ? PathKind::kInput : PathKind::kOutput);
       for (const auto setter : {Port::Setter::kPerson, Port::Setter::kRule}) {
         ASSERT_TRUE(before.PublishByHand(internal::FillWith(AnyValue(int(setter) - 10)), setter));
       }
@@ -264,8 +269,10 @@ TEST_F(CompositeTest, WhatWaitsForAPortThatTheNextOneHasNotIsAskedFor) {
     ASSERT_TRUE(LateConnections::Of(runtime).Add("//other/m/cmd", "/app/m/in", {}));
   }
   for (const char* const type : {"test/boxed", "test/straight", "test/passer", "test/boxed"}) Swap(type);
-  Must({DisconnectPorts{"/app/counter/out", "/app/m/in"}, DisconnectPorts{"/app/m/out", "/app/sink/in"}, DisconnectPorts{"/app/m/out", "/app/sink/side"}});
-  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/counter"}}), HasSubstr("/app/m/in: the new module has no port 'in', which is connected"));
+  Must({DisconnectPorts{"/app/counter/out", "/app/m/in"}, DisconnectPorts{"/app/m/out", "/app/sink/in"},
+        DisconnectPorts{"/app/m/out", "/app/sink/side"}});
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/counter"}}),
+              HasSubstr("/app/m/in: the new module has no port 'in', which is connected"));
   // It is the input that is waited for.
   Swap("test/passer");
   Swap("test/taker");
@@ -275,13 +282,15 @@ TEST_F(CompositeTest, WhatWaitsForAPortThatTheNextOneHasNotIsAskedFor) {
 TEST_F(CompositeTest, APartThatWasReleasedIsNotForgotten) {
   Make("test/boxed_measured", "round");
   auto& in = At<Measured>("/app/m/part").in;
-  Must({DisconnectPorts{"/app/counter/out", "/app/m/in"}, CreateModule{"/app/s", "test/measured"}, ConnectPorts{"/app/s/out", "/app/m/in"}});
+  Must({DisconnectPorts{"/app/counter/out", "/app/m/in"}, CreateModule{"/app/s", "test/measured"},
+        ConnectPorts{"/app/s/out", "/app/m/in"}});
   Steps(2);
   ASSERT_TRUE(in.SetDriving(true, AnyValue(0.0), {}, DrivingKind::kVelocity));
   ASSERT_TRUE(in.Block());
   in.Unblock();
   ASSERT_TRUE(in.SetDriving(false, AnyValue(0.0), {}, DrivingKind::kVelocity));
-  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/measured"}}), HasSubstr("it waits for a value from after its release, and the new module has no such port"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/m", "test/measured"}}),
+              HasSubstr("it waits for a value from after its release, and the new module has no such port"));
   Steps(2);
   Swap("test/measured");
 }

@@ -101,9 +101,7 @@ class NeverReady final : public Module {
 
 class NeverMade final : public Module {
  public:
-  explicit NeverMade(const Placement& placement) : Module(placement) {
-    throw std::runtime_error("cannot be made");
-  }
+  explicit NeverMade(const Placement& placement) : Module(placement) { throw std::runtime_error("cannot be made"); }
 
  private:
   void Update() override {}
@@ -129,9 +127,8 @@ class Silent final : public Module {
 
 template <typename M>
 ModuleType TypeCalled(std::string name) {
-  return {std::move(name), "", "test", [](const Placement& placement) {
-            return std::unique_ptr<FrameworkElement>(std::make_unique<M>(placement));
-          }};
+  return {std::move(name), "", "test",
+          [](const Placement& placement) { return std::unique_ptr<FrameworkElement>(std::make_unique<M>(placement)); }};
 }
 
 /// An application with a counter and a sink, on a clock of the test's choice.

@@ -126,8 +126,7 @@ class World {
     runtime.root().Visit([&](FrameworkElement& each) {
       text += each.path() + " " + FindModuleType(each) + " #" + std::to_string(each.id()) + " " +
               std::to_string(static_cast<int>(each.life_cycle()));
-      if (const auto* value = dynamic_cast<const Configurable*>(&each))
-        text += " = " + value->ToText();
+      if (const auto* value = dynamic_cast<const Configurable*>(&each)) text += " = " + value->ToText();
       if (const auto* thread = OwnThread(each)) text += " by " + thread->path();
       if (const auto* module = dynamic_cast<const Fragile*>(&each)) {
         text += " after " + std::to_string(module->state.cycles);
@@ -144,14 +143,12 @@ class World {
       for (const std::string& each_edge : edges) text += each_edge;
     });
     for (const char* name : {"fast", "slow"}) {
-      auto& thread =
-          dynamic_cast<ThreadContainer&>(**runtime.root().Find(std::string("/threads/") + name));
+      auto& thread = dynamic_cast<ThreadContainer&>(**runtime.root().Find(std::string("/threads/") + name));
       text += std::string(name) + ":";
       for (const auto& task : test::OrderOf(scheduler, thread)) text += " " + task.path;
       text += "\n";
     }
-    return text + "undo " + history.NextUndo().value_or("-") + ", redo " +
-           history.NextRedo().value_or("-");
+    return text + "undo " + history.NextUndo().value_or("-") + ", redo " + history.NextRedo().value_or("-");
   }
   Fragile& At(const std::string& path) {
     const std::lock_guard lock(runtime.structure_mutex());
@@ -262,19 +259,15 @@ TEST_F(FaultsTest, AModuleIsDeletedOrNot) { EndureAll({DeleteElement{"/app/alone
 TEST_F(FaultsTest, AConnectionIsMadeOrNot) {
   EndureAll({ConnectPorts{"/app/alone/out", "/app/source/in", {.queue = 5}}});
 }
-TEST_F(FaultsTest, AParameterIsSetOrNot) {
-  EndureAll({SetParameter{"/app/source/parameter/value", "9"}});
-}
+TEST_F(FaultsTest, AParameterIsSetOrNot) { EndureAll({SetParameter{"/app/source/parameter/value", "9"}}); }
 TEST_F(FaultsTest, AModuleIsReplacedOrNot) {
   EndureAll({ReplaceModule{"/app/source", "test/other_fragile", {{"own", "8"}}}});
 }
-TEST_F(FaultsTest, AReaderIsReplacedOrNot) {
-  EndureAll({ReplaceModule{"/app/group/sink", "test/other_fragile"}});
-}
+TEST_F(FaultsTest, AReaderIsReplacedOrNot) { EndureAll({ReplaceModule{"/app/group/sink", "test/other_fragile"}}); }
 TEST_F(FaultsTest, AModuleIsReplacedByACompositeOrNot) {
-  EndureAll({ConnectPorts{"/app/source/out", "/app/alone/in", {.queue = 5}}, ConnectPorts{"/app/alone/out", "/app/source/in"},
-             ReplaceModule{"/app/alone", "test/fragile_box"}, ReplaceModule{"/app/alone", "test/other_fragile"},
-             ReplaceModule{"/app/alone", "test/fragile_box"}});
+  EndureAll({ConnectPorts{"/app/source/out", "/app/alone/in", {.queue = 5}},
+             ConnectPorts{"/app/alone/out", "/app/source/in"}, ReplaceModule{"/app/alone", "test/fragile_box"},
+             ReplaceModule{"/app/alone", "test/other_fragile"}, ReplaceModule{"/app/alone", "test/fragile_box"}});
 }
 TEST_F(FaultsTest, AModuleIsAssignedOrNot) {
   EndureAll({AssignToThread{"/app/alone", "fast"}});
@@ -293,9 +286,7 @@ TEST_F(FaultsTest, SeveralChangesAreMadeOrNone) {
 
 // What waits in the queue of a connection that is cut is lost, also if that is taken back.
 void EndureCutting(const ChangeSet& changes) { Endure(Apply(changes), {}, 1); }
-TEST_F(FaultsTest, AConnectionIsCutOrNot) {
-  EndureCutting({DisconnectPorts{"/app/source/out", "/app/group/data"}});
-}
+TEST_F(FaultsTest, AConnectionIsCutOrNot) { EndureCutting({DisconnectPorts{"/app/source/out", "/app/group/data"}}); }
 TEST_F(FaultsTest, AGroupIsDeletedOrNot) { EndureCutting({DeleteElement{"/app/group"}}); }
 
 // Who has thrown in its first cycles stands still until the one before is back, if need be in the cycle after.

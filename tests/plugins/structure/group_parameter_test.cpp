@@ -51,10 +51,8 @@ TEST_F(GroupParameterTest, StandsForWhatIsNamedWithoutTheApplication) {
 
 TEST_F(GroupParameterTest, AllOrNothing) {
   EXPECT_THAT(Refusal({SetParameter{"/app/group/step", "many"}}), HasSubstr("no whole number"));
-  EXPECT_THAT(Refusal({CreateParameter{"/app/group/more", {"left/stap"}}}),
-              HasSubstr("did you mean 'step'?"));
-  EXPECT_THAT(Refusal({CreateParameter{"/app/group/more", {"left/out"}}}),
-              HasSubstr("no 'out' in /app/group/left"));
+  EXPECT_THAT(Refusal({CreateParameter{"/app/group/more", {"left/stap"}}}), HasSubstr("did you mean 'step'?"));
+  EXPECT_THAT(Refusal({CreateParameter{"/app/group/more", {"left/out"}}}), HasSubstr("no 'out' in /app/group/left"));
 }
 
 TEST_F(GroupParameterTest, OfAStaticOneMakesTheModuleAnew) {
@@ -73,8 +71,7 @@ TEST_F(GroupParameterTest, OutlivesSwapsOfWhatItStandsFor) {
   Must({SetParameter{"/app/group/step", "3"}});
   EXPECT_EQ(Step("left"), 3);
   Must({DeleteElement{"/app/group/left"}});
-  EXPECT_THAT(Refusal({SetParameter{"/app/group/step", "4"}}),
-              HasSubstr("nothing is there any more"));
+  EXPECT_THAT(Refusal({SetParameter{"/app/group/step", "4"}}), HasSubstr("nothing is there any more"));
 }
 
 TEST_F(GroupParameterTest, ComesBackWithItsGroup) {

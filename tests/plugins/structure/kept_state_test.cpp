@@ -30,9 +30,7 @@ class KeptStateTest : public EditorTest {
   }
 
   void MustDo(const ChangeSet& changes) { MustBe(history.Apply(changes)); }
-  static void MustBe(const ChangeOutcome& outcome) {
-    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
-  }
+  static void MustBe(const ChangeOutcome& outcome) { ASSERT_TRUE(outcome) << outcome.diagnostics.ToString(); }
 
   // What has been set, of a sink and of a source.
   std::string SetAtSink(const std::string& path) {
@@ -159,8 +157,10 @@ TEST_F(KeptStateTest, GoesWithAnotherName) {
 TEST_F(KeptStateTest, IsToldToGoWithAPortThatASwappedInModuleHasNot) {
   const auto swapped = history.Apply({ReplaceModule{"/app/source", "test/counter", {}, 0}});
   MustBe(swapped);
-  EXPECT_THAT(swapped.diagnostics.ToString(),
-              HasSubstr("/app/source/input/extra: its value by hand went with it: the new module has no port that takes it over"));
+  EXPECT_THAT(
+      swapped.diagnostics.ToString(),
+      HasSubstr(
+          "/app/source/input/extra: its value by hand went with it: the new module has no port that takes it over"));
   MustBe(history.Undo());
   EXPECT_EQ(SetAtSource("/app/source"), kAtSource);
 }

@@ -26,7 +26,8 @@ class PartsOfTags : public EditorTest {
 
 TEST_F(PartsOfTags, StayAsTheyAre) {
   for (const std::string path : {"/app/network", "/app/network/word"}) {
-    EXPECT_THAT(Refusal({DeleteElement{path}}), HasSubstr("what a tag of the file or a program has made for itself, and cannot be deleted"));
+    EXPECT_THAT(Refusal({DeleteElement{path}}),
+                HasSubstr("what a tag of the file or a program has made for itself, and cannot be deleted"));
     EXPECT_THAT(Refusal({RenameElement{path, "other"}}), HasSubstr("cannot be renamed"));
     EXPECT_THAT(Refusal({CopyElement{path}}), HasSubstr("cannot be copied"));
   }

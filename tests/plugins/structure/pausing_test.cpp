@@ -11,13 +11,10 @@ class PausingTest : public EditorTest {
  protected:
   PausingTest() {
     MustDo({CreateGroup{"/app/robot"}, CreateModule{"/app/robot/source", "test/counter"},
-            CreateModule{"/app/robot/sink", "test/sink"},
-            ConnectPorts{"/app/robot/source/out", "/app/robot/sink/in"}});
+            CreateModule{"/app/robot/sink", "test/sink"}, ConnectPorts{"/app/robot/source/out", "/app/robot/sink/in"}});
   }
   void MustDo(const ChangeSet& changes) { MustBe(history.Apply(changes)); }
-  static void MustBe(const ChangeOutcome& outcome) {
-    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
-  }
+  static void MustBe(const ChangeOutcome& outcome) { ASSERT_TRUE(outcome) << outcome.diagnostics.ToString(); }
   void Pause(const std::string& path) { ASSERT_TRUE(scheduler.SetPaused(path, true)); }
   // Whether it is, and is known to be.
   testing::AssertionResult IsPaused(const std::string& path) {
@@ -26,8 +23,7 @@ class PausingTest : public EditorTest {
     Steps(3);
     const bool ran = At<Port>(path + "/output/out").publications() != before;
     if (ran == scheduler.IsPaused(element)) {
-      return testing::AssertionFailure()
-             << "it runs: " << ran << ", and is said to be paused: " << !ran;
+      return testing::AssertionFailure() << "it runs: " << ran << ", and is said to be paused: " << !ran;
     }
     return ran ? testing::AssertionFailure() << "it runs" : testing::AssertionSuccess();
   }

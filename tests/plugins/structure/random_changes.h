@@ -61,9 +61,8 @@ class RandomWords final : public Module {
 
 template <typename M>
 ModuleType RandomTypeCalled(std::string name) {
-  return {std::move(name), "", "test", [](const Placement& placement) {
-            return std::unique_ptr<FrameworkElement>(std::make_unique<M>(placement));
-          }};
+  return {std::move(name), "", "test",
+          [](const Placement& placement) { return std::unique_ptr<FrameworkElement>(std::make_unique<M>(placement)); }};
 }
 
 inline std::string ThreadOf(const FrameworkElement& element) {
@@ -79,8 +78,7 @@ inline std::string LiveText(Runtime& runtime, const std::string& top) {
     if (const auto* const port = dynamic_cast<const Port*>(&each)) {
       if (port->is_proxy()) lines.insert(StructureModel::PortLine(port->path()));
       for (const Connection& edge : port->outgoing()) {
-        lines.insert(port->path() + " > " + edge.to->path() + " " +
-                     std::to_string(edge.options.queue));
+        lines.insert(port->path() + " > " + edge.to->path() + " " + std::to_string(edge.options.queue));
         EXPECT_EQ(std::ranges::count(edge.to->incoming(), port), 1);
       }
     } else if (each.kind() == ElementKind::kGroup) {
@@ -88,8 +86,7 @@ inline std::string LiveText(Runtime& runtime, const std::string& top) {
     } else if (each.kind() == ElementKind::kModule) {
       const auto step = each.Find("parameter/step");
       const std::string value = step ? dynamic_cast<Configurable&>(**step).ToText() : "";
-      lines.insert(
-          StructureModel::ModuleLine(each.path(), FindModuleType(each), value, ThreadOf(each)));
+      lines.insert(StructureModel::ModuleLine(each.path(), FindModuleType(each), value, ThreadOf(each)));
     }
   });
   std::string text;
@@ -111,27 +108,20 @@ class RandomChanges {
   }
 
  private:
-  std::size_t Below(std::size_t count) {
-    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
-  }
+  std::size_t Below(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
   std::string OneOf(const std::vector<std::string>& texts) {
     return texts.empty() ? top_ + "/none" : texts[Below(texts.size())];
   }
   // Of something that is there, or, now and then, of something that is not or is made by this set.
-  std::string Path(const StructureModel& model) {
-    return Below(8) == 0 ? NewPath(model) : OneOf(model.Paths());
-  }
+  std::string Path(const StructureModel& model) { return Below(8) == 0 ? NewPath(model) : OneOf(model.Paths()); }
   std::string NewPath(const StructureModel& model) {
     const std::string parent = Below(3) == 0 ? OneOf(model.Paths()) : top_;
     return parent + "/" + OneOf({"a", "b", "c", "d", "e", "f"});
   }
   std::string PortPath(const StructureModel& model) {
-    return Below(8) == 0 ? NewPath(model) + OneOf({"/output/out", "/input/in", ""})
-                         : OneOf(model.PortPaths());
+    return Below(8) == 0 ? NewPath(model) + OneOf({"/output/out", "/input/in", ""}) : OneOf(model.PortPaths());
   }
-  std::string Type() {
-    return OneOf({"random/source", "random/pass", "random/pass", "random/words", "random/none"});
-  }
+  std::string Type() { return OneOf({"random/source", "random/pass", "random/pass", "random/words", "random/none"}); }
   std::vector<Setting> Settings() {
     if (Below(2) == 0) return {};
     return {{OneOf({"step", "step", "step", "stop"}), OneOf({"2", "5", "9", "10"})}};
@@ -145,8 +135,7 @@ class RandomChanges {
       case 3:
         return CreateGroup{NewPath(model)};
       case 4:
-        return CreatePort{NewPath(model), static_cast<Port::Direction>(Below(2)),
-                          Below(8) == 0 ? "nothing" : "int32"};
+        return CreatePort{NewPath(model), static_cast<Port::Direction>(Below(2)), Below(8) == 0 ? "nothing" : "int32"};
       case 5: {
         const std::string path = Path(model);
         return DeleteElement{path == top_ ? top_ + "/a" : path};
@@ -154,9 +143,7 @@ class RandomChanges {
       case 6:
       case 7:
       case 8:
-        return ConnectPorts{PortPath(model),
-                            PortPath(model),
-                            {.queue = Below(2) * 3, .on_full = OnFull::kDropOldest}};
+        return ConnectPorts{PortPath(model), PortPath(model), {.queue = Below(2) * 3, .on_full = OnFull::kDropOldest}};
       case 9: {
         const auto edges = model.Edges();
         if (edges.empty()) return DisconnectPorts{PortPath(model), PortPath(model)};

@@ -49,9 +49,7 @@ TEST(RandomChanges, LeaveTheStructureThatASimpleModelHas) {
       const std::string before = model.Text();
       const bool expected = model.Apply(changes);
       const ChangeOutcome outcome = editor.Apply(changes);
-      ASSERT_EQ(outcome.is_done, expected)
-          << TextOf(changes) << outcome.diagnostics.ToString() << "with\n"
-          << before;
+      ASSERT_EQ(outcome.is_done, expected) << TextOf(changes) << outcome.diagnostics.ToString() << "with\n" << before;
       ASSERT_EQ(LiveText(runtime, top), model.Text()) << TextOf(changes) << "with\n" << before;
       ++(expected ? accepted : refused);
     }

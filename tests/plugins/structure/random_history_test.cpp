@@ -17,8 +17,8 @@ std::string WholeText(Runtime& runtime) {
   const std::lock_guard lock(runtime.structure_mutex());
   std::set<std::string> lines;
   (*runtime.root().Find(kTop))->Visit([&](FrameworkElement& each) {
-    std::string line = each.path() + " " + std::to_string(static_cast<int>(each.kind())) + " " +
-                       FindModuleType(each) + " " + ThreadOf(each);
+    std::string line = each.path() + " " + std::to_string(static_cast<int>(each.kind())) + " " + FindModuleType(each) +
+                       " " + ThreadOf(each);
     if (const auto* const value = dynamic_cast<const Configurable*>(&each)) {
       line += " " + value->ToText();
     }
@@ -28,8 +28,7 @@ std::string WholeText(Runtime& runtime) {
     lines.insert(line + " " + port->type().name() + " " + port->description() + " " +
                  std::to_string(static_cast<int>(port->direction())));
     for (const Connection& edge : port->outgoing()) {
-      lines.insert(port->path() + " > " + edge.to->path() + " " +
-                   std::to_string(edge.options.queue) + " " +
+      lines.insert(port->path() + " > " + edge.to->path() + " " + std::to_string(edge.options.queue) + " " +
                    std::to_string(static_cast<int>(edge.options.on_full)));
     }
   });

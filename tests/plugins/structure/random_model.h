@@ -60,13 +60,11 @@ class StructureModel {
     return edges;
   }
 
-  static std::string ModuleLine(const std::string& path, const std::string& type,
-                                const std::string& step, const std::string& thread) {
+  static std::string ModuleLine(const std::string& path, const std::string& type, const std::string& step,
+                                const std::string& thread) {
     return path + " module " + type + " " + step + " " + thread;
   }
-  static std::string GroupLine(const std::string& path, const std::string& thread) {
-    return path + " group " + thread;
-  }
+  static std::string GroupLine(const std::string& path, const std::string& thread) { return path + " group " + thread; }
   static std::string PortLine(const std::string& path) { return path + " port"; }
 
  private:
@@ -93,17 +91,14 @@ class StructureModel {
   }
   static bool IsType(const std::string& type) { return !PortsOfType(type).empty(); }
   static bool HasStep(const std::string& type) { return type != "random/words"; }
-  static bool IsStep(const std::string& value) {
-    return value.size() == 1 && value[0] >= '0' && value[0] <= '9';
-  }
+  static bool IsStep(const std::string& value) { return value.size() == 1 && value[0] >= '0' && value[0] <= '9'; }
   static bool IsBelow(const std::string& path, const std::string& top) {
     return path == top || path.starts_with(top + "/");
   }
   static std::string LineOf(const std::string& path, const Element& element) {
     if (element.kind == Kind::kGroup) return GroupLine(path, element.thread);
     if (element.kind == Kind::kPort) return PortLine(path);
-    return ModuleLine(path, element.type, HasStep(element.type) ? element.step : "",
-                      element.thread);
+    return ModuleLine(path, element.type, HasStep(element.type) ? element.step : "", element.thread);
   }
 
   [[nodiscard]] const Element* Find(const std::string& path) const {
@@ -132,8 +127,7 @@ class StructureModel {
     if (from == to) return true;
     return std::ranges::any_of(edges_, [&](const auto& edge) {
       const std::string& next = edge.first.second;
-      return edge.first.first == from &&
-             (next == to || (Find(next) != nullptr && Reaches(next, to)));
+      return edge.first.first == from && (next == to || (Find(next) != nullptr && Reaches(next, to)));
     });
   }
   bool SetAll(Element& element, const std::vector<Setting>& settings) {
@@ -199,9 +193,8 @@ class StructureModel {
     const auto after = PortsOfType(change.type);
     for (const auto& [name, port] : PortsOfType(element.type)) {
       const std::string path = change.path + "/" + name;
-      const bool is_connected = std::ranges::any_of(edges_, [&](const auto& edge) {
-        return edge.first.first == path || edge.first.second == path;
-      });
+      const bool is_connected = std::ranges::any_of(
+          edges_, [&](const auto& edge) { return edge.first.first == path || edge.first.second == path; });
       const auto match = after.find(name);
       if (is_connected && (match == after.end() || match->second.type != port.type)) return false;
     }

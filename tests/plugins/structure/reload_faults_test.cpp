@@ -50,8 +50,7 @@ class ReloadWorld {
     runtime.root().Visit([&](FrameworkElement& each) {
       text += each.path() + " #" + std::to_string(each.id()) + " " + FindModuleType(each) + "\n";
     });
-    for (const ModuleType* type : plugins.modules().All())
-      text += type->name + " of " + type->plugin + "\n";
+    for (const ModuleType* type : plugins.modules().All()) text += type->name + " of " + type->plugin + "\n";
     return text + std::to_string(plugins.loaded().size()) + " plugins";
   }
 
@@ -73,8 +72,7 @@ std::size_t EndureReload(InjectedFault fault, const std::string& version, const 
   std::string dump = world->Dump();
   ChangeOutcome outcome;
   return AtEachPoint(
-      fault,
-      [&] { outcome = ReloadPlugin(world->plugins, world->editor, world->runtime, "counting"); },
+      fault, [&] { outcome = ReloadPlugin(world->plugins, world->editor, world->runtime, "counting"); },
       [&](bool has_struck) {
         if (!has_struck) {
           ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
@@ -84,8 +82,7 @@ std::size_t EndureReload(InjectedFault fault, const std::string& version, const 
           ASSERT_EQ(world->Dump(), dump) << outcome.diagnostics.ToString();
         }
         world->Run();
-        ASSERT_EQ(world->Value("/app/a"), before + (outcome ? 20 : 2))
-            << outcome.diagnostics.ToString();
+        ASSERT_EQ(world->Value("/app/a"), before + (outcome ? 20 : 2)) << outcome.diagnostics.ToString();
         ASSERT_EQ(world->Value("/app/b"), world->Value("/app/a"));
         if (!outcome) return;
         world = std::make_unique<ReloadWorld>(version, next);

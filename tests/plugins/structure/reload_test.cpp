@@ -30,9 +30,8 @@ class ReloadTest : public ::testing::Test {
     ASSERT_TRUE(loaded) << loaded.error().ToString();
     CreateThread(runtime, "main", {.period = 10ms});
     ASSERT_TRUE(runtime.MakeReady(runtime.root()));
-    const auto outcome =
-        editor.Apply({CreateGroup{"/app"}, CreateModule{"/app/a", "counting/counting"},
-                      CreateModule{"/app/b", "counting/counting"}});
+    const auto outcome = editor.Apply({CreateGroup{"/app"}, CreateModule{"/app/a", "counting/counting"},
+                                       CreateModule{"/app/b", "counting/counting"}});
     ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
   }
   std::string Refusal(const std::string& version) {
@@ -88,8 +87,7 @@ TEST_F(ReloadTest, WhatIsRefusedLeavesTheOldCodeRunning) {
   EXPECT_THAT(Refusal("6"), HasSubstr("there is 'counting/renamed'"));
   std::ofstream(folder_ / "new") << "This is text.";
   fs::rename(folder_ / "new", folder_ / "counting.so");
-  EXPECT_THAT(ReloadPlugin(plugins, editor, runtime, "counting").diagnostics.ToString(),
-              HasSubstr("counting.so"));
+  EXPECT_THAT(ReloadPlugin(plugins, editor, runtime, "counting").diagnostics.ToString(), HasSubstr("counting.so"));
   EXPECT_THAT(ReloadPlugin(plugins, editor, runtime, "conting").diagnostics.ToString(),
               HasSubstr("did you mean 'counting'?"));
   Steps(2);
@@ -115,9 +113,8 @@ TEST_F(ReloadTest, AStateWhoseElementsHaveGotAFieldIsRefused) {
   Steps(100);
   const std::string refusal = Refusal("7");
   EXPECT_THAT(refusal, HasSubstr("/app/a: the kept state 'std::vector<runnel::test::Mark"));
-  EXPECT_THAT(refusal,
-              HasSubstr("a library knows the type 'test::Mark' otherwise (its values have 12 bytes "
-                        "there, and 8 elsewhere"));
+  EXPECT_THAT(refusal, HasSubstr("a library knows the type 'test::Mark' otherwise (its values have 12 bytes "
+                                 "there, and 8 elsewhere"));
   Steps(1);
   EXPECT_EQ(Value("/app/a", "marks"), 101) << "the old code runs on";
   ASSERT_TRUE(editor.Apply({DeleteElement{"/app/a"}, DeleteElement{"/app/b"}}));

@@ -16,17 +16,13 @@ class RenamingTest : public EditorTest {
     MustDo({CreateGroup{"/app/g"}, CreateModule{"/app/g/a", "test/counter", {{"step", "2"}, {"label", "left"}}},
             CreateModule{"/app/g/inner", "test/sink"},
             CreatePort{"/app/g/out", Port::Direction::kOutput, "int32", "what it counts"},
-            CreateModule{"/app/b", "test/sink"},
-            ConnectPorts{"/app/g/a/out", "/app/g/out"},
+            CreateModule{"/app/b", "test/sink"}, ConnectPorts{"/app/g/a/out", "/app/g/out"},
             ConnectPorts{"/app/g/a/out", "/app/g/inner/in", {.queue = 3}},
-            ConnectPorts{"/app/g/out", "/app/b/in", {.queue = 9}},
-            CreateParameter{"/app/step", {"g/a/step"}, "of all"}, AssignToThread{"/app/g", "slow"},
-            AssignToThread{"/app/g/a", "fast"}, AssignToThread{"/app/b", "fast"}});
+            ConnectPorts{"/app/g/out", "/app/b/in", {.queue = 9}}, CreateParameter{"/app/step", {"g/a/step"}, "of all"},
+            AssignToThread{"/app/g", "slow"}, AssignToThread{"/app/g/a", "fast"}, AssignToThread{"/app/b", "fast"}});
   }
   void MustDo(const ChangeSet& changes) { MustBe(history.Apply(changes)); }
-  static void MustBe(const ChangeOutcome& outcome) {
-    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
-  }
+  static void MustBe(const ChangeOutcome& outcome) { ASSERT_TRUE(outcome) << outcome.diagnostics.ToString(); }
   int CountOf(const std::string& path) { return At<Counter>(path).count.value; }
   std::vector<std::string> NamesIn(const std::string& path) {
     std::vector<std::string> names;
@@ -98,8 +94,7 @@ TEST_F(RenamingTest, ParametersOfGroupsAndConnectionsThatWaitFollow) {
   MustDo({SetParameter{"/app/step", "6"}});
   EXPECT_EQ(At<Counter>("/app/front/first").step.Get(), 6);
   MustDo({CreateModule{"/app/later", "test/sink"}});
-  EXPECT_THAT(At<Port>("/app/later/input/in").incoming(),
-              ElementsAre(&At<Port>("/app/front/first/output/out")));
+  EXPECT_THAT(At<Port>("/app/later/input/in").incoming(), ElementsAre(&At<Port>("/app/front/first/output/out")));
   for (int i = 0; i < 5; ++i) MustBe(history.Undo());
   EXPECT_THAT(At<GroupParameter>("/app/step").targets(), ElementsAre("g/a/step"));
 }

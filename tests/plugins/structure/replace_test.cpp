@@ -17,10 +17,8 @@ namespace {
 class ReplaceTest : public EditorTest {
  protected:
   ReplaceTest() {
-    Must({CreateModule{"/app/counter", "test/counter", {{"step", "2"}}},
-          CreateModule{"/app/sink", "test/sink"},
-          ConnectPorts{
-              "/app/counter/out", "/app/sink/in", {.queue = 100, .on_full = OnFull::kRefuse}},
+    Must({CreateModule{"/app/counter", "test/counter", {{"step", "2"}}}, CreateModule{"/app/sink", "test/sink"},
+          ConnectPorts{"/app/counter/out", "/app/sink/in", {.queue = 100, .on_full = OnFull::kRefuse}},
           ConnectPorts{"/app/sink/sum", "/app/sink/side"}});
   }
 };
@@ -111,10 +109,8 @@ TEST_F(ReplaceTest, WhatDoesNotFitIsToldAndChangesNothing) {
   EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/text_counter"}}), HasSubstr("carries"));
   EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/silent"}}),
               HasSubstr("has no port 'out', which is connected"));
-  EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/never_made"}}),
-              HasSubstr("cannot be made"));
-  EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/never_ready"}}),
-              HasSubstr("has no device"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/never_made"}}), HasSubstr("cannot be made"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/never_ready"}}), HasSubstr("has no device"));
   EXPECT_THAT(Refusal({ReplaceModule{"/app/conter", "test/counter"}}), HasSubstr("'counter'?"));
   Steps(2);
   EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4));
@@ -122,8 +118,7 @@ TEST_F(ReplaceTest, WhatDoesNotFitIsToldAndChangesNothing) {
 
 TEST_F(ReplaceTest, TwoOfOneConnectionCanBeReplacedTogether) {
   Steps(1);
-  Must({ReplaceModule{"/app/sink", "test/sink"},
-        ReplaceModule{"/app/counter", "test/other_counter"},
+  Must({ReplaceModule{"/app/sink", "test/sink"}, ReplaceModule{"/app/counter", "test/other_counter"},
         ReplaceModule{"/app/counter", "test/counter"}});
   Steps(2);
   EXPECT_EQ(FindModuleType(At<Module>("/app/counter")), "test/counter");
@@ -139,8 +134,7 @@ TEST_F(ReplaceTest, WhatThrowsInItsFirstCyclesMakesRoomForTheOldOne) {
   const auto faults = scheduler.TakeFaults();
   ASSERT_THAT(faults, SizeIs(1));
   EXPECT_TRUE(faults[0].is_mended);
-  EXPECT_THAT(faults[0].message,
-              HasSubstr("is faulty; the module before (test/counter) is back in its place"));
+  EXPECT_THAT(faults[0].message, HasSubstr("is faulty; the module before (test/counter) is back in its place"));
   Steps(2);
   EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4, -1, -1, -1, 6, 8));
   EXPECT_EQ(editor.on_probation(), 0u);
@@ -179,8 +173,7 @@ TEST_F(ReplaceTest, AFaultyModuleIsMadeAnewByItsOwnType) {
 TEST_F(ReplaceTest, TheOldOneComesBackAmongConnectionsThatHaveChangedMeanwhile) {
   Must({ReplaceModule{"/app/counter", "test/faulty", {{"good_cycles", "2"}}}});
   Steps(1);
-  Must({DisconnectPorts{"/app/counter/out", "/app/sink/in"},
-        CreateModule{"/app/second", "test/sink"},
+  Must({DisconnectPorts{"/app/counter/out", "/app/sink/in"}, CreateModule{"/app/second", "test/sink"},
         ConnectPorts{"/app/counter/out", "/app/second/in", {.queue = 10}}});
   Steps(4);
   EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(-1));
@@ -219,9 +212,11 @@ TEST_F(ReplaceTest, APartIsConvertedAsBefore) {
   Must({CreateModule{"/app/s", "test/places"}, CreateModule{"/app/m", "test/turning"}, connect});
   const DisconnectPorts disconnect{"/app/s/place", "/app/m/in"};
   const ReplaceModule source{"/app/s", "test/places"}, sink{"/app/m", "test/degrees"};
-  for (const ChangeSet& each : {ChangeSet{sink}, ChangeSet{source, sink}, ChangeSet{sink, source}, ChangeSet{source, source, sink},
-                                ChangeSet{disconnect, connect, sink}, ChangeSet{disconnect, connect, source, sink}}) {
-    EXPECT_THAT(Refusal(each), HasSubstr("the values between /app/s/output/place and /app/m/input/in would be converted otherwise; disconnect them first"));
+  for (const ChangeSet& each :
+       {ChangeSet{sink}, ChangeSet{source, sink}, ChangeSet{sink, source}, ChangeSet{source, source, sink},
+        ChangeSet{disconnect, connect, sink}, ChangeSet{disconnect, connect, source, sink}}) {
+    EXPECT_THAT(Refusal(each), HasSubstr("the values between /app/s/output/place and /app/m/input/in would be "
+                                         "converted otherwise; disconnect them first"));
   }
   Must({source, {ReplaceModule{"/app/m", "test/turning"}}, source});
   Must({disconnect, source, sink, connect});

@@ -16,8 +16,7 @@ bool Counts(const std::vector<int>& values) {
 }
 
 TEST_F(RunningTest, SwappingBothEndsUnderLoadNeitherLosesNorRepeatsAnything) {
-  CreateThread(runtime, "busy",
-               {.activation = ThreadOptions::Activation::kFreeRunning, .period = 1ms});
+  CreateThread(runtime, "busy", {.activation = ThreadOptions::Activation::kFreeRunning, .period = 1ms});
   class Eager final : public Module {
    public:
     explicit Eager(const Placement& placement) : Module(placement) { KeepState(count); }
@@ -85,28 +84,21 @@ class Judge final : public Module {
 TEST_F(RunningTest, NoCycleSeesHalfOfAChangeSet) {
   Register<Twin>("test/twin");
   Register<Judge>("test/judge");
-  CreateThread(runtime, "busy",
-               {.activation = ThreadOptions::Activation::kFreeRunning, .period = 1ms});
-  Must({CreateModule{"/app/a", "test/twin", {{"number", "1"}}},
-        CreateModule{"/app/b", "test/twin", {{"number", "2"}}},
+  CreateThread(runtime, "busy", {.activation = ThreadOptions::Activation::kFreeRunning, .period = 1ms});
+  Must({CreateModule{"/app/a", "test/twin", {{"number", "1"}}}, CreateModule{"/app/b", "test/twin", {{"number", "2"}}},
         CreateModule{"/app/judge", "test/judge"}, AssignToThread{"/app/judge", "busy"}});
   ASSERT_TRUE(scheduler.Start());
   // A twin's first cycle in its own thread is no change: between its two values one is missing.
-  WaitUntil("both twins have published", [&] {
-    return At<Twin>("/app/a").right.publications() > 0 &&
-           At<Twin>("/app/b").right.publications() > 0;
-  });
-  Must({ConnectPorts{"/app/a/left", "/app/judge/left"},
-        ConnectPorts{"/app/a/right", "/app/judge/right"}});
+  WaitUntil("both twins have published",
+            [&] { return At<Twin>("/app/a").right.publications() > 0 && At<Twin>("/app/b").right.publications() > 0; });
+  Must({ConnectPorts{"/app/a/left", "/app/judge/left"}, ConnectPorts{"/app/a/right", "/app/judge/right"}});
   const char* from = "/app/a";
   const char* to = "/app/b";
   for (int i = 0; i < kSwaps; ++i) {
     const std::string old(from);
     const std::string next(to);
-    Must({DisconnectPorts{old + "/left", "/app/judge/left"},
-          ConnectPorts{next + "/left", "/app/judge/left"},
-          DisconnectPorts{old + "/right", "/app/judge/right"},
-          ConnectPorts{next + "/right", "/app/judge/right"}});
+    Must({DisconnectPorts{old + "/left", "/app/judge/left"}, ConnectPorts{next + "/left", "/app/judge/left"},
+          DisconnectPorts{old + "/right", "/app/judge/right"}, ConnectPorts{next + "/right", "/app/judge/right"}});
     std::swap(from, to);
   }
   for (int i = 0; i < kSwaps; ++i) {
@@ -151,8 +143,7 @@ TEST_F(RunningTest, AModuleThatDoesNotReturnIsNamedAndNothingChanges) {
 
 TEST_F(RunningTest, WhatThrowsIsPutBackWhileAllRuns) {
   Must({CreateModule{"/app/counter", "test/counter"}, CreateModule{"/app/sink", "test/sink"},
-        ConnectPorts{
-            "/app/counter/out", "/app/sink/in", {.queue = 1000, .on_full = OnFull::kRefuse}},
+        ConnectPorts{"/app/counter/out", "/app/sink/in", {.queue = 1000, .on_full = OnFull::kRefuse}},
         ConnectPorts{"/app/sink/sum", "/app/sink/side"}, AssignToThread{"/app/sink", "slow"}});
   ASSERT_TRUE(scheduler.Start());
   for (int i = 0; i < 5; ++i) {
@@ -163,8 +154,7 @@ TEST_F(RunningTest, WhatThrowsIsPutBackWhileAllRuns) {
     });
   }
   const std::uint64_t before = At<Counter>("/app/counter").out.publications();
-  WaitUntil("it publishes again",
-            [&] { return At<Counter>("/app/counter").out.publications() > before; });
+  WaitUntil("it publishes again", [&] { return At<Counter>("/app/counter").out.publications() > before; });
   scheduler.Stop();
   EXPECT_TRUE(Counts(At<Sink>("/app/sink").taken));
   EXPECT_THAT(scheduler.TakeFaults(), SizeIs(5));
@@ -210,8 +200,7 @@ TEST_F(SimulatedRunningTest, AnotherThreadMayChangeWhatASimulationRuns) {
   std::atomic<bool> done{false};
   std::thread changing([&] {
     for (int i = 0; i < kSwaps; ++i) {
-      Must({ReplaceModule{"/app/counter", "test/other_counter", {}, 1},
-            CreateModule{"/app/more", "test/counter"}});
+      Must({ReplaceModule{"/app/counter", "test/other_counter", {}, 1}, CreateModule{"/app/more", "test/counter"}});
       Must({DeleteElement{"/app/more"}, ReplaceModule{"/app/sink", "test/sink", {}, 1}});
     }
     done = true;

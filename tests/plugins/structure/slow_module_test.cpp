@@ -44,9 +44,7 @@ class Slow : public Module {
 
 class SlowComposite final : public Group {
  public:
-  explicit SlowComposite(const Placement& placement) : Group(placement) {
-    runtime().Create<Slow>(*this, "inner");
-  }
+  explicit SlowComposite(const Placement& placement) : Group(placement) { runtime().Create<Slow>(*this, "inner"); }
 };
 
 class SlowModuleTest : public EditorTest, public ::testing::WithParamInterface<Slow::At> {
@@ -56,8 +54,8 @@ class SlowModuleTest : public EditorTest, public ::testing::WithParamInterface<S
     Register<SlowComposite>("test/slow_composite");
     Slow::waits_at = Slow::At::kNowhere;
     Slow::made = 0;
-    Must({CreateModule{"/app/one", "test/slow"}, CreateModule{"/app/sink", "test/sink"},
-          CreateGroup{"/app/g"}, CreateModule{"/app/g/two", "test/slow"}});
+    Must({CreateModule{"/app/one", "test/slow"}, CreateModule{"/app/sink", "test/sink"}, CreateGroup{"/app/g"},
+          CreateModule{"/app/g/two", "test/slow"}});
     Slow::made = 0;
   }
 
@@ -80,26 +78,18 @@ class SlowModuleTest : public EditorTest, public ::testing::WithParamInterface<S
 
 }  // namespace
 
-INSTANTIATE_TEST_SUITE_P(, SlowModuleTest,
-                         ::testing::Values(Slow::At::kConstructor, Slow::At::kPrepare),
-                         [](const auto& at) {
-                           return at.param == Slow::At::kPrepare ? "Prepare" : "Constructor";
-                         });
+INSTANTIATE_TEST_SUITE_P(, SlowModuleTest, ::testing::Values(Slow::At::kConstructor, Slow::At::kPrepare),
+                         [](const auto& at) { return at.param == Slow::At::kPrepare ? "Prepare" : "Constructor"; });
 
-TEST_P(SlowModuleTest, ThatIsCreated) {
-  NobodyIsKeptWaitingBy({CreateModule{"/app/new", "test/slow"}});
-}
+TEST_P(SlowModuleTest, ThatIsCreated) { NobodyIsKeptWaitingBy({CreateModule{"/app/new", "test/slow"}}); }
 
 TEST_P(SlowModuleTest, ThatIsCreatedTwiceInTheSamePlace) {
-  NobodyIsKeptWaitingBy(
-      {CreateGroup{"/app/h"}, CreateModule{"/app/h/new", "test/slow"}, DeleteElement{"/app/h"},
-       CreateGroup{"/app/h"}, CreateModule{"/app/h/new", "test/slow"}},
-      2);
+  NobodyIsKeptWaitingBy({CreateGroup{"/app/h"}, CreateModule{"/app/h/new", "test/slow"}, DeleteElement{"/app/h"},
+                         CreateGroup{"/app/h"}, CreateModule{"/app/h/new", "test/slow"}},
+                        2);
 }
 
-TEST_P(SlowModuleTest, ThatTakesThePlaceOfAnother) {
-  NobodyIsKeptWaitingBy({ReplaceModule{"/app/one", "test/slow"}});
-}
+TEST_P(SlowModuleTest, ThatTakesThePlaceOfAnother) { NobodyIsKeptWaitingBy({ReplaceModule{"/app/one", "test/slow"}}); }
 
 TEST_P(SlowModuleTest, ThatIsCopied) { NobodyIsKeptWaitingBy({CopyElement{"/app/one"}}); }
 
@@ -115,22 +105,17 @@ TEST_P(SlowModuleTest, ThatIsPartOfAComposite) {
 
 TEST_P(SlowModuleTest, IsThrownAwayWhereItsPlaceIsTakenMeanwhile) {
   Slow::waits_at = GetParam();
-  auto applied = std::async(std::launch::async, [&] {
-    return editor.Apply({CreateModule{"/app/new", "test/slow"}});
-  });
+  auto applied = std::async(std::launch::async, [&] { return editor.Apply({CreateModule{"/app/new", "test/slow"}}); });
   WaitUntil("the module is being made", [] { return Slow::waiting > 0; });
   EXPECT_TRUE(runtime.MakeReady(runtime.Create<Group>(At<FrameworkElement>("/app"), "new")));
   Slow::waits_at = Slow::At::kNowhere;
   const ChangeOutcome outcome = applied.get();
-  EXPECT_THAT(outcome.diagnostics.ToString(),
-              HasSubstr("there is already an element called 'new'"));
+  EXPECT_THAT(outcome.diagnostics.ToString(), HasSubstr("there is already an element called 'new'"));
 }
 
 TEST_P(SlowModuleTest, IsGivenWhatHasBeenSetMeanwhile) {
   Slow::waits_at = GetParam();
-  auto applied = std::async(std::launch::async, [&] {
-    return editor.Apply({ReplaceModule{"/app/one", "test/slow"}});
-  });
+  auto applied = std::async(std::launch::async, [&] { return editor.Apply({ReplaceModule{"/app/one", "test/slow"}}); });
   WaitUntil("the module is being made", [] { return Slow::waiting > 0; });
   const int five = 5;
   EXPECT_TRUE(PublishByHand(At<Port>("/app/one/input/in"), &five));

@@ -45,8 +45,7 @@ class StaticParameterTest : public EditorTest {
     Register<Adder>("test/adder");
     Must({CreateModule{"/app/counter", "test/counter"},
           CreateModule{"/app/adder", "test/adder", {{"inputs", "3"}, {"offset", "100"}}},
-          CreateModule{"/app/sink", "test/sink"},
-          ConnectPorts{"/app/counter/out", "/app/adder/in1"},
+          CreateModule{"/app/sink", "test/sink"}, ConnectPorts{"/app/counter/out", "/app/adder/in1"},
           ConnectPorts{"/app/counter/out", "/app/adder/in3", {.queue = 4}},
           ConnectPorts{"/app/adder/sum", "/app/sink/in", {.queue = 100}},
           ConnectPorts{"/app/adder/sum", "/app/sink/side"}});
@@ -84,9 +83,8 @@ TEST_F(StaticParameterTest, WhatDoesNotFitIsCutAndComesBackWithUndo) {
   const std::string before = Structure();
   const ChangeOutcome outcome = history_.Apply({SetParameter{"/app/adder/inputs", "1"}});
   ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
-  EXPECT_THAT(
-      outcome.diagnostics.ToString(),
-      HasSubstr("/app/counter/output/out: is not connected to /app/adder/input/in3 any more"));
+  EXPECT_THAT(outcome.diagnostics.ToString(),
+              HasSubstr("/app/counter/output/out: is not connected to /app/adder/input/in3 any more"));
   Steps(1);
   EXPECT_EQ(At<Sink>("/app/sink").taken.back(), 101);
   ASSERT_TRUE(history_.Undo());
@@ -120,7 +118,8 @@ struct Awaiting : StaticParameterTest {
 TEST_F(Awaiting, WhatWaitsForAPortThatGoesIsToldAndComesBackWithUndo) {
   const ChangeOutcome outcome = history_.Apply({SetParameter{"/app/adder/inputs", "2"}});
   ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
-  EXPECT_THAT(outcome.diagnostics.ToString(), HasSubstr("//other/m/x: is not waited for any more: the module made anew has no such port"));
+  EXPECT_THAT(outcome.diagnostics.ToString(),
+              HasSubstr("//other/m/x: is not waited for any more: the module made anew has no such port"));
   EXPECT_FALSE(IsAwaited());
   const ChangeOutcome back = history_.Undo();
   ASSERT_TRUE(back) << back.diagnostics.ToString();
@@ -131,8 +130,9 @@ TEST_F(Awaiting, WhatWaitsForAPortThatGoesIsToldAndComesBackWithUndo) {
 TEST_F(Awaiting, WhatIsDisconnectedInTheSameSetWaitsNoMore) {
   const DisconnectPorts disconnect{"//other/m/x", "/app/adder/in3"};
   const ConnectPorts connect{"//other/m/x", "/app/adder/in3"};
-  for (const Change& next : {Change(SetParameter{"/app/adder/inputs", "2"}), Change(ReplaceModule{"/app/adder", "test/adder", {{"inputs", "2"}}}),
-                             Change(DeleteElement{"/app/adder"})}) {
+  for (const Change& next :
+       {Change(SetParameter{"/app/adder/inputs", "2"}),
+        Change(ReplaceModule{"/app/adder", "test/adder", {{"inputs", "2"}}}), Change(DeleteElement{"/app/adder"})}) {
     const ChangeOutcome outcome = history_.Apply({disconnect, next});
     ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
     EXPECT_THAT(outcome.diagnostics.ToString(), testing::Not(HasSubstr("waited")));
@@ -143,7 +143,8 @@ TEST_F(Awaiting, WhatIsDisconnectedInTheSameSetWaitsNoMore) {
   Refusal({disconnect, disconnect});
   Must({disconnect, connect});
   EXPECT_TRUE(IsAwaited());
-  EXPECT_THAT(Refusal({ReplaceModule{"/app/adder", "test/adder", {{"inputs", "2"}}}}), HasSubstr("has no port 'in3', which is connected"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/adder", "test/adder", {{"inputs", "2"}}}}),
+              HasSubstr("has no port 'in3', which is connected"));
   Must({disconnect, connect, DeleteElement{"/app/adder"}});
   EXPECT_FALSE(IsAwaited());
 }

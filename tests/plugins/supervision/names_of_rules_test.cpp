@@ -118,7 +118,8 @@ TEST_P(NamesOfRules, AreThoseOfWhatTheyWereWrittenFor) {
   Set(a, "0");
   RunOn();
   EXPECT_EQ(Seen(), 2) << "its source is silent";
-  EXPECT_THAT(Messages(), Contains(HasSubstr("; switched " + sink + "/input/in from " + a + "/output/out to " + b + "/output/out")));
+  EXPECT_THAT(Messages(), Contains(HasSubstr("; switched " + sink + "/input/in from " + a + "/output/out to " + b +
+                                             "/output/out")));
   Set(a, "1");
   RunOn();
   EXPECT_EQ(Seen(), 1) << "it is back";
@@ -176,23 +177,26 @@ INSTANTIATE_TEST_SUITE_P(
         Operation{.name = "nothing", .done = {}},
         Operation{.name = "rename_of_the_source", .done = {{RenameElement{"/demo/g/a", "ab"}}}, .a = "/demo/g/ab"},
         Operation{.name = "rename_of_the_other", .done = {{RenameElement{"/demo/g/b", "c"}}}, .b = "/demo/g/c"},
-        Operation{.name = "rename_of_the_reader", .done = {{RenameElement{"/demo/g/sink", "end"}}}, .sink = "/demo/g/end"},
+        Operation{
+            .name = "rename_of_the_reader", .done = {{RenameElement{"/demo/g/sink", "end"}}}, .sink = "/demo/g/end"},
         Operation{.name = "rename_of_the_group",
-               .done = {{RenameElement{"/demo/g", "h"}}},
-               .a = "/demo/h/a",
-               .b = "/demo/h/b",
-               .sink = "/demo/h/sink"},
+                  .done = {{RenameElement{"/demo/g", "h"}}},
+                  .a = "/demo/h/a",
+                  .b = "/demo/h/b",
+                  .sink = "/demo/h/sink"},
         Operation{.name = "exchange_of_names",
-               .done = {{RenameElement{"/demo/g/a", "x"}}, {RenameElement{"/demo/g/b", "a"}}, {RenameElement{"/demo/g/x", "b"}}},
-               .a = "/demo/g/b",
-               .b = "/demo/g/a"},
+                  .done = {{RenameElement{"/demo/g/a", "x"}},
+                           {RenameElement{"/demo/g/b", "a"}},
+                           {RenameElement{"/demo/g/x", "b"}}},
+                  .a = "/demo/g/b",
+                  .b = "/demo/g/a"},
         Operation{.name = "rename_and_undo", .done = {{RenameElement{"/demo/g/a", "x"}}}, .undone = 1},
         Operation{.name = "swap", .done = {{ReplaceModule{"/demo/g/a", "test/sensor"}}}},
         Operation{.name = "swap_and_undo", .done = {{ReplaceModule{"/demo/g/a", "test/sensor"}}}, .undone = 1},
         Operation{.name = "delete_and_undo", .done = {{DeleteElement{"/demo/g/a"}}}, .undone = 1},
         Operation{.name = "rename_delete_and_undo_of_both",
-               .done = {{RenameElement{"/demo/g/a", "x"}}, {DeleteElement{"/demo/g/x"}}},
-               .undone = 2},
+                  .done = {{RenameElement{"/demo/g/a", "x"}}, {DeleteElement{"/demo/g/x"}}},
+                  .undone = 2},
         Operation{.name = "copy", .done = {{CopyElement{"/demo/g/a", "x"}}}}),
     [](const auto& each) { return std::string(each.param.name); });
 

@@ -150,8 +150,8 @@ TEST_F(SavedRules, FollowOtherNames) {
   Must({RenameElement{"/demo/a", "b"}});
   EXPECT_THAT(Text(), AllOf(HasSubstr(R"(<module name="c" type="test/source">)"),
                             HasSubstr(R"(<parameter name="count" value="5"/>)"),
-                            HasSubstr(R"(<connect from="b/value" to="sink/value" queue="5"/>)"), Not(HasSubstr("\"a\"")),
-                            Not(HasSubstr("own"))));
+                            HasSubstr(R"(<connect from="b/value" to="sink/value" queue="5"/>)"),
+                            Not(HasSubstr("\"a\"")), Not(HasSubstr("own"))));
 }
 
 TEST_F(SavedRules, HaveWhatPeopleMakeMeanwhile) {
@@ -172,10 +172,12 @@ TEST_F(SavedRules, HaveWhatPeopleMakeMeanwhile) {
 std::string FileWith(const std::string& modules, const std::string& reaction, const std::string& otherwise = "") {
   return R"(<application name="demo">
   <module name="a" type="test/source"/>
-)" + modules + R"(  <module name="sink" type="test/sink"/>
+)" + modules +
+         R"(  <module name="sink" type="test/sink"/>
   <connect from="a/value" to="sink/value"/>
   <on_stale input="sink/value" after="30ms" fresh_after="20ms">
-    )" + reaction + "\n" + (otherwise.empty() ? "" : "    <otherwise>\n      " + otherwise + "\n    </otherwise>\n") +
+    )" + reaction +
+         "\n" + (otherwise.empty() ? "" : "    <otherwise>\n      " + otherwise + "\n    </otherwise>\n") +
          R"(  </on_stale>
 </application>
 )";
@@ -188,7 +190,8 @@ TEST_F(RulesInForce, LeaveWhatAGroupSaysOfAParameterThatTheReplacementLacks) {
       <parameter name="gain" value="3"/>
     </module>
   </group>
-)", R"(<replace module="both/b" by="test/spare"/>)");
+)",
+                                    R"(<replace module="both/b" by="test/spare"/>)");
   Run(file);
   ASSERT_EQ(shop.Get<Spare>("/demo/both/b").gain.Get(), 3);
   EXPECT_EQ(Text(), file);
@@ -197,7 +200,8 @@ TEST_F(RulesInForce, LeaveWhatAGroupSaysOfAParameterThatTheReplacementLacks) {
 TEST_F(RulesInForce, LeaveWhatIsSaidOfPortsThatTheReplacementLacks) {
   const std::string file = FileWith(R"(  <module name="b" type="test/sink"/>
   <driving port="b/second" safe="0" command="effort"/>
-)", R"(<replace module="b" by="test/spare"/>)");
+)",
+                                    R"(<replace module="b" by="test/spare"/>)");
   Run(file);
   (void)shop.Get<Spare>("/demo/b");
   EXPECT_EQ(Text(), file);
@@ -206,7 +210,8 @@ TEST_F(RulesInForce, LeaveWhatIsSaidOfPortsThatTheReplacementLacks) {
 TEST_F(RulesInForce, AModuleThatComesBackHasTheMarksThatTheReplacementLacks) {
   Run(FileWith(R"(  <module name="b" type="test/sink"/>
   <driving port="b/second" safe="3" command="effort"/>
-)", R"(<replace module="b" by="test/spare"/>)", R"(<replace module="b" by="test/sink"/>)"));
+)",
+               R"(<replace module="b" by="test/spare"/>)", R"(<replace module="b" by="test/sink"/>)"));
   (void)shop.Get<Spare>("/demo/b");
   RunOn();
   const auto& port = shop.Get<Port>("/demo/b/input/second");
@@ -255,9 +260,11 @@ TEST_F(RulesInForce, ChangeWhatIsSaidOfAParameterThatTheReplacementLacks) {
 }
 
 TEST_F(RulesInForce, KeepTheOnlyConnectionOfARequiredInput) {
-  const std::string file = FileWith(R"(  <module name="f" type="test/filter"/>
+  const std::string file =
+      FileWith(R"(  <module name="f" type="test/filter"/>
   <connect from="a/value" to="f/value"/>
-)", R"(<switch input="f/value" from="a/value"/>)", R"(<switch input="f/value" to="a/value"/>)");
+)",
+               R"(<switch input="f/value" from="a/value"/>)", R"(<switch input="f/value" to="a/value"/>)");
   Run(file);
   ASSERT_TRUE(shop.Get<Port>("/demo/f/input/value").incoming().empty());
   EXPECT_EQ(Text(), file);

@@ -46,9 +46,8 @@ TEST_F(Driven, WhatAPersonHasSetStaysAndWhatIsReleasedMeanwhileIsSafeAgain) {
 }
 
 TEST_F(Driven, WhatARuleHasSetIsTheRulesToTakeBack) {
-  MustSucceed(robot.supervisor.Add(SupervisionRule{.when = SupervisionRule::When::kPaused,
-                                                   .of = "/infrared",
-                                                   .reaction = {.published = {{"/reader/in", "5"}}}}));
+  MustSucceed(robot.supervisor.Add(SupervisionRule{
+      .when = SupervisionRule::When::kPaused, .of = "/infrared", .reaction = {.published = {{"/reader/in", "5"}}}}));
   MustSucceed(robot.supervisor.SetPaused("/laser", true));
   MustSucceed(robot.supervisor.SetPaused("/infrared", true));
   RunOn();
@@ -59,9 +58,8 @@ TEST_F(Driven, WhatARuleHasSetIsTheRulesToTakeBack) {
 }
 
 TEST_F(Driven, ACommandFromBeforeThePauseDoesNotDriveWhenTheRuleTakesItsValueBack) {
-  SupervisionRule rule{.when = SupervisionRule::When::kPaused,
-                       .of = "/laser",
-                       .reaction = {.published = {{"/reader/in", "5"}}}};
+  SupervisionRule rule{
+      .when = SupervisionRule::When::kPaused, .of = "/laser", .reaction = {.published = {{"/reader/in", "5"}}}};
   rule.otherwise.TakeBack(rule.reaction);
   MustSucceed(robot.supervisor.Add(rule));
   MustSucceed(robot.supervisor.SetPaused("/laser", true));
@@ -113,14 +111,14 @@ TEST(StandstillInRealTime, APortHasItsSafeValueWhileTheThreadOfWhatFeedsItIsStuc
   AssignThread(other, apart);
   AssignThread(robot.laser, apart);
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
-  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
+  MustSucceed(
+      robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
   MustSucceed(robot.scheduler.SetStuckLimit("", 50ms));
   MustSucceed(robot.scheduler.Start());
   WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
   hangs = true;
   WaitUntil("the safe value is seen", [&] { return robot.seen == -7; });
-  EXPECT_THAT(robot.Messages(),
-              ::testing::Contains(HasSubstr("which runs /laser, does not return")));
+  EXPECT_THAT(robot.Messages(), ::testing::Contains(HasSubstr("which runs /laser, does not return")));
   hangs = false;
   hangs.notify_all();
   WaitUntil("the laser is seen again", [&] { return robot.seen == 1; });
@@ -162,13 +160,15 @@ TEST(StandstillInRealTime, APauseWaitsForNoOtherOne) {
   };
   AssignThread(other, CreateThread(robot.runtime, "apart", {.period = 10ms}));
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
-  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
+  MustSucceed(
+      robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
   MustSucceed(robot.scheduler.Start());
   WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
   hangs = true;
   WaitUntil("the other one is in a long cycle", [&] { return is_hanging.load(); });
   const auto pause = [&robot](const char* path) {
-    return std::async(std::launch::async, [&robot, path] { return robot.supervisor.SetPaused(path, true).has_value(); });
+    return std::async(std::launch::async,
+                      [&robot, path] { return robot.supervisor.SetPaused(path, true).has_value(); });
   };
   auto first = pause("/other");
   WaitUntil("it is paused from its next cycle on", [&] { return robot.scheduler.IsPaused(other); });
@@ -184,7 +184,8 @@ TEST(StandstillInRealTime, APauseWaitsForNoOtherOne) {
 
 TEST_F(Driven, ThatNoStopReachesAPortIsToldWhileItsOwnModuleIsPausedAndThatOneDoesAgain) {
   MustSucceed(robot.supervisor.SetPaused("/reader", true));
-  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("cannot be reached: /reader is paused; until it runs, no STOP counts there")));
+  EXPECT_THAT(robot.Messages(),
+              ElementsAre(HasSubstr("cannot be reached: /reader is paused; until it runs, no STOP counts there")));
   RunOn();
   EXPECT_THAT(robot.Messages(), IsEmpty());
   MustSucceed(robot.supervisor.SetPaused("/reader", false));
@@ -212,14 +213,17 @@ TEST(StandstillInRealTime, ThatNoStopReachesAPortIsToldWhileItsThreadIsStuck) {
   AssignThread(other, apart);
   AssignThread(robot.reader, apart);
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
-  MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
+  MustSucceed(
+      robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
   MustSucceed(robot.scheduler.SetStuckLimit("", 1h));
   MustSucceed(robot.scheduler.Start());
   WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
   hangs = true;
   std::vector<std::string> told;
   WaitUntil("it is told", [&] { return !(told = robot.Messages()).empty(); });
-  EXPECT_THAT(told, ElementsAre(HasSubstr("cannot be reached: a module of /threads/apart, which runs /reader, does not return")));
+  EXPECT_THAT(
+      told,
+      ElementsAre(HasSubstr("cannot be reached: a module of /threads/apart, which runs /reader, does not return")));
   {
     const std::lock_guard lock(robot.runtime.structure_mutex());
     EXPECT_THAT(robot.scheduler.WhyUnreached(robot.reader.in), HasSubstr("does not return"));

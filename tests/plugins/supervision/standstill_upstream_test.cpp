@@ -166,11 +166,11 @@ TEST_F(DrivenOver, WhatPassesWithItsStampIsTheBusinessOfThePortsTimeOut) {
 TEST_F(DrivenOver, ASourceThatARuleHasSwitchedAwayCountsAgainOnceItHasPublished) {
   MustSucceed(Port::Disconnect(passing.out, robot.reader.in));
   MustSucceed(Port::Connect(robot.laser.out, robot.reader.in));
-  MustSucceed(robot.supervisor.Add(SupervisionRule{
-      .when = SupervisionRule::When::kPaused,
-      .of = "/laser",
-      .reaction = {.changes = Switch(robot.reader.in, robot.laser.out, robot.infrared.out)},
-      .otherwise = {.changes = Switch(robot.reader.in, robot.infrared.out, robot.laser.out)}}));
+  MustSucceed(robot.supervisor.Add(
+      SupervisionRule{.when = SupervisionRule::When::kPaused,
+                      .of = "/laser",
+                      .reaction = {.changes = Switch(robot.reader.in, robot.laser.out, robot.infrared.out)},
+                      .otherwise = {.changes = Switch(robot.reader.in, robot.infrared.out, robot.laser.out)}}));
   MustSucceed(robot.supervisor.SetPaused("/laser", true));
   robot.laser_works = false;
   RunOn();
@@ -244,7 +244,8 @@ TEST_F(DrivenOver, APortHasItsSafeValueWhileWhatSetsAParameterOnTheWayIsPausedOr
 }
 
 TEST_F(DrivenOver, AReplacementIsNoPersonWhoHasSetTheParameter) {
-  MustSucceed(robot.modules.Add({"test/passing", "passes on", "test", [](const Placement& at) { return std::make_unique<Passing>(at); }}));
+  MustSucceed(robot.modules.Add(
+      {"test/passing", "passes on", "test", [](const Placement& at) { return std::make_unique<Passing>(at); }}));
   HeldOpen(*passing.open.Feed());
   MustSucceed(Port::Disconnect(dead_man.out, *passing.open.Feed()));
   RunOn();

@@ -23,7 +23,9 @@ class LettingGo : public StopButtonTest {
     std::this_thread::sleep_for(200ms);
     (void)scheduler.RunUntil(runtime.clock().Now() + 1s);
   }
-  void ExpectHeld() { EXPECT_TRUE(runtime.robot_stop().in_force()) << "released by " << runtime.robot_stop().state().by; }
+  void ExpectHeld() {
+    EXPECT_TRUE(runtime.robot_stop().in_force()) << "released by " << runtime.robot_stop().state().by;
+  }
 };
 
 class ValueByHand : public LettingGo, public ::testing::WithParamInterface<Port::Setter> {};

@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 
 #include "core/module/group.h"
+#include "core/port/stand_in.h"
 #include "plugins/application_tags/run_description.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/supervisor.h"
 #include "tests/plugins/application_files/reading/test_application.h"
-#include "core/port/stand_in.h"
 #include "tests/plugins/supervision/stop_button_fixture.h"
 
 namespace runnel::testing {
@@ -147,12 +147,14 @@ TEST(OperatorsTag, IsReadAndItsTimeChecked) {
 TEST(StopButtonTag, IsReadWithItsPortAndRefusesWhatIsNoNumber) {
   Workshop workshop;
   const auto errors = [&](const std::string& words) {
-    return workshop.Errors("<application name=\"demo\"><module name=\"a\" type=\"test/source\"/>" + words + "</application>");
+    return workshop.Errors("<application name=\"demo\"><module name=\"a\" type=\"test/source\"/>" + words +
+                           "</application>");
   };
   EXPECT_THAT(errors("<stop_button port=\"a/label\"/>"),
               HasSubstr("/demo/a/output/label: cannot be a stop button, as it sends a string"));
   Workshop several;
-  EXPECT_THAT(several.Errors("<application name=\"demo\"><module name=\"a\" type=\"test/source\"/><module name=\"b\" type=\"test/source\"/>"
+  EXPECT_THAT(several.Errors("<application name=\"demo\"><module name=\"a\" type=\"test/source\"/><module name=\"b\" "
+                             "type=\"test/source\"/>"
                              "<group name=\"g\"><port name=\"p\" type=\"double\" direction=\"input\"/></group>"
                              "<connect from=\"a/value\" to=\"g/p\"/><connect from=\"b/value\" to=\"g/p\"/>"
                              "<stop_button port=\"g/p\" releases=\"true\"/></application>"),

@@ -120,7 +120,8 @@ TEST_F(WayToStopButton, WhatComesOfATimeOutIsNotLetGo) {
 
 /// Whether of what has been told since it was asked last something has these words in it.
 bool IsTold(Supervisor& supervisor, std::string_view words) {
-  return std::ranges::any_of(supervisor.TakeNotices(), [&](const Notice& each) { return each.message.find(words) != std::string::npos; });
+  return std::ranges::any_of(supervisor.TakeNotices(),
+                             [&](const Notice& each) { return each.message.find(words) != std::string::npos; });
 }
 
 // A driver whose stamps are coarse, or whose module has read something slow as well.
@@ -170,11 +171,13 @@ TEST_F(WayToStopButton, ItReleasesOnlyAtTheOutputOfItsOwnDriver) {
   auto& passed = runtime.Create<Debouncing<Ageing::kPassedOn>>(app, "passed");
   auto& silent = runtime.Create<Debouncing<Ageing::kUnspecified>>(app, "silent");
   auto& mode = runtime.Create<Debouncing<Ageing::kSetOnce>>(app, "mode");
-  for (Port* const each : {static_cast<Port*>(&aged.in), static_cast<Port*>(&passed.in), static_cast<Port*>(&silent.in), static_cast<Port*>(&mode.in)}) {
+  for (Port* const each : {static_cast<Port*>(&aged.in), static_cast<Port*>(&passed.in), static_cast<Port*>(&silent.in),
+                           static_cast<Port*>(&mode.in)}) {
     MustSucceed(Port::Connect(panel.out, *each));
   }
   MustSucceed(runtime.MakeReady(runtime.root()));
-  EXPECT_THAT(refusal(aged.out), HasSubstr("/app/aged/output/out: cannot release the STOP, as its module makes it of /app/aged/input/in"));
+  EXPECT_THAT(refusal(aged.out),
+              HasSubstr("/app/aged/output/out: cannot release the STOP, as its module makes it of /app/aged/input/in"));
   EXPECT_THAT(refusal(passed.out), HasSubstr("makes it of"));
   EXPECT_THAT(refusal(silent.out), HasSubstr("makes it of"));
   EXPECT_EQ(refusal(mode.out), "");
@@ -200,7 +203,7 @@ TEST_F(WayToStopButton, WhereAnotherOneIsConnectedLaterNoneReleases) {
   rear.out.Publish(1);
   WaitForStop("the button");
   std::this_thread::sleep_for(200ms);  // until it is known that they are two
-  panel.out.Publish(0);  // as one that is up says again and again
+  panel.out.Publish(0);                // as one that is up says again and again
   WaitUntil("it is told", [&] {
     (void)scheduler.RunUntil(runtime.clock().Now() + 1s);
     rear.out.Publish(1);
@@ -245,7 +248,9 @@ TEST_F(WayToStopButton, WhatIsConnectedAnewReleasesNothing) {
 
 TEST_F(WayToStopButton, ItPressesWhenARuleSetsIt) {
   Add(panel.out);
-  MustSucceed(panel.out.PublishByHand([](void* value) -> Result<void> { return *static_cast<double*>(value) = 0, Result<void>(); }, Port::Setter::kRule));
+  MustSucceed(panel.out.PublishByHand(
+      [](void* value) -> Result<void> { return *static_cast<double*>(value) = 0, Result<void>(); },
+      Port::Setter::kRule));
   WaitForStop("/app/panel/output/out is set by hand, or by a rule");
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "plugins/supervision/supervisor.h"
-
 #include <atomic>
 #include <functional>
 
@@ -9,6 +7,7 @@
 
 #include "plugins/structure/structure_editor.h"
 #include "plugins/structure/value_by_hand.h"
+#include "plugins/supervision/supervisor.h"
 #include "tests/plugins/scheduling/test_modules.h"
 #include "tests/support/wait_until.h"
 
@@ -33,13 +32,12 @@ struct Robot {
     MustSucceed(runtime.MakeReady(runtime.root()));
   }
   SupervisionRule SwitchingRule() {
-    return {.of = reader.in.path(),
-            .after = 30ms,
-            .fresh_after = 50ms,
-            .reaction = {.changes = Switch(reader.in, laser.out, infrared.out),
-                         .description = "switched to infrared"},
-            .otherwise = {.changes = Switch(reader.in, infrared.out, laser.out),
-                         .description = "switched to the laser"}};
+    return {
+        .of = reader.in.path(),
+        .after = 30ms,
+        .fresh_after = 50ms,
+        .reaction = {.changes = Switch(reader.in, laser.out, infrared.out), .description = "switched to infrared"},
+        .otherwise = {.changes = Switch(reader.in, infrared.out, laser.out), .description = "switched to the laser"}};
   }
   std::vector<std::string> Messages() {
     std::vector<std::string> messages;
@@ -80,7 +78,8 @@ class Supervised : public ::testing::Test {
 class Driven : public Supervised {
  protected:
   Driven() {
-    MustSucceed(robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
+    MustSucceed(
+        robot.reader.in.SetDriving(true, {TypeOf<double>(), std::make_shared<double>(-7)}, {}, DrivingKind::kEffort));
     robot.scheduler.RunUntil(At(100));
     EXPECT_EQ(robot.seen, 1);
   }

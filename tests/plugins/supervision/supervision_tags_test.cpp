@@ -62,8 +62,7 @@ TEST_F(SupervisionTags, PublishValuesUntilAllIsWellAgain) {
                                 "  <publish port=\"sink/value\" value=\"-7\"/></on_stale>"),
               IsEmpty());
   Scheduler scheduler(workshop.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
-  Supervisor supervisor(workshop.runtime, scheduler,
-                        [](const ChangeSet&) { return Result<ChangeSet>(ChangeSet()); });
+  Supervisor supervisor(workshop.runtime, scheduler, [](const ChangeSet&) { return Result<ChangeSet>(ChangeSet()); });
   const auto application = workshop.runtime.root().Find("/demo");
   ASSERT_TRUE(AddRules(**application, scheduler, supervisor));
   const auto found = workshop.runtime.root().Find("/demo/sink/input/value");
@@ -89,16 +88,14 @@ TEST_F(SupervisionTags, RefuseValuesThatThePortCannotHave) {
   const std::string errors = workshop.ErrorsOf(
       "<on_stale input=\"sink/value\" after=\"30ms\"><publish port=\"sink/value\" value=\"much\"/>"
       "<publish port=\"sink/valeu\"/><publish prot=\"sink/value\"/><set value=\"1\"/></on_stale>");
-  EXPECT_THAT(errors, AllOf(HasSubstr("much"), HasSubstr("did you mean 'value'"),
-                            HasSubstr("did you mean 'port'"), HasSubstr("'parameter'"),
-                            Not(HasSubstr("failed"))));
+  EXPECT_THAT(errors, AllOf(HasSubstr("much"), HasSubstr("did you mean 'value'"), HasSubstr("did you mean 'port'"),
+                            HasSubstr("'parameter'"), Not(HasSubstr("failed"))));
 }
 
 TEST_F(SupervisionTags, MakeRulesOfModulesThatDoNotReturn) {
-  ASSERT_THAT(workshop.ErrorsOf(
-                  "<on_stuck of=\"a\" after=\"20ms\"><set parameter=\"b/gain\" value=\"2\"/>"
-                  "  <otherwise><set parameter=\"b/gain\" value=\"1\"/></otherwise></on_stuck>"
-                  "<on_stuck of=\".\" after=\"1s\"/>"),
+  ASSERT_THAT(workshop.ErrorsOf("<on_stuck of=\"a\" after=\"20ms\"><set parameter=\"b/gain\" value=\"2\"/>"
+                                "  <otherwise><set parameter=\"b/gain\" value=\"1\"/></otherwise></on_stuck>"
+                                "<on_stuck of=\".\" after=\"1s\"/>"),
               IsEmpty());
   Scheduler scheduler(workshop.runtime);
   std::vector<ChangeSet> done;
@@ -115,7 +112,8 @@ TEST_F(SupervisionTags, MakeRulesOfModulesThatDoNotReturn) {
   rules[0].on_stuck(Fault{"/demo/a", "is stuck"});
   rules[0].on_return(Fault{"/demo/a", "is stuck"});
   std::size_t told = 0;
-  test::WaitUntil("both have been carried out, in their order", [&] { return (told += supervisor.TakeNotices().size()) == 2; });
+  test::WaitUntil("both have been carried out, in their order",
+                  [&] { return (told += supervisor.TakeNotices().size()) == 2; });
   ASSERT_EQ(done.size(), 2u);
   EXPECT_EQ(std::get<SetParameter>(done[0][0]).value, "2");
   EXPECT_EQ(std::get<SetParameter>(done[1][0]).value, "1");
@@ -136,25 +134,21 @@ TEST_F(SupervisionTags, TellWhatIsWrongWithTheirPlace) {
   EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/value\" after=\"1s\">"
                                 "<switch input=\"sink/value\"/></on_stale>"),
               HasSubstr("neither"));
-  EXPECT_THAT(
-      workshop.ErrorsOf("<on_fault of=\"a\"><set parameter=\"a/gain\" value=\"99\"/></on_fault>"),
-      HasSubstr("/demo/a/parameter/gain"));
-  EXPECT_THAT(
-      workshop.ErrorsOf("<on_fault of=\"a\"><set parameter=\"a/text\" value=\"x\"/></on_fault>"),
-      HasSubstr("static"));
-  EXPECT_THAT(
-      workshop.ErrorsOf("<on_fault of=\"a\"><replace module=\"b\" by=\"test/sorce\"/></on_fault>"),
-      HasSubstr("test/source"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"a\"><set parameter=\"a/gain\" value=\"99\"/></on_fault>"),
+              HasSubstr("/demo/a/parameter/gain"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"a\"><set parameter=\"a/text\" value=\"x\"/></on_fault>"),
+              HasSubstr("static"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"a\"><replace module=\"b\" by=\"test/sorce\"/></on_fault>"),
+              HasSubstr("test/source"));
   EXPECT_THAT(workshop.ErrorsOf("<on_stuck of=\"nobody\" after=\"1s\"/>"), HasSubstr("nobody"));
   EXPECT_THAT(workshop.ErrorsOf("<on_stuck of=\"a\" after=\"0s\"/>"), HasSubstr("not longer"));
   EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"nobody\"><quit/></on_fault>"), HasSubstr("nobody"));
-  EXPECT_THAT(
-      workshop.ErrorsOf("<on_fault of=\"a\" action=\"quit\"><quit/></on_fault>"),
-      HasSubstr("one thing"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"a\" action=\"quit\"><quit/></on_fault>"), HasSubstr("one thing"));
 }
 
 TEST_F(SupervisionTags, AWordOfBeforeIsRefusedWithTheNewOne) {
-  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"a\"><stop/></on_fault>"), HasSubstr("what ends the run is called <quit/> now"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"a\"><stop/></on_fault>"),
+              HasSubstr("what ends the run is called <quit/> now"));
   EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"a\" action=\"stop_application\"/>"),
               HasSubstr("'stop_application' is not possible for action; there is 'quit'"));
 }

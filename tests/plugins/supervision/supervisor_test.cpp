@@ -152,7 +152,8 @@ TEST_F(Supervised, ARuleThatTakesItsValueBackLeavesWhatAnotherOneHolds) {
 
 // What is done about it may not do, and still the other rule's is done.
 TEST_F(Supervised, AReactionThatThrowsKeepsNeitherOthersNorTheEndOfTheRunAway) {
-  Supervisor throwing(robot.runtime, robot.scheduler, [](const ChangeSet&) -> Result<ChangeSet> { throw std::runtime_error("no memory"); });
+  Supervisor throwing(robot.runtime, robot.scheduler,
+                      [](const ChangeSet&) -> Result<ChangeSet> { throw std::runtime_error("no memory"); });
   SupervisionRule rule = robot.SwitchingRule();
   rule.reaction.ends_run = true;
   MustSucceed(throwing.Add(rule));
@@ -230,9 +231,7 @@ TEST_F(Supervised, ARuleThatCannotTakeItsValueBackSaysSo) {
 TEST_F(Supervised, AThreadThatOverrunsIsToldOnceAndThatItKeepsItsPeriodAgain) {
   robot.scheduler.RunUntil(At(1500));
   EXPECT_THAT(robot.Messages(), IsEmpty());
-  robot.infrared.action = [&](Doing& of) {
-    robot.scheduler.simulated_clock().Set(of.cycle_time() + 15ms);
-  };
+  robot.infrared.action = [&](Doing& of) { robot.scheduler.simulated_clock().Set(of.cycle_time() + 15ms); };
   robot.scheduler.RunUntil(At(5000));
   const auto late = robot.supervisor.TakeNotices();
   ASSERT_THAT(late, SizeIs(1));
@@ -253,8 +252,7 @@ TEST_F(Supervised, AModuleThatRunsOnDataIsSetOffByTheSourceThatItIsSwitchedTo) {
     ++runs;
     value = module.in.Get();
   };
-  AssignThread(listener, CreateThread(robot.runtime, "waiting",
-                                      {.activation = ThreadOptions::Activation::kTrigger}));
+  AssignThread(listener, CreateThread(robot.runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger}));
   AssignThread(latched, OnlyOnData());
   MustSucceed(Port::Connect(robot.laser.out, listener.in));
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));

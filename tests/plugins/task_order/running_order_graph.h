@@ -29,9 +29,7 @@ struct Graph {
   std::vector<std::uint64_t> ids;
   std::set<Edge> edges;
 
-  [[nodiscard]] auto Key(std::size_t task) const {
-    return std::tuple(phases[task], ids[task], task);
-  }
+  [[nodiscard]] auto Key(std::size_t task) const { return std::tuple(phases[task], ids[task], task); }
   [[nodiscard]] bool IsFeedback(const Edge& edge) const {
     return phases[edge.first] == Phase::kControl && phases[edge.second] == Phase::kSense;
   }
@@ -40,16 +38,14 @@ struct Graph {
 inline std::set<Edge> CutsOf(const RunningOrder& order, const std::deque<OrderedTask>& tasks) {
   std::set<Edge> cuts;
   const auto index = [&](const OrderedTask* task) {
-    return static_cast<std::size_t>(
-        std::ranges::find_if(tasks, [&](const auto& each) { return &each == task; }) -
-        tasks.begin());
+    return static_cast<std::size_t>(std::ranges::find_if(tasks, [&](const auto& each) { return &each == task; }) -
+                                    tasks.begin());
   };
   for (const Dependency* each : order.Cuts()) cuts.emplace(index(each->from), index(each->to));
   return cuts;
 }
 
-inline std::vector<std::size_t> OrderOf(const RunningOrder& order,
-                                        const std::deque<OrderedTask>& tasks) {
+inline std::vector<std::size_t> OrderOf(const RunningOrder& order, const std::deque<OrderedTask>& tasks) {
   std::map<const OrderedTask*, std::size_t> index;
   for (std::size_t i = 0; i < tasks.size(); ++i) index[&tasks[i]] = i;
   std::vector<std::size_t> result;
@@ -134,8 +130,7 @@ struct Living {
     }
     for (const std::size_t each : own) {
       order.Remove(tasks[each]);
-      std::erase_if(graph.edges,
-                    [&](const Edge& edge) { return edge.first == each || edge.second == each; });
+      std::erase_if(graph.edges, [&](const Edge& edge) { return edge.first == each || edge.second == each; });
     }
     for (const std::size_t each : own) order.Add(tasks[each]);
     for (std::size_t i = 1; i < own.size(); ++i) {

@@ -57,11 +57,10 @@ class ByTheRules {
 
  private:
   [[nodiscard]] bool IsThePlaceToCut(std::size_t task) const {
-    const bool waits_for_its_element = std::ranges::any_of(
-        before_[task], [&](std::size_t each) { return graph_.ids[each] == graph_.ids[task]; });
-    return !waits_for_its_element && std::ranges::all_of(Upstream(task), [&](std::size_t each) {
-      return Upstream(each).contains(task);
-    });
+    const bool waits_for_its_element =
+        std::ranges::any_of(before_[task], [&](std::size_t each) { return graph_.ids[each] == graph_.ids[task]; });
+    return !waits_for_its_element &&
+           std::ranges::all_of(Upstream(task), [&](std::size_t each) { return Upstream(each).contains(task); });
   }
   [[nodiscard]] std::set<std::size_t> Upstream(std::size_t task) const {
     std::set<std::size_t> found;
@@ -105,8 +104,7 @@ TEST(RunningOrderTest, StaysGoodAndCutsTheSameHoweverItCameAbout) {
         living.Replace(a);
       } else if (takes_away) {
         living.Toggle(
-            *std::next(living.graph.edges.begin(),
-                       static_cast<std::ptrdiff_t>(random() % living.graph.edges.size())));
+            *std::next(living.graph.edges.begin(), static_cast<std::ptrdiff_t>(random() % living.graph.edges.size())));
       } else {
         living.Toggle({a, random() % size});
       }

@@ -33,8 +33,7 @@ class AddingModule final : public Module {
     if (is_second_ = !is_second_; is_second_) return;
     double total = 0;
     if (values.Drain([&](const auto& value) { total += *value; }) == 0) total = values.Get();
-    if (total > limit.Get())
-      throw std::runtime_error("the sum is too large: " + std::to_string(total));
+    if (total > limit.Get()) throw std::runtime_error("the sum is too large: " + std::to_string(total));
     sum.Publish(total);
   }
   bool is_second_ = false;

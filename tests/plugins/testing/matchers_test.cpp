@@ -47,11 +47,9 @@ TEST(MatchersTest, OutputsHavePublishedValues) {
 TEST(MatchersTest, WithinSoManyCyclesSomethingIsPublished) {
   ModuleRig<AddingModule> rig;
   rig.Feed("values", 3.0);
-  EXPECT_EQ(Complaint(rig, PublishesWithin(1, rig.module.sum, Gt(2))),
-            "with an output that has published nothing");
+  EXPECT_EQ(Complaint(rig, PublishesWithin(1, rig.module.sum, Gt(2))), "with an output that has published nothing");
   EXPECT_THAT(rig, PublishesWithin(1, rig.module.sum, Gt(2)));
-  EXPECT_EQ(Complaint(rig, PublishesWithin(4, rig.module.sum, Gt(5))),
-            "with an output whose last is 3");
+  EXPECT_EQ(Complaint(rig, PublishesWithin(4, rig.module.sum, Gt(5))), "with an output whose last is 3");
   EXPECT_EQ(rig.now(), Time(6 * std::chrono::milliseconds(50)))
       << "cycles are run once, although GoogleTest asks twice";
 }
@@ -87,8 +85,7 @@ TEST(MatchersTest, WhoeverAllocatesLocksOrCallsTheSystemIsNamedWithTheCallsThatL
   rig.module.allocates = false;
   rig.RunCycle();
   rig.module.locks = true;
-  EXPECT_THAT(Complaint(rig, KeepsRealTime(1)),
-              HasSubstr("locks in its cycle (pthread_mutex_lock, once):\n"));
+  EXPECT_THAT(Complaint(rig, KeepsRealTime(1)), HasSubstr("locks in its cycle (pthread_mutex_lock, once):\n"));
 }
 
 TEST(MatchersTest, SystemCallsAreNamedWhereTheKernelTells) {
@@ -96,8 +93,8 @@ TEST(MatchersTest, SystemCallsAreNamedWhereTheKernelTells) {
   ModuleRig<HastyModule> rig;
   rig.module.calls = true;
   const std::string text = Complaint(rig, KeepsRealTime(2));
-  EXPECT_THAT(text, HasSubstr("calls the system in its cycle (system call " +
-                              std::to_string(SYS_getppid) + ", 2 times):\n"));
+  EXPECT_THAT(text,
+              HasSubstr("calls the system in its cycle (system call " + std::to_string(SYS_getppid) + ", 2 times):\n"));
   EXPECT_THAT(text, HasSubstr("HastyModule::Update()"));
 }
 

@@ -27,9 +27,7 @@ std::atomic<bool> has_failed{false};
 }
 // A sanitizer's runtime has this form, too, and its own blocks must not come to the functions below.
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return fails_elsewhere && std::this_thread::get_id() != test_thread
-             ? nullptr
-             : std::malloc(size == 0 ? 1 : size);
+  return fails_elsewhere && std::this_thread::get_id() != test_thread ? nullptr : std::malloc(size == 0 ? 1 : size);
 }
 [[gnu::noinline]] void operator delete(void* block) noexcept { std::free(block); }
 [[gnu::noinline]] void operator delete(void* block, std::size_t) noexcept { std::free(block); }
@@ -53,8 +51,7 @@ TEST_F(Traced, EndsWithoutMemoryAndTheApplicationGoesOn) {
   const auto finished = recorder->Finish();
   fails_elsewhere = false;
   ASSERT_FALSE(finished);
-  EXPECT_THAT(finished.error().message,
-              ::testing::HasSubstr("came to an early end: std::bad_alloc"));
+  EXPECT_THAT(finished.error().message, ::testing::HasSubstr("came to an early end: std::bad_alloc"));
 }
 
 }  // namespace

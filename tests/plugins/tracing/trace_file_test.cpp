@@ -32,17 +32,15 @@ class TraceFileTest : public ::testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
-  const std::string path_ = ::testing::TempDir() +
-                            ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-                            ".json";
+  const std::string path_ =
+      ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
 };
 
 TEST_F(TraceFileTest, IsAnArrayOfEvents) {
   TraceFile file = Make();
   const Time start = file.start();
   file.AddName(3, "\"thread_name\"", "\"name\":\"main\"");
-  file.AddSlice(3, "\"cycle\"", "cycle", start + 1'234'567ns, start + 1'234'567ns + 50ns,
-                "\"number\":1");
+  file.AddSlice(3, "\"cycle\"", "cycle", start + 1'234'567ns, start + 1'234'567ns + 50ns, "\"number\":1");
   file.AddInstant(3, "\"fault\"", "fault", start - 1ns, "");
   ASSERT_TRUE(file.Close());
   const json events = json::parse(Text());
@@ -116,7 +114,7 @@ TEST_F(TraceFileTest, IsWholeWhereTheDiskHasBecomeFull) {
     file.Flush();
   };
   add(10);
-  const struct rlimit until_the_second_event {std::filesystem::file_size(path_) * 23 / 20, before.rlim_max};
+  const struct rlimit until_the_second_event { std::filesystem::file_size(path_) * 23 / 20, before.rlim_max };
   setrlimit(RLIMIT_FSIZE, &until_the_second_event);
   add(10);
   const auto closed = file.Close();

@@ -58,8 +58,7 @@ class Drive final : public SenseControlModule {
   void Control() override {}
 };
 
-inline const std::string kLongMessage =
-    "is worn \"out\", " + std::string(100, 'x') + " and that is all";
+inline const std::string kLongMessage = "is worn \"out\", " + std::string(100, 'x') + " and that is all";
 
 class Faulty final : public Module {
  public:
@@ -127,12 +126,8 @@ class Traced : public ::testing::Test {
     return values;
   }
   // In whole nanoseconds, so that sums are exact.
-  static std::int64_t Begin(const json& event) {
-    return std::llround(event["ts"].get<double>() * 1e3);
-  }
-  static std::int64_t End(const json& event) {
-    return Begin(event) + std::llround(event.value("dur", 0.0) * 1e3);
-  }
+  static std::int64_t Begin(const json& event) { return std::llround(event["ts"].get<double>() * 1e3); }
+  static std::int64_t End(const json& event) { return Begin(event) + std::llround(event.value("dur", 0.0) * 1e3); }
   /// Whatever is on one track lies within one another or apart, and each of `inner` in one of `outer`.
   void ExpectWithin(const std::vector<json>& inner, const std::vector<json>& outer) {
     std::map<int, std::map<std::int64_t, std::int64_t>> ends;  // by track, then by their begin
@@ -152,9 +147,8 @@ class Traced : public ::testing::Test {
     }
   }
 
-  const std::string path = ::testing::TempDir() +
-                           ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-                           ".json";
+  const std::string path =
+      ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
   Runtime runtime;
   std::unique_ptr<TraceRecorder> recorder;
   std::optional<Scheduler> scheduler;

@@ -16,8 +16,7 @@ TEST_F(Traced, ShowsCyclesUpdatesAndPublicationsOfSimulatedThreads) {
   ASSERT_TRUE(Port::Connect(ticker.out, listener.in));
   auto& main = CreateThread(runtime, "main", {.period = 50ms});
   AssignThread(runtime.root(), main);
-  auto& waiting =
-      CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+  auto& waiting = CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
   AssignThread(listener, waiting);
   Ready();
   ASSERT_TRUE(scheduler->RunUntil(Time(1s)));
@@ -59,8 +58,7 @@ TEST_F(Traced, ShowsRealThreads) {
   auto& listener = Make<Listener>("listener");
   ASSERT_TRUE(Port::Connect(ticker.out, listener.in));
   AssignThread(ticker, CreateThread(runtime, "main", {.period = 1ms}));
-  AssignThread(listener, CreateThread(runtime, "waiting",
-                                      {.activation = ThreadOptions::Activation::kTrigger}));
+  AssignThread(listener, CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger}));
   Ready();
   ASSERT_TRUE(scheduler->Start());
   WaitUntil("there are a hundred publications", [&] { return ticker.out.publications() >= 100; });
@@ -78,8 +76,7 @@ TEST_F(Traced, ShowsRealThreads) {
 TEST_F(Traced, CountsWhatIsLost) {
   Begin(ClockKind::kReal, 64, 2ms);
   auto& listener = Make<Listener>("module");
-  auto& thread =
-      CreateThread(runtime, "main", {.activation = ThreadOptions::Activation::kFreeRunning});
+  auto& thread = CreateThread(runtime, "main", {.activation = ThreadOptions::Activation::kFreeRunning});
   Ready();
   ASSERT_TRUE(scheduler->Start());
   WaitUntil("there are ten thousand cycles", [&] { return thread.statistics().cycles >= 10'000; });
@@ -114,8 +111,7 @@ TEST_F(Traced, GoesOnOverSwapsAndOtherChangesOfTheStructure) {
   Begin(ClockKind::kSimulated);
   ModuleRegistry modules;
   ASSERT_TRUE(modules.Add({"test/ticker", "", "test", [](const Placement& placement) {
-                             return std::unique_ptr<FrameworkElement>(
-                                 std::make_unique<Ticker>(placement));
+                             return std::unique_ptr<FrameworkElement>(std::make_unique<Ticker>(placement));
                            }}));
   auto& app = runtime.Create<Group>(runtime.root(), "app");
   ASSERT_TRUE(modules.Create("test/ticker", app, "a"));
@@ -128,9 +124,7 @@ TEST_F(Traced, GoesOnOverSwapsAndOtherChangesOfTheStructure) {
     const auto outcome = editor.Apply(changes);
     ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
   };
-  const auto run = [&](Duration duration) {
-    ASSERT_TRUE(scheduler->RunUntil(runtime.clock().Now() + duration));
-  };
+  const auto run = [&](Duration duration) { ASSERT_TRUE(scheduler->RunUntil(runtime.clock().Now() + duration)); };
   run(100ms);
   must({ConnectPorts{"/app/a/out", "/app/b/in"}});
   must({ReplaceModule{"/app/a", "test/ticker"}});
@@ -148,8 +142,8 @@ TEST_F(Traced, GoesOnOverSwapsAndOtherChangesOfTheStructure) {
   EXPECT_EQ(EventsOf("update", "/app/c").size(), 10U + 5U + 5U);
   EXPECT_EQ(EventsOf("cycle").size(), 50U + 10U);
   const std::vector<std::string> changes{"connected /app/a/output/out to /app/b/input/in",
-                                         "put in /app/a (test/ticker)",
-                                         "put in /app/c (test/ticker)", "took out /app/a"};
+                                         "put in /app/a (test/ticker)", "put in /app/c (test/ticker)",
+                                         "took out /app/a"};
   for (const std::string& each : changes) {
     EXPECT_GE(EventsOf("structure", each).size(), 1U) << each;
   }
@@ -182,8 +176,7 @@ TEST_F(Traced, AllocatesNothingInItsCycles) {
   auto& ticker = Make<Ticker>("ticker");
   auto& listener = Make<Listener>("listener");
   ASSERT_TRUE(Port::Connect(ticker.out, listener.in));
-  AssignThread(listener, CreateThread(runtime, "waiting",
-                                      {.activation = ThreadOptions::Activation::kTrigger}));
+  AssignThread(listener, CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger}));
   AssignThread(ticker, CreateThread(runtime, "main", {.period = 1ms}));
   Ready();
   ASSERT_TRUE(scheduler->RunUntil(Time(20ms)));

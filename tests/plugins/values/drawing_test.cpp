@@ -37,8 +37,7 @@ std::string Scene(const Drawing& drawing) {
 TEST(DrawingTest, IsASceneForFoxglove) {
   const std::string json = Scene(Sketch());
   EXPECT_THAT(json, HasSubstr(R"("frame_id":"robot","id":"drawing")"));
-  EXPECT_THAT(json,
-              HasSubstr(R"("size":{"x":0.1,"y":0.1,"z":0.1},"color":{"r":1,"g":0,"b":0,"a":1})"));
+  EXPECT_THAT(json, HasSubstr(R"("size":{"x":0.1,"y":0.1,"z":0.1},"color":{"r":1,"g":0,"b":0,"a":1})"));
   EXPECT_THAT(json, HasSubstr(R"({"type":0,)"));
   EXPECT_THAT(json, HasSubstr(R"({"type":1,)"));
   EXPECT_THAT(json, HasSubstr(R"("color":{"r":0,"g":1,"b":0,"a":0.5})"));

@@ -66,8 +66,7 @@ inline void Describe(runnel::TypeBuilder<Label>& type) {
   type.Name("Label").Leaf({[](const void* at) { return static_cast<const Label*>(at)->text; },
                            [](std::string_view text, void* at) -> runnel::Result<void> {
                              if (text == "bad")
-                               return runnel::Error{.message = "'bad' is no label",
-                                                    .hint = "try good"};
+                               return runnel::Error{.message = "'bad' is no label", .hint = "try good"};
                              static_cast<Label*>(at)->text = text;
                              return {};
                            },
@@ -128,8 +127,8 @@ std::string WhyNot(std::string_view json) {
   if (read) return "it could be read";
   const Error& error = read.error();
   const SourcePosition& at = error.position;
-  return (at.line == 0 ? "" : std::to_string(at.line) + ":" + std::to_string(at.column) + " ") +
-         error.message + (error.hint.empty() ? "" : " | " + error.hint);
+  return (at.line == 0 ? "" : std::to_string(at.line) + ":" + std::to_string(at.column) + " ") + error.message +
+         (error.hint.empty() ? "" : " | " + error.hint);
 }
 
 }  // namespace runnel::test

@@ -34,12 +34,8 @@ void Describe(runnel::TypeBuilder<Robot3>& type) {
   type.Name("Robot3").SemanticTag("pose").Field("heading", &Robot3::heading).Field("x", &Robot3::x);
   type.Field("y", &Robot3::y).Field("z", &Robot3::z);
 }
-void Describe(runnel::TypeBuilder<Liar>& type) {
-  type.Name("Liar").SemanticTag("pose").Field("x", &Liar::x);
-}
-void Describe(runnel::TypeBuilder<Tree>& type) {
-  type.Name("Tree").Field("branches", &Tree::branches);
-}
+void Describe(runnel::TypeBuilder<Liar>& type) { type.Name("Liar").SemanticTag("pose").Field("x", &Liar::x); }
+void Describe(runnel::TypeBuilder<Tree>& type) { type.Name("Tree").Field("branches", &Tree::branches); }
 
 }  // namespace example
 

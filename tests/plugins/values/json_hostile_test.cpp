@@ -19,10 +19,8 @@ using testing::StartsWith;
 
 TEST(WrongJson, IsToldWithFieldAndCure) {
   EXPECT_EQ(WhyNot<Point>("{\"x\":1,\n \"z\":2}"), "Point has no field 'z' | did you mean 'x'?");
-  EXPECT_EQ(WhyNot<Everything>(R"({"points":[{},{"x":"1"}]})"),
-            R"(points[1].x: expected a number, found '"1"')");
-  EXPECT_EQ(WhyNot<Everything>(R"({"lable":"a"})"),
-            "Everything has no field 'lable' | did you mean 'label'?");
+  EXPECT_EQ(WhyNot<Everything>(R"({"points":[{},{"x":"1"}]})"), R"(points[1].x: expected a number, found '"1"')");
+  EXPECT_EQ(WhyNot<Everything>(R"({"lable":"a"})"), "Everything has no field 'lable' | did you mean 'label'?");
   EXPECT_EQ(WhyNot<Side>(R"("lfet")"), "there is no Side 'lfet' | did you mean 'left'?");
   EXPECT_EQ(WhyNot<Side>("5"), "there is no Side '5' | there is 'left', 'right'");
   EXPECT_EQ(WhyNot<Side>(R"("1")"), "there is no Side '1' | there is 'left', 'right'");
@@ -31,24 +29,19 @@ TEST(WrongJson, IsToldWithFieldAndCure) {
   EXPECT_EQ(WhyNot<Label>("7"), "expected a text in quotation marks, found '7'");
   EXPECT_EQ(WhyNot<bool>(R"("true")"), R"(expected true or false, found '"true"')");
   EXPECT_EQ(WhyNot<Point>(R"({"x":1,"x":2})"), "'x' is given twice");
-  EXPECT_EQ(WhyNot<std::uint8_t>("256"),
-            "'256' does not fit into uint8 | allowed are whole numbers 0 .. 255");
+  EXPECT_EQ(WhyNot<std::uint8_t>("256"), "'256' does not fit into uint8 | allowed are whole numbers 0 .. 255");
   EXPECT_THAT(WhyNot<int>("1.5"), StartsWith("'1.5' does not fit into int32"));
-  EXPECT_THAT(WhyNot<std::int64_t>("9223372036854775808"),
-              StartsWith("'9223372036854775808' does not fit into int64"));
+  EXPECT_THAT(WhyNot<std::int64_t>("9223372036854775808"), StartsWith("'9223372036854775808' does not fit into int64"));
   EXPECT_EQ(WhyNot<float>("1e60"), "'1e60' does not fit into float");
   EXPECT_EQ(WhyNot<std::vector<int>>("[1,null]"), "[1]: expected a whole number, found 'null'");
   EXPECT_EQ((WhyNot<std::array<std::int16_t, 2>>("[1]")), "1 elements are too few for a int16[2]");
-  EXPECT_EQ((WhyNot<std::array<std::int16_t, 2>>("[1,2,3]")),
-            "3 elements are too many for a int16[2]");
+  EXPECT_EQ((WhyNot<std::array<std::int16_t, 2>>("[1,2,3]")), "3 elements are too many for a int16[2]");
   EXPECT_EQ(WhyNot<Eigen::MatrixXd>("[[1,2],[3]]"), "the rows differ in length: 2 and 1");
   EXPECT_EQ(WhyNot<Eigen::MatrixXd>("[[1,2],[3,true]]"), "[1][1]: expected a number, found 'true'");
-  EXPECT_THAT(WhyNot<Everything>(R"({"fixed":[[1]]})"),
-              HasSubstr("fixed: 1 rows of 1 are no matrix"));
+  EXPECT_THAT(WhyNot<Everything>(R"({"fixed":[[1]]})"), HasSubstr("fixed: 1 rows of 1 are no matrix"));
   EXPECT_EQ(WhyNot<Duration>(R"({"sec":1,"nsec":1000000000})"),
             "'nsec' is a number from 0 to 999999999, not 1000000000");
-  EXPECT_EQ(WhyNot<Duration>(R"({"sec":9223372036,"nsec":854775808})"),
-            "a duration cannot be that long");
+  EXPECT_EQ(WhyNot<Duration>(R"({"sec":9223372036,"nsec":854775808})"), "a duration cannot be that long");
   EXPECT_EQ(WhyNot<Duration>(R"({"sec":1,"sec":2})"), "'sec' is given twice");
   EXPECT_EQ(WhyNot<Time>(R"({"secs":1})"), "time has no field 'secs' | did you mean 'sec'?");
 }
@@ -64,19 +57,17 @@ TEST(WrongJson, IsToldWithPlace) {
 }
 
 TEST(WrongJson, IsWhatTheStandardDoesNotKnow) {
-  for (const char* number :
-       {"",    "+1",       "01",  "1.",  ".5",  "1e", "1e+", "0x10",  "1_000", "NaN",
-        "nan", "Infinity", "- 1", "--1", "1 2", "1,", "1a",  "1.5.2", "/**/1", "'1'"}) {
+  for (const char* number : {"",    "+1",       "01",  "1.",  ".5",  "1e", "1e+", "0x10",  "1_000", "NaN",
+                             "nan", "Infinity", "- 1", "--1", "1 2", "1,", "1a",  "1.5.2", "/**/1", "'1'"}) {
     EXPECT_THAT(WhyNot<double>(number), StartsWith("1:")) << number;
   }
-  for (const char* text :
-       {"\"", "\"a", "'a'", "\"\n\"", "\"\\x\"", "\"\\u12\"", "\"\\u12g4\"", "\"\\ud800\"",
-        "\"\\ud800\\u0041\"", "\"\\udc00\"", "\"\\", "\"\\u", "\"\x80\"", "\"\xc0\xaf\"",
-        "\"\xed\xa0\x80\"", "\"\xf4\x90\x80\x80\"", "\"\xe2\x82\"", "a"}) {
+  for (const char* text : {"\"", "\"a", "'a'", "\"\n\"", "\"\\x\"", "\"\\u12\"", "\"\\u12g4\"", "\"\\ud800\"",
+                           "\"\\ud800\\u0041\"", "\"\\udc00\"", "\"\\", "\"\\u", "\"\x80\"", "\"\xc0\xaf\"",
+                           "\"\xed\xa0\x80\"", "\"\xf4\x90\x80\x80\"", "\"\xe2\x82\"", "a"}) {
     EXPECT_THAT(WhyNot<std::string>(text), MatchesRegex("[12]:.*")) << text;
   }
-  for (const char* object : {"{", "{\"x\"}", "{\"x\":}", "{\"x\":1,}", "{x:1}", "{\"x\":1 \"y\":2}",
-                             "{\"x\":1}}", "[", "{\"x\":1]", "nul", "{,}"}) {
+  for (const char* object : {"{", "{\"x\"}", "{\"x\":}", "{\"x\":1,}", "{x:1}", "{\"x\":1 \"y\":2}", "{\"x\":1}}", "[",
+                             "{\"x\":1]", "nul", "{,}"}) {
     EXPECT_THAT(WhyNot<Point>(object), StartsWith("1:")) << object;
   }
 }
@@ -120,17 +111,9 @@ TEST(WrongJson, DoesNoHarm) {
   value.branches.resize(1);
   const std::string whole = JsonOf(value);
   std::mt19937 random(5);
-  constexpr std::string_view kPieces[] = {"{",      "}",
-                                          "[",      "]",
-                                          ",",      ":",
-                                          "\"",     "\\",
-                                          "0",      "-",
-                                          "e",      ".",
-                                          "null",   "true",
-                                          "\xff",   "\\ud83e",
-                                          " ",      "\n",
-                                          "1e999",  "[[[[",
-                                          "\"x\":", "{\"branches\":["};
+  constexpr std::string_view kPieces[] = {
+      "{", "}",    "[",    "]",    ",",       ":", "\"", "\\",    "0",    "-",      "e",
+      ".", "null", "true", "\xff", "\\ud83e", " ", "\n", "1e999", "[[[[", "\"x\":", "{\"branches\":["};
   int accepted = 0;
   for (int i = 0; i < 100000; ++i) {
     std::string json = whole;

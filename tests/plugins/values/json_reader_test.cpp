@@ -38,8 +38,8 @@ TEST(JsonPart, KnowsWhatItIs) {
 }
 
 TEST(JsonPart, IsCheckedAsAWhole) {
-  for (const char* text : {"", "[", "[1,]", "{\"a\"}", "{\"a\":1,}", "1 2", "nul", "\"\x80\"",
-                           "[\"\\x\"]", "{\"a\":01}"}) {
+  for (const char* text :
+       {"", "[", "[1,]", "{\"a\"}", "{\"a\":1,}", "1 2", "nul", "\"\x80\"", "[\"\\x\"]", "{\"a\":01}"}) {
     EXPECT_FALSE(JsonPart::Parse(text)) << text;
   }
 }
@@ -47,8 +47,7 @@ TEST(JsonPart, IsCheckedAsAWhole) {
 TEST(JsonPart, IsNotReadIntoDepths) {
   EXPECT_TRUE(JsonPart::Parse("[[1]]", 2));
   EXPECT_FALSE(JsonPart::Parse("[[[]]]", 2));
-  EXPECT_EQ(JsonPart::Parse(std::string(1'000'000, '[')).error().message,
-            "it is nested deeper than 100 levels");
+  EXPECT_EQ(JsonPart::Parse(std::string(1'000'000, '[')).error().message, "it is nested deeper than 100 levels");
 }
 
 TEST(JsonMembers, RememberTheFirstThatIsWrong) {

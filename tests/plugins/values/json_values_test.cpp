@@ -40,21 +40,9 @@ class RandomValues {
   std::size_t Below(std::size_t end) { return random_() % end; }
 
   std::string Text() {
-    static const std::vector<std::string> kPieces = {"a",
-                                                     "\"",
-                                                     "\\",
-                                                     "/",
-                                                     "\n",
-                                                     "\r\t",
-                                                     std::string(1, '\0'),
-                                                     "\x1f",
-                                                     "\x7f",
-                                                     "ä",
-                                                     "€",
-                                                     "\xf0\x9f\xa4\x96",
-                                                     " ",
-                                                     "{[",
-                                                     "\xc2\x80"};
+    static const std::vector<std::string> kPieces = {
+        "a", "\"", "\\",      "/", "\n", "\r\t", std::string(1, '\0'), "\x1f", "\x7f", "ä", "€", "\xf0\x9f\xa4\x96",
+        " ", "{[", "\xc2\x80"};
     std::string text;
     for (std::size_t i = Below(8); i > 0; --i) text += kPieces[Below(kPieces.size())];
     return text;
@@ -86,8 +74,7 @@ class RandomValues {
     value.offset << Number<double>(), 0.1, -0.0;
     value.state = Eigen::VectorXd::Random(static_cast<Eigen::Index>(Below(9)));
     value.fixed.setRandom();
-    value.free = Eigen::MatrixXd::Random(static_cast<Eigen::Index>(1 + Below(3)),
-                                         static_cast<Eigen::Index>(Below(4)));
+    value.free = Eigen::MatrixXd::Random(static_cast<Eigen::Index>(1 + Below(3)), static_cast<Eigen::Index>(Below(4)));
     if (depth > 0) value.branches.push_back(Value(depth - 1));
     return value;
   }
@@ -112,8 +99,7 @@ TEST(JsonValues, ReadBackAsTheyWere) {
     // The text format keeps every bit, but it has a sign for NaN, which JSON has not.
     ASSERT_EQ(WithoutSignsOfNan(TextOf(read)), WithoutSignsOfNan(TextOf(value))) << json;
     ASSERT_EQ(JsonOf(read), json);
-    ASSERT_TRUE(nlohmann::json::accept(json.find("1e999") == std::string::npos ? json : "0"))
-        << json;
+    ASSERT_TRUE(nlohmann::json::accept(json.find("1e999") == std::string::npos ? json : "0")) << json;
   }
 }
 
@@ -146,8 +132,7 @@ TEST(JsonValues, KeepNumbersExactly) {
 }
 
 TEST(JsonValues, HaveNoNumberAndInfinityToo) {
-  EXPECT_EQ(JsonOf(std::vector<double>{std::nan(""), kInfinity, -kInfinity}),
-            "[null,1e999,-1e999]");
+  EXPECT_EQ(JsonOf(std::vector<double>{std::nan(""), kInfinity, -kInfinity}), "[null,1e999,-1e999]");
   EXPECT_EQ(JsonOf(std::vector<float>{NAN, INFINITY}), "[null,1e999]");
   EXPECT_EQ(JsonOf(std::vector<double>{1, -kInfinity}, {.has_infinity = false}), "[1,null]");
   const auto read = Read<std::vector<double>>("[null,1e999,-1e999,1e-999,0.0001e400,0e999]");
@@ -234,8 +219,7 @@ TEST(JsonSchema, SaysWhatIsInside) {
       "required":["x","y"]}})");
   expect("age", R"({"type":"object","title":"duration","properties":{"sec":{"type":"integer"},
       "nsec":{"type":"integer","minimum":0,"maximum":999999999}},"required":["sec","nsec"]})");
-  expect("branches",
-         R"({"type":"array","items":{"type":"object","title":"Everything","properties":{}}})");
+  expect("branches", R"({"type":"array","items":{"type":"object","title":"Everything","properties":{}}})");
 }
 
 }  // namespace

@@ -70,9 +70,8 @@ TEST(JsonWriter, ThrowsWhereThereIsNoMemoryForABracket) {
       json = "{}";
     }
   };
-  const std::size_t points =
-      test::AtEachPoint(test::InjectedFault::kAllocation, write,
-                        [&](bool has_struck) { EXPECT_EQ(json.size(), has_struck ? 2 : 502); });
+  const std::size_t points = test::AtEachPoint(test::InjectedFault::kAllocation, write,
+                                               [&](bool has_struck) { EXPECT_EQ(json.size(), has_struck ? 2 : 502); });
   EXPECT_GT(points, 2U);
 }
 

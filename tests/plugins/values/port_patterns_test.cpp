@@ -12,8 +12,8 @@ bool Fits(const std::vector<std::string>& patterns, const std::string& path) {
 TEST(PortPatterns, WithoutAnyAllPortsFit) { EXPECT_TRUE(Fits({}, "/app/robot/output/pose")); }
 
 TEST(PortPatterns, TheApplicationAndThePortsGroupMayBeLeftOut) {
-  for (const char* pattern : {"/app/robot/output/pose", "/app/robot/pose", "/robot/pose",
-                              "robot/pose", "pose", "/robot/output/pose"}) {
+  for (const char* pattern :
+       {"/app/robot/output/pose", "/app/robot/pose", "/robot/pose", "robot/pose", "pose", "/robot/output/pose"}) {
     EXPECT_TRUE(Fits({pattern}, "/app/robot/output/pose")) << pattern;
   }
   EXPECT_FALSE(Fits({"/pose"}, "/app/robot/output/pose"));

@@ -44,8 +44,7 @@ TEST(Triangulation, CoversStarsOfAllShapes) {
     std::vector<Place> ring;
     for (std::size_t k = 0; k < corners; ++k) {
       const double radius = 0.2 + static_cast<double>(random() % 1000) / 500.0;
-      const double angle =
-          6.283185307179586 * static_cast<double>(k) / static_cast<double>(corners);
+      const double angle = 6.283185307179586 * static_cast<double>(k) / static_cast<double>(corners);
       ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
     }
     ExpectCovered(ring);

@@ -39,8 +39,7 @@ class WatchedPortTest : public ::testing::Test {
       EXPECT_TRUE(found) << found.error().ToString();
     }
     std::optional<int> seen;
-    count = watched.VisitIfNew(
-        [&](const void* value, Time) { seen = *static_cast<const int*>(value); });
+    count = watched.VisitIfNew([&](const void* value, Time) { seen = *static_cast<const int*>(value); });
     EXPECT_EQ(count.has_value(), seen.has_value());
     return seen;
   }

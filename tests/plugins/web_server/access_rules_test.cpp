@@ -14,10 +14,8 @@ constexpr std::string_view kHost = "127.0.0.1:8765";
 constexpr std::uint32_t kOther = 4242;
 
 AccessRules Rules(std::vector<AccessToken> tokens = {}, std::vector<std::string> origins = {}) {
-  return AccessRules({.address = "0.0.0.0",
-                      .tokens = std::move(tokens),
-                      .origins = std::move(origins),
-                      .host_names = {"Robot.Lan"}});
+  return AccessRules(
+      {.address = "0.0.0.0", .tokens = std::move(tokens), .origins = std::move(origins), .host_names = {"Robot.Lan"}});
 }
 const std::vector<AccessToken> kTokens{{WebRole::kChange, "open-sesame"}, {WebRole::kLook, "just-look-7"}};
 
@@ -29,19 +27,17 @@ unsigned StatusOf(const std::variant<WebRole, AccessRules::Refusal>& access) {
 
 TEST(AccessRules, LetsWhoCallsItByAddressOrNameIn) {
   const AccessRules rules = Rules();
-  for (const char* host :
-       {"127.0.0.1:8765", "127.0.0.1", "localhost:8765", "LOCALHOST", "[::1]:8765", "[::1]",
-        "192.168.1.7:8765", "robot.lan:8765", "ROBOT.LAN"}) {
+  for (const char* host : {"127.0.0.1:8765", "127.0.0.1", "localhost:8765", "LOCALHOST", "[::1]:8765", "[::1]",
+                           "192.168.1.7:8765", "robot.lan:8765", "ROBOT.LAN"}) {
     EXPECT_FALSE(rules.Check({.target = "/", .host = host})) << host;
   }
 }
 
 TEST(AccessRules, RefusesNamesThatSomebodyElseLetsLeadHere) {
   const AccessRules rules = Rules();
-  for (const char* host : {"evil.example:8765", "localhost.evil.example", "127.0.0.1.evil.example",
-                           "127.0.0.1:8765.evil", "[::1", "[::1]evil", "", ":8765",
-                           "localhost:", "localhost:123456", "127.0.0.1 ",
-                           "[fe80::1%; script-src *]:8765"}) {
+  for (const char* host :
+       {"evil.example:8765", "localhost.evil.example", "127.0.0.1.evil.example", "127.0.0.1:8765.evil", "[::1",
+        "[::1]evil", "", ":8765", "localhost:", "localhost:123456", "127.0.0.1 ", "[fe80::1%; script-src *]:8765"}) {
     EXPECT_TRUE(rules.Check({.target = "/", .host = host})) << host;
   }
 }
@@ -87,15 +83,13 @@ TEST(AccessRules, TakesATokenFromAddressProtocolsOrAuthorization) {
   EXPECT_EQ(role({.target = "/?token=open-sesame"}), WebRole::kChange);
   EXPECT_EQ(role({.target = "/?a=b&token=just-look-7&c"}), WebRole::kLook);
   EXPECT_EQ(role({.target = "/", .authorization = "bearer open-sesame"}), WebRole::kChange);
-  EXPECT_EQ(role({.target = "/", .protocols = "runnel.inspector.v1, runnel.token.just-look-7"}),
-            WebRole::kLook);
+  EXPECT_EQ(role({.target = "/", .protocols = "runnel.inspector.v1, runnel.token.just-look-7"}), WebRole::kLook);
 }
 
 TEST(AccessRules, RefusesWhatIsAlmostTheToken) {
   const AccessRules rules = Rules(kTokens);
-  for (const char* target :
-       {"/?token=open-sesam", "/?token=open-sesame1", "/?token=", "/?token",
-        "/?mytoken=open-sesame", "/?token=OPEN-SESAME", "/token=open-sesame"}) {
+  for (const char* target : {"/?token=open-sesam", "/?token=open-sesame1", "/?token=", "/?token",
+                             "/?mytoken=open-sesame", "/?token=OPEN-SESAME", "/token=open-sesame"}) {
     EXPECT_EQ(StatusOf(rules.Admit({.target = target})), 401U) << target;
   }
   for (const char* shown : {"Basic open-sesame", "open-sesame", "Bearer", "Bearer open-sesame x"}) {
@@ -106,17 +100,14 @@ TEST(AccessRules, RefusesWhatIsAlmostTheToken) {
 
 TEST(AccessRules, LetsPagesOfItsOwnAndListedOriginsTalk) {
   const AccessRules rules = Rules({}, {"https://app.example.org"});
-  for (const char* origin : {"", "http://127.0.0.1:8765", "HTTP://127.0.0.1:8765",
-                             "https://127.0.0.1:8765", "https://app.example.org"}) {
-    EXPECT_EQ(StatusOf(rules.Admit({.target = "/", .host = kHost, .origin = origin})), 0U)
-        << origin;
+  for (const char* origin :
+       {"", "http://127.0.0.1:8765", "HTTP://127.0.0.1:8765", "https://127.0.0.1:8765", "https://app.example.org"}) {
+    EXPECT_EQ(StatusOf(rules.Admit({.target = "/", .host = kHost, .origin = origin})), 0U) << origin;
   }
   for (const char* origin :
        {"null", "http://127.0.0.1", "http://127.0.0.1:8766", "http://localhost:8765", "file://",
-        "http://127.0.0.1:8765.evil.example", "https://app.example.org.evil.example",
-        "http://app.example.org"}) {
-    EXPECT_EQ(StatusOf(rules.Admit({.target = "/", .host = kHost, .origin = origin})), 403U)
-        << origin;
+        "http://127.0.0.1:8765.evil.example", "https://app.example.org.evil.example", "http://app.example.org"}) {
+    EXPECT_EQ(StatusOf(rules.Admit({.target = "/", .host = kHost, .origin = origin})), 403U) << origin;
   }
 }
 
@@ -124,9 +115,7 @@ TEST(AccessRules, ASecretThatAPageKnowsIsWorthMoreThanWhereItComesFrom) {
   const AccessRules rules = Rules(kTokens);
   const std::string_view elsewhere = "https://elsewhere.example";
   EXPECT_EQ(StatusOf(rules.Admit({.target = "/", .host = kHost, .origin = elsewhere})), 401U);
-  EXPECT_EQ(StatusOf(rules.Admit(
-                {.target = "/?token=open-sesame", .host = kHost, .origin = elsewhere})),
-            0U);
+  EXPECT_EQ(StatusOf(rules.Admit({.target = "/?token=open-sesame", .host = kHost, .origin = elsewhere})), 0U);
 }
 
 TEST(AccessRules, KnowsWhichAddressesOnlyThisMachineReaches) {

@@ -16,9 +16,9 @@ using ::testing::Not;
 TEST(AccessTokens, HaveRolesOrMayChange) {
   const auto tokens = ParseAccessTokens("open-sesame look:just-look-7\n# who drives\n drive:green-car # new\n");
   ASSERT_TRUE(tokens) << tokens.error().ToString();
-  EXPECT_THAT(*tokens, ElementsAre(AccessToken{WebRole::kChange, "open-sesame"},
-                                   AccessToken{WebRole::kLook, "just-look-7"},
-                                   AccessToken{WebRole::kDrive, "green-car"}));
+  EXPECT_THAT(*tokens,
+              ElementsAre(AccessToken{WebRole::kChange, "open-sesame"}, AccessToken{WebRole::kLook, "just-look-7"},
+                          AccessToken{WebRole::kDrive, "green-car"}));
 }
 
 TEST(AccessTokens, AreLongEnoughAndFitIntoAddresses) {
@@ -26,9 +26,8 @@ TEST(AccessTokens, AreLongEnoughAndFitIntoAddresses) {
   EXPECT_TRUE(ParseAccessTokens("Ab-9._~xyz"));
   for (const std::string& text :
        {std::string("1234567"), std::string("with&sign"), std::string(129, 'x'), std::string("look:"),
-        std::string("admin:abcdefghij"), std::string("Look:abcdefghij"), std::string(),
-        std::string("# nothing\n"), std::string("look:abcdefghij change:abcdefghij"),
-        std::string("quote\"quote")}) {
+        std::string("admin:abcdefghij"), std::string("Look:abcdefghij"), std::string(), std::string("# nothing\n"),
+        std::string("look:abcdefghij change:abcdefghij"), std::string("quote\"quote")}) {
     const auto tokens = ParseAccessTokens(text);
     ASSERT_FALSE(tokens) << text;
     EXPECT_NE(tokens.error().hint, "") << text;
@@ -75,8 +74,8 @@ TEST_F(TokenFile, IsReadIfItsOwnerKeepsItForItself) {
   Write("look:just-look-7\nchange:open-sesame\n", perms::owner_read | perms::owner_write);
   const auto tokens = ReadAccessTokens(file_);
   ASSERT_TRUE(tokens) << tokens.error().ToString();
-  EXPECT_THAT(*tokens, ElementsAre(AccessToken{WebRole::kLook, "just-look-7"},
-                                   AccessToken{WebRole::kChange, "open-sesame"}));
+  EXPECT_THAT(*tokens,
+              ElementsAre(AccessToken{WebRole::kLook, "just-look-7"}, AccessToken{WebRole::kChange, "open-sesame"}));
 }
 
 TEST_F(TokenFile, ThatEverybodyMayReadIsRefusedWithTheCure) {

@@ -34,8 +34,7 @@ TEST_F(Attack, APageOfAnotherPlaceCannotTalk) {
   Start();
   for (const char* origin : {"http://evil.example", "https://evil.example:8765", "null", "file://",
                              "http://127.0.0.1:1", "http://localhost.evil.example"}) {
-    EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: " + std::string(origin) + "\r\n"),
-                StartsWith("HTTP/1.1 403 "))
+    EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: " + std::string(origin) + "\r\n"), StartsWith("HTTP/1.1 403 "))
         << origin;
   }
   EXPECT_EQ(met.begun, 0);
@@ -77,8 +76,8 @@ TEST_F(Attack, ANameThatHasBeenLedHereIsRefusedForPagesAndWebSockets) {
 
 TEST_F(Attack, NothingOfARequestComesIntoTheRulesForThePage) {
   Start();
-  for (const char* host : {"127.0.0.1; script-src *", "127.0.0.1:80; x", "[::1%; script-src *]",
-                           "[fe80::1%25lo;x]:80", "127.0.0.1:80 'unsafe-inline'"}) {
+  for (const char* host : {"127.0.0.1; script-src *", "127.0.0.1:80; x", "[::1%; script-src *]", "[fe80::1%25lo;x]:80",
+                           "127.0.0.1:80 'unsafe-inline'"}) {
     RawClient client = Client();
     client.Send("GET / HTTP/1.1\r\nHost: " + std::string(host) + "\r\n\r\n");
     EXPECT_THAT(client.Read(), Not(StartsWith("HTTP/1.1 200 "))) << host;
@@ -87,8 +86,8 @@ TEST_F(Attack, NothingOfARequestComesIntoTheRulesForThePage) {
 
 TEST_F(Attack, ATokenLeaksIntoNoAnswerNoCookieAndNoReferrer) {
   Start({.tokens = {{WebRole::kChange, "open-sesame"}}});
-  for (const char* target : {"/?token=open-sesame", "/access?token=open-sesame",
-                             "/nowhere?token=open-sesame", "/page.js?token=open-sesame"}) {
+  for (const char* target : {"/?token=open-sesame", "/access?token=open-sesame", "/nowhere?token=open-sesame",
+                             "/page.js?token=open-sesame"}) {
     const std::string answer = Client().Get(target);
     EXPECT_THAT(answer, Not(HasSubstr("open-sesame"))) << target;
     EXPECT_THAT(answer, Not(HasSubstr("Set-Cookie"))) << target;
@@ -107,8 +106,9 @@ TEST_F(Attack, APageWithTheBrowsersCookiesHasNoTokenByThem) {
 // A proxy says of whom it speaks what it likes; only the token counts.
 TEST_F(Attack, WhatAProxySaysOfItsClientIsNotBelieved) {
   Start({.tokens = {{WebRole::kChange, "open-sesame"}}, .host_names = {"robot.example.org"}});
-  EXPECT_THAT(Client().Upgrade("echo.v1", "X-Forwarded-For: 127.0.0.1\r\nX-Forwarded-Host: localhost\r\n"
-                                          "X-Real-IP: 127.0.0.1\r\nForwarded: for=127.0.0.1\r\n"),
+  EXPECT_THAT(Client().Upgrade("echo.v1",
+                               "X-Forwarded-For: 127.0.0.1\r\nX-Forwarded-Host: localhost\r\n"
+                               "X-Real-IP: 127.0.0.1\r\nForwarded: for=127.0.0.1\r\n"),
               StartsWith("HTTP/1.1 401 "));
   RawClient proxied = Client();
   std::string handshake = kHandshake;
@@ -149,9 +149,8 @@ TEST_F(Attack, AnotherUserWhoHangsUpBeforeItIsAskedForIsRefused) {
 TEST_F(Attack, AnotherUserComesInWithTheTokenOrWhereAllMay) {
   if (geteuid() != 0) GTEST_SKIP() << "only the superuser can become another user";
   Start({.tokens = {{WebRole::kLook, "just-look-7"}}});
-  EXPECT_TRUE(AsAnotherUser([this] {
-    return Client().Upgrade("echo.v1, runnel.token.just-look-7").starts_with("HTTP/1.1 101 ");
-  }));
+  EXPECT_TRUE(AsAnotherUser(
+      [this] { return Client().Upgrade("echo.v1, runnel.token.just-look-7").starts_with("HTTP/1.1 101 "); }));
   EXPECT_TRUE(AsAnotherUser([this] { return Client().Upgrade("echo.v1").starts_with("HTTP/1.1 401 "); }));
   Start({.is_for_all_users = true});
   EXPECT_TRUE(AsAnotherUser([this] { return Client().Upgrade("echo.v1").starts_with("HTTP/1.1 101 "); }));

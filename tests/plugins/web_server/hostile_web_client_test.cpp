@@ -66,9 +66,8 @@ TEST_F(HostileWebClient, LongHeadersAreRefused) {
 
 TEST_F(HostileWebClient, BodiesAreRefused) {
   Start();
-  for (const std::string body :
-       {"Content-Length: 4\r\n\r\nbody", "Content-Length: 99999999999\r\n\r\n",
-        "Transfer-Encoding: chunked\r\n\r\n4\r\nbody\r\n0\r\n\r\n"}) {
+  for (const std::string body : {"Content-Length: 4\r\n\r\nbody", "Content-Length: 99999999999\r\n\r\n",
+                                 "Transfer-Encoding: chunked\r\n\r\n4\r\nbody\r\n0\r\n\r\n"}) {
     RawClient client = Client();
     client.Send("POST / HTTP/1.1\r\nHost: localhost\r\n" + body);
     const std::string answer = client.Read();
@@ -81,8 +80,7 @@ TEST_F(HostileWebClient, WhatIsNoRequestIsRefused) {
   Start();
   for (const std::string request :
        {"\r\n\r\nGET / HTTP/9.9\r\n\r\n", "GET\r\n\r\n", "\x16\x03\x01\x02garbage\r\n\r\n",
-        "GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: -1\r\n\r\n",
-        "GET / HTTP/1.1\r\n: no name\r\n\r\n",
+        "GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: -1\r\n\r\n", "GET / HTTP/1.1\r\n: no name\r\n\r\n",
         "GET / HTTP/1.1\r\nHost: a\r\nHost: localhost\r\n\r\n"}) {
     RawClient client = Client();
     client.Send(request);
@@ -109,8 +107,7 @@ TEST_F(HostileWebClient, FramesThatAreNoneEndTheSession) {
       {"a ping in parts", RawClient::Frame(9, "hi", false), 1002},
       {"a long ping", RawClient::Frame(9, std::string(126, 'x')), 1002},
       {"goes on with nothing", RawClient::Frame(0, "hi"), 1002},
-      {"begins anew in the middle", RawClient::Frame(1, "a", false) + RawClient::Frame(1, "b"),
-       1002},
+      {"begins anew in the middle", RawClient::Frame(1, "a", false) + RawClient::Frame(1, "b"), 1002},
       {"a closing of one byte", RawClient::Frame(8, "x"), 1002},
       {"no UTF-8", RawClient::Frame(1, "\xc3\x28"), 1007},
       {"half a letter", RawClient::Frame(1, "\xe2\x82"), 1007},
@@ -193,7 +190,8 @@ TEST_F(HostileWebClient, OfWhatWaitsThereIsABound) {
   for (int i = 0; i < 2000; ++i) flood += RawClient::Frame(1, "late");
   client.Send(flood);
   client.SendText("at once");
-  while (client.Receive(1).value().payload != "at once") {}
+  while (client.Receive(1).value().payload != "at once") {
+  }
   EXPECT_GE(met.too_many, 1000);
 }
 
@@ -212,7 +210,7 @@ TEST_F(HostileWebClient, AFloodOfPingsEndsTheSession) {
 TEST_F(HostileWebClient, OneThatDoesNotReadIsNotWrittenForAndLetGo) {
   Start({.limits = {.waiting_bytes = 1'000'000, .idle_time = 500ms}});
   RawClient client = Talker();
-  client.SendText("much");  // 10 MB
+  client.SendText("much");                                     // 10 MB
   EXPECT_TRUE(Eventually([&] { return met.refused >= 50; }));  // the system's buffers have taken some
   ExpectThatOthersAreServed();
   EXPECT_TRUE(Eventually([&] { return met.ended >= 1; }));
@@ -259,20 +257,16 @@ std::size_t RandomInputs() {
 TEST_F(HostileWebClient, RandomBytesDoNoHarm) {
   Start({.limits = kImpatient});
   std::mt19937 random(7);
-  const auto below = [&](std::size_t end) {
-    return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
-  };
+  const auto below = [&](std::size_t end) { return std::uniform_int_distribution<std::size_t>(0, end - 1)(random); };
   for (std::size_t i = 0; i < RandomInputs(); ++i) {
     std::string bytes;
     RawClient client = Client();
     if (below(2) == 0) {
-      bytes =
-          "GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n";
+      bytes = "GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n";
     } else {
       EXPECT_THAT(client.Upgrade("echo.v1"), HasSubstr("101 "));
       for (std::size_t frame = 0; frame < 4; ++frame) {
-        bytes += RawClient::Frame(static_cast<int>(below(16)), std::string(below(300), 'x'),
-                                  below(2) == 0);
+        bytes += RawClient::Frame(static_cast<int>(below(16)), std::string(below(300), 'x'), below(2) == 0);
       }
     }
     for (std::size_t change = below(5); change > 0; --change) {

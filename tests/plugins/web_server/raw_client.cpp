@@ -23,8 +23,7 @@ bool Await(int descriptor, short events) {
 
 }  // namespace
 
-RawClient::RawClient(std::uint16_t port)
-    : port_(port), descriptor_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+RawClient::RawClient(std::uint16_t port) : port_(port), descriptor_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
@@ -34,9 +33,7 @@ RawClient::RawClient(std::uint16_t port)
 }
 
 RawClient::RawClient(RawClient&& other) noexcept
-    : port_(other.port_),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      bytes_(std::move(other.bytes_)) {}
+    : port_(other.port_), descriptor_(std::exchange(other.descriptor_, -1)), bytes_(std::move(other.bytes_)) {}
 
 RawClient::~RawClient() {
   if (descriptor_ >= 0) close(descriptor_);
@@ -44,8 +41,7 @@ RawClient::~RawClient() {
 
 bool RawClient::Send(std::string_view bytes) const {
   while (!bytes.empty()) {
-    const ssize_t count =
-        send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    const ssize_t count = send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (count > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(count));
     } else if ((errno != EAGAIN && errno != EINTR) || !Await(descriptor_, POLLOUT)) {
@@ -102,8 +98,7 @@ std::string RawClient::Get(const std::string& target, const std::string& headers
   return answer;
 }
 
-std::string RawClient::Upgrade(const std::string& protocol, const std::string& headers,
-                               const std::string& target) {
+std::string RawClient::Upgrade(const std::string& protocol, const std::string& headers, const std::string& target) {
   Send("GET " + target + " HTTP/1.1\r\nHost: " + host() +
        "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n" +
@@ -177,8 +172,6 @@ int RawClient::Message::code() const {
   if (payload.size() < 2) return 0;
   return static_cast<unsigned char>(payload[0]) * 256 + static_cast<unsigned char>(payload[1]);
 }
-std::string RawClient::Message::reason() const {
-  return payload.size() < 2 ? "" : payload.substr(2);
-}
+std::string RawClient::Message::reason() const { return payload.size() < 2 ? "" : payload.substr(2); }
 
 }  // namespace runnel::test

@@ -28,8 +28,7 @@ class RawClient {
   std::string Get(const std::string& target, const std::string& headers = {});
 
   /// Asks for a WebSocket, and returns the head of the answer.
-  std::string Upgrade(const std::string& protocol, const std::string& headers = {},
-                      const std::string& target = "/");
+  std::string Upgrade(const std::string& protocol, const std::string& headers = {}, const std::string& target = "/");
   /// One frame, masked as clients have to.
   static std::string Frame(int operation, std::string_view payload, bool is_last = true);
   bool SendText(std::string_view text) const { return Send(Frame(1, text)); }

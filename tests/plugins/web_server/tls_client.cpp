@@ -46,8 +46,8 @@ TlsClient::~TlsClient() {
 }
 
 bool TlsClient::Send(std::string_view bytes) {
-  return is_open_ && SSL_write(state_->connection, bytes.data(), static_cast<int>(bytes.size())) ==
-                         static_cast<int>(bytes.size());
+  return is_open_ &&
+         SSL_write(state_->connection, bytes.data(), static_cast<int>(bytes.size())) == static_cast<int>(bytes.size());
 }
 
 std::string TlsClient::Read(std::string_view until) {

@@ -148,8 +148,7 @@ TEST_F(Tls, OtherAddressesNeedItOrAreSaidToBeInsecure) {
 class CertificateFiles : public Tls {
  protected:
   static Error ErrorOf(const std::string& certificate, const std::string& key) {
-    const auto started =
-        WebServer::Start({.port = 0, .certificate_file = certificate, .key_file = key}, {}, {});
+    const auto started = WebServer::Start({.port = 0, .certificate_file = certificate, .key_file = key}, {}, {});
     return started ? Error{} : started.error();
   }
 };
@@ -162,19 +161,18 @@ TEST_F(CertificateFiles, ThatAreWrongAreNamedWithACure) {
   struct Wrong {
     std::string certificate, key, file, message;
   };
-  for (const Wrong& wrong : std::vector<Wrong>{
-           {"/no/such.pem", ours->key, "/no/such.pem", "cannot be read"},
-           {ours->certificate, "/no/such.pem", "/no/such.pem", "cannot be read"},
-           {text, ours->key, text, "no certificate"},
-           {ours->certificate, text, text, "no key"},
-           {ours->certificate, "", ours->certificate, "no key"},
-           {"", ours->key, ours->key, "no certificate"},
-           {ours->certificate, other.key, other.key, "not that of the certificate"}}) {
+  for (const Wrong& wrong :
+       std::vector<Wrong>{{"/no/such.pem", ours->key, "/no/such.pem", "cannot be read"},
+                          {ours->certificate, "/no/such.pem", "/no/such.pem", "cannot be read"},
+                          {text, ours->key, text, "no certificate"},
+                          {ours->certificate, text, text, "no key"},
+                          {ours->certificate, "", ours->certificate, "no key"},
+                          {"", ours->key, ours->key, "no certificate"},
+                          {ours->certificate, other.key, other.key, "not that of the certificate"}}) {
     const Error error = ErrorOf(wrong.certificate, wrong.key);
     EXPECT_EQ(error.position.file, wrong.file);
     EXPECT_THAT(error.message, HasSubstr(wrong.message));
-    EXPECT_NE(error.message.find("cannot be read") != std::string::npos || !error.hint.empty(), false)
-        << error.message;
+    EXPECT_NE(error.message.find("cannot be read") != std::string::npos || !error.hint.empty(), false) << error.message;
   }
   std::filesystem::remove(text);
 }
@@ -189,8 +187,8 @@ TEST_F(CertificateFiles, AKeyThatEverybodyMayReadIsRefused) {
 
 TEST_F(CertificateFiles, AKeyWithAPasswordAsksNobody) {
   const std::string locked = ::testing::TempDir() + "locked.pem";
-  const std::string command = "umask 077; openssl pkey -aes128 -passout pass:1234 -in '" + ours->key +
-                              "' -out '" + locked + "' 2>/dev/null";
+  const std::string command =
+      "umask 077; openssl pkey -aes128 -passout pass:1234 -in '" + ours->key + "' -out '" + locked + "' 2>/dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0);
   const Error error = ErrorOf(ours->certificate, locked);
   EXPECT_EQ(error.position.file, locked);

@@ -48,10 +48,9 @@ TEST_F(WebPages, ForbidFramesForeignScriptsAndGuessing) {
 
 TEST_F(WebPages, NothingElseIsFound) {
   Start();
-  for (const char* target :
-       {"/../etc/passwd", "/..%2f..%2fetc/passwd", "/%2e%2e/etc/passwd", "//etc/passwd",
-        "/page.js/", "/page.js%00", "/PAGE.JS", "/./page.js", "/page.js#x", "/page", "etc/passwd",
-        "*", "\\", "http://127.0.0.1/page.js", "file:///etc/passwd"}) {
+  for (const char* target : {"/../etc/passwd", "/..%2f..%2fetc/passwd", "/%2e%2e/etc/passwd", "//etc/passwd",
+                             "/page.js/", "/page.js%00", "/PAGE.JS", "/./page.js", "/page.js#x", "/page", "etc/passwd",
+                             "*", "\\", "http://127.0.0.1/page.js", "file:///etc/passwd"}) {
     EXPECT_THAT(Client().Get(target), StartsWith("HTTP/1.1 404 ")) << target;
   }
 }
@@ -89,10 +88,8 @@ TEST_F(WebPages, AreGivenWithoutTheTokenAndSayWhichRoleOneHas) {
   const std::string wrong = Client().Get("/access", "Authorization: Bearer guess-guess\r\n");
   EXPECT_THAT(wrong, StartsWith("HTTP/1.1 401 "));
   EXPECT_THAT(wrong, Not(HasSubstr("guess-guess"))) << "what is shown stands in no answer";
-  EXPECT_THAT(Client().Get("/access", "Authorization: Bearer open-sesame\r\n"),
-              HasSubstr("\r\n\r\nchange"));
-  EXPECT_THAT(Client().Get("/access", "Authorization: Bearer just-look-7\r\n"),
-              HasSubstr("\r\n\r\nlook"));
+  EXPECT_THAT(Client().Get("/access", "Authorization: Bearer open-sesame\r\n"), HasSubstr("\r\n\r\nchange"));
+  EXPECT_THAT(Client().Get("/access", "Authorization: Bearer just-look-7\r\n"), HasSubstr("\r\n\r\nlook"));
 }
 
 TEST_F(WebPages, ATokenIsMadeWhereOthersCanReachTheAddress) {

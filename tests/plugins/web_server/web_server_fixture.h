@@ -95,11 +95,11 @@ class WebServerTest : public ::testing::Test {
  protected:
   void Start(WebServerOptions options = {}) {
     options.port = 0;
-    auto started = WebServer::Start(
-        options,
-        {{"/", "text/html", "<p>page</p>"}, {"/page.js", "text/javascript", "let page = 1"}},
-        {{{"echo.v1", "echo.v2", "echo.kept"},
-          [this](WebClient& client) { return std::make_unique<Echo>(client, met); }, "echo.kept"}});
+    auto started =
+        WebServer::Start(options, {{"/", "text/html", "<p>page</p>"}, {"/page.js", "text/javascript", "let page = 1"}},
+                         {{{"echo.v1", "echo.v2", "echo.kept"},
+                           [this](WebClient& client) { return std::make_unique<Echo>(client, met); },
+                           "echo.kept"}});
     ASSERT_TRUE(started) << started.error().ToString();
     server = std::move(*started);
   }

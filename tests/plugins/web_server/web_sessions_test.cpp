@@ -191,15 +191,11 @@ TEST_F(WebSessions, AreToldWhenTheServerEnds) {
 
 TEST_F(WebSessions, AreNotBegunByPagesOfOthers) {
   Start({.origins = {"https://app.example.org"}});
-  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: http://evil.example\r\n"),
-              StartsWith("HTTP/1.1 403 "));
+  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: http://evil.example\r\n"), StartsWith("HTTP/1.1 403 "));
   EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: null\r\n"), StartsWith("HTTP/1.1 403 "));
-  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: http://" + Client().host() + "\r\n"),
-              StartsWith("HTTP/1.1 101 "));
-  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: https://app.example.org\r\n"),
-              StartsWith("HTTP/1.1 101 "));
-  EXPECT_THAT(Client().Upgrade(
-                  "echo.v1", "Origin: https://app.example.org\r\nOrigin: http://evil.example\r\n"),
+  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: http://" + Client().host() + "\r\n"), StartsWith("HTTP/1.1 101 "));
+  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: https://app.example.org\r\n"), StartsWith("HTTP/1.1 101 "));
+  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: https://app.example.org\r\nOrigin: http://evil.example\r\n"),
               StartsWith("HTTP/1.1 400 "));
 }
 
@@ -221,8 +217,7 @@ TEST_F(WebSessions, TakeTheTokenAmongTheProtocolsAndDoNotRepeatIt) {
 }
 
 TEST_F(WebSessions, ThatMayDoMoreFindAPlace) {
-  Start({.tokens = {{WebRole::kChange, "open-sesame"}, {WebRole::kLook, "just-look-7"}},
-         .limits = {.clients = 2}});
+  Start({.tokens = {{WebRole::kChange, "open-sesame"}, {WebRole::kLook, "just-look-7"}}, .limits = {.clients = 2}});
   std::vector<RawClient> lookers;
   for (int i = 0; i < 2; ++i) {
     lookers.push_back(Client());

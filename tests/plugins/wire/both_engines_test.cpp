@@ -24,8 +24,8 @@ using MakeEngine = std::shared_ptr<WireEngine> (*)();
 class BothEnginesTest : public testing::TestWithParam<std::tuple<MakeEngine, MakeEngine, WireReach>> {
  protected:
   std::unique_ptr<WireParticipant> Join(WireEngine& engine, Members& members, const std::string& name) {
-    auto joined = engine.Join({.domain = domain_, .reach = std::get<2>(GetParam()), .name = name, .user_data = "of=" + name + ";"},
-                              members);
+    auto joined = engine.Join(
+        {.domain = domain_, .reach = std::get<2>(GetParam()), .name = name, .user_data = "of=" + name + ";"}, members);
     if (!joined) ADD_FAILURE() << joined.error().ToString();
     return std::move(*joined);
   }
@@ -40,7 +40,8 @@ class BothEnginesTest : public testing::TestWithParam<std::tuple<MakeEngine, Mak
 };
 
 TEST_P(BothEnginesTest, ValuesOfEachSizeArriveWithTheirTimeAndWriterAndTheLatchedOnesLate) {
-  const WireEndpointOptions topic{.topic = "rt/octets", .type = "bench::Octets", .qos = {.is_latched = true, .depth = 4}, .user_data = "hash=2;"};
+  const WireEndpointOptions topic{
+      .topic = "rt/octets", .type = "bench::Octets", .qos = {.is_latched = true, .depth = 4}, .user_data = "hash=2;"};
   constexpr std::size_t kSizes[] = {8, 129, 70'000, 6'220'804};
   const auto make = [](std::size_t size) {
     auto octets = std::make_shared<Octets>(size);
@@ -55,15 +56,14 @@ TEST_P(BothEnginesTest, ValuesOfEachSizeArriveWithTheirTimeAndWriterAndTheLatche
   auto writer = writing_->MakeWriter(topic, {});
   ASSERT_TRUE(writer) << writer.error().ToString();
   ASSERT_TRUE((*writer)->Write(make(kSizes[0]), 1'700'000'000'000'000'000));
-  const auto reader = reading_->MakeReader(
-      topic,
-      [&](const WireSample& sample) {
-        const std::lock_guard lock(mutex);
-        come.emplace_back(sample.octets.begin(), sample.octets.end());
-        times.push_back(sample.source_time);
-        writers.push_back(sample.writer);
-      },
-      {});
+  const auto reader = reading_->MakeReader(topic,
+                                           [&](const WireSample& sample) {
+                                             const std::lock_guard lock(mutex);
+                                             come.emplace_back(sample.octets.begin(), sample.octets.end());
+                                             times.push_back(sample.source_time);
+                                             writers.push_back(sample.writer);
+                                           },
+                                           {});
   ASSERT_TRUE(reader) << reader.error().ToString();
   for (std::size_t i = 0; i < std::size(kSizes); ++i) {
     if (i > 0) {
@@ -83,9 +83,9 @@ TEST_P(BothEnginesTest, ValuesOfEachSizeArriveWithTheirTimeAndWriterAndTheLatche
   // The writer is known by name, policies and user data, and goes.
   const WireId id = (*writer)->id();
   const auto is_writer = [&](const WireEndpoint& each) {
-    return each.id == id && each.handle == writers[0] && each.options.topic == topic.topic && each.options.type == topic.type &&
-           each.options.user_data == topic.user_data && each.options.qos.is_latched && each.options.qos.is_reliable &&
-           each.participant == writing_->id();
+    return each.id == id && each.handle == writers[0] && each.options.topic == topic.topic &&
+           each.options.type == topic.type && each.options.user_data == topic.user_data &&
+           each.options.qos.is_latched && each.options.qos.is_reliable && each.participant == writing_->id();
   };
   WaitUntil("the writer is known", [&] { return std::ranges::any_of(there_.endpoints(), is_writer); });
   WaitUntil("the member is known", [&] {

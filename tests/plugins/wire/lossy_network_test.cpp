@@ -48,19 +48,20 @@ void TakePictures(MakeLossyEngine make, int from, int to) {
   if (joined == nullptr) return;
   std::uint8_t last = 0;
   bool is_first = true;
-  const auto reader = joined->MakeReader(
-      Pictures(),
-      [&](const WireSample& sample) {
-        const auto number = std::to_integer<std::uint8_t>(sample.octets[4]);
-        bool is_right = sample.octets.size() >= kPictureSize && (number == 0 ? last == 0 : number == last + 1);
-        for (std::size_t i = 5; i < kPictureSize; ++i) is_right = is_right && sample.octets[i] == sample.octets[4];
-        last = number;
-        if (!is_right) (void)!write(to, "x", 1);
-        if (is_first) (void)!write(to, "m", 1);
-        is_first = false;
-        if (number == kPictures) (void)!write(to, "l", 1);
-      },
-      {});
+  const auto reader = joined->MakeReader(Pictures(),
+                                         [&](const WireSample& sample) {
+                                           const auto number = std::to_integer<std::uint8_t>(sample.octets[4]);
+                                           bool is_right = sample.octets.size() >= kPictureSize &&
+                                                           (number == 0 ? last == 0 : number == last + 1);
+                                           for (std::size_t i = 5; i < kPictureSize; ++i)
+                                             is_right = is_right && sample.octets[i] == sample.octets[4];
+                                           last = number;
+                                           if (!is_right) (void)!write(to, "x", 1);
+                                           if (is_first) (void)!write(to, "m", 1);
+                                           is_first = false;
+                                           if (number == kPictures) (void)!write(to, "l", 1);
+                                         },
+                                         {});
   if (reader) pause();
 }
 

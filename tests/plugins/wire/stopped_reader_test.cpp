@@ -22,8 +22,8 @@ namespace {
 
 using MakeEngine = std::shared_ptr<WireEngine> (*)();
 
-constexpr std::uint32_t kLast = 8000;     // of the values,
-constexpr std::size_t kSize = 1000;       // which are more than sockets have room for
+constexpr std::uint32_t kLast = 8000;  // of the values,
+constexpr std::size_t kSize = 1000;    // which are more than sockets have room for
 const WireEndpointOptions kNumbers = {.topic = "rt/numbers", .type = "Numbers"};
 
 std::shared_ptr<Octets> Numbered(std::uint32_t number) {
@@ -43,17 +43,17 @@ void ReadNumbers(MakeEngine make, unsigned domain, int to) {
   const auto engine = make();
   const auto joined = engine->Join({.domain = domain}, members);
   if (!joined) return;
-  const auto reader = (*joined)->MakeReader(
-      kNumbers,
-      [&](const WireSample& sample) {
-        std::uint32_t number = 0;
-        std::memcpy(&number, sample.octets.data() + 4, sizeof number);
-        if (number < newest) (void)Say(to, 'x');
-        newest = number;
-        if (!is_matched || number == kLast) (void)Say(to, number == kLast ? 'l' : 'm');
-        is_matched = true;
-      },
-      {});
+  const auto reader = (*joined)->MakeReader(kNumbers,
+                                            [&](const WireSample& sample) {
+                                              std::uint32_t number = 0;
+                                              std::memcpy(&number, sample.octets.data() + 4, sizeof number);
+                                              if (number < newest) (void)Say(to, 'x');
+                                              newest = number;
+                                              if (!is_matched || number == kLast)
+                                                (void)Say(to, number == kLast ? 'l' : 'm');
+                                              is_matched = true;
+                                            },
+                                            {});
   if (reader) pause();
 }
 

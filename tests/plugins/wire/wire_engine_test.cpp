@@ -166,10 +166,12 @@ TEST_P(WireEngineTest, ALargeValueArrivesWhole) {
   std::mutex mutex;
   Octets large;
   Arrived written;
-  const auto reader = b_->MakeReader(Topic(), [&](const WireSample& sample) {
-    const std::lock_guard lock(mutex);
-    large.assign(sample.octets.begin(), sample.octets.end());
-  }, {});
+  const auto reader = b_->MakeReader(Topic(),
+                                     [&](const WireSample& sample) {
+                                       const std::lock_guard lock(mutex);
+                                       large.assign(sample.octets.begin(), sample.octets.end());
+                                     },
+                                     {});
   const auto writer = a_->MakeWriter(Topic(), written.Counter());
   written.WaitFor([](const Arrived& all) { return all.matched == 1; });
   auto octets = std::make_shared<Octets>(1'000'004);
@@ -249,7 +251,8 @@ TEST_P(SocketEngineTest, NobodyButThisMachineReachesALoopback) {
     const int descriptor = std::atoi(entry.path().filename().c_str());
     sockaddr_in address{};
     socklen_t size = sizeof address;
-    if (getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0 || address.sin_family != AF_INET) continue;
+    if (getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0 || address.sin_family != AF_INET)
+      continue;
     ++count;
     sock_filter filter[4];
     socklen_t length = 4;
@@ -298,7 +301,8 @@ TEST_P(SocketEngineTest, OfExclusiveWritersTheStrongestCountsAndThenTheOther) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fake, WireEngineTest, testing::Values(&MakeFakeWire));
-INSTANTIATE_TEST_SUITE_P(SharedMemory, WireEngineTest, testing::Values([] { return MakeSharedMemoryWire(MakeFakeWire()); }));
+INSTANTIATE_TEST_SUITE_P(SharedMemory, WireEngineTest,
+                         testing::Values([] { return MakeSharedMemoryWire(MakeFakeWire()); }));
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SocketEngineTest);
 #ifdef RUNNEL_HAS_CYCLONE
 INSTANTIATE_TEST_SUITE_P(Cyclone, WireEngineTest, testing::Values(&MakeCycloneWire));

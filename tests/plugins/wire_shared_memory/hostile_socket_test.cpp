@@ -106,7 +106,8 @@ TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
   ASSERT_EQ(ftruncate(nonsense.number(), 100'000), 0);
   const std::string ones(100'000, '\xff');
   ASSERT_EQ(pwrite(nonsense.number(), ones.data(), ones.size(), 0), 100'000);
-  for (const Descriptor* const each : {&empty, &nonsense}) ASSERT_EQ(fcntl(each->number(), F_ADD_SEALS, F_SEAL_SHRINK), 0);
+  for (const Descriptor* const each : {&empty, &nonsense})
+    ASSERT_EQ(fcntl(each->number(), F_ADD_SEALS, F_SEAL_SHRINK), 0);
 
   const auto table = HoldTable::Make();
   const auto segment = WrittenSegment::Make(1000);

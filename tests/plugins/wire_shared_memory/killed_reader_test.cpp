@@ -72,14 +72,13 @@ TEST(KilledReaderTest, PublishingGoesOnForOthers) {
     const auto joined = engine->Join({.domain = domain}, nobody);
     if (!joined) return;
     std::vector<std::shared_ptr<const void>> kept;
-    const auto reader = (*joined)->MakeReader(
-        kHeldTopic,
-        [&](const WireSample& sample) {
-          if (sample.holder == nullptr || kept.size() == 10) return;
-          kept.push_back(sample.holder);
-          if (kept.size() == 10) (void)write(to, "h", 1);
-        },
-        {});
+    const auto reader = (*joined)->MakeReader(kHeldTopic,
+                                              [&](const WireSample& sample) {
+                                                if (sample.holder == nullptr || kept.size() == 10) return;
+                                                kept.push_back(sample.holder);
+                                                if (kept.size() == 10) (void)write(to, "h", 1);
+                                              },
+                                              {});
     pause();
   });
   Nobody nobody;
@@ -88,7 +87,8 @@ TEST(KilledReaderTest, PublishingGoesOnForOthers) {
   const auto reading = engine->Join({.domain = domain}, nobody);
   ASSERT_TRUE(writing && reading);
   std::atomic<int> shared{0};
-  const auto reader = (*reading)->MakeReader(kHeldTopic, [&](const WireSample& each) { shared += each.holder != nullptr; }, {});
+  const auto reader =
+      (*reading)->MakeReader(kHeldTopic, [&](const WireSample& each) { shared += each.holder != nullptr; }, {});
   const auto writer = (*writing)->MakeWriter(kHeldTopic, {});
   ASSERT_TRUE(reader && writer);
   std::atomic<bool> has_ended{false};

@@ -72,7 +72,8 @@ TEST(KilledWriterTest, ValuesComeFromTheNextOneAndItsMemoryIsNotKept) {
     const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
     const auto joined = engine->Join({.domain = domain}, nobody);
     ASSERT_TRUE(joined);
-    const auto reader = (*joined)->MakeReader(kTopic, [&](const WireSample& sample) { shared += sample.holder != nullptr; }, {});
+    const auto reader =
+        (*joined)->MakeReader(kTopic, [&](const WireSample& sample) { shared += sample.holder != nullptr; }, {});
     ASSERT_TRUE(reader);
     for (const Writer& each : writers) {
       const int before = shared;

@@ -114,17 +114,17 @@ void ReadPictures(MakeEngine make, unsigned domain, int from, int to) {
   const auto engine = MakeSharedMemoryWire(make());
   const auto joined = engine->Join({.domain = domain, .lease = std::chrono::seconds(2)}, nobody);
   if (!joined) return;
-  const auto reader = (*joined)->MakeReader(
-      kPictures,
-      [&](const WireSample& sample) {
-        if (!sample.flaw.empty()) return;
-        for (std::size_t i = 5; i < sample.octets.size(); ++i) {
-          if (sample.octets[i] != sample.octets[4]) (void)Tell(to, 'x');
-        }
-        char has_come = sample.holder != nullptr ? 's' : 'o';
-        if (wanted.compare_exchange_strong(has_come, '\0')) (void)Tell(to, has_come);
-      },
-      {});
+  const auto reader = (*joined)->MakeReader(kPictures,
+                                            [&](const WireSample& sample) {
+                                              if (!sample.flaw.empty()) return;
+                                              for (std::size_t i = 5; i < sample.octets.size(); ++i) {
+                                                if (sample.octets[i] != sample.octets[4]) (void)Tell(to, 'x');
+                                              }
+                                              char has_come = sample.holder != nullptr ? 's' : 'o';
+                                              if (wanted.compare_exchange_strong(has_come, '\0'))
+                                                (void)Tell(to, has_come);
+                                            },
+                                            {});
   while (reader && read(from, &told, 1) == 1) wanted = told;
 }
 

@@ -1,5 +1,3 @@
-#include "plugins/wire_shared_memory/segment_server.h"
-
 #include <memory>
 #include <set>
 #include <utility>
@@ -9,6 +7,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "plugins/wire_shared_memory/segment_server.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {

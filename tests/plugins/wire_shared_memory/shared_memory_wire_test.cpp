@@ -59,7 +59,9 @@ class SharedMemoryWireTest : public testing::Test {
     EXPECT_TRUE(joined);
     return std::move(*joined);
   }
-  static WireEndpointOptions Topic(const WireQos& qos = {}) { return {.topic = "rt/image", .type = "Image", .qos = qos}; }
+  static WireEndpointOptions Topic(const WireQos& qos = {}) {
+    return {.topic = "rt/image", .type = "Image", .qos = qos};
+  }
   // Of a writer that has found `readers`.
   std::unique_ptr<WireWriter> Write(WireParticipant& by, std::size_t readers, const WireQos& qos = {}) {
     auto made = by.MakeWriter(Topic(qos), [this](std::size_t count) { matched_ = count; });
@@ -155,7 +157,7 @@ TEST_F(SharedMemoryWireTest, WhoReadsSlowlyIsToldThatNewerValuesHaveTakenThePlac
     return !come.values.empty() && come.values.back().second == 4;
   });
   WaitUntilQuiet(*fake_);
-  EXPECT_EQ(come.flaws.size(), 1u);  // of those five, the first has gone when it is looked for
+  EXPECT_EQ(come.flaws.size(), 1u);           // of those five, the first has gone when it is looked for
   EXPECT_EQ(come.values.front().second, 77);  // held meanwhile
 }
 
@@ -175,7 +177,8 @@ TEST_F(SharedMemoryWireTest, WhatIsHeldStaysAsItIsWhateverIsWritten) {
   EXPECT_EQ(keeping.count(), 1000u);
   EXPECT_EQ(other.count(), 1000u);
   ASSERT_EQ(keeping.kept.size(), 3u);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(std::to_integer<int>(keeping.kept[static_cast<std::size_t>(i)].octets.back()), i);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(std::to_integer<int>(keeping.kept[static_cast<std::size_t>(i)].octets.back()), i);
 }
 
 TEST_F(SharedMemoryWireTest, WhoHoldsManyIsGivenOctetsToCopyAndOthersGoOn) {

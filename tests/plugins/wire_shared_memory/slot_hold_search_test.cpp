@@ -46,7 +46,9 @@ struct SlotSuite : rl::test_suite<SlotSuite<readers>, readers + 1> {
   }
 };
 
-TEST(SlotHoldSearch, WhatIsHeldIsTheValueThatWasToldOfAndNobodyWritesIt) { EXPECT_TRUE(Search<SlotSuite<1>>(100000, 4)); }
+TEST(SlotHoldSearch, WhatIsHeldIsTheValueThatWasToldOfAndNobodyWritesIt) {
+  EXPECT_TRUE(Search<SlotSuite<1>>(100000, 4));
+}
 TEST(SlotHoldSearch, EachOfTwoReadersKeepsIt) { EXPECT_TRUE(Search<SlotSuite<2>>(100000, 2)); }
 
 }  // namespace

@@ -10,8 +10,7 @@ namespace runnel::internal {
 namespace {
 
 btTransform Place(Point2 centre, double heading, double height) {
-  return btTransform(btQuaternion(btVector3(0, 0, 1), heading),
-                     btVector3(centre.x, centre.y, height / 2));
+  return btTransform(btQuaternion(btVector3(0, 0, 1), heading), btVector3(centre.x, centre.y, height / 2));
 }
 
 }  // namespace
@@ -26,8 +25,7 @@ BulletObstacles::BulletObstacles(const World& world, double bounds_height) {
   }
   if (world.bounds) AddRing(*world.bounds, bounds_height);
   if (triangles_.getNumTriangles() == 0) return;
-  AddObject(std::make_unique<btBvhTriangleMeshShape>(&triangles_, false),
-            btTransform::getIdentity());
+  AddObject(std::make_unique<btBvhTriangleMeshShape>(&triangles_, false), btTransform::getIdentity());
 }
 
 void BulletObstacles::AddTo(btDynamicsWorld& world) const {
@@ -47,8 +45,7 @@ void BulletObstacles::AddBox(const BoxObstacle& box) {
 }
 
 void BulletObstacles::AddCylinder(const CylinderObstacle& cylinder) {
-  AddObject(std::make_unique<btCylinderShapeZ>(
-                btVector3(cylinder.radius, cylinder.radius, cylinder.height / 2)),
+  AddObject(std::make_unique<btCylinderShapeZ>(btVector3(cylinder.radius, cylinder.radius, cylinder.height / 2)),
             Place(cylinder.centre, 0.0, cylinder.height));
 }
 

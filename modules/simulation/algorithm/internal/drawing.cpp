@@ -1,6 +1,7 @@
+#include "modules/simulation/algorithm/internal/drawing.h"
+
 #include <algorithm>
 
-#include "modules/simulation/algorithm/internal/drawing.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 
 namespace runnel::internal {
@@ -19,8 +20,7 @@ void DrawShapes(const World& world, Canvas& canvas, std::string_view wall_colour
   const std::string style = Style({"stroke-width", Decimal(edge)});
   if (world.bounds) {
     const auto [low, high] = canvas.extent();
-    canvas.svg().Rings({canvas.Pixels({low, {high.x, low.y}, high, {low.x, high.y}}),
-                        canvas.Pixels(*world.bounds)},
+    canvas.svg().Rings({canvas.Pixels({low, {high.x, low.y}, high, {low.x, high.y}}), canvas.Pixels(*world.bounds)},
                        style + " " + Style({"class", "bounds"}));
   }
   for (const PolygonObstacle& polygon : world.polygons) {
@@ -37,8 +37,8 @@ void DrawShapes(const World& world, Canvas& canvas, std::string_view wall_colour
   }
   for (const WallObstacle& wall : world.walls) {
     canvas.svg().Polyline(canvas.Pixels(wall.points),
-                          Style({"class", "wall", "fill", "none", "stroke", wall_colour,
-                                 "stroke-width", Decimal(canvas.scale() * wall.thickness + edge)}));
+                          Style({"class", "wall", "fill", "none", "stroke", wall_colour, "stroke-width",
+                                 Decimal(canvas.scale() * wall.thickness + edge)}));
   }
 }
 
@@ -63,9 +63,8 @@ std::vector<PathSample> Thinned(const std::vector<PathSample>& path, double scal
 
 /// A light casing below the coloured lines keeps crossings legible.
 void DrawLines(const std::vector<PathSample>& path, Canvas& canvas, bool is_casing) {
-  canvas.svg().OpenGroup(
-      Style({"class", is_casing ? "casing" : "path", "fill", "none", "stroke-linejoin", "round",
-             "stroke-linecap", "round", "stroke-width", is_casing ? "6" : "3"}));
+  canvas.svg().OpenGroup(Style({"class", is_casing ? "casing" : "path", "fill", "none", "stroke-linejoin", "round",
+                                "stroke-linecap", "round", "stroke-width", is_casing ? "6" : "3"}));
   std::size_t first = 0;
   for (std::size_t i = 1; i <= path.size(); ++i) {
     if (i < path.size() && path[i].mode == path[first].mode) continue;
@@ -73,8 +72,7 @@ void DrawLines(const std::vector<PathSample>& path, Canvas& canvas, bool is_casi
     for (std::size_t p = first; p < std::min(i + 1, path.size()); ++p) {
       line.push_back(canvas.Pixel(path[p].position));
     }
-    canvas.svg().Polyline(line,
-                          Style({"stroke", is_casing ? "#ffffff" : ColourOf(path[first].mode)}));
+    canvas.svg().Polyline(line, Style({"stroke", is_casing ? "#ffffff" : ColourOf(path[first].mode)}));
     first = i;
   }
   canvas.svg().CloseGroup();
@@ -83,10 +81,9 @@ void DrawLines(const std::vector<PathSample>& path, Canvas& canvas, bool is_casi
 void DrawArrow(Canvas& canvas, Point2 place, double direction, std::string_view colour) {
   const Pose2 pose = {place.x, place.y, direction};
   const double size = 6.5 / canvas.scale();
-  canvas.svg().Rings(
-      {canvas.Pixels({ToWorld(pose, {size, 0}), ToWorld(pose, {-size, 0.8 * size}),
-                      ToWorld(pose, {-0.5 * size, 0}), ToWorld(pose, {-size, -0.8 * size})})},
-      Style({"class", "arrow", "fill", colour, "stroke", "#ffffff", "stroke-width", "1"}));
+  canvas.svg().Rings({canvas.Pixels({ToWorld(pose, {size, 0}), ToWorld(pose, {-size, 0.8 * size}),
+                                     ToWorld(pose, {-0.5 * size, 0}), ToWorld(pose, {-size, -0.8 * size})})},
+                     Style({"class", "arrow", "fill", colour, "stroke", "#ffffff", "stroke-width", "1"}));
 }
 
 void DrawArrows(const std::vector<PathSample>& path, Canvas& canvas) {
@@ -96,8 +93,7 @@ void DrawArrows(const std::vector<PathSample>& path, Canvas& canvas) {
     const Point2 step = path[i].position - path[i - 1].position;
     const double length = Norm(step);
     for (; to_next < length; to_next += every) {
-      DrawArrow(canvas, path[i - 1].position + (to_next / length) * step, Direction(step),
-                ColourOf(path[i - 1].mode));
+      DrawArrow(canvas, path[i - 1].position + (to_next / length) * step, Direction(step), ColourOf(path[i - 1].mode));
     }
     to_next -= length;
   }
@@ -126,8 +122,7 @@ Canvas::Canvas(const Extent& extent) : extent_(extent) {
 }
 
 Point2 Canvas::Pixel(Point2 place) const {
-  return {kMargin + scale_ * (place.x - extent_.low.x),
-          kHeader + scale_ * (extent_.high.y - place.y)};
+  return {kMargin + scale_ * (place.x - extent_.low.x), kHeader + scale_ * (extent_.high.y - place.y)};
 }
 
 std::vector<Point2> Canvas::Pixels(const std::vector<Point2>& places) const {
@@ -140,26 +135,24 @@ void DrawFloor(Canvas& canvas) {
   canvas.svg().Rectangle({kMargin, kHeader}, kPlotWidth, canvas.plot_height(),
                          Style({"class", "floor", "fill", kFloor}));
   canvas.svg().OpenGroup(Style({"class", "grid", "stroke", "#e3e7ec", "stroke-width", "1"}));
-  for (double x = canvas.grid() * std::ceil(canvas.extent().low.x / canvas.grid());
-       x <= canvas.extent().high.x; x += canvas.grid()) {
-    canvas.svg().Line(canvas.Pixel({x, canvas.extent().low.y}),
-                      canvas.Pixel({x, canvas.extent().high.y}), "");
+  for (double x = canvas.grid() * std::ceil(canvas.extent().low.x / canvas.grid()); x <= canvas.extent().high.x;
+       x += canvas.grid()) {
+    canvas.svg().Line(canvas.Pixel({x, canvas.extent().low.y}), canvas.Pixel({x, canvas.extent().high.y}), "");
   }
-  for (double y = canvas.grid() * std::ceil(canvas.extent().low.y / canvas.grid());
-       y <= canvas.extent().high.y; y += canvas.grid()) {
-    canvas.svg().Line(canvas.Pixel({canvas.extent().low.x, y}),
-                      canvas.Pixel({canvas.extent().high.x, y}), "");
+  for (double y = canvas.grid() * std::ceil(canvas.extent().low.y / canvas.grid()); y <= canvas.extent().high.y;
+       y += canvas.grid()) {
+    canvas.svg().Line(canvas.Pixel({canvas.extent().low.x, y}), canvas.Pixel({canvas.extent().high.x, y}), "");
   }
   canvas.svg().CloseGroup();
 }
 
 void DrawObstacles(const World& world, Canvas& canvas) {
-  canvas.svg().OpenGroup(Style({"class", "obstacle-edges", "fill", "none", "stroke", kObstacleEdge,
-                                "stroke-linejoin", "round", "stroke-linecap", "round"}));
+  canvas.svg().OpenGroup(Style({"class", "obstacle-edges", "fill", "none", "stroke", kObstacleEdge, "stroke-linejoin",
+                                "round", "stroke-linecap", "round"}));
   DrawShapes(world, canvas, kObstacleEdge, 2.4);
   canvas.svg().CloseGroup();
-  canvas.svg().OpenGroup(Style({"class", "obstacles", "fill", kObstacle, "stroke-linejoin", "round",
-                                "stroke-linecap", "round"}));
+  canvas.svg().OpenGroup(
+      Style({"class", "obstacles", "fill", kObstacle, "stroke-linejoin", "round", "stroke-linecap", "round"}));
   DrawShapes(world, canvas, kObstacle, 0.0);
   canvas.svg().CloseGroup();
   canvas.svg().Rectangle({kMargin, kHeader}, kPlotWidth, canvas.plot_height(),
@@ -173,9 +166,8 @@ void DrawScaleBar(Canvas& canvas) {
   canvas.svg().Line({left, y}, {right, y}, style);
   canvas.svg().Line({left, y - 4}, {left, y + 4}, style);
   canvas.svg().Line({right, y - 4}, {right, y + 4}, style);
-  canvas.svg().Text(
-      {left - 8, y + 4}, Decimal(canvas.grid(), 0) + " m",
-      Style({"class", "scale", "font-size", "13", "fill", kFaintInk, "text-anchor", "end"}));
+  canvas.svg().Text({left - 8, y + 4}, Decimal(canvas.grid(), 0) + " m",
+                    Style({"class", "scale", "font-size", "13", "fill", kFaintInk, "text-anchor", "end"}));
 }
 
 void DrawPath(const std::vector<PathSample>& path, Canvas& canvas) {

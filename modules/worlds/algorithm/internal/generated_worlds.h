@@ -15,9 +15,7 @@ namespace runnel::internal {
 [[nodiscard]] World MakeRing(const GeneratorOptions& options, Random& random);
 
 /// To whole millimetres, so that files can be read and no arithmetic shows in them.
-[[nodiscard]] inline double Rounded(double length) {
-  return std::round(length * 1000.0) / 1000.0 + 0.0;
-}
+[[nodiscard]] inline double Rounded(double length) { return std::round(length * 1000.0) / 1000.0 + 0.0; }
 [[nodiscard]] inline Point2 Rounded(Point2 point) { return {Rounded(point.x), Rounded(point.y)}; }
 
 /// By which gaps are made wider, since rounding may take it away again.

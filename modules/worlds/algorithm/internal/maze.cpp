@@ -34,8 +34,7 @@ class Maze {
 
   World Make() {
     World world;
-    world.bounds =
-        Ring{Corner(0, 0), Corner(columns_, 0), Corner(columns_, rows_), Corner(0, rows_)};
+    world.bounds = Ring{Corner(0, 0), Corner(columns_, 0), Corner(columns_, rows_), Corner(0, rows_)};
     const Point2 start = Middle({0, random_.Below(rows_)});
     world.start = {start.x, start.y, 0.0};
     const Cell last{columns_ - 1, random_.Below(rows_)};
@@ -50,9 +49,7 @@ class Maze {
     return static_cast<int>(size / (gap + kThickness + 2 * kRoundingMargin));
   }
   std::size_t Count() const { return static_cast<std::size_t>(columns_ * rows_); }
-  std::size_t Index(Cell cell) const {
-    return static_cast<std::size_t>(cell.row * columns_ + cell.column);
-  }
+  std::size_t Index(Cell cell) const { return static_cast<std::size_t>(cell.row * columns_ + cell.column); }
   bool IsInside(Cell cell) const {
     return cell.column >= 0 && cell.column < columns_ && cell.row >= 0 && cell.row < rows_;
   }
@@ -125,9 +122,17 @@ class Maze {
         }
       }
     };
-    add(columns_, rows_, [this](int line, int at) { return is_joined_right_[Index({line - 1, at})]; },
+    add(
+        columns_, rows_,
+        [this](int line, int at) {
+          return is_joined_right_[Index({line - 1, at})];
+        },
         [this](int line, int at) { return Corner(line, at); });
-    add(rows_, columns_, [this](int line, int at) { return is_joined_up_[Index({at, line - 1})]; },
+    add(
+        rows_, columns_,
+        [this](int line, int at) {
+          return is_joined_up_[Index({at, line - 1})];
+        },
         [this](int line, int at) { return Corner(at, line); });
   }
 
@@ -140,8 +145,6 @@ class Maze {
 
 }  // namespace
 
-World MakeMaze(const GeneratorOptions& options, Random& random) {
-  return Maze(options, random).Make();
-}
+World MakeMaze(const GeneratorOptions& options, Random& random) { return Maze(options, random).Make(); }
 
 }  // namespace runnel::internal

@@ -6,12 +6,11 @@ namespace runnel::internal {
 
 double Distance(const Segment2& a, const Segment2& b) {
   if (WhereItMeets(a, b)) return 0.0;
-  return std::min({runnel::Distance(a, b.from), runnel::Distance(a, b.to),
-                   runnel::Distance(b, a.from), runnel::Distance(b, a.to)});
+  return std::min(
+      {runnel::Distance(a, b.from), runnel::Distance(a, b.to), runnel::Distance(b, a.from), runnel::Distance(b, a.to)});
 }
 
-std::vector<Point2> Meeting(Point2 centre, double radius, const Segment2& segment,
-                            double tolerance) {
+std::vector<Point2> Meeting(Point2 centre, double radius, const Segment2& segment, double tolerance) {
   const Point2 along = segment.to - segment.from;
   const double length = Norm(along);
   if (length == 0.0) return {};
@@ -28,15 +27,13 @@ std::vector<Point2> Meeting(Point2 centre, double radius, const Segment2& segmen
   return points;
 }
 
-std::vector<Point2> Meeting(Point2 centre, double radius, Point2 other_centre, double other_radius,
-                            double tolerance) {
+std::vector<Point2> Meeting(Point2 centre, double radius, Point2 other_centre, double other_radius, double tolerance) {
   const Point2 gap = other_centre - centre;
   const double distance = Norm(gap);
   const bool is_apart = distance > radius + other_radius + tolerance;
   const bool is_within = distance < std::abs(radius - other_radius) - tolerance;
   if (distance <= tolerance || is_apart || is_within) return {};
-  const double foot =
-      (distance * distance + radius * radius - other_radius * other_radius) / (2.0 * distance);
+  const double foot = (distance * distance + radius * radius - other_radius * other_radius) / (2.0 * distance);
   const double half = std::sqrt(std::max(radius * radius - foot * foot, 0.0));
   const Point2 unit = (1.0 / distance) * gap, left{-unit.y, unit.x};
   const Point2 middle = centre + foot * unit;

@@ -22,10 +22,9 @@ namespace runnel::internal {
 
 /// Where circle and segment meet: no, one or two points. A tangent counts as one or as two that are
 /// nearly equal, if it touches within `tolerance`.
-[[nodiscard]] std::vector<Point2> Meeting(Point2 centre, double radius, const Segment2& segment,
-                                          double tolerance);
+[[nodiscard]] std::vector<Point2> Meeting(Point2 centre, double radius, const Segment2& segment, double tolerance);
 /// Where two circles meet. Equal circles meet nowhere.
-[[nodiscard]] std::vector<Point2> Meeting(Point2 centre, double radius, Point2 other_centre,
-                                          double other_radius, double tolerance);
+[[nodiscard]] std::vector<Point2> Meeting(Point2 centre, double radius, Point2 other_centre, double other_radius,
+                                          double tolerance);
 
 }  // namespace runnel::internal

@@ -9,9 +9,9 @@ namespace runnel::internal {
 namespace {
 
 constexpr double kShapePerArea = 0.07;  // 1/m²
-constexpr int kTriesPerShape = 60;    // in a ring, of all shapes together
-constexpr double kLeastRadius = 0.35;  // m
-constexpr double kRingShape = 0.7;     // m, the greatest radius in a ring
+constexpr int kTriesPerShape = 60;      // in a ring, of all shapes together
+constexpr double kLeastRadius = 0.35;   // m
+constexpr double kRingShape = 0.7;      // m, the greatest radius in a ring
 
 struct Disc {
   Point2 centre;
@@ -34,12 +34,11 @@ class Scatter {
     world_.goal = Rounded({x - goal_inset, random_.Between(-y + goal_inset, y - goal_inset)});
     taken_ = {{start, 0.0}, {world_.goal, options_.is_enclosed ? options_.gap : 0.0}};
     limits_ = Point2{x, y};
-    int left = options_.count > 0
-                   ? options_.count
-                   : static_cast<int>(kShapePerArea * options_.width * options_.height);
+    int left = options_.count > 0 ? options_.count : static_cast<int>(kShapePerArea * options_.width * options_.height);
     const double greatest = std::min({1.6, options_.width / 8, options_.height / 8});
     for (int tries = left * kTriesPerShape; left > 0 && tries > 0; --tries) {
-      const double along = random_.Between(-0.5, 0.5) * options_.width, up = random_.Between(-0.5, 0.5) * options_.height;
+      const double along = random_.Between(-0.5, 0.5) * options_.width,
+                   up = random_.Between(-0.5, 0.5) * options_.height;
       if (Place({{along, up}, random_.Between(kLeastRadius, greatest)})) --left;
     }
     return world_;
@@ -78,16 +77,14 @@ class Scatter {
     const double room = disc.radius + gap_;
     if (limits_ && std::abs(disc.centre.x) + room > limits_->x) return false;
     if (limits_ && std::abs(disc.centre.y) + room > limits_->y) return false;
-    return std::ranges::all_of(taken_, [&](const Disc& other) {
-      return Distance(other.centre, disc.centre) >= room + other.radius;
-    });
+    return std::ranges::all_of(
+        taken_, [&](const Disc& other) { return Distance(other.centre, disc.centre) >= room + other.radius; });
   }
 
   void Add(const Disc& disc, int shape) {
     switch (shape) {
       case 0:
-        world_.cylinders.push_back(
-            {.centre = Rounded(disc.centre), .radius = Rounded(disc.radius - kRoundingMargin)});
+        world_.cylinders.push_back({.centre = Rounded(disc.centre), .radius = Rounded(disc.radius - kRoundingMargin)});
         break;
       case 1:
         AddBox(disc);
@@ -116,8 +113,7 @@ class Scatter {
     PolygonObstacle polygon;
     for (int i = 0; i < corners; ++i) {
       const double direction = first + turn * (i + random_.Between(-0.3, 0.3));
-      polygon.outline.push_back(
-          Rounded(disc.centre + (disc.radius - kRoundingMargin) * UnitVector(direction)));
+      polygon.outline.push_back(Rounded(disc.centre + (disc.radius - kRoundingMargin) * UnitVector(direction)));
     }
     world_.polygons.push_back(std::move(polygon));
   }
@@ -146,12 +142,8 @@ class Scatter {
 
 }  // namespace
 
-World MakeScatter(const GeneratorOptions& options, Random& random) {
-  return Scatter(options, random).Make();
-}
+World MakeScatter(const GeneratorOptions& options, Random& random) { return Scatter(options, random).Make(); }
 
-World MakeRing(const GeneratorOptions& options, Random& random) {
-  return Scatter(options, random).MakeRings();
-}
+World MakeRing(const GeneratorOptions& options, Random& random) { return Scatter(options, random).MakeRings(); }
 
 }  // namespace runnel::internal

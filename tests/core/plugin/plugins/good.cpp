@@ -18,9 +18,7 @@ class Counter final : public Module {
 
 class Broken final : public Module {
  public:
-  explicit Broken(const Placement& placement) : Module(placement) {
-    throw std::runtime_error("the device is missing");
-  }
+  explicit Broken(const Placement& placement) : Module(placement) { throw std::runtime_error("the device is missing"); }
 
  private:
   void Update() override {}

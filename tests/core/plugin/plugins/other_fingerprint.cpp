@@ -2,7 +2,7 @@
 
 extern "C" __attribute__((visibility("default"))) const runnel::PluginEntry* RunnelPluginEntry() {
   // Never called: the handshake fails.
-  static const runnel::PluginEntry entry{runnel::kPluginAbiVersion, sizeof(runnel::PluginEntry),
-                                         "some other compiler", "other_fingerprint", nullptr};
+  static const runnel::PluginEntry entry{runnel::kPluginAbiVersion, sizeof(runnel::PluginEntry), "some other compiler",
+                                         "other_fingerprint", nullptr};
   return &entry;
 }

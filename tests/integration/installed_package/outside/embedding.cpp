@@ -18,9 +18,7 @@ int main(int count, char** words) {
     return 2;
   }
   if (const auto started = application->Start(); !started) return 1;
-  const auto pose = [&] {
-    return application->Read<Pose2>("/world/pose").value().value_or(Pose2{});
-  };
+  const auto pose = [&] { return application->Read<Pose2>("/world/pose").value().value_or(Pose2{}); };
   const auto drive = [&](double metres) {
     const Pose2 from = pose();
     while (std::hypot(pose().x - from.x, pose().y - from.y) < metres) {

@@ -13,8 +13,7 @@ class Wanderer final : public Module {
 
   Input<RangeScan> scan{this, "scan", {.required = true}};
   Output<Twist2> twist{this, "twist"};
-  Parameter<double> distance{
-      this, "distance", {.default_value = 0.6, .bounds = {0.2, 3.0}, .unit = "m"}};
+  Parameter<double> distance{this, "distance", {.default_value = 0.6, .bounds = {0.2, 3.0}, .unit = "m"}};
 
  private:
   void Update() override {

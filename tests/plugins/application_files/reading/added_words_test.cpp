@@ -26,17 +26,15 @@ XmlTag BeaconTag() {
                          {.name = "strength", .kind = AttributeKind::kCount}},
           .handle = [](const TagUse& use) -> FrameworkElement* {
             const XmlAttribute* const strength = use.Find("strength");
-            return &use.context.runtime().Create<Beacon>(
-                use.parent, use.Get("name").value,
-                strength != nullptr ? ParseCount(strength->value).value() : 1);
+            return &use.context.runtime().Create<Beacon>(use.parent, use.Get("name").value,
+                                                         strength != nullptr ? ParseCount(strength->value).value() : 1);
           }};
 }
 
 AddedAttribute NearAttribute(std::vector<std::string>& seen) {
   return {.tag = "module",
           .rule = {.name = "near", .kind = AttributeKind::kPath},
-          .handle = [&seen](const XmlAttribute& attribute, FrameworkElement& element,
-                            BuildContext& context) {
+          .handle = [&seen](const XmlAttribute& attribute, FrameworkElement& element, BuildContext& context) {
             context.Defer(BuildStage::kConnections, [&, &at = *element.parent()] {
               const FrameworkElement* const beacon = SearchElement(PathIn(attribute, at), context);
               if (beacon != nullptr) seen.push_back(element.path() + " at " + beacon->path());
@@ -84,16 +82,14 @@ TEST(AddedWords, AreCheckedLikeBuiltInOnes) {
 
 TEST(AddedWords, ThatThrowAreErrorsAtTheTag) {
   Workshop workshop;
-  workshop.tags.AddTag(
-      {.name = "now", .parents = {"application"}, .handle = [](const TagUse&) -> FrameworkElement* {
-         throw std::runtime_error("out of paper");
-       }});
-  workshop.tags.AddTag({.name = "later",
-                        .parents = {"application"},
-                        .handle = [](const TagUse& use) -> FrameworkElement* {
-                          use.context.Defer(BuildStage::kChecks, [] { throw 5; });
-                          return &use.parent;
+  workshop.tags.AddTag({.name = "now", .parents = {"application"}, .handle = [](const TagUse&) -> FrameworkElement* {
+                          throw std::runtime_error("out of paper");
                         }});
+  workshop.tags.AddTag(
+      {.name = "later", .parents = {"application"}, .handle = [](const TagUse& use) -> FrameworkElement* {
+         use.context.Defer(BuildStage::kChecks, [] { throw 5; });
+         return &use.parent;
+       }});
   workshop.tags.AddAttribute({.tag = "module",
                               .rule = {.name = "colour"},
                               .handle = [](const XmlAttribute&, FrameworkElement&, BuildContext&) {
@@ -116,10 +112,8 @@ TEST(AddedWords, MustBeNew) {
   tags.AddTag(BeaconTag());
   EXPECT_THROW(tags.AddTag(BeaconTag()), ElementError);
   EXPECT_THROW(tags.AddTag({.name = "module", .parents = {"group"}, .handle = {}}), ElementError);
-  EXPECT_THROW(tags.AddAttribute({.tag = "module", .rule = {.name = "name"}, .handle = {}}),
-               ElementError);
-  EXPECT_THROW(tags.AddAttribute({.tag = "modul", .rule = {.name = "x"}, .handle = {}}),
-               ElementError);
+  EXPECT_THROW(tags.AddAttribute({.tag = "module", .rule = {.name = "name"}, .handle = {}}), ElementError);
+  EXPECT_THROW(tags.AddAttribute({.tag = "modul", .rule = {.name = "x"}, .handle = {}}), ElementError);
 }
 
 TEST(AddedWords, GoWithARefusedPlugin) {

@@ -37,15 +37,14 @@ TEST(ApplicationErrors, NameTheNearestTagAndAttribute) {
 
 TEST(ApplicationErrors, TellOfTagsInTheWrongPlace) {
   Workshop workshop;
-  EXPECT_EQ(
-      workshop.Errors(R"(<application name="demo">
+  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
   <port name="x" direction="input" type="double"/>
   <application name="x"/>
 </application>)"),
-      "app.xml:2:3: error: /demo: no <port> may stand in <application>; it stands in <group>: "
-      "a port in the interface of its group; costs nothing at run time\n"
-      "app.xml:3:3: error: /demo: no <application> may stand in <application>; it is the root "
-      "of a file: a group that holds everything\n");
+            "app.xml:2:3: error: /demo: no <port> may stand in <application>; it stands in <group>: "
+            "a port in the interface of its group; costs nothing at run time\n"
+            "app.xml:3:3: error: /demo: no <application> may stand in <application>; it is the root "
+            "of a file: a group that holds everything\n");
 }
 
 TEST(ApplicationErrors, TellOfNamesThatAreTaken) {
@@ -89,8 +88,7 @@ TEST(ApplicationErrors, ComeAllAtOnce) {
   std::vector<int> lines;
   for (const Error& error : workshop.diagnostics.errors()) lines.push_back(error.position.line);
   std::ranges::sort(lines);
-  EXPECT_THAT(lines, ::testing::ElementsAre(2, 3, 4, 5, 6, 8, 11, 13))
-      << workshop.diagnostics.ToString();
+  EXPECT_THAT(lines, ::testing::ElementsAre(2, 3, 4, 5, 6, 8, 11, 13)) << workshop.diagnostics.ToString();
 }
 
 // Elements without a name of their own are called so while a wrong file is looked at.
@@ -113,8 +111,7 @@ TEST(ApplicationErrors, DoNotTakeANameForThatOfAnElementWithout) {
 
 TEST(ApplicationErrors, LeaveNothingHalfBuilt) {
   Workshop workshop;
-  workshop.Build(
-      R"(<application name="other"><module name="a" type="test/source"/></application>)");
+  workshop.Build(R"(<application name="other"><module name="a" type="test/source"/></application>)");
   EXPECT_EQ(workshop.Build(R"(<application name="demo">
     <group name="inner"><module name="a" type="test/source"/></group>
     <module name="sink" type="test/sink"/>
@@ -156,9 +153,9 @@ TEST(ApplicationErrors, OfFilesThatAreNoApplications) {
             "app.xml:1:1: error: /: <module> is not an application; an application file begins "
             "with <application>\n");
   EXPECT_THAT(workshop.Errors("<application"), HasSubstr("app.xml:1:"));
-  const BuildOutcome outcome = BuildApplication(
-      "/no/such/file.xml",
-      {workshop.runtime, workshop.plugins, workshop.tags, workshop.configuration}, BuildMode::kRun);
+  const BuildOutcome outcome =
+      BuildApplication("/no/such/file.xml", {workshop.runtime, workshop.plugins, workshop.tags, workshop.configuration},
+                       BuildMode::kRun);
   EXPECT_THAT(outcome.diagnostics.ToString(), HasSubstr("/no/such/file.xml: error: "));
 }
 

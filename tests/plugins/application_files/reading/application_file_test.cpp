@@ -190,11 +190,9 @@ TEST(ApplicationFile, CanBeBuiltTwiceUnderTwoNames) {
 
 TEST(ApplicationFile, CanBeLookedAtBeforeItIsMadeReady) {
   Workshop workshop;
-  const auto document =
-      XmlDocument::Parse("<application name='demo'><group name='g'/></application>", "app.xml");
+  const auto document = XmlDocument::Parse("<application name='demo'><group name='g'/></application>", "app.xml");
   const BuildOutcome outcome =
-      BuildApplication(*document, "/apps",
-                       {workshop.runtime, workshop.plugins, workshop.tags, workshop.configuration},
+      BuildApplication(*document, "/apps", {workshop.runtime, workshop.plugins, workshop.tags, workshop.configuration},
                        BuildMode::kConstruct);
   ASSERT_TRUE(outcome.application);
   const FrameworkElement& group = *outcome.application->FindChild("g");

@@ -11,8 +11,8 @@
 #include "core/types/type_info.h"
 #include "plugins/application_files/application_builder.h"
 #include "plugins/application_tags/run_description.h"
-#include "plugins/structure/type_names.h"
 #include "plugins/finroc_files/finroc_application.h"
+#include "plugins/structure/type_names.h"
 #include "tests/plugins/application_files/saving/application_text.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 
@@ -108,21 +108,20 @@ struct FileTrial::World : Workshop {
     const std::lock_guard lock(runtime.structure_mutex());
     FrameworkElement& root = runtime.root();
     std::string text = StructureText(root);
-    const bool is_annotated = root.FindAnnotation<SourcePlace>() != nullptr ||
-                              root.FindAnnotation<ApplicationSource>() != nullptr ||
-                              root.FindAnnotation<PartInstance>() != nullptr ||
-                              root.FindAnnotation<RunRules>() != nullptr ||
-                              neighbour->FindAnnotation<RunRules>() != nullptr ||
-                              SchedulerOptionsOf(root).clock != SchedulerOptions{}.clock ||
-                              SchedulerOptionsOf(*neighbour).clock != SchedulerOptions{}.clock;
+    const bool is_annotated =
+        root.FindAnnotation<SourcePlace>() != nullptr || root.FindAnnotation<ApplicationSource>() != nullptr ||
+        root.FindAnnotation<PartInstance>() != nullptr || root.FindAnnotation<RunRules>() != nullptr ||
+        neighbour->FindAnnotation<RunRules>() != nullptr ||
+        SchedulerOptionsOf(root).clock != SchedulerOptions{}.clock ||
+        SchedulerOptionsOf(*neighbour).clock != SchedulerOptions{}.clock;
     if (is_annotated) text += "annotated\n";
     root.Visit([&](FrameworkElement& each) {
       text += std::to_string(each.id()) + " " + std::to_string(int(each.life_cycle())) + "\n";
     });
     text += std::to_string(plugins.modules().All().size()) + " module types\n";
     for (const char* tag : {"application", "group", "module", "on_stale"}) {
-      text += std::to_string(tags.TagsIn(tag).size()) + " " +
-              std::to_string(tags.AddedAttributes(tag).size()) + " words\n";
+      text +=
+          std::to_string(tags.TagsIn(tag).size()) + " " + std::to_string(tags.AddedAttributes(tag).size()) + " words\n";
     }
     return text + std::to_string(RegisteredTypes().size()) + " types\n";
   }
@@ -163,8 +162,7 @@ struct FileTrial::World : Workshop {
 FileTrial::FileTrial(fs::path folder, const fs::path& corpus) : folder_(std::move(folder)) {
   fs::create_directories(folder_);
   for (const auto& entry : fs::directory_iterator(corpus)) {
-    fs::copy_file(entry.path(), folder_ / entry.path().filename(),
-                  fs::copy_options::overwrite_existing);
+    fs::copy_file(entry.path(), folder_ / entry.path().filename(), fs::copy_options::overwrite_existing);
   }
   WriteAll(folder_ / "itself.xml", kItself);
   WriteAll(folder_ / "old_itself.xml", kOldItself);
@@ -221,9 +219,8 @@ std::string FileTrial::TryDocument(World& world, const std::string& text, std::u
     const BuildTools tools = world.tools();
     const bool in_two_steps = with_scheduler && mode == BuildMode::kRun;
     const BuildMode first = in_two_steps ? BuildMode::kConstruct : mode;
-    BuildOutcome outcome =
-        is_old ? BuildFinrocApplication(*document, folder_ / "app.xml", tools, first)
-               : BuildApplication(*document, folder_, tools, first);
+    BuildOutcome outcome = is_old ? BuildFinrocApplication(*document, folder_ / "app.xml", tools, first)
+                                  : BuildApplication(*document, folder_, tools, first);
     if (in_two_steps) world.Run(outcome);
     return outcome;
   };
@@ -240,8 +237,7 @@ std::string FileTrial::TryDocument(World& world, const std::string& text, std::u
   // A check says what building says, and leaves nothing.
   const BuildOutcome checked = build(BuildMode::kCheck, false);
   if (checked.diagnostics.ToString() != outcome.diagnostics.ToString()) {
-    return "a check says\n" + checked.diagnostics.ToString() + "and building\n" +
-           outcome.diagnostics.ToString();
+    return "a check says\n" + checked.diagnostics.ToString() + "and building\n" + outcome.diagnostics.ToString();
   }
   return Judge(world, checked, before, BuildMode::kCheck);
 }
@@ -258,8 +254,7 @@ std::string FileTrial::TryAsPart(World& world, const std::string& text) {
   return Judge(world, outcome, before, BuildMode::kRun);
 }
 
-std::string FileTrial::Judge(World& world, const BuildOutcome& outcome, const std::string& before,
-                             BuildMode mode) {
+std::string FileTrial::Judge(World& world, const BuildOutcome& outcome, const std::string& before, BuildMode mode) {
   const std::string said = outcome.diagnostics.ToString();
   if (!UnwritableCharacter(said).empty()) return "it is told in letters that are none:\n" + said;
   if (!outcome.diagnostics.ok()) {
@@ -275,8 +270,7 @@ std::string FileTrial::Judge(World& world, const BuildOutcome& outcome, const st
   }
   const std::string after = world.Snapshot();
   if (after == before) return "";
-  return std::string(NameOf(mode)) + " leaves\n" + after + "instead of\n" + before + "and says\n" +
-         said;
+  return std::string(NameOf(mode)) + " leaves\n" + after + "instead of\n" + before + "and says\n" + said;
 }
 
 std::string FileTrial::JudgePlaces(const Diagnostics& diagnostics, const std::string& text) const {
@@ -299,8 +293,7 @@ std::string FileTrial::JudgePlaces(const Diagnostics& diagnostics, const std::st
 }
 
 // `text`: of the file that it came from.
-std::string FileTrial::TrySaving(World& world, FrameworkElement& application,
-                                 const std::string* text) {
+std::string FileTrial::TrySaving(World& world, FrameworkElement& application, const std::string* text) {
   ++counts_.saved;
   const auto saved = testing::ApplicationText(application, {world.plugins, world.tags}, folder_);
   // A new file knows no other application.
@@ -317,8 +310,7 @@ std::string FileTrial::TryAgain(const std::string& saved, const std::string& str
   World& world = *second_;
   const auto document = XmlDocument::Parse(saved, "saved.xml");
   if (!document) return "saved, it is no XML: " + document.error().ToString() + "\n" + saved;
-  const BuildOutcome outcome =
-      BuildApplication(*document, folder_, world.tools(), BuildMode::kConstruct);
+  const BuildOutcome outcome = BuildApplication(*document, folder_, world.tools(), BuildMode::kConstruct);
   if (outcome.application == nullptr) {
     return "saved, it cannot be loaded:\n" + outcome.diagnostics.ToString() + saved;
   }
@@ -327,12 +319,10 @@ std::string FileTrial::TryAgain(const std::string& saved, const std::string& str
   if (again != structure) {
     fault = "saved and loaded, it is\n" + again + "instead of\n" + structure + "by\n" + saved;
   }
-  const auto second =
-      testing::ApplicationText(*outcome.application, {world.plugins, world.tags}, folder_);
+  const auto second = testing::ApplicationText(*outcome.application, {world.plugins, world.tags}, folder_);
   // Interface ports may change places.
   if (fault.empty() && (!second || SortedLines(*second) != SortedLines(saved))) {
-    fault = "saved twice, it is\n" + (second ? *second : second.error().ToString()) +
-            "\ninstead of\n" + saved;
+    fault = "saved twice, it is\n" + (second ? *second : second.error().ToString()) + "\ninstead of\n" + saved;
   }
   if (auto deleted = world.runtime.Delete(*outcome.application); !deleted) second_.reset();
   return fault;

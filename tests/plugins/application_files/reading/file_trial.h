@@ -37,8 +37,7 @@ class FileTrial {
   std::string TryFile(World& world, const std::string& text, std::uint64_t number);
   std::string TryDocument(World& world, const std::string& text, std::uint64_t number);
   std::string TryAsPart(World& world, const std::string& text);
-  std::string Judge(World& world, const BuildOutcome& outcome, const std::string& before,
-                    BuildMode mode);
+  std::string Judge(World& world, const BuildOutcome& outcome, const std::string& before, BuildMode mode);
   std::string JudgePlaces(const Diagnostics& diagnostics, const std::string& text) const;
   std::string TrySaving(World& world, FrameworkElement& application, const std::string* text);
   std::string TryAgain(const std::string& saved, const std::string& structure);

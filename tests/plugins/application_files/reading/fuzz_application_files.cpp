@@ -42,8 +42,7 @@ void TellCrash(int signal) {
   char digits[24];
   char* at = digits + sizeof(digits) - 1;
   *at = '\0';
-  for (std::uint64_t left = current_number; at == digits + sizeof(digits) - 1 || left > 0;
-       left /= 10) {
+  for (std::uint64_t left = current_number; at == digits + sizeof(digits) - 1 || left > 0; left /= 10) {
     *--at = static_cast<char>('0' + left % 10);
   }
   Write("\ncrashed at input ");
@@ -84,17 +83,15 @@ void Watch(const std::atomic<bool>& is_over) {
 
 void PrintProgress(std::uint64_t done, const FileTrial& trial, double seconds) {
   const FileTrial::Counts& counts = trial.counts();
-  std::fprintf(
-      stderr, "\r%llu inputs (%.0f/s): %llu no XML, %llu refused, %llu built, %llu saved  ",
-      static_cast<unsigned long long>(done), static_cast<double>(done) / seconds,
-      static_cast<unsigned long long>(counts.unreadable),
-      static_cast<unsigned long long>(counts.refused),
-      static_cast<unsigned long long>(counts.built), static_cast<unsigned long long>(counts.saved));
+  std::fprintf(stderr, "\r%llu inputs (%.0f/s): %llu no XML, %llu refused, %llu built, %llu saved  ",
+               static_cast<unsigned long long>(done), static_cast<double>(done) / seconds,
+               static_cast<unsigned long long>(counts.unreadable), static_cast<unsigned long long>(counts.refused),
+               static_cast<unsigned long long>(counts.built), static_cast<unsigned long long>(counts.saved));
 }
 
 int Run(const Arguments& arguments) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() /
-                                       ("fuzz_application_files_" + std::to_string(getpid()));
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("fuzz_application_files_" + std::to_string(getpid()));
   RandomFiles files(arguments.seed, RUNNEL_CORPUS);
   FileTrial trial(folder, RUNNEL_CORPUS);
   const auto start = std::chrono::steady_clock::now();
@@ -107,8 +104,8 @@ int Run(const Arguments& arguments) {
     if (arguments.prints) std::printf("%s\n", text.c_str());
     if (const std::string fault = trial.Try(text, number); !fault.empty()) {
       ++faults;
-      std::printf("\n---- input %llu\n%s\n---- %s\n", static_cast<unsigned long long>(number),
-                  text.c_str(), fault.c_str());
+      std::printf("\n---- input %llu\n%s\n---- %s\n", static_cast<unsigned long long>(number), text.c_str(),
+                  fault.c_str());
     }
     if (done % 10'000 == 9'999 || done + 1 == arguments.count) {
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;

@@ -35,11 +35,10 @@ RUNNEL_PLUGIN(good_plugin, registry) {
                 .handle = [](const runnel::TagUse& use) -> runnel::FrameworkElement* {
                   return &use.context.runtime().Create<runnel::Group>(use.parent, "tower");
                 }});
-  tags->AddAttribute(
-      {.tag = "application",
-       .rule = {.name = "height", .kind = runnel::AttributeKind::kCount},
-       .handle = [](const runnel::XmlAttribute& attribute, runnel::FrameworkElement& element,
-                    runnel::BuildContext& context) {
-         context.runtime().Create<runnel::Group>(element, "height_" + attribute.value);
-       }});
+  tags->AddAttribute({.tag = "application",
+                      .rule = {.name = "height", .kind = runnel::AttributeKind::kCount},
+                      .handle = [](const runnel::XmlAttribute& attribute, runnel::FrameworkElement& element,
+                                   runnel::BuildContext& context) {
+                        context.runtime().Create<runnel::Group>(element, "height_" + attribute.value);
+                      }});
 }

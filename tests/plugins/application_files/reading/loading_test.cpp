@@ -30,17 +30,15 @@ TEST_F(Loading, BringsModuleTypesTagsAndAttributesWhereverItStands) {
 
 TEST_F(Loading, FindsFilesFromTheFolderOfTheApplication) {
   const auto document = XmlDocument::Parse(
-      R"(<application name="demo"><load plugin="./good_plugin.so"/><tower/></application>)",
-      "app.xml");
-  const BuildOutcome outcome = BuildApplication(
-      *document, TEST_PLUGIN_FOLDER, {runtime, plugins, tags, configuration}, BuildMode::kRun);
+      R"(<application name="demo"><load plugin="./good_plugin.so"/><tower/></application>)", "app.xml");
+  const BuildOutcome outcome =
+      BuildApplication(*document, TEST_PLUGIN_FOLDER, {runtime, plugins, tags, configuration}, BuildMode::kRun);
   EXPECT_TRUE(outcome.application) << outcome.diagnostics.ToString();
 }
 
 TEST_F(Loading, FindsFilesFromWhereTheProgramRunsIfTheApplicationHasNoFolder) {
   const auto document = XmlDocument::Parse(
-      R"(<application name="demo"><load plugin="./good_plugin.so"/><tower/></application>)",
-      "app.xml");
+      R"(<application name="demo"><load plugin="./good_plugin.so"/><tower/></application>)", "app.xml");
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(TEST_PLUGIN_FOLDER);
   const BuildOutcome outcome =
@@ -63,8 +61,7 @@ TEST_F(Loading, ThatFailsIsTheOnlyMistakeOfWhatThePluginBrings) {
                            "<group name=\"g\"><load plugin=\"good_plugin\"/></group>"}) {
     Workshop workshop;
     workshop.Build("<application name=\"demo\">" + std::string(load) + rest);
-    EXPECT_EQ(workshop.diagnostics.errors().size(), 1u) << load << ":\n"
-                                                        << workshop.diagnostics.ToString();
+    EXPECT_EQ(workshop.diagnostics.errors().size(), 1u) << load << ":\n" << workshop.diagnostics.ToString();
   }
 }
 
@@ -107,7 +104,8 @@ TEST_F(Loading, LeavesNothingOfARefusedPlugin) {
   <ruin/>
 </application>)"),
             "app.xml:2:3: error: /demo: no <ruin> may stand in <application>; there is 'clock', "
-            "'connect', 'driving', 'group', 'latency', 'load', 'log', 'module', 'on_fault', 'on_pause', 'on_stale', 'on_stuck' and 4 more\n");
+            "'connect', 'driving', 'group', 'latency', 'load', 'log', 'module', 'on_fault', 'on_pause', 'on_stale', "
+            "'on_stuck' and 4 more\n");
 }
 
 TEST_F(Loading, KeepsThePluginAfterAFailedBuild) {

@@ -75,7 +75,8 @@ TEST(OneMistake, InATagIsNoMistakeOfItsConnections) {
             "'module'?\n");
   EXPECT_EQ(WithSource(R"(<machine name="source" type="test/source"/>)"),
             "app.xml:2:3: error: /demo: no <machine> may stand in <application>; there is "
-             "'clock', 'connect', 'driving', 'group', 'latency', 'load', 'log', 'module', 'on_fault', 'on_pause', 'on_stale', 'on_stuck' and 4 more\n");
+            "'clock', 'connect', 'driving', 'group', 'latency', 'load', 'log', 'module', 'on_fault', 'on_pause', "
+            "'on_stale', 'on_stuck' and 4 more\n");
 }
 
 TEST(OneMistake, InANameIsNoMistakeOfItsConnections) {
@@ -209,8 +210,7 @@ TEST(Mistakes, InsideATagThatIsWrongItselfAreAllTold) {
 
 TEST(Mistakes, OfThreeElementsAreThree) {
   Workshop workshop;
-  EXPECT_EQ(
-      workshop.Errors(R"(<application name="demo">
+  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
   <module name="a" type="test/source">
     <parameter name="gian" value="1"/>
   </module>
@@ -222,13 +222,13 @@ TEST(Mistakes, OfThreeElementsAreThree) {
   <connect from="a/value" to="filter/value"/>
   <connect from="filter/value" to="sink/vlaue"/>
 </application>)"),
-      "app.xml:3:22: error: /demo/a: there is no parameter 'gian'; did you mean 'gain'?\n"
-      "app.xml:5:44: error: /demo/filter: <module> knows no 'colour'; there is 'thread', 'config', 'tags'\n"
-      "app.xml:7:3: error: /demo: <group> has no 'name'; add name=\"…\"\n"
-      "app.xml:8:32: error: /demo/inner: there is no module type 'test/sinc'; did you mean "
-      "'test/sink'?\n"
-      "app.xml:11:36: error: /demo: there is no 'vlaue' in /demo/sink; did you mean "
-      "'value'?\n");
+            "app.xml:3:22: error: /demo/a: there is no parameter 'gian'; did you mean 'gain'?\n"
+            "app.xml:5:44: error: /demo/filter: <module> knows no 'colour'; there is 'thread', 'config', 'tags'\n"
+            "app.xml:7:3: error: /demo: <group> has no 'name'; add name=\"…\"\n"
+            "app.xml:8:32: error: /demo/inner: there is no module type 'test/sinc'; did you mean "
+            "'test/sink'?\n"
+            "app.xml:11:36: error: /demo: there is no 'vlaue' in /demo/sink; did you mean "
+            "'value'?\n");
 }
 
 }  // namespace

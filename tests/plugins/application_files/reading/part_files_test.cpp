@@ -24,13 +24,11 @@ class PartFilesTest : public ::testing::Test {
   }
   ~PartFilesTest() override { std::filesystem::remove_all(folder_); }
 
-  void Write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-  }
+  void Write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
   // What building app.xml says; the folder is left out.
   std::string Errors(BuildMode mode = BuildMode::kRun) {
-    const BuildOutcome outcome = BuildApplication(
-        folder_ / "app.xml", {shop_.runtime, shop_.plugins, shop_.tags, shop_.configuration}, mode);
+    const BuildOutcome outcome =
+        BuildApplication(folder_ / "app.xml", {shop_.runtime, shop_.plugins, shop_.tags, shop_.configuration}, mode);
     std::string text = outcome.diagnostics.ToString();
     const std::string folder = folder_.string() + "/";
     for (auto at = text.find(folder); at != std::string::npos; at = text.find(folder)) {
@@ -81,10 +79,8 @@ TEST_F(PartFilesTest, MakeOneGroupForEachUse) {
   EXPECT_EQ(shop_.Get<Source>("/demo/right/source").gain.Get(), 7);
   EXPECT_EQ(shop_.Get<Source>("/demo/inner/third/source").count.Get(), 8);
   EXPECT_EQ(shop_.Get<Source>("/demo/left/source").count.Get(), 3);
-  EXPECT_EQ(shop_.Get<Source>("/demo/left/source").file.Get().text,
-            (folder_ / "parts/in_part.xml").string());
-  EXPECT_EQ(shop_.Get<Source>("/demo/right/source").file.Get().text,
-            (folder_ / "in_application.xml").string());
+  EXPECT_EQ(shop_.Get<Source>("/demo/left/source").file.Get().text, (folder_ / "parts/in_part.xml").string());
+  EXPECT_EQ(shop_.Get<Source>("/demo/right/source").file.Get().text, (folder_ / "in_application.xml").string());
   EXPECT_EQ(shop_.Get<Sink>("/demo/sink").value.Sources().size(), 1u);
   EXPECT_EQ(shop_.Get<FrameworkElement>("/demo/left").FindAnnotation<PartInstance>()->file,
             (folder_ / "parts/amplifier.xml").string());
@@ -240,10 +236,9 @@ TEST_F(PartFilesTest, ThatContainThemselvesAreRefusedWithTheWay) {
   Write("a.xml", "<group_type>\n  <group name=\"b\" type=\"b.xml\"/>\n</group_type>");
   Write("b.xml", "<group_type>\n <group name=\"a\" type=\"./a.xml\"/>\n</group_type>");
   Write("app.xml", "<application name=\"demo\">\n<group name=\"a\" type=\"a.xml\"/></application>");
-  EXPECT_EQ(
-      Errors(),
-      "b.xml:2:24: error: /demo/a/b/a: a.xml contains itself; through app.xml:2:1, "
-      "a.xml:2:3 and here; instantiated at a.xml:2:3, which is instantiated at app.xml:2:1\n");
+  EXPECT_EQ(Errors(),
+            "b.xml:2:24: error: /demo/a/b/a: a.xml contains itself; through app.xml:2:1, "
+            "a.xml:2:3 and here; instantiated at a.xml:2:3, which is instantiated at app.xml:2:1\n");
 }
 
 TEST_F(PartFilesTest, ThatAreNotThereOrAreSomethingElse) {
@@ -257,16 +252,15 @@ TEST_F(PartFilesTest, ThatAreNotThereOrAreSomethingElse) {
   <module name="sink" type="test/filter"/>
   <connect from="a/out" to="sink/value"/>
 </application>)");
-  EXPECT_EQ(
-      Errors(),
-      "app.xml:2:25: error: /demo/a: prt.xml: there is no such file; did you mean "
-      "'part.xml'?\n"
-      "app.xml:3:25: error: /demo/b: other.xml begins with <world>, and describes no group; a "
-      "file for <group type=\"…\"> begins with <group_type>\n"
-      "app.xml:4:35: error: /demo/c: <module> in a group whose type is a file; write it into "
-      "part.xml, or leave out type\n"
-      "app.xml:5:19: error: /demo/d: a parameter of a group without a type says what it "
-      "stands for; add to=\"module/parameter\", or write it into a module\n");
+  EXPECT_EQ(Errors(),
+            "app.xml:2:25: error: /demo/a: prt.xml: there is no such file; did you mean "
+            "'part.xml'?\n"
+            "app.xml:3:25: error: /demo/b: other.xml begins with <world>, and describes no group; a "
+            "file for <group type=\"…\"> begins with <group_type>\n"
+            "app.xml:4:35: error: /demo/c: <module> in a group whose type is a file; write it into "
+            "part.xml, or leave out type\n"
+            "app.xml:5:19: error: /demo/d: a parameter of a group without a type says what it "
+            "stands for; add to=\"module/parameter\", or write it into a module\n");
 }
 
 TEST_F(PartFilesTest, AreNoApplications) {

@@ -14,9 +14,7 @@ void Collect(XmlElement element, std::vector<XmlElement>& all) {
   for (const XmlElement child : element.children()) Collect(child, all);
 }
 
-std::string Piece(const std::string& text, TextSpan span) {
-  return text.substr(span.begin, span.size());
-}
+std::string Piece(const std::string& text, TextSpan span) { return text.substr(span.begin, span.size()); }
 
 std::string Repeated(std::string_view text, std::size_t count) {
   std::string all;
@@ -139,12 +137,11 @@ void RandomFiles::ChangeElement(std::string& text, const std::vector<XmlElement>
       return Below(4) == 0 ? Nest(text, span) : void();
     case 7:  // only what is inside
       text.erase(one.spans().start_tag.end,
-                 std::max(one.spans().end_tag.begin, one.spans().start_tag.end) -
-                     one.spans().start_tag.end);
+                 std::max(one.spans().end_tag.begin, one.spans().start_tag.end) - one.spans().start_tag.end);
       return;
     default:  // made anew, of known words
-      text.insert(PlaceAt(one), "<" + OneOf(tags_) + " name=\"n" + std::to_string(Below(4)) +
-                                    "\" " + OneOf(names_) + "=\"" + Value() + "\"/>");
+      text.insert(PlaceAt(one), "<" + OneOf(tags_) + " name=\"n" + std::to_string(Below(4)) + "\" " + OneOf(names_) +
+                                    "=\"" + Value() + "\"/>");
   }
 }
 
@@ -257,9 +254,8 @@ void RandomFiles::Damage(std::string& text) {
       text.insert(at, text.substr(Below(text.size() + 1), Below(60)));
       break;
     case 5:
-      text.insert(
-          at, OneOf({"<!-- -- -->", "<!--", "<![CDATA[x]]>", "]]>", "<!DOCTYPE a>", "<?pi?>", "<",
-                     ">", "/>", "</", "&#x", "&lt", "'", "\"", "=", "\r\n"}));
+      text.insert(at, OneOf({"<!-- -- -->", "<!--", "<![CDATA[x]]>", "]]>", "<!DOCTYPE a>", "<?pi?>", "<", ">", "/>",
+                             "</", "&#x", "&lt", "'", "\"", "=", "\r\n"}));
       break;
     case 6:
       text.insert(0, OneOf({"\xEF\xBB\xBF", "\xFF\xFE", "\xFE\xFF", "<?xml version='1.0'?>", " ",
@@ -267,8 +263,7 @@ void RandomFiles::Damage(std::string& text) {
       break;
     case 7: {
       std::string crossed;
-      for (const char each : text)
-        crossed += each == '\n' ? std::string("\r\n") : std::string(1, each);
+      for (const char each : text) crossed += each == '\n' ? std::string("\r\n") : std::string(1, each);
       text = std::move(crossed);
       break;
     }

@@ -23,9 +23,7 @@ class RandomFiles {
  private:
   void NoteWords(XmlElement element);
   std::size_t Below(std::size_t count) { return random_() % count; }
-  const std::string& OneOf(const std::vector<std::string>& texts) {
-    return texts[Below(texts.size())];
-  }
+  const std::string& OneOf(const std::vector<std::string>& texts) { return texts[Below(texts.size())]; }
 
   /// Changes one thing of a well-formed text: an element or an attribute of it.
   void ChangeMarkup(std::string& text, const XmlDocument& document);

@@ -66,9 +66,7 @@ class Unready final : public Module {
 
 class Unmakeable final : public Module {
  public:
-  explicit Unmakeable(const Placement& placement) : Module(placement) {
-    throw std::runtime_error("no such device");
-  }
+  explicit Unmakeable(const Placement& placement) : Module(placement) { throw std::runtime_error("no such device"); }
 
  private:
   void Update() override {}
@@ -92,11 +90,10 @@ struct Workshop {
 
   template <typename M>
   void Add(std::string name) {
-    const auto added =
-        plugins.modules().Add({std::move(name), "", "test",
-                               [](const Placement& placement) -> std::unique_ptr<FrameworkElement> {
-                                 return std::make_unique<M>(placement);
-                               }});
+    const auto added = plugins.modules().Add(
+        {std::move(name), "", "test", [](const Placement& placement) -> std::unique_ptr<FrameworkElement> {
+           return std::make_unique<M>(placement);
+         }});
     RUNNEL_CHECK(added.has_value(), "a test registers a type twice");
   }
 
@@ -107,8 +104,7 @@ struct Workshop {
       diagnostics.Add(document.error());
       return nullptr;
     }
-    BuildOutcome outcome =
-        BuildApplication(*document, "/apps", {runtime, plugins, tags, configuration}, mode);
+    BuildOutcome outcome = BuildApplication(*document, "/apps", {runtime, plugins, tags, configuration}, mode);
     diagnostics = outcome.diagnostics;
     return outcome.application;
   }

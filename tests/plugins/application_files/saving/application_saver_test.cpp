@@ -61,17 +61,15 @@ TEST_F(ApplicationSaver, AddsAValueThatWasNotThere) {
 
 TEST_F(ApplicationSaver, TakesOneNameOutOfAList) {
   Load();
-  ASSERT_TRUE(
-      Port::Disconnect(Get<Port>("/demo/inner/in"), Get<Port>("/demo/inner/sink/input/second")));
-  EXPECT_EQ(Text(), With("<port name=\"in\" direction=\"input\"/>",
-                         "<port name=\"in\" direction=\"input\" type=\"double\"/>",
-                         With("\"filter/value  sink/second\"", "\"filter/value\"")));
+  ASSERT_TRUE(Port::Disconnect(Get<Port>("/demo/inner/in"), Get<Port>("/demo/inner/sink/input/second")));
+  EXPECT_EQ(Text(),
+            With("<port name=\"in\" direction=\"input\"/>", "<port name=\"in\" direction=\"input\" type=\"double\"/>",
+                 With("\"filter/value  sink/second\"", "\"filter/value\"")));
 }
 
 TEST_F(ApplicationSaver, RefusesWhatWouldNotLoad) {
   Load();
-  ASSERT_TRUE(
-      Port::Disconnect(Get<Port>("/demo/inner/in"), Get<Port>("/demo/inner/filter/input/value")));
+  ASSERT_TRUE(Port::Disconnect(Get<Port>("/demo/inner/in"), Get<Port>("/demo/inner/filter/input/value")));
   const auto text = testing::ApplicationText(*application_, shop_.tools(), folder_.path());
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().path, "/demo/inner/filter/input/value");
@@ -80,8 +78,8 @@ TEST_F(ApplicationSaver, RefusesWhatWouldNotLoad) {
 
 TEST_F(ApplicationSaver, CutsAConnectionWithItsLine) {
   Load();
-  ASSERT_TRUE(Port::Disconnect(Get<Port>("/demo/inner/filter/output/value"),
-                               Get<Port>("/demo/inner/sink/input/value")));
+  ASSERT_TRUE(
+      Port::Disconnect(Get<Port>("/demo/inner/filter/output/value"), Get<Port>("/demo/inner/sink/input/value")));
   EXPECT_EQ(Text(), With("      <connect from=\"filter/value\" to=\"sink/value\" queue=\"3\" "
                          "on_full=\"refuse\"/>\n",
                          ""));
@@ -108,8 +106,7 @@ TEST_F(ApplicationSaver, KeepsConnectionsThatLeadOutAsLongAsTheyAreThere) {
 </application>)";
   Load(text);
   EXPECT_EQ(Text(), text);
-  ASSERT_TRUE(Port::Disconnect(shop_.Get<Port>("/demo/m/output/value"),
-                               shop_.Get<Port>("/other/b/input/value")));
+  ASSERT_TRUE(Port::Disconnect(shop_.Get<Port>("/demo/m/output/value"), shop_.Get<Port>("/other/b/input/value")));
   EXPECT_EQ(Text(), With("../other/b/value /other/b/second", "/other/b/second", text));
 }
 
@@ -127,14 +124,12 @@ TEST_F(ApplicationSaver, CutsWhatADeletedModuleLeavesBehind) {
 TEST_F(ApplicationSaver, AppendsWhatIsNewToItsGroup) {
   Load();
   Create("test/sink", "/demo/inner", "log");
-  ASSERT_TRUE(Port::Connect(Get<Port>("/demo/inner/filter/output/value"),
-                            Get<Port>("/demo/inner/log/input/value"), {.queue = 2}));
-  ASSERT_TRUE(Port::Connect(Get<Port>("/demo/source/output/label"),
-                            Get<Port>("/demo/inner/log/input/label")));
-  std::string expected =
-      With("  </group>\n",
-           "      <module name=\"log\" type=\"test/sink\"/>\n"
-           "      <connect from=\"filter/value\" to=\"log/value\" queue=\"2\"/>\n  </group>\n");
+  ASSERT_TRUE(Port::Connect(Get<Port>("/demo/inner/filter/output/value"), Get<Port>("/demo/inner/log/input/value"),
+                            {.queue = 2}));
+  ASSERT_TRUE(Port::Connect(Get<Port>("/demo/source/output/label"), Get<Port>("/demo/inner/log/input/label")));
+  std::string expected = With("  </group>\n",
+                              "      <module name=\"log\" type=\"test/sink\"/>\n"
+                              "      <connect from=\"filter/value\" to=\"log/value\" queue=\"2\"/>\n  </group>\n");
   expected = With("</application>",
                   "  <connect from=\"source/label\" to=\"inner/log/label\"/>\n"
                   "</application>",
@@ -145,8 +140,7 @@ TEST_F(ApplicationSaver, AppendsWhatIsNewToItsGroup) {
 TEST_F(ApplicationSaver, TellsAnInputAndAnOutputOfOneNameApart) {
   Load();
   Create("test/filter", "/demo", "second");
-  ASSERT_TRUE(
-      Port::Connect(Get<Port>("/demo/source/output/value"), Get<Port>("/demo/second/input/value")));
+  ASSERT_TRUE(Port::Connect(Get<Port>("/demo/source/output/value"), Get<Port>("/demo/second/input/value")));
   EXPECT_THAT(Text(), HasSubstr("<connect from=\"source/value\" to=\"second/value\"/>"));
 }
 
@@ -164,8 +158,8 @@ TEST_F(ApplicationSaver, RewritesTheTypeOfAReplacedModule) {
 TEST_F(ApplicationSaver, WritesANewGroupWithAllThatIsInIt) {
   Load();
   auto& group = shop_.runtime.Create<Group>(Get<FrameworkElement>("/demo"), "outer");
-  auto& port = shop_.runtime.Create<ProxyPort>(group, "values", Port::Direction::kOutput,
-                                               TypeOf<double>(), "all \"values\"");
+  auto& port =
+      shop_.runtime.Create<ProxyPort>(group, "values", Port::Direction::kOutput, TypeOf<double>(), "all \"values\"");
   Create("test/source", "/demo/outer", "a");
   ASSERT_TRUE(Port::Connect(Get<Port>("/demo/outer/a/output/value"), port));
   EXPECT_EQ(Text(), With("</application>",
@@ -184,8 +178,8 @@ TEST_F(ApplicationSaver, FollowsModulesToOtherThreads) {
   EXPECT_EQ(Text(), With("<group name=\"inner\">", "<group name=\"inner\" thread=\"slow\">",
                          With("thread=\"slow\"", "thread=\"fast\"")));
   Delete("/demo/threads/slow");
-  EXPECT_EQ(Text(), With("  <thread name=\"slow\" period=\"0.05 s\"/>\n", "",
-                         With("thread=\"slow\"", "thread=\"fast\"")));
+  EXPECT_EQ(Text(),
+            With("  <thread name=\"slow\" period=\"0.05 s\"/>\n", "", With("thread=\"slow\"", "thread=\"fast\"")));
 }
 
 TEST_F(ApplicationSaver, WritesNewThreads) {
@@ -207,10 +201,8 @@ TEST_F(ApplicationSaver, WritesAWholeFileOfWhatCodeHasBuilt) {
   auto& inner = shop_.runtime.Create<Group>(application, "inner");
   Create("test/sink", "/made/inner", "sink");
   ASSERT_TRUE(Get<Source>("/made/source").text.SetFromText("a < b"));
-  ASSERT_TRUE(Port::Connect(Get<Port>("/made/source/output/value"),
-                            Get<Port>("/made/inner/sink/input/value")));
-  ASSERT_TRUE(Port::Connect(Get<Port>("/made/source/output/value"),
-                            Get<Port>("/made/inner/sink/input/second")));
+  ASSERT_TRUE(Port::Connect(Get<Port>("/made/source/output/value"), Get<Port>("/made/inner/sink/input/value")));
+  ASSERT_TRUE(Port::Connect(Get<Port>("/made/source/output/value"), Get<Port>("/made/inner/sink/input/second")));
   AssignThread(inner, CreateThread(shop_.runtime, "own", {.period = std::chrono::seconds(1)}));
   EXPECT_EQ(Text(), R"(<application name="made">
   <thread name="own" period="1s"/>
@@ -246,8 +238,7 @@ TEST_F(ApplicationSaver, WritesNamesOfFilesSeenFromTheFolderOfTheText) {
 )";
   Load(text);
   EXPECT_EQ(Text(), text);
-  EXPECT_THAT(shop_.Text(*application_, folder_ / "below"),
-              HasSubstr("value=\"../data/world.xml\""));
+  EXPECT_THAT(shop_.Text(*application_, folder_ / "below"), HasSubstr("value=\"../data/world.xml\""));
   Create("test/source", "/demo", "late");
   const auto other = std::filesystem::relative(folder_ / "other.xml");
   ASSERT_TRUE(Get<Source>("/demo/late").file.SetFromText(other.string()));

@@ -46,8 +46,7 @@ class LoadedFile : public ::testing::Test {
   }
   std::string Text() { return shop_.Text(*application_, folder_.path()); }
   // What the file is after `from` has become `to`.
-  static std::string With(const std::string& from, const std::string& to,
-                          std::string text = kFile) {
+  static std::string With(const std::string& from, const std::string& to, std::string text = kFile) {
     const std::size_t place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
     return text.replace(place, from.size(), to);
@@ -56,8 +55,7 @@ class LoadedFile : public ::testing::Test {
   T& Get(const std::string& path) {
     return shop_.Get<T>(path);
   }
-  FrameworkElement& Create(const std::string& type, const std::string& parent,
-                           const std::string& name) {
+  FrameworkElement& Create(const std::string& type, const std::string& parent, const std::string& name) {
     return *shop_.plugins.modules().Create(type, Get<FrameworkElement>(parent), name).value();
   }
   void Delete(const std::string& path) {

@@ -28,10 +28,9 @@ class AnyText {
   std::size_t Below(std::size_t count) { return random_() % count; }
   std::string Make() {
     static const std::vector<std::string> kPieces{
-        "a",           "Z",    "7",    "_",    "-",    "?",    "*",    ".",        "\"",
-        "'",           "&",    "<",    ">",    ";",    "#",    "\\",   "{",        "]]>",
-        "=",           "&#7;", "ä",    "日",   "🤖", "/",    " ",    ",",        "\n",
-        "\t",          "\r",   "\x01", "\x1b", "\x7f", "\xff", "\xc3", "\xc2\x85", "\xef\xbf\xbe",
+        "a",           "Z", "7",  "_",  "-",  "?",    "*",    ".",    "\"",   "'",    "&",        "<",
+        ">",           ";", "#",  "\\", "{",  "]]>",  "=",    "&#7;", "ä",    "日",   "🤖",     "/",
+        " ",           ",", "\n", "\t", "\r", "\x01", "\x1b", "\x7f", "\xff", "\xc3", "\xc2\x85", "\xef\xbf\xbe",
         "\xed\xa0\x80"};
     // Mostly of what may be there, for one bad character spoils all.
     const std::size_t pieces = Below(3) == 0 ? kPieces.size() : 23;
@@ -118,29 +117,23 @@ TEST(NamesAndValues, OfOneBadCharacterAreRefusedWithItsNameAndPlace) {
   auto* const application = shop.Build(kNamed);
   ASSERT_NE(application, nullptr);
   StructureEditor editor(shop.runtime, shop.plugins.modules(), nullptr);
-  const auto error = [&](Change change) {
-    return editor.Apply({std::move(change)}).diagnostics.ToString();
-  };
+  const auto error = [&](Change change) { return editor.Apply({std::move(change)}).diagnostics.ToString(); };
   EXPECT_THAT(error(CreateGroup{"/demo/my filter"}), ::testing::HasSubstr("blank"));
   EXPECT_THAT(error(CreateGroup{"/demo/a\x07"}), ::testing::HasSubstr("control character 0x07"));
-  EXPECT_THAT(error(CreateGroup{"/demo/a\xff"}),
-              ::testing::HasSubstr("byte 0xff, which is no UTF-8"));
+  EXPECT_THAT(error(CreateGroup{"/demo/a\xff"}), ::testing::HasSubstr("byte 0xff, which is no UTF-8"));
   EXPECT_THAT(error(CreateModule{"/demo/late", "test/source", {{"text", "ab\x07"}}}),
-              ::testing::AllOf(::testing::HasSubstr("control character 0x07"),
-                               ::testing::HasSubstr("/demo/late")));
+              ::testing::AllOf(::testing::HasSubstr("control character 0x07"), ::testing::HasSubstr("/demo/late")));
   EXPECT_THAT(error(CreatePort{"/demo/g/p", Port::Direction::kInput, "double", "\x07"}),
-              ::testing::AllOf(::testing::HasSubstr("control character 0x07"),
-                               ::testing::HasSubstr("/demo/g/p")));
+              ::testing::AllOf(::testing::HasSubstr("control character 0x07"), ::testing::HasSubstr("/demo/g/p")));
 }
 
 // What code has put there nobody has looked at.
 TEST_F(SavedText, OfNamesThatNoFileCanSayLeavesTheFileAsItWas) {
   FrameworkElement* const application = Load(kNamed);
-  shop.runtime.Create<ProxyPort>(shop.Get<FrameworkElement>("/demo/g"), "odd",
-                                 Port::Direction::kInput, TypeOf<double>(), "\x07");
+  shop.runtime.Create<ProxyPort>(shop.Get<FrameworkElement>("/demo/g"), "odd", Port::Direction::kInput,
+                                 TypeOf<double>(), "\x07");
   EXPECT_THAT(Refusal(*application),
-              ::testing::AllOf(::testing::HasSubstr("control character 0x07"),
-                               ::testing::HasSubstr("/demo/g/odd")));
+              ::testing::AllOf(::testing::HasSubstr("control character 0x07"), ::testing::HasSubstr("/demo/g/odd")));
 }
 
 TEST_F(SavedText, KeepsValuesAsTheyWereWrittenUntilTheyChange) {
@@ -165,8 +158,8 @@ TEST_F(SavedText, ThatWouldNotLoadLeavesTheFileAlone) {
   colour.handle = [](const XmlAttribute&, FrameworkElement&, BuildContext&) {};
   colour.saved = [](FrameworkElement&) { return std::string("red"); };
   shop.tags.AddAttribute(colour);
-  EXPECT_THAT(Refusal(*application), ::testing::AllOf(::testing::HasSubstr("would not load"),
-                                                      ::testing::HasSubstr("'red' is not a count")));
+  EXPECT_THAT(Refusal(*application),
+              ::testing::AllOf(::testing::HasSubstr("would not load"), ::testing::HasSubstr("'red' is not a count")));
 }
 
 }  // namespace

@@ -39,8 +39,7 @@ class PartSaving : public ::testing::Test {
  protected:
   PartSaving() {
     WriteAll(folder_ / "part.xml", kPart);
-    WriteAll(folder_ / "nested.xml",
-             "<group_type><group name=\"inner\" type=\"part.xml\"/></group_type>");
+    WriteAll(folder_ / "nested.xml", "<group_type><group name=\"inner\" type=\"part.xml\"/></group_type>");
     WriteAll(folder_ / "app.xml", kApplication);
     application_ = shop_.Load(folder_ / "app.xml");
   }

@@ -100,8 +100,7 @@ class Changer {
     }
     const auto direction = Below(2) == 0 ? Port::Direction::kInput : Port::Direction::kOutput;
     const TypeInfo& type = Below(3) == 0 ? TypeOf<std::string>() : TypeOf<double>();
-    shop_.runtime.Create<ProxyPort>(parent, NewName(parent), direction, type,
-                                    Below(2) == 0 ? "some <text>" : "");
+    shop_.runtime.Create<ProxyPort>(parent, NewName(parent), direction, type, Below(2) == 0 ? "some <text>" : "");
   }
   void DeleteSomething() {
     const auto all = All<FrameworkElement>([&](const FrameworkElement& each) {
@@ -121,8 +120,7 @@ class Changer {
       Port& from = *ports[Below(ports.size())];
       Port& to = *ports[Below(ports.size())];
       if (!FitsDirection(from, to, true) || !FitsDirection(to, from, false)) continue;
-      const ConnectOptions options{
-          .queue = Below(3), .on_full = Below(2) == 0 ? OnFull::kRefuse : OnFull::kDropOldest};
+      const ConnectOptions options{.queue = Below(3), .on_full = Below(2) == 0 ? OnFull::kRefuse : OnFull::kDropOldest};
       if (Port::Connect(from, to, options)) return;
     }
   }
@@ -151,8 +149,7 @@ class Changer {
   void AssignSomething() {
     const auto threads = All<ThreadContainer>([](const ThreadContainer&) { return true; });
     const auto all = All<FrameworkElement>([](const FrameworkElement& each) {
-      return each.kind() == ElementKind::kModule ||
-             (each.kind() == ElementKind::kGroup && each.name() != "threads");
+      return each.kind() == ElementKind::kModule || (each.kind() == ElementKind::kGroup && each.name() != "threads");
     });
     AssignThread(*all[Below(all.size())], *threads[Below(threads.size())]);
   }

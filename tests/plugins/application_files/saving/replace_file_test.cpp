@@ -101,8 +101,8 @@ TEST(ReplaceFile, KilledAtAnyMomentLeavesOneFileWhole) {
   std::uniform_int_distribution<int> whole(1, 4);
   std::uniform_int_distribution<int> more(0, 2000);  // us
   // How often the child has replaced the file: it is killed a moment later, however slow the machine is.
-  void* const shared = mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE,
-                            MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  void* const shared =
+      mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(shared, MAP_FAILED);
   std::atomic<int>& replaced = *new (shared) std::atomic<int>;
   int ones = 0;

@@ -19,8 +19,7 @@ const char* const kSaved = R"(<application name="demo">
 )";
 
 std::size_t CountOfFiles(const fs::path& folder) {
-  return static_cast<std::size_t>(
-      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
 // Each point at first, then fewer and fewer: whole files are read for a check.

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/application_tags/run_description.h"
 #include "plugins/application_files/saving/application_saver.h"
+#include "plugins/application_tags/run_description.h"
 #include "tests/plugins/application_files/reading/test_application.h"
 #include "tests/plugins/application_files/saving/application_text.h"
 
@@ -28,8 +28,7 @@ class TestFolder {
  public:
   TestFolder() {
     const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(::testing::TempDir()) /
-            (std::string(test->test_suite_name()) + "." + test->name());
+    path_ = std::filesystem::path(::testing::TempDir()) / (std::string(test->test_suite_name()) + "." + test->name());
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -37,9 +36,7 @@ class TestFolder {
   TestFolder(const TestFolder&) = delete;
   TestFolder& operator=(const TestFolder&) = delete;
 
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-    return path_ / name;
-  }
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
@@ -61,8 +58,7 @@ class Optional final : public Module {
 /// Builds from files, and saves.
 struct SavingWorkshop : Workshop {
   FrameworkElement* Load(const std::filesystem::path& file) {
-    BuildOutcome outcome =
-        BuildApplication(file, {runtime, plugins, tags, configuration}, BuildMode::kRun);
+    BuildOutcome outcome = BuildApplication(file, {runtime, plugins, tags, configuration}, BuildMode::kRun);
     diagnostics = outcome.diagnostics;
     EXPECT_TRUE(diagnostics.ok()) << diagnostics.ToString();
     return outcome.application;

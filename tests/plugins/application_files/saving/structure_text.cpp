@@ -36,16 +36,15 @@ std::string StructureText(FrameworkElement& application) {
     if (const auto* thread = dynamic_cast<const ThreadContainer*>(&element)) {
       const ThreadOptions& options = thread->options();
       line += " period " + std::to_string(options.period.count()) + " activation " +
-              std::to_string(static_cast<int>(options.activation)) + " priority " +
-              std::to_string(options.priority) + " " +
-              std::to_string(static_cast<int>(options.on_overrun));
+              std::to_string(static_cast<int>(options.activation)) + " priority " + std::to_string(options.priority) +
+              " " + std::to_string(static_cast<int>(options.on_overrun));
     }
     if (const auto* port = dynamic_cast<const Port*>(&element)) {
-      line += " " + port->type().name() + " " +
-              std::to_string(static_cast<int>(port->direction())) + " " + port->description();
+      line += " " + port->type().name() + " " + std::to_string(static_cast<int>(port->direction())) + " " +
+              port->description();
       for (const Connection& each : port->outgoing()) {
-        lines.push_back(port->path() + " -> " + each.to->path() + " queue " +
-                        std::to_string(each.options.queue) + " on_full " +
+        lines.push_back(port->path() + " -> " + each.to->path() + " queue " + std::to_string(each.options.queue) +
+                        " on_full " +
                         (each.options.queue > 0  // without a queue it means nothing
                              ? std::to_string(static_cast<int>(each.options.on_full))
                              : "-"));
@@ -64,8 +63,7 @@ void ExpectSame(FrameworkElement& application, const std::filesystem::path& file
   second.Add<Optional>("test/optional");
   FrameworkElement* const again = second.Load(file);
   ASSERT_NE(again, nullptr) << "seed " << seed << '\n' << ReadAll(file);
-  ASSERT_EQ(StructureText(*again), StructureText(application)) << "seed " << seed << '\n'
-                                                               << ReadAll(file);
+  ASSERT_EQ(StructureText(*again), StructureText(application)) << "seed " << seed << '\n' << ReadAll(file);
   // And saved again it is the same text.
   ASSERT_EQ(second.Text(*again, file.parent_path()), ReadAll(file)) << "seed " << seed;
 }

@@ -2,7 +2,6 @@
 #include <string>
 
 #include <acmill.h>
-
 #include <mill_cxx_types.h>
 
 typedef std::vector<std::string> Trace;
@@ -11,9 +10,7 @@ struct mill::store_s {
   int passes;
 };
 
-genom::event
-mill_begin(double &gain, ::mill::store_s *&store, Trace &trace)
-{
+genom::event mill_begin(double& gain, ::mill::store_s*& store, Trace& trace) {
   gain = 2;
   store = new mill::store_s();
   trace.clear();
@@ -21,13 +18,12 @@ mill_begin(double &gain, ::mill::store_s *&store, Trace &trace)
   return mill::pass;
 }
 
-genom::event
-mill_pass(::mill::seen &seen, double gain, ::shape::reading &last, ::mill::ground &ground, ::mill::way &way, Trace &trace)
-{
+genom::event mill_pass(::mill::seen& seen, double gain, ::shape::reading& last, ::mill::ground& ground,
+                       ::mill::way& way, Trace& trace) {
   seen.read();
   try {
     last = seen.data();
-  } catch (const genom::exception &) {
+  } catch (const genom::exception&) {
     trace.push_back("nothing seen");
     return mill::pause::pass;
   }
@@ -47,17 +43,13 @@ mill_pass(::mill::seen &seen, double gain, ::shape::reading &last, ::mill::groun
   return mill::pause::pass;
 }
 
-genom::event
-mill_rest(::mill::store_s *&store)
-{
+genom::event mill_rest(::mill::store_s*& store) {
   delete store;
   store = 0;
   return mill::ether;
 }
 
-genom::event
-mill_check(double gain, Trace &trace)
-{
+genom::event mill_check(double gain, Trace& trace) {
   trace.push_back("check");
   if (gain < 0) throw mill::worn();
   if (gain > 10) {
@@ -69,9 +61,7 @@ mill_check(double gain, Trace &trace)
   return genom::ok;
 }
 
-genom::event
-mill_beep(uint16_t times, int32_t &sum, Trace &trace)
-{
+genom::event mill_beep(uint16_t times, int32_t& sum, Trace& trace) {
   trace.push_back("beep");
   if (times > 100) throw mill::worn();
   if (times > 10) {
@@ -84,28 +74,22 @@ mill_beep(uint16_t times, int32_t &sum, Trace &trace)
   return genom::ok;
 }
 
-genom::event
-mill_say(const std::string &what, ::shape::side where, const int32_t three[3], const ::shape::reading &seen,
-         const genom::optional<int32_t> &level, std::string &said)
-{
-  said = what + (where == shape::right ? " right " : " left ") + std::to_string(three[0] + three[2] + level._value) + " " +
-         std::to_string((int)seen.at.y) + " " + std::to_string(seen.trace.size());
+genom::event mill_say(const std::string& what, ::shape::side where, const int32_t three[3],
+                      const ::shape::reading& seen, const genom::optional<int32_t>& level, std::string& said) {
+  said = what + (where == shape::right ? " right " : " left ") + std::to_string(three[0] + three[2] + level._value) +
+         " " + std::to_string((int)seen.at.y) + " " + std::to_string(seen.trace.size());
   return genom::ok;
 }
 
-genom::event
-mill_open(const char from[8], const char to[8], ::mill::grain &grain, ::mill::flour &flour, Trace &trace)
-{
+genom::event mill_open(const char from[8], const char to[8], ::mill::grain& grain, ::mill::flour& flour, Trace& trace) {
   trace.push_back("open");
   grain.read(from);
   flour.open(to);
   return mill::go;
 }
 
-genom::event
-mill_pour(const char from[8], const char to[8], const Trace &names, double &value, std::string &said, ::mill::grain &grain,
-          ::mill::flour &flour, Trace &trace)
-{
+genom::event mill_pour(const char from[8], const char to[8], const Trace& names, double& value, std::string& said,
+                       ::mill::grain& grain, ::mill::flour& flour, Trace& trace) {
   trace.push_back("pour");
   value = grain.data(from);
   flour.data(to) = value;
@@ -114,24 +98,18 @@ mill_pour(const char from[8], const char to[8], const Trace &names, double &valu
   return mill::pause::last;
 }
 
-genom::event
-mill_last(const std::string &said, Trace &trace)
-{
+genom::event mill_last(const std::string& said, Trace& trace) {
   trace.push_back("last " + said);
   return mill::ether;
 }
 
-genom::event
-mill_first(uint32_t times, std::vector<uint32_t> &left, Trace &trace)
-{
+genom::event mill_first(uint32_t times, std::vector<uint32_t>& left, Trace& trace) {
   trace.push_back("first");
   for (; times > 0; --times) left.push_back(times);
   return mill::turn;
 }
 
-genom::event
-mill_turn(std::vector<uint32_t> &left, uint32_t &done)
-{
+genom::event mill_turn(std::vector<uint32_t>& left, uint32_t& done) {
   if (left.empty()) return mill::ether;
   if (left.back() == 77) throw std::runtime_error("a mistake");
   left.pop_back();
@@ -139,18 +117,14 @@ mill_turn(std::vector<uint32_t> &left, uint32_t &done)
   return mill::pause::turn;
 }
 
-genom::event
-mill_stop(const std::vector<uint32_t> &left, uint32_t &done, Trace &trace)
-{
+genom::event mill_stop(const std::vector<uint32_t>& left, uint32_t& done, Trace& trace) {
   trace.push_back("stop");
   done = (uint32_t)(1000 + left.size());
   return mill::ether;
 }
 
-genom::event
-mill_add(const std::string &name, const genom::bounded_sequence<int32_t, 4> &values, int32_t &total, ::shape::side &which,
-         std::string &text, ::mill::sum &sum)
-{
+genom::event mill_add(const std::string& name, const genom::bounded_sequence<int32_t, 4>& values, int32_t& total,
+                      ::shape::side& which, std::string& text, ::mill::sum& sum) {
   total = 100;
   sum.call(name, values, total, which, text);
   return mill::ether;

@@ -69,7 +69,8 @@ template <typename T>
 void CheckBothWays(const std::vector<std::string>& messages) {
   RandomValue random(9);
   for (const std::string& as : messages) {
-    const auto made = MessageCodec::Make(TypeOf<T>(), {.as = as, .frame = "map", .child_frame = "robot"}, MessageLibrary::Standard());
+    const auto made =
+        MessageCodec::Make(TypeOf<T>(), {.as = as, .frame = "map", .child_frame = "robot"}, MessageLibrary::Standard());
     ASSERT_TRUE(made) << made.error().ToString();
     const MessageCodec& codec = **made;
     EXPECT_EQ(codec.dds_type(), TypeFor(as).m_typename);
@@ -124,7 +125,8 @@ TEST(CycloneTypes, HaveEachPartInItsPlace) {
     return octets;
   };
   CycloneSample scan(sensor_msgs_msg_dds__LaserScan__desc);
-  const RangeScan seen{.start_angle = -1, .angle_step = 0.5, .range_minimum = 0.125, .range_maximum = 8, .ranges = {1, 2, 3}};
+  const RangeScan seen{
+      .start_angle = -1, .angle_step = 0.5, .range_minimum = 0.125, .range_maximum = 8, .ranges = {1, 2, 3}};
   ASSERT_TRUE(scan.Read(encoded(seen, {.frame = "laser"})));
   const auto& their_scan = scan.as<sensor_msgs_msg_dds__LaserScan_>();
   EXPECT_EQ(their_scan.header.stamp.sec, 1'790'000'000);
@@ -140,7 +142,8 @@ TEST(CycloneTypes, HaveEachPartInItsPlace) {
   EXPECT_EQ(their_scan.intensities._length, 0U);
 
   CycloneSample odometry(nav_msgs_msg_dds__Odometry__desc);
-  ASSERT_TRUE(odometry.Read(encoded(Pose2{1, 2, 3.14159265358979323846}, {.as = "nav_msgs/msg/Odometry", .frame = "odom", .child_frame = "robot"})));
+  ASSERT_TRUE(odometry.Read(encoded(Pose2{1, 2, 3.14159265358979323846},
+                                    {.as = "nav_msgs/msg/Odometry", .frame = "odom", .child_frame = "robot"})));
   const auto& their_odometry = odometry.as<nav_msgs_msg_dds__Odometry_>();
   EXPECT_STREQ(their_odometry.child_frame_id, "robot");
   EXPECT_EQ(their_odometry.pose.pose.position.y, 2);
@@ -175,7 +178,8 @@ TEST(CycloneTypes, HaveGroundPlansAsGrids) {
   EXPECT_EQ(grid.info.origin.orientation.w, 1);
   ASSERT_EQ(grid.data._length, 41U * 21U);
   const auto at = [&](double x, double y) {
-    return static_cast<int>(grid.data._buffer[static_cast<std::size_t>(y / 0.05) * 41 + static_cast<std::size_t>(x / 0.05)]);
+    return static_cast<int>(
+        grid.data._buffer[static_cast<std::size_t>(y / 0.05) * 41 + static_cast<std::size_t>(x / 0.05)]);
   };
   EXPECT_EQ(at(0.51, 0.51), 0);
   EXPECT_EQ(at(1.08, 0.51), 100) << "within the obstacle";

@@ -30,7 +30,8 @@ class FoxgloveMessages : public testing::Test {
   }
   ~FoxgloveMessages() override { fs::remove_all(folder_); }
 
-  void Write(const MessageDefinition& definition, const std::string& number, const std::vector<std::byte>& octets) const {
+  void Write(const MessageDefinition& definition, const std::string& number,
+             const std::vector<std::byte>& octets) const {
     std::string name = definition.name;
     name.replace(name.find("/msg/"), 5, ".");
     std::ofstream(folder_ / (name + "." + number), std::ios::binary)
@@ -38,12 +39,14 @@ class FoxgloveMessages : public testing::Test {
   }
 
   std::string ReadAndWrite() const {
-    const std::string command = "cd " RUNNEL_ROS_MESSAGES_ORACLE " && " RUNNEL_NODE " read_and_write.mjs '" + folder_.string() + "' 2>&1";
+    const std::string command =
+        "cd " RUNNEL_ROS_MESSAGES_ORACLE " && " RUNNEL_NODE " read_and_write.mjs '" + folder_.string() + "' 2>&1";
     FILE* const pipe = popen(command.c_str(), "r");
     if (pipe == nullptr) return "cannot run " + command;
     std::string said;
     std::array<char, 4096> buffer;
-    for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) said.append(buffer.data(), count);
+    for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+      said.append(buffer.data(), count);
     EXPECT_EQ(pclose(pipe), 0) << said;
     return said;
   }
@@ -69,15 +72,17 @@ TEST_F(FoxgloveMessages, HaveTheOctetsOfOurDefinitions) {
 
 TEST_F(FoxgloveMessages, ShowTheValuesOfPorts) {
   const MessageLibrary& library = MessageLibrary::Standard();
-  const RangeScan scan{.start_angle = -1, .angle_step = 0.5, .range_minimum = 0.125, .range_maximum = 8, .ranges = {1, 2, 3}};
+  const RangeScan scan{
+      .start_angle = -1, .angle_step = 0.5, .range_minimum = 0.125, .range_maximum = 8, .ranges = {1, 2, 3}};
   const auto codec = *MessageCodec::Make(TypeOf<RangeScan>(), {.frame = "laser"}, library);
   std::vector<std::byte> octets;
   codec->Encode(&scan, Time(std::chrono::seconds(7) + Duration(9)), octets);
   Write(**library.Get(codec->ros_type()), "shown", octets);
-  EXPECT_THAT(ReadAndWrite(),
-              HasSubstr(R"(sensor_msgs/LaserScan {"header":{"stamp":{"sec":7,"nanosec":9},"frame_id":"laser"},"angle_min":-1,)"
-                        R"("angle_max":0,"angle_increment":0.5,"time_increment":0,"scan_time":0,"range_min":0.125,)"
-                        R"("range_max":8,"ranges":[1,2,3],"intensities":[]})"));
+  EXPECT_THAT(
+      ReadAndWrite(),
+      HasSubstr(R"(sensor_msgs/LaserScan {"header":{"stamp":{"sec":7,"nanosec":9},"frame_id":"laser"},"angle_min":-1,)"
+                R"("angle_max":0,"angle_increment":0.5,"time_increment":0,"scan_time":0,"range_min":0.125,)"
+                R"("range_max":8,"ranges":[1,2,3],"intensities":[]})"));
 }
 
 }  // namespace
