@@ -1,6 +1,7 @@
 #include "core/paths/late_connections.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/base/exception_text.h"
@@ -85,29 +86,11 @@ LateConnections* LateConnections::FindIn(Runtime& runtime) { return runtime.root
 LateConnections::LateConnections(Runtime& runtime) : runtime_(runtime) { runtime.AddListener(*this); }
 
 const LateConnection* LateConnections::Find(std::string_view from, std::string_view to) const {
-  return const_cast<LateConnections*>(this)->FindOwn(from, to);
+  return FindLate(all_, PathSearch(runtime_), from, to);
 }
 
 LateConnection* LateConnections::FindOwn(std::string_view from, std::string_view to) {
-  const std::string short_from = ShortPath(WholePath(from));
-  const std::string short_to = ShortPath(WholePath(to));
-  const auto found = std::ranges::find_if(all_, [&](const LateConnection& each) {
-    return ShortPath(each.from) == short_from && ShortPath(each.to) == short_to;
-  });
-  return found == all_.end() ? nullptr : &*found;
-}
-
-// As much of it as is there, by its whole path.
-std::string LateConnections::WholePath(std::string_view path) const {
-  const PathSearch search(runtime_);
-  for (std::size_t end = path.size(); end != std::string_view::npos && end > 0; end = path.rfind('/', end - 1)) {
-    const auto found = search.Find(path.substr(0, end));
-    const bool is_there = found && (*found)->parent() != nullptr;
-    if (!is_there) continue;
-    const auto* const port = dynamic_cast<const Port*>(*found);
-    return (port != nullptr ? PathOfSource(*port) : (*found)->path()) + std::string(path.substr(end));
-  }
-  return (path.starts_with('/') ? "" : "/") + std::string(path);
+  return const_cast<LateConnection*>(Find(from, to));
 }
 
 bool LateConnections::Awaits(const Port& input) {
@@ -126,7 +109,7 @@ Result<void> LateConnections::Add(const std::string& from, const std::string& to
     return Error{.message = "is to be connected to " + to + " already", .path = from};
   }
   const auto path_of = [this](const Port* there, const std::string& path) {
-    return there != nullptr ? there->path() : WholePath(path);
+    return there != nullptr ? there->path() : WholePath(PathSearch(runtime_), path);
   };
   all_.push_back(
       {IsDistantPath(from) ? from : path_of(ends.from, from), path_of(ends.to, to), std::move(options), ends.missing});
@@ -241,17 +224,38 @@ std::vector<const LateConnection*> AwaitedBy(const Port& port) {
   return Waiting(port.runtime(), [&](const std::string& end) { return ShortPath(end) == path; });
 }
 
-std::vector<LateConnection> AwaitedWith(const FrameworkElement& element) {
+std::string WholePath(const PathSearch& search, std::string_view path) {
+  for (std::size_t end = path.size(); end != std::string_view::npos && end > 0; end = path.rfind('/', end - 1)) {
+    const auto found = search.Find(path.substr(0, end));
+    const bool is_there = found && (*found)->parent() != nullptr;
+    if (!is_there) continue;
+    const auto* const port = dynamic_cast<const Port*>(*found);
+    return (port != nullptr ? PathOfSource(*port) : (*found)->path()) + std::string(path.substr(end));
+  }
+  return (path.starts_with('/') ? "" : "/") + std::string(path);
+}
+
+const LateConnection* FindLate(const std::vector<LateConnection>& all, const PathSearch& search, std::string_view from,
+                               std::string_view to) {
+  if (all.empty()) return nullptr;
+  const std::string short_from = ShortPath(WholePath(search, from));
+  const std::string short_to = ShortPath(WholePath(search, to));
+  const auto found = std::ranges::find_if(all, [&](const LateConnection& each) {
+    return ShortPath(each.from) == short_from && ShortPath(each.to) == short_to;
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<LateConnection> AwaitedWith(const std::vector<LateConnection>& all, const FrameworkElement& element) {
   std::vector<LateConnection> awaited;
+  if (all.empty()) return awaited;
   const std::string path = ShortPath(element.path());
   const auto* const port = dynamic_cast<const Port*>(&element);
   const bool is_input = port != nullptr && port->direction() == Port::Direction::kInput;
-  const auto goes_with_it = [&](const std::string& end) {
-    return IsAtOrBelow(end, element.path()) || (is_input && ShortPath(end) == path);
-  };
-  for (const LateConnection* const each : Waiting(element.runtime(), goes_with_it)) {
-    if (each->is_of_its_input()) awaited.push_back(*each);
-  }
+  std::ranges::copy_if(all, std::back_inserter(awaited), [&](const LateConnection& each) {
+    const bool goes_with_it = IsAtOrBelow(each.to, element.path()) || (is_input && ShortPath(each.to) == path);
+    return goes_with_it && each.waits_for && each.is_of_its_input();
+  });
   return awaited;
 }
 

@@ -13,6 +13,8 @@
 
 namespace runnel {
 
+class PathSearch;
+
 /// A connection that is to be whenever both its ends are there.
 struct LateConnection {
   std::string from;  ///< absolute paths of ports that may be there or not; "//…": of another application
@@ -78,7 +80,6 @@ class LateConnections final : public Annotation, private ElementListener {
   void OnChangesEnd() override;
 
   [[nodiscard]] LateConnection* FindOwn(std::string_view from, std::string_view to);
-  [[nodiscard]] std::string WholePath(std::string_view path) const;
   void Try(const std::string& from, const std::string& to);
 
   Runtime& runtime_;
@@ -87,11 +88,17 @@ class LateConnections final : public Annotation, private ElementListener {
   bool must_look_ = false;
 };
 
-/// Those that wait and go with `element`, since their inputs are below it or it is one. Under the structure lock.
-[[nodiscard]] std::vector<LateConnection> AwaitedWith(const FrameworkElement& element);
+/// As much of the path as `search` finds, by its whole path. Under the structure lock, as all below.
+[[nodiscard]] std::string WholePath(const PathSearch& search, std::string_view path);
+/// One of `all`, by paths as `search` finds their ends: groups of ports may be left out. nullptr: there is none.
+[[nodiscard]] const LateConnection* FindLate(const std::vector<LateConnection>& all, const PathSearch& search,
+                                             std::string_view from, std::string_view to);
 
-/// Those that wait and have the port as an end; all that wait and have an end below `element`. Under the
-/// structure lock.
+/// Those of `all` that wait and go with `element`, since their inputs are below it or it is one.
+[[nodiscard]] std::vector<LateConnection> AwaitedWith(const std::vector<LateConnection>& all,
+                                                      const FrameworkElement& element);
+
+/// Those that wait and have the port as an end; all that wait and have an end below `element`.
 [[nodiscard]] std::vector<const LateConnection*> AwaitedBy(const Port& port);
 [[nodiscard]] std::vector<const LateConnection*> AwaitedBelow(const FrameworkElement& element);
 

@@ -136,7 +136,7 @@ Result<void> Plan::Check(const DeleteElement& change) {
     Concern(*tie.from);
     Concern(*tie.to);
   }
-  for (const LateConnection& each : overlay_.AwaitedWith(element)) {
+  for (const LateConnection& each : AwaitedWith(overlay_.late(), element)) {
     if (auto cut = CheckLateTie(each.SourceText(), each.to, std::nullopt); !cut) return cut;
   }
   element.VisitAll<const Port>([&](const Port& port) {
@@ -207,17 +207,16 @@ Result<void> Plan::CheckStatic(const FrameworkElement& element, const Configurab
   return CheckReplacement({module->path(), type, {{element.name(), text}}}, Misfits::kAreCut);
 }
 
-// Cuts the connections that nothing takes over. One that waits does so for whatever has the name of its port.
-Result<void> Plan::Cut(const std::vector<std::pair<Port*, Port*>>& misfits, const FrameworkElement& module) {
-  for (const auto& [port, counterpart] : misfits) {
+// Cuts the connections of `ports`, which nothing takes over.
+Result<void> Plan::Cut(const std::vector<Port*>& ports, const FrameworkElement& module) {
+  for (Port* port : ports) {
     for (const auto& [from, to, options, converted] : overlay_.EdgesOf(*port, &module)) {
       if (auto cut = CheckTie(*from, *to, std::nullopt); !cut) return cut;
       warnings_.push_back({.message = "is not connected to " + to->path() +
                                       " any more: the module made anew has no port that takes it over",
                            .path = from->path()});
     }
-    if (counterpart != nullptr) continue;
-    for (const LateConnection& each : overlay_.AwaitedWith(*port)) {
+    for (const LateConnection& each : AwaitedWith(overlay_.late(), *port)) {
       if (auto cut = CheckLateTie(each.SourceText(), each.to, std::nullopt); !cut) return cut;
       warnings_.push_back(
           {.message = "is not waited for any more: the module made anew has no such port", .path = each.from});

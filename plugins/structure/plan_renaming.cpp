@@ -104,10 +104,8 @@ Result<void> Plan::Check(const RenameElement& change) {
   const std::size_t first = steps_.size();
   // Those that wait for their ends are noted by their paths.
   std::vector<LateConnection> late;
-  if (const LateConnections* const all = LateConnections::FindIn(runtime_)) {
-    for (const LateConnection& each : all->all()) {
-      if (Moved(each.from, before, after) || Moved(each.to, before, after)) late.push_back(each);
-    }
+  for (const LateConnection& each : overlay_.late()) {
+    if (Moved(each.from, before, after) || Moved(each.to, before, after)) late.push_back(each);
   }
   for (const LateConnection& each : late) {
     if (auto cut = Check(DisconnectPorts{each.from, each.to}); !cut) return cut;

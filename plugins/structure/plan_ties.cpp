@@ -27,9 +27,9 @@ Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string&
     return Error{.message = "is not connected to " + to, .path = from};
   };
   if (wanted) {
-    overlay_.ConnectLate(from, to);
+    overlay_.ConnectLate(from, to, *next);
   } else {
-    overlay_.DisconnectLate(*known);
+    overlay_.DisconnectLate(from, to);
   }
   auto is_done = std::make_shared<bool>(false);
   steps_.push_back({[=] {

@@ -10,6 +10,7 @@
 #include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
 #include "core/module/kept_state.h"
+#include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "core/port/converted_flow.h"
 #include "core/port/given_limits.h"
@@ -174,15 +175,20 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
                                      : NoCounterpart(port, before, after);
     if (possible) possible = CheckConversions(*match, port, overlay.EdgesOf(port, &before));
     const bool is_held = port.is_blocked() || port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule);
-    const bool is_connected = overlay.IsConnected(port, &before) || !overlay.AwaitedWith(port).empty();
-    const bool is_stopped =
-        match != nullptr && (port.is_blocked() || port.FindMark() || (is_connected && port.is_driving()));
+    // What waits does so for whatever has the name of its port.
+    const bool is_awaited = match == nullptr && !AwaitedWith(overlay.late(), port).empty();
+    const bool is_connected = is_awaited || overlay.IsConnected(port, &before);
+    // What STOP holds and nobody else would is not let go of.
+    const bool is_held_by_stop =
+        match != nullptr && port.is_driving() && port.stop()->in_force() && match->declared_stop() == nullptr;
+    const bool is_stopped = match != nullptr && (port.is_blocked() || port.FindMark() || is_held_by_stop ||
+                                                 (is_connected && port.is_driving()));
     if (possible) {
       result.ports.push_back({&port, match});
     } else if (is_stopped || is_connected) {
       // What is worse first.
       result.errors.insert(is_stopped ? result.errors.begin() : result.errors.end(), possible.error());
-      if (!is_stopped) result.misfits.emplace_back(&port, match);
+      if (!is_stopped) result.misfits.push_back(&port);
     } else if (composites && (is_held || IsBarred(port))) {
       const char* const what = is_held ? "is held" : "waits for a value from after its release";
       result.errors.push_back(

@@ -17,12 +17,11 @@ bool HasEdge(const std::vector<Connection>& edges, const Port& from, const Port&
   return std::ranges::any_of(edges, [&](const Connection& edge) { return edge.from == &from && edge.to == &to; });
 }
 
-const LateConnection* KnownLate(Runtime& runtime, std::string_view from, std::string_view to) {
-  const LateConnections* const all = LateConnections::FindIn(runtime);
-  return all != nullptr ? all->Find(from, to) : nullptr;
-}
-
 }  // namespace
+
+StructureOverlay::StructureOverlay(Runtime& runtime) : PathSearch(runtime), runtime_(runtime) {
+  if (const LateConnections* const late = LateConnections::FindIn(runtime)) late_ = late->all();
+}
 
 bool StructureOverlay::IsGone(const FrameworkElement& element) const {
   return std::ranges::any_of(removed_, [&](const auto* gone) { return element.IsAtOrBelow(*gone); });
@@ -163,6 +162,7 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
                  .path = from.path()};
   }
   connected_.push_back({&from, &to, options});
+  if (options.when_present) late_.push_back({from.path(), to.path(), options, {}});
   return {};
 }
 
@@ -174,30 +174,22 @@ Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
                  .path = from.path(),
                  .hint = names.empty() ? "it is not connected to anything" : NearestNameHint(to.path(), names)};
   }
+  DisconnectLate(from.path(), to.path());
   const auto is_same = [&](const Connection& edge) { return edge.from == &from && edge.to == &to; };
   if (std::erase_if(connected_, is_same) == 0) disconnected_.push_back({&from, &to, {}});
   return {};
 }
 
-void StructureOverlay::ConnectLate(const std::string& from, const std::string& to) {
-  if (const LateConnection* const late = KnownLate(runtime_, from, to))
-    std::erase(disconnected_late_, std::pair{late->from, late->to});
-}
-
-void StructureOverlay::DisconnectLate(const LateConnection& late) {
-  disconnected_late_.emplace_back(late.from, late.to);
-}
-
 const LateConnection* StructureOverlay::FindLate(std::string_view from, std::string_view to) const {
-  const LateConnection* const late = KnownLate(runtime_, from, to);
-  return late != nullptr && std::ranges::count(disconnected_late_, std::pair{late->from, late->to}) == 0 ? late
-                                                                                                         : nullptr;
+  return runnel::FindLate(late_, *this, from, to);
 }
 
-std::vector<LateConnection> StructureOverlay::AwaitedWith(const FrameworkElement& element) const {
-  auto awaited = runnel::AwaitedWith(element);
-  std::erase_if(awaited, [&](const LateConnection& late) { return FindLate(late.from, late.to) == nullptr; });
-  return awaited;
+void StructureOverlay::ConnectLate(const std::string& from, const std::string& to, const ConnectOptions& options) {
+  late_.push_back({WholePath(*this, from), WholePath(*this, to), options, "its ends"});
+}
+
+void StructureOverlay::DisconnectLate(std::string_view from, std::string_view to) {
+  if (const LateConnection* const late = FindLate(from, to)) late_.erase(late_.begin() + (late - late_.data()));
 }
 
 std::vector<Connection> StructureOverlay::EdgesOf(Port& port, const FrameworkElement* module) const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -19,7 +18,7 @@ namespace runnel::internal {
 /// Threads:  under the structure lock.
 class StructureOverlay final : public PathSearch {
  public:
-  explicit StructureOverlay(Runtime& runtime) : PathSearch(runtime), runtime_(runtime) {}
+  explicit StructureOverlay(Runtime& runtime);
 
   /// Where an element called by the last part of `path` would go. Errors: a bad or taken name, no
   /// parent.
@@ -36,13 +35,12 @@ class StructureOverlay final : public PathSearch {
   Result<void> Connect(Port& from, Port& to, const ConnectOptions& options);
   Result<void> Disconnect(Port& from, Port& to);
 
-  /// One that waits is to be, or is not to be any more.
-  void ConnectLate(const std::string& from, const std::string& to);
-  void DisconnectLate(const LateConnection& late);
-  /// nullptr if it is not there, or will not be by then.
+  /// What waits by then, and what is connected since it waited.
+  [[nodiscard]] const std::vector<LateConnection>& late() const noexcept { return late_; }
   [[nodiscard]] const LateConnection* FindLate(std::string_view from, std::string_view to) const;
-  /// As runnel::AwaitedWith(), of those that wait by then and waited before.
-  [[nodiscard]] std::vector<LateConnection> AwaitedWith(const FrameworkElement& element) const;
+  /// By paths of which one is not there yet, or not any more.
+  void ConnectLate(const std::string& from, const std::string& to, const ConnectOptions& options);
+  void DisconnectLate(std::string_view from, std::string_view to);
 
   [[nodiscard]] bool HasSource(const Port& port) const;
   /// From and to the port, with the options that they have by then; of those of a composite, if `module` is one, not what is within it.
@@ -66,7 +64,7 @@ class StructureOverlay final : public PathSearch {
   std::vector<const FrameworkElement*> composites_;  // that have been replaced, with what is connected within
   std::vector<Connection> connected_;
   std::vector<Connection> disconnected_;
-  std::vector<std::pair<std::string, std::string>> disconnected_late_;
+  std::vector<LateConnection> late_;
 };
 
 }  // namespace runnel::internal

@@ -206,23 +206,28 @@ TEST_F(DrivingSwap, NoneIsPutBackIntoAStopThatItWouldMoveBy) {
   const auto publish = [this](double value) {
     ASSERT_TRUE(shop_.Get<Port>("/demo/s/output/value").PublishFilled(internal::FillWith(AnyValue(value))));
   };
-  for (const bool is_stop : {false, true}) {
-    Load("test/servo", "");
-    publish(0.7);
-    Scheduler scheduler(shop_.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
-    StructureEditor editor(shop_.runtime, shop_.plugins.modules(), &scheduler);
-    ASSERT_TRUE(editor.Apply({ReplaceModule{"/demo/m", "test/failing"}}));
-    if (is_stop) {
-      shop_.runtime.robot_stop().Press("a test");
-    } else {
-      ASSERT_TRUE(In().Block());
+  for (const bool is_connected : {false, true}) {
+    for (const bool is_stop : {false, true}) {
+      SCOPED_TRACE(std::string(is_connected ? "connected" : "not connected") + (is_stop ? ", STOP" : ", block"));
+      Load("test/servo", "");
+      if (!is_connected) ASSERT_TRUE(history_.Apply({DisconnectPorts{"/demo/s/value", "/demo/m/in"}}));
+      publish(0.7);
+      Scheduler scheduler(shop_.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+      StructureEditor editor(shop_.runtime, shop_.plugins.modules(), &scheduler);
+      ASSERT_TRUE(editor.Apply({ReplaceModule{"/demo/m", "test/failing"}}));
+      if (is_stop) {
+        shop_.runtime.robot_stop().Press("a test");
+      } else {
+        ASSERT_TRUE(In().Block());
+      }
+      publish(0.1);
+      for (int i = 0; i < 5; ++i) scheduler.Step();
+      EXPECT_EQ(FindModuleType(shop_.Get<FrameworkElement>("/demo/m")), "test/failing");
+      EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 1500) << is_stop;
+      EXPECT_EQ(In().is_blocked(), !is_stop);
+      EXPECT_TRUE(shop_.runtime.robot_stop().Release("a test"));
+      ASSERT_TRUE(editor.Apply({DeleteElement{"/demo"}}));
     }
-    publish(0.1);
-    for (int i = 0; i < 5; ++i) scheduler.Step();
-    EXPECT_EQ(FindModuleType(shop_.Get<FrameworkElement>("/demo/m")), "test/failing");
-    EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 1500) << is_stop;
-    EXPECT_EQ(In().is_blocked(), !is_stop);
-    ASSERT_TRUE(editor.Apply({DeleteElement{"/demo"}}));
   }
 }
 
@@ -245,16 +250,45 @@ TEST_F(DrivingSwap, TheWayBackIsNoneIntoAnotherUnit) {
 
 // Under STOP an undo lets go of nothing. What has no safe value in its unit is not undone.
 TEST_F(DrivingSwap, AnUndoUnderStopLetsNothingGo) {
-  for (const char* const first : {"test/motor", "test/servo"}) {
-    Load(first, "");
-    ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/drive"}}));
-    ASSERT_TRUE(shop_.Get<Port>("/demo/s/output/value").PublishFilled(internal::FillWith(AnyValue(0.7))));
-    shop_.runtime.robot_stop().Press("a test");
-    EXPECT_EQ(bool(history_.Undo()), first == std::string("test/motor"));
-    EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0);
-    EXPECT_TRUE(shop_.runtime.robot_stop().Release("a test"));
-    ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+  for (const bool is_connected : {false, true}) {
+    for (const char* const first : {"test/motor", "test/servo"}) {
+      Load(first, "");
+      if (!is_connected) {
+        ASSERT_TRUE(history_.Apply({DisconnectPorts{"/demo/s/value", "/demo/m/in"}}));
+        ASSERT_TRUE(In().PublishByHand(internal::FillWith(AnyValue(0.7))));
+      }
+      ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/drive"}}));
+      ASSERT_TRUE(shop_.Get<Port>("/demo/s/output/value").PublishFilled(internal::FillWith(AnyValue(0.7))));
+      shop_.runtime.robot_stop().Press("a test");
+      EXPECT_EQ(bool(history_.Undo()), first == std::string("test/motor"));
+      EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 0);
+      EXPECT_TRUE(shop_.runtime.robot_stop().Release("a test"));
+      ASSERT_TRUE(history_.Apply({DeleteElement{"/demo"}}));
+    }
   }
+}
+
+// Each declares what stops it, and nothing goes from the one to the other.
+TEST_F(DrivingSwap, AMotorThatIsNotConnectedIsSwappedUnderStop) {
+  struct Kilometres final : Module {
+    using Module::Module;
+    Input<double> in{this, "in", {.unit = "km/h", .drives = true}};
+    void Update() override {}
+  };
+  struct Metres final : Module {
+    using Module::Module;
+    Input<double> in{this, "in", {.unit = "m/s", .drives = true}};
+    void Update() override {}
+  };
+  shop_.Add<Kilometres>("test/kilometres");
+  shop_.Add<Metres>("test/metres");
+  Load("test/metres", "");
+  ASSERT_TRUE(history_.Apply({DisconnectPorts{"/demo/s/value", "/demo/m/in"}}));
+  shop_.runtime.robot_stop().Press("a test");
+  ASSERT_TRUE(history_.Apply({ReplaceModule{"/demo/m", "test/kilometres"}}));
+  EXPECT_TRUE(In().is_driving());
+  EXPECT_TRUE(history_.Undo());
+  EXPECT_TRUE(In().is_driving());
 }
 
 }  // namespace

@@ -109,9 +109,9 @@ struct Awaiting : StaticParameterTest {
     const std::lock_guard lock(runtime.structure_mutex());
     EXPECT_TRUE(LateConnections::Of(runtime).Add("//other/m/x", "/app/adder/in3", {}));
   }
-  bool IsAwaited() {
+  bool IsAwaited(const char* by = "/app/adder/in3") {
     const std::lock_guard lock(runtime.structure_mutex());
-    return LateConnections::Of(runtime).Find("//other/m/x", "/app/adder/in3") != nullptr;
+    return LateConnections::Of(runtime).Find("//other/m/x", by) != nullptr;
   }
 };
 
@@ -147,6 +147,58 @@ TEST_F(Awaiting, WhatIsDisconnectedInTheSameSetWaitsNoMore) {
               HasSubstr("has no port 'in3', which is connected"));
   Must({disconnect, connect, DeleteElement{"/app/adder"}});
   EXPECT_FALSE(IsAwaited());
+  ASSERT_TRUE(
+      editor.Apply({CreateModule{"/app/adder", "test/adder", {{"inputs", "3"}}}, connect, disconnect, connect}));
+  EXPECT_TRUE(IsAwaited());
+  for (const ChangeSet& each : {ChangeSet{disconnect, connect, SetParameter{"/app/adder/inputs", "2"}},
+                                ChangeSet{disconnect, RenameElement{"/app/adder", "other"}}}) {
+    const ChangeOutcome outcome = history_.Apply(each);
+    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+    EXPECT_FALSE(IsAwaited());
+    ASSERT_TRUE(history_.Undo());
+    EXPECT_TRUE(IsAwaited());
+  }
+}
+
+// By whichever name the changes before have given it.
+TEST_F(Awaiting, WhatIsRenamedInTheSameSetIsAwaitedByItsNewName) {
+  const RenameElement rename{"/app/adder", "other"};
+  EXPECT_THAT(Refusal({rename, ReplaceModule{"/app/other", "test/adder", {{"inputs", "2"}}}}),
+              HasSubstr("has no port 'in3', which is connected"));
+  ASSERT_TRUE(history_.Apply({rename, RenameElement{"/app/other", "third"}, RenameElement{"/app/third", "adder"},
+                              RenameElement{"/app/adder", "last"}}));
+  EXPECT_TRUE(IsAwaited("/app/last/in3"));
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_TRUE(IsAwaited());
+}
+
+struct OfType final : Module {
+  using Module::Module;
+  StaticParameter<bool> is_text{this, "is_text"};
+  std::optional<Input<int>> number;
+  std::optional<Input<std::string>> text;
+  Result<void> Construct() override {
+    if (is_text.Get()) {
+      text.emplace(this, "in");
+    } else {
+      number.emplace(this, "in");
+    }
+    return {};
+  }
+  void Update() override {}
+};
+
+// It waits for whatever has the name.
+TEST_F(Awaiting, AnInputOfAnotherTypeIsAwaitedLikewise) {
+  Register<OfType>("test/of_type");
+  const ConnectPorts connect{"//other/m/x", "/app/m/in"};
+  ASSERT_TRUE(history_.Apply({CreateModule{"/app/m", "test/of_type"}, connect}));
+  ASSERT_TRUE(IsAwaited("/app/m/in"));
+  ASSERT_TRUE(history_.Apply({SetParameter{"/app/m/is_text", "true"}}));
+  EXPECT_TRUE(IsAwaited("/app/m/in"));
+  const ChangeOutcome back = history_.Undo();
+  EXPECT_TRUE(back) << back.diagnostics.ToString();
+  EXPECT_TRUE(IsAwaited("/app/m/in"));
 }
 
 TEST_F(StaticParameterTest, ASwapGivesThePortsThatAreAskedFor) {
