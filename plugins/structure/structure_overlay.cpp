@@ -19,8 +19,10 @@ bool HasEdge(const std::vector<Connection>& edges, const Port& from, const Port&
 
 }  // namespace
 
-StructureOverlay::StructureOverlay(Runtime& runtime) : PathSearch(runtime), runtime_(runtime) {
-  if (const LateConnections* const late = LateConnections::FindIn(runtime)) late_ = late->all();
+std::vector<LateConnection>& StructureOverlay::Late() const {
+  if (late_) return *late_;
+  const LateConnections* const late = LateConnections::FindIn(runtime_);
+  return late_.emplace(late != nullptr ? late->all() : std::vector<LateConnection>());
 }
 
 bool StructureOverlay::IsGone(const FrameworkElement& element) const {
@@ -162,7 +164,7 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
                  .path = from.path()};
   }
   connected_.push_back({&from, &to, options});
-  if (options.when_present) late_.push_back({from.path(), to.path(), options, {}});
+  if (options.when_present) Late().push_back({WholePath(*this, from.path()), to.path(), options, {}});
   return {};
 }
 
@@ -181,15 +183,15 @@ Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
 }
 
 const LateConnection* StructureOverlay::FindLate(std::string_view from, std::string_view to) const {
-  return runnel::FindLate(late_, *this, from, to);
+  return runnel::FindLate(Late(), *this, from, to);
 }
 
 void StructureOverlay::ConnectLate(const std::string& from, const std::string& to, const ConnectOptions& options) {
-  late_.push_back({WholePath(*this, from), WholePath(*this, to), options, "its ends"});
+  Late().push_back({WholePath(*this, from), WholePath(*this, to), options, "its ends"});
 }
 
 void StructureOverlay::DisconnectLate(std::string_view from, std::string_view to) {
-  if (const LateConnection* const late = FindLate(from, to)) late_.erase(late_.begin() + (late - late_.data()));
+  if (const LateConnection* const late = FindLate(from, to)) late_->erase(late_->begin() + (late - late_->data()));
 }
 
 std::vector<Connection> StructureOverlay::EdgesOf(Port& port, const FrameworkElement* module) const {

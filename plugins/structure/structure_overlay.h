@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -18,7 +19,7 @@ namespace runnel::internal {
 /// Threads:  under the structure lock.
 class StructureOverlay final : public PathSearch {
  public:
-  explicit StructureOverlay(Runtime& runtime);
+  explicit StructureOverlay(Runtime& runtime) : PathSearch(runtime), runtime_(runtime) {}
 
   /// Where an element called by the last part of `path` would go. Errors: a bad or taken name, no
   /// parent.
@@ -36,7 +37,7 @@ class StructureOverlay final : public PathSearch {
   Result<void> Disconnect(Port& from, Port& to);
 
   /// What waits by then, and what is connected since it waited.
-  [[nodiscard]] const std::vector<LateConnection>& late() const noexcept { return late_; }
+  [[nodiscard]] const std::vector<LateConnection>& late() const { return Late(); }
   [[nodiscard]] const LateConnection* FindLate(std::string_view from, std::string_view to) const;
   /// By paths of which one is not there yet, or not any more.
   void ConnectLate(const std::string& from, const std::string& to, const ConnectOptions& options);
@@ -54,6 +55,7 @@ class StructureOverlay final : public PathSearch {
   [[nodiscard]] bool IsGone(const FrameworkElement& element) const;
   [[nodiscard]] std::vector<Connection> Targets(Port& from) const;
   [[nodiscard]] Port& NowFor(Port& port) const;
+  [[nodiscard]] std::vector<LateConnection>& Late() const;
   [[nodiscard]] bool IsInCycle(Port& port) const;
   [[nodiscard]] bool Reaches(Port& from, const Port& to) const;
 
@@ -64,7 +66,7 @@ class StructureOverlay final : public PathSearch {
   std::vector<const FrameworkElement*> composites_;  // that have been replaced, with what is connected within
   std::vector<Connection> connected_;
   std::vector<Connection> disconnected_;
-  std::vector<LateConnection> late_;
+  mutable std::optional<std::vector<LateConnection>> late_;  // copied when it is first asked for, under the lock
 };
 
 }  // namespace runnel::internal

@@ -210,7 +210,9 @@ TEST_F(DrivingSwap, NoneIsPutBackIntoAStopThatItWouldMoveBy) {
     for (const bool is_stop : {false, true}) {
       SCOPED_TRACE(std::string(is_connected ? "connected" : "not connected") + (is_stop ? ", STOP" : ", block"));
       Load("test/servo", "");
-      if (!is_connected) ASSERT_TRUE(history_.Apply({DisconnectPorts{"/demo/s/value", "/demo/m/in"}}));
+      if (!is_connected) {
+        ASSERT_TRUE(history_.Apply({DisconnectPorts{"/demo/s/value", "/demo/m/in"}}));
+      }
       publish(0.7);
       Scheduler scheduler(shop_.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
       StructureEditor editor(shop_.runtime, shop_.plugins.modules(), &scheduler);

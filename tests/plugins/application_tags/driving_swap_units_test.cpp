@@ -10,7 +10,7 @@ using namespace driving_swap;
 using ::testing::HasSubstr;
 
 template <int kUnit>
-struct Source final : Module {
+struct SourceInUnit final : Module {
   using Module::Module;
   static constexpr const char* kUnits[] = {"km/h", "deg"};
   Output<double> value{this, "value", {.unit = kUnits[kUnit]}};
@@ -25,8 +25,8 @@ struct DrivingSwapUnits : DrivingSwap {
   DrivingSwapUnits() {
     shop_.Add<Boxed>("test/boxed");
     shop_.Add<BoxOf<Undeclared<0>>>("test/boxed_number");
-    shop_.Add<Source<0>>("test/kilometres");
-    shop_.Add<Source<1>>("test/degrees");
+    shop_.Add<SourceInUnit<0>>("test/kilometres");
+    shop_.Add<SourceInUnit<1>>("test/degrees");
     shop_.Add<Arm>("test/arm");
   }
   ChangeOutcome Swap(const char* type) { return history_.Apply({ReplaceModule{"/demo/m", type}}); }
