@@ -161,7 +161,7 @@ class Plan {
   void AddExchange(FrameworkElement& before, UnlistedElement after);
   Result<void> CheckAll(const GroupParameter& group, const SetParameter& change);
   Result<void> CheckStatic(const FrameworkElement& element, const Configurable& parameter, const void* value);
-  Result<void> Cut(const std::vector<Port*>& ports, const FrameworkElement& module);
+  Result<void> Cut(const std::vector<std::pair<Port*, Port*>>& misfits, const FrameworkElement& module);
 
   // One that is to be when its ends are there, and at least one is not; or that has been to be until now.
   Result<void> CheckLateTie(const std::string& from, const std::string& to,

@@ -207,15 +207,16 @@ Result<void> Plan::CheckStatic(const FrameworkElement& element, const Configurab
   return CheckReplacement({module->path(), type, {{element.name(), text}}}, Misfits::kAreCut);
 }
 
-// Cuts the connections of `ports`, which nothing takes over.
-Result<void> Plan::Cut(const std::vector<Port*>& ports, const FrameworkElement& module) {
-  for (Port* port : ports) {
+// Cuts the connections that nothing takes over. What waits does so for whatever has the name of its port.
+Result<void> Plan::Cut(const std::vector<std::pair<Port*, Port*>>& misfits, const FrameworkElement& module) {
+  for (const auto& [port, counterpart] : misfits) {
     for (const auto& [from, to, options, converted] : overlay_.EdgesOf(*port, &module)) {
       if (auto cut = CheckTie(*from, *to, std::nullopt); !cut) return cut;
       warnings_.push_back({.message = "is not connected to " + to->path() +
                                       " any more: the module made anew has no port that takes it over",
                            .path = from->path()});
     }
+    if (counterpart != nullptr) continue;
     for (const LateConnection& each : AwaitedWith(overlay_.late(), *port)) {
       if (auto cut = CheckLateTie(each.SourceText(), each.to, std::nullopt); !cut) return cut;
       warnings_.push_back(

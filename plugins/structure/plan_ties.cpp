@@ -85,9 +85,12 @@ Result<void> Plan::CheckTie(Port& from, Port& to, const std::optional<ConnectOpt
   if (!possible) return possible;
   Concern(from);
   Concern(to);
-  const auto tie = [&from, &to](const std::optional<ConnectOptions>& options) {
+  const auto tie = [&from, &to](const std::optional<ConnectOptions>& options) -> Result<void> {
     if (options && options->when_present) (void)LateConnections::Of(from.runtime());
-    return options ? Port::Connect(from, to, *options) : Port::Disconnect(from, to);
+    if (options) return Port::Connect(from, to, *options);
+    // Not to be made again once other ends have these names.
+    LateConnections* const late = LateConnections::FindIn(from.runtime());
+    return late != nullptr && late->Remove(from.path(), to.path()) ? Result<void>() : Port::Disconnect(from, to);
   };
   struct Done {
     std::optional<ConnectOptions> before;  // of a connection that is cut

@@ -188,7 +188,7 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
     } else if (is_stopped || is_connected) {
       // What is worse first.
       result.errors.insert(is_stopped ? result.errors.begin() : result.errors.end(), possible.error());
-      if (!is_stopped) result.misfits.push_back(&port);
+      if (!is_stopped) result.misfits.emplace_back(&port, match);
     } else if (composites && (is_held || IsBarred(port))) {
       const char* const what = is_held ? "is held" : "waits for a value from after its release";
       result.errors.push_back(

@@ -36,8 +36,9 @@ Result<void> CopyLateSettings(const FrameworkElement& before, const Values& valu
 /// The ports of a module, each with that which takes over from it.
 struct PortMatch {
   std::vector<std::pair<Port*, Port*>> ports;
-  std::vector<Error> errors;   ///< what is connected, marked or blocked, and has no counterpart, with the nearest name
-  std::vector<Port*> misfits;  ///< those of them that can be cut
+  std::vector<Error> errors;  ///< what is connected, marked or blocked, and has no counterpart, with the nearest name
+  /// Those of them that can be cut, each with what has its name in the other module, or nullptr.
+  std::vector<std::pair<Port*, Port*>> misfits;
 };
 /// `overlay`: what is connected by then.
 [[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const StructureOverlay& overlay);

@@ -73,6 +73,9 @@ Result<Placement> StructureOverlay::PlaceFor(std::string_view path) const {
 void StructureOverlay::Add(FrameworkElement& element) { added_.push_back(&element); }
 
 void StructureOverlay::Remove(FrameworkElement& element) {
+  for (LateConnection& each : Late()) {
+    if (IsAtOrBelow(each.from, element.path()) || IsAtOrBelow(each.to, element.path())) each.waits_for = "its end";
+  }
   removed_.push_back(&element);
   std::erase_if(connected_, [&](const Connection& edge) {
     return edge.from->IsAtOrBelow(element) || edge.to->IsAtOrBelow(element);
@@ -164,7 +167,10 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
                  .path = from.path()};
   }
   connected_.push_back({&from, &to, options});
-  if (options.when_present) Late().push_back({WholePath(*this, from.path()), to.path(), options, {}});
+  const bool was_noted = FindLate(from.path(), to.path()) != nullptr;
+  if (!was_noted && !options.when_present) return {};
+  DisconnectLate(from.path(), to.path());
+  Late().push_back({WholePath(*this, from.path()), to.path(), options, {}});
   return {};
 }
 

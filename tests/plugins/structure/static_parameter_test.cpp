@@ -194,11 +194,62 @@ TEST_F(Awaiting, AnInputOfAnotherTypeIsAwaitedLikewise) {
   const ConnectPorts connect{"//other/m/x", "/app/m/in"};
   ASSERT_TRUE(history_.Apply({CreateModule{"/app/m", "test/of_type"}, connect}));
   ASSERT_TRUE(IsAwaited("/app/m/in"));
+  // Also where another connection has to be cut.
+  ASSERT_TRUE(history_.Apply({ConnectPorts{"/app/counter/out", "/app/m/in"}}));
   ASSERT_TRUE(history_.Apply({SetParameter{"/app/m/is_text", "true"}}));
   EXPECT_TRUE(IsAwaited("/app/m/in"));
   const ChangeOutcome back = history_.Undo();
   EXPECT_TRUE(back) << back.diagnostics.ToString();
   EXPECT_TRUE(IsAwaited("/app/m/in"));
+}
+
+// While a change waits for others.
+TEST_F(Awaiting, WhatHasBeenAddedMeanwhileIsSeen) {
+  std::thread renaming;
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    renaming = std::thread([this] { Must({RenameElement{"/app/adder", "other"}}); });
+    std::this_thread::sleep_for(20ms);
+    EXPECT_TRUE(LateConnections::Of(runtime).Add("//other/m/y", "/app/adder/in2", {}));
+  }
+  renaming.join();
+  const std::lock_guard lock(runtime.structure_mutex());
+  EXPECT_NE(LateConnections::Of(runtime).Find("//other/m/y", "/app/other/in2"), nullptr);
+}
+
+struct WhenPresent : StaticParameterTest {
+  WhenPresent() { Must({cut, ConnectPorts{"/app/counter/out", "/app/adder/in1", {.when_present = true}}}); }
+  std::size_t CountNoted() {
+    const std::lock_guard lock(runtime.structure_mutex());
+    return LateConnections::Of(runtime).all().size();
+  }
+  const DisconnectPorts cut{"/app/counter/out", "/app/adder/in1"};
+};
+
+TEST_F(WhenPresent, WhatIsCutStaysCutWhereItsEndGoesInTheSameSet) {
+  for (const Change& next : {Change(ReplaceModule{"/app/adder", "test/adder"}),
+                             Change(RenameElement{"/app/adder", "other"}), Change(DeleteElement{"/app/counter"})}) {
+    const std::string before = Structure();
+    ASSERT_TRUE(history_.Apply({cut, next}));
+    EXPECT_EQ(CountNoted(), 0U);
+    ASSERT_TRUE(history_.Undo());
+    EXPECT_EQ(Structure(), before);
+    EXPECT_EQ(CountNoted(), 1U);
+  }
+}
+
+TEST_F(WhenPresent, WhatGoesAndWhatIsRenamedMayBeInOneSet) {
+  const std::string before = Structure();
+  for (const ChangeSet& each : {ChangeSet{RenameElement{"/app/adder", "other"}, DeleteElement{"/app/counter"}},
+                                ChangeSet{DeleteElement{"/app/counter"}, RenameElement{"/app/adder", "other"}}}) {
+    const ChangeOutcome outcome = history_.Apply(each);
+    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+    EXPECT_EQ(CountNoted(), 1U);
+    const ChangeOutcome back = history_.Undo();
+    ASSERT_TRUE(back) << back.diagnostics.ToString();
+    EXPECT_EQ(Structure(), before);
+    EXPECT_EQ(CountNoted(), 1U);
+  }
 }
 
 TEST_F(StaticParameterTest, ASwapGivesThePortsThatAreAskedFor) {
