@@ -178,9 +178,9 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
     // What waits does so for whatever has the name of its port.
     const bool is_awaited = match == nullptr && !AwaitedWith(overlay.late(), port).empty();
     const bool is_connected = is_awaited || overlay.IsConnected(port, &before);
-    // What STOP holds and nobody else would is not let go of.
-    const bool is_held_by_stop =
-        match != nullptr && port.is_driving() && port.stop()->in_force() && match->declared_stop() == nullptr;
+    // What STOP holds is not let go of, unless the other one declares that it moves.
+    const bool declares = match != nullptr && match->is_driving() && !match->FindMark();
+    const bool is_held_by_stop = match != nullptr && port.is_driving() && port.stop()->in_force() && !declares;
     const bool is_stopped = match != nullptr && (port.is_blocked() || port.FindMark() || is_held_by_stop ||
                                                  (is_connected && port.is_driving()));
     if (possible) {
