@@ -227,7 +227,7 @@ TEST_F(DrivingSwap, NoneIsPutBackIntoAStopThatItWouldMoveBy) {
       EXPECT_EQ(FindModuleType(shop_.Get<FrameworkElement>("/demo/m")), "test/failing");
       EXPECT_EQ(dynamic_cast<Input<double>&>(In()).Get(), 1500) << is_stop;
       EXPECT_EQ(In().is_blocked(), !is_stop);
-      EXPECT_TRUE(shop_.runtime.robot_stop().Release("a test"));
+      EXPECT_EQ(bool(shop_.runtime.robot_stop().Release("a test")), is_stop);
       ASSERT_TRUE(editor.Apply({DeleteElement{"/demo"}}));
     }
   }
