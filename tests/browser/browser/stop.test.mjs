@@ -36,6 +36,26 @@ async function Releases(page) {
   await page.locator('#stop-banner').waitFor({ state: 'detached' });
 }
 
+test('it looks the same over a menu and a dialog, where what deletes can be read, too', async (t) => {
+  const { inspector, page } = await OpenMock(t);
+  const colours = (of) => page.locator(of).evaluate((each) => {
+    const { color, backgroundColor, borderBottomWidth } = getComputedStyle(each);
+    return [color, backgroundColor, borderBottomWidth];
+  });
+  await Stands(page, 'free');
+  const before = await colours('#stop-button');
+  await inspector.node('/mock/laser').locator('.name').click({ button: 'right' });
+  await page.locator('dialog.menu #stop-button').waitFor();
+  await page.mouse.move(0, 0);
+  assert.deepEqual(await colours('#stop-button'), before, 'over a menu');
+  await page.getByRole('menuitem', { name: 'Delete' }).click();
+  await page.locator('#confirm-yes').waitFor();
+  await page.mouse.move(0, 0);
+  assert.deepEqual(await colours('#stop-button'), before, 'over a dialog');
+  const [word, ground] = await colours('#confirm-yes');
+  assert.notEqual(word, ground);
+});
+
 test('it is on each page, in the same place, shows the same, and is released by another act', async (t) => {
   const { application, server, page } = await OpenMock(t);
   const { page: panel } = await OpenPanel(t, server.url, { shows: '[data-widget]' });
