@@ -1,12 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <fstream>
 #include <iostream>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "core/base/diagnostics.h"
 #include "core/base/exception_text.h"
+#include "core/base/number_text.h"
 
 // What the programs beside `runnel` have in common.
 namespace runnel {
@@ -22,6 +25,12 @@ inline int Fail(const Error& error, int code = exit_code::kBadInput) {
   diagnostics.Add(error);
   std::cerr << diagnostics.ToString();
   return code;
+}
+
+/// What is wrong with the text of a seed; "" if nothing is. CLI11 takes "-1" for the greatest number there is.
+inline std::string FaultOfSeed(const std::string& text) {
+  return NumberIn<std::uint64_t>(text) ? ""
+                                       : "a seed is a whole number from 0 to 18446744073709551615, not '" + text + "'";
 }
 
 /// Writes it into a file, or to standard output if that is "". Returns the exit code.

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/program.h"
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 
@@ -17,7 +18,7 @@ void AddChoices(CLI::App& program, ArenaArguments& arguments) {
       ->type_name("FILE")
       ->required();
   const auto add_list = [&](const char* name, auto& list, const char* what) {
-    program.add_option(name, list, what)
+    return program.add_option(name, list, what)
         ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false)
@@ -28,7 +29,7 @@ void AddChoices(CLI::App& program, ArenaArguments& arguments) {
            "<module> tag");
   add_list("--sensor", arguments.sensors, "laser, infrared, bumper: what the applications there are for");
   add_list("--direction", arguments.directions, "first turn at an obstacle: left, right");
-  add_list("--seed", arguments.seeds, "of the noise, and so of the run");
+  add_list("--seed", arguments.seeds, "of the noise, and so of the run")->check(FaultOfSeed);
   add_list("--plugin", arguments.plugins, "loads others' plugins, whose planners can be variants");
 }
 

@@ -43,9 +43,10 @@ std::string HashOf(std::string_view text) {
   return fmt::format("{:x}", hash);
 }
 
-std::vector<std::string> WithoutRepeats(const std::vector<std::string>& words) {
-  std::vector<std::string> single;
-  for (const std::string& word : words) {
+template <typename Word>
+std::vector<Word> WithoutRepeats(const std::vector<Word>& words) {
+  std::vector<Word> single;
+  for (const Word& word : words) {
     if (std::ranges::find(single, word) == single.end()) single.push_back(word);
   }
   return single;
@@ -99,13 +100,14 @@ Applications ReadApplications(const ArenaArguments& arguments, const Product& pr
 void AddRuns(const ArenaArguments& arguments, const Applications& applications, Matrix& matrix) {
   const auto sensors = WithoutRepeats(arguments.sensors);
   const auto directions = WithoutRepeats(arguments.directions);
+  const auto seeds = WithoutRepeats(arguments.seeds);
   for (std::size_t course = 0; course < matrix.courses.size(); ++course) {
     for (const Variant& variant : matrix.variants) {
       for (const std::string& sensor : sensors) {
         const std::string& application = applications.at({sensor, variant.name});
         const std::string made_of = HashOf(matrix.courses[course].text + '\0' + application);
         for (const std::string& direction : directions) {
-          for (const std::uint64_t seed : arguments.seeds) {
+          for (const std::uint64_t seed : seeds) {
             matrix.runs.push_back({.key = {matrix.courses[course].name, variant.name, sensor, direction, seed},
                                    .course = course,
                                    .application = application,

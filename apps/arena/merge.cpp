@@ -67,6 +67,10 @@ Result<void> AddPart(const std::filesystem::path& part, Merged& merged) {
 
 Result<std::size_t> Merge(const std::filesystem::path& into, const std::vector<std::filesystem::path>& parts) {
   Merged merged;
+  // What it has already stays.
+  if (std::filesystem::exists(into.string() + ".journal")) {
+    if (auto added = AddPart(into, merged); !added) return added.error();
+  }
   for (const auto& part : parts) {
     if (auto added = AddPart(part, merged); !added) return added.error();
   }

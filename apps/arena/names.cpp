@@ -51,11 +51,19 @@ bool Has(const std::vector<std::string>& names, const std::string& name) {
 }
 
 Result<Variant> FindVariant(const std::string& word, const std::vector<std::string>& types) {
-  if (word.ends_with(".xml")) return ReadVariant(word);
+  if (word.ends_with(".xml")) {
+    auto variant = ReadVariant(word);
+    // What is known of one of the family, its bound say, is known of its name.
+    if (!variant || !Has(FamilyNames(types), variant->name)) return variant;
+    return Error{.message = "'" + variant->name + "' is the name of " + std::string(kFamily) + variant->name,
+                 .position = {word},
+                 .hint = "give the file another name"};
+  }
   const bool is_type = word.find('/') != std::string::npos;
   const std::string type = is_type ? word : std::string(kFamily) + word;
+  const std::string name = type.starts_with(kFamily) ? type.substr(kFamily.size()) : type;
   // Types that nobody lists, as those in Python, are known to any registry once their plugin is loaded.
-  if (Has(types, type) || ModuleRegistry().Find(type) != nullptr) return Variant{.name = word, .type = type};
+  if (Has(types, type) || ModuleRegistry().Find(type) != nullptr) return Variant{.name = name, .type = type};
   return Error{.message = "there is no variant '" + word + "'",
                .hint = NearestNameHint(word, is_type ? types : FamilyNames(types))};
 }

@@ -138,18 +138,21 @@ struct RunContext {
 };
 
 Result<RunRecord> MakeRun(const PlannedRun& run, const std::string& files, const RunContext& context) {
-  const std::string application = files + ".xml", result = files + ".json", output = files + ".txt";
-  if (auto written = WriteFile(application, run.application); !written) return written.error();
+  const std::string application = files + ".xml", world = files + "_world.xml", result = files + ".json",
+                    output = files + ".txt";
   const RunSettings& settings = context.arguments.settings;
   const Course& course = context.matrix.courses[run.course];
+  if (auto written = WriteFile(application, run.application); !written) return written.error();
+  // What has been judged is what is run, whatever becomes of the file meanwhile.
+  if (auto written = WriteFile(world, course.text); !written) return written.error();
   const double wall_limit = context.arguments.wall_limit;
-  const auto ending = RunProgram(
-      {context.product.program.string(), "run", application, "--fast", "--quiet", "--no-control",
-       "world=" + course.file.string(), "first_direction=" + run.key.direction, "seed=" + std::to_string(run.key.seed),
-       fmt::format("noise={}", settings.noise), fmt::format("path_step={}", settings.path_step),
-       fmt::format("time_limit={}", settings.time_limit > 0.0 ? settings.time_limit : TimeLimitOf(course)),
-       fmt::format("safe_distance={}", settings.safe_distance), "result=" + result},
-      output, std::chrono::duration<double>(wall_limit), context.is_to_stop);
+  const auto ending =
+      RunProgram({context.product.program.string(), "run", application, "--fast", "--quiet", "--no-control",
+                  "world=" + world, "first_direction=" + run.key.direction, "seed=" + std::to_string(run.key.seed),
+                  fmt::format("noise={}", settings.noise), fmt::format("path_step={}", settings.path_step),
+                  fmt::format("time_limit={}", settings.time_limit > 0.0 ? settings.time_limit : TimeLimitOf(course)),
+                  fmt::format("safe_distance={}", settings.safe_distance), "result=" + result},
+                 output, std::chrono::duration<double>(wall_limit), context.is_to_stop);
   if (!ending) return ending.error();
   RunRecord record{.key = run.key,
                    .wall_time = ending->wall_time,

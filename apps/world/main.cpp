@@ -23,20 +23,20 @@ Result<WorldKind> KindCalled(const std::string& name) {
                .hint = NearestNameHint(name, std::vector<std::string>(kWorldKindNames.begin(), kWorldKindNames.end()))};
 }
 
-/// Only what differs from the defaults.
-std::string CommandOf(const GeneratorOptions& options) {
+/// Only what differs from the defaults. A comment must not have "--" in it.
+std::string OriginOf(const GeneratorOptions& options) {
   const GeneratorOptions defaults;
-  std::string command = "runnel world --kind ";
-  command += kWorldKindNames[static_cast<std::size_t>(options.kind)];
-  command += " --seed " + std::to_string(options.seed);
+  std::string origin = "<!-- Made by runnel world: kind ";
+  origin += kWorldKindNames[static_cast<std::size_t>(options.kind)];
+  origin += ", seed " + std::to_string(options.seed);
   const auto add = [&](const char* name, double value, double usual) {
-    if (value != usual) command += fmt::format(" {} {}", name, value);
+    if (value != usual) origin += fmt::format(", {} {}", name, value);
   };
-  add("--width", options.width, defaults.width);
-  add("--height", options.height, defaults.height);
-  add("--gap", options.gap, defaults.gap);
-  add("--count", options.count, defaults.count);
-  return command + (options.is_enclosed ? " --enclosed" : "");
+  add("width", options.width, defaults.width);
+  add("height", options.height, defaults.height);
+  add("gap", options.gap, defaults.gap);
+  add("count", options.count, defaults.count);
+  return origin + (options.is_enclosed ? ", enclosed" : "") + " -->\n";
 }
 
 /// Makes it, headed by a comment that says how it was made; file "": to standard output.
@@ -45,7 +45,7 @@ int Make(GeneratorOptions& options, const std::string& kind, const std::string& 
   if (!found) return Fail(found.error());
   options.kind = *found;
   if (const std::string fault = FaultOf(options); !fault.empty()) return Fail({.message = fault});
-  return WriteText("<!-- Made by: " + CommandOf(options) + " -->\n" + WriteWorld(GenerateWorld(options)), file);
+  return WriteText(OriginOf(options) + WriteWorld(GenerateWorld(options)), file);
 }
 
 }  // namespace
@@ -57,7 +57,9 @@ int main(int count, char** words) {
   runnel::GeneratorOptions options;
   std::string kind, file;
   program.add_option("--kind", kind, "scatter, maze, spiral, comb or ring")->required();
-  program.add_option("--seed", options.seed, "of the random numbers")->capture_default_str();
+  program.add_option("--seed", options.seed, "of the random numbers")
+      ->check(runnel::FaultOfSeed)
+      ->capture_default_str();
   program.add_option("--out", file, "the file to write; without, standard output")->type_name("FILE");
   program.add_option("--width", options.width, "m along x, of a scatter or maze; of rings twice the way to the goal")
       ->capture_default_str();

@@ -245,13 +245,22 @@ double DistanceTo(const BoundaryLoop& loop, Point2 point) {
   return least;
 }
 
+// A piece that begins and ends on different sides of the line is crossed once; so one that goes through a joint is counted once.
 int Crossings(const BoundaryLoop& loop, const Segment2& segment) {
+  const Point2 along = segment.to - segment.from;
+  const auto is_left = [&](Point2 point) { return Cross(along, point - segment.from) >= 0.0; };
   int count = 0;
-  for (const BoundaryPiece& piece : loop) {
-    if (piece.centre) {
-      count += RoundCrossings(piece, segment);
-    } else if (WhereItMeets(segment, {piece.from, piece.to})) {
-      ++count;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const BoundaryPiece& piece = loop[i];
+    const Point2 end = loop[(i + 1) % loop.size()].from;
+    const bool changes_side = is_left(piece.from) != is_left(end);
+    if (!changes_side) {
+      count += piece.centre ? RoundCrossings(piece, segment) / 2 * 2 : 0;
+    } else if (piece.centre) {
+      const auto points = internal::Meeting(*piece.centre, Distance(*piece.centre, piece.from), segment, 0.0);
+      count += std::ranges::any_of(points, [&](Point2 point) { return piece.DistanceTo(point) < kJoint; });
+    } else {
+      count += WhereItMeets(segment, {piece.from, end}).has_value();
     }
   }
   return count;

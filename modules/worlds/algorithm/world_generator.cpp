@@ -34,10 +34,12 @@ WallObstacle Enclosure(Point2 goal, double gap) {
 
 std::string FaultOf(const GeneratorOptions& options) {
   const double least = std::max(kLeastGround, 5.0 * options.gap);
-  for (const auto& [what, value, low, high] :
-       {Range{"gap", options.gap, kLeastGap, kGreatestGap}, Range{"width", options.width, least, kGreatestGround},
-        Range{"height", options.height, least, kGreatestGround},
-        Range{"count", static_cast<double>(options.count), 0, kGreatestCount}}) {
+  const bool has_height = options.kind == WorldKind::kScatter || options.kind == WorldKind::kMaze;
+  const bool has_width = has_height || options.kind == WorldKind::kRing;
+  for (const auto& [what, value, low, high] : {Range{"gap", options.gap, kLeastGap, kGreatestGap},
+                                               Range{"width", options.width, has_width ? least : 0, kGreatestGround},
+                                               Range{"height", options.height, has_height ? least : 0, kGreatestGround},
+                                               Range{"count", static_cast<double>(options.count), 0, kGreatestCount}}) {
     if (value >= low && value <= high) continue;  // never so for what is no number
     return fmt::format("the {} must be between {:g} and {:g}, not {:g}", what, low, high, value);
   }

@@ -19,7 +19,7 @@ TEST_F(WorldProgram, WritesTheSameBytesForTheSameSeed) {
     ASSERT_EQ(Runnel(words + " --out " + File("b.xml")).code, 0);
     EXPECT_EQ(Text("a.xml"), Text("b.xml"));
     EXPECT_EQ(Runnel(words).text, Text("a.xml"));
-    EXPECT_THAT(Text("a.xml"), StartsWith("<!-- Made by: runnel world --kind " + kind + " --seed 12 -->\n"));
+    EXPECT_THAT(Text("a.xml"), StartsWith("<!-- Made by runnel world: kind " + kind + ", seed 12 -->\n"));
     Diagnostics diagnostics;
     const auto world = ReadWorldFile(File("a.xml"), diagnostics);
     ASSERT_TRUE(world) << diagnostics.ToString();
@@ -29,7 +29,10 @@ TEST_F(WorldProgram, WritesTheSameBytesForTheSameSeed) {
 
 TEST_F(WorldProgram, SaysHowAWorldIsMadeAgain) {
   const std::string words = "world --kind scatter --seed 5 --width 20 --height 9.5 --gap 1.25 --count 4 --enclosed";
-  EXPECT_THAT(Runnel(words).text, StartsWith("<!-- Made by: runnel " + words + " -->"));
+  EXPECT_THAT(
+      Runnel(words).text,
+      StartsWith(
+          "<!-- Made by runnel world: kind scatter, seed 5, width 20, height 9.5, gap 1.25, count 4, enclosed -->\n"));
 }
 
 TEST_F(WorldProgram, RefusesWhatItCannotMake) {
@@ -41,6 +44,10 @@ TEST_F(WorldProgram, RefusesWhatItCannotMake) {
   expect_refusal("--kind mase", "there is no kind of world called 'mase'; did you mean 'maze'?");
   expect_refusal("--kind maze --gap 0.3", "the gap must be between 0.7 and 5, not 0.3");
   expect_refusal("--seed 3", "--kind is required");
+  for (const char* const seed : {"-1", "0x10", "1.5", "18446744073709551616", "one"}) {
+    expect_refusal("--kind maze --seed=" + std::string(seed),
+                   "a seed is a whole number from 0 to 18446744073709551615");
+  }
   EXPECT_EQ(Runnel("world --kind maze --out /nowhere/maze.xml").code, 1);
 }
 

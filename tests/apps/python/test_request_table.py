@@ -15,7 +15,7 @@ WITHOUT = {"restart"}
 
 
 def names():
-    return re.findall(r'DescribedRequest\{"(\w+)"', TABLE.read_text())
+    return re.findall(r'DescribedRequest\{\s*"(\w+)"', TABLE.read_text())
 
 
 def test_the_table_is_read():

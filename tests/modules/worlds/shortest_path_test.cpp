@@ -242,6 +242,12 @@ TEST(Boundaries, AreCrossedTwiceByALineThrough) {
   EXPECT_EQ(Crossings(loops.front(), {{-5, 0.2}, {5, 0.3}}), 2);
   EXPECT_EQ(Crossings(loops.front(), {{-5, 1.1}, {0, 2.5}}), 0);
   EXPECT_EQ(Crossings(loops.front(), {{-5, 0}, {0, 0}}), 1);
+  // Through the joints of straight pieces and arcs, and along a straight one.
+  for (const BoundaryPiece& piece : loops.front()) {
+    for (const Point2 way : {Point2{1, 0}, Point2{0, 1}, Point2{1, 1}, Point2{1, -2}}) {
+      EXPECT_EQ(Crossings(loops.front(), {piece.from - 20 * way, piece.from + 20 * way}) % 2, 0);
+    }
+  }
   EXPECT_NEAR(DistanceTo(loops.front(), {-5, 0}), 3.65, 1e-9);
   EXPECT_NEAR(DistanceTo(loops.front(), {-4, 5}), std::hypot(3, 4) - kRadius, 1e-9);
 }
