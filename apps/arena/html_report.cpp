@@ -118,9 +118,9 @@ std::string NumberCell(const std::optional<double>& number, int digits) {
 std::string OutcomeText(const Row& row) {
   return std::string("<span class=\"") + (row.is_right ? "good" : "bad") + "\">" +
          EscapedMarkup(row.record->result.outcome) +
-         (row.is_right                               ? ""
-          : MayFailByDesign(row.record->key.variant) ? " (by design: no guarantee)"
-                                                     : " (wrong)") +
+         (row.is_right                   ? ""
+          : MayFailByDesign(*row.record) ? " (by design: no guarantee)"
+                                         : " (wrong)") +
          "</span>";
 }
 

@@ -38,6 +38,9 @@ Result<void> CheckOutputs(const ArenaArguments& arguments) {
     if (std::filesystem::is_directory(file)) {
       return Error{.message = "there is a folder where the file shall be", .position = {file}};
     }
+    if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)) {
+      return Error{.message = "is not a file that could be replaced", .position = {file}};
+    }
     if (auto written = WriteFile(folder / ".runnel-arena", ""); !written) {
       return Error{.message = "the file cannot be written",
                    .position = {file},
@@ -132,20 +135,22 @@ class Session {
     return finished;
   }
 
+  // As many as can be written. The first error.
   Result<void> WriteOutputs(const std::vector<RunRecord>& finished) const {
-    if (!arguments_.json.empty()) {
-      if (auto written = WriteFile(arguments_.json, JsonOf(finished)); !written) return written;
-    }
+    Result<void> done;
+    const auto note = [&done](const Result<void>& written) {
+      if (done) done = written;
+    };
+    if (!arguments_.json.empty()) note(WriteFile(arguments_.json, JsonOf(finished)));
     if (!arguments_.html.empty()) {
-      const std::string page = HtmlReport(matrix_, finished, arguments_.settings);
-      if (auto written = WriteFile(arguments_.html, page); !written) return written;
+      note(WriteFile(arguments_.html, HtmlReport(matrix_, finished, arguments_.settings)));
     }
-    if (arguments_.svg.empty()) return {};
+    if (arguments_.svg.empty()) return done;
     for (const RunRecord& record : finished) {
       const auto course = std::ranges::find(matrix_.courses, record.key.world, &Course::name);
-      if (auto written = WritePicture(arguments_.svg, *course, record); !written) return written;
+      note(WritePicture(arguments_.svg, *course, record));
     }
-    return {};
+    return done;
   }
 
   void TellOfTheRest(const std::vector<RunRecord>& finished) const {

@@ -23,9 +23,9 @@ struct Row {
   bool is_over_bound = false;
 };
 
-/// Whether the variant is one that guarantees nothing: planning/com leaves obstacles wherever the way is free, and may go in
-/// circles for ever, and a network of behaviours knows no unreachable goal.
-[[nodiscard]] bool MayFailByDesign(const std::string& variant);
+/// Whether a variant that guarantees nothing has gone on until its time was over: planning/com leaves obstacles wherever the
+/// way is free, and may go in circles for ever, and a network of behaviours knows no unreachable goal.
+[[nodiscard]] bool MayFailByDesign(const RunRecord& record);
 
 /// In the order of the records.
 [[nodiscard]] std::vector<Row> RowsOf(const Matrix& matrix, const std::vector<RunRecord>& records);

@@ -212,6 +212,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"--world open --direction rigth", "did you mean 'right'?"},
                     Refusal{"--world open --jobs 0", "--jobs must be between 1 and 1000"},
                     Refusal{"--world open --noise nan", "--noise must be between 0 and 10 m"},
+                    Refusal{"--world open --seed=-1", "a seed is a whole number from 0 to 18446744073709551615"},
+                    Refusal{"--world open --html /dev/null", "is not a file that could be replaced"},
                     Refusal{"--world open --resume", "--resume needs --json"},
                     Refusal{"--world open --json /nowhere/runs.json",
                             "/nowhere/runs.json: error: the file "
@@ -219,6 +221,27 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"--world open --svg /proc/pictures", "/proc/pictures"},
                     Refusal{"--world open --plugin nothing", "nothing"},
                     Refusal{"--variant bug1", "--world is required"}));
+
+// What is known of one of the family is known of its name, however it is written.
+TEST_F(ArenaTest, CallsOneOfTheFamilyByOneName) {
+  Write("com.xml", R"(<module type="planning/bug1"/>)");
+  const Ended refused = Arena("--world open --variant " + File("com.xml"));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.text, HasSubstr("com.xml: error: 'com' is the name of planning/com; give the file another name"));
+  const Ended ended = Arena("--world open --variant bug1,planning/bug1 --seed 1,1 --quiet --json " + File("runs.json"));
+  EXPECT_EQ(ended.code, 0) << ended.text;
+  EXPECT_EQ(Json("runs.json").size(), 1U);
+  EXPECT_EQ(Json("runs.json")[0]["variant"], "bug1");
+}
+
+TEST_F(ArenaTest, MergesIntoWhatIsThere) {
+  for (const std::string variant : {"bug1", "bug2", "com"}) {
+    ASSERT_EQ(Arena("--world open --variant " + variant + " --quiet --json " + File(variant + ".json")).code, 0);
+  }
+  const Ended ended = Arena("merge " + File("bug1.json") + " " + File("bug2.json") + " " + File("com.json"));
+  EXPECT_EQ(ended.code, 0) << ended.text;
+  EXPECT_EQ(Json("bug1.json").size(), 3U);
+}
 
 TEST_F(ArenaTest, TellsAllThatIsWrongAtOnce) {
   Write("bad.xml", "<world name=\"bad\"><start x=\"0\" y=\"0\"/></world>");

@@ -107,6 +107,11 @@ TEST(TrajectorySvg, MarksStartGoalHitsLeavesAndRobot) {
   EXPECT_THAT(svg, AllOf(HasSubstr(">H1</text>"), HasSubstr(">L1</text>"), HasSubstr(">1 m<")));
 }
 
+// Where the next line of the grid is no other number.
+TEST(TrajectorySvg, EndsFarFromTheOrigin) {
+  EXPECT_LT(TrajectorySvg({.name = "far", .start = {1e16, 0, 0}, .goal = {1e16, 0}}, {}).size(), 100'000U);
+}
+
 TEST(TrajectorySvg, PutsYUp) {
   // The world is 10 m wide and high, and 0.7 m of air round it: 760 pixels for 11.4 m.
   const std::string svg = TrajectorySvg(ExampleWorld(), ExampleTrajectory());

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kGreatestPlotHeight = 760.0;  // pixels
 constexpr double kAir = 0.7;                   // m, round all that is shown
-constexpr double kMostGridLines = 60.0;
+constexpr int kMostGridLines = 60;
 
 constexpr std::string_view kFloor = "#f6f7f9";
 constexpr std::string_view kObstacle = "#cdd4de";
@@ -135,14 +135,18 @@ void DrawFloor(Canvas& canvas) {
   canvas.svg().Rectangle({kMargin, kHeader}, kPlotWidth, canvas.plot_height(),
                          Style({"class", "floor", "fill", kFloor}));
   canvas.svg().OpenGroup(Style({"class", "grid", "stroke", "#e3e7ec", "stroke-width", "1"}));
-  for (double x = canvas.grid() * std::ceil(canvas.extent().low.x / canvas.grid()); x <= canvas.extent().high.x;
-       x += canvas.grid()) {
-    canvas.svg().Line(canvas.Pixel({x, canvas.extent().low.y}), canvas.Pixel({x, canvas.extent().high.y}), "");
-  }
-  for (double y = canvas.grid() * std::ceil(canvas.extent().low.y / canvas.grid()); y <= canvas.extent().high.y;
-       y += canvas.grid()) {
-    canvas.svg().Line(canvas.Pixel({canvas.extent().low.x, y}), canvas.Pixel({canvas.extent().high.x, y}), "");
-  }
+  // Counted, as far from the origin the next line may be no other number.
+  const auto each_line = [&](double low, double high, const auto& draw) {
+    const double first = canvas.grid() * std::ceil(low / canvas.grid());
+    for (int i = 0; i <= kMostGridLines && first + i * canvas.grid() <= high; ++i) draw(first + i * canvas.grid());
+  };
+  const auto [low, high] = canvas.extent();
+  each_line(low.x, high.x, [&](double x) {
+    canvas.svg().Line(canvas.Pixel({x, low.y}), canvas.Pixel({x, high.y}), "");
+  });
+  each_line(low.y, high.y, [&](double y) {
+    canvas.svg().Line(canvas.Pixel({low.x, y}), canvas.Pixel({high.x, y}), "");
+  });
   canvas.svg().CloseGroup();
 }
 
