@@ -245,23 +245,22 @@ double DistanceTo(const BoundaryLoop& loop, Point2 point) {
   return least;
 }
 
-// A piece that begins and ends on different sides of the line is crossed once; so one that goes through a joint is counted once.
+// A piece that begins and ends on different sides of the line is crossed once; so a line through a joint is counted once.
 int Crossings(const BoundaryLoop& loop, const Segment2& segment) {
   const Point2 along = segment.to - segment.from;
-  const auto is_left = [&](Point2 point) { return Cross(along, point - segment.from) >= 0.0; };
+  const auto side = [&](Point2 point) { return Cross(along, point - segment.from); };
   int count = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const BoundaryPiece& piece = loop[i];
     const Point2 end = loop[(i + 1) % loop.size()].from;
-    const bool changes_side = is_left(piece.from) != is_left(end);
-    if (!changes_side) {
+    const double before = side(piece.from), after = side(end);
+    if ((before < 0.0) == (after < 0.0)) {
       count += piece.centre ? RoundCrossings(piece, segment) / 2 * 2 : 0;
-    } else if (piece.centre) {
-      const auto points = internal::Meeting(*piece.centre, Distance(*piece.centre, piece.from), segment, 0.0);
-      count += std::ranges::any_of(points, [&](Point2 point) { return piece.DistanceTo(point) < kJoint; });
-    } else {
-      count += WhereItMeets(segment, {piece.from, end}).has_value();
+      continue;
     }
+    const Point2 meeting = piece.from + before / (before - after) * (end - piece.from);
+    const double way = Dot(along, meeting - segment.from);
+    if (way >= 0.0 && way <= Dot(along, along)) ++count;
   }
   return count;
 }
