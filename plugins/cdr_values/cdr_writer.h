@@ -37,26 +37,20 @@ class CdrWriter {
   void PutText(std::string_view text) {
     text = text.substr(0, std::numeric_limits<std::uint32_t>::max() - 1);
     PutCount(text.size() + 1);
-    Append(text.data(), text.size());
+    const auto* const begin = reinterpret_cast<const std::byte*>(text.data());
+    octets_.insert(octets_.end(), begin, begin + text.size());
     octets_.push_back(std::byte{0});
   }
 
   /// `count` numbers of `size` bytes, which lie one behind the other. Nothing, not even padding, for none.
   void PutPlain(const void* first, std::size_t size, std::size_t count) {
     if (count == 0) return;
-    const std::size_t place = octets_.size() - kHeader;
-    octets_.resize(kHeader + (place + size - 1) / size * size);
-    Append(first, size * count);
+    const std::size_t place = kHeader + (octets_.size() - kHeader + size - 1) / size * size;
+    octets_.resize(place + size * count);
+    std::memcpy(octets_.data() + place, first, size * count);
   }
 
  private:
-  // Not by insert(), of which GCC 12 says at -O3 that it copies from behind the value.
-  void Append(const void* bytes, std::size_t count) {
-    const std::size_t place = octets_.size();
-    octets_.resize(place + count);
-    if (count > 0) std::memcpy(octets_.data() + place, bytes, count);
-  }
-
   std::vector<std::byte>& octets_;
 };
 
