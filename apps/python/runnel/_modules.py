@@ -269,7 +269,8 @@ def _load(file, name):
     if known is not None and known[0] == digest:
         return known[1]
     imported = sys.modules.get(name)
-    if known is None and imported is not None and getattr(imported, "__file__", None) == str(file):
+    own = getattr(imported, "__file__", None)
+    if known is None and own and os.path.realpath(own) == os.path.realpath(file):  # its folder or itself may be a link
         _loaded[file] = (digest, imported)  # by who composes the application: its classes are meant
         return imported
     linecache.checkcache(str(file))

@@ -1,5 +1,7 @@
 """What a module in Python takes over from the one before it, and what it has of its own."""
 
+import sys
+
 import pytest
 
 import runnel
@@ -98,3 +100,22 @@ def test_an_attribute_does_not_hide_a_port(empty_folder):
     with runnel.compose("hidden", clock="simulated") as app:
         with pytest.raises(runnel.Error, match="'goal' is a port"):
             app.create("hiding", "python/hiding.Hiding")
+
+
+def test_a_file_that_is_found_through_a_link_is_run_once(empty_folder, monkeypatch):
+    (empty_folder / "real").mkdir()
+    (empty_folder / "real/shared_by_link.py").write_text(
+        "import runnel\nclass S(runnel.Module):\n    made = []\n    def update(self):\n        S.made.append(1)\n")
+    (empty_folder / "folder").symlink_to(empty_folder / "real")
+    (empty_folder / "installed").mkdir()
+    (empty_folder / "installed/linked_file.py").symlink_to(empty_folder / "real/shared_by_link.py")
+    for folder, name in (("folder", "shared_by_link"), ("installed", "linked_file")):
+        monkeypatch.syspath_prepend(str(empty_folder / folder))
+        module = __import__(name)
+        try:
+            with runnel.compose("shared", clock="simulated") as app:
+                app.create("s", module.S)
+                app.run_for(0.5)
+            assert module.S.made, f"{name}: another class was made"
+        finally:
+            sys.modules.pop(name)
