@@ -66,6 +66,22 @@ test('a connection belongs to the innermost group that holds both ends', () => {
     { level: '/mock', source: '/mock/world', target: '/mock/robot' });
 });
 
+test('what a group gives back to itself runs around it, whether it is open or not', () => {
+  const told = RobotStructure();
+  told.elements.push({ ...told.elements.find(({ path }) => path === '/mock/robot/twist'), path: '/mock/robot/before', name: 'before', direction: 'input' });
+  told.connections.push({ from: '/mock/robot/twist', to: '/mock/robot/before' });
+  const structure = Load(told);
+  assert.deepEqual(PlaceOf(structure, told.connections.at(-1)), { level: '/mock', source: '/mock/robot', target: '/mock/robot' });
+  for (const isOpen of [kOpen, kShut]) {
+    const { boxes, edges } = new GraphLayout().compute(structure, isOpen);
+    const box = boxes.get('/mock/robot');
+    const loop = edges.find(({ to }) => to === '/mock/robot/before');
+    assert.ok(loop.left < box.x && loop.right > box.x + box.width);
+  }
+  const through = { from: '/mock/robot/before', to: '/mock/robot/twist' };
+  assert.deepEqual(PlaceOf(structure, through), { level: '/mock/robot', source: '@in', target: '@out' });
+});
+
 test('a connection past the border of a group is drawn, whether the group is open or not', () => {
   const told = RobotStructure();
   told.connections.push({ from: '/mock/world/goal', to: '/mock/robot/planner/goal', queue: 0 });
