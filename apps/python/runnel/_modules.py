@@ -2,6 +2,7 @@
 
 import copy
 import difflib
+import gc
 import hashlib
 import importlib.util
 import linecache
@@ -9,6 +10,8 @@ import os
 import pathlib
 import sys
 import traceback
+import types
+import weakref
 
 from runnel import _extension
 from runnel._services import Client, Service, described
@@ -18,6 +21,9 @@ _class = type  # which arguments are called, too
 class _Described:
     def __set_name__(self, owner, name):
         self.name = name
+
+    def __set__(self, instance, value):
+        raise AttributeError(f"'{self.name}' is a port: an attribute would hide it")
 
 
 class Input(_Described):
@@ -214,14 +220,40 @@ for each in (_extension.ModuleInput, _extension.ModuleOutput, _extension.ModuleC
     each.__deepcopy__ = _is_port
 
 
+def _leads_to(value, before):
+    """Whether the module before can be got at by a value: a method of it, a function that knows it, an object that holds it."""
+    met, ahead = set(), [value]
+    while ahead:
+        each = ahead.pop()
+        if each is before or each is before._runnel_host:
+            return True
+        if id(each) in met or isinstance(each, (type, types.ModuleType)):
+            continue
+        met.add(id(each))
+        if isinstance(each, types.FunctionType):  # without all else that its file has
+            ahead += [each.__closure__, each.__defaults__, each.__kwdefaults__]
+        elif isinstance(each, weakref.ref):
+            ahead.append(each())
+        elif gc.is_tracked(each):
+            ahead += gc.get_referents(each)
+    return False
+
+
 def take_over(module, before):
-    """The attributes of the module that was there before, but for those with ports; copies, as it may come back."""
+    """The attributes of the module that was there before; copies, as it may come back. What leads to that module, has its ports, or is
+    described by the class (a port, a parameter, a method) is that of the new one: else it would go on with the old one, and its code."""
+    copied = {id(module): module}
     for name, value in vars(before).items():
-        if name.startswith("_runnel_"):
+        described = hasattr(_class(getattr(_class(module), name, None)), "__get__") or name in module._runnel_ports
+        if isinstance(value, types.MethodType) and value.__self__ is before:  # the state that it is in, say
+            value = getattr(module, value.__name__, value)
+        if name.startswith("_runnel_") or described or _leads_to(value, before):
             continue
         try:
-            value = copy.deepcopy(value)
-        except _IsPort:  # the module has its own
+            done = dict(copied)  # without what a copy that fails has begun
+            value = copy.deepcopy(value, done)
+            copied = done
+        except _IsPort:
             continue
         except Exception:  # a file, a thread: there is one only, and both have it
             pass
@@ -237,7 +269,8 @@ def _load(file, name):
     if known is not None and known[0] == digest:
         return known[1]
     imported = sys.modules.get(name)
-    if known is None and imported is not None and getattr(imported, "__file__", None) == str(file):
+    own = getattr(imported, "__file__", None)
+    if known is None and own and os.path.realpath(own) == os.path.realpath(file):  # its folder or itself may be a link
         _loaded[file] = (digest, imported)  # by who composes the application: its classes are meant
         return imported
     linecache.checkcache(str(file))
@@ -288,9 +321,6 @@ def find_class(type, folder):
         hint = f"did you mean '{near[0]}'?" if near else f"there is {', '.join(there) or 'none'}"
         raise _placed(f"there is no class '{class_name}' below runnel.Module in {getattr(module, '__file__', module_name)}", hint=hint)
     return found
-
-
-
 
 
 def _placed(message, file="", line=0, hint=""):

@@ -44,7 +44,7 @@ test('it looks the same over a menu and a dialog, where what deletes can be read
   });
   await Stands(page, 'free');
   const before = await colours('#stop-button');
-  await inspector.node('/mock/laser').locator('.name').click({ button: 'right' });
+  await inspector.node('/mock/laser').locator('.body').click({ button: 'right' });
   await page.locator('dialog.menu #stop-button').waitFor();
   await page.mouse.move(0, 0);
   assert.deepEqual(await colours('#stop-button'), before, 'over a menu');

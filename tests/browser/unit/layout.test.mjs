@@ -66,6 +66,44 @@ test('a connection belongs to the innermost group that holds both ends', () => {
     { level: '/mock', source: '/mock/world', target: '/mock/robot' });
 });
 
+test('what a group gives back to itself runs around it, whether it is open or not', () => {
+  const told = RobotStructure();
+  told.elements.push({ ...told.elements.find(({ path }) => path === '/mock/robot/twist'), path: '/mock/robot/before', name: 'before', direction: 'input' });
+  told.connections.push({ from: '/mock/robot/twist', to: '/mock/robot/before' });
+  const structure = Load(told);
+  assert.deepEqual(PlaceOf(structure, told.connections.at(-1)), { level: '/mock', source: '/mock/robot', target: '/mock/robot' });
+  for (const isOpen of [kOpen, kShut]) {
+    const { boxes, edges } = new GraphLayout().compute(structure, isOpen);
+    const box = boxes.get('/mock/robot');
+    const loop = edges.find(({ to }) => to === '/mock/robot/before');
+    assert.ok(loop.left < box.x && loop.right > box.x + box.width);
+  }
+  const through = { from: '/mock/robot/before', to: '/mock/robot/twist' };
+  assert.deepEqual(PlaceOf(structure, through), { level: '/mock/robot', source: '@in', target: '@out' });
+});
+
+// STOP is sent by the thread that computes it.
+test('connections that pass many boxes do not hold the page up', () => {
+  const root = '/long';
+  const at = (number) => `${root}/m${number}`;
+  const elements = [{ path: root, kind: 'application' }];
+  const connections = [];
+  for (let number = 0; number < 140; ++number) {
+    elements.push({ path: at(number), kind: 'module', type: 'long' });
+    for (const [name, direction] of [['in', 'input'], ['out', 'output']]) {
+      elements.push({ path: `${at(number)}/${name}`, kind: 'port', name, direction, data_type: 'double', owner: at(number) });
+    }
+    for (const before of [number - 1, Math.floor(number / 2), Math.floor(number / 3)]) {
+      if (before >= 0 && before < number) connections.push({ from: `${at(before)}/out`, to: `${at(number)}/in` });
+    }
+  }
+  const begin = process.cpuUsage();
+  const { edges } = new GraphLayout().compute(Load({ elements, connections }), kOpen, { area: { width: 1200, height: 800 } });
+  const { user, system } = process.cpuUsage(begin);
+  assert.equal(new Set(edges.map(({ key }) => key)).size, new Set(connections.map(({ from, to }) => `${from} ${to}`)).size);
+  assert.ok(user + system < 1.5e6, `${(user + system) / 1e6} s of computing`);
+});
+
 test('a connection past the border of a group is drawn, whether the group is open or not', () => {
   const told = RobotStructure();
   told.connections.push({ from: '/mock/world/goal', to: '/mock/robot/planner/goal', queue: 0 });

@@ -28,7 +28,7 @@ export function ChoiceList({ label, placeholder, find, onChoose, onCurrent, onMo
   const onKey = (event) => {
     const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 }[event.key];
     if (step) at.value = Math.min(entries.length - 1, Math.max(0, at.value + step));
-    else if (event.key === 'Enter') { if (current && !current.disabled) onChoose(current); } else return;
+    else if (event.key === 'Enter') { if (!event.repeat && current && !current.disabled) onChoose(current); } else return;
     event.preventDefault();
   };
   return html`

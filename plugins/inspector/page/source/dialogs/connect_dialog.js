@@ -1,9 +1,11 @@
 // Connecting without a mouse: the ports that suit, with a search.
 
+import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { OtherPartners, Partners } from '../model/compatibility.js';
 import { Connect } from '../state/actions.js';
 import { ConnectOtherwise } from '../state/connecting.js';
+import { openDialog } from '../state/choices.js';
 import { structure } from '../state/store.js';
 import { ChoiceList } from './choice_list.js';
 import { CloseDialog, Dialog } from './dialog.js';
@@ -20,12 +22,21 @@ export function ConnectDialog({ path }) {
         note: differs ? `${other.data_type}: by a part, or a conversion` : ends.from === path ? 'takes what this gives' : 'gives what this takes', detail: other.path,
       }));
   };
-  const choose = ({ ends, differs }) => { CloseDialog(); differs ? ConnectOtherwise(ends.from, ends.to) : Connect(ends.from, ends.to); };
+  const [isAsking, setAsking] = useState(false);
+  const choose = async ({ ends, differs }) => {
+    const dialog = openDialog.value;
+    if (differs) {
+      setAsking(true);
+      await ConnectOtherwise(ends.from, ends.to);
+    }
+    CloseDialog(dialog);
+    if (!differs) Connect(ends.from, ends.to);
+  };
   return html`
     <${Dialog} title=${`Connect ${port?.name}`}>
       <h2>Connect ${port?.name} <small>${port?.data_type}</small></h2>
-      <${ChoiceList} label=${`Ports that ${port?.name} can be connected with`} placeholder="With which port?"
+      ${isAsking ? html`<p class="none">asking the application …</p>` : html`<${ChoiceList} label=${`Ports that ${port?.name} can be connected with`} placeholder="With which port?"
           find=${find} onChoose=${choose}
-        empty=${`no other port of type ${port?.data_type} is left`} />
+        empty=${`no other port of type ${port?.data_type} is left`} />`}
     <//>`;
 }

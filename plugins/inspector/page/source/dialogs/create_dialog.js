@@ -4,13 +4,14 @@
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { FreeName, NameProblem } from '../model/changes.js';
-import { CreateGroup, CreateModule, ErrorText } from '../state/actions.js';
-import { Reveal, openDialog, selected } from '../state/choices.js';
+import { CreateGroup, CreateModule } from '../state/actions.js';
+import { Reveal, selected } from '../state/choices.js';
 import { catalogue, revision, structure } from '../state/store.js';
 import { Select } from '../graph/graph_keys.js';
 import { ChoiceList } from './choice_list.js';
 import { CloseDialog, Dialog } from './dialog.js';
 import { HasParameters, SettingsForm, SettingsOf, SettingsProblem } from './settings_form.js';
+import { useSubmission } from './submission.js';
 
 export function CreateDialog({ group }) {
   revision.value;
@@ -18,52 +19,52 @@ export function CreateDialog({ group }) {
   const [typed, setTyped] = useState(null);     // the name
   const [chosen, setChosen] = useState(null);   // the type whose parameters are given
   const [settings, setSettings] = useState({});
-  const [problem, setProblem] = useState('');
   const name = typed ?? (type ? FreeName(structure, group, type) : '');
   const parameters = catalogue.value.module(chosen ?? type)?.parameters ?? [];
 
-  const create = async (wanted) => {
-    const free = typed ?? FreeName(structure, group, wanted);
-    const wrong = NameProblem(structure, group, free) || (chosen && SettingsProblem(parameters, settings));
-    if (wrong) return setProblem(wrong);
-    const dialog = openDialog.value;
-    const reply = await CreateModule(wanted, group, free, chosen ? SettingsOf(parameters, {}, settings) : {});
-    if (!reply.ok) return setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
-    if (CloseDialog(dialog)) ShowNew(`${group}/${free}`, selected.value);
-  };
-  const give = (wanted) => { setType(wanted); setChosen(wanted); setSettings({}); setProblem(''); };
+  const { submit, button, onEnter, problem, clear } = useSubmission({
+    failed: 'Could not add the module', may: Boolean,
+    send: async (wanted) => {
+      const free = typed ?? FreeName(structure, group, wanted);
+      const wrong = NameProblem(structure, group, free) || (chosen && SettingsProblem(parameters, settings));
+      if (wrong) return wrong;
+      const reply = await CreateModule(wanted, group, free, chosen ? SettingsOf(parameters, {}, settings) : {});
+      return { ...reply, path: `${group}/${free}` };
+    },
+    done: ({ path }) => ShowNew(path, selected.value),
+  });
+  const give = (wanted) => { setType(wanted); setChosen(wanted); setSettings({}); clear(); };
   const find = (text) => catalogue.value.search(text).map((module) => ({
     key: module.type, title: module.type, note: Ports(module), detail: module.summary,
   }));
   const nameField = html`<label>Name <input id="new-name" value=${name} spellcheck="false" autocomplete="off"
-    onInput=${(event) => { setTyped(event.target.value); setProblem(''); }}
-    onKeyDown=${(event) => { if (event.key === 'Enter' && type) create(chosen ?? type); }} /></label>`;
+    onInput=${(event) => { setTyped(event.target.value); clear(); }} onKeyDown=${onEnter(chosen ?? type)} /></label>`;
   if (chosen) {
     return html`
       <${Dialog} key="parameters" title=${`Add ${chosen}`} className="wide">
         <h2>Add ${chosen} <small>to ${group}</small></h2>
-        <${SettingsForm} parameters=${parameters} typed=${settings} onEnter=${() => create(chosen)}
-          onType=${(which, text) => { setSettings({ ...settings, [which]: text }); setProblem(''); }} />
-        ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+        <${SettingsForm} parameters=${parameters} typed=${settings} onEnter=${onEnter(chosen)}
+          onType=${(which, text) => { setSettings({ ...settings, [which]: text }); clear(); }} />
+        ${problem}
         <div class="dialog-foot">${nameField}
-          <button id="back" onClick=${() => { setChosen(null); setProblem(''); }}>Back</button>
-          <button class="primary" id="create" onClick=${() => create(chosen)}>Add</button></div>
+          <button id="back" onClick=${() => { setChosen(null); clear(); }}>Back</button>
+          <button class="primary" id="create" ...${button(chosen)}>Add</button></div>
       <//>`;
   }
   return html`
     <${Dialog} key="types" title="Add a module" className="wide">
       <h2>Add a module <small>to ${group}</small></h2>
       <${ChoiceList} label="Module types" placeholder="What shall it do?" find=${find}
-          onChoose=${(entry) => create(entry.key)}
-        onCurrent=${(entry) => { setType(entry?.key ?? null); setProblem(''); }} onMore=${(entry) => give(entry.key)}
+          onChoose=${(entry) => submit(entry.key)}
+        onCurrent=${(entry) => { setType(entry?.key ?? null); clear(); }} onMore=${(entry) => give(entry.key)}
         hasMore=${HasParameters}
         empty="no module type is like that" />
       <div class="dialog-foot">
         ${nameField}
         <button onClick=${() => { CloseDialog(); CreateGroup(group); }}>New group</button>
-        <button class="primary" id="create" disabled=${!type} onClick=${() => create(type)}>Add ${type ?? ''}</button>
+        <button class="primary" id="create" ...${button(type)}>Add ${type ?? ''}</button>
       </div>
-      ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+      ${problem}
     <//>`;
 }
 

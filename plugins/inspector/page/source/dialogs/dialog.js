@@ -21,7 +21,8 @@ export function Dialog({ title, children, className = '', style }) {
     const before = document.activeElement;
     element.current.showModal();
     const bringBack = BringStopInto(element.current);
-    element.current.querySelector('.dialog-body :is([autofocus], input, button:not(.remove))')?.focus();
+    const first = (what) => element.current.querySelector(`.dialog-body :is(${what})`);
+    (first('[autofocus]:not(:disabled)') ?? first('input, button:not(.remove)'))?.focus();
     return () => {
       bringBack();
       queueMicrotask(() => before?.focus?.()); // while the dialog is there nothing else takes the focus

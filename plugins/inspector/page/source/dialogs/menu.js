@@ -23,7 +23,9 @@ export function Menu({ path, x, y }) {
     const at = buttons.indexOf(document.activeElement);
     buttons[(at + step + buttons.length) % buttons.length]?.focus();
   };
-  const style = { left: `${Math.min(x, innerWidth - 230)}px`, top: `${Math.min(y, innerHeight - items.length * 32 - 20)}px` };
+  // Neither over nor below the STOP, which is at the top, on phones at the bottom.
+  const top = `clamp(48px, ${y}px, calc(100dvh - var(--stop-height) - ${items.length * 32 + 20}px))`;
+  const style = { left: `${Math.min(x, innerWidth - 230)}px`, top };
   return html`
     <${Dialog} title="Menu" className="menu" style=${style}>
       <div role="menu" onKeyDown=${onKey}>

@@ -3,33 +3,28 @@
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { NameProblem } from '../model/changes.js';
-import { CreatePort, ErrorText } from '../state/actions.js';
-import { openDialog } from '../state/choices.js';
+import { CreatePort } from '../state/actions.js';
 import { catalogue, structure } from '../state/store.js';
 import { CloseDialog, Dialog } from './dialog.js';
+import { useSubmission } from './submission.js';
 
 export function PortDialog({ path }) {
   const [name, setName] = useState('');
   const [direction, setDirection] = useState('input');
   const [type, setType] = useState('');
-  const [problem, setProblem] = useState('');
   const types = TypesOfPorts();
-  const create = async () => {
-    const wrong = NameProblem(structure, path, name);
-    if (wrong) return setProblem(wrong);
-    const dialog = openDialog.value;
-    const reply = await CreatePort(path, name, direction, type || types[0]);
-    if (reply.ok) CloseDialog(dialog);
-    else setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
-  };
+  const { button, onEnter, problem, clear } = useSubmission({
+    failed: 'Could not add the port', may: () => name !== '' && types.length > 0,
+    send: () => NameProblem(structure, path, name) || CreatePort(path, name, direction, type || types[0]),
+  });
   return html`
     <${Dialog} title="Add a port">
       <h2>Add a port <small>to ${path}</small></h2>
       <div class="form">
         <label for="port-name">Name</label>
         <input id="port-name" value=${name} spellcheck="false" autocomplete="off" autofocus
-          onInput=${(event) => { setName(event.target.value); setProblem(''); }}
-          onKeyDown=${(event) => { if (event.key === 'Enter') create(); }} />
+          onInput=${(event) => { setName(event.target.value); clear(); }}
+          onKeyDown=${onEnter()} />
         <label for="port-direction">Direction</label>
         <select id="port-direction" value=${direction} onChange=${(event) => setDirection(event.target.value)}>
           <option value="input">input</option><option value="output">output</option></select>
@@ -37,10 +32,9 @@ export function PortDialog({ path }) {
         <select id="port-type" value=${type || types[0]} onChange=${(event) => setType(event.target.value)}>
           ${types.map((each) => html`<option key=${each} value=${each}>${each}</option>`)}</select>
       </div>
-      ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+      ${problem}
       <div class="dialog-foot"><button onClick=${() => CloseDialog()}>Cancel</button>
-        <button class="primary" id="create-port" disabled=${name === '' || types.length === 0}
-            onClick=${create}>Add</button></div>
+        <button class="primary" id="create-port" ...${button()}>Add</button></div>
     <//>`;
 }
 

@@ -4,31 +4,26 @@ import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { NameProblem } from '../model/changes.js';
 import { NameOf, ParentOf } from '../model/structure.js';
-import { ErrorText, Rename } from '../state/actions.js';
-import { openDialog } from '../state/choices.js';
+import { Rename } from '../state/actions.js';
 import { structure } from '../state/store.js';
 import { CloseDialog, Dialog } from './dialog.js';
+import { useSubmission } from './submission.js';
 
 export function RenameDialog({ path }) {
   const before = NameOf(path);
   const [name, setName] = useState(before);
-  const [problem, setProblem] = useState('');
-  const rename = async () => {
-    if (name === before) return CloseDialog();
-    const wrong = NameProblem(structure, ParentOf(path), name);
-    if (wrong) return setProblem(wrong);
-    const dialog = openDialog.value;
-    const reply = await Rename(path, name);
-    return reply.ok ? CloseDialog(dialog) : setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
-  };
+  const { button, onEnter, problem, clear } = useSubmission({
+    failed: `Could not rename ${before}`, may: () => name !== '',
+    send: () => (name === before ? { ok: true } : NameProblem(structure, ParentOf(path), name) || Rename(path, name)),
+  });
   return html`
     <${Dialog} title=${`Rename ${before}`}>
       <h2>Rename ${before}</h2>
       <input id="new-name" class="wide-input" aria-label="Name" value=${name} spellcheck="false" autocomplete="off" autofocus
-        onFocus=${(event) => event.target.select()} onInput=${(event) => { setName(event.target.value); setProblem(''); }}
-        onKeyDown=${(event) => { if (event.key === 'Enter') rename(); }} />
-      ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+        onFocus=${(event) => event.target.select()} onInput=${(event) => { setName(event.target.value); clear(); }}
+        onKeyDown=${onEnter()} />
+      ${problem}
       <div class="dialog-foot"><button onClick=${() => CloseDialog()}>Cancel</button>
-        <button class="primary" id="rename-now" disabled=${name === ''} onClick=${rename}>Rename</button></div>
+        <button class="primary" id="rename-now" ...${button()}>Rename</button></div>
     <//>`;
 }

@@ -4,24 +4,19 @@ import { useEffect, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { CountChanges, TextDifference } from '../model/text_difference.js';
 import { ErrorText, PreviewSave, Save } from '../state/actions.js';
-import { openDialog } from '../state/choices.js';
 import { CloseDialog, Dialog } from './dialog.js';
+import { useSubmission } from './submission.js';
 
 export function SaveDifference() {
   const [told, setTold] = useState(null); // {file, lines, isNew}
-  const [problem, setProblem] = useState('');
+  const [unknown, setUnknown] = useState(''); // why nobody can tell
   useEffect(() => {
     PreviewSave().then((reply) => {
-      if (!reply.ok) return setProblem(Problem(reply));
+      if (!reply.ok) return setUnknown((reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
       return setTold({ file: reply.file, isNew: reply.before === '', lines: TextDifference(reply.before, reply.after) });
     });
   }, []);
-  const save = async () => {
-    const dialog = openDialog.value;
-    const reply = await Save('', { quiet: true });
-    if (reply.ok) CloseDialog(dialog);
-    else setProblem(Problem(reply));
-  };
+  const { button, problem } = useSubmission({ failed: 'Could not save', may: () => told !== null, send: () => Save('', { quiet: true }) });
   const { added, removed } = CountChanges(told?.lines ?? []);
   const isSame = told !== null && added + removed === 0;
   const name = told?.file.replace(/.*\//, '') ?? '';
@@ -30,12 +25,13 @@ export function SaveDifference() {
       <h2>${isSame ? 'Nothing to save' : html`Save ${name} ${told && html`<small class="counts"><span class="added">+${added}</span>
         <span class="removed">−${removed}</span> line${added + removed === 1 ? '' : 's'}</small>`}`}</h2>
       ${told && html`<p class="note path" title=${told.file}>${told.file}</p>`}
-      ${told === null && !problem && html`<p class="none">asking the application …</p>`}
+      ${told === null && !unknown && html`<p class="none">asking the application …</p>`}
       ${isSame && html`<p>The file says all that the application is.</p>`}
       ${told && !isSame && html`<${Difference} lines=${told.lines} />`}
-      ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+      ${unknown && html`<p class="problem" role="alert">${unknown}</p>`}
+      ${problem}
       <div class="dialog-foot"><button onClick=${() => CloseDialog()} autofocus=${isSame}>${isSame ? 'Close' : 'Cancel'}</button>
-        ${!isSame && html`<button class="primary" id="save-now" disabled=${told === null} autofocus onClick=${save}>Save</button>`}</div>
+        ${!isSame && html`<button class="primary" id="save-now" autofocus ...${button()}>Save</button>`}</div>
     <//>`;
 }
 
@@ -49,8 +45,4 @@ export function Difference({ lines }) {
       : html`<p key=${index} class=${kind} role="row"><span class="number" aria-hidden="true">${before ?? ''}</span><span
           class="number" aria-hidden="true">${after ?? ''}</span><span class="sign" aria-label=${kind}>${kSigns[kind]}</span><code>${text}</code></p>`))}
   </div>`;
-}
-
-function Problem(reply) {
-  return (reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused';
 }

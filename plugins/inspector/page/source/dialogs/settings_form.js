@@ -8,10 +8,10 @@ import { catalogue } from '../state/store.js';
 /** Whether there is anything to be given to modules of the type of a list's entry. */
 export const HasParameters = ({ key }) => (catalogue.value.module(key)?.parameters ?? []).length > 0;
 
-/** `typed`: texts by name; what is not in it is as `given`, and if that has nothing, the default. */
-export function SettingsForm({ parameters, given = {}, typed, onType, onEnter }) {
+/** `typed`: texts by name; what is not in it is as `given`, and if that has nothing, the default. `old`: values of the module before. */
+export function SettingsForm({ parameters, given = {}, old = {}, typed, onType, onEnter }) {
   return html`<div class="settings" role="group" aria-label="Parameters">
-    ${Ordered(parameters).map((each) => html`<${Row} key=${each.name} parameter=${each} given=${given[each.name]}
+    ${Ordered(parameters).map((each) => html`<${Row} key=${each.name} parameter=${each} given=${given[each.name]} old=${old[each.name]}
       typed=${typed[each.name]} onType=${(text) => onType(each.name, text)} onEnter=${onEnter} />`)}</div>`;
 }
 
@@ -28,20 +28,23 @@ export function SettingsProblem(parameters, typed) {
 /** What is to be said of parameters when the module is made: {name: text}. */
 export function SettingsOf(parameters, given, typed) {
   const settings = {};
-  for (const { name, default: usual } of parameters) {
+  for (const { name, type, default: usual } of parameters) {
     const text = typed[name];
-    if (text !== undefined && text !== (given[name] ?? usual ?? '')) settings[name] = text;
+    if (text === undefined) continue;
+    if (text !== '' || IsText(type)) settings[name] = text;
+    else if (given[name] !== undefined && usual) settings[name] = usual;
   }
   return settings;
 }
 
-function Row({ parameter, given, typed, onType, onEnter }) {
+function Row({ parameter, given, old, typed, onType, onEnter }) {
   const { name, unit, description, static: isStatic } = parameter;
   const usual = given ?? parameter.default ?? '';
   const text = typed ?? usual;
   const id = `setting:${name}`;
   const wrong = typed ? CheckValue(AsChecked(parameter), typed, catalogue.value) : '';
-  const note = [FormatBounds(parameter), isStatic && 'fixed while it runs'].filter(Boolean).join(' · ');
+  const note = [FormatBounds(parameter), isStatic && 'fixed while it runs',
+    old !== undefined && old !== null && old !== usual && `the old one has ${old}`].filter(Boolean).join(' · ');
   return html`<div class=${`parameter ${wrong ? 'wrong' : ''} ${typed !== undefined && typed !== usual ? 'edited' : ''}`}>
     <label for=${id} title=${description}>${name} <small>${parameter.type}</small></label>
     <div class="field"><${Field} id=${id} parameter=${parameter} text=${text} wrong=${wrong !== ''} onType=${onType} onEnter=${onEnter} />
@@ -55,14 +58,16 @@ function Row({ parameter, given, typed, onType, onEnter }) {
 function Field({ id, parameter, text, wrong, onType, onEnter }) {
   const values = parameter.choices?.length > 0 ? parameter.choices : catalogue.value.type(parameter.type)?.values ?? [];
   const choices = parameter.type === 'bool' ? ['true', 'false'] : values;
-  const onKey = (event) => { if (event.key === 'Enter') onEnter(); };
   if (choices.length > 0) {
     return html`<select id=${id} value=${text} onChange=${(event) => onType(event.target.value)}>
       ${choices.map((value) => html`<option key=${value} value=${value} selected=${value === text}>${value}</option>`)}</select>`;
   }
   return html`<input type="text" id=${id} spellcheck="false" autocomplete="off" aria-invalid=${wrong} value=${text}
-    placeholder=${parameter.default || 'nothing'} onInput=${(event) => onType(event.target.value)} onKeyDown=${onKey} />`;
+    placeholder=${IsText(parameter.type) ? 'empty' : parameter.default || 'nothing'} onInput=${(event) => onType(event.target.value)} onKeyDown=${onEnter} />`;
 }
+
+/** Whether "" is a value; of others it is the default. */
+const IsText = (type) => CheckValue({ data_type: type }, '', catalogue.value) === '';
 
 const AsChecked = (parameter) => ({ ...parameter, data_type: parameter.type });
 

@@ -3,11 +3,11 @@
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { IsGroup } from '../model/structure.js';
-import { ErrorText, MoveToThread, Save, SaveConfiguration } from '../state/actions.js';
-import { openDialog } from '../state/choices.js';
+import { MoveToThread, Save, SaveConfiguration } from '../state/actions.js';
 import { hello, structure } from '../state/store.js';
 import { ChoiceList } from './choice_list.js';
 import { CloseDialog, Dialog } from './dialog.js';
+import { useSubmission } from './submission.js';
 
 export function MoveDialog({ path }) {
   const element = structure.get(path);
@@ -26,29 +26,29 @@ export function MoveDialog({ path }) {
 
 export function SaveDialog() {
   const [file, setFile] = useState(hello.value?.file ?? '');
-  const [problem, setProblem] = useState('');
-  const [overwrites, setOverwrites] = useState(false); // whether that would help
-  const save = async (what) => {
-    const dialog = openDialog.value;
-    const reply = await (what === 'values' ? SaveConfiguration({ quiet: true })
-      : Save(file.trim(), { quiet: true, overwrite: what === 'overwrite' }));
-    if (reply.ok) return CloseDialog(dialog);
-    setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
-    setOverwrites(reply.needs === 'overwrite');
-  };
+  const [taken, setTaken] = useState(''); // the file of which the user has been told that it is there
+  const name = file.trim();
+  const { button, onEnter, problem, clear } = useSubmission({
+    failed: 'Could not save', may: (what) => what === 'values' || name !== '',
+    send: async (what) => {
+      if (what === 'values') return SaveConfiguration({ quiet: true });
+      const reply = await Save(name, { quiet: true, overwrite: what === 'overwrite' });
+      setTaken(reply.needs === 'overwrite' ? name : '');
+      return reply;
+    },
+  });
   return html`
     <${Dialog} title="Save as">
       <h2>Save the application as</h2>
       <input id="save-file" class="wide-input" aria-label="File" value=${file} spellcheck="false" autofocus
-        onInput=${(event) => { setFile(event.target.value); setProblem(''); setOverwrites(false); }}
-        onKeyDown=${(event) => { if (event.key === 'Enter') save(); }} />
+        onInput=${(event) => { setFile(event.target.value); clear(); }} onKeyDown=${onEnter()} />
       <p class="note">A file on the machine that runs the application.</p>
-      ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+      ${problem}
       <div class="dialog-foot"><button onClick=${() => CloseDialog()}>Cancel</button>
-        <button id="save-configuration" onClick=${() => save('values')}
+        <button id="save-configuration" ...${button('values')}
           title="Values of parameters, back into the configuration that it was loaded with">Values into configuration</button>
-        ${overwrites && html`<button class="danger" id="save-overwrite" onClick=${() => save('overwrite')}>Overwrite</button>`}
-        <button class="primary" id="save-now" disabled=${file.trim() === ''} onClick=${() => save()}>Save</button></div>
+        ${taken !== '' && taken === name && html`<button class="danger" id="save-overwrite" ...${button('overwrite')}>Overwrite</button>`}
+        <button class="primary" id="save-now" ...${button()}>Save</button></div>
     <//>`;
 }
 

@@ -3,13 +3,15 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { CompatibleTypes, ErrorText, Swap } from '../state/actions.js';
+import { CompatibleTypes, Swap } from '../state/actions.js';
 import { SwapCarefully } from '../state/careful.js';
+import { NameOf } from '../model/structure.js';
 import { openDialog } from '../state/choices.js';
 import { catalogue, structure } from '../state/store.js';
 import { ChoiceList } from './choice_list.js';
 import { CloseDialog, Dialog } from './dialog.js';
 import { HasParameters, SettingsForm, SettingsOf, SettingsProblem } from './settings_form.js';
+import { useSubmission } from './submission.js';
 
 export function SwapDialog({ path }) {
   const [types, setTypes] = useState(null);
@@ -44,30 +46,29 @@ export function SwapDialog({ path }) {
     <//>`;
 }
 
-/** The second step: what the parameters of the new module are to be; they begin as those of the old one. */
+/** The second step: what the parameters of the new module are to be. Those that the old one has set are handed on, as the application does it. */
 function Parameters({ path, type, lost, onBack }) {
   const [settings, setSettings] = useState({});
-  const [problem, setProblem] = useState('');
   const parameters = catalogue.value.module(type)?.parameters ?? [];
-  const given = Object.fromEntries(structure.parametersOf(path).map(({ name, value }) => [name, value ?? undefined]));
-  const swap = async () => {
-    const wrong = SettingsProblem(parameters, settings);
-    if (wrong) return setProblem(wrong);
-    const dialog = openDialog.value;
-    const reply = await SwapCarefully(path, type, lost,
-      () => Swap(path, type, SettingsOf(parameters, given, settings), { quiet: openDialog.value === dialog }));
-    if (!reply) return undefined; // another dialog asks first
-    if (!reply.ok) return setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
-    return CloseDialog(dialog);
-  };
+  const before = structure.parametersOf(path);
+  const given = Object.fromEntries(before.filter(({ value, default: usual }) => value !== usual).map(({ name, value }) => [name, value ?? undefined]));
+  const old = Object.fromEntries(before.map(({ name, value }) => [name, value]));
+  const { button, onEnter, problem, clear } = useSubmission({
+    failed: `Could not swap ${NameOf(path)}`,
+    send: () => {
+      const dialog = openDialog.value;
+      return SettingsProblem(parameters, settings) || SwapCarefully(path, type, lost,
+        () => Swap(path, type, SettingsOf(parameters, given, settings), { quiet: openDialog.value === dialog }));
+    },
+  });
   const name = structure.get(path)?.name;
   return html`
     <${Dialog} key="parameters" title=${`Swap ${name} for ${type}`} className="wide">
       <h2>Swap ${name} <small>for ${type}</small></h2>
-      <${SettingsForm} parameters=${parameters} given=${given} typed=${settings} onEnter=${swap}
-        onType=${(which, text) => { setSettings({ ...settings, [which]: text }); setProblem(''); }} />
-      ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+      <${SettingsForm} parameters=${parameters} given=${given} old=${old} typed=${settings} onEnter=${onEnter()}
+        onType=${(which, text) => { setSettings({ ...settings, [which]: text }); clear(); }} />
+      ${problem}
       <div class="dialog-foot"><button id="back" onClick=${onBack}>Back</button>
-        <button class="primary" id="swap-now" onClick=${swap}>Swap</button></div>
+        <button class="primary" id="swap-now" ...${button()}>Swap</button></div>
     <//>`;
 }

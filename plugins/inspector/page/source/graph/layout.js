@@ -9,9 +9,9 @@ import { kFarDetail } from '../model/network.js';
 import { BoxSize, NoteLines, PortHeight, kBars, kPicture } from './measure.js';
 import { PlacedLevel } from './placed_level.js';
 
-const kPatience = 150; // boxes at once; dagre takes half a second for as many
+const kPatience = 250; // effort (EffortOf) at once: dagre takes half a second for as much, and nothing is drawn or sent meanwhile
 const kParts = [0.9, 0.62, 0.4]; // of the window's width: how wide open groups may be
-const kFew = 80;       // boxes; with more of them only one width is tried
+const kFew = 100;      // effort; with more of it only one width is tried
 const kMany = 60;      // members of a group
 const kWorthIt = 1.04;
 const kNowhere = () => undefined;
@@ -23,7 +23,7 @@ export class GraphLayout {
   #noteOf = kNowhere;  // path -> note on it
   #isPictured = () => false;
   #hasBars = () => false;
-  #placed = 0;       // boxes that dagre has placed in this computation
+  #placed = 0;       // the effort of what dagre has placed in this computation
 
   /**
    * {boxes: Map path -> box, edges: [edge], width, height}.
@@ -91,9 +91,8 @@ export class GraphLayout {
     }
     const members = [kInside, ...boxes.map((box) => box.path), kOutside];
     const closing = ClosingEdges(members, connections);
-    const isQuick = this.#placed + boxes.length > kPatience;
-    if (!isQuick) this.#placed += boxes.length;
-    const layout = LevelLayout(structure, { group, boxes, connections, closing, ports, isQuick, area });
+    const layout = LevelLayout(structure, { group, boxes, connections, closing, ports, patience: kPatience - this.#placed, area });
+    this.#placed += layout.effort;
     layout.signature = signature;
     this.#kept.set(place, { signature, layout });
     return layout;

@@ -4,13 +4,13 @@
 import { LanesHeight, MarginWidth, PlanLanes, RouteEdges } from './edge_routes.js';
 import { IsDistant, kInside, kOutside } from './levels.js';
 import { kGroupHeader, kPadding, kRow, PortLabelWidth } from './measure.js';
-import { PlaceInRanks } from './ranks.js';
+import { EffortOf, PlaceInRanks } from './ranks.js';
 import { ChooseRows, PlaceRows } from './rows.js';
 
 const kGridGap = 22;
 
-/** {boxes with x and y, edges, border: Map port -> {x, y, side}, width, height}. */
-export function LevelLayout(structure, { boxes, connections, closing, ports, group, isQuick, area }) {
+/** {boxes with x and y, edges, border: Map port -> {x, y, side}, width, height, effort: what it took of `patience`}. */
+export function LevelLayout(structure, { boxes, connections, closing, ports, group, patience, area }) {
   const isRoot = group === structure.root;
   const inputs = ports.filter((port) => port.direction === 'input');
   const outputs = ports.filter((port) => port.direction === 'output');
@@ -25,7 +25,10 @@ export function LevelLayout(structure, { boxes, connections, closing, ports, gro
   const ranked = flowing.map((box) => ({ id: box.path, width: box.width, height: box.height }));
   if (inputs.length > 0) ranked.push(Border(kInside, inputs));
   if (outputs.length > 0) ranked.push(Border(kOutside, outputs));
-  const ranks = PlaceInRanks(ranked, WithBorders(ranked, flow), isQuick);
+  const ways = WithBorders(ranked, flow);
+  const effort = EffortOf(ranked, ways);
+  const isQuick = effort > patience;
+  const ranks = PlaceInRanks(ranked, ways, isQuick);
   const chosen = ranked.length > 0 ? ChooseRows(ranks, ranked, area) : [[]];
   const near = connections.filter((connection) => !IsDistant(structure, connection));
   const rowIn = new Map(chosen.flatMap((row, number) => row.flatMap((column) => column.boxes.map((box) => [box.id, number]))));
@@ -53,7 +56,7 @@ export function LevelLayout(structure, { boxes, connections, closing, ports, gro
     rowOf: rows.rowOf, bottoms: rows.bottoms });
   const height = Math.max(contentBottom, lowest + 6) + (isRoot ? 0 : kPadding);
   const ordered = boxes.map((box) => placed.get(box.path));
-  return { boxes: ordered, edges, border, width, height: Math.max(height, top + 24) };
+  return { boxes: ordered, edges, border, width, height: Math.max(height, top + 24), effort: isQuick ? 0 : effort };
 }
 
 /** The passages that long edges take between boxes, of those that stay in their row. */

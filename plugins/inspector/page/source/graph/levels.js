@@ -23,7 +23,8 @@ export function PlaceOf(structure, connection) {
   const from = structure.get(connection.from)?.owner;
   const to = structure.get(connection.to)?.owner;
   if (!from || !to) return null;
-  if (from === to && IsGroup(structure.get(from))) return { level: from, source: kInside, target: kOutside };
+  const isLoop = structure.get(connection.from).direction === 'output'; // around the group, if it is one of its own
+  if (from === to && IsGroup(structure.get(from)) && !isLoop) return { level: from, source: kInside, target: kOutside };
   if (to.startsWith(`${from}/`)) return { level: from, source: kInside, target: MemberOn(structure, to, from) };
   if (from.startsWith(`${to}/`)) return { level: to, source: MemberOn(structure, from, to), target: kOutside };
   let level = ParentOf(from);

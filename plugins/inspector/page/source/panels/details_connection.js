@@ -2,7 +2,7 @@
 
 import { html } from 'htm/preact';
 import { Conversions, SetPull, SetQueue } from '../state/actions.js';
-import { openDialog } from '../state/choices.js';
+import { OpenLater, openDialog } from '../state/choices.js';
 import { DisconnectCarefully } from '../state/careful.js';
 import { canChange, refusals, structure } from '../state/store.js';
 import { ConnectionKey } from '../model/structure.js';
@@ -46,8 +46,9 @@ export function ConnectionDetails({ connection }) {
 
 async function ChooseConversion(connection) {
   const { from, to } = connection;
+  const asked = openDialog.value;
   const reply = await Conversions(from, to);
-  if (reply.ok) openDialog.value = { kind: 'convert', from, to, conversions: reply.conversions, connection };
+  if (reply.ok) OpenLater({ kind: 'convert', from, to, conversions: reply.conversions, connection }, asked);
 }
 
 const kOnFull = { drop_oldest: 'the oldest is dropped', drop_newest: 'the newest is dropped', refuse: 'the publisher is refused' };

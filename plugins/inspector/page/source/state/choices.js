@@ -26,6 +26,12 @@ const systemIsDark = signal(false);
 export const isDark = computed(() => (theme.value === 'system' ? systemIsDark.value : theme.value === 'dark'));
 export const panels = signal(Kept('panels', { side: 380, dock: 220, dockOpen: false, world: 330, worldShown: true, worldLarge: false, tab: 'plots' }));
 export const openDialog = signal(null); // {kind: 'create' | 'connect' | …, …}
+/** Opens a dialog after an answer, unless another one has been opened or closed since `asked` was open: keys would go to the wrong one. */
+export function OpenLater(dialog, asked) {
+  if (openDialog.value === asked) openDialog.value = dialog;
+  return openDialog.value === dialog;
+}
+
 export const announcement = signal(''); // for screen readers
 
 /** The thread whose modules stand out, or null. */
