@@ -118,14 +118,20 @@ Result<void> LateConnections::Add(const std::string& from, const std::string& to
   return {};
 }
 
+void LateConnections::Forget(std::string_view from, std::string_view to) {
+  const LateConnection* const found = Find(from, to);
+  if (found == nullptr) return;
+  all_.erase(all_.begin() + (found - all_.data()));
+  runtime_.ForEachListener([](ElementListener&) {});
+}
+
 bool LateConnections::Remove(std::string_view from, std::string_view to) {
   const LateConnection* const found = Find(from, to);
   if (found == nullptr) return false;
   const Ends ends = FindEnds(runtime_, found->from, found->to);
   const bool is_connected = ends.missing.empty() && ends.from->ConnectionTo(*ends.to) != nullptr;
-  all_.erase(all_.begin() + (found - all_.data()));
+  Forget(from, to);
   if (is_connected) (void)Port::Disconnect(*ends.from, *ends.to);
-  runtime_.ForEachListener([](ElementListener&) {});
   return true;
 }
 

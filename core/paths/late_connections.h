@@ -56,6 +56,8 @@ class LateConnections final : public Annotation, private ElementListener {
   Result<void> Add(const std::string& from, const std::string& to, ConnectOptions options);
   /// No more, and what is connected is disconnected. False: there is no such connection.
   bool Remove(std::string_view from, std::string_view to);
+  /// No more, if there is one; what is connected stays so.
+  void Forget(std::string_view from, std::string_view to);
 
   /// Something may have come, or may be known, of which the tree does not tell.
   void LookAgain();

@@ -169,7 +169,8 @@ class Plan {
   // `wanted`: of the connection that is to be; nullopt: none is to be.
   Result<void> CheckTie(const std::string& from_path, const std::string& to_path,
                         const std::optional<ConnectOptions>& wanted);
-  Result<void> CheckTie(Port& from, Port& to, const std::optional<ConnectOptions>& wanted);
+  // `stays_cut`: once its ends are there again, too.
+  Result<void> CheckTie(Port& from, Port& to, const std::optional<ConnectOptions>& wanted, bool stays_cut = true);
   Result<void> Apply(UndoRecord* back, std::size_t& begun);
   // Constructed, configured, with what had been set at `before`, if there is one, and prepared.
   Result<Workshop::Work> MakeModule(const Placement& place, const ReplaceModule& change,

@@ -211,7 +211,7 @@ Result<void> Plan::CheckStatic(const FrameworkElement& element, const Configurab
 Result<void> Plan::Cut(const std::vector<std::pair<Port*, Port*>>& misfits, const FrameworkElement& module) {
   for (const auto& [port, counterpart] : misfits) {
     for (const auto& [from, to, options, converted] : overlay_.EdgesOf(*port, &module)) {
-      if (auto cut = CheckTie(*from, *to, std::nullopt); !cut) return cut;
+      if (auto cut = CheckTie(*from, *to, std::nullopt, false); !cut) return cut;
       warnings_.push_back({.message = "is not connected to " + to->path() +
                                       " any more: the module made anew has no port that takes it over",
                            .path = from->path()});

@@ -80,17 +80,17 @@ Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_
   return CheckTie(*found_from->port, **found_to, wanted);
 }
 
-Result<void> Plan::CheckTie(Port& from, Port& to, const std::optional<ConnectOptions>& wanted) {
-  auto possible = wanted ? overlay_.Connect(from, to, *wanted) : overlay_.Disconnect(from, to);
+Result<void> Plan::CheckTie(Port& from, Port& to, const std::optional<ConnectOptions>& wanted, bool stays_cut) {
+  auto possible = wanted ? overlay_.Connect(from, to, *wanted) : overlay_.Disconnect(from, to, stays_cut);
   if (!possible) return possible;
   Concern(from);
   Concern(to);
-  const auto tie = [&from, &to](const std::optional<ConnectOptions>& options) -> Result<void> {
+  const auto tie = [&from, &to, stays_cut](const std::optional<ConnectOptions>& options) {
     if (options && options->when_present) (void)LateConnections::Of(from.runtime());
-    if (options) return Port::Connect(from, to, *options);
-    // Not to be made again once other ends have these names.
+    auto tied = options ? Port::Connect(from, to, *options) : Port::Disconnect(from, to);
     LateConnections* const late = LateConnections::FindIn(from.runtime());
-    return late != nullptr && late->Remove(from.path(), to.path()) ? Result<void>() : Port::Disconnect(from, to);
+    if (tied && !options && stays_cut && late != nullptr) late->Forget(from.path(), to.path());
+    return tied;
   };
   struct Done {
     std::optional<ConnectOptions> before;  // of a connection that is cut

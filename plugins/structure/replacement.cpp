@@ -175,17 +175,17 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
                                      : NoCounterpart(port, before, after);
     if (possible) possible = CheckConversions(*match, port, overlay.EdgesOf(port, &before));
     const bool is_held = port.is_blocked() || port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule);
-    // What waits does so for whatever has the name of its port.
-    const bool is_awaited = match == nullptr && !AwaitedWith(overlay.late(), port).empty();
-    const bool is_connected = is_awaited || overlay.IsConnected(port, &before);
-    // What STOP holds is not let go of, unless the other one declares that it moves.
+    const bool is_connected = overlay.IsConnected(port, &before);
+    const bool is_awaited = !AwaitedWith(overlay.late(), port).empty();
+    // What STOP holds, or would once it is connected, is not let go of, unless the other one declares that it moves.
     const bool declares = match != nullptr && match->is_driving() && !match->FindMark();
-    const bool is_held_by_stop = match != nullptr && port.is_driving() && port.stop()->in_force() && !declares;
-    const bool is_stopped = match != nullptr && (port.is_blocked() || port.FindMark() || is_held_by_stop ||
-                                                 (is_connected && port.is_driving()));
+    const bool moves = port.is_driving() && (is_connected || (!declares && (is_awaited || port.stop()->in_force())));
+    const bool is_stopped = match != nullptr && (port.is_blocked() || port.FindMark() || moves);
+    // What waits does so for whatever has the name of its port.
+    const bool is_missed = is_connected || (is_awaited && match == nullptr);
     if (possible) {
       result.ports.push_back({&port, match});
-    } else if (is_stopped || is_connected) {
+    } else if (is_stopped || is_missed) {
       // What is worse first.
       result.errors.insert(is_stopped ? result.errors.begin() : result.errors.end(), possible.error());
       if (!is_stopped) result.misfits.emplace_back(&port, match);

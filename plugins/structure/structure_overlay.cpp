@@ -174,7 +174,7 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
   return {};
 }
 
-Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
+Result<void> StructureOverlay::Disconnect(Port& from, Port& to, bool stays_cut) {
   if (!HasEdge(Targets(from), from, to)) {
     const std::vector<std::string> names =
         NamesOf(Targets(from), [](const Connection& edge) { return edge.to->path(); });
@@ -182,7 +182,11 @@ Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
                  .path = from.path(),
                  .hint = names.empty() ? "it is not connected to anything" : NearestNameHint(to.path(), names)};
   }
-  DisconnectLate(from.path(), to.path());
+  if (stays_cut) {
+    DisconnectLate(from.path(), to.path());
+  } else if (const LateConnection* const late = FindLate(from.path(), to.path())) {
+    Late()[static_cast<std::size_t>(late - Late().data())].waits_for = "its end";
+  }
   const auto is_same = [&](const Connection& edge) { return edge.from == &from && edge.to == &to; };
   if (std::erase_if(connected_, is_same) == 0) disconnected_.push_back({&from, &to, {}});
   return {};

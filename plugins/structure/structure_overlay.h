@@ -34,7 +34,8 @@ class StructureOverlay final : public PathSearch {
 
   /// Errors: what Port::Connect() and Disconnect() would say.
   Result<void> Connect(Port& from, Port& to, const ConnectOptions& options);
-  Result<void> Disconnect(Port& from, Port& to);
+  /// `stays_cut`: once its ends are there again, too.
+  Result<void> Disconnect(Port& from, Port& to, bool stays_cut);
 
   /// What waits by then, and what is connected since it waited.
   [[nodiscard]] const std::vector<LateConnection>& late() const { return Late(); }

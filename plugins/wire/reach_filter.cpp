@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include <netinet/in.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 namespace runnel {
 
@@ -34,6 +37,17 @@ bool IsOpenPortOf(int socket, std::uint32_t domain) {
   const int first = kFirstPort + kPortsOfDomain * static_cast<int>(domain);
   const int port = ntohs(address.sin_port);
   return port >= first && port < first + kPortsOfDomain && address.sin_addr.s_addr != htonl(INADDR_LOOPBACK);
+}
+
+// Sockets of this process that are open at ports of the domain, each by the number that no later one has.
+std::map<ino_t, int> OpenSockets(std::uint32_t domain, std::error_code& failed) {
+  std::map<ino_t, int> open;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", failed)) {
+    const int socket = std::atoi(entry.path().filename().c_str());
+    struct stat status {};
+    if (IsOpenPortOf(socket, domain) && fstat(socket, &status) == 0) open[status.st_ino] = socket;
+  }
+  return open;
 }
 
 using FilterProgram = std::vector<sock_filter>;
@@ -103,7 +117,12 @@ void WaitUntilEmpty(int socket) {
 
 }  // namespace
 
-Result<void> KeepWithinReach(const WireMemberOptions& options) {
+Result<void> KeepWithinReach(const WireMemberOptions& options, const std::function<void()>& open) {
+  static std::mutex opening;  // of all engines: nobody takes the sockets of another for its own
+  const std::lock_guard one(opening);
+  std::error_code failed;
+  const auto before = OpenSockets(options.domain, failed);
+  open();
   FilterProgram program;
   if (options.reach == WireReach::kLoopback) {
     program = OnlyLoopbackAddresses();
@@ -117,10 +136,9 @@ Result<void> KeepWithinReach(const WireMemberOptions& options) {
     return {};
   }
   const Error failure{.message = "the network cannot be kept to what it is to reach"};
-  std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", failed)) {
-    const int socket = std::atoi(entry.path().filename().c_str());
-    if (!IsOpenPortOf(socket, options.domain)) continue;
+  if (failed) return Error{.message = failure.message + ": " + failed.message()};
+  for (const auto& [number, socket] : OpenSockets(options.domain, failed)) {
+    if (before.contains(number)) continue;
     if (!Filter(socket, program)) return Error{.message = failure.message + ": " + std::strerror(errno)};
     WaitUntilEmpty(socket);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "core/base/result.h"
@@ -14,12 +15,14 @@ namespace runnel {
   return options.reach != WireReach::kNetwork || !options.interface.empty();
 }
 
-/// Has the sockets of this process that an engine has opened for the member's domain take only what comes from where the
-/// member reaches: with kLoopback, of this machine's loopback addresses; with kMachine, of this machine; with an interface,
-/// by that, or of this machine. Engines bind to all interfaces, or are in a group that the system has joined on another one,
-/// so that others could send to them, whatever they are told to use. What had come before is out of the sockets when it returns: until then an engine is not to
-/// listen. Errors: there is no such interface; the system does not do it.
-Result<void> KeepWithinReach(const WireMemberOptions& options);
+/// Calls `open`, which has an engine open sockets for the member, and has those take only what comes from where the member
+/// reaches: with kLoopback, of this machine's loopback addresses; with kMachine, of this machine; with an interface, by that,
+/// or of this machine. Engines bind to all interfaces, or are in a group that the system has joined on another one, so that
+/// others could send to them, whatever they are told to use. What had come before is out of the sockets when it returns: until
+/// then an engine is not to listen. Sockets that were there before stay as they are, of whomever they are; one that another
+/// thread opens meanwhile at a port of the domain is not told from the engine's. Errors: there is no such interface; the
+/// system does not do it.
+Result<void> KeepWithinReach(const WireMemberOptions& options, const std::function<void()>& open);
 
 /// "192.168.1.5" of an IPv4 address.
 [[nodiscard]] std::string AddressText(const sockaddr& address);

@@ -175,11 +175,13 @@ Result<std::shared_ptr<CycloneDomain>> CycloneDomain::Join(const WireMemberOptio
     }
   }
   dds_set_log_sink(Hear, nullptr);
-  const dds_entity_t domain = dds_create_domain(options.domain, configuration.c_str());
+  dds_entity_t domain = 0;
+  const auto kept =
+      KeepWithinReach(options, [&] { domain = dds_create_domain(options.domain, configuration.c_str()); });
   if (domain < 0) return CycloneError("domain " + std::to_string(options.domain) + " cannot be joined", domain);
   const std::shared_ptr<CycloneDomain> made(new CycloneDomain(domain, std::move(configuration)));
-  // Until then it is deaf.
-  if (const auto kept = KeepWithinReach(options); !kept) return kept.error();
+  if (!kept) return kept.error();
+  // Until now it has been deaf.
   if (HasBoundedReach(options)) (void)dds_domain_set_deafmute(domain, false, false, DDS_INFINITY);
   const std::lock_guard lock(AllDomains().mutex);
   AllDomains().all[options.domain] = made;

@@ -25,16 +25,20 @@ using namespace eprosima::fastdds::rtps;
 using eprosima::fastrtps::Duration_t;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
+using eprosima::fastrtps::rtps::LocatorSelector;
 using eprosima::fastrtps::rtps::octet;
 using eprosima::fastrtps::rtps::SenderResource;
 
 /// Sockets as those of `low`, which hear nothing until the filters of the member's reach are at them (KeepWithinReach()).
+/// Values go to no group.
 struct ReachDescriptor final : ChainingTransportDescriptor {
-  ReachDescriptor(std::shared_ptr<TransportDescriptorInterface> low, const WireMemberOptions& said)
-      : ChainingTransportDescriptor(std::move(low)), options(said) {}
+  ReachDescriptor(std::shared_ptr<TransportDescriptorInterface> low, const WireMemberOptions& said,
+                  std::shared_ptr<Result<void>> is_kept)
+      : ChainingTransportDescriptor(std::move(low)), options(said), kept(std::move(is_kept)) {}
   TransportInterface* create_transport() const override;
 
   const WireMemberOptions options;
+  const std::shared_ptr<Result<void>> kept;  // for who joins: the last error
 };
 
 class ReachTransport final : public ChainingTransport {
@@ -45,14 +49,32 @@ class ReachTransport final : public ChainingTransport {
 
   bool OpenInputChannel(const Locator_t& locator, TransportReceiverInterface* receiver, std::uint32_t most) override {
     hears_ = false;
-    const bool is_open = ChainingTransport::OpenInputChannel(locator, receiver, most);
-    (void)KeepWithinReach(descriptor_.options);  // what is wrong is told by who joins
-    hears_ = true;
+    bool is_open = false;
+    const auto kept = KeepWithinReach(descriptor_.options,
+                                      [&] { is_open = ChainingTransport::OpenInputChannel(locator, receiver, most); });
+    if (!kept) *descriptor_.kept = kept;
+    hears_ = descriptor_.kept->has_value();
     return is_open;
   }
   bool send(SenderResource* low, const octet* octets, std::uint32_t size, LocatorsIterator* begin,
             LocatorsIterator* end, const std::chrono::steady_clock::time_point& latest) override {
     return low->send(octets, size, begin, end, latest);
+  }
+  // Each reader is sent to at its own addresses. Of two that share a group Fast DDS 2.9 would select the group alone, send to
+  // the addresses all the same, and end the process by an assertion, as nothing is open to them.
+  void select_locators(LocatorSelector& selector) const override {
+    const auto& readers = selector.transport_starts();
+    for (std::size_t i = 0; i < readers.size(); ++i) {
+      auto& reader = *readers[i];
+      const bool has_address = !reader.unicast.empty();
+      const auto& places = has_address ? reader.unicast : reader.multicast;
+      auto& selected = has_address ? reader.state.unicast : reader.state.multicast;
+      for (std::size_t j = 0; reader.transport_should_process && j < places.size(); ++j) {
+        if (selector.is_selected(places[j])) continue;
+        selected.push_back(j);
+        selector.select(i);
+      }
+    }
   }
   void receive(TransportReceiverInterface* next, const octet* octets, std::uint32_t size, const Locator_t& local,
                const Locator_t& remote) override {
@@ -130,7 +152,7 @@ void SetSecurity(dds::DomainParticipantQos& qos, const WireSecurity& security) {
 }  // namespace
 
 // Every policy is set here: files of profiles in the folder of the process may change the defaults.
-Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options) {
+Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options, std::shared_ptr<Result<void>> kept) {
   dds::DomainParticipantQos qos;
   qos.name() = options.name;
   SetUserData(qos.user_data(), options.user_data);
@@ -150,11 +172,7 @@ Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options) {
     udp->interfaceWhiteList = {*address};
   }
   qos.transport().use_builtin_transports = false;
-  if (HasBoundedReach(options)) {
-    qos.transport().user_transports.push_back(std::make_shared<ReachDescriptor>(udp, options));
-  } else {
-    qos.transport().user_transports.push_back(udp);
-  }
+  qos.transport().user_transports.push_back(std::make_shared<ReachDescriptor>(udp, options, std::move(kept)));
 
   auto& builtin = qos.wire_protocol().builtin;
   builtin.discovery_config.leaseDuration = Duration_t(static_cast<long double>(ToSeconds(options.lease)));

@@ -7,7 +7,6 @@
 #include <fastrtps/attributes/LibrarySettingsAttributes.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
-#include "plugins/wire/reach_filter.h"
 #include "plugins/wire_fast/fast_discovery.h"
 #include "plugins/wire_fast/fast_endpoints.h"
 #include "plugins/wire_fast/fast_settings.h"
@@ -32,7 +31,8 @@ class FastParticipant final : public WireParticipant {
   Result<void> Begin(const WireMemberOptions& options) {
     has_keys_ = options.security.has_value();
     if (has_keys_) HearFastSecurity();
-    const auto qos = MemberQos(options);
+    const auto kept = std::make_shared<Result<void>>();
+    const auto qos = MemberQos(options, kept);
     if (!qos) return qos.error();
     participant_ = factory_->create_participant(options.domain, *qos, &discovery_, dds::StatusMask::none());
     if (participant_ == nullptr) {
@@ -40,7 +40,7 @@ class FastParticipant final : public WireParticipant {
       if (options.security) error.hint = KeyFilesHint(*options.security);
       return error;
     }
-    if (const auto kept = KeepWithinReach(options); !kept) return kept;
+    if (!*kept) return *kept;
     member_ = std::make_unique<FastMember>(*participant_, discovery_);
     discovery_.TellMember({.id = id(), .name = options.name, .user_data = options.user_data});
     return {};

@@ -18,8 +18,10 @@ namespace runnel::internal {
 using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
 /// Serves one connection that has been accepted, until it ends or becomes a session. `user`: whose process of this
-/// machine is at the other end, if the rules ask for that and the system says.
-void ServeHttp(ConnectionRegistry& registry, boost::asio::ip::tcp::socket socket, std::optional<std::uint32_t> user);
+/// machine is at the other end, if the rules ask for that and the system says. `visitor`: whoever is in the registry for it
+/// until it becomes a session; nullptr: it is itself.
+void ServeHttp(ConnectionRegistry& registry, boost::asio::ip::tcp::socket socket, std::optional<std::uint32_t> user,
+               std::shared_ptr<WebConnection> visitor = nullptr);
 
 /// Goes on with a connection whose request for a WebSocket has been granted. `name`: of the protocol,
 /// as it is answered. `role`: what the client may do.

@@ -37,14 +37,13 @@ void ConnectionRegistry::Remove(const std::shared_ptr<WebConnection>& connection
   if (connections_.erase(connection) > 0 && connection->is_session()) --sessions_;
 }
 
-void ConnectionRegistry::EvictOldest() {
-  if (connections_.size() - sessions_.load() < limits().visitors) return;
+void ConnectionRegistry::AddVisitor(const std::shared_ptr<WebConnection>& visitor) {
+  if (!connections_.insert(visitor).second || connections_.size() - sessions_.load() <= limits().visitors) return;
   std::shared_ptr<WebConnection> oldest;
   for (const auto& each : connections_) {
     if (each->is_session()) continue;
     if (oldest == nullptr || each->since() < oldest->since()) oldest = each;
   }
-  if (oldest == nullptr) return;
   oldest->Cut();
   Remove(oldest);
 }

@@ -67,8 +67,9 @@ class ConnectionRegistry {
 
   void Add(std::shared_ptr<WebConnection> connection);
   void Remove(const std::shared_ptr<WebConnection>& connection) noexcept;
-  /// The plain connection that has been there for the longest time goes, if there are too many.
-  void EvictOldest();
+  /// One that is no session, unless it is there already. If there are too many, the one that has been there for the longest
+  /// time goes.
+  void AddVisitor(const std::shared_ptr<WebConnection>& visitor);
   /// Whether there is a place for one more session; if there is none, the oldest that may do less makes room. Of those whose
   /// places are kept, or of the others.
   bool MakeRoomFor(WebRole role, bool is_kept);

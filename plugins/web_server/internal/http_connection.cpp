@@ -51,8 +51,13 @@ std::string ContentPolicy(const HttpRequest& request) {
 /// One connection, request by request.
 class HttpConnection final : public WebConnection, public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(ConnectionRegistry& registry, tcp::socket socket, std::optional<std::uint32_t> user)
-      : WebConnection(std::nullopt), registry_(registry), user_(user), stream_(std::move(socket)) {}
+  HttpConnection(ConnectionRegistry& registry, tcp::socket socket, std::optional<std::uint32_t> user,
+                 std::shared_ptr<WebConnection> visitor)
+      : WebConnection(std::nullopt),
+        registry_(registry),
+        user_(user),
+        visitor_(std::move(visitor)),
+        stream_(std::move(socket)) {}
 
   void Read() {
     parser_.emplace();
@@ -129,7 +134,7 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
       }
       std::string name(View(each));
       const auto self = shared_from_this();
-      registry_.Remove(self);
+      registry_.Remove(visitor_ != nullptr ? visitor_ : self);
       return ServeWebSocket(registry_, stream_.release_socket(), std::move(request_), *protocol, std::move(name), role);
     }
     Refuse(http::status::bad_request, (offered.empty() ? "no protocol is asked for (Sec-WebSocket-Protocol)"
@@ -193,6 +198,7 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
 
   ConnectionRegistry& registry_;
   const std::optional<std::uint32_t> user_;
+  const std::shared_ptr<WebConnection> visitor_;  // nullptr: this one
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
@@ -205,10 +211,11 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
 
 }  // namespace
 
-void ServeHttp(ConnectionRegistry& registry, tcp::socket socket, std::optional<std::uint32_t> user) {
-  registry.EvictOldest();
-  const auto connection = std::make_shared<HttpConnection>(registry, std::move(socket), user);
-  registry.Add(connection);
+void ServeHttp(ConnectionRegistry& registry, tcp::socket socket, std::optional<std::uint32_t> user,
+               std::shared_ptr<WebConnection> visitor) {
+  const bool is_visitor = visitor == nullptr;
+  const auto connection = std::make_shared<HttpConnection>(registry, std::move(socket), user, std::move(visitor));
+  if (is_visitor) registry.AddVisitor(connection);
   connection->Read();
 }
 

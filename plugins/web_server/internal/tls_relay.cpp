@@ -108,13 +108,13 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
     });
   }
 
-  // From here on the end that speaks HTTP counts, and ends this one by closing.
+  // The end that speaks HTTP ends this one by closing. This one counts for both as long as it has something to send, but
+  // while there is a session, which counts itself.
   void Connect() {
     timer_.cancel();
     const auto self = shared_from_this();
-    registry_.Remove(self);
     int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return Cut();
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return Remove();
     error_code error;
     inner_.assign(tcp::v4(), ends[0], error);
     tcp::socket served(registry_.context());
@@ -122,9 +122,12 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
     if (error) {
       if (!inner_.is_open()) close(ends[0]);
       if (!served.is_open()) close(ends[1]);
-      return Cut();
+      return Remove();
     }
-    ServeHttp(registry_, std::move(served), user_);
+    inner_.async_wait(tcp::socket::wait_error, [self](error_code) {
+      if (self->inner_.is_open()) self->registry_.AddVisitor(self);
+    });
+    ServeHttp(registry_, std::move(served), user_, self);
     Decrypt();
     Encrypt();
   }
@@ -148,7 +151,7 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
       self->CutAfter(self->registry_.limits().idle_time);
       asio::async_write(self->outer_, asio::buffer(self->out_, bytes), [self](error_code why, std::size_t) {
         self->timer_.cancel();
-        if (why) return self->Cut();
+        if (why) return self->Remove();
         self->Encrypt();
       });
     });
@@ -156,7 +159,7 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
 
   void Shutdown() {
     CutAfter(kTimeToClose);
-    outer_.async_shutdown([self = shared_from_this()](error_code) { self->Cut(); });
+    outer_.async_shutdown([self = shared_from_this()](error_code) { self->Remove(); });
   }
 
   void CutAfter(Duration time) {
@@ -216,9 +219,8 @@ Result<std::shared_ptr<TlsIdentity>> LoadTlsIdentity(const std::filesystem::path
 
 void ServeTls(ConnectionRegistry& registry, const std::shared_ptr<TlsIdentity>& identity, tcp::socket socket,
               std::optional<std::uint32_t> user) {
-  registry.EvictOldest();
   const auto relay = std::make_shared<TlsRelay>(registry, identity, std::move(socket), user);
-  registry.Add(relay);
+  registry.AddVisitor(relay);
   relay->Begin();
 }
 

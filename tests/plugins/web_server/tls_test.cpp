@@ -126,6 +126,55 @@ TEST_F(Tls, OneThatDoesNotReadIsLetGo) {
   EXPECT_GT(met.refused, 0);
 }
 
+/// Of what has been sent to clients they take nothing, and nobody loses patience.
+class TlsThatIsStuck : public Tls {
+ protected:
+  static constexpr std::size_t kVisitors = 2, kClients = 6;
+  static std::size_t Descriptors() {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator()));
+  }
+  void SetUp() override {
+    StartTls({.limits = {.visitors = kVisitors, .waiting_bytes = 100'000'000, .request_time = 1h, .idle_time = 1h}});
+    before_ = Descriptors();
+  }
+  TlsClient& Connect() {
+    clients_.push_back(std::make_unique<TlsClient>(server->port(), ours->certificate));
+    EXPECT_TRUE(clients_.back()->is_open());
+    return *clients_.back();
+  }
+  // A visitor has three: the connection, and both ends within the process.
+  void ExpectNoMoreThanVisitorsHave() {
+    EXPECT_TRUE(Eventually([&] { return Descriptors() <= before_ + kClients + 3 * kVisitors; })) << Descriptors();
+  }
+
+  std::vector<std::unique_ptr<TlsClient>> clients_;
+
+ private:
+  std::size_t before_ = 0;
+};
+
+TEST_F(TlsThatIsStuck, WhoMakesRoomForAnotherLeavesNothing) {
+  for (std::size_t i = 0; i < kClients; ++i) {
+    Connect().Send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    std::this_thread::sleep_for(200ms);  // until the sockets are full
+  }
+  ExpectNoMoreThanVisitorsHave();
+}
+
+TEST_F(TlsThatIsStuck, WhatASessionHasLeftCountsAsAVisitor) {
+  for (std::size_t i = 0; i < kClients; ++i) {
+    TlsClient& client = Connect();
+    client.Send(Handshake("https://localhost"));
+    EXPECT_THAT(client.Read("\r\n\r\n"), StartsWith("HTTP/1.1 101 "));
+    for (int j = 0; j < 4; ++j) client.Send(RawClient::Frame(1, "much"));
+  }
+  std::this_thread::sleep_for(2s);  // until the sockets are full
+  for (const auto& each : clients_) each->Send(RawClient::Frame(1, "close"));
+  WaitUntil("the sessions have ended", [&] { return met.ended == static_cast<int>(kClients); });
+  ExpectNoMoreThanVisitorsHave();
+}
+
 TEST_F(Tls, TheTokenIsNeededAllTheSame) {
   StartTls({.tokens = {{WebRole::kChange, "open-sesame"}}});
   TlsClient client(server->port(), ours->certificate);

@@ -24,6 +24,9 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
+/// More than the sockets of a connection take.
+inline const std::string kLarge(40'000'000, 'x');
+
 /// What sessions of a test have met; of any thread.
 struct Met {
   std::atomic<int> begun{0};
@@ -95,11 +98,13 @@ class WebServerTest : public ::testing::Test {
  protected:
   void Start(WebServerOptions options = {}) {
     options.port = 0;
-    auto started =
-        WebServer::Start(options, {{"/", "text/html", "<p>page</p>"}, {"/page.js", "text/javascript", "let page = 1"}},
-                         {{{"echo.v1", "echo.v2", "echo.kept"},
-                           [this](WebClient& client) { return std::make_unique<Echo>(client, met); },
-                           "echo.kept"}});
+    auto started = WebServer::Start(options,
+                                    {{"/", "text/html", "<p>page</p>"},
+                                     {"/page.js", "text/javascript", "let page = 1"},
+                                     {"/large", "text/plain", kLarge}},
+                                    {{{"echo.v1", "echo.v2", "echo.kept"},
+                                      [this](WebClient& client) { return std::make_unique<Echo>(client, met); },
+                                      "echo.kept"}});
     ASSERT_TRUE(started) << started.error().ToString();
     server = std::move(*started);
   }

@@ -1,19 +1,13 @@
 // What each engine behind the seam does, the fake of the tests as well as those that go over a network.
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <linux/filter.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include "plugins/wire/octet_pool.h"
 #include "plugins/wire_shared_memory/shared_memory_wire.h"
@@ -238,29 +232,6 @@ TEST_P(WireEngineTest, AReplySaysToWhichRequestItBelongs) {
 
 /// Those that open sockets.
 class SocketEngineTest : public testing::TestWithParam<MakeEngine> {};
-
-// Each of its sockets is one of the loopback interface, or has a filter.
-TEST_P(SocketEngineTest, NobodyButThisMachineReachesALoopback) {
-  const unsigned domain = OwnDomain();
-  Members members;
-  const auto engine = GetParam()();
-  const auto member = engine->Join({.domain = domain}, members);
-  ASSERT_TRUE(member);
-  int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-    const int descriptor = std::atoi(entry.path().filename().c_str());
-    sockaddr_in address{};
-    socklen_t size = sizeof address;
-    if (getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0 || address.sin_family != AF_INET)
-      continue;
-    ++count;
-    sock_filter filter[4];
-    socklen_t length = 4;
-    const bool is_filtered = getsockopt(descriptor, SOL_SOCKET, SO_GET_FILTER, filter, &length) == 0 && length == 4;
-    EXPECT_TRUE(is_filtered || address.sin_addr.s_addr == htonl(INADDR_LOOPBACK)) << ntohs(address.sin_port);
-  }
-  EXPECT_GE(count, 4);
-}
 
 // Two masters of one actuator.
 TEST_P(SocketEngineTest, OfExclusiveWritersTheStrongestCountsAndThenTheOther) {
