@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -23,11 +25,20 @@ Constant OfReal(double value) { return {.kind = Kind::kReal, .real = value}; }
 constexpr double kTwoToThe64 = 18446744073709551616.0;
 
 Computed ComputeReals(double a, char operation, double b) {
-  if (operation == '+') return {OfReal(a + b)};
-  if (operation == '-') return {OfReal(a - b)};
-  if (operation == '*') return {OfReal(a * b)};
-  if (operation == '/') return {OfReal(a / b)};
-  return {.error = fmt::format("'{}' needs whole numbers", operation)};
+  if (std::string_view("+-*/").find(operation) == std::string_view::npos) {
+    return {.error = fmt::format("'{}' needs whole numbers", operation)};
+  }
+  if (operation == '/' && b == 0) return {.error = "this divides by zero"};
+  const double result = operation == '+' ? a + b : operation == '-' ? a - b : operation == '*' ? a * b : a / b;
+  if (!std::isfinite(result)) return {.error = "the result is too large for a double"};
+  return {OfReal(result)};
+}
+
+Computed OfWhole(WideInteger result) {
+  if (result >= static_cast<WideInteger>(kTwoToThe64) || result < -static_cast<WideInteger>(kTwoToThe64 / 2)) {
+    return {.error = "the result has more than 64 bits"};
+  }
+  return {{.kind = result < 0 ? Kind::kSigned : Kind::kUnsigned, .whole = static_cast<std::uint64_t>(result)}};
 }
 
 Computed ComputeWholes(const Constant& a, char operation, const Constant& b) {
@@ -57,10 +68,7 @@ Computed ComputeWholes(const Constant& a, char operation, const Constant& b) {
       if (y == 0) return {.error = "this divides by zero"};
       result = operation == '/' ? x / y : x % y;
   }
-  if (result >= static_cast<WideInteger>(kTwoToThe64) || result < -static_cast<WideInteger>(kTwoToThe64 / 2)) {
-    return {.error = "the result has more than 64 bits"};
-  }
-  return {{.kind = result < 0 ? Kind::kSigned : Kind::kUnsigned, .whole = static_cast<std::uint64_t>(result)}};
+  return OfWhole(result);
 }
 
 Computed Shifted(const Constant& a, char operation, const Constant& b) {
@@ -68,16 +76,10 @@ Computed Shifted(const Constant& a, char operation, const Constant& b) {
   if (!by || (a.kind != Kind::kUnsigned && a.kind != Kind::kSigned)) {
     return {.error = "only whole numbers can be shifted, by whole numbers"};
   }
-  Constant result = a;
-  if (by->whole >= 64) {
-    result.whole = 0;
-  } else if (operation == '<') {
-    result.whole = a.whole << by->whole;
-  } else {
-    result.whole =
-        a.kind == Kind::kUnsigned ? a.whole >> by->whole : static_cast<std::uint64_t>(Signed(a) >> by->whole);
-  }
-  return {result};
+  const auto places = static_cast<int>(std::min<std::uint64_t>(by->whole, 64));
+  if (operation == '>') return OfWhole(Wide(a) >> places);
+  if (places == 64 && a.whole != 0) return {.error = "the result has more than 64 bits"};
+  return OfWhole(Wide(a) << (places % 64));
 }
 
 }  // namespace
@@ -156,13 +158,9 @@ Computed Compute(char operation, const Constant& a) {
     if (operation == '~') return {.error = "'~' needs a whole number"};
     return {OfReal(-a.real)};
   }
+  if (operation == '-') return OfWhole(-Wide(a));
   Constant result = a;
-  if (operation == '-') {
-    result.kind = Kind::kSigned;
-    result.whole = 0 - a.whole;
-  } else {
-    result.whole = ~a.whole;
-  }
+  result.whole = ~a.whole;
   return {result};
 }
 

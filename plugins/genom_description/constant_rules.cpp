@@ -1,3 +1,6 @@
+#include <cmath>
+#include <limits>
+
 #include "core/base/nearest_name.h"
 #include "plugins/genom_description/component.h"
 
@@ -53,6 +56,14 @@ void WarnOfRange(const Constant& value, const Type& type, Place place, Problems&
     case TypeKind::kLong:
       lowest = -2147483648LL, highest = 2147483647;
       break;
+    case TypeKind::kLongLong:
+      lowest = std::numeric_limits<std::int64_t>::min(), highest = std::numeric_limits<std::int64_t>::max();
+      break;
+    case TypeKind::kFloat:
+      if (std::abs(value.real) > std::numeric_limits<float>::max()) {
+        problems.Warn(place, value.ToText() + " is out of the range of " + type.ShownName());
+      }
+      return;
     case TypeKind::kString:
       if (type.length != Type::kUnbounded && value.text.size() > type.length) {
         problems.Warn(place, "this text is longer than " + type.ShownName() + " holds");
@@ -142,7 +153,8 @@ std::optional<Constant> Cast(const Constant& value, const Type* type, Place plac
     problems.Add(place, value.ToText() + " is no value of " + KindAndName(*type));
     return std::nullopt;
   }
-  WarnOfRange(*converted, final_type, place, problems);
+  const bool is_whole = value.kind == Kind::kUnsigned || value.kind == Kind::kSigned;
+  WarnOfRange(is_whole && kind != Kind::kReal ? value : *converted, final_type, place, problems);
   return converted;
 }
 

@@ -72,11 +72,17 @@ std::string DigestOf(const Component& component) {
     for (const Parameter& each : service->parameters) {
       if (each.is_variable) continue;
       hash.Add(NameOf(each.direction));
+      hash.Add(each.name);  // by which requests say it
       types.Add(each.type);
     }
-    if (const Property* exceptions = Find(service->properties, PropertyKind::kThrow)) {
-      for (const Type* each : exceptions->exceptions) hash.Add(each->full_name);
+    const Task* const task = service->task();
+    std::set<std::string> exceptions;
+    for (const Properties* from : {&service->properties, &component.properties, task ? &task->properties : nullptr}) {
+      const Property* const found = from != nullptr ? Find(*from, PropertyKind::kThrow) : nullptr;
+      if (found == nullptr) continue;
+      for (const Type* each : found->exceptions) exceptions.insert(each->full_name);
     }
+    for (const std::string& each : exceptions) hash.Add(each);
   }
   return hash.ToText();
 }

@@ -55,7 +55,10 @@ Constant Parser::UnaryExpression() {
   if (!mark.IsMark("-") && !mark.IsMark("+") && !mark.IsMark("~")) return PrimaryExpression();
   reader_.Take();
   Computed result = Compute(mark.text[0], PrimaryExpression());
-  if (!result.error.empty()) problems_.Add(mark.place, result.error);
+  if (!result.error.empty()) {
+    problems_.Add(mark.place, result.error);
+    result.value = {.kind = Constant::Kind::kUnsigned, .whole = 1};
+  }
   return result.value;
 }
 

@@ -18,7 +18,7 @@ namespace runnel::genom_standalone {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 64U << 20;
+constexpr std::size_t kLongestLine = 4U << 20;  // JSON takes 20 times as much memory, and nobody else is heard
 constexpr std::size_t kMostUnsent = 64U << 20;  // of a client that does not read
 constexpr int kFlushMilliseconds = 1000;
 
@@ -88,7 +88,9 @@ bool LineServer::Receive(Client client, Session& session) {
   const ssize_t got = read(client, buffer.data(), buffer.size());
   if (got < 0) return errno == EAGAIN || errno == EINTR;
   session.received.append(buffer.data(), static_cast<std::size_t>(got));
-  return got > 0 && session.received.size() <= kLongestLine;
+  session.has_said_all = got == 0;
+  if (session.has_said_all && !session.received.empty()) session.received += '\n';
+  return session.received.size() <= kLongestLine;
 }
 
 bool LineServer::SendMore(Client client, Session& session) {
@@ -101,10 +103,16 @@ bool LineServer::SendMore(Client client, Session& session) {
 }
 
 void LineServer::Serve(const std::function<void(Client, const std::string&)>& take,
-                       const std::function<void(Client)>& gone) {
+                       const std::function<void(Client)>& gone, const std::function<bool(Client)>& waits) {
+  std::erase_if(sessions_, [&](const auto& each) {
+    const bool has_all = each.second.has_said_all && each.second.unsent.empty() && !waits(each.first);
+    if (has_all) close(each.first);
+    return has_all;
+  });
   std::vector<pollfd> waiting{{listening_, POLLIN, 0}, {woken_, POLLIN, 0}};
   for (const auto& [client, session] : sessions_) {
-    waiting.push_back({client, static_cast<short>(session.unsent.empty() ? POLLIN : POLLIN | POLLOUT), 0});
+    const int events = (session.has_said_all ? 0 : POLLIN) | (session.unsent.empty() ? 0 : POLLOUT);
+    waiting.push_back({client, static_cast<short>(events), 0});
   }
   if (poll(waiting.data(), waiting.size(), -1) < 0) return;
   if ((waiting[1].revents & POLLIN) != 0) {
@@ -122,6 +130,8 @@ void LineServer::Serve(const std::function<void(Client, const std::string&)>& ta
       session.received.erase(0, end + 1);
       take(client, line);
     }
+    // It may have closed only its own side; then it listens.
+    if (session.has_said_all && (waiting[i].revents & (POLLHUP | POLLERR)) != 0) stays = false;
     if (stays && session.unsent.size() <= kMostUnsent) continue;
     gone(client);
     sessions_.erase(client);

@@ -15,6 +15,7 @@ using genom_execution::ServiceTable;
 namespace {
 
 constexpr LineServer::Client kNobody = -1;
+constexpr std::int64_t kMostPieces = 100'000;  // of a step, while nobody else is heard
 constexpr int kDeepest = 100;  // lists and objects inside of one another, which are walked through by recursion
 
 // What the engine's own exceptions have with them.
@@ -48,16 +49,24 @@ const ValueType* DetailType(const StandaloneComponent& component, genom_executio
 }  // namespace
 
 RequestServer::RequestServer(const StandaloneComponent& component, Engine& engine, LineServer& lines,
-                             std::function<double(double)> step)
+                             std::function<Time(Duration)> step)
     : component_(component), engine_(engine), lines_(lines), step_(std::move(step)) {}
 
 void RequestServer::Take(LineServer::Client client, const std::string& line) {
+  try {
+    TakeObject(client, line);
+  } catch (const std::exception& error) {  // no memory, as a rule; the component goes on
+    lines_.Send(client, Json{{"error", std::string("cannot be done: ") + error.what()}}.dump());
+  }
+}
+
+void RequestServer::TakeObject(LineServer::Client client, const std::string& line) {
   if (line.find_first_not_of(" \t\r") == std::string::npos) return;
   bool is_too_deep = false;
-  const auto keeps = [&](int depth, Json::parse_event_t, Json&) { return !(is_too_deep |= depth > kDeepest); };
-  const Json json = Json::parse(line, keeps, false);
+  const auto keeps = [&](int depth, Said::parse_event_t, Said&) { return !(is_too_deep |= depth > kDeepest); };
+  const Said json = Said::parse(line, keeps, false);
   Json answer = Json::object();
-  if (json.is_object() && json.contains("as")) answer["as"] = json["as"];
+  if (json.is_object() && json.contains("as")) answer["as"] = Json(json["as"]);
   if (!json.is_object() || is_too_deep) {
     answer["error"] =
         is_too_deep ? "is nested deeper than " + std::to_string(kDeepest) + " levels" : "is no object in JSON";
@@ -74,7 +83,7 @@ void RequestServer::Take(LineServer::Client client, const std::string& line) {
   lines_.Send(client, answer.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-Result<Json> RequestServer::Do(LineServer::Client client, const Json& line) {
+Result<Json> RequestServer::Do(LineServer::Client client, const Said& line) {
   if (line.contains("call") || line.contains("abort")) return Begin(client, line);
   if (line.contains("put")) return Put(line["put"]);
   if (line.contains("get")) return Get(line["get"]);
@@ -85,22 +94,32 @@ Result<Json> RequestServer::Do(LineServer::Client client, const Json& line) {
     lines_.Wake();
     return Json::object();
   }
-  if (line.contains("step")) {
-    if (step_ == nullptr)
-      return Error{.message = "the component has a clock of its own", .hint = "start it with --stepped"};
-    if (!line["step"].is_number() || line["step"].get<double>() < 0)
-      return Error{.message = "'step' is a number of seconds"};
-    const double seconds = line["step"].get<double>();
-    if (!line.contains("every")) return Json{{"time", step_(seconds)}};
-    const Json& every = line["every"];
-    if (!every.is_number() || every.get<double>() <= 0)
-      return Error{.message = "'every' is a number of seconds, and not 0"};
-    double time = step_(0);
-    for (auto left = std::llround(seconds / every.get<double>()); left > 0; --left) time = step_(every.get<double>());
-    return Json{{"time", time}};
-  }
+  if (line.contains("step")) return Step(line);
   return Error{.message = "says nothing that is to be done",
                .hint = "say one of 'call', 'abort', 'put', 'get', 'state', 'describe', 'step', 'kill'"};
+}
+
+Result<Json> RequestServer::Step(const Said& line) {
+  if (step_ == nullptr)
+    return Error{.message = "the component has a clock of its own", .hint = "start it with --stepped"};
+  if (!line["step"].is_number() || line["step"].get<double>() < 0)
+    return Error{.message = "'step' is a number of seconds"};
+  Duration left = FromSeconds(line["step"].get<double>());
+  if (left > kFarthest - time_.time_since_epoch()) return Error{.message = "time goes on for 146 years at most"};
+  Duration piece = left;
+  if (line.contains("every")) {
+    if (line["every"].is_number()) piece = FromSeconds(line["every"].get<double>());
+    if (!line["every"].is_number() || piece <= Duration::zero())
+      return Error{.message = "'every' is a number of seconds, and not 0"};
+  }
+  if (piece > Duration::zero() && left / piece > kMostPieces)
+    return Error{.message = "these are more than " + std::to_string(kMostPieces) + " pieces",
+                 .hint = "make several steps"};
+  do {
+    time_ = step_(std::min(left, piece));
+    left -= std::min(left, piece);
+  } while (left > Duration::zero());
+  return Json{{"time", ToSeconds(time_)}};
 }
 
 Result<std::size_t> RequestServer::FindService(const std::string& name) const {
@@ -111,9 +130,9 @@ Result<std::size_t> RequestServer::FindService(const std::string& name) const {
                .hint = NearestNameHint(name, NamesOf(services, &ServiceTable::name))};
 }
 
-Result<Json> RequestServer::Begin(LineServer::Client client, const Json& line) {
+Result<Json> RequestServer::Begin(LineServer::Client client, const Said& line) {
   Call call{.client = client,
-            .as = line.contains("as") ? line["as"] : Json(),
+            .as = line.contains("as") ? Json(line["as"]) : Json(),
             .service = component_.table.services.size(),
             .request = nullptr};
   if (line.contains("abort")) {
@@ -129,7 +148,7 @@ Result<Json> RequestServer::Begin(LineServer::Client client, const Json& line) {
     if (!service) return service.error();
     call.service = *service;
     call.request = std::make_unique<Request>(component_.table, component_.table.services[*service]);
-    const Json with = line.contains("with") ? line["with"] : Json::object();
+    const Said with = line.contains("with") ? line["with"] : Said::object();
     if (auto filled = Fill(component_.services[*service], call.request->data(), with); !filled) return filled.error();
   }
   call.request->client = &lines_;
@@ -140,7 +159,7 @@ Result<Json> RequestServer::Begin(LineServer::Client client, const Json& line) {
   return Error{.message = "too many requests wait"};
 }
 
-Result<void> RequestServer::Fill(const StandaloneService& service, void* data, const Json& with) {
+Result<void> RequestServer::Fill(const StandaloneService& service, void* data, const Said& with) {
   if (!with.is_object()) return Error{.message = "'with' is an object of parameters"};
   for (const auto& [name, value] : with.items()) {
     const bool is_one =
@@ -154,10 +173,10 @@ Result<void> RequestServer::Fill(const StandaloneService& service, void* data, c
     void* const value = static_cast<std::byte*>(data) + each.offset;
     if (!each.is_input) continue;
     const std::string_view initial = each.initial;
+    if (!with.contains(each.name) && initial.empty()) return Error{.message = "is not given", .path = each.name};
     if (!initial.empty()) {
-      if (auto read = FromJson(*each.type, Json::parse(initial, nullptr, false), value, each.name); !read) return read;
-    } else if (!with.contains(each.name)) {
-      return Error{.message = "is not given", .path = each.name};
+      auto read = FromJson(*each.type, Said::parse(initial, nullptr, false), value, each.name);
+      if (!read && !with.contains(each.name)) return read;
     }
     if (!with.contains(each.name)) continue;
     if (auto read = FromJson(*each.type, with[each.name], value, each.name); !read) return read;
@@ -185,7 +204,7 @@ Result<std::shared_ptr<StandalonePort>> RequestServer::FindPort(const std::strin
   return Error{.message = "is not open", .path = name};
 }
 
-Result<Json> RequestServer::Put(const Json& values) {
+Result<Json> RequestServer::Put(const Said& values) {
   if (!values.is_object()) return Error{.message = "'put' is an object of ports and values"};
   for (const auto& [name, json] : values.items()) {
     const auto port = FindPort(name, true);
@@ -198,7 +217,7 @@ Result<Json> RequestServer::Put(const Json& values) {
   return Json::object();
 }
 
-Result<Json> RequestServer::Get(const Json& name) {
+Result<Json> RequestServer::Get(const Said& name) {
   if (!name.is_string()) return Error{.message = "'get' is the name of a port"};
   const auto port = FindPort(name.get<std::string>(), false);
   if (!port) return port.error();
@@ -281,6 +300,10 @@ void RequestServer::Answer() {
     lines_.Send(call->client, Ending(*call).dump(-1, ' ', false, Json::error_handler_t::replace));
     call = calls_.erase(call);
   }
+}
+
+bool RequestServer::IsAwaitedBy(LineServer::Client client) const {
+  return std::ranges::any_of(calls_, [&](const Call& each) { return each.client == client; });
 }
 
 // What it has asked for goes on.

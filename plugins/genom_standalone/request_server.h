@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/clock.h"
 #include "core/base/result.h"
 #include "plugins/genom_execution/engine.h"
 #include "plugins/genom_standalone/standalone_component.h"
@@ -16,6 +17,8 @@
 namespace runnel::genom_standalone {
 
 using Json = nlohmann::ordered_json;
+/// What clients say: finds its members by a tree, however many there are.
+using Said = nlohmann::json;
 
 /// Structs as objects, sequences as arrays, an optional without a value as null, a union as an object of what is set,
 /// enumerators and texts as texts.
@@ -23,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 /// What is not said stays as it is. Errors: what is of another type, does not fit, or is unknown, with its path; parts may
 /// have been set then.
-[[nodiscard]] Result<void> FromJson(const ValueType& type, const Json& json, void* value, const std::string& path);
+[[nodiscard]] Result<void> FromJson(const ValueType& type, const Said& json, void* value, const std::string& path);
 
 /// Lines of text between this process and clients at a Unix socket.
 ///
@@ -40,8 +43,10 @@ class LineServer {
 
   /// Errors: the path cannot be had, or somebody listens there.
   [[nodiscard]] Result<void> Listen(const std::string& path);
-  /// Until lines have come, or Wake() was called; each goes to `take`, without its end.
-  void Serve(const std::function<void(Client, const std::string&)>& take, const std::function<void(Client)>& gone);
+  /// Until lines have come, or Wake() was called; each goes to `take`, without its end. Who says nothing more is listened to
+  /// no longer, and has what `waits` says is still to be sent to it.
+  void Serve(const std::function<void(Client, const std::string&)>& take, const std::function<void(Client)>& gone,
+             const std::function<bool(Client)>& waits);
   /// To a client that is gone: to nobody.
   void Send(Client client, const std::string& line);
   /// What has been sent goes out, for a second at most.
@@ -51,6 +56,7 @@ class LineServer {
  private:
   struct Session {
     std::string received = {}, unsent = {};
+    bool has_said_all = false;
   };
   void Accept();
   [[nodiscard]] bool Receive(Client client, Session& session);
@@ -67,9 +73,9 @@ class LineServer {
 /// Threads: one, that of the LineServer.
 class RequestServer {
  public:
-  /// `step` runs a stepped component by so many seconds, and returns its time; nullptr: has threads of its own.
+  /// `step` runs a stepped component by so much time, and returns its own, which begins with 0; nullptr: has threads of its own.
   RequestServer(const StandaloneComponent& component, genom_execution::Engine& engine, LineServer& lines,
-                std::function<double(double)> step);
+                std::function<Time(Duration)> step);
   /// Preconditions: no request is under way.
   ~RequestServer() = default;
   RequestServer(const RequestServer&) = delete;
@@ -77,6 +83,8 @@ class RequestServer {
 
   void Take(LineServer::Client client, const std::string& line);
   void ClientIsGone(LineServer::Client client);
+  /// Whether a call of the client is to be answered.
+  [[nodiscard]] bool IsAwaitedBy(LineServer::Client client) const;
   /// Answers what has been accepted or done since.
   void Answer();
 
@@ -88,11 +96,13 @@ class RequestServer {
     std::unique_ptr<genom_execution::Request> request;
     bool is_accepted = false;  // and has been told so
   };
-  Result<Json> Do(LineServer::Client client, const Json& line);
-  Result<Json> Begin(LineServer::Client client, const Json& line);
-  Result<void> Fill(const StandaloneService& service, void* data, const Json& with);
-  Result<Json> Put(const Json& values);
-  Result<Json> Get(const Json& name);
+  void TakeObject(LineServer::Client client, const std::string& line);
+  Result<Json> Do(LineServer::Client client, const Said& line);
+  Result<Json> Begin(LineServer::Client client, const Said& line);
+  Result<Json> Step(const Said& line);
+  Result<void> Fill(const StandaloneService& service, void* data, const Said& with);
+  Result<Json> Put(const Said& values);
+  Result<Json> Get(const Said& name);
   /// Stays while it is used, though a codel closes it.
   [[nodiscard]] Result<std::shared_ptr<StandalonePort>> FindPort(const std::string& name, bool is_to_be_made);
   [[nodiscard]] Json State();
@@ -103,7 +113,8 @@ class RequestServer {
   const StandaloneComponent& component_;
   genom_execution::Engine& engine_;
   LineServer& lines_;
-  std::function<double(double)> step_;
+  std::function<Time(Duration)> step_;
+  Time time_ = {};  // of a stepped component
   std::list<Call> calls_;
 };
 

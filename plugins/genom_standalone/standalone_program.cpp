@@ -129,6 +129,20 @@ void RunAll(Engine& engine, Time time, bool is_forced) {
   }
 }
 
+// False: something was thrown, as there is no memory; it is told.
+bool Serve(LineServer& lines, RequestServer& server) {
+  try {
+    lines.Serve([&](LineServer::Client client, const std::string& line) { server.Take(client, line); },
+                [&](LineServer::Client client) { server.ClientIsGone(client); },
+                [&](LineServer::Client client) { return server.IsAwaitedBy(client); });
+    server.Answer();
+    return true;
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << "\n";
+    return false;
+  }
+}
+
 int Report(const Engine& engine) {
   const auto* const failure = engine.failure();
   if (failure == nullptr) return kDone;
@@ -139,17 +153,16 @@ int Report(const Engine& engine) {
 int RunStepped(const StandaloneComponent& component, LineServer& lines) {
   Engine engine(component.table, {.ids = component.ids, .is_single_threaded = true});
   Time time{};
-  const auto step = [&](double seconds) {
-    time += FromSeconds(seconds);
+  const auto step = [&](Duration by) {
+    time += by;
     RunAll(engine, time, false);
-    return ToSeconds(time);
+    return time;
   };
+  bool is_well = true;
   {
     RequestServer server(component, engine, lines, step);
-    while (g_is_told_to_end == 0 && !engine.is_stopping() && engine.failure() == nullptr) {
-      lines.Serve([&](LineServer::Client client, const std::string& line) { server.Take(client, line); },
-                  [&](LineServer::Client client) { server.ClientIsGone(client); });
-      server.Answer();
+    while (is_well && g_is_told_to_end == 0 && !engine.is_stopping() && engine.failure() == nullptr) {
+      is_well = Serve(lines, server);
     }
     engine.Stop();
     for (int round = 0; round < kMostRounds && !engine.is_ended(); ++round) RunAll(engine, time, true);
@@ -160,7 +173,7 @@ int RunStepped(const StandaloneComponent& component, LineServer& lines) {
       std::_Exit(kFailed);  // it may still be used by what does not
     }
   }
-  return Report(engine);
+  return is_well ? Report(engine) : kFailed;
 }
 
 int RunThreads(const StandaloneComponent& component, LineServer& lines) {
@@ -181,16 +194,15 @@ int RunThreads(const StandaloneComponent& component, LineServer& lines) {
     glue.threads.Join();
     lines.Wake();
   });
-  while (!engine.is_ended()) {
-    lines.Serve([&](LineServer::Client client, const std::string& line) { server.Take(client, line); },
-                [&](LineServer::Client client) { server.ClientIsGone(client); });
-    server.Answer();
-    if (g_is_told_to_end != 0) engine.Stop();
+  bool is_well = true;
+  while (is_well && !engine.is_ended()) {
+    is_well = Serve(lines, server);
+    if (!is_well || g_is_told_to_end != 0) engine.Stop();
   }
   ending.join();
   server.Answer();
   lines.Flush();
-  return Report(engine);
+  return is_well ? Report(engine) : kFailed;
 }
 
 void HandleSignals() {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -67,11 +68,13 @@ void Choose(const ValueType& type, const ValueMember& member, void* value) {
 }
 
 template <typename Number>
-Result<void> NumberFromJson(const Json& json, Number& number, const std::string& path) {
+Result<void> NumberFromJson(const Said& json, Number& number, const std::string& path) {
   if constexpr (std::is_same_v<Number, bool>) {
     if (!json.is_boolean()) return Wrong(path, "is neither true nor false");
   } else if constexpr (std::is_floating_point_v<Number>) {
     if (!json.is_number()) return Wrong(path, "is no number");
+    if (std::abs(json.get<double>()) > std::numeric_limits<Number>::max())
+      return Wrong(path, json.dump() + " does not fit");
   } else {
     if (std::is_same_v<Number, char> && json.is_string() && json.get_ref<const std::string&>().size() == 1) {
       number = static_cast<Number>(json.get_ref<const std::string&>()[0]);
@@ -87,7 +90,7 @@ Result<void> NumberFromJson(const Json& json, Number& number, const std::string&
   return {};
 }
 
-Result<void> EnumFromJson(const ValueType& type, const Json& json, void* value, const std::string& path) {
+Result<void> EnumFromJson(const ValueType& type, const Said& json, void* value, const std::string& path) {
   if (!json.is_string()) return Wrong(path, "is no name");
   const auto& name = json.get_ref<const std::string&>();
   const auto found = std::ranges::find(type.names, name);
@@ -99,7 +102,7 @@ Result<void> EnumFromJson(const ValueType& type, const Json& json, void* value, 
   return {};
 }
 
-Result<void> TextFromJson(const ValueType& type, const Json& json, void* value, const std::string& path) {
+Result<void> TextFromJson(const ValueType& type, const Said& json, void* value, const std::string& path) {
   if (!json.is_string()) return Wrong(path, "is no text");
   const auto& text = json.get_ref<const std::string&>();
   if (type.kind == ValueKind::kText) {
@@ -116,7 +119,7 @@ Result<void> TextFromJson(const ValueType& type, const Json& json, void* value, 
   return {};
 }
 
-Result<void> ListFromJson(const ValueType& type, const Json& json, void* value, const std::string& path) {
+Result<void> ListFromJson(const ValueType& type, const Said& json, void* value, const std::string& path) {
   if (!json.is_array()) return Wrong(path, "is no list");
   if (json.size() >= 100'000'000 || !type.list->resize(value, json.size())) {
     return Wrong(path, "has more than " + std::to_string(type.length) + " elements");
@@ -132,7 +135,7 @@ Result<void> ListFromJson(const ValueType& type, const Json& json, void* value, 
   return result;
 }
 
-Result<void> MembersFromJson(const ValueType& type, const Json& json, void* value, const std::string& path) {
+Result<void> MembersFromJson(const ValueType& type, const Said& json, void* value, const std::string& path) {
   if (!json.is_object()) return Wrong(path, "is no object");
   if (type.kind == ValueKind::kUnion && json.size() != 1) return Wrong(path, "is a union: say one of its members");
   for (const auto& [name, part] : json.items()) {
@@ -192,7 +195,7 @@ Json ToJson(const ValueType& type, const void* from) {
   }
 }
 
-Result<void> FromJson(const ValueType& type, const Json& json, void* value, const std::string& path) {
+Result<void> FromJson(const ValueType& type, const Said& json, void* value, const std::string& path) {
   switch (type.kind) {
     case ValueKind::kEnum:
       return EnumFromJson(type, json, value, path);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -28,7 +29,7 @@ constexpr std::array<Operator, 18> kOperators = {
      {"<=", 7, [](Number a, Number b) -> Number { return Signed(a) <= Signed(b); }},
      {">=", 7, [](Number a, Number b) -> Number { return Signed(a) >= Signed(b); }},
      {"<<", 8, [](Number a, Number b) -> Number { return b < 64 ? a << b : 0; }},
-     {">>", 8, [](Number a, Number b) -> Number { return b < 64 ? a >> b : 0; }},
+     {">>", 8, [](Number a, Number b) { return static_cast<Number>(Signed(a) >> std::min<Number>(b, 63)); }},
      {"|", 3, [](Number a, Number b) { return a | b; }},
      {"^", 4, [](Number a, Number b) { return a ^ b; }},
      {"&", 5, [](Number a, Number b) { return a & b; }},
@@ -80,12 +81,19 @@ class ConditionReader {
     if (++depth_ > kDeepest) Fail("this condition is nested too deeply");
     Number value = is_wrong_ ? 0 : Binary(1);
     if (!is_wrong_ && Accept("?")) {
-      const Number yes = Ternary();
+      const Number yes = TernaryIf(value != 0);
       if (!Accept(":")) Fail("here ':' is missing");
-      const Number no = is_wrong_ ? 0 : Ternary();
+      const Number no = is_wrong_ ? 0 : TernaryIf(value == 0);
       value = value != 0 ? yes : no;
     }
     --depth_;
+    return value;
+  }
+
+  Number TernaryIf(bool counts) {
+    unused_ += counts ? 0 : 1;
+    const Number value = Ternary();
+    unused_ -= counts ? 0 : 1;
     return value;
   }
 
@@ -95,7 +103,10 @@ class ConditionReader {
       const Operator* next = Next();
       if (next == nullptr || next->binding < binding) break;
       at_ += next->text.size() == 2 && tokens_[at_].text.size() == 1 ? 2 : 1;
+      const bool is_known = left == 0 ? next->text == "&&" : next->text == "||";
+      unused_ += is_known ? 1 : 0;
       const Number right = Binary(next->binding + 1);
+      unused_ -= is_known ? 1 : 0;
       left = next->apply != nullptr ? next->apply(left, right) : Divided(Signed(left), next->text, Signed(right));
     }
     return left;
@@ -148,7 +159,7 @@ class ConditionReader {
 
   Number Divided(std::int64_t a, std::string_view operation, std::int64_t b) {
     if (b == 0) {
-      Fail("this condition divides by zero");
+      if (unused_ == 0) Fail("this condition divides by zero");
       return 0;
     }
     if (b == -1) return operation == "/" ? 0 - static_cast<Number>(a) : 0;  // the least has no opposite
@@ -160,6 +171,7 @@ class ConditionReader {
   Problems& problems_;
   std::size_t at_ = 0;
   int depth_ = 0;
+  int unused_ = 0;  // within so many parts that change nothing, such as what is behind "0 &&"
   bool is_wrong_ = false;
 };
 

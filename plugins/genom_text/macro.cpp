@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "plugins/genom_text/preprocessor.h"
 
@@ -45,37 +46,31 @@ class MacroTable::Stream {
       Entry entry = std::move(waiting_.back());
       waiting_.pop_back();
       if (entry.ends != nullptr) {
-        open_.erase(open_.find(entry.ends));
+        open_.erase(open_.find(entry.ends->name));
         continue;
       }
-      if (entry.token.kind == Kind::kWord && !open_.empty() && IsOpen(entry.token.text)) {
-        entry.token.is_fixed = true;
-      }
+      if (entry.token.kind == Kind::kWord && open_.contains(entry.token.text)) entry.token.is_fixed = true;
       return std::move(entry.token);
     }
     return source_();
   }
   void Put(TextToken token) { waiting_.push_back({std::move(token), nullptr}); }
   void PutExpansion(const Macro& macro, Tokens tokens) {
-    open_.insert(&macro);
+    open_.insert(macro.name);
     waiting_.push_back({{}, &macro});
     for (auto each = tokens.rbegin(); each != tokens.rend(); ++each) Put(std::move(*each));
   }
   [[nodiscard]] bool is_expanding() const { return !waiting_.empty(); }
-  [[nodiscard]] std::size_t size() const { return waiting_.size(); }
 
  private:
   struct Entry {
     TextToken token;
     const Macro* ends;
   };
-  [[nodiscard]] bool IsOpen(const std::string& name) const {
-    return std::ranges::any_of(open_, [&](const Macro* each) { return each->name == name; });
-  }
 
   Source source_;
   std::vector<Entry> waiting_ = {};
-  std::multiset<const Macro*> open_ = {};
+  std::multiset<std::string_view> open_ = {};
 };
 
 bool MacroTable::Has(const std::string& name) const {
@@ -149,11 +144,21 @@ std::optional<TextToken> MacroTable::Special(const TextToken& word) const {
   return std::nullopt;
 }
 
+// False: there is no more of it.
+bool MacroTable::Spend(const TextToken& token) {
+  steps_ += SizeOf(token);
+  if (steps_ > kMostSteps && !std::exchange(is_spent_, true)) {
+    problems_.Add(token.place, "macros grow to too many tokens here");
+  }
+  return !is_spent_;
+}
+
 std::optional<MacroTable::Arguments> MacroTable::ReadArguments(const Macro& macro, Stream& stream, Place place) {
   Arguments arguments(1);
   int depth = 0;
   for (TextToken next = stream.Next();; next = stream.Next()) {
-    if (next.kind == Kind::kEnd || ++steps_ > kMostSteps) {
+    if (!Spend(next)) return std::nullopt;
+    if (next.kind == Kind::kEnd) {
       problems_.Add(place, "the arguments of macro '" + macro.name + "' do not end", "close them by )");
       return std::nullopt;
     }
@@ -188,16 +193,22 @@ std::vector<TextToken> MacroTable::Substitute(const Macro& macro, const Argument
     return &arguments[static_cast<std::size_t>(found - macro.parameters.begin())];
   };
   Tokens result;
-  const auto append = [&](const Tokens& tokens) { result.insert(result.end(), tokens.begin(), tokens.end()); };
+  const auto append = [&](const Tokens& tokens) {
+    for (const TextToken& each : tokens) {
+      if (Spend(each)) result.push_back(each);
+    }
+  };
+  std::size_t left = 0;  // where the left operand of a ## begins; an empty argument has nothing there
   for (std::size_t i = 0; i < macro.body.size(); ++i) {
-    if ((steps_ += 1 + result.size() / 1000) > kMostSteps) break;
     const TextToken& token = macro.body[i];
+    if (!Spend(token)) break;
+    if (!token.IsMark("##")) left = result.size();
     const bool is_pasted = i + 1 < macro.body.size() && macro.body[i + 1].IsMark("##");
     if (token.IsMark("##") && i + 1 < macro.body.size()) {
       const TextToken& right = macro.body[++i];
       const Tokens* argument = argument_of(right);
       Tokens rest = argument != nullptr ? *argument : Tokens{right};
-      if (!result.empty() && !rest.empty()) {
+      if (result.size() > left && !rest.empty()) {
         const Tokens pasted = Pasted(result.back(), rest.front(), problems_);
         result.pop_back();
         append(pasted);
@@ -206,10 +217,10 @@ std::vector<TextToken> MacroTable::Substitute(const Macro& macro, const Argument
       append(rest);
     } else if (macro.has_parameters && token.IsMark("#") && i + 1 < macro.body.size() &&
                argument_of(macro.body[i + 1]) != nullptr) {
-      result.push_back({.kind = Kind::kString,
-                        .text = Stringified(*argument_of(macro.body[++i])),
-                        .place = place,
-                        .has_space_before = true});
+      append({{.kind = Kind::kString,
+               .text = Stringified(*argument_of(macro.body[++i])),
+               .place = place,
+               .has_space_before = true}});
     } else if (const Tokens* argument = argument_of(token); argument != nullptr) {
       append(is_pasted ? *argument : ExpandAll(*argument));
     } else {
@@ -224,15 +235,12 @@ std::vector<TextToken> MacroTable::ExpandStream(Stream& stream) {
   Tokens result;
   if (++depth_ > kDeepest) {
     problems_.Add(stream.Next().place, "macros are nested too deeply here");
-    steps_ = kMostSteps;
+    is_spent_ = true;
     --depth_;
     return result;
   }
   for (TextToken next = stream.Next(); next.kind != Kind::kEnd; next = stream.Next()) {
-    if (++steps_ > kMostSteps || stream.size() > kMostSteps) {
-      problems_.Add(next.place, "macros grow to too many tokens here");
-      break;
-    }
+    if (!Spend(next)) break;
     const auto found = next.kind == Kind::kWord && !next.is_fixed ? macros_.find(next.text) : macros_.end();
     if (found == macros_.end()) {
       const auto special = next.kind == Kind::kWord ? Special(next) : std::nullopt;
@@ -273,13 +281,12 @@ std::vector<TextToken> MacroTable::ExpandAll(const Tokens& tokens) {
     Stream stream([&]() -> TextToken { return at < tokens.size() ? tokens[at++] : TextToken{}; });
     const Tokens some = ExpandStream(stream);
     result.insert(result.end(), some.begin(), some.end());
-    if (steps_ > kMostSteps || depth_ >= kDeepest) break;
+    if (is_spent_ || depth_ >= kDeepest) break;
   }
   return result;
 }
 
 std::vector<TextToken> MacroTable::Expand(const TextToken& word, const Source& source) {
-  steps_ = 0;
   Stream stream(source);
   stream.Put(word);
   return ExpandStream(stream);

@@ -52,7 +52,7 @@ void Preprocessor::ReadToEnd(std::string folder, const std::string& text, const 
 
 void Preprocessor::Put(TextToken token) {
   if (token.kind == Kind::kNewline || token.kind == Kind::kEnd) return;
-  if (tokens_.size() >= kMostTokens) {
+  if ((size_ += SizeOf(token)) > kMostTokens) {
     GiveUp(token.place, "this description has too many tokens");
     return;
   }
@@ -60,7 +60,7 @@ void Preprocessor::Put(TextToken token) {
 }
 
 void Preprocessor::ReadLines() {
-  while (!is_given_up_) {
+  while (!(is_given_up_ |= macros_.is_spent())) {
     TextToken token = lexer().Next();
     if (token.kind == Kind::kEnd) return;
     if (is_at_line_start_ && token.IsMark("#")) {

@@ -13,6 +13,9 @@
 
 namespace runnel::genom {
 
+/// What a token takes: the longer its text, the more.
+[[nodiscard]] inline std::size_t SizeOf(const TextToken& token) { return 1 + token.text.size() / 16; }
+
 struct Macro {
   std::string name;
   Place place = {};
@@ -41,8 +44,11 @@ class MacroTable {
   [[nodiscard]] std::vector<TextToken> Expand(const TextToken& word, const Source& source);
   [[nodiscard]] std::vector<TextToken> ExpandAll(const std::vector<TextToken>& tokens);
 
+  /// The macros of the whole description have grown too much, which has been told.
+  [[nodiscard]] bool is_spent() const noexcept { return is_spent_; }
+
  private:
-  static constexpr std::size_t kMostSteps = 500'000;
+  static constexpr std::size_t kMostSteps = 2'000'000;
   static constexpr int kDeepest = 64;
   using Arguments = std::vector<std::vector<TextToken>>;
   class Stream;
@@ -51,10 +57,12 @@ class MacroTable {
   [[nodiscard]] std::optional<Arguments> ReadArguments(const Macro& macro, Stream& stream, Place place);
   [[nodiscard]] std::vector<TextToken> Substitute(const Macro& macro, const Arguments& arguments, Place place);
   [[nodiscard]] std::optional<TextToken> Special(const TextToken& word) const;
+  [[nodiscard]] bool Spend(const TextToken& token);
 
   Problems& problems_;
   std::map<std::string, Macro, std::less<>> macros_ = {};
-  std::size_t steps_ = 0;
+  std::size_t steps_ = 0;  // never less: many small macros take as long as one that is large
+  bool is_spent_ = false;
   int depth_ = 0;
 };
 
@@ -179,6 +187,7 @@ class Preprocessor {
   MacroTable macros_;
   std::vector<OpenFile> files_;
   std::vector<TextToken> tokens_;
+  std::size_t size_ = 0;
   std::size_t files_read_ = 0;
   std::string notice_;
   bool is_at_line_start_ = true;

@@ -177,13 +177,16 @@ TextToken TextLexer::Next(bool is_directive) {
 
 std::string TextLexer::RestOfLine() {
   std::string rest;
+  bool is_quoted = false;  // where nothing is a comment
   while (!IsAtEnd() && At() != '\n') {
-    if (At() == '/' && (At(1) == '*' || At(1) == '/')) {
+    if (!is_quoted && At() == '/' && (At(1) == '*' || At(1) == '/')) {
       SkipBlanks();
       rest += ' ';
-    } else {
-      rest += text_[position_++];
+      continue;
     }
+    if (At() == '"') is_quoted = !is_quoted;
+    if (is_quoted && At() == '\\' && At(1) != '\n') rest += text_[position_++];
+    rest += text_[position_++];
   }
   return std::string(Trimmed(rest));
 }

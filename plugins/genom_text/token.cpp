@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -76,6 +77,7 @@ class NumberCutter {
     }
     Token token{.kind = Kind::kReal, .text = text_.substr(at_, length), .place = place};
     token.real = std::strtod(token.text.c_str(), nullptr);
+    if (!std::isfinite(token.real)) problems_.Add(place, "'" + token.text + "' is too large for a double");
     at_ += length;
     const char suffix = At(0);
     const bool is_end = !IsLetter(At(1)) && !IsNumeral(At(1));

@@ -77,6 +77,12 @@ TEST(GenomJsonTest, TheDigestIsThatOfWhatOthersSee) {
   EXPECT_NE(plain, digest("port out s p; function f(in long a);"));
   EXPECT_NE(plain, digest("port in s p; function f(in short a);"));
   EXPECT_NE(plain, digest("port in s p; function f(in long a); function g();"));
+  EXPECT_NE(plain, digest("port in s p; function f(in long b);")) << "requests say parameters by name";
+  const std::string items = "exception e; port in s p; ";
+  EXPECT_NE(digest(items + "function f(in long a);"), digest(items + "throw e; function f(in long a);"));
+  EXPECT_EQ(digest(items + "throw e; function f(in long a);"), digest(items + "function f(in long a) { throw e; };"));
+  const std::string in_task = "activity f(in long a) { task t; codel<start> k() yield ether; };";
+  EXPECT_NE(digest(items + "task t; " + in_task), digest(items + "task t { throw e; }; " + in_task));
 }
 
 }  // namespace

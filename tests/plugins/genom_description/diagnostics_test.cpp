@@ -78,6 +78,16 @@ TEST(GenomDiagnosticsTest, ServicesThatCanNeverStartAreWarnedOf) {
             "");
 }
 
+TEST(GenomDiagnosticsTest, ConstantsOutOfTheRangeOfTheirTypeAreWarnedOf) {
+  for (const char* wrong : {"const long long a = 18446744073709551615;", "const long long a = 9223372036854775808;",
+                            "const long a = -2147483649;", "const float a = 1e300;"}) {
+    Diagnostics diagnostics;
+    (void)genom::ReadDescriptionText(wrong, "test.gen", {}, diagnostics);
+    EXPECT_TRUE(diagnostics.ok()) << "it is no error: " << diagnostics.ToString();
+    EXPECT_THAT(diagnostics.ToString(), HasSubstr("is out of the range of")) << wrong;
+  }
+}
+
 TEST(GenomDiagnosticsTest, CodelsWithNamesOfTheHeadersAreWarnedOf) {
   const auto warnings = [](const std::string& items) {
     Diagnostics diagnostics;

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -51,6 +52,16 @@ TEST(GenomPreprocessorTest, MacrosAndConditions) {
       {kWrong, "#define F(x) x\ntypedef F(long a;"},
       {kWrong, "#include \"nowhere.gen\"\n"},
       {kRight, "const long a = __LINE__; const string b = __FILE__;"},
+      {kRight,
+       "#define FIELD(pre, name) double pre##name\nstruct s { FIELD(,x); FIELD(my_,y); }; typedef long doublex;"},
+      {kRight, "#define THREE(a, b, c) a##b##c\ntypedef long THREE(,of,); typedef of THREE(,,other);"},
+      {kRight, "#if defined(N) && 100 / N > 2 || 1 || 1 / 0\ntypedef long a;\n#endif\ntypedef a b;"},
+      {kRight, "#if 0 ? 1 / 0 : 1 ? 1 : 1 % 0\ntypedef long a;\n#endif\ntypedef a b;"},
+      {kWrong, "#if 1 && 1 / 0\n#endif\n"},
+      {kWrong, "#if 1 ? 1 / 0 : 1\n#endif\n"},
+      {kRight, "#if (-8 >> 1) == -4 && (-1 >> 99) == -1\ntypedef long a;\n#endif\ntypedef a b;"},
+      {kRight, "#if 0\n\"all of /etc/*\"\n#endif\ntypedef long a;\n/* end */ typedef a b;"},
+      {kRight, "#if 0\n \"a \\\" /*\"\n#endif\ntypedef long a;\n/* end */ typedef a b;"},
       {kRight, "#define s ms\ncomponent c { task t { period 5 s; }; };"},
   });
 }
@@ -88,6 +99,41 @@ TEST(GenomPreprocessorTest, MacrosThatGrowEnd) {
     text += "#define A" + std::to_string(i) + " " + last + " " + last + "\n";
   }
   EXPECT_THAT(Wrongs(text + "struct s { A39 };"), HasSubstr("too many tokens"));
+}
+
+TEST(GenomPreprocessorTest, WordsThatDoubleEnd) {
+  for (const char* twice : {"x##x", "T(#x)"}) {
+    std::string use = "a";
+    for (int i = 0; i < 40; ++i) use = "Q(" + use + ")";
+    EXPECT_THAT(Wrongs(std::string("#define T(x) #x #x\n#define P(x) ") + twice +
+                       "\n#define Q(x) P(x)\nconst string a = " + use + ";"),
+                HasSubstr("too many tokens"));
+  }
+}
+
+TEST(GenomPreprocessorTest, LongTextsManyTimesEnd) {
+  std::string text = "#define D \"" + std::string(1 << 20, 'x') + "\"\nconst string a =";
+  for (int i = 0; i < 3000; ++i) text += " D";
+  EXPECT_THAT(Wrongs(text + ";"), HasSubstr("too many tokens"));
+}
+
+TEST(GenomPreprocessorTest, ManyUsesOfMacrosThatGiveNothingEnd) {
+  std::string text = "#define A0\n";
+  for (int i = 1; i < 6; ++i) {
+    text += "#define A" + std::to_string(i);
+    for (int j = 0; j < 10; ++j) text += " A" + std::to_string(i - 1);
+    text += "\n";
+  }
+  for (int i = 0; i < 100'000; ++i) text += "A5\n";
+  EXPECT_THAT(Wrongs(text), HasSubstr("too many tokens"));
+}
+
+TEST(GenomPreprocessorTest, ALongChainOfMacrosIsNoMoreThanItsLength) {
+  std::string text = "#define A20000 long\n";
+  for (int i = 0; i < 20'000; ++i) text += "#define A" + std::to_string(i) + " A" + std::to_string(i + 1) + "\n";
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(Wrongs(text + "typedef A0 a;"), "");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
 TEST(GenomPreprocessorTest, PackagesGiveFoldersAndMacros) {

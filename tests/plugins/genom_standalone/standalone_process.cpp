@@ -4,11 +4,13 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <sys/wait.h>
@@ -47,8 +49,14 @@ StandaloneProcess::~StandaloneProcess() {
   }
 }
 
-void StandaloneProcess::Say(const std::string& line) {
-  const std::string text = line + "\n";
+void StandaloneProcess::Say(const std::string& line) { SendAll(line + "\n"); }
+
+void StandaloneProcess::SayLast(const std::string& text) {
+  SendAll(text);
+  shutdown(socket_, SHUT_WR);
+}
+
+void StandaloneProcess::SendAll(const std::string& text) {
   for (std::size_t sent = 0; sent < text.size();) {
     const ssize_t more = send(socket_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
     if (more <= 0) return;
@@ -70,6 +78,14 @@ Json StandaloneProcess::Hear() {
 }
 
 void StandaloneProcess::Send(int signal) const { kill(process_, signal); }
+
+void StandaloneProcess::LimitMemory(std::size_t more) const {
+  std::size_t pages = 0;
+  std::ifstream("/proc/" + std::to_string(process_) + "/statm") >> pages;
+  const std::size_t most = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + more;
+  const rlimit limit{most, most};
+  prlimit(process_, RLIMIT_AS, &limit, nullptr);
+}
 
 int StandaloneProcess::Wait() {
   int status = 0;

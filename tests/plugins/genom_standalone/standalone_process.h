@@ -23,6 +23,8 @@ class StandaloneProcess {
   StandaloneProcess& operator=(const StandaloneProcess&) = delete;
 
   void Say(const std::string& line);
+  /// Says this without the end of a line, and that nothing more comes.
+  void SayLast(const std::string& text);
   /// The next line that it says; a JSON text "gone" if it is gone.
   [[nodiscard]] Json Hear();
   /// Says the line, and hears one.
@@ -31,11 +33,15 @@ class StandaloneProcess {
     return Hear();
   }
   void Send(int signal) const;
+  /// From now on it gets so many bytes more.
+  void LimitMemory(std::size_t more) const;
   /// How it ended: its exit code, or minus the signal.
   [[nodiscard]] int Wait();
   [[nodiscard]] bool has_socket() const;
 
  private:
+  void SendAll(const std::string& text);
+
   TemporaryFolder folder_;
   pid_t process_ = -1;
   int socket_ = -1;

@@ -113,5 +113,21 @@ TEST(DocsTest, APageAndItsDrawings) {
   EXPECT_THAT(TextOfFile(files, "nav_go.svg"), AllOf(HasSubstr(">start</text>"), HasSubstr("stroke-dasharray")));
 }
 
+TEST(ShippedTemplatesTest, ConstantsAndDefaultsAreWhatTheDescriptionSays) {
+  const std::string text =
+      "const unsigned long long most = 18446744073709551615; const unsigned long long few = 3;\n"
+      "component c { function f(in unsigned long long a = most, in string s = \"two\nlines\", in string<3> u = "
+      "\"aa\u00fc\"); };\n";
+  const std::string standalone = TextOfFile(FilesOf("standalone", text), "c_standalone.cpp");
+  EXPECT_THAT(standalone, AllOf(HasSubstr(R"("18446744073709551615")"), HasSubstr(R"("\"two\\u000alines\"")"),
+                                HasSubstr(R"("\"aa\"")")));
+  const std::string in_c = TextOfFile(FilesOf("mappings", text), "c_c_types.h");
+  EXPECT_THAT(in_c, AllOf(HasSubstr("#define most 18446744073709551615ull\n"), HasSubstr("#define few 3\n")));
+  std::string cxx = text;
+  cxx.insert(cxx.find("function"), "lang \"c++\"; ");
+  EXPECT_THAT(TextOfFile(FilesOf("mappings", cxx), "c_cxx_types.h"),
+              AllOf(HasSubstr("most = 18446744073709551615ull;"), HasSubstr("few = 3;")));
+}
+
 }  // namespace
 }  // namespace runnel::genom

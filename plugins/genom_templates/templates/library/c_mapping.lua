@@ -5,6 +5,16 @@ local mapping = {}
 local types = {}
 for _, type in ipairs(model.types) do types[type.name] = type end
 
+-- A constant that is no text. Numbers of Lua are signed: those from 2^63 on are written as what they stand for,
+-- with the suffix that C wants.
+function mapping.number(type, value, suffix)
+  if mapping.final(type).kind ~= "unsigned long long" or math.type(value) ~= "integer" or value >= 0 then
+    return tostring(value)
+  end
+  local tens = (value >> 1) // 5
+  return tens .. (value - tens * 10) .. (suffix or "")
+end
+
 -- "nav::pose" is nav_pose.
 function mapping.name(name) return (name:gsub("::", "_")) end
 

@@ -77,11 +77,17 @@ function value(type, initial, is_json)
   local constant = initial.value
   if math.type(constant) == "float" then return string.format("%.17g", constant) end
   if math.type(constant) then constant = fitting(final.kind, constant) end
-  if math.type(constant) or constant == true or constant == false then return tostring(constant) end
+  if math.type(constant) or constant == true or constant == false then return c.number(final, constant) end
   if final.kind == "char" then return tostring(constant:byte() or 0) end
-  if final.kind == "string" and has(final, "length") then constant = constant:sub(1, final.length) end
+  if final.kind == "string" and has(final, "length") and #constant > final.length then
+    local length = math.floor(final.length)
+    while length > 0 and constant:byte(length + 1) & 0xC0 == 0x80 do length = length - 1 end  -- whole characters of UTF-8
+    constant = constant:sub(1, length)
+  end
   if final.kind == "enum" then constant = constant:match("([%w_]+)$") end
-  return '"' .. constant:gsub('[\\"]', "\\%0") .. '"'
+  constant = constant:gsub('[\\"]', "\\%0")
+  if is_json then constant = constant:gsub("%c", function(each) return string.format("\\u%04x", each:byte()) end) end
+  return '"' .. constant .. '"'
 end
 
 function defaults.text(parameter) return has(parameter, "default") and value(parameter.type, parameter.default, false) or nil end
