@@ -29,7 +29,7 @@ Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string&
   if (wanted) {
     overlay_.ConnectLate(from, to, *next);
   } else {
-    overlay_.DisconnectLate(from, to);
+    (void)overlay_.DisconnectLate(from, to);
   }
   auto is_done = std::make_shared<bool>(false);
   steps_.push_back({[=] {

@@ -13,8 +13,12 @@ namespace runnel::internal {
 
 namespace {
 
+auto Joins(const Port& from, const Port& to) {
+  return [&from, &to](const Connection& edge) { return edge.from == &from && edge.to == &to; };
+}
+
 bool HasEdge(const std::vector<Connection>& edges, const Port& from, const Port& to) {
-  return std::ranges::any_of(edges, [&](const Connection& edge) { return edge.from == &from && edge.to == &to; });
+  return std::ranges::any_of(edges, Joins(from, to));
 }
 
 }  // namespace
@@ -167,10 +171,8 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
                  .path = from.path()};
   }
   connected_.push_back({&from, &to, options});
-  const bool was_noted = FindLate(from.path(), to.path()) != nullptr;
-  if (!was_noted && !options.when_present) return {};
-  DisconnectLate(from.path(), to.path());
-  Late().push_back({WholePath(*this, from.path()), to.path(), options, {}});
+  const bool was_noted = DisconnectLate(from.path(), to.path());
+  if (was_noted || options.when_present) Late().push_back({WholePath(*this, from.path()), to.path(), options, {}});
   return {};
 }
 
@@ -183,12 +185,11 @@ Result<void> StructureOverlay::Disconnect(Port& from, Port& to, bool stays_cut) 
                  .hint = names.empty() ? "it is not connected to anything" : NearestNameHint(to.path(), names)};
   }
   if (stays_cut) {
-    DisconnectLate(from.path(), to.path());
-  } else if (const LateConnection* const late = FindLate(from.path(), to.path())) {
-    Late()[static_cast<std::size_t>(late - Late().data())].waits_for = "its end";
+    (void)DisconnectLate(from.path(), to.path());  // most are not noted
+  } else if (auto* const late = const_cast<LateConnection*>(FindLate(from.path(), to.path()))) {
+    late->waits_for = "its end";
   }
-  const auto is_same = [&](const Connection& edge) { return edge.from == &from && edge.to == &to; };
-  if (std::erase_if(connected_, is_same) == 0) disconnected_.push_back({&from, &to, {}});
+  if (std::erase_if(connected_, Joins(from, to)) == 0) disconnected_.push_back({&from, &to, {}});
   return {};
 }
 
@@ -200,8 +201,11 @@ void StructureOverlay::ConnectLate(const std::string& from, const std::string& t
   Late().push_back({WholePath(*this, from), WholePath(*this, to), options, "its ends"});
 }
 
-void StructureOverlay::DisconnectLate(std::string_view from, std::string_view to) {
-  if (const LateConnection* const late = FindLate(from, to)) late_->erase(late_->begin() + (late - late_->data()));
+bool StructureOverlay::DisconnectLate(std::string_view from, std::string_view to) {
+  const LateConnection* const late = FindLate(from, to);
+  if (late == nullptr) return false;
+  late_->erase(late_->begin() + (late - late_->data()));
+  return true;
 }
 
 std::vector<Connection> StructureOverlay::EdgesOf(Port& port, const FrameworkElement* module) const {

@@ -42,7 +42,8 @@ class StructureOverlay final : public PathSearch {
   [[nodiscard]] const LateConnection* FindLate(std::string_view from, std::string_view to) const;
   /// By paths of which one is not there yet, or not any more.
   void ConnectLate(const std::string& from, const std::string& to, const ConnectOptions& options);
-  void DisconnectLate(std::string_view from, std::string_view to);
+  /// False: there is no such connection.
+  bool DisconnectLate(std::string_view from, std::string_view to);
 
   [[nodiscard]] bool HasSource(const Port& port) const;
   /// From and to the port, with the options that they have by then; of those of a composite, if `module` is one, not what is within it.
