@@ -1,5 +1,6 @@
 """Scripts in processes of their own, which may end as they like."""
 
+import signal
 import subprocess
 import sys
 import textwrap
@@ -43,7 +44,12 @@ def in_threads(count, work):
 '''
 
 
+def hear_interrupts():
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # what a shell starts in the background begins by ignoring them
+
+
 def ends_well(text, *arguments, code=0):
-    done = subprocess.run([sys.executable, "-c", BEGIN + textwrap.dedent(text), *arguments], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, "-c", BEGIN + textwrap.dedent(text), *arguments], capture_output=True, text=True, timeout=120,
+                          preexec_fn=hear_interrupts)
     assert (done.returncode, done.stdout) == (code, "done\n"), done.stdout + done.stderr
     return done.stderr
