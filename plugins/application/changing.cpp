@@ -59,7 +59,12 @@ void Application::Parts::LoadPluginOf(std::string_view type) {
   const std::string plugin = PluginOf(type);
   {
     const std::lock_guard lock(runtime().structure_mutex());
-    if (plugin.empty() || plugins().modules().Find(type) != nullptr) return;
+    if (plugin.empty()) return;
+    // Types that are found late are the process's: another application may have loaded their plugin, this one not yet.
+    const ModuleType* const found = plugins().modules().Find(type);
+    if (found != nullptr &&
+        (found->plugin != plugin || std::ranges::find(plugins().loaded(), plugin) != plugins().loaded().end()))
+      return;
   }
   (void)LoadPlugin(plugin);
 }

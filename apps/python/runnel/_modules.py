@@ -1,8 +1,6 @@
 """Modules in Python: `runnel.Module` and its ports and parameters, and how files with them are found."""
 
-import copy
 import difflib
-import gc
 import hashlib
 import importlib.util
 import linecache
@@ -11,9 +9,9 @@ import pathlib
 import sys
 import traceback
 import types
-import weakref
 
 from runnel import _extension
+from runnel._hand_over import take_over  # noqa: F401, called by the extension
 from runnel._services import Client, Service, described
 
 _class = type  # which arguments are called, too
@@ -208,59 +206,19 @@ def begin(module, ports):
     module.__init__()
 
 
-class _IsPort(Exception):
-    pass
-
-
-def _is_port(port, memo):
-    raise _IsPort
-
-
-for each in (_extension.ModuleInput, _extension.ModuleOutput, _extension.ModuleClient):
-    each.__deepcopy__ = _is_port
-
-
-def _leads_to(value, before):
-    """Whether the module before can be got at by a value: a method of it, a function that knows it, an object that holds it."""
-    met, ahead = set(), [value]
-    while ahead:
-        each = ahead.pop()
-        if each is before or each is before._runnel_host:
-            return True
-        if id(each) in met or isinstance(each, (type, types.ModuleType)):
-            continue
-        met.add(id(each))
-        if isinstance(each, types.FunctionType):  # without all else that its file has
-            ahead += [each.__closure__, each.__defaults__, each.__kwdefaults__]
-        elif isinstance(each, weakref.ref):
-            ahead.append(each())
-        elif gc.is_tracked(each):
-            ahead += gc.get_referents(each)
-    return False
-
-
-def take_over(module, before):
-    """The attributes of the module that was there before; copies, as it may come back. What leads to that module, has its ports, or is
-    described by the class (a port, a parameter, a method) is that of the new one: else it would go on with the old one, and its code."""
-    copied = {id(module): module}
-    for name, value in vars(before).items():
-        described = hasattr(_class(getattr(_class(module), name, None)), "__get__") or name in module._runnel_ports
-        if isinstance(value, types.MethodType) and value.__self__ is before:  # the state that it is in, say
-            value = getattr(module, value.__name__, value)
-        if name.startswith("_runnel_") or described or _leads_to(value, before):
-            continue
-        try:
-            done = dict(copied)  # without what a copy that fails has begun
-            value = copy.deepcopy(value, done)
-            copied = done
-        except _IsPort:
-            continue
-        except Exception:  # a file, a thread: there is one only, and both have it
-            pass
-        setattr(module, name, value)
-
-
 _loaded = {}  # file -> (digest of what was in it, module)
+
+
+def _is_as_imported(module, file):
+    """Whether a file still is what Python imported, by what is noted of it in its compiled form; true where there is none."""
+    try:
+        with open(module.__cached__, "rb") as compiled:
+            head = compiled.read(16)
+    except (AttributeError, OSError, TypeError):
+        return True
+    now = file.stat()
+    words = [int(now.st_mtime), now.st_size]
+    return head[4:8] != bytes(4) or head[8:] == b"".join((each & 0xFFFFFFFF).to_bytes(4, "little") for each in words)
 
 
 def _load(file, name):
@@ -271,7 +229,8 @@ def _load(file, name):
     imported = sys.modules.get(name)
     own = getattr(imported, "__file__", None)
     if known is None and own and os.path.realpath(own) == os.path.realpath(file):  # its folder or itself may be a link
-        _loaded[file] = (digest, imported)  # by who composes the application: its classes are meant
+        # By who composes the application: its classes are meant, until the file is looked at the next time.
+        _loaded[file] = (digest if _is_as_imported(imported, file) else b"", imported)
         return imported
     linecache.checkcache(str(file))
     # From the text, for what Python keeps compiled goes by the second in which a file was written.

@@ -93,6 +93,83 @@ def test_what_has_become_a_port_a_parameter_or_a_method_is_that_of_the_new_class
     assert app.faults() == [] and app.read("/hold/seen")[4] > 20
 
 
+OF_ITS_FILE = '''
+import dataclasses
+import enum
+
+import runnel
+
+FACTOR = VALUE
+
+
+class Mode(enum.Enum):
+    SEARCH = 1
+    FOLLOW = 2
+
+
+def law():
+    return FACTOR
+
+
+@dataclasses.dataclass
+class Controller:
+    sum: float = 0.0
+
+    def output(self):
+        return FACTOR
+
+
+class Base(runnel.Module):
+    seen = runnel.Output("double[]")
+
+    def __init__(self):
+        self.mode = Mode.FOLLOW
+        self.modes = {Mode.SEARCH: 5.0}
+        self.law = law
+        self.controller = Controller(7.0)
+        self.kind = Controller
+
+    def update(self):
+        mine = [self.mode is Mode.FOLLOW, self.modes.get(Mode.SEARCH) == 5.0, self.controller == Controller(7.0), self.kind is Controller]
+        self.seen.publish([float(all(mine)), self.law(), self.controller.output()])
+
+
+class Control(Base):
+    pass
+'''
+
+
+@pytest.mark.parametrize("name", ["Base", "Control"])
+def test_classes_functions_and_enumerations_of_the_file_are_those_of_the_file_as_it_is_now(empty_folder, name):
+    (empty_folder / "of_its_file.py").write_text(OF_ITS_FILE.replace("VALUE", "1.0"))
+    with runnel.compose("held", clock="simulated") as app:
+        app.create("control", f"python/of_its_file.{name}")
+        app.run_for(0.1)
+        assert list(app.read("/control/seen")) == [1, 1, 1]
+        (empty_folder / "of_its_file.py").write_text(OF_ITS_FILE.replace("VALUE", "2.0"))
+        app.reload()
+        app.run_for(0.1)
+        assert list(app.read("/control/seen")) == [1, 2, 2]
+        assert app.faults() == []
+
+
+def test_a_file_that_was_edited_after_it_was_imported_is_made_anew(empty_folder, monkeypatch):
+    text = 'import runnel\nclass Edited(runnel.Module):\n    seen = runnel.Output("double")\n    def update(self):\n        self.seen.publish(VALUE)\n'
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    monkeypatch.syspath_prepend(str(empty_folder))
+    (empty_folder / "edited_file.py").write_text(text.replace("VALUE", "1.0"))
+    module = __import__("edited_file")
+    try:
+        (empty_folder / "edited_file.py").write_text(text.replace("VALUE", "22.0"))
+        with runnel.compose("edited", clock="simulated") as app:
+            app.create("edited", module.Edited)
+            app.reload()
+            app.run_for(0.1)
+            assert app.read("/edited/seen") == 22
+    finally:
+        sys.modules.pop("edited_file")
+
+
 def test_an_attribute_does_not_hide_a_port(empty_folder):
     (empty_folder / "hiding.py").write_text(
         'import runnel\nclass Hiding(runnel.Module):\n    goal = runnel.Input("double")\n'
@@ -119,3 +196,13 @@ def test_a_file_that_is_found_through_a_link_is_run_once(empty_folder, monkeypat
             assert module.S.made, f"{name}: another class was made"
         finally:
             sys.modules.pop(name)
+
+
+def test_the_second_application_of_a_process_loads_the_plugin_as_the_first_did(empty_folder):
+    (empty_folder / "twice.py").write_text("import runnel\nclass Twice(runnel.Module):\n    def update(self):\n        pass\n")
+    for _ in range(2):
+        with runnel.compose("twice", clock="simulated") as app:
+            app.create("twice", "python/twice.Twice")
+            app.reload()
+            app.save("twice.xml", overwrite=True)
+        assert '<load plugin="python"/>' in (empty_folder / "twice.xml").read_text()
