@@ -16,7 +16,7 @@ namespace {
 // As where what is written for the report finds the heap broken.
 TEST(CrashReportDeathTest, TheProcessEndsWhenItsHandlerCrashesToo) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  const auto crash = [] {
+  [[maybe_unused]] const auto crash = [] {
     alarm(20);
     const pthread_t crashed = pthread_self();
     const CrashReport report({.rescue =
