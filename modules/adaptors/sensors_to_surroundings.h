@@ -74,6 +74,18 @@ class InfraredToSurroundings final
  public:
   explicit InfraredToSurroundings(const Placement& placement)
       : SensorToSurroundings(placement, "ranges", "from the robot's centre") {}
+
+  StaticParameter<double> body_radius{this,
+                                      "body_radius",
+                                      {.default_value = InfraredAdaptorConfiguration{}.body_radius,
+                                       .bounds = {0.01, 10.0},
+                                       .unit = "m",
+                                       .description = "so wide must be seen what the robot drives through"}};
+
+ private:
+  Result<InfraredAdaptorConfiguration> Configure() const override {
+    return InfraredAdaptorConfiguration{.body_radius = body_radius.Get(), .safe_distance = safe_distance.Get()};
+  }
 };
 
 /// One view for each message of the bumper, touched or not. Source: also the tactile sensor of the first

@@ -110,6 +110,8 @@ inline void Describe(TypeBuilder<BugState>& type) {
       .Field("second_looks", &BugState::second_looks)
       .Field("doubted_hit_distance", &BugState::doubted_hit_distance)
       .Field("faced", &BugState::faced)
+      .Field("look", &BugState::look)
+      .Field("look_back", &BugState::look_back)
       .Field("progress_point", &BugState::progress_point)
       .Field("idle_time", &BugState::idle_time)
       .Field("refused_at", &BugState::refused_at)

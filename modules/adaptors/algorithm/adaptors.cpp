@@ -11,7 +11,9 @@ namespace runnel {
 
 namespace {
 
-constexpr double kWidest = DegreesToRadians(89.0);  // of half a cone
+constexpr double kUnseenMargin = LocalMap::kCellSize;  // m, beside the body: cells are looked at, not points
+constexpr double kUnseenReach = 0.30;                  // m ahead; from what it drives at it stops within less
+constexpr double kWidest = DegreesToRadians(89.0);     // of half a cone
 
 // A box with sides along the axes round a sector of a circle: the corners of the triangle round the
 // sector, but no more than the circle.
@@ -92,12 +94,33 @@ Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& 
   const std::array cones = {cone(0.0, ranges.front), cone(kPi / 2, ranges.left), cone(-kPi / 2, ranges.right)};
   surroundings.is_vague = true;
   map_.SetPose(pose);
+  const Point2 corner{configuration_.body_radius, configuration_.body_radius};
+  map_.MarkFree(Position(pose) - corner, Position(pose) + corner,
+                [&](Point2 point) { return Distance(Position(pose), point) < configuration_.body_radius; });
   for (const Cone& each : cones) Carve(each, pose);
   for (const Cone& each : cones) {
     if (each.has_echo) MarkArc(each, pose);
   }
   map_.AddBoundariesTo(surroundings);
+  AddUnseen(pose, surroundings);
   return surroundings;
+}
+
+void InfraredAdaptor::AddUnseen(const Pose2& pose, Surroundings& surroundings) const {
+  const BodyFrame frame(pose);
+  const double radius = configuration_.body_radius + kUnseenMargin;
+  const double step = LocalMap::kCellSize;
+  double least = kUnseenReach;
+  for (double y = -radius; y < radius + step / 2; y += step) {
+    const double round = std::sqrt(std::max(0.0, radius * radius - y * y));
+    // Where the body stands, nothing else is.
+    for (double x = round; x - round < least; x += step) {
+      if (!map_.IsUnseen(frame.ToWorld({x, y}))) continue;
+      least = x - round;
+      surroundings.unseen_after = static_cast<std::uint16_t>(least / Surroundings::kContourUnit);
+      surroundings.unseen_sector = static_cast<std::uint8_t>(SectorOf(std::atan2(y, x)));
+    }
+  }
 }
 
 void InfraredAdaptor::Carve(const Cone& cone, const Pose2& pose) {

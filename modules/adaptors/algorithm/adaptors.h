@@ -32,6 +32,7 @@ class BumperAdaptor {
 };
 
 struct InfraredAdaptorConfiguration {
+  double body_radius = 0.15;    ///< m
   double safe_distance = 0.35;  ///< m, from the body's centre to any boundary
   /// m; a cone is free up to its echo less this, which is more than half a cell's diagonal.
   double refutation_margin = 0.05;
@@ -44,7 +45,8 @@ struct InfraredAdaptorConfiguration {
 /// arc across its cone and nothing nearer within the cone, not where on the arc. An echo that a
 /// boundary point known explains adds nothing. Otherwise all of the arc becomes boundary, except
 /// where an earlier reading looked through; later readings from other places look through the parts
-/// of the arc that were not there.
+/// of the arc that were not there. Where the body stands, nothing else is; what it would get to straight ahead of what no
+/// cone has looked at, is told (Unseen).
 class InfraredAdaptor {
  public:
   explicit InfraredAdaptor(const InfraredAdaptorConfiguration& configuration = {}) : configuration_(configuration) {}
@@ -61,6 +63,7 @@ class InfraredAdaptor {
     bool has_echo;
   };
   void Carve(const Cone& cone, const Pose2& pose);
+  void AddUnseen(const Pose2& pose, Surroundings& surroundings) const;
   void MarkArc(const Cone& cone, const Pose2& pose);
   bool IsExplained(const Cone& cone, const Pose2& pose) const;
   bool MarkArcPoints(const Cone& cone, const Pose2& pose, bool even_where_free);

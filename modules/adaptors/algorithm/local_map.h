@@ -65,6 +65,7 @@ class LocalMap {
     }
   }
   [[nodiscard]] bool IsFree(Point2 point) const { return Is(State::kFree, point); }
+  [[nodiscard]] bool IsUnseen(Point2 point) const { return !IsFree(point) && !IsBoundary(point); }
   [[nodiscard]] bool IsBoundary(Point2 point) const { return Is(State::kBoundary, point); }
 
   /// Calls `is_refuted(point)` for every boundary point within the window, in a fixed order, and

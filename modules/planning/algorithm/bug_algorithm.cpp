@@ -11,6 +11,7 @@ namespace runnel {
 namespace {
 
 constexpr double kSeen = DegreesToRadians(13.0);  // rad off ahead, within the narrowest view
+constexpr double kUnseenNear = 0.05;              // m of the way to what is unseen, at which it looks
 constexpr int kSecondLooks = 3;                   // in a task, so that it ends whatever the sensors say
 constexpr double kLookingTime = 4.0;              // s, of standing and looking before a vague obstacle
 constexpr double kTurnsForLookingRound = 2.5;     // that a robot needs where there is no way on
@@ -29,11 +30,33 @@ BugOutput BugAlgorithm::Update(BugState& state, const BugInput& input) const {
   if (state.composition != components_.Fingerprint()) TakeOver(state, input);
   Record(state, input);
   Twist2 twist;
-  if (input.surroundings.is_measured && !IsFinal(state.status.mode)) twist = Step(state, input);
+  if (input.surroundings.is_measured && !IsFinal(state.status.mode)) twist = LookFirst(state, input);
   if (IsFinal(state.status.mode)) twist = {};
   state.last_pose = input.pose;
   state.last_twist = twist;
   return {twist, state.status};
+}
+
+// Unseen is not free: where the body would get to what no sensor has looked at, it stops, faces that, turns back, and goes
+// on. What was faced from here is known as well as it can be.
+Twist2 BugAlgorithm::LookFirst(BugState& state, const BugInput& input) const {
+  for (std::optional<double>* heading : {&state.look, &state.look_back}) {
+    if (!*heading) continue;
+    const double bearing = WrapAngle(**heading - input.pose.heading);
+    const bool is_there = std::abs(bearing) < FacedHeadings::kFaced;
+    if (!is_there && !IsStuck(state, input)) return TurnTowards(configuration_.driving, bearing);
+    heading->reset();
+  }
+  Twist2 twist = Step(state, input);
+  const BoundaryPoint unseen = Unseen(input.surroundings);
+  if (twist.forward <= 0.0 || state.faced.Contains(unseen.bearing)) return twist;
+  if (unseen.distance > kUnseenNear) {
+    twist.forward = std::min(twist.forward, SpeedToStopWithin(configuration_.driving, unseen.distance));
+    return twist;
+  }
+  state.look = input.pose.heading + unseen.bearing;
+  state.look_back = input.pose.heading;
+  return TurnTowards(configuration_.driving, unseen.bearing);
 }
 
 Twist2 BugAlgorithm::Step(BugState& state, const BugInput& input) const {

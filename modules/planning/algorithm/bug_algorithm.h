@@ -51,6 +51,7 @@ class BugAlgorithm {
   Twist2 FaceGoal(BugState& state, const BugInput& input) const;
 
   // What it has no place for.
+  Twist2 LookFirst(BugState& state, const BugInput& input) const;
   [[nodiscard]] bool IsStuck(const BugState& state, const BugInput& input) const;
   void Begin(BugState& state, const BugInput& input) const;
   void TakeOver(BugState& state, const BugInput& input) const;

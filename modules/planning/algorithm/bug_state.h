@@ -95,6 +95,8 @@ struct BugState {
   int second_looks = 0;                             ///< at hit points, after a lap, that found the way free
   double doubted_hit_distance = kNever;             ///< m to the goal, of the last hit point whose lap proved nothing
   FacedHeadings faced;                              ///< from where it stands
+  std::optional<double> look;                       ///< rad, world: where it turns to, to see what is there
+  std::optional<double> look_back;                  ///< rad, world: where it turns to then, its heading before
   Point2 progress_point;                            ///< where the robot last got on
   double idle_time = 0.0;                           ///< s since then
   double refused_at = -kNever;                      ///< m, the path's length where it last found a leave point blocked

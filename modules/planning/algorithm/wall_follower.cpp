@@ -116,13 +116,19 @@ void WallFollower::EndLook() {
 }
 
 BoundaryPoint WallFollower::Contact(const Surroundings& surroundings) const {
+  const double sign = MirrorSign(direction_);
   const auto nearest = [&](double centre, double half_width) {
-    return NearestBoundary(surroundings, MirrorSign(direction_) * centre - looked_round_, half_width);
+    return NearestBoundary(surroundings, sign * centre - looked_round_, half_width);
   };
   if (surroundings.is_vague) {
-    // Pushed off its boundary by an arc, the robot may be nearer to the other side of a passage.
+    // Pushed off its boundary by an arc, the robot may be nearer to the other side of a passage. But what comes nearer
+    // from beside it to ahead is one boundary: whether that is beside it must not change with each turn towards it.
     const BoundaryPoint beside = nearest(kBesideCentre, kBesideHalfWidth);
-    if (beside.distance < double{surroundings.safe_distance} + kBesideReach) return beside;
+    const int further_ahead = SectorOf(beside.bearing + sign * kSectorWidth);
+    if (beside.distance < double{surroundings.safe_distance} + kBesideReach &&
+        beside.distance <= ContourDistance(surroundings, further_ahead)) {
+      return beside;
+    }
   }
   return nearest(kHandCentre, kHandHalfWidth);
 }

@@ -18,7 +18,7 @@ namespace runnel {
 /// at the same bearing the nearer one always stops it first.
 ///
 /// The sensing abstractions of the generic Bug algorithm (how far obstacles are in front, on the left
-/// and on the right) are the functions below. 252 bytes, copied freely.
+/// and on the right) are the functions below. 256 bytes, copied freely.
 struct Surroundings {
   static constexpr int kSectors = 120;
   static constexpr std::uint16_t kNothingKnown = 0xffff;
@@ -36,6 +36,11 @@ struct Surroundings {
   bool is_vague = false;
   /// False as long as nothing was measured: then nothing here is known.
   bool is_measured = false;
+  /// The sector of the first place straight ahead that the body would get to and no sensor has looked at, as those of
+  /// narrow view leave some; and how far, in units of kContourUnit, the centre can go before. kNothingKnown: there is
+  /// none near.
+  std::uint8_t unseen_sector = 0;
+  std::uint16_t unseen_after = kNothingKnown;
   /// In units of kContourUnit, from the body's centre to the nearest boundary point known in sector
   /// i, of which the middle has the bearing SectorBearing(i) in the body's frame; kNothingKnown if
   /// there is none.
@@ -82,6 +87,13 @@ inline void AddBoundaryPoint(Surroundings& surroundings, BoundaryPoint point) {
   if (!std::isfinite(point.bearing)) return;
   auto& nearest = surroundings.contour[static_cast<std::size_t>(SectorOf(point.bearing))];
   nearest = std::min(nearest, static_cast<std::uint16_t>(units));
+}
+
+/// What the body would get to first, straight ahead, of what no sensor has looked at: its bearing, and how far the
+/// centre can go before; infinitely far if there is none near.
+[[nodiscard]] inline BoundaryPoint Unseen(const Surroundings& surroundings) {
+  if (surroundings.unseen_after == Surroundings::kNothingKnown) return {};
+  return {Surroundings::kContourUnit * surroundings.unseen_after, SectorBearing(surroundings.unseen_sector)};
 }
 
 /// The nearest boundary point of which the bearing is at most `half_width` away from `bearing`.

@@ -160,6 +160,21 @@ TEST(InfraredAdaptor, WhatIsTooNearToMeasureIsABoundary) {
   EXPECT_EQ(FreeRange(surroundings, 0.0, 0.3), 0.0);
 }
 
+TEST(InfraredAdaptor, TellsWhatAheadOfTheBodyNoConeHasLookedAt) {
+  InfraredAdaptor adaptor;
+  const auto look = [&](Pose2 pose) {
+    return Unseen(adaptor.Update({kInfinity, kInfinity, kInfinity, 2.0, kField}, pose));
+  };
+  const BoundaryPoint beside_the_cone = look({});
+  EXPECT_LT(beside_the_cone.distance, 0.05);
+  EXPECT_GT(std::abs(beside_the_cone.bearing), kField / 2);
+  EXPECT_LT(std::abs(beside_the_cone.bearing), kPi / 2);
+  for (int degree = 5; degree <= 90; degree += 5) look({0, 0, DegreesToRadians(degree)});
+  EXPECT_EQ(look({}).distance, kInfinity) << "now all round has been looked at";
+  EXPECT_EQ(look({0.3, 0, 0}).distance, kInfinity) << "and what was far ahead, from there";
+  EXPECT_LT(look({2.5, 0, DegreesToRadians(45.0)}).distance, 0.05);
+}
+
 TEST(InfraredAdaptor, TakesAnEchoForItsWholeArc) {
   const Surroundings surroundings = InfraredAdaptor().Update({1.0, kInfinity, kInfinity, 2.0, kField}, {});
   EXPECT_TRUE(surroundings.is_vague);

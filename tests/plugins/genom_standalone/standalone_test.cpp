@@ -182,6 +182,8 @@ TEST(StandaloneTest, DoesTheSameAsInRunnelBitForBit) {
                                {"safe_distance", around.safe_distance},
                                {"is_vague", around.is_vague},
                                {"is_measured", around.is_measured},
+                               {"unseen_sector", around.unseen_sector},
+                               {"unseen_after", around.unseen_after},
                                {"contour", around.contour}}}}}}),
               Json::parse(R"({"done":{}})"));
     if (cycle == 10) {

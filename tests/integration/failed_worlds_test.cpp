@@ -1,0 +1,53 @@
+// Worlds of `runnel world` in which a planner once touched a wall or told a wrong verdict with infrared rangers, in the
+// arena's application.
+
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+
+#include "core/base/diagnostics.h"
+#include "modules/simulation/algorithm/world_geometry.h"
+#include "modules/simulation/world_file/world_file.h"
+#include "tests/integration/application_run.h"
+
+namespace runnel::test {
+namespace {
+
+constexpr double kBodyRadius = 0.15;  // m
+
+struct Attempt {
+  const char* world;  // in tests/integration/worlds
+  const char* planner;
+  const char* direction;
+  const char* verdict;
+};
+
+void PrintTo(const Attempt& attempt, std::ostream* stream) {
+  *stream << attempt.planner << " in " << attempt.world << ", " << attempt.direction;
+}
+
+class OnceFailed : public testing::TestWithParam<Attempt> {};
+
+TEST_P(OnceFailed, ComesToTheRightVerdictAndTouchesNothing) {
+  const Attempt& attempt = GetParam();
+  const std::string file = std::string(RUNNEL_XML "/../tests/integration/worlds/") + attempt.world + ".xml";
+  Diagnostics diagnostics;
+  const auto world = ReadWorldFile(file, diagnostics);
+  ASSERT_TRUE(world) << diagnostics.ToString();
+  const ApplicationRun run =
+      RunApplication({.name = "arena/infrared.xml",
+                      .replace = {{"planning/bug2", std::string("planning/") + attempt.planner}},
+                      .arguments = {"world=" + file, std::string("first_direction=") + attempt.direction}});
+  ASSERT_TRUE(run.outcome);
+  EXPECT_EQ(run.outcome->verdict, attempt.verdict) << run.outcome->summary;
+  for (const Pose2& pose : run.truth) ASSERT_GT(ClearanceAt(*world, Position(pose)), kBodyRadius);
+}
+
+INSTANTIATE_TEST_SUITE_P(Attempts, OnceFailed, testing::Values(Attempt{"comb_1005", "tangent_bug", "left", "reached"}),
+                         [](const auto& attempt) {
+                           return std::string(attempt.param.world) + "_" + attempt.param.planner + "_" +
+                                  attempt.param.direction;
+                         });
+
+}  // namespace
+}  // namespace runnel::test
