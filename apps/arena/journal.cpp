@@ -35,11 +35,15 @@ Error ErrorIn(const std::filesystem::path& file, int line, const std::string& me
 
 Result<void> CheckHead(const std::string& line, const RunSettings& settings, const std::filesystem::path& file) {
   const auto head = nlohmann::json::parse(line, nullptr, false);
-  if (!head.is_object() || head.value("runnel_arena_journal", 0) != kVersion) {
+  const auto number = [&head](const char* name) {
+    const auto found = head.find(name);
+    return found != head.end() && found->is_number() ? found->get<double>() : -1.0;
+  };
+  if (!head.is_object() || number("runnel_arena_journal") != kVersion) {
     return ErrorIn(file, 1, "this is not the journal of an arena", "remove it, or leave out --resume");
   }
   for (const auto& [name, value] : kSettings) {
-    const double before = head.value(name, -1.0);
+    const double before = number(name);
     if (before == settings.*value) continue;
     std::ostringstream message;
     message << "the finished runs had --" << name << ' ' << before << ", not " << settings.*value;

@@ -70,7 +70,7 @@ int Export(const std::vector<std::string>& plugins, const std::string& folder) {
   return WriteFiles(MessagePackageOf(messages, library), folder);
 }
 
-// Of names and of files and folders.
+// Of names and of files and folders; of a service, its request and its response.
 Result<std::vector<const MessageDefinition*>> FindMessages(const std::vector<std::string>& wanted,
                                                            MessageLibrary& library) {
   std::set<const MessageDefinition*> found;
@@ -85,6 +85,12 @@ Result<std::vector<const MessageDefinition*>> FindMessages(const std::vector<std
   }
   for (const std::string& each : wanted) {
     if (std::filesystem::exists(each)) continue;
+    const auto* const request = library.Find(each + "_Request");
+    const auto* const response = library.Find(each + "_Response");
+    if (request != nullptr && response != nullptr) {
+      found.insert({request, response});
+      continue;
+    }
     auto message = library.Get(each);
     if (!message) return message.error();
     found.insert(*message);
@@ -128,14 +134,18 @@ int main(int count, char** words) {
       ->type_name("FOLDER")
       ->capture_default_str();
   auto* const import_command = program.add_subcommand("import", "writes C++ types for messages, which ports can carry");
-  import_command->add_option("messages", messages, "sensor_msgs/msg/Imu; a .msg file; a folder of such files")
+  import_command
+      ->add_option("messages", messages,
+                   "sensor_msgs/msg/Imu; std_srvs/srv/SetBool; a .msg or .srv file; a folder of such files")
       ->required()
       ->type_name("MESSAGE…");
   import_command->add_option("-o,--output", folder, "folder of the headers")
       ->type_name("FOLDER")
       ->capture_default_str();
   auto* const show_command = program.add_subcommand("show", "shows messages, with the hash of their types");
-  show_command->add_option("messages", messages, "sensor_msgs/msg/Imu; a .msg file; a folder of such files")
+  show_command
+      ->add_option("messages", messages,
+                   "sensor_msgs/msg/Imu; std_srvs/srv/SetBool; a .msg or .srv file; a folder of such files")
       ->required()
       ->type_name("MESSAGE…");
   return runnel::RunProgram(program, count, words, [&] {

@@ -105,6 +105,12 @@ Result<void> LateConnections::Add(const std::string& from, const std::string& to
   const Ends ends = FindEnds(runtime_, from, to);
   // Notes itself.
   if (ends.missing.empty()) return Port::Connect(*ends.from, *ends.to, options);
+  return Note(from, to, std::move(options));
+}
+
+Result<void> LateConnections::Note(const std::string& from, const std::string& to, ConnectOptions options) {
+  options.when_present = options.when_present || !IsDistantPath(from);
+  const Ends ends = FindEnds(runtime_, from, to);
   if (Find(from, to) != nullptr) {
     return Error{.message = "is to be connected to " + to + " already", .path = from};
   }
@@ -113,6 +119,7 @@ Result<void> LateConnections::Add(const std::string& from, const std::string& to
   };
   all_.push_back(
       {IsDistantPath(from) ? from : path_of(ends.from, from), path_of(ends.to, to), std::move(options), ends.missing});
+  must_look_ = true;
   // So that viewers look again.
   runtime_.ForEachListener([](ElementListener&) {});
   return {};

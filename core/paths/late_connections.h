@@ -54,6 +54,9 @@ class LateConnections final : public Annotation, private ElementListener {
   /// may be left out, and groups of ports, too. Errors: they are, and cannot be connected, which has
   /// changed nothing then; it is there already.
   Result<void> Add(const std::string& from, const std::string& to, ConnectOptions options);
+  /// As Add(), but is connected when the changes end, if it can be: what has been noted before may have ends that are
+  /// there and do not fit. Within a ChangeScope.
+  Result<void> Note(const std::string& from, const std::string& to, ConnectOptions options);
   /// No more, and what is connected is disconnected. False: there is no such connection.
   bool Remove(std::string_view from, std::string_view to);
   /// No more, if there is one; what is connected stays so.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -103,23 +104,23 @@ class LibraryFile {
   LibraryFile(const LibraryFile&) = delete;
   LibraryFile& operator=(const LibraryFile&) = delete;
 
-  /// The names of the libraries that it was linked with.
-  [[nodiscard]] std::vector<std::string> Needed() const {
-    std::vector<std::string> names;
+  /// What it says to the linker: DT_NEEDED, the names of the libraries that it was linked with.
+  [[nodiscard]] std::vector<std::string> Texts(std::int64_t tag) const {
+    std::vector<std::string> found;
     for (const Segment& segment : Segments()) {
       if (segment.p_type != PT_DYNAMIC) continue;
       std::size_t texts = 0;
       std::vector<std::size_t> places;
       for (const auto& entry : All<ElfW(Dyn)>(segment.p_offset, segment.p_filesz)) {
         if (entry.d_tag == DT_STRTAB) texts = PlaceOf(entry.d_un.d_ptr);
-        if (entry.d_tag == DT_NEEDED) places.push_back(entry.d_un.d_val);
+        if (entry.d_tag == tag) places.push_back(entry.d_un.d_val);
       }
       for (const std::size_t place : places) {
         const auto text = bytes_.substr(std::min(texts + place, bytes_.size()));
-        names.emplace_back(text.substr(0, text.find('\0')));
+        found.emplace_back(text.substr(0, text.find('\0')));
       }
     }
-    return names;
+    return found;
   }
 
   /// Whether it is what is in memory. Only what nobody writes to is compared: code, constants, the linker's mark.
@@ -186,18 +187,27 @@ std::vector<T> ReadAt(std::ifstream& file, std::uint64_t place, std::size_t coun
   return read;
 }
 
-}  // namespace
-
-AbiDifference FindAbiDifference(std::string_view plugin, std::string_view core) {
-  AbiDifference difference;
-  for (const auto& kind : kKinds) Compare(FlagIn(kind, plugin), FlagIn(kind, core), difference);
-  // Another compiler comes first: its flags may be called otherwise.
-  if (!difference.why.empty() && WithoutFlags(plugin) == WithoutFlags(core)) return difference;
-  return {.why = "it was built with '" + std::string(plugin) + "', this core with '" + std::string(core) + "'",
-          .cure = "rebuild the plugin with the compiler of the core"};
+// Where the linker looks for what it needs, but for the system's own folders, whose files are put there whole.
+std::vector<fs::path> FoldersOf(const LibraryFile& library, const fs::path& path) {
+  constexpr std::array<std::string_view, 2> kOrigins{"$ORIGIN", "${ORIGIN}"};
+  std::vector<std::string> texts = library.Texts(DT_RPATH);
+  if (const char* const variable = std::getenv("LD_LIBRARY_PATH")) texts.emplace_back(variable);
+  for (std::string& each : library.Texts(DT_RUNPATH)) texts.push_back(std::move(each));
+  std::vector<fs::path> folders;
+  for (const std::string& text : texts) {
+    for (const std::string_view part : PartsBetween(":", text)) {
+      std::string folder(part);
+      for (const std::string_view origin : kOrigins) {
+        const std::size_t place = folder.find(origin);
+        if (place != std::string::npos) folder.replace(place, origin.size(), path.parent_path().string());
+      }
+      folders.emplace_back(folder);
+    }
+  }
+  return folders;
 }
 
-Result<void> CheckIsWhole(const fs::path& path) {
+Result<void> CheckOne(const fs::path& path) {
   std::error_code failed;
   const std::uint64_t size = fs::file_size(path, failed);
   std::ifstream file(path, std::ios::binary);
@@ -226,8 +236,42 @@ Result<void> CheckIsWhole(const fs::path& path) {
   return {};
 }
 
+}  // namespace
+
+AbiDifference FindAbiDifference(std::string_view plugin, std::string_view core) {
+  AbiDifference difference;
+  for (const auto& kind : kKinds) Compare(FlagIn(kind, plugin), FlagIn(kind, core), difference);
+  // Another compiler comes first: its flags may be called otherwise.
+  if (!difference.why.empty() && WithoutFlags(plugin) == WithoutFlags(core)) return difference;
+  return {.why = "it was built with '" + std::string(plugin) + "', this core with '" + std::string(core) + "'",
+          .cure = "rebuild the plugin with the compiler of the core"};
+}
+
+Result<void> CheckIsWhole(const fs::path& file) {
+  std::vector<fs::path> paths{file};
+  std::set<std::string> seen;
+  while (!paths.empty()) {
+    const fs::path path = std::move(paths.back());
+    paths.pop_back();
+    if (auto whole = CheckOne(path); !whole) {
+      Error error = whole.error();
+      if (path != file) error.message = path.string() + ", which it needs, cannot be loaded: " + error.message;
+      return error;
+    }
+    const LibraryFile library(path);
+    const std::vector<fs::path> folders = FoldersOf(library, path);
+    for (const std::string& name : library.Texts(DT_NEEDED)) {
+      if (FindLoaded(name) || !seen.insert(name).second) continue;
+      const auto folder =
+          std::ranges::find_if(folders, [&](const fs::path& each) { return access((each / name).c_str(), F_OK) == 0; });
+      if (folder != folders.end()) paths.push_back(*folder / name);
+    }
+  }
+  return {};
+}
+
 std::optional<fs::path> FindOutdatedDependency(const fs::path& file) {
-  std::vector<std::string> names = LibraryFile(file).Needed();
+  std::vector<std::string> names = LibraryFile(file).Texts(DT_NEEDED);
   std::set<std::string> seen;
   while (!names.empty()) {
     const std::string name = std::move(names.back());
@@ -237,7 +281,7 @@ std::optional<fs::path> FindOutdatedDependency(const fs::path& file) {
     const fs::path path = loaded->dlpi_name;
     const LibraryFile library(path);
     if (!library.IsLoadedAs(*loaded)) return path;
-    for (std::string& each : library.Needed()) names.push_back(std::move(each));
+    for (std::string& each : library.Texts(DT_NEEDED)) names.push_back(std::move(each));
   }
   return {};
 }

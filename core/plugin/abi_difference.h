@@ -19,9 +19,10 @@ struct AbiDifference {
 /// does. Any thread; allocates.
 [[nodiscard]] AbiDifference FindAbiDifference(std::string_view plugin, std::string_view core);
 
-/// Whether all of a shared library is in the file, by what its own head says of its length. It is read and not mapped: whoever
-/// maps a file that lacks its end is ended by the system (SIGBUS) as soon as it looks there.
-/// Errors: it cannot be read; it is no ELF file; it is cut short, or its end has not been written yet. Any thread.
+/// Whether all of a shared library is in the file, by what its own head says of its length, and so those that it needs and
+/// that are not in memory yet. It is read and not mapped: whoever maps a file that lacks its end is ended by the system (SIGBUS)
+/// as soon as it looks there. Errors: it cannot be read; it is no ELF file; it is cut short, or its end has not been written
+/// yet. Any thread. Libraries in the system's own folders are not looked at.
 [[nodiscard]] Result<void> CheckIsWhole(const std::filesystem::path& file);
 
 /// The first of the libraries that the one in `file` needs, itself or by others, that has been built anew since

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <memory>
 #include <string_view>
+#include <type_traits>
 
 namespace runnel::genom_execution {
 
@@ -61,7 +62,7 @@ struct OwnedText {
   static char* Copy(const char* from) { return from != nullptr ? strdup(from) : nullptr; }
 };
 
-/// `sequence<E, most>`: in place.
+/// `sequence<E, most>`: in place. Elements beyond the length own nothing, as those of OwnedList.
 template <typename E, std::size_t most>
 struct BoundedList {
   std::uint32_t maximum = most;
@@ -72,6 +73,30 @@ struct BoundedList {
   bool Resize(std::size_t count) {
     if (count > most) return false;
     for (std::size_t i = length; i < count; ++i) Clear(buffer[i]);
+    maximum = most;
+    length = static_cast<std::uint32_t>(count);
+    return true;
+  }
+};
+template <typename E, std::size_t most>
+requires(!std::is_trivially_copyable_v<E>) struct BoundedList<E, most> {
+  std::uint32_t maximum = most;
+  std::uint32_t length = 0;
+  union {
+    E buffer[most];
+  };
+
+  BoundedList() { std::memset(static_cast<void*>(buffer), 0, sizeof(buffer)); }
+  BoundedList(const BoundedList& other) : BoundedList() { *this = other; }
+  BoundedList& operator=(const BoundedList& other) {
+    if (this != &other && Resize(other.length)) std::copy_n(other.buffer, length, buffer);
+    return *this;
+  }
+  ~BoundedList() { std::destroy_n(buffer, length); }
+  bool Resize(std::size_t count) {
+    if (count > most) return false;
+    if (count > length) std::uninitialized_value_construct_n(buffer + length, count - length);
+    if (count < length) std::destroy_n(buffer + count, length - count);
     maximum = most;
     length = static_cast<std::uint32_t>(count);
     return true;

@@ -93,9 +93,9 @@ void Must(const auto& outcome) {
 /// Threads:  under the structure lock, taken once, from Make() to Commit().
 class Plan {
  public:
-  /// `workshop` has what attempts before have made, and outlives it.
-  Plan(Runtime& runtime, const ModuleRegistry& modules, Workshop& workshop)
-      : runtime_(runtime), modules_(modules), workshop_(workshop), overlay_(runtime) {}
+  /// `workshop` has what attempts before have made, and outlives it. `is_way_back`: of what an undo or a redo changes.
+  Plan(Runtime& runtime, const ModuleRegistry& modules, Workshop& workshop, bool is_way_back)
+      : runtime_(runtime), modules_(modules), workshop_(workshop), is_way_back_(is_way_back), overlay_(runtime) {}
   /// Outside of cycles and without the structure lock: waits until no thread can see any more what has been in
   /// the tree and is destroyed now.
   ~Plan();
@@ -132,7 +132,9 @@ class Plan {
   Result<void> Check(const CreatePort& change);
   Result<void> Check(const CreateParameter& change);
   Result<void> Check(const DeleteElement& change);
-  Result<void> Check(const ConnectPorts& change) { return CheckTie(change.from, change.to, change.options); }
+  Result<void> Check(const ConnectPorts& change) {
+    return is_way_back_ ? TieAgain(change) : CheckTie(change.from, change.to, change.options);
+  }
   Result<void> Check(const DisconnectPorts& change) { return CheckTie(change.from, change.to, std::nullopt); }
   Result<void> Check(const SetParameter& change);
   Result<void> Check(const ReplaceModule& change) { return CheckReplacement(change, Misfits::kAreRefused); }
@@ -166,6 +168,8 @@ class Plan {
   // One that is to be when its ends are there, and at least one is not; or that has been to be until now.
   Result<void> CheckLateTie(const std::string& from, const std::string& to,
                             const std::optional<ConnectOptions>& wanted);
+  // One that has been before: it waits where its ends are there and do not fit, as it did then.
+  Result<void> TieAgain(const ConnectPorts& tie);
   // `wanted`: of the connection that is to be; nullopt: none is to be.
   Result<void> CheckTie(const std::string& from_path, const std::string& to_path,
                         const std::optional<ConnectOptions>& wanted);
@@ -206,6 +210,7 @@ class Plan {
   Runtime& runtime_;
   const ModuleRegistry& modules_;
   Workshop& workshop_;
+  const bool is_way_back_;
   std::map<std::string, int> keys_;  // of what has been asked of it, and how often
   StructureOverlay overlay_;
   std::vector<Step> steps_;

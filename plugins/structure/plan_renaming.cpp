@@ -115,7 +115,7 @@ Result<void> Plan::Check(const RenameElement& change) {
   for (const LateConnection& each : late) {
     const ConnectPorts tie{Moved(each.from, before, after).value_or(each.from),
                            Moved(each.to, before, after).value_or(each.to), each.options};
-    if (auto tied = Check(tie); !tied) return tied;
+    if (auto tied = TieAgain(tie); !tied) return tied;
   }
   // The name of before takes all of it back.
   for (std::size_t i = first; i < steps_.size(); ++i) {

@@ -22,7 +22,7 @@ Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string&
   const std::optional<ConnectOptions> before = known != nullptr ? std::optional(known->options) : std::nullopt;
   const auto tie = [this, from = from, to](const std::optional<ConnectOptions>& options) -> Result<void> {
     LateConnections& all = LateConnections::Of(runtime_);
-    if (options) return all.Add(from, to, *options);
+    if (options) return all.Note(from, to, *options);
     if (all.Remove(from, to)) return {};
     return Error{.message = "is not connected to " + to, .path = from};
   };
@@ -46,6 +46,15 @@ Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string&
                       return {ConnectPorts{from, to, *before}};
                     }});
   return {};
+}
+
+Result<void> Plan::TieAgain(const ConnectPorts& tie) {
+  auto tied = CheckTie(tie.from, tie.to, tie.options);
+  const auto to = overlay_.FindPort(tie.to, PathKind::kInput);
+  if (tied || !to || !(tie.options.when_present || IsDistantPath(tie.from))) return tied;
+  const auto from = overlay_.FindPortPart(tie.from, PathKind::kOutput);
+  if (from && Port::CheckEnds(*from->port, **to, tie.options)) return tied;
+  return CheckLateTie(tie.from, tie.to, tie.options);
 }
 
 Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_path,

@@ -285,7 +285,7 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
 
 StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request, internal::Workshop& workshop,
                                               ChangeOutcome& outcome) {
-  internal::Plan plan(runtime_, modules_, workshop);
+  internal::Plan plan(runtime_, modules_, workshop, request.undo_record != nullptr);
   std::uint64_t revision = 0;
   try {
     const std::lock_guard lock(runtime_.structure_mutex());

@@ -288,6 +288,19 @@ def _placed(message, file="", line=0, hint=""):
     return error
 
 
+def _as_utf8(text):
+    # Half a surrogate pair is text in Python, and in no log.
+    return text.encode("utf-8", "backslashreplace").decode()
+
+
+def _text_of(thrown):
+    try:
+        said = str(thrown)
+    except Exception:
+        said = "<its __str__ throws, too>"
+    return _as_utf8(f"{type(thrown).__name__}: {said}")
+
+
 def error_of(thrown, trace):
     """(message, file, line, hint) of what was thrown while a module was made."""
     if isinstance(thrown, _extension.Error):
@@ -296,14 +309,14 @@ def error_of(thrown, trace):
         return f"{type(thrown).__name__}: {thrown.msg}", thrown.filename or "", thrown.lineno or 0, ""
     frames = traceback.extract_tb(trace)
     own = [each for each in frames if not each.filename.startswith(os.path.dirname(__file__))] or frames
-    text = f"{type(thrown).__name__}: {thrown}"
+    text = _text_of(thrown)
     return (text, own[-1].filename, own[-1].lineno or 0, "") if own else (text, "", 0, "")
 
 
 def fault_of(thrown, trace):
     """What a fault says: the exception, and from where to where, the innermost first; and the whole traceback."""
     frames = traceback.extract_tb(trace)
-    text = f"{type(thrown).__name__}: {thrown}"
+    text = _text_of(thrown)
     for frame in reversed(frames):
         text += f"; {os.path.basename(frame.filename)}:{frame.lineno}, in {frame.name}: {frame.line}"
-    return text[:490], "".join(traceback.format_exception(_class(thrown), thrown, trace))[:3900]
+    return _as_utf8(text)[:490], _as_utf8("".join(traceback.format_exception(_class(thrown), thrown, trace)))[:3900]

@@ -97,8 +97,10 @@ TEST_F(JournalTest, RefusesOtherSettingsAndOtherFiles) {
   const auto journal = Journal::Resume(file_, {.safe_distance = 0.5});
   ASSERT_FALSE(journal);
   EXPECT_THAT(journal.error().message, HasSubstr("--safe-distance 0.35, not 0.5"));
-  std::ofstream(file_) << "[]\n";
-  EXPECT_FALSE(Journal::Resume(file_, {}));
+  for (const char* head : {"[]", R"({"runnel_arena_journal": "1"})", R"({"runnel_arena_journal": 1, "noise": "0"})"}) {
+    std::ofstream(file_) << head << "\n";
+    EXPECT_FALSE(Journal::Resume(file_, {})) << head;
+  }
 }
 
 TEST_F(JournalTest, BeginsWhereThereIsNone) {

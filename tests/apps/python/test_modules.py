@@ -119,6 +119,18 @@ def test_an_exception_is_a_fault_with_its_traceback(files):
         assert any("Traceback" in each.text for each in app.log() if each.kind == "error")
 
 
+@pytest.mark.parametrize("thrown, told", [
+    ("type('Mute', (Exception,), {'__str__': lambda self: 1 // 0})()", "Mute: <its __str__ throws, too>"),
+    (r"ValueError('half \ud800')", r"ValueError: half \ud800"),
+])
+def test_what_is_thrown_is_told_whatever_it_says_of_itself(files, thrown, told):
+    rewritten(files, "self.count += 1", f"raise {thrown}")
+    with runnel.load(files / "wander.xml") as app:
+        app.run_for(1)
+        app.events()
+        assert told in app.faults()[0].text
+
+
 def test_mistakes_are_told_with_their_places(files):
     rewritten(files, "self.count += 1", "self.count += (1")
     with pytest.raises(runnel.Error, match="SyntaxError") as wrong:

@@ -137,6 +137,30 @@ test('one choice makes one module, however long Enter is held', async (t) => {
   await page.locator('dialog .problem', { hasText: 'it is full' }).waitFor();
 });
 
+test('a press on the scroll bar of a dialog leaves it open, one beside it closes it', async (t) => {
+  const { inspector, page } = await OpenMock(t);
+  await Press(page, 'a');
+  const dialog = page.locator('dialog.wide');
+  // As browsers tell of a press on the scroll bar: at the dialog itself.
+  await dialog.evaluate((element) => {
+    const { right, top } = element.getBoundingClientRect();
+    element.dispatchEvent(new PointerEvent('pointerdown', { bubbles: true, clientX: right - 2, clientY: top + 20 }));
+  });
+  await inspector.drawn();
+  assert.equal(await dialog.count(), 1);
+  await page.mouse.click(3, 3);
+  await inspector.closed();
+});
+
+test('"New group" has the name that was typed', async (t) => {
+  const { inspector, page } = await OpenMock(t);
+  await Press(page, 'a');
+  await page.locator('#new-name').fill('arm');
+  await page.getByRole('button', { name: 'New group' }).click();
+  await inspector.closed();
+  await inspector.node('/mock/arm').waitFor();
+});
+
 test('the answer about conversions opens nothing over what has been opened meanwhile', async (t) => {
   const { application, inspector, page } = await OpenMock(t);
   const take = HeldBack(application, 'conversions');

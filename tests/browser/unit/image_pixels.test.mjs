@@ -13,7 +13,9 @@ test('pixels of each encoding become red, green, blue', () => {
 });
 
 test('what cannot be shown is said', () => {
-  assert.match(PixelsOf({ width: 1, height: 1, encoding: 'yuv422', step: 2, data: Base64([1, 2]) }).problem, /yuv422/);
+  for (const encoding of ['yuv422', 'constructor', 'toString']) {
+    assert.match(PixelsOf({ width: 1, height: 1, encoding, step: 2, data: Base64([1, 2]) }).problem, new RegExp(encoding));
+  }
   assert.match(PixelsOf({ width: 2, height: 2, encoding: 'rgb8', step: 6, data: Base64([1, 2]) }).problem, /not whole/);
   assert.match(PixelsOf({ width: 2, height: 2, encoding: 'rgb8', step: 6, data: [1, 2] }).problem, /too large/);
 });

@@ -23,8 +23,8 @@ class LibraryFileTest : public testing::Test {
     std::ofstream(folder / "new", std::ios::binary) << bytes;
     fs::rename(folder / "new", file);
   }
-  [[nodiscard]] static std::string Whole() {
-    std::ifstream from(fs::path(RUNNEL_TEST_PLUGINS) / "good.so", std::ios::binary);
+  [[nodiscard]] static std::string Whole(const char* name = "good.so") {
+    std::ifstream from(fs::path(RUNNEL_TEST_PLUGINS) / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(from), {}};
   }
 
@@ -71,6 +71,24 @@ TEST_F(LibraryFileTest, ThatCannotBeLoadedAnewLeavesAllAsItWas) {
   }
   Put(whole);
   EXPECT_TRUE(manager.Reload("good"));
+}
+
+// It would be mapped with it.
+TEST_F(LibraryFileTest, ThatNeedsOneThatLacksItsEndIsRefused) {
+  const fs::path needing = folder / "needing.so";
+  const fs::path needed = folder / "librunnel_test_needed.so";
+  std::ofstream(needing, std::ios::binary) << Whole("needed_1/needing.so");
+  const std::string all = Whole("needed_1/librunnel_test_needed.so");
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1000}, all.size() / 2, all.size() - 1}) {
+    std::ofstream(needed, std::ios::binary) << std::string_view(all).substr(0, size);
+    const auto loaded = manager.Load("needing");
+    ASSERT_FALSE(loaded) << size;
+    EXPECT_THAT(loaded.error().message,
+                AllOf(HasSubstr("the plugin " + needing.string() + " is refused: "),
+                      HasSubstr(needed.string() + ", which it needs, cannot be loaded: it is cut short")));
+  }
+  std::ofstream(needed, std::ios::binary) << all;
+  EXPECT_TRUE(CheckIsWhole(needing));
 }
 
 TEST_F(LibraryFileTest, ThatIsNoneOrNotThereIsRefused) {

@@ -102,6 +102,14 @@ Ended RunRos2(const std::string& arguments) {
   return {WEXITSTATUS(pclose(pipe)), said};
 }
 
+TEST(Ros2Command, ShowsRequestAndResponseOfAService) {
+  const Ended ended = RunRos2("show std_srvs/srv/SetBool");
+  EXPECT_EQ(ended.code, 0) << ended.said;
+  EXPECT_NE(ended.said.find("# std_srvs/srv/SetBool_Request RIHS01_"), std::string::npos) << ended.said;
+  EXPECT_NE(ended.said.find("# std_srvs/srv/SetBool_Response RIHS01_"), std::string::npos) << ended.said;
+  EXPECT_NE(RunRos2("show std_srvs/srv/SetBoo").code, 0);
+}
+
 TEST(Ros2Command, ExportsTheTypesOfPlugins) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "runnel_msgs_of_planning";
   const Ended ended = RunRos2("export planning -o " + folder.string());

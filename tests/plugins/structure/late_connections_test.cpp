@@ -2,6 +2,7 @@
 
 #include "core/paths/late_connections.h"
 
+#include "core/module/hand_over.h"
 #include "core/paths/distant_ports.h"
 #include "tests/plugins/structure/adder_fixture.h"
 
@@ -192,6 +193,62 @@ TEST_F(WhenPresent, WhatGoesAndWhatIsRenamedMayBeInOneSet) {
     EXPECT_THAT(At<Port>("/app/adder/input/in1").incoming(), SizeIs(1));
     EXPECT_EQ(CountNoted(), 1U);
   }
+}
+
+struct NeverSettles final : Module {
+  explicit NeverSettles(const Placement& placement) : Module(placement) {
+    Annotate(std::make_unique<BeforeHandOver>(
+        []() -> BeforeHandOver::Held { throw std::runtime_error("what is under way does not end"); }));
+  }
+  void Update() override {}
+};
+
+/// Both ends are there, and what the one carries now does not fit.
+struct StandsAgainst : WhenPresent {
+  StandsAgainst() {
+    Register<NeverSettles>("test/never_settles");
+    Must({DeleteElement{"/app/counter"}, CreateModule{"/app/counter", "test/text_counter"}});
+    EXPECT_THAT(WhyItWaits(), HasSubstr("carries string"));
+  }
+  std::string WhyItWaits(const char* by = "/app/adder/in1") {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const LateConnection* const found = LateConnections::Of(runtime).Find("/app/counter/out", by);
+    return found == nullptr ? "it does not" : found->waits_for.value_or("");
+  }
+};
+
+TEST_F(StandsAgainst, ItFollowsARenameAndComesBackWithUndo) {
+  for (const auto& [change, by] : {std::pair(Change(RenameElement{"/app/adder", "other"}), "/app/other/in1"),
+                                   std::pair(Change(cut), "/app/adder/in1")}) {
+    const ChangeOutcome outcome = history_.Apply({change});
+    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+    EXPECT_EQ(CountNoted(), std::holds_alternative<RenameElement>(change) ? 1U : 0U);
+    const std::string why = WhyItWaits(by);
+    const ChangeOutcome back = history_.Undo();
+    ASSERT_TRUE(back) << back.diagnostics.ToString();
+    EXPECT_THAT(WhyItWaits(), HasSubstr("carries string"));
+    ASSERT_TRUE(history_.Redo());
+    EXPECT_EQ(WhyItWaits(by), why);
+    ASSERT_TRUE(history_.Undo());
+  }
+  Must({DeleteElement{"/app/counter"}, CreateModule{"/app/counter", "test/counter"}});
+  EXPECT_THAT(At<Port>("/app/adder/input/in1").incoming(), SizeIs(1));
+}
+
+TEST_F(StandsAgainst, ItIsNotedAgainWhereASetFails) {
+  Must({CreateModule{"/app/m", "test/never_settles"}});
+  const std::string why = Refusal({cut, ReplaceModule{"/app/m", "test/never_settles"}});
+  EXPECT_THAT(why, HasSubstr("what is under way does not end"));
+  EXPECT_THAT(why, testing::Not(HasSubstr("lack of memory")));
+  EXPECT_THAT(WhyItWaits(), HasSubstr("carries string"));
+}
+
+// A person is told at once.
+TEST_F(StandsAgainst, WhoConnectsWhatDoesNotFitIsRefused) {
+  Must({cut});
+  EXPECT_THAT(Refusal({ConnectPorts{"/app/counter/out", "/app/adder/in1", {.when_present = true}}}),
+              HasSubstr("carries string"));
+  EXPECT_EQ(CountNoted(), 0U);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ export function CreateDialog({ group }) {
         empty="no module type is like that" />
       <div class="dialog-foot">
         ${nameField}
-        <button onClick=${() => { CloseDialog(); CreateGroup(group); }}>New group</button>
+        <button onClick=${() => { CloseDialog(); CreateGroup(group, typed); }}>New group</button>
         <button class="primary" id="create" ...${button(type)}>Add ${type ?? ''}</button>
       </div>
       ${problem}

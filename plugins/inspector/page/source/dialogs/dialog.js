@@ -28,7 +28,11 @@ export function Dialog({ title, children, className = '', style }) {
       queueMicrotask(() => before?.focus?.()); // while the dialog is there nothing else takes the focus
     };
   }, []);
-  const onPointerDown = (event) => { if (event.target === element.current) CloseDialog(); };
+  const onPointerDown = ({ target, clientX: x, clientY: y }) => {
+    const box = element.current.getBoundingClientRect(); // its scroll bar is within, and its backdrop beside it
+    const isWithin = x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
+    if (target === element.current && !isWithin) CloseDialog();
+  };
   return html`<dialog ref=${element} class=${className} style=${style} aria-label=${title} onClose=${() => CloseDialog()}
       onPointerDown=${onPointerDown} onKeyDown=${(event) => event.stopPropagation()}>
     <div class="dialog-body">${children}</div></dialog>`;

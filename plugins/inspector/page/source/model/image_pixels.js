@@ -2,6 +2,7 @@
 
 // bytes of a pixel, and where in them its colours are
 const kEncodings = {
+  __proto__: null, // an encoding may be called anything
   rgb8: [3, 0, 1, 2], bgr8: [3, 2, 1, 0], rgba8: [4, 0, 1, 2], bgra8: [4, 2, 1, 0],
   mono8: [1, 0, 0, 0], '8UC1': [1, 0, 0, 0], '8UC3': [3, 2, 1, 0], mono16: [2, 1, 1, 1], '16UC1': [2, 1, 1, 1],
 };

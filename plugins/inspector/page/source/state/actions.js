@@ -139,8 +139,8 @@ export function CreatePort(group, name, direction, type) {
   return Apply([Change.createPort(`${group}/${name}`, direction, type)], `create the ${direction} ${name}`, { quiet: true });
 }
 
-export function CreateGroup(group) {
-  const path = `${group}/${FreeName(structure, group, 'group')}`;
+export function CreateGroup(group, name) {
+  const path = `${group}/${name || FreeName(structure, group, 'group')}`;
   return Apply([Change.createGroup(path)], `create ${NameOf(path)}`);
 }
 
