@@ -2,22 +2,31 @@
 
 #include "plugins/genom_execution/value_views.h"
 
+#include <type_traits>
+
 #include <gtest/gtest.h>
 
 namespace runnel::genom_execution {
 namespace {
 
 // As codels take an element out: they give back what it has, move the others by their bytes, and lower the length.
-TEST(ValueViews, AListOwnsNothingBeyondItsLength) {
-  OwnedList<OwnedText> list;
+template <typename List>
+void TakeTheFirstOut() {
+  List list;
   ASSERT_TRUE(list.Resize(2));
   list.buffer[0].Set("first");
   list.buffer[1].Set("second");
   std::free(list.buffer[0].text);
   list.buffer[0].text = list.buffer[1].text;
   list.length = 1;
-  const OwnedList<OwnedText> copy = list;
+  const List copy = list;
   EXPECT_EQ(copy.length, 1u);
+  List assigned;
+  ASSERT_TRUE(assigned.Resize(3));
+  assigned.buffer[2].Set("old");
+  assigned = list;
+  EXPECT_EQ(assigned.length, 1u);
+  EXPECT_EQ(assigned.buffer[0].view(), "second");
   ASSERT_TRUE(list.Resize(2));
   EXPECT_EQ(list.buffer[1].view(), "") << "a new one is empty";
   EXPECT_EQ(list.buffer[0].view(), "second");
@@ -27,8 +36,17 @@ TEST(ValueViews, AListOwnsNothingBeyondItsLength) {
   EXPECT_EQ(list.buffer[0].view(), "second");
   EXPECT_EQ(list.buffer[1].view(), "");
   EXPECT_EQ(list.buffer[2].view(), "");
-  list.length = 0;
+  // Taken out, and kept by nobody: whoever destroys the list must not look at it.
   std::free(list.buffer[0].text);
+  list.length = 0;
+}
+
+TEST(ValueViews, AListOwnsNothingBeyondItsLength) { TakeTheFirstOut<OwnedList<OwnedText>>(); }
+TEST(ValueViews, AListInPlaceOwnsNothingBeyondItsLength) { TakeTheFirstOut<BoundedList<OwnedText, 3>>(); }
+
+TEST(ValueViews, AListOfWhatOwnsNothingIsCopiedByItsBytes) {
+  static_assert(std::is_trivially_copyable_v<BoundedList<double, 4>>);
+  static_assert(sizeof(BoundedList<OwnedText, 3>) == 8 + 3 * sizeof(char*));
 }
 
 }  // namespace
