@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -27,10 +28,19 @@ inline int Fail(const Error& error, int code = exit_code::kBadInput) {
   return code;
 }
 
-/// What is wrong with the text of a seed; "" if nothing is. CLI11 takes "-1" for the greatest number there is.
-inline std::string FaultOfSeed(const std::string& text) {
-  return NumberIn<std::uint64_t>(text) ? ""
-                                       : "a seed is a whole number from 0 to 18446744073709551615, not '" + text + "'";
+/// For Option::transform: whole numbers in decimal. CLI11 alone takes "-1" for the greatest number there is, and "010" for 8.
+template <typename Number>
+CLI::Validator WholeNumber(const std::string& what) {
+  const auto read = [what](std::string& text) -> std::string {
+    const auto number = NumberIn<Number>(text);
+    if (!number) {
+      return what + " is a whole number from " + std::to_string(std::numeric_limits<Number>::min()) + " to " +
+             std::to_string(std::numeric_limits<Number>::max()) + ", not '" + text + "'";
+    }
+    text = std::to_string(*number);
+    return "";
+  };
+  return {read, ""};
 }
 
 /// Writes it into a file, or to standard output if that is "". Returns the exit code.

@@ -29,7 +29,8 @@ void AddChoices(CLI::App& program, ArenaArguments& arguments) {
            "<module> tag");
   add_list("--sensor", arguments.sensors, "laser, infrared, bumper: what the applications there are for");
   add_list("--direction", arguments.directions, "first turn at an obstacle: left, right");
-  add_list("--seed", arguments.seeds, "of the noise, and so of the run")->check(FaultOfSeed);
+  add_list("--seed", arguments.seeds, "of the noise, and so of the run")
+      ->transform(WholeNumber<std::uint64_t>("a seed"));
   add_list("--plugin", arguments.plugins, "loads others' plugins, whose planners can be variants");
 }
 
@@ -44,7 +45,10 @@ void AddNumbers(CLI::App& program, ArenaArguments& arguments) {
   add("--time-limit", settings.time_limit, "S", "of simulated time, for each run; 0: by the length of the walls");
   add("--wall-limit", arguments.wall_limit, "S",
       "of real time, for each run; one that takes longer hangs, and is ended");
-  program.add_option("--jobs", arguments.jobs, "runs at the same time")->type_name("N")->capture_default_str();
+  program.add_option("--jobs", arguments.jobs, "runs at the same time")
+      ->type_name("N")
+      ->transform(WholeNumber<int>("the number of jobs"))
+      ->capture_default_str();
 }
 
 void AddShard(CLI::App& program, ArenaArguments& arguments) {

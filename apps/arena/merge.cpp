@@ -15,27 +15,27 @@ struct MergedRun {
   JournalEntry entry;
   std::string line;
   std::filesystem::path from;
+  int number = 0;
 };
+using MergedRuns = std::map<RunKey, MergedRun>;
 
 struct Merged {
   std::string head;
   std::filesystem::path head_from;
-  std::map<RunKey, MergedRun> runs;
+  MergedRuns runs;
 };
 
-Result<void> Add(const JournalEntry& entry, const std::string& line, const std::filesystem::path& journal, int number,
-                 Merged& merged) {
-  const RunKey& key = entry.record.key;
+Result<void> Add(const RunKey& key, const MergedRun& run, Merged& merged) {
   const auto before = merged.runs.find(key);
   const bool is_there = before != merged.runs.end();
-  if (is_there && before->second.entry.made_of != entry.made_of) {
+  if (is_there && before->second.entry.made_of != run.entry.made_of) {
     return Error{.message = "the run " + TextOf(key) + " was made of another world or application than in " +
                             before->second.from.string(),
-                 .position = {journal.string(), number},
+                 .position = {run.from.string(), run.number},
                  .hint = "let one of the two run again"};
   }
   // One that crashed or hung gives way to one that did not.
-  if (!is_there || entry.record.has_ended_by_itself) merged.runs.insert_or_assign(key, MergedRun{entry, line, journal});
+  if (!is_there || run.entry.record.has_ended_by_itself) merged.runs.insert_or_assign(key, run);
   return {};
 }
 
@@ -58,9 +58,17 @@ Result<void> AddPart(const std::filesystem::path& part, Merged& merged) {
                  .position = {journal.string(), 1},
                  .hint = "noise, path step, time limit and safe distance have to be the same"};
   }
-  return ReadEntries(journal, *text, [&](const JournalEntry& entry, const std::string& line, int number) {
-    return Add(entry, line, journal, number, merged);
-  });
+  MergedRuns runs;  // the last line of each: --resume makes again what has crashed, or what it is made of has changed
+  const auto read =
+      ReadEntries(journal, *text, [&](const JournalEntry& entry, const std::string& line, int number) -> Result<void> {
+        runs.insert_or_assign(entry.record.key, MergedRun{entry, line, journal, number});
+        return {};
+      });
+  if (!read) return read;
+  for (const auto& [key, run] : runs) {
+    if (auto added = Add(key, run, merged); !added) return added;
+  }
+  return {};
 }
 
 }  // namespace
@@ -68,7 +76,7 @@ Result<void> AddPart(const std::filesystem::path& part, Merged& merged) {
 Result<std::size_t> Merge(const std::filesystem::path& into, const std::vector<std::filesystem::path>& parts) {
   Merged merged;
   // What it has already stays.
-  if (std::filesystem::exists(into.string() + ".journal")) {
+  if (std::filesystem::exists(into) || std::filesystem::exists(into.string() + ".journal")) {
     if (auto added = AddPart(into, merged); !added) return added.error();
   }
   for (const auto& part : parts) {

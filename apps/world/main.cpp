@@ -58,15 +58,17 @@ int main(int count, char** words) {
   std::string kind, file;
   program.add_option("--kind", kind, "scatter, maze, spiral, comb or ring")->required();
   program.add_option("--seed", options.seed, "of the random numbers")
-      ->check(runnel::FaultOfSeed)
+      ->transform(runnel::WholeNumber<std::uint64_t>("a seed"))
       ->capture_default_str();
   program.add_option("--out", file, "the file to write; without, standard output")->type_name("FILE");
   program.add_option("--width", options.width, "m along x, of a scatter or maze; of rings twice the way to the goal")
       ->capture_default_str();
   program.add_option("--height", options.height, "m along y, of a scatter or maze")->capture_default_str();
   program.add_option("--gap", options.gap, "m, of every passage at least")->capture_default_str();
-  program.add_option("--count", options.count,
-                     "shapes of a scatter, teeth of a comb, turns of a spiral, rings; 0: by the seed");
+  program
+      .add_option("--count", options.count,
+                  "shapes of a scatter, teeth of a comb, turns of a spiral, rings; 0: by the seed")
+      ->transform(runnel::WholeNumber<int>("a count"));
   program.add_flag("--enclosed", options.is_enclosed, "walls the goal in: it cannot be reached");
   return runnel::RunProgram(program, count, words, [&] { return runnel::Make(options, kind, file); });
 }

@@ -62,43 +62,43 @@ struct OwnedText {
   static char* Copy(const char* from) { return from != nullptr ? strdup(from) : nullptr; }
 };
 
-/// `sequence<E, most>`: in place. Elements beyond the length own nothing, as those of OwnedList.
-template <typename E, std::size_t most>
-struct BoundedList {
+/// What `sequence<E, most>` holds: copied by its bytes if E is.
+template <typename E, std::size_t most, bool owns = !std::is_trivially_copyable_v<E>>
+struct ListInPlace {
   std::uint32_t maximum = most;
   std::uint32_t length = 0;
   E buffer[most] = {};
-
-  /// False: that many do not fit. New ones are empty.
-  bool Resize(std::size_t count) {
-    if (count > most) return false;
-    for (std::size_t i = length; i < count; ++i) Clear(buffer[i]);
-    maximum = most;
-    length = static_cast<std::uint32_t>(count);
-    return true;
-  }
 };
 template <typename E, std::size_t most>
-requires(!std::is_trivially_copyable_v<E>) struct BoundedList<E, most> {
+struct ListInPlace<E, most, true> {
   std::uint32_t maximum = most;
   std::uint32_t length = 0;
   union {
     E buffer[most];
   };
 
-  BoundedList() { std::memset(static_cast<void*>(buffer), 0, sizeof(buffer)); }
-  BoundedList(const BoundedList& other) : BoundedList() { *this = other; }
-  BoundedList& operator=(const BoundedList& other) {
-    if (this != &other && Resize(other.length)) std::copy_n(other.buffer, length, buffer);
+  ListInPlace() noexcept { std::memset(static_cast<void*>(buffer), 0, sizeof(buffer)); }
+  ListInPlace(const ListInPlace& other) : ListInPlace() { *this = other; }
+  ListInPlace& operator=(const ListInPlace& other) {
+    if (this == &other) return *this;
+    std::destroy_n(buffer, length);
+    std::uninitialized_copy_n(other.buffer, other.length, buffer);
+    length = other.length;
     return *this;
   }
-  ~BoundedList() { std::destroy_n(buffer, length); }
+  ~ListInPlace() { std::destroy_n(buffer, length); }
+};
+
+/// `sequence<E, most>`: in place. Elements beyond the length own nothing, as in OwnedList.
+template <typename E, std::size_t most>
+struct BoundedList : ListInPlace<E, most> {
+  /// False: that many do not fit. New ones are empty.
   bool Resize(std::size_t count) {
     if (count > most) return false;
-    if (count > length) std::uninitialized_value_construct_n(buffer + length, count - length);
-    if (count < length) std::destroy_n(buffer + count, length - count);
-    maximum = most;
-    length = static_cast<std::uint32_t>(count);
+    if (count > this->length) std::uninitialized_value_construct_n(this->buffer + this->length, count - this->length);
+    if (count < this->length) std::destroy_n(this->buffer + count, this->length - count);
+    this->maximum = most;
+    this->length = static_cast<std::uint32_t>(count);
     return true;
   }
 };

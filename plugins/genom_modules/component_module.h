@@ -119,9 +119,10 @@ class TaskModule final : public Module {
 /// Of an input: when the values that codels have of it were measured, and who has read them. Threads: any; Note() one at a time.
 struct PortReading {
   struct Slot {
-    // relaxed, both: each tells of itself.
+    // relaxed, all: each tells of itself.
     std::atomic<Time> measured{Time::max()};
     std::atomic<const genom_execution::Request*> reader{nullptr};
+    std::atomic<std::uint32_t> activity{0};  // the reader's: a service uses its requests again
   };
   std::array<Slot, 4> slots;
 

@@ -51,15 +51,10 @@ std::vector<BoundaryPiece> WithoutDoubles(const std::vector<BoundaryPiece>& piec
   return single;
 }
 
-int RoundCrossings(const BoundaryPiece& piece, const Segment2& segment) {
-  int count = 0;
-  const double radius = Distance(*piece.centre, piece.from);
+/// Whether a round piece passes between its centre and the point, or the point between them.
+bool IsBeside(const BoundaryPiece& piece, Point2 point) {
   const double first = Direction(piece.from - *piece.centre);
-  const double sweep = internal::Sweep(first, Direction(piece.to - *piece.centre));
-  for (const Point2 point : internal::Meeting(*piece.centre, radius, segment, 0.0)) {
-    if (internal::Sweep(first, Direction(point - *piece.centre)) < sweep) ++count;
-  }
-  return count;
+  return Sweep(first, Direction(point - *piece.centre)) <= Sweep(first, Direction(piece.to - *piece.centre));
 }
 
 }  // namespace
@@ -71,9 +66,7 @@ double BoundaryPiece::length() const {
 
 double BoundaryPiece::DistanceTo(Point2 point) const {
   if (!centre) return Distance(Segment2{from, to}, point);
-  const double first = Direction(from - *centre);
-  const bool is_beside = Sweep(first, Direction(point - *centre)) <= Sweep(first, Direction(to - *centre));
-  if (is_beside) return std::abs(Distance(*centre, point) - Distance(*centre, from));
+  if (IsBeside(*this, point)) return std::abs(Distance(*centre, point) - Distance(*centre, from));
   return std::min(Distance(point, from), Distance(point, to));
 }
 
@@ -245,22 +238,32 @@ double DistanceTo(const BoundaryLoop& loop, Point2 point) {
   return least;
 }
 
-// A piece that begins and ends on different sides of the line is crossed once; so a line through a joint is counted once.
+// A piece that begins and ends on different sides of the line is crossed once, so a line through a joint is counted once; a
+// round one that only bulges over the line is crossed twice.
 int Crossings(const BoundaryLoop& loop, const Segment2& segment) {
-  const Point2 along = segment.to - segment.from;
-  const auto side = [&](Point2 point) { return Cross(along, point - segment.from); };
+  const double length = Distance(segment.from, segment.to);
+  const Point2 along = Unit(segment.to - segment.from), left{-along.y, along.x};
+  const auto ahead = [&](Point2 point) { return Dot(along, point - segment.from); };
+  const auto beside = [&](Point2 point) { return Dot(left, point - segment.from); };
   int count = 0;
+  const auto add = [&](double way) { count += way >= 0.0 && way <= length ? 1 : 0; };
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const BoundaryPiece& piece = loop[i];
     const Point2 end = loop[(i + 1) % loop.size()].from;
-    const double before = side(piece.from), after = side(end);
-    if ((before < 0.0) == (after < 0.0)) {
-      count += piece.centre ? RoundCrossings(piece, segment) / 2 * 2 : 0;
+    const double before = beside(piece.from), after = beside(end);
+    const bool comes_from_right = before < 0.0, goes_to_right = after < 0.0;
+    if (!piece.centre) {
+      if (comes_from_right != goes_to_right) add(ahead(piece.from + before / (before - after) * (end - piece.from)));
       continue;
     }
-    const Point2 meeting = piece.from + before / (before - after) * (end - piece.from);
-    const double way = Dot(along, meeting - segment.from);
-    if (way >= 0.0 && way <= Dot(along, along)) ++count;
+    const double radius = Distance(*piece.centre, piece.from), off = beside(*piece.centre);
+    const double half = std::sqrt(std::max(0.0, radius * radius - off * off));
+    const Point2 farthest = *piece.centre + (comes_from_right ? radius : -radius) * left;
+    const bool bulges =
+        comes_from_right == goes_to_right && (beside(farthest) < 0.0) != comes_from_right && IsBeside(piece, farthest);
+    // Counter-clockwise it goes to the left ahead of the centre, and to the right behind it.
+    if (bulges || (comes_from_right && !goes_to_right)) add(ahead(*piece.centre) + half);
+    if (bulges || (!comes_from_right && goes_to_right)) add(ahead(*piece.centre) - half);
   }
   return count;
 }

@@ -228,10 +228,12 @@ TEST_F(ArenaTest, CallsOneOfTheFamilyByOneName) {
   const Ended refused = Arena("--world open --variant " + File("com.xml"));
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.text, HasSubstr("com.xml: error: 'com' is the name of planning/com; give the file another name"));
-  const Ended ended = Arena("--world open --variant bug1,planning/bug1 --seed 1,1 --quiet --json " + File("runs.json"));
+  const Ended ended =
+      Arena("--world open --variant bug1,planning/bug1 --seed 010,10 --quiet --json " + File("runs.json"));
   EXPECT_EQ(ended.code, 0) << ended.text;
   EXPECT_EQ(Json("runs.json").size(), 1U);
   EXPECT_EQ(Json("runs.json")[0]["variant"], "bug1");
+  EXPECT_EQ(Json("runs.json")[0]["seed"], 10);
 }
 
 TEST_F(ArenaTest, MergesIntoWhatIsThere) {

@@ -108,6 +108,33 @@ TEST_F(JournalTest, BeginsWhereThereIsNone) {
   EXPECT_THAT(Text(), HasSubstr("runnel_arena_journal"));
 }
 
+TEST_F(JournalTest, MergesTheLastLineOfEachRun) {
+  Fill({SomeRecord()});
+  {
+    auto journal = Journal::Resume(file_, {});  // after its world was edited
+    ASSERT_TRUE(journal && journal->Add(SomeRecord(), "abd"));
+  }
+  std::filesystem::copy_file(file_, folder_ / "old.json.journal");
+  auto other = Journal::Begin(folder_ / "new.json.journal", {});
+  ASSERT_TRUE(other && other->Add(SomeRecord(), "abd"));
+  const auto merged = Merge(folder_ / "all.json", {folder_ / "new.json", folder_ / "old.json"});
+  ASSERT_TRUE(merged) << merged.error().ToString();
+  EXPECT_EQ(*merged, 1u);
+  const auto all = Journal::Resume(folder_ / "all.json.journal", {});
+  ASSERT_TRUE(all);
+  EXPECT_NE(all->Find(PlannedFor(SomeRecord(), "abd")), nullptr);
+}
+
+TEST_F(JournalTest, DoesNotMergeIntoRunsWithoutAJournal) {
+  ASSERT_TRUE(WriteFile(folder_ / "all.json", "[]"));
+  auto part = Journal::Begin(folder_ / "part.json.journal", {});
+  ASSERT_TRUE(part && part->Add(SomeRecord(), "abc"));
+  const auto merged = Merge(folder_ / "all.json", {folder_ / "part.json"});
+  ASSERT_FALSE(merged);
+  EXPECT_THAT(merged.error().message, HasSubstr("there is no journal of these runs"));
+  EXPECT_EQ(*ReadFile(folder_ / "all.json"), "[]");
+}
+
 TEST(RunRecordJson, SurvivesWhatIsNotUtf8) {
   RunRecord record = SomeRecord();
   record.result.remark = "\xff\"";

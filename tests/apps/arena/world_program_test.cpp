@@ -51,6 +51,11 @@ TEST_F(WorldProgram, RefusesWhatItCannotMake) {
   EXPECT_EQ(Runnel("world --kind maze --out /nowhere/maze.xml").code, 1);
 }
 
+TEST_F(WorldProgram, ReadsNumbersWithZerosBeforeThemAsDecimals) {
+  EXPECT_THAT(Runnel("world --kind ring --seed 010 --count 011").text, HasSubstr("kind ring, seed 10, count 11 -->"));
+  EXPECT_THAT(Runnel("world --kind ring --seed 08").text, HasSubstr("kind ring, seed 8 -->"));
+}
+
 TEST_F(WorldProgram, IsACommandThatIsFoundBesideTheProgram) {
   EXPECT_THAT(Runnel("--help").text, HasSubstr("arena, generate, info, keys, manifest, new, ros2, world"));
   const Ended ended = Runnel("wrld");

@@ -252,5 +252,23 @@ TEST(Boundaries, AreCrossedTwiceByALineThrough) {
   EXPECT_NEAR(DistanceTo(loops.front(), {-4, 5}), std::hypot(3, 4) - kRadius, 1e-9);
 }
 
+TEST(Boundaries, OfACylinderAreCrossedTwiceByALineThroughItsCentreOrBeside) {
+  World world;
+  world.cylinders.push_back({.centre = {0, 0}, .radius = 1.0});
+  const auto loops = ConfigurationSpace(world, kRadius).Boundaries();
+  ASSERT_EQ(loops.size(), 1u);
+  for (int degrees = 0; degrees < 360; degrees += 15) {
+    const Point2 way = UnitVector(degrees * kPi / 180), side{-way.y, way.x};
+    for (const double by : {0.0, 1e-12, -1e-12, 0.01, -0.01, 1.3, -1.3}) {
+      const Point2 middle = by * side;
+      EXPECT_EQ(Crossings(loops.front(), {middle - 5 * way, middle + 5 * way}), 2) << degrees << " " << by;
+      EXPECT_EQ(Crossings(loops.front(), {middle - 5 * way, middle}), 1) << degrees << " " << by;
+      EXPECT_EQ(Crossings(loops.front(), {middle, middle + 5 * way}), 1) << degrees << " " << by;
+      EXPECT_EQ(Crossings(loops.front(), {middle - 5 * way, middle - 2 * way}), 0) << degrees << " " << by;
+    }
+    EXPECT_EQ(Crossings(loops.front(), {1.4 * side - 5 * way, 1.4 * side + 5 * way}), 0);
+  }
+}
+
 }  // namespace
 }  // namespace runnel

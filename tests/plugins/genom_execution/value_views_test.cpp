@@ -2,6 +2,8 @@
 
 #include "plugins/genom_execution/value_views.h"
 
+#include <type_traits>
+
 #include <gtest/gtest.h>
 
 namespace runnel::genom_execution {
@@ -9,7 +11,7 @@ namespace {
 
 // As codels take an element out: they give back what it has, move the others by their bytes, and lower the length.
 template <typename List>
-void TakesOut() {
+void TakeTheFirstOut() {
   List list;
   ASSERT_TRUE(list.Resize(2));
   list.buffer[0].Set("first");
@@ -18,8 +20,13 @@ void TakesOut() {
   list.buffer[0].text = list.buffer[1].text;
   list.length = 1;
   const List copy = list;
-  ASSERT_EQ(copy.length, 1u);
-  EXPECT_EQ(copy.buffer[0].view(), "second");
+  EXPECT_EQ(copy.length, 1u);
+  List assigned;
+  ASSERT_TRUE(assigned.Resize(3));
+  assigned.buffer[2].Set("old");
+  assigned = list;
+  EXPECT_EQ(assigned.length, 1u);
+  EXPECT_EQ(assigned.buffer[0].view(), "second");
   ASSERT_TRUE(list.Resize(2));
   EXPECT_EQ(list.buffer[1].view(), "") << "a new one is empty";
   EXPECT_EQ(list.buffer[0].view(), "second");
@@ -29,13 +36,17 @@ void TakesOut() {
   EXPECT_EQ(list.buffer[0].view(), "second");
   EXPECT_EQ(list.buffer[1].view(), "");
   EXPECT_EQ(list.buffer[2].view(), "");
-  list.length = 0;
+  // Taken out, and kept by nobody: whoever destroys the list must not look at it.
   std::free(list.buffer[0].text);
+  list.length = 0;
 }
 
-TEST(ValueViews, AListOwnsNothingBeyondItsLength) {
-  TakesOut<OwnedList<OwnedText>>();
-  TakesOut<BoundedList<OwnedText, 3>>();
+TEST(ValueViews, AListOwnsNothingBeyondItsLength) { TakeTheFirstOut<OwnedList<OwnedText>>(); }
+TEST(ValueViews, AListInPlaceOwnsNothingBeyondItsLength) { TakeTheFirstOut<BoundedList<OwnedText, 3>>(); }
+
+TEST(ValueViews, AListOfWhatOwnsNothingIsCopiedByItsBytes) {
+  static_assert(std::is_trivially_copyable_v<BoundedList<double, 4>>);
+  static_assert(sizeof(BoundedList<OwnedText, 3>) == 8 + 3 * sizeof(char*));
 }
 
 }  // namespace

@@ -92,6 +92,16 @@ TEST_F(ComponentTest, PublishesWhatIsAsOldAsWhatItsActivityHasRead) {
   const auto guess = Begin("guess");
   rig.RunCycles(6);
   EXPECT_GE(aimed_at() + 20ms, rig.now()) << "what has ended does not age what others do";
+  EXPECT_TRUE(ServiceAt("guess").Abort());
+  rig.RunCycles(4);
+  const auto looking = Begin("guess", "{looks: true}");
+  rig.RunCycles(6);
+  EXPECT_EQ(aimed_at(), measured);
+  EXPECT_TRUE(ServiceAt("guess").Abort());
+  rig.RunCycles(4);
+  const auto again = Begin("guess");
+  rig.RunCycles(6);
+  EXPECT_GE(aimed_at() + 20ms, rig.now()) << "nor what the same service does, by the same request";
 }
 
 TEST_F(ComponentTest, HasMultiplePortsOfTheNamesThatAreGiven) {

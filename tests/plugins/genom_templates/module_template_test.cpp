@@ -55,5 +55,24 @@ TEST(ModuleTemplateTest, WordsOfCxxAreNoNames) {
       << "m_template";
 }
 
+TEST(ModuleTemplateTest, PartsOfWhatMayNotBeThereAreNoParameters) {
+  const auto refusal_of = [](const std::string& rest) {
+    return Refusal(
+        "struct p { double x, y; }; struct q { sequence<p> all; sequence<long, 4> few; };\n"
+        "union note switch (boolean) { case TRUE: string text; case FALSE: double number; };\n"
+        "component c { ids { q held; optional<p> last; note said; p pair[2]; };\n" +
+        rest + " };\n");
+  };
+  EXPECT_THAT(refusal_of("attribute get(out held.all[7].x);"),
+              HasSubstr("c.gen:4:15: 'x' is a part of 'held.all', which may have no such element; take 'held.all' as a "
+                        "whole, and let the codel look"));
+  EXPECT_THAT(refusal_of("attribute set(in held.few[2]);"), HasSubstr("'held.few', which may have no such element"));
+  EXPECT_THAT(refusal_of("function f() { codel g(in last.x); };"), HasSubstr("'last', which may be absent"));
+  EXPECT_THAT(refusal_of("attribute get(out said.text);"), HasSubstr("'said', which may have another member"));
+  EXPECT_THAT(refusal_of("function f(in optional<p> to) { codel g(local in to.x); };"),
+              HasSubstr("'to', which may be absent"));
+  EXPECT_EQ(refusal_of("attribute set(in pair[1].x, in held.all, in last);"), "");
+}
+
 }  // namespace
 }  // namespace runnel::genom

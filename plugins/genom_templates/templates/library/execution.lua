@@ -118,6 +118,22 @@ function execution.machine(component, kind, owner)
   return states, number.start or false, number.stop or false
 end
 
+-- Values whose parts may not be there when a codel is to be given them, and nobody could tell it.
+local may_lack = setmetatable({optional = "may be absent", sequence = "may have no such element", union = "may have another member"},
+                              {__index = function() return false end})
+
+local function refuse_part(parameter, at, lack)
+  local whole = parameter.path[1]
+  for i = 2, at - 1 do
+    local step = parameter.path[i]
+    whole = whole .. (math.type(step) and "[" .. step .. "]" or "." .. step)
+  end
+  local place = has(parameter, "place") and parameter.place
+  local where = place and string.format("%s:%d:%d: ", place.file, place.line, place.column) or ""
+  fail(where .. "'" .. parameter.name .. "' is a part of '" .. whole .. "', which " .. lack .. "; take '" .. whole ..
+       "' as a whole, and let the codel look")
+end
+
 -- Where a parameter of a codel lies: an expression in C++, with `ids` and `data` as pointers; and its type.
 local function place(component, owner, parameter)
   local path, expression, type = parameter.path, nil, nil
@@ -136,18 +152,14 @@ local function place(component, owner, parameter)
   for at = from, #path do
     local step = path[at]
     local final = execution.declared(type)
-    while final.kind == "optional" do
-      expression, type = expression .. "._value", final.type
-      final = execution.declared(type)
-    end
+    if may_lack[final.kind] then refuse_part(parameter, at, may_lack[final.kind]) end
     if math.type(step) then
-      expression = expression .. (final.kind == "sequence" and component.lang == "c" and "._buffer[" or "[") .. step .. "]"
-      type = final.type
+      expression, type = expression .. "[" .. step .. "]", final.type
     else
       for _, member in ipairs(final.members) do
         if member.name == step then type = member.type end
       end
-      expression = expression .. (final.kind == "union" and "._u." or ".") .. step
+      expression = expression .. "." .. step
     end
   end
   return expression, type

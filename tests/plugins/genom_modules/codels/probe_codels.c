@@ -79,7 +79,8 @@ genom_event do_aim(const probe_aimed *aimed, const genom_context self) {
   return probe_pause_aim;
 }
 
-genom_event do_guess(const probe_aimed *aimed, const genom_context self) {
+genom_event do_guess(bool looks, const probe_sighted *sighted, const probe_aimed *aimed, const genom_context self) {
+  if (looks) sighted->read(self);
   aimed->write(self);
   return probe_pause_start;
 }
