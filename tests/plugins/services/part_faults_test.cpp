@@ -97,6 +97,7 @@ void EndureAtOnce(const std::function<bool(Host&)>& make, void (PartWorld::*expe
       },
       [&](bool has_struck) {
         if (has_struck) (void)make(world->host);
+        ASSERT_TRUE(world->runtime.MakeReady(world->runtime.root()));
         (*world.*expect_it_works)();
         world = std::make_unique<PartWorld>();
       });
