@@ -48,8 +48,13 @@ class Blackboard final {
     Access(Access&&) = delete;
     ~Access() noexcept(false) {
       if (!loan_) return;
-      if (is_discarded_ || std::uncaught_exceptions() > exceptions_) {
-        board_.PublishAsItWas(std::move(loan_));
+      const bool is_thrown = std::uncaught_exceptions() > exceptions_;
+      if (is_discarded_ || is_thrown) {
+        try {
+          board_.PublishAsItWas(std::move(loan_));
+        } catch (...) {  // nobody has seen the buffer, and it is copied before it is used again
+          if (!is_thrown) throw;
+        }
       } else {
         board_.journal_begin_ = board_.revision() + 2;  // buffers of before are copied
         board_.Publish(std::move(loan_));
@@ -113,6 +118,8 @@ class Blackboard final {
     Result<void> applied;
     try {
       applied = Apply(*loan, request.change);
+      // Of what is thrown half-way nothing may stay in the journal.
+      if (applied && !journal_.empty()) journal_[(revision() + 1) % journal_.size()] = request.change;
     } catch (...) {
       PublishAsItWas(std::move(loan));
       throw;
@@ -121,7 +128,6 @@ class Blackboard final {
       PublishAsItWas(std::move(loan));
       return applied.error();
     }
-    if (!journal_.empty()) journal_[(revision() + 1) % journal_.size()] = request.change;
     Publish(std::move(loan));
     return CommitReply{true, revision()};
   }
@@ -172,8 +178,8 @@ class Blackboard final {
   // Half changed: it becomes the newest again, as one more publication, since whoever comes by a swap could not tell
   // the buffer from one that has not been touched.
   void PublishAsItWas(Loan<T>&& loan) {
+    journal_begin_ = revision() + 2;  // whatever comes of it
     CopyNewest(*loan);
-    journal_begin_ = revision() + 2;
     Publish(std::move(loan));
   }
 

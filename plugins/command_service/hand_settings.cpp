@@ -85,8 +85,9 @@ Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path, con
   if (!found) return found.error();
   const auto made = ValueOf(**found, value);
   if (!made) return made.error();
+  std::string at = (*found)->path();  // before it is done
   if (auto published = PublishByHand(**found, made->get()); !published) return published.error();
-  return (*found)->path();
+  return at;
 }
 
 Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, RobotStop::AsOf as_of) {
@@ -99,7 +100,8 @@ Result<std::string> ReleasePort(Runtime& runtime, const std::string& path, Robot
   if (as_of.asked && HasChangedSince(**found, *as_of.asked)) {
     return At(**found, "was blocked or set by hand after this was asked for; look why, then ask again");
   }
-  if (Free(**found)) return (*found)->path();
+  std::string at = (*found)->path();  // before it is done
+  if (Free(**found)) return at;
   return At(**found, "is not set by hand");
 }
 
@@ -132,9 +134,10 @@ Result<std::string> HandSettings::Block(const BlockRequest& request) {
   const std::lock_guard structure(runtime_.structure_mutex());
   const auto found = PathSearch(runtime_).FindPort(request.port, PathKind::kElement);
   if (!found) return found.error();
+  std::string at = (*found)->path();
   if (auto blocked = (*found)->Block(); !blocked) return blocked.error();
   (*found)->Release();  // whoever drove it lets go first
-  return (*found)->path();
+  return at;
 }
 
 Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& request, RobotStop::AsOf as_of) {
@@ -164,7 +167,8 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
   const Slot slot = HandSlot::Of(port);
   const auto fill = internal::FillWith(value);
   std::uint64_t number = 0;
-  // Under the slot's mutex: noted first, so that nothing that is thrown leaves a value without its deadline.
+  // Under the slot's mutex: noted first, so that nothing that is thrown leaves a value without its deadline, or one that is
+  // not published again.
   auto done = port.PublishByHand([&](void* to) -> Result<void> {
     if (auto counts = runtime_.robot_stop().CheckIsKnown(as_of); !counts) return At(port, counts.error().message);
     if (!slot->hold) slot->hold = std::make_unique<HandHold>(ended_);
@@ -176,14 +180,15 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
     hold.path = published.port;
     hold.number = number = ++count_;
     if (request.deadline) WatchOver(slot);
-    return fill(to);
+    auto filled = fill(to);
+    if (filled && request.rate) PublishAgainAndAgain(slot, value, number, *request.rate, as_of);
+    return filled;
   });
   if (!done) {
     const std::lock_guard lock(slot->mutex);
     if (slot->stand_in == nullptr) slot->hold.reset();
     return done.error();
   }
-  if (request.rate) PublishAgainAndAgain(slot, value, number, *request.rate, as_of);
   return published;
 }
 

@@ -59,13 +59,15 @@ ComponentModule::ComponentModule(const Placement& placement, const genom_executi
       ids_(ids),
       genom_state(this, "genom_state", {.description = "tasks and running activities"}),
       kill(*this, "kill", Engine::KillService(),
-           {.service = {.description = "ends all activities, then the component"}}),
-      abort_activity(*this, "abort_activity", Engine::AbortService(),
-                     {.service = {.description = "interrupts one activity", .arguments = {"id"}},
-                      .required = {"id"},
-                      .fill = [](genom_execution::Request& request, auto& arguments) {
-                        WithArguments<std::uint32_t>(arguments, [&](std::uint32_t id) { request.abort_id = id; });
-                      }}) {
+           {.service = ServiceOptions{.description = "ends all activities, then the component"}}),
+      abort_activity(
+          *this, "abort_activity", Engine::AbortService(),
+          // Its type is said, since GCC 12 destroys what was not made if memory runs out within braces alone.
+          {.service = ServiceOptions{.description = "interrupts one activity", .arguments = {"id"}},
+           .required = {"id"},
+           .fill = [](genom_execution::Request& request, auto& arguments) {
+             WithArguments<std::uint32_t>(arguments, [&](std::uint32_t id) { request.abort_id = id; });
+           }}) {
   Annotate(std::make_unique<BeforeHandOver>([this] {
     Settle();
     return nullptr;
@@ -114,15 +116,16 @@ Result<void> ComponentModule::Prepare() {
   return {};
 }
 
-// Prepared after the component.
+// Prepared after the component. Those that are there are of a Prepare() that has failed.
 void ComponentModule::MakeTasks() {
   own_tasks_.resize(component_.tasks.size());
   for (std::size_t i = 0; i < own_tasks_.size(); ++i) {
     const std::string& thread = thread_names_[i].Get();
-    if (thread.empty()) continue;
-    own_tasks_[i] = std::make_unique<WakeTarget>();
+    if (thread.empty() || own_tasks_[i] != nullptr) continue;
+    auto target = std::make_unique<WakeTarget>();
     runtime().Adopt(std::make_unique<TaskModule>(Placement{*this, std::string("task_") + component_.tasks[i].name},
-                                                 *this, i, thread, *own_tasks_[i]));
+                                                 *this, i, thread, *target));
+    own_tasks_[i] = std::move(target);
   }
 }
 

@@ -61,13 +61,14 @@ void ComponentServiceBase::BeforePasses(Engine& engine, Time now) {
 void ComponentServiceBase::Begin(Engine& engine, UnderWay& each, Time now) {
   ServiceEndpoint* const at = endpoint();
   while (CallBase* const call = at->Take(now, port().runtime().robot_stop())) {
+    each.call = call;  // first: what is thrown ends it (AfterFault())
     Fill(each.request, *call);
     if (!engine.Send(each.request)) {
+      each.call = nullptr;
       at->End(*call, CallStatus::kBusy, "too many requests wait for the component");
       continue;
     }
     call->begun_at = now;
-    each.call = call;
     each.is_interrupted = false;
     each.is_abort_asked.store(false, std::memory_order_relaxed);
     ++count_;

@@ -99,9 +99,10 @@ Result<void> NetworkElement::TakeOtherwise(Take& known, const TakeOptions& take)
   }
   auto form = ValueFormOf(take, known.output->type());
   if (!form) return form.error();
-  known.options = take;
-  known.form = std::move(*form);
+  TakeOptions now = take;  // all that needs memory comes before something is another one
   known.output->Annotate(std::make_unique<DistantPort>(""));
+  known.options = std::move(now);
+  known.form = std::move(*form);
   if (on_change_) on_change_();
   return {};
 }
@@ -129,14 +130,18 @@ Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& t
   }
   auto form = ValueFormOf(take, type);
   if (!form) return form.error();
+  Take taken{take, nullptr, std::move(*form)};
+  takes_.reserve(takes_.size() + 1);
   const auto made = MakeOutput(take.topic, type, unit);
   if (!made) return made.error();
-  takes_.push_back({take, *made, std::move(*form)});
+  taken.output = *made;
+  takes_.push_back(std::move(taken));
   if (on_change_) on_change_();
   return *made;
 }
 
-Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo& type, const std::string& unit) {
+Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo& type, const std::string& unit,
+                                         const std::function<void(Port&)>& finish) {
   const TypedPorts* const typed = FindTypedPorts(type);
   FrameworkElement* group = this;
   const auto words = SplitPath(name);
@@ -157,10 +162,11 @@ Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo
                                                      {.description = "from the network: " + name, .unit = unit});
   if (output == nullptr) return Error{.message = "values of type " + type.name() + " can be made by a module only"};
   Port* const made = output.get();
-  runtime().Adopt(std::move(output));
+  finish(*made);
   if (life_cycle() == LifeCycle::kReady) {
     if (const auto ready = runtime().MakeReady(*this); !ready) return ready.error();
   }
+  runtime().Adopt(std::move(output));  // last: what fails before leaves no output behind
   return made;
 }
 
@@ -203,11 +209,15 @@ Result<Port*> NetworkElement::AddServiceTake(const ServiceTakeOptions& take, con
   const MessageLibrary& messages = options_.messages != nullptr ? *options_.messages : MessageLibrary::Standard();
   auto form = ServiceForm::Make(calls->arguments(), calls->reply(), take.as, messages);
   if (!form) return form.error();
-  const auto output = MakeOutput(take.service, client.type());
+  ServiceTake taken{take, nullptr, {}, std::make_shared<DistantService>(std::move(calls), std::move(*form))};
+  service_takes_.reserve(service_takes_.size() + 1);
+  const auto output = MakeOutput(take.service, client.type(), {}, [&](Port& made) {
+    DistantService::PublishBy(made, taken.service);
+    taken.path = made.path();
+  });
   if (!output) return output.error();
-  const auto service = std::make_shared<DistantService>(std::move(calls), std::move(*form));
-  DistantService::PublishBy(**output, service);
-  service_takes_.push_back({take, *output, (*output)->path(), service});
+  taken.output = *output;
+  service_takes_.push_back(std::move(taken));
   if (on_change_) on_change_();
   return *output;
 }

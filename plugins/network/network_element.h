@@ -79,8 +79,10 @@ class NetworkElement final : public FrameworkElement {
   void set_on_change(std::function<void()> on_change) { on_change_ = std::move(on_change); }
 
  private:
-  /// An output of this type below the groups that the name says.
-  Result<Port*> MakeOutput(const std::string& name, const TypeInfo& type, const std::string& unit = {});
+  /// An output of this type below the groups that the name says. `finish`: while nobody can find it.
+  Result<Port*> MakeOutput(
+      const std::string& name, const TypeInfo& type, const std::string& unit,
+      const std::function<void(Port&)>& finish = [](Port&) {});
   [[nodiscard]] Result<std::shared_ptr<const ValueForm>> ValueFormOf(const TakeOptions& take,
                                                                      const TypeInfo& type) const;
   Result<void> TakeOtherwise(Take& known, const TakeOptions& take);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/retry.h"
 #include "core/conversion/conversion.h"
 #include "core/paths/late_connections.h"
 #include "core/port/probe_port.h"
@@ -73,7 +74,8 @@ Result<Port*> NetworkPorts::MakeOutput(const std::string& path, const OfferedTyp
   TakeOptions options = OptionsOf(path);
   options.as = offered.message;
   const auto made = network_->AddTake(options, *offered.type.type, offered.type.unit);
-  if (made) (*made)->Annotate(std::make_unique<DistantPort>(path));
+  // It is taken, and without its path would be saved as another one.
+  if (made) Retry([&] { (*made)->Annotate(std::make_unique<DistantPort>(path)); });
   return made;
 }
 

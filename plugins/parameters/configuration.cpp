@@ -43,7 +43,7 @@ class FileReader {
     CheckAttributes(root, {}, diagnostics_);
     ReadContents(root, "");
   }
-  [[nodiscard]] const Entries& entries() const noexcept { return entries_; }
+  [[nodiscard]] Entries& entries() noexcept { return entries_; }
 
  private:
   void ReadContents(XmlElement element, const std::string& path) {
@@ -120,8 +120,9 @@ void Configuration::Load(const std::string& file, Diagnostics& diagnostics) {
     is_warning ? diagnostics.AddWarning(error) : diagnostics.Add(error);
   }
   if (!problems.ok() && !is_warning) return;
-  for (const auto& [path, entry] : reader.entries()) entries_[path] = entry;
   files_.push_back({file, *text});
+  reader.entries().merge(entries_);  // needs no memory
+  entries_.swap(reader.entries());
 }
 
 Result<void> Configuration::AddArgument(std::string_view argument) {

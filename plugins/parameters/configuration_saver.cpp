@@ -8,6 +8,7 @@
 
 #include "core/base/characters.h"
 #include "core/base/replace_file.h"
+#include "core/base/retry.h"
 #include "core/element/configurable.h"
 #include "core/element/element_path.h"
 #include "core/element/runtime.h"
@@ -143,15 +144,11 @@ class FileChange {
     const bool is_of_finroc = document_.root().name() != "configuration";
     AddTo(lacking.second, is_of_finroc ? "node" : "section", names, used, TextIn(folder(), entry));
   }
-  Result<std::string> Write() {
+  std::string Text() {
     for (auto& [place, lacking] : lacking_) {
       for (NewElement& each : lacking.second) editor_.Append(lacking.first, std::move(each));
     }
-    if (!editor_.has_changes()) return source_.text;
-    std::string text = editor_.Finish();
-    if (auto kept = KeepBackup(source_.name); !kept) return kept.error();
-    if (auto written = ReplaceFile(source_.name, text); !written) return written.error();
-    return text;
+    return editor_.has_changes() ? editor_.Finish() : source_.text;
   }
 
  private:
@@ -164,14 +161,19 @@ class FileChange {
   std::map<std::size_t, std::pair<XmlElement, Contents>> lacking_;
 };
 
+Result<void> Write(const fs::path& file, const std::string& text) {
+  if (auto kept = KeepBackup(file); !kept) return kept;
+  return ReplaceFile(file, text);
+}
+
 Result<std::string> WriteAll(const std::vector<Entry>& entries, const fs::path& to) {
   NewElement root{.name = "configuration"};
   for (const Entry& each : entries) {
     AddTo(root.children, "section", SplitPath(each.path), 0, TextIn(to.parent_path(), each));
   }
-  if (auto kept = KeepBackup(to); !kept) return kept.error();
-  if (auto written = ReplaceFile(to, ElementText(root)); !written) return written.error();
-  return "saved " + std::to_string(entries.size()) + " values to " + to.string();
+  std::string done = "saved " + std::to_string(entries.size()) + " values to " + to.string();
+  if (auto written = Write(to, ElementText(root)); !written) return written.error();
+  return done;
 }
 
 }  // namespace
@@ -201,21 +203,31 @@ Result<std::string> SaveConfiguration(FrameworkElement& application, const fs::p
     const bool is_set = std::any_of(files.rbegin(), files.rend(), [&](const auto& file) { return file->Set(each); });
     if (!is_set) files.back()->Add(each);
   }
+  // All that needs memory comes before a file is another one.
+  std::vector<std::string> texts;
   std::string names;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    auto text = files[i]->Write();
-    if (!text) return text.error();
+    texts.push_back(files[i]->Text());
+    const Configuration::File& file = source->files[i];
+    if (texts[i] != file.text) names += (names.empty() ? "" : ", ") + file.name;
+  }
+  std::string done = count == 0
+                         ? "no value has changed"
+                         : "saved " + std::to_string(count) + (count == 1 ? " value" : " values") + " to " + names;
+  for (std::size_t i = 0; i < files.size(); ++i) {
     Configuration::File& file = source->files[i];
-    if (*text != file.text) names += (names.empty() ? "" : ", ") + file.name;
-    file.text = std::move(*text);
+    if (texts[i] == file.text) continue;
+    if (auto written = Write(file.name, texts[i]); !written) return written.error();
+    file.text = std::move(texts[i]);
   }
   for (const Entry& each : *entries) {
     if (!each.has_changed) continue;
-    each.parameter->Annotate(std::make_unique<LoadedValue>(each.text));
-    each.parameter->Annotate(std::make_unique<ConfigurationEntry>(each.path));
+    Retry([&] {
+      each.parameter->Annotate(std::make_unique<LoadedValue>(each.text));
+      each.parameter->Annotate(std::make_unique<ConfigurationEntry>(each.path));
+    });
   }
-  if (count == 0) return std::string("no value has changed");
-  return "saved " + std::to_string(count) + (count == 1 ? " value" : " values") + " to " + names;
+  return done;
 }
 
 }  // namespace runnel

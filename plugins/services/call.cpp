@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
 
 namespace runnel {
@@ -63,8 +64,10 @@ void RetireCalls(std::unique_ptr<CallSlots> calls) {
   static std::mutex mutex;
   static std::vector<std::unique_ptr<CallSlots>> retired;
   const std::lock_guard lock(mutex);
-  if (calls) retired.push_back(std::move(calls));
   std::erase_if(retired, [](const auto& each) { return each->is_quiet(); });
+  if (!calls || calls->is_quiet()) return;
+  // For destructors, which have nobody to tell. What is not kept is lost: a service still writes there.
+  if (!Retry([&] { retired.push_back(std::move(calls)); })) (void)calls.release();
 }
 
 }  // namespace runnel

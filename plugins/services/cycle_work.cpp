@@ -11,15 +11,16 @@ CycleWork* CycleWork::Add(FrameworkElement& element, CyclePart& part) {
   FrameworkElement* module = &element;
   while (module != nullptr && module->FindAnnotation<Executable>() == nullptr) module = module->parent();
   if (module == nullptr) return nullptr;
-  auto* work = module->FindAnnotation<CycleWork>();
-  if (work == nullptr) {
-    work = &module->Annotate(std::make_unique<CycleWork>());
-    work->element_ = module;
-    const Executable inner = *module->FindAnnotation<Executable>();
-    module->Annotate(std::make_unique<Executable>([work, inner] { return work->Wrap(inner.tasks()); }));
+  CycleWork* const work = &module->FindOrAnnotate<CycleWork>();
+  // Done as a whole, or again the next time.
+  if (work->element_ == nullptr) {
+    auto executable = std::make_unique<Executable>(
+        [work, inner = *module->FindAnnotation<Executable>()] { return work->Wrap(inner.tasks()); });
     module->Annotate(std::make_unique<WakeSource>([work](Waker* waker) {
       for (CyclePart* each : work->parts_) each->SetWaker(waker);
     }));
+    module->Annotate(std::move(executable));  // in the place of the other one: needs no memory
+    work->element_ = module;
   }
   work->parts_.push_back(&part);
   return work;

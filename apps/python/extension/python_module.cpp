@@ -204,8 +204,8 @@ void PythonModule::MakeServices(const py::dict& described) {
 }
 
 Result<void> PythonModule::Prepare() {
-  GoToOwnThread();
   WithPython([&] { (void)object_.attr("prepare")(); });
+  GoToOwnThread();  // last: what throws leaves no thread behind
   return {};
 }
 

@@ -188,6 +188,29 @@ TEST(DrivingFaults, WhatIsPublishedHasItsDeadline) {
   EXPECT_GT(points, 2u);
 }
 
+TEST(DrivingFaults, WhatCannotBePublishedAgainIsNotPublishedAtAll) {
+  auto robot = std::make_unique<Driven>();
+  bool is_published = false;
+  const std::size_t points = AtEachPoint(
+      InjectedFault::kAllocation,
+      [&] {
+        is_published = false;
+        try {
+          is_published = robot->by_hand.Publish({"/base/input/speed", "0.3", 10.0}).has_value();
+        } catch (const std::bad_alloc&) {
+        }
+      },
+      [&](bool has_struck) {
+        ASSERT_TRUE(has_struck || is_published);
+        ASSERT_EQ(robot->base.speed.is_set_by_hand(), is_published);
+        ASSERT_EQ(robot->base.speed.Get(), is_published ? 0.3 : 0.0);
+        ASSERT_TRUE(robot->by_hand.Publish({"/base/input/speed", "0.2", 10.0}));
+        ASSERT_EQ(robot->base.speed.Get(), 0.2);
+        robot = std::make_unique<Driven>();
+      });
+  EXPECT_GT(points, 2u);
+}
+
 TEST(DrivingFaults, WhoWatchesTheDeadlinesGoesOn) {
   auto robot = std::make_unique<Driven>();
   const auto begin = [&] {

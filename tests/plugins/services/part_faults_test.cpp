@@ -49,18 +49,64 @@ class Host final : public Module {
   void Update() override { ++cycles; }
 };
 
+struct PartWorld {
+  PartWorld() {
+    CreateThread(runtime, "fast", {.period = 10ms});
+    (void)runtime.MakeReady(runtime.root());
+  }
+  void Run() { EXPECT_TRUE(scheduler.RunUntil(runtime.clock().Now() + 20ms)); }
+  /// A call from beside the module is answered.
+  void ExpectServed() {
+    Client<int(int)> asker{runtime.root(), "asker", {.timeout = 1h}};
+    ASSERT_TRUE(Port::Connect(host.service->port(), asker.port()));
+    auto call = asker.Begin(2);
+    WaitUntil("it is answered", [&] {
+      Run();
+      return call.is_done();
+    });
+    ASSERT_TRUE(call.outcome()) << call.outcome().error();
+    EXPECT_EQ(*call.outcome(), 4);
+  }
+  /// The module is called back.
+  void ExpectCalledBack() {
+    Service<int(int)> answerer{runtime.root(), *this, "answerer", &PartWorld::Double};
+    ASSERT_TRUE(Port::Connect(answerer.port(), host.client->port()));
+    ASSERT_EQ(host.client->Call([this](const auto& outcome) { called_back = *outcome; }, 2), CallStatus::kPending);
+    answerer.Serve();
+    Run();
+    EXPECT_EQ(called_back, 4);
+  }
+  Result<int> Double(int value) { return 2 * value; }
+
+  Runtime runtime;
+  Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated}};
+  Host& host = runtime.Create<Host>(runtime.root(), "host");
+  int called_back = 0;
+};
+
+/// `make` fails at each point, and is tried again before the module runs for the first time: the part works then.
+void EndureAtOnce(const std::function<bool(Host&)>& make, void (PartWorld::*expect_it_works)()) {
+  auto world = std::make_unique<PartWorld>();
+  const std::size_t points = AtEachPoint(
+      InjectedFault::kAllocation,
+      [&] {
+        try {
+          (void)make(world->host);
+        } catch (const std::bad_alloc&) {
+        }
+      },
+      [&](bool has_struck) {
+        if (has_struck) (void)make(world->host);
+        ASSERT_TRUE(world->runtime.MakeReady(world->runtime.root()));
+        (*world.*expect_it_works)();
+        world = std::make_unique<PartWorld>();
+      });
+  EXPECT_GT(points, 5u);
+}
+
 /// `make` fails at each point; the module goes on, has the part at the second try, and is deleted.
 void Endure(const std::function<bool(Host&)>& make) {
-  struct World {
-    World() {
-      CreateThread(runtime, "fast", {.period = 10ms});
-      (void)runtime.MakeReady(runtime.root());
-    }
-    void Run() { EXPECT_TRUE(scheduler.RunUntil(runtime.clock().Now() + 20ms)); }
-    Runtime runtime;
-    Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated}};
-    Host& host = runtime.Create<Host>(runtime.root(), "host");
-  };
+  using World = PartWorld;
   {
     World world;  // what the process does once
     ASSERT_TRUE(make(world.host));
@@ -92,12 +138,15 @@ void Endure(const std::function<bool(Host&)>& make) {
 
 TEST(PartFaults, AServiceIsThereOrNot) {
   Endure([](Host& host) { return host.MakeService(); });
+  EndureAtOnce([](Host& host) { return host.MakeService(); }, &PartWorld::ExpectServed);
 }
 TEST(PartFaults, AnActivityIsThereOrNot) {
   Endure([](Host& host) { return host.MakeActivity(); });
+  EndureAtOnce([](Host& host) { return host.MakeActivity(); }, &PartWorld::ExpectServed);
 }
 TEST(PartFaults, AClientIsThereOrNot) {
   Endure([](Host& host) { return host.MakeClient(); });
+  EndureAtOnce([](Host& host) { return host.MakeClient(); }, &PartWorld::ExpectCalledBack);
 }
 TEST(PartFaults, AServiceOfTypesKnownAtRunTimeIsThereOrNot) {
   Endure([](Host& host) { return host.MakeLateService(); });
@@ -107,6 +156,27 @@ TEST(PartFaults, AnActivityOfTypesKnownAtRunTimeIsThereOrNot) {
 }
 TEST(PartFaults, AClientOfTypesKnownAtRunTimeIsThereOrNot) {
   Endure([](Host& host) { return host.MakeLateClient(); });
+}
+
+// What goes has nobody to tell.
+TEST(PartFaults, APartGoesWithoutMemory) {
+  for (const bool is_under_way : {false, true}) {
+    bool has_struck = true;
+    for (std::size_t nth = 1; has_struck; ++nth) {
+      SCOPED_TRACE(nth);
+      PartWorld world;
+      ASSERT_TRUE(world.host.MakeService() && world.host.MakeClient());
+      ASSERT_TRUE(Port::Connect(world.host.service->port(), world.host.client->port()));
+      if (is_under_way) world.host.client->Send(1);
+      FaultInjection injection(InjectedFault::kAllocation, nth);
+      world.host.client.reset();
+      world.host.service.reset();
+      injection.End();
+      has_struck = injection.has_struck();
+      world.Run();
+      ASSERT_GT(world.host.cycles, 0);
+    }
+  }
 }
 
 }  // namespace

@@ -6,11 +6,18 @@
 
 typedef std::vector<std::string> Trace;
 
+// Of the program, if that has codels fail.
+extern "C" __attribute__((weak)) void InjectionPointForPlugins();
+static void MayFail() {
+  if (InjectionPointForPlugins != nullptr) InjectionPointForPlugins();
+}
+
 struct mill::store_s {
   int passes;
 };
 
 genom::event mill_begin(double& gain, ::mill::store_s*& store, Trace& trace) {
+  MayFail();
   gain = 2;
   store = new mill::store_s();
   trace.clear();
@@ -50,6 +57,7 @@ genom::event mill_rest(::mill::store_s*& store) {
 }
 
 genom::event mill_check(double gain, Trace& trace) {
+  MayFail();
   trace.push_back("check");
   if (gain < 0) throw mill::worn();
   if (gain > 10) {
@@ -62,6 +70,7 @@ genom::event mill_check(double gain, Trace& trace) {
 }
 
 genom::event mill_beep(uint16_t times, int32_t& sum, Trace& trace) {
+  MayFail();
   trace.push_back("beep");
   if (times > 100) throw mill::worn();
   if (times > 10) {
@@ -76,12 +85,14 @@ genom::event mill_beep(uint16_t times, int32_t& sum, Trace& trace) {
 
 genom::event mill_say(const std::string& what, ::shape::side where, const int32_t three[3],
                       const ::shape::reading& seen, const genom::optional<int32_t>& level, std::string& said) {
+  MayFail();
   said = what + (where == shape::right ? " right " : " left ") + std::to_string(three[0] + three[2] + level._value) +
          " " + std::to_string((int)seen.at.y) + " " + std::to_string(seen.trace.size());
   return genom::ok;
 }
 
 genom::event mill_open(const char from[8], const char to[8], ::mill::grain& grain, ::mill::flour& flour, Trace& trace) {
+  MayFail();
   trace.push_back("open");
   grain.read(from);
   flour.open(to);
@@ -90,6 +101,7 @@ genom::event mill_open(const char from[8], const char to[8], ::mill::grain& grai
 
 genom::event mill_pour(const char from[8], const char to[8], const Trace& names, double& value, std::string& said,
                        ::mill::grain& grain, ::mill::flour& flour, Trace& trace) {
+  MayFail();
   trace.push_back("pour");
   value = grain.data(from);
   flour.data(to) = value;
@@ -99,17 +111,20 @@ genom::event mill_pour(const char from[8], const char to[8], const Trace& names,
 }
 
 genom::event mill_last(const std::string& said, Trace& trace) {
+  MayFail();
   trace.push_back("last " + said);
   return mill::ether;
 }
 
 genom::event mill_first(uint32_t times, std::vector<uint32_t>& left, Trace& trace) {
+  MayFail();
   trace.push_back("first");
   for (; times > 0; --times) left.push_back(times);
   return mill::turn;
 }
 
 genom::event mill_turn(std::vector<uint32_t>& left, uint32_t& done) {
+  MayFail();
   if (left.empty()) return mill::ether;
   if (left.back() == 77) throw std::runtime_error("a mistake");
   left.pop_back();
@@ -118,6 +133,7 @@ genom::event mill_turn(std::vector<uint32_t>& left, uint32_t& done) {
 }
 
 genom::event mill_stop(const std::vector<uint32_t>& left, uint32_t& done, Trace& trace) {
+  MayFail();
   trace.push_back("stop");
   done = (uint32_t)(1000 + left.size());
   return mill::ether;
