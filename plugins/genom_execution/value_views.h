@@ -82,6 +82,7 @@ struct ListInPlace<E, most, true> {
   ListInPlace& operator=(const ListInPlace& other) {
     if (this == &other) return *this;
     std::destroy_n(buffer, length);
+    length = 0;
     std::uninitialized_copy_n(other.buffer, other.length, buffer);
     length = other.length;
     return *this;
