@@ -19,6 +19,7 @@ constexpr const char* kDescription =
     "};\n"
     "  union u switch(e) { case A: string<4> s; default: tree t; }; const double half = 0.5; const boolean yes = "
     "TRUE;\n"
+    "  const string said = \"a \\\"word\\\"\nin two lines\"; const char letter = 'x'; const char quote = \"\\\"\";\n"
     "  typedef string<8> name; typedef double row[3]; typedef sequence<row, 2> rows; typedef optional<u> maybe; };\n"
     "interface other { function f(in m::u a, out m::name n, in string s, out double d); };\n"
     "component c { uses other; native tool; exception late { double by; }; exception lost;\n"
@@ -47,7 +48,7 @@ constexpr const char* kFilled =
     "  q->open(\"one\", self);\n  (*q->data(\"one\", self))[0] = 'x';\n"
     "  e = f->call(seen, name, *s, &d, self);\n  detail.by = d + row[0];\n"
     "  if (k == m_B && all->o._present && m_yes) return c_late(&detail, self);\n"
-    "  *x = *s;\n  *made = (c_tool *)0;\n  return own ? c_ether : e;\n}\n";
+    "  *x = *s;\n  *made = (c_tool *)0;\n  return own && m_said[2] == m_quote && m_letter == 'x' ? c_ether : e;\n}\n";
 
 bool Compiles(const std::filesystem::path& folder, const std::string& compiler, const std::string& file) {
   return std::system(("cd '" + folder.string() + "' && " + compiler + " -Wall -Wextra -Werror -fsyntax-only " + file)

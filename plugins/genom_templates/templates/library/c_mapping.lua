@@ -155,4 +155,12 @@ function mapping.event(component, event)
   return component .. "_" .. event
 end
 
+-- The value of a constant as C and C++ write it. Backslashes of texts stay: the description has them as C does.
+function mapping.constant(type, value)
+  if value == true or value == false then return tostring(value) end
+  if math.type(value) then return mapping.number(type, value, "ull") end
+  if mapping.final(type).kind == "char" then return string.format("%d", (string.unpack("b", value .. "\0"))) end
+  return '"' .. value:gsub('"', '\\"'):gsub("\n", "\\n") .. '"'
+end
+
 return mapping
