@@ -1,5 +1,6 @@
 #include "apps/python/extension/interpreter.h"
 
+#include <cstdlib>
 #include <utility>
 
 #include "apps/python/extension/errors.h"
@@ -15,7 +16,16 @@ void CheckMayWait() {
          .hint = "use the module's own ports, parameters and clients, or another thread"});
 }
 
+void EndChild(py::handle error) {
+  try {
+    py::module_::import("runnel._modules").attr("end_child")(error);
+  } catch (const std::exception&) {  // nobody is left to be told
+  }
+  std::_Exit(1);
+}
+
 bool KeepInterrupt(const py::error_already_set& thrown) {
+  if (this_thread_place.cycles <= 0) EndChild(thrown.value());
   if (this_thread_place.calls == 0 || thrown.matches(PyExc_Exception)) return false;
   this_thread_place.interrupt = std::make_exception_ptr(thrown);
   return true;

@@ -33,8 +33,19 @@ struct ThreadPlace {
 };
 inline thread_local ThreadPlace this_thread_place;
 
-/// The GIL for who runs a cycle or a service, or has a lock: nothing is waited for until it is given back.
+/// In a forked child: `error` has ended what it was forked in, or None.
+[[noreturn]] void EndChild(pybind11::handle error);
+
+/// The GIL for who runs a cycle or a service, or has a lock: nothing is waited for until it is given back. A child that
+/// was forked meanwhile ends then: it has none of the other threads, and what would go on is its parent's.
 class GilInCycle {
+ public:
+  GilInCycle() = default;
+  ~GilInCycle() {
+    if (this_thread_place.cycles <= 0) EndChild(pybind11::none());
+  }
+
+ private:
   Counted<int> within_{this_thread_place.cycles};
   pybind11::gil_scoped_acquire gil_;  // given back first, for that may end objects
 };
@@ -43,7 +54,7 @@ class GilInCycle {
 void CheckMayWait();
 
 /// Keeps what is no error but ends a program (KeyboardInterrupt, SystemExit) for the call in which this thread runs cycles.
-/// False: it is an error, or no call does. With the GIL.
+/// False: it is an error, or no call does. In a cycle, with the GIL; a child that was forked in it ends.
 bool KeepInterrupt(const pybind11::error_already_set& thrown);
 /// Throws what has been kept.
 void ThrowInterrupt();

@@ -288,6 +288,20 @@ def _placed(message, file="", line=0, hint=""):
     return error
 
 
+def end_child(error):
+    """A child that was forked in update(), a service or a callback ends where that does."""
+    code = getattr(error, "code", 1)
+    if error is None or code is None:
+        code = 0
+    elif not isinstance(error, SystemExit) or not isinstance(code, int):
+        traceback.print_exception(error)
+        code = 1
+    for each in sys.stdout, sys.stderr:
+        if each is not None:
+            each.flush()
+    os._exit(code)
+
+
 def _as_utf8(text):
     # Half a surrogate pair is text in Python, and in no log.
     return text.encode("utf-8", "backslashreplace").decode()

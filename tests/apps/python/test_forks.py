@@ -1,5 +1,7 @@
 """Processes that are forked while applications are open."""
 
+import pytest
+
 from own_process import ends_well
 
 
@@ -84,3 +86,31 @@ def test_a_child_does_not_end_its_parents_recording():
     app.close()
     print("done")
     ''')
+
+
+@pytest.mark.parametrize("clock", ["simulated", "real"])
+@pytest.mark.parametrize("end, code", [("return", 0), ("sys.exit(7)", 7), ("raise ValueError('of the child')", 1)])
+def test_a_child_that_is_forked_in_update_ends_there(clock, end, code):
+    told = ends_well(f"""
+    class Forking(runnel.Module):
+        period = 0.002
+        out = runnel.Output("double")
+        child = None
+
+        def update(self):
+            if Forking.child is None:
+                Forking.child = os.fork()
+                if Forking.child == 0:
+                    {end}
+            self.out.publish(1.0)
+
+    app = ticking(Forking, clock="{clock}", start={clock == "real"})
+    reader = app.reader("/tick/out")
+    if not app.is_running:
+        app.run_for(0.1)
+    assert reader.wait(20)
+    assert os.waitstatus_to_exitcode(os.waitpid(Forking.child, 0)[1]) == {code}
+    app.close()
+    print("done")
+    """)
+    assert ("of the child" in told) == (code == 1), told

@@ -152,6 +152,25 @@ test('a press on the scroll bar of a dialog leaves it open, one beside it closes
   await inspector.closed();
 });
 
+test('Ctrl+S in a dialog is not the browser\'s, and the focus of a menu has an outline', async (t) => {
+  const { inspector, page } = await OpenMock(t);
+  await Press(page, 'a');
+  await page.locator('.choice-search').waitFor();
+  assert.ok(await page.locator('.choice-search').evaluate((field) => {
+    const key = new KeyboardEvent('keydown', { key: 's', ctrlKey: true, bubbles: true, cancelable: true });
+    field.dispatchEvent(key);
+    return key.defaultPrevented;
+  }));
+  await page.keyboard.press('Escape');
+  await inspector.closed();
+  await inspector.select('/mock/robot/planner');
+  await Press(page, 'Shift+F10');
+  const item = page.locator('[role="menu"] button:focus');
+  await item.waitFor();
+  await page.keyboard.press('ArrowDown');
+  assert.equal(await item.evaluate((button) => getComputedStyle(button).outlineStyle), 'solid');
+});
+
 test('"New group" has the name that was typed', async (t) => {
   const { inspector, page } = await OpenMock(t);
   await Press(page, 'a');

@@ -33,7 +33,11 @@ export function Dialog({ title, children, className = '', style }) {
     const isWithin = x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
     if (target === element.current && !isWithin) CloseDialog();
   };
+  const onKeyDown = (event) => {
+    event.stopPropagation();
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 's') event.preventDefault(); // browsers save their page by it
+  };
   return html`<dialog ref=${element} class=${className} style=${style} aria-label=${title} onClose=${() => CloseDialog()}
-      onPointerDown=${onPointerDown} onKeyDown=${(event) => event.stopPropagation()}>
+      onPointerDown=${onPointerDown} onKeyDown=${onKeyDown}>
     <div class="dialog-body">${children}</div></dialog>`;
 }
