@@ -74,7 +74,9 @@ void ViewerSession::SendValues(SteadyTime now) {
 }
 
 std::optional<std::uint64_t> ViewerSession::LookAt(Watch& watch, std::string& item) const {
+  const std::size_t begin = item.size();
   return watch.port.VisitIfNew([&](const void* value, ValueTimes times) {
+    item.resize(begin);  // the look before was at a value that another one replaced meanwhile
     item += ",\"stamp\":";
     AppendJsonNumber(ToSeconds(times.publication_time - inspection_.start()), item);
     if (times.timestamp != times.publication_time) {
