@@ -26,14 +26,15 @@ def _leads_to(value, before):
     met, ahead = set(), [value]
     while ahead:
         each = ahead.pop()
+        kind = type(each)  # which isinstance() would ask a proxy for
         if each is before or each is before._runnel_host:
             return True
-        if id(each) in met or isinstance(each, (type, types.ModuleType)):
+        if id(each) in met or issubclass(kind, (type, types.ModuleType)):
             continue
         met.add(id(each))
-        if isinstance(each, types.FunctionType):  # without all else that its file has
+        if kind is types.FunctionType:  # without all else that its file has
             ahead += [each.__closure__, each.__defaults__, each.__kwdefaults__]
-        elif isinstance(each, weakref.ref):
+        elif issubclass(kind, weakref.ref):
             ahead.append(each())
         elif gc.is_tracked(each):
             ahead += gc.get_referents(each)
@@ -61,6 +62,14 @@ def _add_successors(memo, before, after):
             _add_successors(memo, vars(old), vars(new))
 
 
+def _attribute_of(method):
+    """The name by which an object has a method: a private one has that of its class before its own."""
+    name = method.__name__
+    if not name.startswith("__") or name.endswith("__"):
+        return name
+    return f"_{method.__qualname__.split('.')[-2].lstrip('_')}{name}"
+
+
 def take_over(module, before):
     """The attributes of the module that was there before; copies, as it may come back. What leads to that module, has its ports, or is
     described by the class (a port, a parameter, a method) is that of the new one: else it would go on with the old one, and its code."""
@@ -69,8 +78,8 @@ def take_over(module, before):
     begun = []  # kept to the end, as a copy remembers the address of what it is noted in
     for name, value in vars(before).items():
         described = hasattr(type(getattr(type(module), name, None)), "__get__") or name in module._runnel_ports
-        if isinstance(value, types.MethodType) and value.__self__ is before:  # the state that it is in, say
-            value = getattr(module, value.__name__, value)
+        if type(value) is types.MethodType and value.__self__ is before:  # the state that it is in, say
+            value = getattr(module, _attribute_of(value), value)
         if name.startswith("_runnel_") or described or _leads_to(value, before):
             continue
         try:

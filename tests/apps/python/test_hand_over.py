@@ -8,6 +8,7 @@ import runnel
 
 HOLD = '''
 import functools
+import weakref
 
 import runnel
 
@@ -27,12 +28,21 @@ class Hold(runnel.Module):
         self.short = lambda: self.gain
         self.machine = Machine(self)
         self.state = self.begun
+        self.private = self.__begun
+        gone = Machine(None)
+        self.proxy = weakref.proxy(gone)
         self.n = 0
         self.list = [0]
         self.same = self.list
         self.speed = 0.4
         self.goal = None
         self.limit = 3
+
+    def __begun(self):
+        return 0
+
+    def __goes_on(self):
+        return FACTOR
 
     def begun(self):
         self.state = self.goes_on
@@ -46,9 +56,11 @@ class Hold(runnel.Module):
 
     def update(self):
         self.n += 1
+        if self.n == 5:
+            self.private = self.__goes_on
         self.list.append(self.n)
         self.seen.publish([self.steps["go"](), self.later[0](), self.short(), self.machine.module.go(), float(self.n),
-                           float(self.list is self.same), self.state()])
+                           float(self.list is self.same), self.state(), float(self.private())])
 '''
 
 
@@ -66,8 +78,9 @@ def test_what_knows_the_module_before_is_not_handed_over(app, empty_folder):
     app.swap("/hold", "python/hold.Hold")
     app["/hold/gain"] = 7.0
     app.run_for(0.1)
-    go, later, short, machine, n, is_same, state = app.read("/hold/seen")
+    go, later, short, machine, n, is_same, state, private = app.read("/hold/seen")
     assert [go, later, short, machine] == [7, 7, 7, 7]
+    assert private == 1, "so does a private one"
     assert state == 7, "a method goes over as the one of the new module"
     assert n > 20 and is_same, "what it has counted goes over, and two names of one list are still that"
     (empty_folder / "hold.py").write_text(HOLD.replace("FACTOR", "10"))
