@@ -160,19 +160,6 @@ TEST(LoggerRingTest, WhatFindsNoRoomIsCounted) {
             std::to_string(400 - (messages.size() - 1)) + " messages were lost: the log is read too slowly");
 }
 
-// For ThreadSanitizer: a part of the runtime that several threads work for has one.
-TEST_F(LoggerTest, SeveralThreadsSpeakByOneLogger) {
-  auto& shared = runtime.Create<Speaker>(runtime.root(), "shared");
-  std::vector<std::thread> threads;
-  for (int number = 0; number < 3; ++number) {
-    threads.emplace_back([&shared, number] {
-      for (int i = 0; i < 20; ++i) shared.log.Info("{} {}", number, i);
-    });
-  }
-  for (auto& thread : threads) thread.join();
-  EXPECT_EQ(listener.messages().size(), 3u * 20);
-}
-
 // For ThreadSanitizer: rings change hands, elements go, sinks come and go meanwhile.
 TEST_F(LoggerTest, ManyThreadsSpeakWhileElementsAndSinksComeAndGo) {
   std::vector<std::thread> threads;
