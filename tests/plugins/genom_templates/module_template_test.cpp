@@ -64,7 +64,7 @@ TEST(ModuleTemplateTest, PartsOfWhatMayNotBeThereAreNoParameters) {
         rest + " };\n");
   };
   EXPECT_THAT(refusal_of("attribute get(out held.all[7].x);"),
-              HasSubstr("c.gen:4:15: 'x' is a part of 'held.all', which may have no such element; take 'held.all' as a "
+              HasSubstr("c.gen:4:19: 'x' is a part of 'held.all', which may have no such element; take 'held.all' as a "
                         "whole, and let the codel look"));
   EXPECT_THAT(refusal_of("attribute set(in held.few[2]);"), HasSubstr("'held.few', which may have no such element"));
   EXPECT_THAT(refusal_of("function f() { codel g(in last.x); };"), HasSubstr("'last', which may be absent"));
