@@ -63,8 +63,9 @@ Result<Variant> FindVariant(const std::string& word, const std::vector<std::stri
   const std::string type = is_type ? word : std::string(kFamily) + word;
   const std::string name = type.starts_with(kFamily) ? type.substr(kFamily.size()) : type;
   // Types that nobody lists, as those in Python, are known to any registry once their plugin is loaded.
-  if (Has(types, type) || ModuleRegistry().Find(type) != nullptr) return Variant{.name = name, .type = type};
-  return Error{.message = "there is no variant '" + word + "'",
+  const auto late = ModuleRegistry().Get(type);
+  if (Has(types, type) || late) return Variant{.name = name, .type = type};
+  return Error{.message = "there is no variant '" + word + "'" + (is_type ? ": " + late.error().message : ""),
                .hint = NearestNameHint(word, is_type ? types : FamilyNames(types))};
 }
 
