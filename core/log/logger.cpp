@@ -25,7 +25,8 @@ void Logger::Send(LogLevel level, internal::EncodedMessage& message) noexcept {
   const Time now = cycle != nullptr ? cycle->now : element_.runtime().clock().Now();
   TokenBucket& bucket = buckets_.at(static_cast<std::size_t>(level));
   if (!bucket.Take(now)) {
-    ++bucket.left_out;
+    // relaxed: a count, read by no order.
+    bucket.left_out.fetch_add(1, std::memory_order_relaxed);
     return;
   }
   PrepareLogging();
@@ -35,20 +36,25 @@ void Logger::Send(LogLevel level, internal::EncodedMessage& message) noexcept {
   header.source = this;
   header.time = now.time_since_epoch().count();
   header.level = level;
-  header.left_out = std::exchange(bucket.left_out, 0);
+  header.left_out = bucket.left_out.exchange(0, std::memory_order_relaxed);
   // relaxed: read when no other thread writes any more.
   has_spoken_.store(true, std::memory_order_relaxed);
   ring->Push(message.Finish(), message.size());
 }
 
 bool Logger::TokenBucket::Take(Time now) noexcept {
-  // A clock that has been set back fills nothing.
-  const double seconds = std::max(0.0, ToSeconds(now - filled));
-  tokens = std::min(kCapacity, tokens + seconds * kPerSecond);
-  filled = now;
-  if (tokens < 1) return false;
-  tokens -= 1;
-  return true;
+  const std::int64_t at = now.time_since_epoch().count();
+  // relaxed throughout: the word says all, nothing else is read by it.
+  std::int64_t full_at = full_at_.load(std::memory_order_relaxed);
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    const std::int64_t from = std::max(full_at, at);
+    const bool has_token = from - at <= kCapacity - kInterval;
+    // Further away than an empty bucket's: the clock has been set back. That fills nothing, and stops nothing.
+    const std::int64_t next = has_token ? from + kInterval : std::min(from, at + kCapacity);
+    if (next == full_at) return false;
+    if (full_at_.compare_exchange_strong(full_at, next, std::memory_order_relaxed)) return has_token;
+  }
+  return false;
 }
 
 std::string LogMessage::TextWithCount() const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 
 #include <fmt/core.h>
 
@@ -31,8 +32,9 @@ void TakeLogRing() noexcept;
 ///
 /// Rate:        at most 20 messages of a level at once, and 10 a second of the application's time on average;
 ///              what is more is left out, and counted with the next one.
-/// Threads:     one at a time, as the element's other functions; the level by any.
-/// Progress:    wait-free. What finds no room in the ring is lost, and counted.
+/// Threads:     any, also several at once.
+/// Progress:    wait-free. What finds no room in the ring is lost, and counted; so is what
+///              other threads keep from its token four times in a row.
 /// Allocation:  none, but in the first call of a thread (PrepareLogging()); no lock, no system call in a cycle.
 /// Ownership:   belongs to its element. When it goes, what it has said is handed on first.
 class Logger {
@@ -81,16 +83,20 @@ class Logger {
   }
   void Send(LogLevel level, internal::EncodedMessage& message) noexcept;
 
-  /// Lets messages through as long as it has tokens.
-  struct TokenBucket {
-    static constexpr double kCapacity = 20;
-    static constexpr double kPerSecond = 10;
-
+  /// Lets messages through as long as it has tokens. It is one word, the time at which it will be full again (the
+  /// generic cell rate algorithm), so that several threads may take tokens at once: each takes one by one exchange.
+  class TokenBucket {
+   public:
     [[nodiscard]] bool Take(Time now) noexcept;
 
-    double tokens = kCapacity;
-    Time filled{};
-    std::uint64_t left_out = 0;
+    std::atomic<std::uint64_t> left_out{0};
+
+   private:
+    static constexpr std::int64_t kInterval = 100'000'000;  // ns for one token
+    static constexpr std::int64_t kCapacity = 20 * kInterval;
+    static constexpr int kMostTries = 4;
+
+    std::atomic<std::int64_t> full_at_{std::numeric_limits<std::int64_t>::min()};  // ns
   };
 
   const FrameworkElement& element_;

@@ -82,6 +82,7 @@ class PluginManager {
   /// The names of the plugins that could be loaded from the search path, sorted.
   [[nodiscard]] std::vector<std::string> Available() const;
   [[nodiscard]] const std::vector<std::string>& loaded() const noexcept { return loaded_; }
+  [[nodiscard]] bool IsLoaded(std::string_view name) const noexcept { return files_.find(name) != files_.end(); }
   /// The file of a plugin that is loaded, or would be. Errors: there is none, with the nearest name.
   [[nodiscard]] Result<std::filesystem::path> FindFile(std::string_view name) const;
 

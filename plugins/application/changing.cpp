@@ -38,11 +38,6 @@ void AwaitProof(StructureEditor& editor, Pace& pace) {
   }
 }
 
-Result<void> ResultOf(const ChangeOutcome& outcome) {
-  if (outcome) return {};
-  return outcome.diagnostics.errors().front();
-}
-
 // Where another file is written, that one does not begin under it.
 bool KeepsStop(StopFile* file, bool is_own_file = true) { return is_own_file && file != nullptr && file->IsKept(); }
 
@@ -62,9 +57,7 @@ void Application::Parts::LoadPluginOf(std::string_view type) {
     if (plugin.empty()) return;
     // Types that are found late are the process's: another application may have loaded their plugin, this one not yet.
     const ModuleType* const found = plugins().modules().Find(type);
-    if (found != nullptr &&
-        (found->plugin != plugin || std::ranges::find(plugins().loaded(), plugin) != plugins().loaded().end()))
-      return;
+    if (found != nullptr && (found->plugin != plugin || plugins().IsLoaded(plugin))) return;
   }
   (void)LoadPlugin(plugin);
 }
@@ -108,7 +101,7 @@ Result<void> Application::AddThread(const std::string& name, const ThreadOptions
 }
 
 Result<void> Application::Assign(std::string_view path, const std::string& thread) {
-  return ResultOf(Apply({AssignToThread{std::string(path), thread}}));
+  return Apply({AssignToThread{std::string(path), thread}}).ToResult();
 }
 
 Result<void> Application::Connect(std::string_view from, std::string_view to, const ConnectOptions& options) {
@@ -192,7 +185,7 @@ Result<void> Application::Set(std::string_view path, std::string_view value) {
       return set.error().WithPath((*found)->path());
     }
   }
-  return ResultOf(Apply({SetParameter{std::string(path), std::string(value)}}));
+  return Apply({SetParameter{std::string(path), std::string(value)}}).ToResult();
 }
 
 Result<std::string> Application::Get(std::string_view path) {
@@ -313,7 +306,7 @@ CommandService& Application::service() {
   }
   hooks.reload = [this](const std::string& plugin) -> Result<std::string> {
     std::string done = "loaded " + plugin + " anew";
-    if (const auto reloaded = ResultOf(Reload(plugin)); !reloaded) return reloaded.error();
+    if (const auto reloaded = Reload(plugin).ToResult(); !reloaded) return reloaded.error();
     AwaitProof(*parts_->editor, parts_->scheduler->pace());
     return done;
   };

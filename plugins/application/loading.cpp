@@ -69,8 +69,7 @@ Result<void> Application::Parts::Schedule() {
   supervisor.emplace(runtime(), *scheduler, [this](const ChangeSet& changes) -> Result<ChangeSet> {
     LoadPluginsOf(changes);
     ChangeSet back;
-    const ChangeOutcome outcome = editor->Apply(changes, {}, {}, &back);
-    if (!outcome) return outcome.diagnostics.errors().front();
+    if (auto applied = editor->Apply(changes, {}, {}, &back).ToResult(); !applied) return applied.error();
     return back;
   });
   return AddRules(*element_, *scheduler, *supervisor);

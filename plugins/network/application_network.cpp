@@ -233,10 +233,7 @@ class ApplicationNetwork final : public ApplicationExtension {
   static Result<void> SetParameters(Application& application, const std::vector<ParameterChange>& wanted) {
     ChangeSet changes;
     for (const ParameterChange& each : wanted) changes.push_back(SetParameter{.path = each.path, .value = each.value});
-    const ChangeOutcome outcome = application.Apply(changes);
-    if (outcome) return {};
-    if (outcome.diagnostics.ok()) return Error{.message = "it cannot be set now"};
-    return outcome.diagnostics.errors().front();
+    return application.Apply(changes).ToResult();
   }
   static std::shared_ptr<WireEngine> FindEngine(Application& application, const NetworkElement& element) {
     const std::lock_guard lock(application.runtime().structure_mutex());  // as for all plugins

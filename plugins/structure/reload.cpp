@@ -25,7 +25,7 @@ ChangeSet AllAnew(const ModuleRegistry& modules, FrameworkElement& root, std::st
 // Of one that is loaded; what is to be said of others is said when it is to be loaded anew.
 std::optional<std::filesystem::path> FileOf(const PluginManager& plugins, Runtime& runtime, std::string_view plugin) {
   const std::lock_guard lock(runtime.structure_mutex());
-  if (std::ranges::find(plugins.loaded(), plugin) == plugins.loaded().end()) return {};
+  if (!plugins.IsLoaded(plugin)) return {};
   const auto file = plugins.FindFile(plugin);
   return file ? std::optional(*file) : std::nullopt;
 }

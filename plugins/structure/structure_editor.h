@@ -25,6 +25,10 @@ struct ChangeOutcome {
   Duration hold_time{};     ///< how long the threads concerned have been kept between two cycles
 
   explicit operator bool() const noexcept { return is_done; }
+  /// The first of the errors, for who can tell only one.
+  [[nodiscard]] Result<void> ToResult() const {
+    return is_done ? Result<void>() : Result<void>(diagnostics.errors().front());
+  }
 };
 
 struct EditorOptions {

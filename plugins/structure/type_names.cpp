@@ -30,7 +30,7 @@ std::string TypesWithNearestEnd(std::string_view type, const std::vector<std::st
 
 std::string ModuleTypeHint(std::string_view type, const PluginManager& plugins) {
   const std::string family(type.substr(0, std::min(type.find('/'), type.size())));
-  if (std::ranges::count(plugins.Available(), family) > 0 && std::ranges::count(plugins.loaded(), family) == 0) {
+  if (std::ranges::count(plugins.Available(), family) > 0 && !plugins.IsLoaded(family)) {
     return "add <load plugin=\"" + family + "\"/>";
   }
   const std::vector<std::string> known = ModuleTypeNames(plugins);

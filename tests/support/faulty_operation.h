@@ -139,10 +139,4 @@ inline std::size_t Endure(const FaultyOperation& operation) {
   return points;
 }
 
-/// Of what changes sets of all kinds have come to.
-inline Result<void> ResultOf(const ChangeOutcome& outcome) {
-  if (outcome) return {};
-  return outcome.diagnostics.errors().front();
-}
-
 }  // namespace runnel::test

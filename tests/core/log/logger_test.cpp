@@ -160,6 +160,28 @@ TEST(LoggerRingTest, WhatFindsNoRoomIsCounted) {
             std::to_string(400 - (messages.size() - 1)) + " messages were lost: the log is read too slowly");
 }
 
+// For ThreadSanitizer: a part of the runtime that several threads work for has one.
+TEST_F(LoggerTest, SeveralThreadsSpeakByOneLogger) {
+  constexpr int kEach = 50;
+  auto& shared = runtime.Create<Speaker>(runtime.root(), "shared");
+  std::vector<std::thread> threads;
+  for (int number = 0; number < 3; ++number) {
+    threads.emplace_back([&shared, number] {
+      const CycleScope cycle(At(1s));
+      for (int i = 0; i < kEach; ++i) shared.log.Info("{} {}", number, i);
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  const CycleScope cycle(At(10s));
+  shared.log.Info("last");
+  const auto messages = listener.messages();
+  EXPECT_GT(messages.size(), 1u);
+  EXPECT_LE(messages.size(), 21u) << "the measure is the element's, whoever speaks for it";
+  std::uint64_t all = messages.size();
+  for (const LogMessage& message : messages) all += message.left_out;
+  EXPECT_EQ(all, 3u * kEach + 1);
+}
+
 // For ThreadSanitizer: rings change hands, elements go, sinks come and go meanwhile.
 TEST_F(LoggerTest, ManyThreadsSpeakWhileElementsAndSinksComeAndGo) {
   std::vector<std::thread> threads;

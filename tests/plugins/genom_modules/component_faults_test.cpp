@@ -49,7 +49,7 @@ void ExpectItServes(Application& application) {
 
 FaultyOperation Changes(ChangeSet changes, bool leaves_mill = true) {
   return {.make = MakeWithComponents,
-          .carry_out = [changes](Application& application) { return ResultOf(application.Apply(changes)); },
+          .carry_out = [changes](Application& application) { return application.Apply(changes).ToResult(); },
           .prove =
               [leaves_mill](Application& application) {
                 EXPECT_TRUE(application.RunCycles(4));

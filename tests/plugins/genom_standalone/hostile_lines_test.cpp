@@ -36,6 +36,9 @@ TEST(HostileLinesTest, WhoSaysATooLongLineIsLeftAndTheOthersAreNot) {
 TEST(HostileLinesTest, WhatThereIsNoMemoryForIsAnError) {
   if (RUNNEL_UNDER_SANITIZER) GTEST_SKIP() << "a sanitizer has its own malloc";
   StandaloneProcess meter(RUNNEL_TEST_METER);
+  // A thread that begins takes more than is left below.
+  EXPECT_EQ(meter.Ask(Json::parse(R"({"as":5,"call":"count","with":{"turns":1}})"))["accepted"], 1);
+  EXPECT_TRUE(meter.Hear().contains("done"));
   meter.LimitMemory(10 << 20);
   meter.Say(LongLine(3 << 20));
   EXPECT_THAT(meter.Hear().dump(), HasSubstr("cannot be done: std::bad_alloc"));
