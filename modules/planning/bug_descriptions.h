@@ -87,7 +87,8 @@ inline void Describe(TypeBuilder<Approach>& type) {
   type.Name("Approach")
       .Value("near", Approach::kNear)
       .Value("along_boundary", Approach::kAlongBoundary)
-      .Value("across", Approach::kAcross);
+      .Value("across", Approach::kAcross)
+      .Value("back", Approach::kBack);
 }
 
 inline void Describe(TypeBuilder<BugState>& type) {

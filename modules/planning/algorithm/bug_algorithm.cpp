@@ -151,10 +151,7 @@ Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const 
   const double bearing = BearingTo(input, waypoint.point);
   const WayAhead way = LookAlong(input.surroundings, bearing, TravelRadius(configuration_.driving, input.surroundings));
   if (way.free_range < std::min(configuration_.hit_range, state.status.distance_to_goal)) {
-    // Face what may not be there: looked at, it proves to be there or is gone.
-    if (input.surroundings.is_vague && !state.faced.Contains(way.obstacle_bearing) && state.idle_time < kLookingTime) {
-      return TurnTowards(configuration_.driving, way.obstacle_bearing);
-    }
+    if (const auto look = LookAt(state, input, way.obstacle_bearing)) return *look;
     Hit(state, input, way.obstacle_bearing);
     return {};
   }
@@ -164,6 +161,13 @@ Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const 
     return {};
   }
   return GoAhead(state, input, bearing);
+}
+
+// Faces what may not be there: looked at, it proves to be there or is gone. Nothing: it has been looked at.
+std::optional<Twist2> BugAlgorithm::LookAt(const BugState& state, const BugInput& input, double bearing) const {
+  const bool is_known = !input.surroundings.is_vague || state.faced.Contains(bearing);
+  if (is_known || state.idle_time >= kLookingTime) return std::nullopt;
+  return TurnTowards(configuration_.driving, bearing);
 }
 
 Twist2 BugAlgorithm::GoAhead(const BugState& state, const BugInput& input, double bearing) const {

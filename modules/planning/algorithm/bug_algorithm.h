@@ -37,6 +37,7 @@ class BugAlgorithm {
   // Algorithm 2.
   Twist2 Step(BugState& state, const BugInput& input) const;
   Twist2 MotionToGoal(BugState& state, const BugInput& input) const;
+  [[nodiscard]] std::optional<Twist2> LookAt(const BugState& state, const BugInput& input, double bearing) const;
   Twist2 GoAhead(const BugState& state, const BugInput& input, double bearing) const;
   Twist2 GoRoundObstacle(BugState& state, const BugInput& input) const;
   Twist2 IdentifyLeavePoint(BugState& state, const BugInput& input) const;
@@ -67,7 +68,7 @@ class BugAlgorithm {
   void ChooseShorterWay(BugState& state, const BugInput& input) const;
   std::optional<Twist2> GoAlongBoundary(BugState& state, const BugInput& input) const;
   Twist2 EndPassage(BugState& state, const BugInput& input) const;
-  [[nodiscard]] std::optional<Twist2> DriveToPoint(const BugInput& input, Point2 point) const;
+  [[nodiscard]] std::optional<Twist2> DriveToPoint(const BugState& state, const BugInput& input, Point2 point) const;
   void Leave(BugState& state, const BugInput& input) const;
   void RefuseLeavePoint(BugState& state, const BugInput& input) const;
   void StartFollowing(BugState& state, const BugInput& input, BoundaryDirection direction) const;

@@ -94,9 +94,13 @@ void BugAlgorithm::ChooseShorterWay(BugState& state, const BugInput& input) cons
 
 Twist2 BugAlgorithm::GoToLeavePoint(BugState& state, const BugInput& input) const {
   const auto twist = state.approach == Approach::kAlongBoundary ? GoAlongBoundary(state, input)
-                                                                : DriveToPoint(input, *state.leave_point);
+                                                                : DriveToPoint(state, input, *state.leave_point);
   if (twist) return *twist;
   if (state.approach == Approach::kAcross) return EndPassage(state, input);
+  if (state.approach == Approach::kBack) {
+    RefuseLeavePoint(state, input);
+    return {};
+  }
   state.status.mode = PlannerMode::kFacingGoal;
   return FaceGoal(state, input);
 }
@@ -108,7 +112,7 @@ std::optional<Twist2> BugAlgorithm::GoAlongBoundary(BugState& state, const BugIn
   if (is_near && !state.follower.is_turning() && IsNearAlongTheBoundary(state)) {
     state.is_on_last_stretch = true;
   }
-  if (state.is_on_last_stretch) return DriveToPoint(input, *state.leave_point);
+  if (state.is_on_last_stretch) return DriveToPoint(state, input, *state.leave_point);
   const bool has_missed_it = WayGone(state) > 2.0 * (state.way_to_leave_point + kWayTolerance);
   if (has_missed_it) {
     state.status.mode = PlannerMode::kFollowingBoundary;
@@ -117,23 +121,25 @@ std::optional<Twist2> BugAlgorithm::GoAlongBoundary(BugState& state, const BugIn
   return WallFollowing(state, input);
 }
 
-// At the point away from the boundary; or before something that was not seen from there.
+// At the point away from the boundary; or before something that was not seen from there. Then what is followed is still the
+// boundary of before, not what is nearest here.
 Twist2 BugAlgorithm::EndPassage(BugState& state, const BugInput& input) const {
   const double wanted = Distance(*state.leave_point, input.goal) + 2 * kLeavePrecision;
   if (state.status.distance_to_goal < wanted) {
     Leave(state, input);
-  } else {
-    RefuseLeavePoint(state, input);
+    return {};
   }
-  return {};
+  state.approach = Approach::kBack;
+  state.leave_point = state.set_out_point;
+  return GoToLeavePoint(state, input);
 }
 
-std::optional<Twist2> BugAlgorithm::DriveToPoint(const BugInput& input, Point2 point) const {
+std::optional<Twist2> BugAlgorithm::DriveToPoint(const BugState& state, const BugInput& input, Point2 point) const {
   const double distance = Distance(Position(input.pose), point);
   if (distance < kLeavePrecision) return std::nullopt;
   const double bearing = BearingTo(input, point);
-  const double radius = TravelRadius(configuration_.driving, input.surroundings);
-  if (FreeRange(input.surroundings, bearing, radius) < distance) return std::nullopt;
+  const WayAhead way = LookAlong(input.surroundings, bearing, TravelRadius(configuration_.driving, input.surroundings));
+  if (way.free_range < distance) return LookAt(state, input, way.obstacle_bearing);
   // What rangers of narrow view have not looked at may be anything.
   if (input.surroundings.is_vague && distance > configuration_.leave_range &&
       std::abs(bearing) > FacedHeadings::kFaced) {

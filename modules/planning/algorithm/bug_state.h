@@ -67,6 +67,7 @@ enum class Approach : std::uint8_t {
   kNear,           ///< it is there, or nearly: straight, then it faces the goal
   kAlongBoundary,  ///< by the shorter way along the boundary, then it faces the goal
   kAcross,         ///< straight to a point away from the boundary, and on from there
+  kBack,           ///< straight back to where a way across began that proved to be blocked
 };
 
 /// Everything a Bug algorithm remembers. All variants record all of it, so that one variant can
