@@ -43,7 +43,9 @@ TEST_P(OnceFailed, ComesToTheRightVerdictAndTouchesNothing) {
   for (const Pose2& pose : run.truth) ASSERT_GT(ClearanceAt(*world, Position(pose)), kBodyRadius);
 }
 
-INSTANTIATE_TEST_SUITE_P(Attempts, OnceFailed, testing::Values(Attempt{"comb_1005", "tangent_bug", "left", "reached"}),
+INSTANTIATE_TEST_SUITE_P(Attempts, OnceFailed,
+                         testing::Values(Attempt{"comb_1005", "tangent_bug", "left", "reached"},
+                                         Attempt{"maze_1001", "tangent_bug", "left", "reached"}),
                          [](const auto& attempt) {
                            return std::string(attempt.param.world) + "_" + attempt.param.planner + "_" +
                                   attempt.param.direction;
