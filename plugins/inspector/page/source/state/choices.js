@@ -65,7 +65,7 @@ export function SetAllOpen(open) {
 /** Where something new is put: into the group that is selected, or that what is selected is in. */
 export function GroupForNew() {
   const element = structure.get(selected.value);
-  if (!element || element.kind === 'thread') return structure.root;
+  if (!element || element.far || element.kind === 'thread') return structure.root;
   return IsGroup(element) ? element.path : ParentOf(element.owner ?? element.path);
 }
 
