@@ -206,6 +206,11 @@ test('"New group" has the name that was typed', async (t) => {
   await page.getByRole('button', { name: 'New group' }).click();
   await inspector.closed();
   await inspector.node('/mock/arm').waitFor();
+  await Press(page, 'a');
+  await page.locator('#new-name').fill('left arm');
+  await page.getByRole('button', { name: 'New group' }).click();
+  await page.locator('dialog .problem', { hasText: 'a name has no blanks' }).waitFor();
+  assert.equal(await page.locator('#new-name').inputValue(), 'left arm');
 });
 
 test('the answer about conversions opens nothing over what has been opened meanwhile', async (t) => {

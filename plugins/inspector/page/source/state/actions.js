@@ -147,9 +147,9 @@ export function CreatePort(group, name, direction, type) {
   return Apply([Change.createPort(`${group}/${name}`, direction, type)], `create the ${direction} ${name}`, { quiet: true });
 }
 
-export function CreateGroup(group, name) {
+export function CreateGroup(group, name, options) {
   const path = `${group}/${name || FreeName(structure, group, 'group')}`;
-  return Apply([Change.createGroup(path)], `create ${NameOf(path)}`);
+  return Apply([Change.createGroup(path)], `create ${NameOf(path)}`, options);
 }
 
 export async function Swap(path, type, settings, options) {
