@@ -8,7 +8,7 @@ globalThis.localStorage = { getItem: () => null, setItem() {} };
 let under = {}; // what is under the pointer: {node} or {port}
 const Element = (dataset) => ({ dataset, closest: (what) => (Object.keys(dataset).some((name) => what.includes(`[data-${name}]`)) ? Element(dataset) : null) });
 globalThis.document = { elementFromPoint: () => Element(under), elementsFromPoint: () => [Element(under)] };
-const { draft, places } = await import('../../../plugins/inspector/page/source/state/arrangement.js');
+const { TakeArrangement, draft, places } = await import('../../../plugins/inspector/page/source/state/arrangement.js');
 const { chosen, openDialog, openGroups, selected } = await import('../../../plugins/inspector/page/source/state/choices.js');
 const { connection, hello, shapeRevision, structure } = await import('../../../plugins/inspector/page/source/state/store.js');
 const { band, connecting, layout } = await import('../../../plugins/inspector/page/source/graph/graph_state.js');
@@ -47,6 +47,18 @@ test('Escape takes a drag of a box back, also if the mouse is moved on and let g
   assert.equal(draft.value, null);
   Mouse('pointerup', 470, 90);
   assert.equal(places.value, before, 'nothing is arranged');
+});
+
+test('a box that another viewer moves during a drag stays where that one has put it', () => {
+  hello.value = { application: 'mock', role: 'drive' }; // what is arranged stays with this page
+  under = { node: '/mock/laser' };
+  Mouse('pointerdown', 410, 10);
+  Mouse('pointermove', 450, 60);
+  TakeArrangement({ 'place /mock/world': '0 400' });
+  Mouse('pointermove', 450, 70);
+  Mouse('pointerup', 450, 70);
+  assert.deepEqual(['world', 'laser', 'robot'].map((name) => places.value.get(`/mock/${name}`)), [{ x: 0, y: 400 }, { x: 440, y: 60 }, { x: 800, y: 0 }]);
+  hello.value = { application: 'mock', role: 'change' };
 });
 
 test('Escape takes a wire back, and a frame around boxes', () => {

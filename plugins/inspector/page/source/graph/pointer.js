@@ -102,7 +102,7 @@ class Pointer {
     if (!press) return;
     if (press.moved) {
       if (press.kind === 'connect') FinishConnecting();
-      if (press.kind === 'move') FinishMoving();
+      if (press.kind === 'move') FinishMoving(press.moving);
       if (press.kind === 'band' && band.value) FinishBand();
       return;
     }
