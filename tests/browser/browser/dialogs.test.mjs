@@ -149,6 +149,23 @@ test('Ctrl+S and Enter save, once, and a refusal that comes when the dialog is c
   await page.locator('.toast.error', { hasText: 'no space left on device' }).waitFor();
 });
 
+test('what is written is what was shown, although others change the application meanwhile', async (t) => {
+  let after = 'b\n';
+  const { application, inspector, page } = await OpenMock(t, { prepare: (mock) => {
+    mock.answers.preview = (reply) => reply({ ok: true, file: '/mock/robot.xml', before: 'a\n', after });
+  } });
+  await page.locator('#save').click();
+  await page.locator('.difference .new', { hasText: 'b' }).waitFor();
+  after = 'c\n';
+  await page.locator('#save-now').click();
+  await page.locator('dialog .problem', { hasText: 'changed meanwhile' }).waitFor();
+  await page.locator('.difference .new', { hasText: 'c' }).waitFor();
+  assert.equal(Asked(application, 'save').length, 0);
+  await page.locator('#save-now').click();
+  await inspector.closed();
+  assert.equal(Asked(application, 'save').length, 1);
+});
+
 test('one choice makes one module, however long Enter is held', async (t) => {
   const { application, inspector, page } = await OpenMock(t);
   const take = HeldBack(application, 'change');
