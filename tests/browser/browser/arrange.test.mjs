@@ -136,6 +136,8 @@ test('a note that is refused stays in its dialog, and one that nobody has edited
   await page.keyboard.press('Enter');
   await page.locator('dialog .problem', { hasText: 'no space left' }).waitFor();
   assert.equal(await page.locator('#note-text').inputValue(), 'of this one');
+  await page.keyboard.press('Escape');
+  await inspector.closed();
 });
 
 test('several boxes are chosen by clicks and by a band, moved, copied and deleted together', async (t) => {
