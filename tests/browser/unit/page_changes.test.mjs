@@ -16,7 +16,7 @@ class Socket {
     setTimeout(() => {
       this.readyState = 1;
       this.onopen();
-      this.tell({ op: 'hello', application: 'mock', role: 'change', run: '1' });
+      this.tell({ op: 'hello', application: 'mock', role: 'change', run: '1', clock: 'simulated' });
       this.tell({ op: 'structure', revision: 1, ...RobotStructure() });
     });
   }
@@ -34,6 +34,8 @@ class Socket {
 globalThis.WebSocket = Socket;
 globalThis.location = { hash: '', search: '', pathname: '/' };
 globalThis.history = {};
+let onKey = null;
+globalThis.document = { addEventListener: (_, listener) => { onKey = listener; } };
 const kept = new Map();
 const Allowed = () => { if (keepsNothing) throw new Error('nothing may be kept'); };
 globalThis.localStorage = { getItem: (key) => { Allowed(); return kept.get(key) ?? null; }, setItem: (key, text) => { Allowed(); kept.set(key, text); } };
@@ -42,7 +44,8 @@ const { TakeArrangement, notes, places } = await import('../../../plugins/inspec
 const { DeleteCarefully } = await import('../../../plugins/inspector/page/source/state/careful.js');
 const { Choose, GroupForNew, IsOpen, SetOpen, chosen, openDialog, selected } = await import('../../../plugins/inspector/page/source/state/choices.js');
 const { CopyChosen, PasteCopied } = await import('../../../plugins/inspector/page/source/state/clipboard.js');
-const { Start, structure } = await import('../../../plugins/inspector/page/source/state/store.js');
+const { AttachKeys } = await import('../../../plugins/inspector/page/source/panels/page_keys.js');
+const { Start, run, structure } = await import('../../../plugins/inspector/page/source/state/store.js');
 Start('ws://mock');
 after(() => setTimeout(() => process.exit(), 100)); // links look at the time for ever
 const Sleep = (time) => new Promise((done) => { setTimeout(done, time); });
@@ -71,6 +74,17 @@ test('notes, places, the selection and open groups go with a name, and back when
   assert.deepEqual(under('car'), all, 'what else is undone changes no names');
   await Sleep(20);
   assert.equal(asked.filter(({ op }) => op === 'arrange').length, 3, 'all viewers are told');
+});
+
+test('a key that is held undoes once, pauses once, and steps on', () => {
+  AttachKeys();
+  run.value = { ...run.value, undo: 'set speed', redo: 'set speed' };
+  const target = { closest: () => null };
+  for (const [key, ctrlKey, op, times] of [['z', true, 'undo', 1], ['y', true, 'redo', 1], ['p', false, 'pause', 1], ['.', false, 'step', 3]]) {
+    const before = asked.length;
+    for (const repeat of [false, true, true]) onKey({ key, ctrlKey, repeat, target, preventDefault() {} });
+    assert.deepEqual(asked.slice(before).map((each) => each.op), Array(times).fill(op), key);
+  }
 });
 
 test('what lies within something that is deleted goes with it', async () => {

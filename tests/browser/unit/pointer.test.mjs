@@ -25,7 +25,7 @@ const host = { addEventListener: (name, handler) => { handlers[name] = handler; 
 function Mouse(name, x, y, more = {}) {
   handlers[name]({ pointerId: 1, pointerType: 'mouse', button: 0, clientX: x, clientY: y, target: host, preventDefault() {}, ...more });
 }
-const Press = (key) => OnGraphKey({ key, target: host, preventDefault() {}, stopPropagation() {} });
+const Press = (key, repeat = false) => OnGraphKey({ key, repeat, target: host, preventDefault() {}, stopPropagation() {} });
 
 AttachPointer(host);
 connection.value = { state: 'open', reason: '' };
@@ -98,6 +98,18 @@ test('keys that are pressed before a dialog is drawn do nothing to the graph', (
   for (const key of ['n', 'Delete', 'Escape']) Press(key);
   assert.equal(openDialog.value, value);
   assert.equal(selected.value, '/mock/laser');
+});
+
+test('a key that is held walks, and deletes nothing', () => {
+  selected.value = '/mock/world';
+  Press('Delete', true);
+  Press('Escape', true);
+  assert.deepEqual([openDialog.value, selected.value], [null, '/mock/world']);
+  for (let at = 0; at < 5; ++at) Press('ArrowRight', true);
+  assert.equal(selected.value, '/mock/robot');
+  selected.value = '/mock/world';
+  Press('Delete');
+  assert.equal(openDialog.value.kind, 'confirm');
 });
 
 test('the end of each finger is heard, whatever becomes of what was under it', () => {

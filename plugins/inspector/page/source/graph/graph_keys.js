@@ -20,8 +20,11 @@ export function OnGraphKey(event) {
   if (!action) return;
   event.preventDefault();
   event.stopPropagation();
-  action();
+  // A key that is held walks and zooms, and does nothing else twice: after a deletion the group around is selected.
+  if (!event.repeat || event.key in kDirections || kZoom.includes(event.key)) action();
 }
+
+const kZoom = ['+', '-'];
 
 const kKeys = {
   Enter: () => { if (IsSelectedGroup()) ToggleGroup(selected.value); },
