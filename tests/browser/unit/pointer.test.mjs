@@ -83,9 +83,12 @@ test('Escape takes a wire back, and a frame around boxes', () => {
   }
 });
 
-test('two quick presses on a button over the graph are no double click on the graph', () => {
+test('two quick presses on a button over the graph, or on a wire, are no double click on the graph', () => {
   Mouse('dblclick', 20, 700, { target: { closest: (what) => (what.includes('button') ? {} : null) } });
+  under = { edge: '/mock/laser/scan → /mock/robot/scan' };
+  Mouse('dblclick', 20, 700);
   assert.equal(openDialog.value, null);
+  under = {};
   Mouse('dblclick', 20, 700);
   assert.equal(openDialog.value?.kind, 'create');
 });

@@ -140,9 +140,9 @@ class Pointer {
 
   doubleClick(event) {
     if (event.target.closest(kBeside)) return; // two quick presses there
-    const { node } = this.#hit(event);
+    const { node, edge } = this.#hit(event);
     if (node && structure.get(node)?.kind === 'group') ToggleGroup(node);
-    else if (!node && canChange.value) openDialog.value = { kind: 'create', group: structure.root };
+    else if (!node && !edge && canChange.value) openDialog.value = { kind: 'create', group: structure.root };
   }
 
   menu(event) {
