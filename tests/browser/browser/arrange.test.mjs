@@ -113,6 +113,33 @@ test('notes on boxes and on connections are seen by all viewers, changed and tak
   assert.equal(application.layout['note /mock/laser'], 'turned by 180 degrees');
 });
 
+test('a note that is refused stays in its dialog, and one that nobody has edited takes no other one away', async (t) => {
+  const { application, server, inspector, page } = await OpenMock(t);
+  const other = await OpenPage(t, server.url);
+  const open = async (each) => {
+    await each.select('/mock/laser');
+    await each.page.locator('#note').click();
+    await each.page.locator('#note-text').waitFor();
+  };
+  await open(inspector);
+  await open(other);
+  await other.page.locator('#note-text').fill('of the other one');
+  await other.page.keyboard.press('Enter');
+  await other.closed();
+  await inspector.node('/mock/laser').locator('.note-on', { hasText: 'of the other one' }).waitFor();
+  await page.locator('#note-keep').click();
+  await inspector.closed();
+  assert.equal(application.layout['note /mock/laser'], 'of the other one');
+  application.answers.arrange = (reply) => reply({ ok: false, errors: [{ message: 'no space left on device', path: null, hint: null }] });
+  await open(inspector);
+  await page.locator('#note-text').fill('of this one');
+  await page.keyboard.press('Enter');
+  await page.locator('dialog .problem', { hasText: 'no space left' }).waitFor();
+  assert.equal(await page.locator('#note-text').inputValue(), 'of this one');
+  await page.keyboard.press('Escape');
+  await inspector.closed();
+});
+
 test('several boxes are chosen by clicks and by a band, moved, copied and deleted together', async (t) => {
   const { application, inspector, page } = await OpenMock(t);
   await inspector.click('/mock/world');
@@ -225,6 +252,11 @@ test('a module is renamed, and its note, its place and the selection go with the
   await inspector.shows('/mock/robot/pilot');
   assert.equal(application.layout['note /mock/robot/planner'], '');
   assert.equal(await inspector.edges().then((edges) => edges.filter((edge) => edge.includes('/pilot/')).length), 4);
+  await page.locator('#undo').click();
+  await inspector.node('/mock/robot/planner').locator('.note-on', { hasText: 'the best' }).waitFor();
+  await inspector.shows('/mock/robot/planner');
+  await page.locator('#redo').click();
+  await inspector.node('/mock/robot/pilot').locator('.note-on', { hasText: 'the best' }).waitFor();
 });
 
 async function Opened(t, url, options) {

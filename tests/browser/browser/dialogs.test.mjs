@@ -54,6 +54,34 @@ test('a swap shows the values that the new module will have, and sends what was 
   assert.deepEqual(Asked(application, 'change').at(-1).changes[0].settings, { speed: '0.4' });
 });
 
+test('what the new module cannot have is shown as it is, and a number without a default is needed', async (t) => {
+  const { application, page, inspector } = await OpenMock(t, { prepare: (mock) => {
+    const planner = mock.catalogue.modules.find(({ type }) => type === 'mock/planner');
+    const others = { speed: { default: '' }, stubborn: { choices: ['mildly', 'much'] } };
+    const parameters = planner.parameters.map((each) => ({ ...each, ...others[each.name] }));
+    mock.catalogue = { ...mock.catalogue, modules: [...mock.catalogue.modules, { ...planner, type: 'mock/mild_planner', parameters }] };
+    for (const [name, value] of [['stubborn', 'very'], ['speed', '0.7']]) {
+      const path = `/mock/robot/planner/${name}`;
+      mock.elements.set(path, { ...mock.elements.get(path), value });
+    }
+  } });
+  await inspector.select('/mock/robot/planner');
+  await page.locator('#swap').click();
+  await page.locator('[data-choice="mock/mild_planner"]').hover();
+  await page.locator('.choices .more').click();
+  const [speed, stubborn] = [page.locator('[id="setting:speed"]'), page.locator('[id="setting:stubborn"]')];
+  assert.match(await stubborn.locator('option:checked').textContent(), /^very: not among its choices/);
+  await stubborn.selectOption('mildly');
+  await speed.fill('');
+  await page.locator('.settings .problem', { hasText: 'it has no default' }).waitFor();
+  await page.locator('#swap-now').click();
+  await page.locator('dialog > .dialog-body > .problem', { hasText: 'speed: it has no default' }).waitFor();
+  await speed.fill('0.5');
+  await page.locator('#swap-now').click();
+  await inspector.closed();
+  assert.deepEqual(Asked(application, 'change').at(-1).changes[0].settings, { speed: '0.5', stubborn: 'mildly' });
+});
+
 test('a number that is cleared is its default, a text that is cleared is empty, and the fields say so', async (t) => {
   const { application, inspector, page } = await OpenMock(t);
   await Press(page, 'a');
@@ -121,6 +149,23 @@ test('Ctrl+S and Enter save, once, and a refusal that comes when the dialog is c
   await page.locator('.toast.error', { hasText: 'no space left on device' }).waitFor();
 });
 
+test('what is written is what was shown, although others change the application meanwhile', async (t) => {
+  let after = 'b\n';
+  const { application, inspector, page } = await OpenMock(t, { prepare: (mock) => {
+    mock.answers.preview = (reply) => reply({ ok: true, file: '/mock/robot.xml', before: 'a\n', after });
+  } });
+  await page.locator('#save').click();
+  await page.locator('.difference .new', { hasText: 'b' }).waitFor();
+  after = 'c\n';
+  await page.locator('#save-now').click();
+  await page.locator('dialog .problem', { hasText: 'changed meanwhile' }).waitFor();
+  await page.locator('.difference .new', { hasText: 'c' }).waitFor();
+  assert.equal(Asked(application, 'save').length, 0);
+  await page.locator('#save-now').click();
+  await inspector.closed();
+  assert.equal(Asked(application, 'save').length, 1);
+});
+
 test('one choice makes one module, however long Enter is held', async (t) => {
   const { application, inspector, page } = await OpenMock(t);
   const take = HeldBack(application, 'change');
@@ -178,6 +223,11 @@ test('"New group" has the name that was typed', async (t) => {
   await page.getByRole('button', { name: 'New group' }).click();
   await inspector.closed();
   await inspector.node('/mock/arm').waitFor();
+  await Press(page, 'a');
+  await page.locator('#new-name').fill('left arm');
+  await page.getByRole('button', { name: 'New group' }).click();
+  await page.locator('dialog .problem', { hasText: 'a name has no blanks' }).waitFor();
+  assert.equal(await page.locator('#new-name').inputValue(), 'left arm');
 });
 
 test('the answer about conversions opens nothing over what has been opened meanwhile', async (t) => {

@@ -140,8 +140,8 @@ export class MockApplication {
   }
 }
 
-function LabelOf([{ change, path, value, from, to, type }]) {
-  return [change, path ?? from, value ?? to ?? type].filter((word) => word !== undefined).join(' ');
+function LabelOf([{ change, path, value, from, to, type, name }]) {
+  return [change, path ?? from, value ?? to ?? type ?? name].filter((word) => word !== undefined).join(' ');
 }
 
 /** A module as the catalogue has it, with its ports and parameters. */

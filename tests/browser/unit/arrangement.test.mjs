@@ -90,6 +90,13 @@ test('boxes stay where they have been put; what is new finds a place; what has g
   assert.deepEqual(Overlaps(top), []);
 });
 
+test('boxes that have all been put far up take no more room than they need', () => {
+  const structure = Load(RobotStructure());
+  const Height = (up) => new GraphLayout().compute(structure, kShut, { area: kWindow,
+    placeOf: (path) => ({ x: 400 * ['/mock/world', '/mock/laser', '/mock/robot'].indexOf(path), y: -up }) }).height;
+  assert.equal(Height(2000), Height(0));
+});
+
 test('members of a group that have been put somewhere stay within it', () => {
   const structure = Load(RobotStructure());
   const { boxes } = new GraphLayout().compute(structure, kOpen, { placeOf: (path) => (path === '/mock/robot/planner' ? { x: -500, y: -500 } : undefined) });

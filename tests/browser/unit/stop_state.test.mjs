@@ -9,6 +9,7 @@ let isStuck = false; // what the robot says is held up; what the page says arriv
 let robot = { in_force: false, by: '', since: 0 };
 let answer = null;   // in the place of the robot's own
 let isReleasedAtOnce = false; // by somebody else, before the answer
+let isUnheard = false; // it gives no sign of life
 const heard = [];
 const said = [], answered = []; // times of signs of life
 
@@ -25,7 +26,7 @@ class Socket {
   }
 
   alive() {
-    if (this.readyState !== 1) return;
+    if (this.readyState !== 1 || isUnheard) return;
     said.push(performance.now() / 1000);
     this.tell({ op: 'alive', at: said.at(-1), stop: robot });
   }
@@ -172,4 +173,23 @@ test('a request says when the person asked, by the clock of the server', async (
   await other.request({ op: 'publish', path: '/wheels', value: '1' });
   const { at } = heard.at(-1);
   assert.ok(at >= before - 0.1 && at <= performance.now() / 1000, `${at}, asked at ${before}`);
+});
+
+test('a connection alone, before a sign of life has come over it, confirms nothing that was told over the one before', async () => {
+  SetRobot(true, 'a colleague');
+  await Sleep(50);
+  assert.equal(stop.isConfirmed.value, true);
+  isUnheard = true;
+  for (const each of sockets.splice(0)) {
+    each.close();
+    each.onclose({ reason: '' });
+  }
+  await Sleep(500);
+  assert.deepEqual(sockets.map(({ readyState }) => readyState), [1, 1], 'there are connections again');
+  assert.equal(stop.isInForce.value, true, 'as it was told last');
+  assert.equal(stop.isConfirmed.value, false, 'it may be another process, which has heard of no STOP');
+  isUnheard = false;
+  SetRobot(true, 'a colleague');
+  await Sleep(50);
+  assert.equal(stop.isConfirmed.value, true);
 });

@@ -18,6 +18,14 @@ test('texts that are the same have no changes, and a new file has nothing but ne
   assert.deepEqual(Brief(TextDifference('', 'a\nb\n')), ['+a', '+b']);
 });
 
+test('two long texts without a line in common do not take the memory of a page', () => {
+  const before = Array.from({ length: 3000 }, (_, line) => `<module name="m${line}"/>\r\n`).join('');
+  const start = process.memoryUsage().rss;
+  assert.deepEqual(CountChanges(TextDifference(before, before.replaceAll('\r', ''))), { added: 3000, removed: 3000 });
+  const taken = Math.round((process.memoryUsage().rss - start) / 1e6);
+  assert.ok(taken < 150, `${taken} MB`);
+});
+
 test('whatever has changed, both texts are in the difference, by the fewest lines', () => {
   let seed = 7;
   const below = (end) => { seed = (seed * 1103515245 + 12345) % 2147483648; return Math.floor((seed / 2147483648) * end); };

@@ -15,7 +15,7 @@ export function ReadAddress(hash) {
   for (const path of told.getAll('open')) read.open[path] = true;
   for (const path of told.getAll('fold')) read.open[path] = false;
   for (const text of told.getAll('plot')) {
-    const [port, field, unit] = Parsed(text) ?? [];
+    const [port, field, unit] = Parsed(text);
     if (typeof port === 'string' && Array.isArray(field)) read.plots.push({ port, field, unit: String(unit ?? '') });
   }
   for (const name of kPanels) {
@@ -46,8 +46,16 @@ export function StartAddress() {
     const curves = plots.value.flatMap((plot) => plot.curves.map(({ port, field }) => ({ port, field, unit: plot.unit })));
     const hash = WriteAddress({ chosen: chosen.value, open: openGroups.value, plots: curves,
       panels: { ...(dockOpen ? { tab, dockOpen } : {}), ...(worldShown ? {} : { worldShown }), ...(worldLarge ? { worldLarge } : {}) } });
-    if (hash !== location.hash) history.replaceState(null, '', hash === '#' ? `${location.pathname}${location.search}` : hash);
+    if (hash !== location.hash) Show(hash === '#' ? `${location.pathname}${location.search}` : hash);
   });
+}
+
+function Show(address) {
+  try {
+    history.replaceState(null, '', address);
+  } catch {
+    // Browsers refuse more than some ten a second, as while an arrow key is held; the next change says it.
+  }
 }
 
 /** Returns the plots that are to come. */
@@ -61,10 +69,12 @@ function Apply(hash) {
   return read.plots.filter((curve) => !isThere(curve));
 }
 
+/** The list that a text is, or an empty one. */
 function Parsed(text) {
   try {
-    return JSON.parse(text);
+    const list = JSON.parse(text);
+    return Array.isArray(list) ? list : [];
   } catch {
-    return null; // an address that somebody has cut
+    return []; // an address that somebody has cut
   }
 }

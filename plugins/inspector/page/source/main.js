@@ -57,10 +57,10 @@ function DeskPage() {
       </aside>`}`;
 }
 
+ShowStop(); // first of all, whatever becomes of the rest
 StartKeeping();
 StartAddress();
 AttachKeys();
 const { protocol, host, pathname } = location;
-ShowStop();
 Start(`${protocol === 'https:' ? 'wss' : 'ws'}://${host}${pathname}`);
 render(html`<${Boundary} what="The page" of=${0}><${Page} /><//>`, document.getElementById('page'));

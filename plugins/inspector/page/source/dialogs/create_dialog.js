@@ -9,9 +9,11 @@ import { Reveal, selected } from '../state/choices.js';
 import { catalogue, revision, structure } from '../state/store.js';
 import { Select } from '../graph/graph_keys.js';
 import { ChoiceList } from './choice_list.js';
-import { CloseDialog, Dialog } from './dialog.js';
+import { Dialog } from './dialog.js';
 import { HasParameters, SettingsForm, SettingsOf, SettingsProblem } from './settings_form.js';
 import { useSubmission } from './submission.js';
+
+const kGroup = Symbol('a group'); // in the place of a module's type
 
 export function CreateDialog({ group }) {
   revision.value;
@@ -23,15 +25,16 @@ export function CreateDialog({ group }) {
   const parameters = catalogue.value.module(chosen ?? type)?.parameters ?? [];
 
   const { submit, button, onEnter, problem, clear } = useSubmission({
-    failed: 'Could not add the module', may: Boolean,
+    failed: 'Could not add it', may: Boolean,
     send: async (wanted) => {
+      if (wanted === kGroup) return (typed && NameProblem(structure, group, typed)) || CreateGroup(group, typed, { quiet: true });
       const free = typed ?? FreeName(structure, group, wanted);
       const wrong = NameProblem(structure, group, free) || (chosen && SettingsProblem(parameters, settings));
       if (wrong) return wrong;
       const reply = await CreateModule(wanted, group, free, chosen ? SettingsOf(parameters, {}, settings) : {});
       return { ...reply, path: `${group}/${free}` };
     },
-    done: ({ path }) => ShowNew(path, selected.value),
+    done: ({ path }) => { if (path) ShowNew(path, selected.value); },
   });
   const give = (wanted) => { setType(wanted); setChosen(wanted); setSettings({}); clear(); };
   const find = (text) => catalogue.value.search(text).map((module) => ({
@@ -61,7 +64,7 @@ export function CreateDialog({ group }) {
         empty="no module type is like that" />
       <div class="dialog-foot">
         ${nameField}
-        <button onClick=${() => { CloseDialog(); CreateGroup(group, typed); }}>New group</button>
+        <button ...${button(kGroup)}>New group</button>
         <button class="primary" id="create" ...${button(type)}>Add ${type ?? ''}</button>
       </div>
       ${problem}

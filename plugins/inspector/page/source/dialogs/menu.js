@@ -32,6 +32,7 @@ export function Menu({ path, x, y }) {
         ${items.map(({ text, action, changes, danger }) => html`
           <button key=${text} role="menuitem" class=${danger ? 'danger' : ''} disabled=${changes && !canChange.value}
             onClick=${() => { CloseDialog(); action(); }}>${text}</button>`)}
+        ${items.length === 0 && html`<p class="none">nothing can be done with it here</p>`}
       </div>
     <//>`;
 }

@@ -8,15 +8,26 @@ import { CloseDialog, Dialog } from './dialog.js';
 import { useSubmission } from './submission.js';
 
 export function SaveDifference() {
-  const [told, setTold] = useState(null); // {file, lines, isNew}
+  const [told, setTold] = useState(null); // {file, before, after, lines}
   const [unknown, setUnknown] = useState(''); // why nobody can tell
+  const Take = ({ file, before, after }) => setTold({ file, before, after, lines: TextDifference(before, after) });
   useEffect(() => {
     PreviewSave().then((reply) => {
-      if (!reply.ok) return setUnknown((reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
-      return setTold({ file: reply.file, isNew: reply.before === '', lines: TextDifference(reply.before, reply.after) });
+      if (reply.ok) Take(reply);
+      else setUnknown((reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
     });
   }, []);
-  const { button, problem } = useSubmission({ failed: 'Could not save', may: () => told !== null, send: () => Save('', { quiet: true }) });
+  const { button, problem } = useSubmission({
+    failed: 'Could not save', may: () => told !== null,
+    // Nothing is written that was not shown: others change the application, and the file.
+    send: async () => {
+      const now = await PreviewSave();
+      if (!now.ok) return now;
+      if (now.before === told.before && now.after === told.after) return Save('', { quiet: true });
+      Take(now);
+      return 'It has been changed meanwhile: this is the difference now.';
+    },
+  });
   const { added, removed } = CountChanges(told?.lines ?? []);
   const isSame = told !== null && added + removed === 0;
   const name = told?.file.replace(/.*\//, '') ?? '';

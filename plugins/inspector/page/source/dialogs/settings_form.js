@@ -16,13 +16,19 @@ export function SettingsForm({ parameters, given = {}, old = {}, typed, onType, 
 }
 
 /** What is wrong with what was typed, or "". */
-export function SettingsProblem(parameters, typed) {
+export function SettingsProblem(parameters, typed, given = {}) {
   for (const each of parameters) {
-    const text = typed[each.name];
-    const wrong = text === undefined || text === '' ? '' : CheckValue(AsChecked(each), text, catalogue.value);
+    const wrong = WrongWith(each, typed[each.name], given[each.name]);
     if (wrong) return `${each.name}: ${wrong}`;
   }
   return '';
+}
+
+/** Of a field that is cleared the default counts; where there is none, the value of the module before would be handed on. */
+function WrongWith(parameter, text, given) {
+  if (text === undefined) return '';
+  if (text !== '') return CheckValue(AsChecked(parameter), text, catalogue.value);
+  return given !== undefined && !parameter.default && !IsText(parameter.type) ? 'it has no default: a value is needed' : '';
 }
 
 /** What is to be said of parameters when the module is made: {name: text}. */
@@ -42,7 +48,7 @@ function Row({ parameter, given, old, typed, onType, onEnter }) {
   const usual = given ?? parameter.default ?? '';
   const text = typed ?? usual;
   const id = `setting:${name}`;
-  const wrong = typed ? CheckValue(AsChecked(parameter), typed, catalogue.value) : '';
+  const wrong = WrongWith(parameter, typed, given);
   const note = [FormatBounds(parameter), isStatic && 'fixed while it runs',
     old !== undefined && old !== null && old !== usual && `the old one has ${old}`].filter(Boolean).join(' · ');
   return html`<div class=${`parameter ${wrong ? 'wrong' : ''} ${typed !== undefined && typed !== usual ? 'edited' : ''}`}>
@@ -59,8 +65,10 @@ function Field({ id, parameter, text, wrong, onType, onEnter }) {
   const values = parameter.choices?.length > 0 ? parameter.choices : catalogue.value.type(parameter.type)?.values ?? [];
   const choices = parameter.type === 'bool' ? ['true', 'false'] : values;
   if (choices.length > 0) {
+    // Shown as what it is, not as the first of the choices: the value of a module before, or none.
+    const other = choices.includes(text) ? '' : html`<option key=${`other ${text}`} value=${text} selected>${text === '' ? 'nothing' : `${text}: not among its choices`}</option>`;
     return html`<select id=${id} value=${text} onChange=${(event) => onType(event.target.value)}>
-      ${choices.map((value) => html`<option key=${value} value=${value} selected=${value === text}>${value}</option>`)}</select>`;
+      ${other}${choices.map((value) => html`<option key=${value} value=${value} selected=${value === text}>${value}</option>`)}</select>`;
   }
   return html`<input type="text" id=${id} spellcheck="false" autocomplete="off" aria-invalid=${wrong} value=${text}
     placeholder=${IsText(parameter.type) ? 'empty' : parameter.default || 'nothing'} onInput=${(event) => onType(event.target.value)} onKeyDown=${onEnter} />`;

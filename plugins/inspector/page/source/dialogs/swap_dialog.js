@@ -57,7 +57,7 @@ function Parameters({ path, type, lost, onBack }) {
     failed: `Could not swap ${NameOf(path)}`,
     send: () => {
       const dialog = openDialog.value;
-      return SettingsProblem(parameters, settings) || SwapCarefully(path, type, lost,
+      return SettingsProblem(parameters, settings, given) || SwapCarefully(path, type, lost,
         () => Swap(path, type, SettingsOf(parameters, given, settings), { quiet: openDialog.value === dialog }));
     },
   });

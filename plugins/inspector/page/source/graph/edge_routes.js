@@ -48,7 +48,7 @@ function WayOf({ source, target }, closing, rowOf) {
 /** {edges, lowest}: each with its path and the area that it takes; `lowest`: what runs below all boxes. */
 export function RouteEdges(connections, { closing, placed, border, bends, lanes, rowOf, bottoms, side, top }) {
   const edges = [];
-  let lowest = 0;
+  let lowest = -Infinity; // boxes that have been put somewhere may all be above 0
   const shares = new Map();  // bent edges between the same boxes run beside each other
   const beside = new Map();  // of columns: the ports whose lines run up and down beside them
   const isOneRow = bottoms.length === 1;

@@ -6,7 +6,7 @@ import { announcement, chosen, openDialog, selected } from '../state/choices.js'
 import { canChange, structure } from '../state/store.js';
 import { CanBeDeleted, IsGroup, ParentOf } from '../model/structure.js';
 import { DescribeBox } from './box_view.js';
-import { Fit, ShowElement, ToggleGroup, Zoom, connecting, layout, view } from './graph_state.js';
+import { Fit, ShowElement, ToggleGroup, Zoom, band, connecting, layout, view } from './graph_state.js';
 import { StopMoving } from './move_boxes.js';
 import { StopConnecting } from './pointer.js';
 import { DescribePort } from './port_view.js';
@@ -14,18 +14,22 @@ import { DescribePort } from './port_view.js';
 const kDirections = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 export function OnGraphKey(event) {
-  if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest('button')) return;
+  // A dialog that has been asked for takes the focus only when it is drawn: keys are meant for it already.
+  if (openDialog.value || event.ctrlKey || event.altKey || event.metaKey || event.target.closest('button')) return;
   const action = event.key in kDirections ? () => Go(event.key, event.shiftKey) : kKeys[event.key];
   if (!action) return;
   event.preventDefault();
   event.stopPropagation();
-  action();
+  // A key that is held walks and zooms, and does nothing else twice: after a deletion the group around is selected.
+  if (!event.repeat || event.key in kDirections || kZoom.includes(event.key)) action();
 }
+
+const kZoom = ['+', '-'];
 
 const kKeys = {
   Enter: () => { if (IsSelectedGroup()) ToggleGroup(selected.value); },
   ' ': () => { if (IsSelectedGroup()) ToggleGroup(selected.value); },
-  Escape: () => { if (draft.value) StopMoving(); else if (connecting.value) StopConnecting(); else selected.value = null; },
+  Escape: () => { if (draft.value) StopMoving(); else if (connecting.value) StopConnecting(); else if (band.value) band.value = null; else selected.value = null; },
   Delete: DeleteSelected,
   Backspace: DeleteSelected,
   f: Fit,

@@ -22,7 +22,7 @@ export function BeginMoving(path) {
       if (box) before.set(member, { x: box.x - x, y: box.y - y });
     }
   }
-  return { moved: new Set(moved), before };
+  return { moved: new Set(moved), before, put: places.value };
 }
 
 export function MoveTo({ moved, before }, dx, dy) {
@@ -31,9 +31,10 @@ export function MoveTo({ moved, before }, dx, dy) {
     [path, moved.has(path) ? { x: place.x + x, y: place.y + y } : place]));
 }
 
-export function FinishMoving() {
-  const put = draft.value;
-  if (put) Arrange(PlaceEntries(put));
+/** What another viewer has moved meanwhile stays there. */
+export function FinishMoving({ moved, put }) {
+  const next = [...draft.value ?? []].filter(([path]) => moved.has(path) || places.value.get(path) === put.get(path));
+  if (next.length > 0) Arrange(PlaceEntries(next));
   draft.value = null;
 }
 

@@ -42,8 +42,8 @@ export function PlacedLevel(structure, { boxes, connections, ports, group, place
   const lanes = PlanLanes(near, closing, rowOf, 1);
   const { edges, lowest } = RouteEdges(near, { closing, placed, border, bends: new Map(), lanes, rowOf,
     bottoms: [bottom], side: 0, top: 0 });
-  const lowestPort = Math.max(0, ...[...border.values()].map((place) => place.y + kRow / 2));
-  const height = Math.max(bottom, edges.length > 0 ? lowest + 6 : bottom, lowestPort) + (isRoot ? 0 : kPadding) - upper;
+  const lowestPort = Math.max(...[...border.values()].map((place) => place.y + kRow / 2));
+  const height = Math.max(bottom, lowest + 6, lowestPort) + (isRoot ? 0 : kPadding) - upper;
   return { boxes: boxes.map((box) => placed.get(box.path)), edges, border, left, top: upper, width, height };
 }
 

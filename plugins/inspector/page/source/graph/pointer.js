@@ -5,6 +5,7 @@ import { Partners } from '../model/compatibility.js';
 import { Connect } from '../state/actions.js';
 import { ConnectOtherwise } from '../state/connecting.js';
 import { canChange, structure } from '../state/store.js';
+import { draft } from '../state/arrangement.js';
 import { Choose, SetPanels, chosen, openDialog, selected } from '../state/choices.js';
 import { isNarrow } from '../state/window.js';
 import { BoxAt, MoveView, ToggleGroup, band, candidates, connecting, layout, shown, view } from './graph_state.js';
@@ -16,6 +17,7 @@ import { ToGraph, ZoomAt } from './viewport.js';
 
 const kReach = 26;     // pixels from a port at which a new edge snaps to it
 const kDragFrom = 4;   // pixels before a press becomes a drag
+const kBeside = 'button, output, input, .minimap'; // what lies over the graph
 
 export function AttachPointer(host) {
   const pointer = new Pointer(host);
@@ -46,8 +48,11 @@ class Pointer {
   }
 
   down(event) {
-    if (event.pointerType === 'touch' && this.#pinch.down(event.pointerId, this.#point(event))) return this.end();
-    if (event.button > 1 || event.target.closest('button, output, input, .minimap')) return;
+    if (event.pointerType === 'touch' && this.#pinch.down(event.pointerId, this.#point(event))) {
+      this.#host.setPointerCapture(event.pointerId); // what is under the finger may go meanwhile, and its end must be heard
+      return this.end();
+    }
+    if (event.button > 1 || event.target.closest(kBeside)) return;
     const point = this.#point(event);
     const hit = this.#hit(event);
     this.#press = { kind: this.#kindOf(event, hit), start: point, view: view.value, hit, moved: false, adds: event.shiftKey };
@@ -77,6 +82,7 @@ class Pointer {
     }
     const [dx, dy] = [point.x - press.start.x, point.y - press.start.y];
     if (!press.moved && Math.hypot(dx, dy) < kDragFrom) return;
+    if (press.moved && IsTakenBack(press)) return this.end();
     if (!press.moved) {
       press.moved = true;
       hovered.value = null;
@@ -96,8 +102,8 @@ class Pointer {
     if (!press) return;
     if (press.moved) {
       if (press.kind === 'connect') FinishConnecting();
-      if (press.kind === 'move') FinishMoving();
-      if (press.kind === 'band') FinishBand();
+      if (press.kind === 'move') FinishMoving(press.moving);
+      if (press.kind === 'band' && band.value) FinishBand();
       return;
     }
     const { fold, port, edge, node } = press.hit;
@@ -133,9 +139,10 @@ class Pointer {
   }
 
   doubleClick(event) {
-    const { node } = this.#hit(event);
+    if (event.target.closest(kBeside)) return; // two quick presses there
+    const { node, edge } = this.#hit(event);
     if (node && structure.get(node)?.kind === 'group') ToggleGroup(node);
-    else if (!node && canChange.value) openDialog.value = { kind: 'create', group: structure.root };
+    else if (!node && !edge && canChange.value) openDialog.value = { kind: 'create', group: structure.root };
   }
 
   menu(event) {
@@ -170,6 +177,11 @@ class Pointer {
     }
     return { fold, port, edge, node, bar };
   }
+}
+
+/** Whether Escape has ended what is dragged. */
+function IsTakenBack({ kind }) {
+  return (kind === 'connect' && !connecting.value) || (kind === 'move' && !draft.value) || (kind === 'band' && !band.value);
 }
 
 /** The port, or the handle of a group, at a place of the screen, even if an edge ends on top of it. */

@@ -1,7 +1,7 @@
 // What of a text has become other: a unified difference, line by line (Myers' algorithm).
 
 const kAround = 3; // lines that are told before and after a change
-const kMost = 4000; // changed lines that are looked for one by one; beyond it all between is another one
+const kMost = 1000; // changed lines that are looked for one by one; beyond it all between is another one
 
 /** [{kind: 'same' | 'gone' | 'new' | 'skipped', text, before, after}]: lines with their numbers, from 1. */
 export function TextDifference(before, after) {

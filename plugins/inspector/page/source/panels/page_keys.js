@@ -13,7 +13,7 @@ export function AttachKeys() {
     const action = event.ctrlKey || event.metaKey ? WithControl(key, event.shiftKey, isField) : isField ? null : kPlain[key];
     if (!action) return;
     event.preventDefault();
-    action();
+    if (!event.repeat || key === '.') action(); // a key that is held steps, and does nothing else twice
   });
 }
 

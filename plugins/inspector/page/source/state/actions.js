@@ -5,7 +5,7 @@ import { Change, FreeName } from '../model/changes.js';
 import { PasteChanges } from '../model/copies.js';
 import { ConnectionKey, NameOf, ParentOf } from '../model/structure.js';
 import { openGroups, selected } from './choices.js';
-import { Renamed, RenamedEntries, TakeArrangement } from './arrangement.js';
+import { NoteEntries, Renamed, RenamedEntries, TakeArrangement } from './arrangement.js';
 import { Request, hello, role, run, structure } from './store.js';
 import { CloseDone, Toast } from './toasts.js';
 
@@ -115,33 +115,41 @@ export async function Paste(copy, group) {
 
 /** Tells all viewers where boxes stand, or what is noted; it is kept beside the application's file. */
 export async function Arrange(entries) {
-  if (role.value !== 'change') return TakeArrangement(entries);
   TakeArrangement(entries);
+  if (role.value !== 'change') return;
   const reply = await Ask({ op: 'arrange', entries }, '', { quiet: true });
   if (!reply.ok) Toast('refused', 'The layout is kept by this page only', (reply.errors ?? []).map(ErrorText));
-  return undefined;
 }
 
-/** What is arranged and open goes with the name. */
+/** A note for all viewers, which is shown as the application tells it; of who may only look, for this page. */
+export async function WriteNote(path, text) {
+  const entries = NoteEntries(path, text);
+  if (role.value === 'change') return Ask({ op: 'arrange', entries }, '', { quiet: true });
+  TakeArrangement(entries);
+  return { ok: true };
+}
+
 export async function Rename(path, name) {
-  const next = `${ParentOf(path)}/${name}`;
-  const entries = RenamedEntries(path, next);
-  const before = selected.value;
   const reply = await Apply([Change.rename(path, name)], `rename ${NameOf(path)} to ${name}`, { quiet: true });
-  if (!reply.ok) return reply;
-  if (Object.keys(entries).length > 0) Arrange(entries);
-  if (selected.value === before && before === path) selected.value = next;
-  openGroups.value = Object.fromEntries(Object.entries(openGroups.value).map(([each, isOpen]) => [Renamed(each, path, next), isOpen]));
+  if (reply.ok) Follow(path, `${ParentOf(path)}/${name}`);
   return reply;
+}
+
+/** What is arranged, selected and open goes with the name. */
+function Follow(from, to) {
+  const entries = RenamedEntries(from, to);
+  if (Object.keys(entries).length > 0) Arrange(entries);
+  if (selected.value !== null) selected.value = Renamed(selected.value, from, to);
+  openGroups.value = Object.fromEntries(Object.entries(openGroups.value).map(([each, isOpen]) => [Renamed(each, from, to), isOpen]));
 }
 
 export function CreatePort(group, name, direction, type) {
   return Apply([Change.createPort(`${group}/${name}`, direction, type)], `create the ${direction} ${name}`, { quiet: true });
 }
 
-export function CreateGroup(group, name) {
+export function CreateGroup(group, name, options) {
   const path = `${group}/${name || FreeName(structure, group, 'group')}`;
-  return Apply([Change.createGroup(path)], `create ${NameOf(path)}`);
+  return Apply([Change.createGroup(path)], `create ${NameOf(path)}`, options);
 }
 
 export async function Swap(path, type, settings, options) {
@@ -173,6 +181,9 @@ export const Redo = () => Travel('redo');
 async function Travel(op) {
   const reply = await Ask({ op }, `Could not ${op} “${run.value[op]}”`);
   if (!reply.ok) return reply;
+  const [, path, name] = /: rename (\S+) (\S+)$/.exec(reply.text ?? '') ?? [];
+  const names = path ? [path, `${ParentOf(path)}/${name}`] : [];
+  if (path) Follow(...(op === 'undo' ? names.reverse() : names));
   const whose = WhoseChange(reply.client, hello.value?.viewer);
   Toast('done', reply.text || `${op} is done`, whose ? [whose] : []);
   return reply;

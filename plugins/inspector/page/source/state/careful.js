@@ -1,12 +1,14 @@
 // Changes that would leave something without what it needs: they ask first, and say what that is.
 
 import { ConsequencesOf } from '../model/consequences.js';
+import { Outermost } from '../model/copies.js';
 import { NameOf } from '../model/structure.js';
 import { Delete, DeleteAll, Disconnect, Swap } from './actions.js';
 import { openDialog } from './choices.js';
 import { structure } from './store.js';
 
-export function DeleteCarefully(paths) {
+export function DeleteCarefully(chosen) {
+  const paths = Outermost(chosen); // what is within others goes with them
   const what = paths.length === 1 ? NameOf(paths[0]) : `${paths.length} elements`;
   return AskFirst(`Delete ${what}?`, 'Delete', ConsequencesOf(structure, { gone: paths }),
     () => (paths.length === 1 ? Delete(paths[0]) : DeleteAll(paths)));

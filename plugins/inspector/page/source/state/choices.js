@@ -65,7 +65,7 @@ export function SetAllOpen(open) {
 /** Where something new is put: into the group that is selected, or that what is selected is in. */
 export function GroupForNew() {
   const element = structure.get(selected.value);
-  if (!element || element.kind === 'thread') return structure.root;
+  if (!element || element.far || element.kind === 'thread') return structure.root;
   return IsGroup(element) ? element.path : ParentOf(element.owner ?? element.path);
 }
 
@@ -112,12 +112,13 @@ export function StartKeeping() {
   let application = null;
   effect(() => {
     const name = hello.value?.application;
+    const open = openGroups.value; // in any case, or the effect would not follow it
     if (!name) return;
     if (name !== application) {
       application = name;
-      openGroups.value = { ...Kept(`open.${name}`, {}), ...openGroups.peek() }; // the address is right
+      openGroups.value = { ...Kept(`open.${name}`, {}), ...open }; // the address is right
     } else {
-      Keep(`open.${name}`, openGroups.value);
+      Keep(`open.${name}`, open);
     }
   });
 }

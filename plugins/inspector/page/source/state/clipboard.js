@@ -10,19 +10,37 @@ import { Toast } from './toasts.js';
 
 const kAside = 48; // of what it is a copy of, where boxes stand by hand
 const kKey = 'runnel.copied';
+let inMemory = null; // where the browser keeps nothing
+
+function Keep(text) {
+  try {
+    localStorage.setItem(kKey, text);
+    inMemory = null;
+  } catch {
+    inMemory = text;
+  }
+}
+
+function Kept() {
+  try {
+    return inMemory ?? localStorage.getItem(kKey);
+  } catch {
+    return null;
+  }
+}
 
 export function CopyChosen() {
   const copy = CopyOf(structure, chosen.value);
   if (copy.roots.length === 0) return false;
   const placed = copy.roots.map((root) => ({ ...root, place: places.value.get(root.path) }));
-  localStorage.setItem(kKey, JSON.stringify({ ...copy, roots: placed }));
+  Keep(JSON.stringify({ ...copy, roots: placed }));
   Toast('done', `Copied ${copy.roots.map(({ name }) => name).join(', ')}`);
   return true;
 }
 
 /** Into the group that what is chosen is in. */
 export async function PasteCopied(group) {
-  const text = localStorage.getItem(kKey);
+  const text = Kept();
   if (!text || !canChange.value) return;
   const copy = JSON.parse(text);
   const isCopied = copy.roots.some(({ path }) => path === selected.value); // beside itself, not into itself

@@ -16,9 +16,12 @@ export const pressed = signal(null);
 export const releaseProblem = signal('');
 const ownState = signal('connecting');
 const otherState = signal('connecting'); // of the page's other connection
-const isOwnHeard = computed(() => ownState.value === 'open');
+// A sign of life has come over it since it was opened: what was told over the connection before says nothing of who is there now.
+const hasOwnLife = signal(false);
+const hasOtherLife = signal(false);
+const isOwnHeard = computed(() => ownState.value === 'open' && hasOwnLife.value);
 /** The robot has been heard of within 2 s. */
-export const isHeard = computed(() => isOwnHeard.value || otherState.value === 'open');
+export const isHeard = computed(() => isOwnHeard.value || (otherState.value === 'open' && hasOtherLife.value));
 /** As the robot has confirmed it, whether or not it can be heard now. */
 export const isInForce = computed(() => told.value?.in_force === true);
 /** What it holds, as the robot told it last: paths of ports, and names of what leaves over a network; null: not known. */
@@ -35,8 +38,8 @@ const asked = new Map(); // link -> `since` of the press of which its answer is 
 
 /** Opens the connection that bears nothing else. */
 export function StartStop(url) {
-  own = new Link(url, CurrentToken(), { protocol: 'runnel.stop.v1', onMessage: (message) => { if (message.op === 'alive') Take(message); },
-    onState: (state) => { ownState.value = state; Resend(); } });
+  own = new Link(url, CurrentToken(), { protocol: 'runnel.stop.v1', onMessage: TakeFromOwn,
+    onState: (state) => { if (state === 'connecting') hasOwnLife.value = false; ownState.value = state; Resend(); } });
   own.open();
 }
 
@@ -46,13 +49,21 @@ export function UseOther(link) {
 }
 
 export function OtherIs(state) {
+  if (state === 'connecting') hasOtherLife.value = false;
   otherState.value = state;
   Resend();
+}
+
+function TakeFromOwn(message) {
+  if (message.op !== 'alive') return;
+  Take(message);
+  hasOwnLife.value = true;
 }
 
 /** As the other connection tells it: it may carry so much that this comes late. */
 export function TakeFromOther(message) {
   if (!isOwnHeard.value) Take(message);
+  hasOtherLife.value = true;
 }
 
 export function ShowToken(token) {
@@ -84,9 +95,9 @@ export function PressStop() {
   Links().forEach(Send);
 }
 
-/** By which it is sent; while the own one is not heard, nobody can say which of both gets through. */
+/** By which it is sent; while the own one is silent, nobody can say which of both gets through. */
 function Links() {
-  return isOwnHeard.value ? [own] : [own, other];
+  return ownState.value === 'open' ? [own] : [own, other];
 }
 
 function Resend(links = Links()) {
