@@ -42,6 +42,16 @@ class SensorToSurroundings : public Module, public PreparesAnywhere {
   InputTimeout measurement_timeout{this, measurement, {.log = &log()}};
   InputTimeout pose_timeout{this, pose, {.log = &log()}};
 
+ protected:
+  /// Of sensors that know where the body is.
+  [[nodiscard]] Result<void> CheckIsOutside(const StaticParameter<double>& body_radius) const {
+    if (safe_distance.Get() > body_radius.Get()) return {};
+    return Error{.message = "the safe distance, " + safe_distance.ToText() + " m, is not above the body's radius, " +
+                            body_radius.ToText() + " m",
+                 .path = path(),
+                 .hint = "a planner keeps off by a few centimetres what it has seen or touched"};
+  }
+
  private:
   [[nodiscard]] virtual Result<Configuration> Configure() const {
     return Configuration{.safe_distance = safe_distance.Get()};
@@ -75,15 +85,18 @@ class InfraredToSurroundings final
   explicit InfraredToSurroundings(const Placement& placement)
       : SensorToSurroundings(placement, "ranges", "from the robot's centre") {}
 
-  StaticParameter<double> body_radius{this,
-                                      "body_radius",
-                                      {.default_value = InfraredAdaptorConfiguration{}.body_radius,
-                                       .bounds = {0.01, 10.0},
-                                       .unit = "m",
-                                       .description = "so wide must be seen what the robot drives through"}};
+  StaticParameter<double> body_radius{
+      this,
+      "body_radius",
+      {.default_value = InfraredAdaptorConfiguration{}.body_radius,
+       .bounds = {0.01, 10.0},
+       .unit = "m",
+       .description = "of the body, not more: nothing else is where it stands, and what it "
+                      "drives through must be seen"}};
 
  private:
-  Result<InfraredAdaptorConfiguration> Configure() const override {
+  [[nodiscard]] Result<InfraredAdaptorConfiguration> Configure() const override {
+    if (auto good = CheckIsOutside(body_radius); !good) return good.error();
     return InfraredAdaptorConfiguration{.body_radius = body_radius.Get(), .safe_distance = safe_distance.Get()};
   }
 };
@@ -104,12 +117,7 @@ class BumperToSurroundings final : public SensorToSurroundings<Contact, BumperAd
 
  private:
   [[nodiscard]] Result<BumperAdaptorConfiguration> Configure() const override {
-    if (safe_distance.Get() <= body_radius.Get()) {
-      return Error{.message = "the safe distance, " + safe_distance.ToText() + " m, is not above the body's radius, " +
-                              body_radius.ToText() + " m",
-                   .path = path(),
-                   .hint = "a planner keeps off by a few centimetres what it has touched"};
-    }
+    if (auto good = CheckIsOutside(body_radius); !good) return good.error();
     return BumperAdaptorConfiguration{.body_radius = body_radius.Get(), .safe_distance = safe_distance.Get()};
   }
 };

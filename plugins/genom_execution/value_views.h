@@ -7,6 +7,7 @@
 #include <memory>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace runnel::genom_execution {
 
@@ -62,7 +63,8 @@ struct OwnedText {
   static char* Copy(const char* from) { return from != nullptr ? strdup(from) : nullptr; }
 };
 
-/// What `sequence<E, most>` holds: copied by its bytes if E is.
+/// What `sequence<E, most>` holds: copied by its bytes if E is. Else elements beyond the length are empty, but are never
+/// destroyed: codels in C may have moved their bytes.
 template <typename E, std::size_t most, bool owns = !std::is_trivially_copyable_v<E>>
 struct ListInPlace {
   std::uint32_t maximum = most;
@@ -77,14 +79,15 @@ struct ListInPlace<E, most, true> {
     E buffer[most];
   };
 
-  ListInPlace() noexcept { std::memset(static_cast<void*>(buffer), 0, sizeof(buffer)); }
+  ListInPlace() noexcept { std::uninitialized_value_construct_n(buffer, most); }
   ListInPlace(const ListInPlace& other) : ListInPlace() { *this = other; }
   ListInPlace& operator=(const ListInPlace& other) {
     if (this == &other) return *this;
-    std::destroy_n(buffer, length);
-    length = 0;
+    const std::uint32_t before = std::exchange(length, 0);
+    std::destroy_n(buffer, before);
     std::uninitialized_copy_n(other.buffer, other.length, buffer);
     length = other.length;
+    if (before > length) std::uninitialized_value_construct_n(buffer + length, before - length);
     return *this;
   }
   ~ListInPlace() { std::destroy_n(buffer, length); }
@@ -96,8 +99,10 @@ struct BoundedList : ListInPlace<E, most> {
   /// False: that many do not fit. New ones are empty.
   bool Resize(std::size_t count) {
     if (count > most) return false;
-    if (count > this->length) std::uninitialized_value_construct_n(this->buffer + this->length, count - this->length);
-    if (count < this->length) std::destroy_n(this->buffer + count, this->length - count);
+    const std::size_t before = this->length;
+    if (count < before) std::destroy_n(this->buffer + count, before - count);
+    std::uninitialized_value_construct_n(this->buffer + std::min(count, before),
+                                         std::max(count, before) - std::min(count, before));
     this->maximum = most;
     this->length = static_cast<std::uint32_t>(count);
     return true;

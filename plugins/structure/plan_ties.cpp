@@ -54,6 +54,8 @@ Result<void> Plan::TieAgain(const ConnectPorts& tie) {
   if (tied || !to || !(tie.options.when_present || IsDistantPath(tie.from))) return tied;
   const auto from = overlay_.FindPortPart(tie.from, PathKind::kOutput);
   if (from && Port::CheckEnds(*from->port, **to, tie.options)) return tied;
+  // It has been noted all the time where but an end of it had gone.
+  if (overlay_.FindLate(SplitPortPath(tie.from).path, tie.to) != nullptr) return {};
   return CheckLateTie(tie.from, tie.to, tie.options);
 }
 

@@ -27,7 +27,9 @@ struct ChangeOutcome {
   explicit operator bool() const noexcept { return is_done; }
   /// The first of the errors, for who can tell only one.
   [[nodiscard]] Result<void> ToResult() const {
-    return is_done ? Result<void>() : Result<void>(diagnostics.errors().front());
+    if (is_done) return {};
+    if (diagnostics.ok()) return Error{.message = "out of memory"};  // not even what is wrong could be said
+    return diagnostics.errors().front();
   }
 };
 

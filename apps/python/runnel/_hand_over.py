@@ -2,7 +2,10 @@
 
 import copy
 import enum
+import functools
 import gc
+import inspect
+import operator
 import types
 import weakref
 
@@ -21,51 +24,89 @@ for each in (_extension.ModuleInput, _extension.ModuleOutput, _extension.ModuleC
     each.__deepcopy__ = _is_port
 
 
-def _leads_to(value, before):
-    """Whether the module before can be got at by a value: a method of it, a function that knows it, an object that holds it."""
-    met, ahead = set(), [value]
+def _methods_in(value, before):
+    """The methods that can be got at by a value. None if the module before can: by a method of it, a function that knows it, an
+    object that holds it."""
+    met, ahead, methods = set(), [value], []
     while ahead:
         each = ahead.pop()
         kind = type(each)  # which isinstance() would ask a proxy for
         if each is before or each is before._runnel_host:
-            return True
+            return None
         if id(each) in met or issubclass(kind, (type, types.ModuleType)):
             continue
         met.add(id(each))
+        if kind is types.MethodType:
+            methods.append(each)
         if kind is types.FunctionType:  # without all else that its file has
             ahead += [each.__closure__, each.__defaults__, each.__kwdefaults__]
         elif issubclass(kind, weakref.ref):
             ahead.append(each())
         elif gc.is_tracked(each):
             ahead += gc.get_referents(each)
-    return False
+    return methods
+
+
+class _Notes(dict):
+    """What a copy remembers. Methods of what it copies are those of the classes as they are now: copy.deepcopy() keeps their functions."""
+
+    def __init__(self, known, methods):
+        super().__init__(known)
+        self._methods = {id(each): each for each in methods}
+
+    def get(self, key, default=None):
+        method = None if key in self else self._methods.get(key)
+        if method is None:
+            return super().get(key, default)
+        function = super().get(id(method.__func__), method.__func__)
+        self[key] = types.MethodType(function, copy.deepcopy(method.__self__, self))
+        return self[key]
 
 
 def _file_of(module):
     """What the file has that a module's class stands in. Not by the name of the file, as the one before has the same."""
-    own = (each for cls in type(module).__mro__ if cls.__module__ == type(module).__module__ for each in vars(cls).values())
-    return next((each.__globals__ for each in own if isinstance(each, types.FunctionType)), {})
+    name = type(module).__module__
+    own = (each for cls in type(module).__mro__ if cls.__module__ == name for each in vars(cls).values())
+    functions = (inspect.unwrap(each) for each in own if isinstance(each, types.FunctionType))  # a decorator's is of another file
+    files = (getattr(each, "__globals__", {}) for each in functions)
+    return next((each for each in files if each.get("__name__") == name), {})
+
+
+def _plain(member):
+    """The function that is within a static method, which is what others get by its name, or within a method of the class."""
+    return member.__func__ if isinstance(member, (staticmethod, classmethod)) else member
+
+
+def _members(old, new):
+    """Members of an enumeration with those that they are now, by their names; combinations of flags by those of what is combined."""
+    for each in [*old.__members__.values(), *old._value2member_map_.values()]:
+        if each.name in new.__members__:
+            yield each, new[each.name]
+        elif issubclass(old, enum.Flag) and issubclass(new, enum.Flag):
+            parts = [one.name for one in old if one in each]
+            if all(part in new.__members__ for part in parts):
+                yield each, functools.reduce(operator.or_, (new[part] for part in parts), new(0))
 
 
 def _add_successors(memo, before, after):
     """Has copies use the classes, functions and members of enumerations of a file as it is now instead of those that it had."""
     for name, old in list(before.items()):
-        new = after.get(name)
+        old, new = _plain(old), _plain(after.get(name))
         if new is old or not isinstance(old, (type, types.FunctionType)) or not isinstance(new, type(old)) or id(old) in memo:
             continue
         if old.__module__ != new.__module__ or old.__qualname__ != new.__qualname__:  # what both import
             continue
         memo[id(old)] = new
         if isinstance(old, enum.EnumMeta):
-            memo |= {id(each): new[each.name] for each in old if each.name in new.__members__}
+            memo |= {id(each): member for each, member in _members(old, new)}
         if isinstance(old, type):
             _add_successors(memo, vars(old), vars(new))
 
 
 def _attribute_of(method):
     """The name by which an object has a method: a private one has that of its class before its own."""
-    name = method.__name__
-    if not name.startswith("__") or name.endswith("__"):
+    name = getattr(method, "__name__", "")  # which functools.partial() has not
+    if not name.startswith("__") or name.endswith("__") or "." not in method.__qualname__:
         return name
     return f"_{method.__qualname__.split('.')[-2].lstrip('_')}{name}"
 
@@ -80,10 +121,11 @@ def take_over(module, before):
         described = hasattr(type(getattr(type(module), name, None)), "__get__") or name in module._runnel_ports
         if type(value) is types.MethodType and value.__self__ is before:  # the state that it is in, say
             value = getattr(module, _attribute_of(value), value)
-        if name.startswith("_runnel_") or described or _leads_to(value, before):
+        methods = None if name.startswith("_runnel_") or described else _methods_in(value, before)
+        if methods is None:
             continue
         try:
-            done = dict(copied)  # without what a copy that fails has begun
+            done = _Notes(copied, methods)  # without what a copy that fails has begun
             begun.append(done)
             value = copy.deepcopy(value, done)
             copied = done

@@ -290,16 +290,19 @@ def _placed(message, file="", line=0, hint=""):
 
 def end_child(error):
     """A child that was forked in update(), a service or a callback ends where that does."""
-    code = getattr(error, "code", 1)
-    if error is None or code is None:
-        code = 0
-    elif not isinstance(error, SystemExit) or not isinstance(code, int):
+    code = error.code if isinstance(error, SystemExit) else None
+    if error is not None and not isinstance(error, SystemExit):
         traceback.print_exception(error)
         code = 1
+    elif code is not None and not isinstance(code, int):  # a text, as Python has it
+        print(code, file=sys.stderr)
+        code = 1
     for each in sys.stdout, sys.stderr:
-        if each is not None:
+        try:
             each.flush()
-    os._exit(code)
+        except Exception:  # there is none, or nobody reads it any more
+            pass
+    os._exit((code or 0) & 0xFF)
 
 
 def _as_utf8(text):

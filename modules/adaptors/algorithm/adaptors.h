@@ -32,7 +32,7 @@ class BumperAdaptor {
 };
 
 struct InfraredAdaptorConfiguration {
-  double body_radius = 0.15;    ///< m
+  double body_radius = 0.15;    ///< m, not more than it is: what is nearer counts as free
   double safe_distance = 0.35;  ///< m, from the body's centre to any boundary
   /// m; a cone is free up to its echo less this, which is more than half a cell's diagonal.
   double refutation_margin = 0.05;

@@ -89,7 +89,9 @@ def test_a_child_does_not_end_its_parents_recording():
 
 
 @pytest.mark.parametrize("clock", ["simulated", "real"])
-@pytest.mark.parametrize("end, code", [("return", 0), ("sys.exit(7)", 7), ("raise ValueError('of the child')", 1)])
+@pytest.mark.parametrize("end, code", [
+    ("return", 0), ("sys.exit(7)", 7), ("sys.stdout.close(); return", 0), ("raise ValueError('of the child')", 1),
+    ("sys.exit('of the child')", 1), ("raise type('Coded', (Exception,), {'code': None})('of the child')", 1)])
 def test_a_child_that_is_forked_in_update_ends_there(clock, end, code):
     told = ends_well(f"""
     class Forking(runnel.Module):
@@ -114,3 +116,4 @@ def test_a_child_that_is_forked_in_update_ends_there(clock, end, code):
     print("done")
     """)
     assert ("of the child" in told) == (code == 1), told
+    assert ("Traceback" in told) == end.startswith("raise"), told

@@ -107,6 +107,7 @@ def test_what_has_become_a_port_a_parameter_or_a_method_is_that_of_the_new_class
 
 
 OF_ITS_FILE = '''
+import contextlib
 import dataclasses
 import enum
 
@@ -120,6 +121,11 @@ class Mode(enum.Enum):
     FOLLOW = 2
 
 
+class Side(enum.Flag):
+    LEFT = 1
+    RIGHT = 2
+
+
 def law():
     return FACTOR
 
@@ -131,20 +137,34 @@ class Controller:
     def output(self):
         return FACTOR
 
+    @staticmethod
+    def gain():
+        return FACTOR
+
 
 class Base(runnel.Module):
     seen = runnel.Output("double[]")
 
+    @contextlib.contextmanager  # what it makes is a function of another file
+    def opened(self):
+        yield
+
     def __init__(self):
         self.mode = Mode.FOLLOW
+        self.sides = Side.LEFT | Side.RIGHT
         self.modes = {Mode.SEARCH: 5.0}
         self.law = law
         self.controller = Controller(7.0)
         self.kind = Controller
+        self.output = self.controller.output
+        self.outputs = [self.controller.output, Controller.gain]
+        self.controller.own = self.controller.output
 
     def update(self):
-        mine = [self.mode is Mode.FOLLOW, self.modes.get(Mode.SEARCH) == 5.0, self.controller == Controller(7.0), self.kind is Controller]
-        self.seen.publish([float(all(mine)), self.law(), self.controller.output()])
+        mine = [self.mode is Mode.FOLLOW, self.modes.get(Mode.SEARCH) == 5.0, self.controller == Controller(7.0), self.kind is Controller,
+                Side.LEFT in self.sides, self.sides & Side.RIGHT == Side.RIGHT, self.output.__self__ is self.controller]
+        self.seen.publish([float(all(mine)), self.law(), self.controller.output(), self.output(), self.controller.own(),
+                           *(each() for each in self.outputs)])
 
 
 class Control(Base):
@@ -158,11 +178,11 @@ def test_classes_functions_and_enumerations_of_the_file_are_those_of_the_file_as
     with runnel.compose("held", clock="simulated") as app:
         app.create("control", f"python/of_its_file.{name}")
         app.run_for(0.1)
-        assert list(app.read("/control/seen")) == [1, 1, 1]
+        assert list(app.read("/control/seen")) == [1, 1, 1, 1, 1, 1, 1]
         (empty_folder / "of_its_file.py").write_text(OF_ITS_FILE.replace("VALUE", "2.0"))
         app.reload()
         app.run_for(0.1)
-        assert list(app.read("/control/seen")) == [1, 2, 2]
+        assert list(app.read("/control/seen")) == [1, 2, 2, 2, 2, 2, 2]
         assert app.faults() == []
 
 

@@ -69,6 +69,13 @@ TEST(InfraredToSurroundings, GivesOneVagueViewForEachMeasurement) {
   EXPECT_TRUE(seen.is_vague);
 }
 
+// What is within the body counts as free.
+TEST(InfraredToSurroundings, RefusesASafeDistanceWithinTheBody) {
+  test::ModuleRig<InfraredToSurroundings> rig;
+  ASSERT_TRUE(rig.module.body_radius.SetFromText("0.4"));
+  EXPECT_FALSE(rig.Prepare());
+}
+
 TEST(BumperToSurroundings, GivesOneViewForEachMessageTouchedOrNot) {
   test::ModuleRig<BumperToSurroundings> rig;
   ASSERT_TRUE(rig.Prepare());

@@ -2,6 +2,7 @@
 
 #include "plugins/genom_execution/value_views.h"
 
+#include <algorithm>
 #include <type_traits>
 
 #include <gtest/gtest.h>
@@ -43,6 +44,25 @@ void TakeTheFirstOut() {
 
 TEST(ValueViews, AListOwnsNothingBeyondItsLength) { TakeTheFirstOut<OwnedList<OwnedText>>(); }
 TEST(ValueViews, AListInPlaceOwnsNothingBeyondItsLength) { TakeTheFirstOut<BoundedList<OwnedText, 3>>(); }
+
+// A codel in C raises the length, and looks how many each of the new ones may have.
+TEST(ValueViews, ElementsBeyondTheLengthOfAListInPlaceKnowTheirBounds) {
+  using Inner = BoundedList<OwnedText, 2>;
+  BoundedList<Inner, 3> list;
+  const auto know = [&] {
+    return std::ranges::all_of(list.buffer, [](const Inner& each) { return each.maximum == 2; });
+  };
+  EXPECT_TRUE(know());
+  ASSERT_TRUE(list.Resize(3));
+  ASSERT_TRUE(list.buffer[2].Resize(1));
+  list.buffer[2].buffer[0].Set("text");
+  ASSERT_TRUE(list.Resize(1));
+  EXPECT_TRUE(know());
+  EXPECT_EQ(list.buffer[2].length, 0u);
+  ASSERT_TRUE(list.Resize(3));
+  list = BoundedList<Inner, 3>();
+  EXPECT_TRUE(know());
+}
 
 TEST(ValueViews, AListOfWhatOwnsNothingIsCopiedByItsBytes) {
   static_assert(std::is_trivially_copyable_v<BoundedList<double, 4>>);

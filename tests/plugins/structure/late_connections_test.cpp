@@ -235,6 +235,19 @@ TEST_F(StandsAgainst, ItFollowsARenameAndComesBackWithUndo) {
   EXPECT_THAT(At<Port>("/app/adder/input/in1").incoming(), SizeIs(1));
 }
 
+// It is noted while an end is gone, and what the other end has become meanwhile stands against it.
+TEST_F(WhenPresent, UndoOfADeletionLeavesItNotedWhereTheOtherEndDoesNotFitAnyMore) {
+  Must({DisconnectPorts{"/app/counter/out", "/app/adder/in3"}});
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/app/adder"}}));
+  Must({DeleteElement{"/app/counter"}, CreateModule{"/app/counter", "test/text_counter"}});
+  const ChangeOutcome back = history_.Undo();
+  ASSERT_TRUE(back) << back.diagnostics.ToString();
+  EXPECT_EQ(CountNoted(), 1U);
+  EXPECT_THAT(At<Port>("/app/adder/input/in1").incoming(), IsEmpty());
+  Must({DeleteElement{"/app/counter"}, CreateModule{"/app/counter", "test/counter"}});
+  EXPECT_THAT(At<Port>("/app/adder/input/in1").incoming(), SizeIs(1));
+}
+
 TEST_F(StandsAgainst, ItIsNotedAgainWhereASetFails) {
   Must({CreateModule{"/app/m", "test/never_settles"}});
   const std::string why = Refusal({cut, ReplaceModule{"/app/m", "test/never_settles"}});
