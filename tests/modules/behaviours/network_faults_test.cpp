@@ -23,7 +23,7 @@ constexpr const char* kNetwork = R"(<application name="robot">
   <group name="network" characteristic="fusion">
     <port name="stimulation" direction="input"/> <port name="inhibition1" direction="input"/>
     <port name="activity" direction="output"/> <port name="target_rating" direction="output"/>
-    <port name="out" direction="output"/>
+    <port name="out" direction="output" type="double"/>
     <module name="drive" type="wishes/wisher"> <parameter name="stimulation_mode" value="enabled"/> </module>
     <module name="avoid" type="wishes/wisher"> <parameter name="wanted" value="3"/> </module>
     <module name="fusion" type="behaviours/fusion"> <parameter name="stimulation_mode" value="enabled"/> </module>
@@ -174,7 +174,10 @@ void EndureUndo(const ChangeSet& changes) {
       EXPECT_TRUE(outcome || has_struck);
       if (!outcome) {
         EXPECT_EQ(PictureOf(*application, true), before) << outcome.error().ToString();
-        if (application->history().NextUndo()) outcome = undo(*application);
+        if (application->history().NextUndo()) {
+          outcome = undo(*application);
+          EXPECT_TRUE(outcome) << outcome.error().ToString();
+        }
       }
       if (outcome) {
         EXPECT_EQ(PictureOf(*application, false), undone);
