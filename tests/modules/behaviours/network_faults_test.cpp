@@ -138,6 +138,32 @@ TEST(NetworkFaults, ALibraryOfBehavioursIsLoadedAnewOrNot) {
   EXPECT_GT(Endure(reload), 100u);
 }
 
+// With its tags and checks. At few points, as it is large, and each time stays in memory.
+TEST(NetworkFaults, TheLibraryOfFusionsIsLoadedAnewOrNot) {
+  bool has_struck = true;
+  for (std::size_t nth = 1; has_struck && !HasFailure(); nth *= 2) {
+    SCOPED_TRACE(nth);
+    const auto application = MakeNetwork();
+    (void)application->runtime().robot_stop().Press("a test");
+    const std::string before = PictureOf(*application, true);
+    ChangeOutcome outcome;
+    FaultInjection injection(InjectedFault::kAllocation, nth);
+    try {
+      outcome = application->Reload("behaviours");
+    } catch (const std::bad_alloc&) {
+    }
+    injection.End();
+    has_struck = injection.has_struck();
+    EXPECT_TRUE(outcome || has_struck) << outcome.diagnostics.ToString();
+    if (!outcome) {
+      EXPECT_EQ(PictureOf(*application, true), before);
+      outcome = application->Reload("behaviours");
+      EXPECT_TRUE(outcome) << outcome.diagnostics.ToString();
+    }
+    ExpectItDrives(*application, 2.0);
+  }
+}
+
 // Not by Endure(): an undo that is refused is forgotten, and the history says so.
 void EndureUndo(const ChangeSet& changes) {
   const auto undo = [](Application& application) -> Result<void> {
