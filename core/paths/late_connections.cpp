@@ -13,29 +13,6 @@ namespace runnel {
 
 namespace {
 
-struct Ends {
-  Port* from = nullptr;
-  Port* to = nullptr;
-  std::string missing = {};  // which is not there, and why
-};
-
-Ends FindEnds(Runtime& runtime, const std::string& from, const std::string& to) {
-  Ends ends;
-  const PathSearch search(runtime);
-  const auto find = [&](const std::string& path, PathKind kind) -> Port* {
-    const auto found = search.FindPort(path, kind);
-    if (found && (*found)->life_cycle() != LifeCycle::kDeleted) return *found;
-    if (ends.missing.empty()) {
-      const std::string why = found ? "" : found.error().message;
-      ends.missing = IsDistantPath(path) && !found ? why : path + (found ? "" : ": " + why);
-    }
-    return nullptr;
-  };
-  ends.from = find(from, PathKind::kOutput);
-  ends.to = find(to, PathKind::kInput);
-  return ends;
-}
-
 // Without the group of ports, which may be left out: "/a/laser/output/scan" is "/a/laser/scan".
 std::string ShortPath(std::string_view path) {
   std::vector<std::string_view> names = SplitPath(path);
@@ -82,6 +59,29 @@ LateConnections& LateConnections::Of(Runtime& runtime) {
 
 LateConnections* LateConnections::FindIn(Runtime& runtime) { return runtime.root().FindAnnotation<LateConnections>(); }
 
+struct LateConnections::Ends {
+  Port* from = nullptr;
+  Port* to = nullptr;
+  std::string missing = {};  // which is not there, and why
+};
+
+LateConnections::Ends LateConnections::FindEnds(const std::string& from, const std::string& to) const {
+  Ends ends;
+  const PathSearch search(runtime_);
+  const auto find = [&](const std::string& path, PathKind kind) -> Port* {
+    const auto found = search.FindPort(path, kind);
+    if (found && (*found)->life_cycle() != LifeCycle::kDeleted) return *found;
+    if (ends.missing.empty()) {
+      const std::string why = found ? "" : found.error().message;
+      ends.missing = IsDistantPath(path) && !found ? why : path + (found ? "" : ": " + why);
+    }
+    return nullptr;
+  };
+  ends.from = find(from, PathKind::kOutput);
+  ends.to = find(to, PathKind::kInput);
+  return ends;
+}
+
 // Lives as long as the root, and so as the runtime.
 LateConnections::LateConnections(Runtime& runtime) : runtime_(runtime) { runtime.AddListener(*this); }
 
@@ -102,15 +102,19 @@ bool LateConnections::Awaits(const Port& input) {
 
 Result<void> LateConnections::Add(const std::string& from, const std::string& to, ConnectOptions options) {
   options.when_present = options.when_present || !IsDistantPath(from);
-  const Ends ends = FindEnds(runtime_, from, to);
+  const Ends ends = FindEnds(from, to);
   // Notes itself.
   if (ends.missing.empty()) return Port::Connect(*ends.from, *ends.to, options);
-  return Note(from, to, std::move(options));
+  return Note(from, to, std::move(options), ends);
 }
 
 Result<void> LateConnections::Note(const std::string& from, const std::string& to, ConnectOptions options) {
   options.when_present = options.when_present || !IsDistantPath(from);
-  const Ends ends = FindEnds(runtime_, from, to);
+  return Note(from, to, std::move(options), FindEnds(from, to));
+}
+
+Result<void> LateConnections::Note(const std::string& from, const std::string& to, ConnectOptions options,
+                                   const Ends& ends) {
   if (Find(from, to) != nullptr) {
     return Error{.message = "is to be connected to " + to + " already", .path = from};
   }
@@ -135,7 +139,7 @@ void LateConnections::Forget(std::string_view from, std::string_view to) {
 bool LateConnections::Remove(std::string_view from, std::string_view to) {
   const LateConnection* const found = Find(from, to);
   if (found == nullptr) return false;
-  const Ends ends = FindEnds(runtime_, found->from, found->to);
+  const Ends ends = FindEnds(found->from, found->to);
   const bool is_connected = ends.missing.empty() && ends.from->ConnectionTo(*ends.to) != nullptr;
   Forget(from, to);
   if (is_connected) (void)Port::Disconnect(*ends.from, *ends.to);
@@ -189,7 +193,7 @@ void LateConnections::OnChangesEnd() {
 void LateConnections::LookAgain() {
   must_look_ = false;
   for (const Cut& cut : std::exchange(cuts_, {})) {
-    const Ends ends = FindEnds(runtime_, cut.from, cut.to);
+    const Ends ends = FindEnds(cut.from, cut.to);
     const bool are_the_same = ends.missing.empty() && ends.from->id() == cut.from_id && ends.to->id() == cut.to_id;
     if (are_the_same && ends.from->ConnectionTo(*ends.to) == nullptr) {
       std::erase_if(all_, [&](const LateConnection& each) { return each.from == cut.from && each.to == cut.to; });
@@ -209,7 +213,7 @@ void LateConnections::LookAgain() {
 void LateConnections::Try(const std::string& from, const std::string& to) {
   LateConnection* const late = FindOwn(from, to);
   if (late == nullptr) return;
-  const Ends ends = FindEnds(runtime_, from, to);
+  const Ends ends = FindEnds(from, to);
   const std::optional<std::string> before = std::exchange(late->waits_for, ends.missing);
   if (!ends.missing.empty()) {
     if (before != ends.missing) runtime_.ForEachListener([](ElementListener&) {});  // so that viewers look again

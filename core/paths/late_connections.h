@@ -78,12 +78,17 @@ class LateConnections final : public Annotation, private ElementListener {
     std::uint64_t to_id;
   };
 
+  /// What is there of the two.
+  struct Ends;
+
   void OnReady(FrameworkElement& element) override;
   void OnDeleted(FrameworkElement& element) override;
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnChangesEnd() override;
 
+  [[nodiscard]] Ends FindEnds(const std::string& from, const std::string& to) const;
+  Result<void> Note(const std::string& from, const std::string& to, ConnectOptions options, const Ends& ends);
   [[nodiscard]] LateConnection* FindOwn(std::string_view from, std::string_view to);
   void Try(const std::string& from, const std::string& to);
 

@@ -173,7 +173,8 @@ Result<PluginReload> PluginManager::ReloadKnown(std::string_view name, const Tem
   const auto known = FindKnown(name);
   if (!known) return known.error();
   const std::string plugin(name);
-  PluginReload reload(registry_, plugin, registry_.SetAside(plugin));
+  std::string told = plugin;  // all memory comes before what is there is taken out
+  PluginReload reload(registry_, std::move(told), registry_.SetAside(plugin));
   auto registered = Register(plugin, copy.file());
   if (!registered) {
     Error error = registered.error();

@@ -1,6 +1,7 @@
 #include "plugins/application/application_checks.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -126,9 +127,17 @@ void CheckMotion(const ApplicationCheckUse& use) {
 void ApplicationChecks::Add(Check check) { checks_.push_back({plugin_, std::move(check)}); }
 
 std::function<void()> ApplicationChecks::SetAside(std::string_view plugin) {
-  const auto before = std::make_shared<std::vector<PluginCheck>>(checks_);
-  std::function<void()> back = [this, before] { checks_ = *before; };
-  std::erase_if(checks_, [&](const PluginCheck& each) { return each.plugin == plugin; });
+  // All memory comes before the first is taken out; putting them back needs none, as there is room where they were.
+  const auto aside = std::make_shared<std::vector<PluginCheck>>();
+  aside->reserve(checks_.size());
+  std::function<void()> back = [this, aside] {
+    std::ranges::move(*aside, std::back_inserter(checks_));
+    aside->clear();
+  };
+  const auto of_it =
+      std::ranges::stable_partition(checks_, [&](const PluginCheck& each) { return each.plugin != plugin; });
+  std::ranges::move(of_it, std::back_inserter(*aside));
+  checks_.erase(of_it.begin(), of_it.end());
   return back;
 }
 

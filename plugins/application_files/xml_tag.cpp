@@ -1,6 +1,7 @@
 #include "plugins/application_files/xml_tag.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/base/check.h"
 #include "core/base/nearest_name.h"
@@ -152,20 +153,22 @@ std::function<void()> XmlTagRegistry::SetAside(std::string_view plugin) {
     decltype(tags_) tags;
     std::vector<AddedAttribute> attributes;
   };
-  // All memory comes before the first is taken out; putting them back needs none.
+  // All memory comes before the first is taken out; putting them back needs none, as there is room where they were.
   const auto aside = std::make_shared<Aside>();
-  const auto is_of_it = [&](const AddedAttribute& each) { return each.plugin == plugin; };
-  std::ranges::copy_if(added_attributes_, std::back_inserter(aside->attributes), is_of_it);
+  aside->attributes.reserve(added_attributes_.size());
   std::function<void()> back = [this, aside] {
     tags_.merge(aside->tags);
-    added_attributes_.insert(added_attributes_.end(), aside->attributes.begin(), aside->attributes.end());
+    std::ranges::move(aside->attributes, std::back_inserter(added_attributes_));
     aside->attributes.clear();
   };
   for (auto each = tags_.begin(); each != tags_.end();) {
     const auto at = each++;
     if (at->second.plugin == plugin) aside->tags.insert(tags_.extract(at));
   }
-  std::erase_if(added_attributes_, is_of_it);
+  const auto of_it = std::ranges::stable_partition(added_attributes_,
+                                                   [&](const AddedAttribute& each) { return each.plugin != plugin; });
+  std::ranges::move(of_it, std::back_inserter(aside->attributes));
+  added_attributes_.erase(of_it.begin(), of_it.end());
   return back;
 }
 

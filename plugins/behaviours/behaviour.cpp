@@ -46,6 +46,16 @@ void Behaviour::OnParametersChanged() {
 void Behaviour::Update() {
   ++cycle_;
   for (HeldBack* const each : held_back_) each->Discard();
+  try {
+    RunOnce();
+  } catch (...) {
+    // It may stay for long, failed as it is: it keeps no value that others need back.
+    for (HeldBack* const each : held_back_) each->Discard();
+    throw;
+  }
+}
+
+void Behaviour::RunOnce() {
   const bool is_unchanged = HasSameActivities() && !std::exchange(has_new_parameters_, false);
   MetaSignals signals;
   const auto outcome = TryToBehave(signals.activation);

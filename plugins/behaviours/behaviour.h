@@ -220,6 +220,7 @@ class Behaviour : public Module {
   friend class DerivedActivity;
 
   void Update() final;
+  void RunOnce();
   void OnParametersChanged() final;
   // Nothing: who inhibits it has not been heard for long, so it cannot tell.
   [[nodiscard]] std::optional<double> ReadActivation();

@@ -52,8 +52,16 @@ class Workshop {
 
   /// What has been made for `key`, or what `make` makes.
   const Result<Work>& Get(const std::string& key, const std::function<Result<Work>()>& make) {
-    const auto known = works_.find(key);
-    return known != works_.end() ? known->second : works_.emplace(key, make()).first->second;
+    // Its place is there before it is, so that it is not destroyed again for lack of one, under the structure lock.
+    const auto [work, is_new] = works_.try_emplace(key, Error{});
+    if (!is_new) return work->second;
+    try {
+      work->second = make();
+    } catch (...) {
+      works_.erase(work);
+      throw;
+    }
+    return work->second;
   }
   [[nodiscard]] std::size_t size() const noexcept { return works_.size(); }
 

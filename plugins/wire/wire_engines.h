@@ -31,9 +31,11 @@ class WireEngines final : public OfferedRegistry {
   std::function<void()> SetAside(std::string_view plugin) override {
     const auto found = engines_.find(plugin);
     if (found == engines_.end()) return [] {};
-    return [this, node = std::make_shared<Engines::node_type>(engines_.extract(found))] {
-      engines_.insert(std::move(*node));
-    };
+    // All memory comes before it is taken out.
+    const auto aside = std::make_shared<Engines::node_type>();
+    std::function<void()> back = [this, aside] { engines_.insert(std::move(*aside)); };
+    *aside = engines_.extract(found);
+    return back;
   }
   void set_plugin(const std::string& plugin) override { plugin_ = plugin; }
 

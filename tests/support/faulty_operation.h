@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <filesystem>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <optional>
@@ -22,23 +20,9 @@
 #include "plugins/application/application.h"
 #include "plugins/application/what_is_lost.h"
 #include "plugins/testing/fault_injection.h"
-#include "tests/support/wait_until.h"
+#include "tests/support/held_resources.h"
 
 namespace runnel::test {
-
-/// How many files and threads of this process there are.
-struct HeldResources {
-  static std::size_t CountOf(const char* folder) {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
-  }
-  /// The system lists a thread a moment longer than it is waited for.
-  void AwaitAgain() const {
-    WaitUntil("files and threads are as many as before", [this] { return HeldResources() == *this; });
-  }
-  std::size_t files = CountOf("/proc/self/fd");
-  std::size_t threads = CountOf("/proc/self/task");
-  bool operator==(const HeldResources&) const = default;
-};
 
 /// All that a person sees of an application that stands still: elements with types, values and connections, what its file
 /// would be, whether STOP is in force. `has_ids`: whether each element is the same object as before counts, too.

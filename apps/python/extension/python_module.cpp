@@ -99,6 +99,7 @@ void PythonModule::WithPython(const Work& work) {
 PythonModule::PythonModule(const Placement& placement, const std::string& type) : Module(placement) {
   host_->module = this;
   Annotate(std::make_unique<BeforeHandOver>([this] { return host_->Hold(); }));
+  KeepState(attributes_);
   const std::string folder = FolderOf(placement.parent);
   try {
     WithPython([&] {
@@ -110,7 +111,6 @@ PythonModule::PythonModule(const Placement& placement, const std::string& type) 
     class_.dec_ref();
     throw;
   }
-  KeepState(attributes_);
 }
 
 PythonModule::~PythonModule() {
@@ -127,6 +127,7 @@ PythonModule::~PythonModule() {
   // Without the GIL, for which their threads may be waiting.
   services_.clear();
   clients_.clear();
+  if (makes_thread_ && !has_run_) LeaveNoThread();
   const GilInCycle gil;
   for (py::handle each : {update_, object_, class_}) each.dec_ref();
 }
@@ -216,18 +217,41 @@ void PythonModule::GoToOwnThread() {
   std::optional<double> period;
   WithPython([&] { period = class_.attr("period").cast<std::optional<double>>(); });
   KeepOthersTogether();
-  std::string own = path().substr(path().find('/', 1) + 1);
-  std::replace(own.begin(), own.end(), '/', '_');
-  own = "python_" + own;
+  own_thread_ = "python_" + path().substr(path().find('/', 1) + 1);
+  std::replace(own_thread_.begin(), own_thread_.end(), '/', '_');
   FrameworkElement* const threads = runtime().root().FindChild("threads");
-  auto* thread = threads != nullptr ? dynamic_cast<ThreadContainer*>(threads->FindChild(own)) : nullptr;
+  auto* thread = threads != nullptr ? dynamic_cast<ThreadContainer*>(threads->FindChild(own_thread_)) : nullptr;
   if (thread == nullptr) {
     ThreadOptions options;
     if (period) options.period = FromSeconds(*period);
     if (!period) options.activation = ThreadOptions::Activation::kTrigger;
-    thread = &CreateThread(runtime(), own, options);
+    makes_thread_ = true;  // also if that fails halfway
+    thread = &CreateThread(runtime(), own_thread_, options);
   }
   AssignThread(*this, *thread, AssignedBy::kNobody);
+}
+
+void PythonModule::LeaveNoThread() noexcept {
+  // Nothing is deleted under the one, nor waited for with the other.
+  if (runtime().structure_mutex().HeldByThisThread() || PyGILState_Check() != 0) return;
+  try {
+    UnlistedElement gone;
+    {
+      const ChangeScope all_at_once(runtime());
+      FrameworkElement& root = runtime().root();
+      FrameworkElement* const threads = root.FindChild("threads");
+      auto* const thread =
+          threads != nullptr ? dynamic_cast<ThreadContainer*>(threads->FindChild(own_thread_)) : nullptr;
+      if (thread == nullptr) return;
+      bool is_needed = false;
+      root.Visit([&](const FrameworkElement& each) { is_needed = is_needed || OwnThreadId(each) == thread->id(); });
+      if (is_needed) return;
+      auto unlisted = runtime().Unlist(*thread);
+      if (unlisted) gone = std::move(*unlisted);
+    }
+    runtime().Destroy(std::move(gone));
+  } catch (...) {  // it stays, and runs nothing
+  }
 }
 
 // What is assigned to none goes on where it is run: with one more thread nobody would have said where.
@@ -242,6 +266,7 @@ void PythonModule::KeepOthersTogether() {
 }
 
 void PythonModule::Update() {
+  has_run_ = true;
   const GilInCycle gil;
   try {
     const auto returned = py::reinterpret_steal<py::object>(PyObject_CallNoArgs(update_.ptr()));

@@ -81,6 +81,8 @@ class PythonModule final : public Module {
   /// Logs the traceback, and throws what the fault says.
   [[noreturn]] void Fail(const pybind11::error_already_set& thrown);
   void GoToOwnThread();
+  /// The thread that was made for a module that has never run goes with it, if nobody has come to need it.
+  void LeaveNoThread() noexcept;
   void KeepOthersTogether();
   /// Does it with the GIL; what Python throws becomes an ElementError, with the file and the line.
   template <typename Work>
@@ -97,6 +99,9 @@ class PythonModule final : public Module {
   std::vector<std::unique_ptr<Port>> outputs_;
   std::vector<std::unique_ptr<ModuleClient>> clients_;
   std::vector<std::unique_ptr<ModuleService>> services_;
+  std::string own_thread_;     // its name
+  bool makes_thread_ = false;  // it was not there
+  bool has_run_ = false;
 };
 
 }  // namespace runnel::python

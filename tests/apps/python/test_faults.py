@@ -121,6 +121,19 @@ def test_a_module_is_replaced_or_not(app, empty_folder, method):
     goes_on(app)
 
 
+def test_a_change_that_is_refused_leaves_no_thread(app, empty_folder):
+    before = picture(app, empty_folder)
+    (empty_folder / "new.py").write_text(WELL)
+    with pytest.raises(runnel.Error, match="nobody"):
+        app.apply("create /robot/new python/new.Ticker; delete /robot/nobody")
+    assert picture(app, empty_folder) == before
+    assert not has_thread(app, "python_new")
+    app.create("new", "python/new.Ticker")
+    app.run_for(0.1)
+    assert app.read("/new/out") == 5
+    goes_on(app)
+
+
 def test_what_a_handler_throws_is_told_and_it_answers_the_next_time(app, empty_folder):
     (empty_folder / "well.py").write_text(WELL.replace("return number + 1", "return 42 // (number - 7)"))
     app.reload()

@@ -94,6 +94,25 @@ TEST(BehaviourTest, WhatBreaksARuleIsNotPublished) {
   EXPECT_EQ(rig.module.half.port.publications(), 0u);
 }
 
+/// Fails when it has filled its only buffer.
+class FailsWithItsBuffer final : public Behaviour {
+ public:
+  using Behaviour::Behaviour;
+  ControlOutput<std::vector<double>> list{this, "list", {.pool = {.buffers = 1, .may_grow = false}}};
+
+ private:
+  std::optional<Outcome> Behave(double with) override {
+    list.Set({with});
+    throw std::runtime_error("has failed");
+  }
+};
+
+TEST(BehaviourTest, WhoHasFailedKeepsNoBuffer) {
+  ModuleRig<FailsWithItsBuffer> rig;
+  ASSERT_TRUE(rig.RunUntilFault());
+  EXPECT_TRUE(rig.module.list.port.Loan());
+}
+
 TEST(BehaviourTest, AFaultTellsTheFigures) {
   const auto message_of = [](auto&& prepare) {
     ModuleRig<Told> rig;

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include "tests/plugins/control/control_fixture.h"
+#include "tests/support/held_resources.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {
@@ -191,10 +192,7 @@ TEST_F(ControlTest, ServesManyAtOnce) {
 }
 
 TEST_F(ControlTest, LosesNoDescriptorOverManyClientsThatComeAndGo) {
-  const auto count = [] {
-    const auto all = std::filesystem::directory_iterator("/proc/self/fd");
-    return std::distance(begin(all), end(all));
-  };
+  const auto count = [] { return HeldResources().files; };
   (void)Ask("ls");
   const auto before = count();
   for (int i = 0; i < 500; ++i) {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "plugins/structure/reload.h"
 #include "plugins/testing/fault_injection.h"
@@ -16,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string kPlugin = "counting_by_a_long_name";  // not within the text itself
+
 /// An application with two modules of a plugin, the library of which has been built anew meanwhile: from now on it
 /// counts by ten.
 class ReloadWorld {
@@ -23,7 +26,7 @@ class ReloadWorld {
   explicit ReloadWorld(const std::string& version = "1", const std::string& next = "2") {
     Put(version);
     plugins.AddSearchFolder(folder_.path());
-    Must(plugins.Load("counting"));
+    Must(plugins.Load(kPlugin));
     CreateThread(runtime, "main", {.period = 10ms});
     Must(runtime.MakeReady(runtime.root()));
     Must(editor.Apply({CreateGroup{"/app"}, CreateModule{"/app/a", "counting/counting"},
@@ -62,7 +65,7 @@ class ReloadWorld {
  private:
   void Put(const std::string& version) {
     fs::copy_file(fs::path(RUNNEL_TEST_PLUGINS) / ("counting_" + version + ".so"), folder_ / "new");
-    fs::rename(folder_ / "new", folder_ / "counting.so");
+    fs::rename(folder_ / "new", folder_ / (kPlugin + ".so"));
   }
   TemporaryFolder folder_;
 };
@@ -72,7 +75,7 @@ std::size_t EndureReload(InjectedFault fault, const std::string& version, const 
   std::string dump = world->Dump();
   ChangeOutcome outcome;
   return AtEachPoint(
-      fault, [&] { outcome = ReloadPlugin(world->plugins, world->editor, world->runtime, "counting"); },
+      fault, [&] { outcome = ReloadPlugin(world->plugins, world->editor, world->runtime, kPlugin); },
       [&](bool has_struck) {
         if (!has_struck) {
           ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
@@ -102,7 +105,7 @@ TEST(ReloadFaultsTest, APluginThatThrowsIsLoadedAnewOrNot) {
 
 TEST(ReloadFaultsTest, APluginIsLoadedOrNot) {
   TemporaryFolder folder;
-  fs::copy_file(fs::path(RUNNEL_TEST_PLUGINS) / "counting_1.so", folder / "counting.so");
+  fs::copy_file(fs::path(RUNNEL_TEST_PLUGINS) / "counting_1.so", folder / (kPlugin + ".so"));
   Result<void> loaded;
   std::unique_ptr<PluginManager> plugins;
   const auto make = [&] {
@@ -111,7 +114,7 @@ TEST(ReloadFaultsTest, APluginIsLoadedOrNot) {
   };
   make();
   AtEachPoint(
-      InjectedFault::kAllocation, [&] { loaded = plugins->Load("counting"); },
+      InjectedFault::kAllocation, [&] { loaded = plugins->Load(kPlugin); },
       [&](bool has_struck) {
         if (!has_struck) {
           ASSERT_TRUE(loaded) << loaded.error().ToString();

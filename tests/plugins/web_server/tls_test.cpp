@@ -8,6 +8,7 @@
 #include "tests/plugins/web_server/certificate.h"
 #include "tests/plugins/web_server/tls_client.h"
 #include "tests/plugins/web_server/web_server_fixture.h"
+#include "tests/support/held_resources.h"
 
 namespace runnel::test {
 
@@ -130,10 +131,7 @@ TEST_F(Tls, OneThatDoesNotReadIsLetGo) {
 class TlsThatIsStuck : public Tls {
  protected:
   static constexpr std::size_t kVisitors = 2, kClients = 6;
-  static std::size_t Descriptors() {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator()));
-  }
+  static std::size_t Descriptors() { return HeldResources().files; }
   void SetUp() override {
     StartTls({.limits = {.visitors = kVisitors, .waiting_bytes = 100'000'000, .request_time = 1h, .idle_time = 1h}});
     before_ = Descriptors();

@@ -3,9 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 #include <thread>
@@ -19,6 +17,7 @@
 #include <unistd.h>
 
 #include "plugins/wire_shared_memory/segment_server.h"
+#include "tests/support/held_resources.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {
@@ -145,14 +144,13 @@ TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
       EXPECT_FALSE(fetch({(*segment)->descriptor(), given->number()}));
     }
   }
-  const auto open_files = [] { return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}); };
-  const auto before = open_files();
+  const std::size_t before = HeldResources().files;
   for (std::size_t count = 0; count <= 3; ++count) {
     if (count != 2) {
       EXPECT_FALSE(fetch(std::vector<int>(count, (*segment)->descriptor())));
     }
   }
-  EXPECT_EQ(open_files(), before) << "what has been sent is closed";
+  EXPECT_EQ(HeldResources().files, before) << "what has been sent is closed";
   // What is given is not believed; that it could be is seen here.
   const auto right = (*segment)->Put(Octets(1000));
   ASSERT_TRUE(right);
