@@ -61,8 +61,8 @@ class ServiceForm::Maker {
     const MessageDefinition* const request = library_.Find(form_->ros_type_ + std::string(kRequest));
     const MessageDefinition* const response = library_.Find(form_->ros_type_ + std::string(kResponse));
     if (request == nullptr || response == nullptr) return NoSuchService(form_->ros_type_, library_);
-    form_->request_type_ = DdsType(request->name);
-    form_->response_type_ = DdsType(response->name);
+    form_->request_type_ = ServiceType::Of(*request, library_);
+    form_->response_type_ = ServiceType::Of(*response, library_);
     if (const auto made = MakeRequest(*request); !made) return made.error();
     if (const auto made = MakeResponse(*response); !made) return made.error();
     return std::shared_ptr<const ServiceForm>(std::move(form_));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "plugins/ros_services/service_type.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {
@@ -28,8 +29,8 @@ class ServiceForm {
 
   /// "std_srvs/srv/SetBool".
   [[nodiscard]] const std::string& ros_type() const noexcept { return ros_type_; }
-  [[nodiscard]] const std::string& request_type() const noexcept { return request_type_; }
-  [[nodiscard]] const std::string& response_type() const noexcept { return response_type_; }
+  [[nodiscard]] const ServiceType& request_type() const noexcept { return request_type_; }
+  [[nodiscard]] const ServiceType& response_type() const noexcept { return response_type_; }
 
   /// How a call has ended: with a reply, or why not.
   struct Outcome {
@@ -50,8 +51,8 @@ class ServiceForm {
   enum class ReplyIs { kNothing, kMessage, kSuccess, kFields };
 
   std::string ros_type_;
-  std::string request_type_;
-  std::string response_type_;
+  ServiceType request_type_;
+  ServiceType response_type_;
   const TypeInfo* arguments_ = nullptr;
   bool is_only_argument_ = false;  // the request is the value of the structure's only field
   bool says_success_ = false;
