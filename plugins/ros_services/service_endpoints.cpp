@@ -105,6 +105,7 @@ std::optional<ServiceMessage> ServiceEndpoints::Read(const WireSample& sample) {
 
 // Servers that look only at who has written the request, as DDS without ROS has them, answer to the writer.
 bool ServiceEndpoints::IsForThis(const CallId& id) const noexcept {
+  if (id.number <= 0) return false;  // whoever answers does not say which call
   return id.client == client_ || (topics_.dialect == ServiceDialect::kBeside && id.client == writer_->id());
 }
 

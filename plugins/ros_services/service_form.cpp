@@ -199,8 +199,10 @@ Result<void> ServiceForm::ReadRequest(std::span<const std::byte> octets, void* a
 bool ServiceForm::WriteResponse(const Outcome& outcome, const void* reply, Octets& octets) const {
   static const Signal kNothing;
   if (!outcome.success) {
-    if (outcome_ != nullptr) outcome_->Encode(&outcome, SinceEpoch(), octets);
-    return outcome_ != nullptr;
+    // A message beside a reply would be taken for a part of that.
+    const bool can_say = says_success_ || (outcome_ != nullptr && reply_is_ == ReplyIs::kNothing);
+    if (can_say) outcome_->Encode(&outcome, SinceEpoch(), octets);
+    return can_say;
   }
   Outcome said = outcome;
   switch (reply_is_) {

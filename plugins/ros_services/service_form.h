@@ -17,7 +17,8 @@ class TypeInfo;
 /// The arguments of a call and its reply as request and response of a service of ROS 2, whose fields have the same names.
 ///
 /// Services of ROS 2 have no errors. Where a response has fields `success` and `message` that are not of the reply itself, they
-/// say whether there is one, and if not, why. A reply that is a text or a bool may be these, too.
+/// say whether there is one, and if not, why; a `message` alone says why where there is no reply at all. A reply that is a
+/// text or a bool may be these, too.
 ///
 /// Threads: any number at once, each with values of its own. The types must outlive it.
 class ServiceForm {

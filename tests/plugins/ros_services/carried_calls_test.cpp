@@ -175,6 +175,24 @@ TEST_F(CarriedCallsTest, WaitForAServiceThatComesLater) {
   EXPECT_EQ(*Await(call), 8);
 }
 
+// Of a server that does not say which call it answers.
+TEST_F(CarriedCallsTest, AreNotEndedByWhatAnswersNoCall) {
+  auto call = client_.Begin(4);
+  (void)taken_->Work();
+  const auto writer = std::move(*there_->MakeWriter(
+      {.topic = DdsReplyTopic("/double"), .type = far_->form->response_type().name, .qos = {.depth = 10}}, {}));
+  const int wrong = 99;
+  Octets message;
+  ASSERT_TRUE(far_->form->WriteResponse({.success = true, .message = ""}, &wrong, message));
+  ASSERT_TRUE(
+      writer->Write(std::make_shared<const Octets>(WithCallId({taken_->endpoints()->writer_id(), 0}, message)), 1));
+  WaitUntilQuiet(*engine_);
+  (void)taken_->Work();
+  EXPECT_FALSE(call.is_done());
+  Offer();
+  EXPECT_EQ(*Await(call), 8);
+}
+
 TEST_F(CarriedCallsTest, AreNotSentIfStopWasPressedWhileTheyWaitForTheService) {
   auto call = client_.Begin(4);
   (void)taken_->Work();
