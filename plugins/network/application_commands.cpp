@@ -13,6 +13,7 @@
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/command_service/extension_texts.h"
+#include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/structure/change_text.h"
 
@@ -79,10 +80,17 @@ ApplicationCommands::~ApplicationCommands() {
 Result<std::unique_ptr<ServiceEndpoints>> ApplicationCommands::Open(ServiceEndpoints::Side side,
                                                                     const std::string& name,
                                                                     std::function<void()> on_news) {
+  const auto type_of = [](const std::string& message, const std::vector<MessageField>& fields) {
+    return ServiceType::Of({.name = "runnel_msgs/srv/" + message, .fields = fields}, MessageLibrary::Standard());
+  };
+  constexpr auto kText = MessageType::kString;
+  static const auto kAsked = type_of("Command_Request", {{"client", kText}, {"change", kText}, {"whom", kText}});
+  static const auto kAnswered =
+      type_of("Command_Response", {{"success", MessageType::kBool}, {"message", kText}, {"token", kText}});
   return ServiceEndpoints::Start(side,
                                  {.service = NearestRosName("/" + name + "/runnel_commands"),
-                                  .request_type = DdsType("runnel_msgs/srv/Command_Request"),
-                                  .response_type = DdsType("runnel_msgs/srv/Command_Response"),
+                                  .request = kAsked,
+                                  .response = kAnswered,
                                   .depth = kMostErrands,
                                   .is_latched = true},
                                  link_.participant(), kIdentity + opened_++, std::move(on_news));

@@ -70,12 +70,14 @@ std::string DescriptionText(const TypeInfo& type) {
   return text;
 }
 
+std::string TypeHashText(const std::string& hash) { return std::string(kHash) + hash + ";"; }
+
 WireEndpointOptions RosEndpoint(const std::string& topic, const std::string& message, const WireQos& qos) {
   const MessageLibrary& library = MessageLibrary::Standard();
   return {.topic = DdsTopic(topic),
           .type = DdsType(message),
           .qos = qos,
-          .user_data = std::string(kHash) + TypeHashOf(*library.Find(message), library) + ";"};
+          .user_data = TypeHashText(TypeHashOf(*library.Find(message), library))};
 }
 
 std::string TypeMisfit(const std::string& writers, const std::string& readers) {
@@ -108,7 +110,7 @@ Result<std::shared_ptr<const ValueForm>> ValueForm::Make(const TypeInfo& type, c
       type, {.as = as, .by_description = as.empty(), .frame = frame, .child_frame = child_frame, .field = field},
       messages != nullptr ? *messages : MessageLibrary::Standard());
   if (!codec) return codec.error();
-  std::string user_data = std::string(kHash) + (*codec)->type_hash() + ";";
+  std::string user_data = TypeHashText((*codec)->type_hash());
   if (as.empty()) user_data += std::string(kKey) + DescriptionText(type) + ";";
   return std::make_shared<const ValueForm>(ValueForm{std::move(*codec), std::move(user_data)});
 }

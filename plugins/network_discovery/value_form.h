@@ -27,6 +27,9 @@ struct ValueForm {
 /// What is inside of values, in one line: "{x:double[m],y:double[m]}".
 [[nodiscard]] std::string DescriptionText(const TypeInfo& type);
 
+/// What endpoints say of their messages by USER_DATA, as nodes of ROS 2 from Iron on do: "typehash=RIHS01_…;" for TypeHashOf().
+[[nodiscard]] std::string TypeHashText(const std::string& hash);
+
 /// Of the topic "/clock" and the message "rosgraph_msgs/msg/Clock" of ROS 2, with the hash of that.
 [[nodiscard]] WireEndpointOptions RosEndpoint(const std::string& topic, const std::string& message, const WireQos& qos);
 

@@ -59,8 +59,8 @@ Result<void> OfferedService::Follow(WireParticipant& participant, const std::fun
     if (const auto callable = Find(); !callable) {
       found = callable.error();
     } else {
-      topics.request_type = form_->request_type();
-      topics.response_type = form_->response_type();
+      topics.request = form_->request_type();
+      topics.response = form_->response_type();
     }
   }
   if (!found || (endpoints_ != nullptr && endpoints_->topics() != topics)) {
@@ -78,7 +78,7 @@ Result<void> OfferedService::Follow(WireParticipant& participant, const std::fun
 Result<std::unique_ptr<AnyCall>> OfferedService::Begin(const ServiceMessage& request) {
   const auto callable = Find();
   if (!callable) return callable.error();
-  if (form_->request_type() != endpoints_->topics().request_type)
+  if (form_->request_type() != endpoints_->topics().request)
     return Error{.message = "it is about to be another service"};
   if (pending_.size() >= kMostCalls) return Error{.message = "too many calls are under way"};
   auto call = (*callable)->NewCall();
@@ -131,7 +131,7 @@ void OfferedService::Answer(const CallId& id, const ServiceForm& form, const Ser
 std::string OfferedService::Text() const {
   std::string text = "offers the service " + options_.port + " as " + options_.service + "  ";
   if (endpoints_ == nullptr) return text + "(it is not there)\n";
-  text += endpoints_->topics().request_type + ", " + std::to_string(answered_) + " answered, " +
+  text += endpoints_->topics().request.name + ", " + std::to_string(answered_) + " answered, " +
           std::to_string(failed_) + " failed";
   if (endpoints_->lost() > 0) text += ", " + std::to_string(endpoints_->lost()) + " lost";
   return text + "\n";

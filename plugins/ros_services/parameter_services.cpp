@@ -14,7 +14,6 @@
 #include "core/types/type_of.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/network_discovery/value_form.h"
-#include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/ros_time.h"
 
 namespace runnel {
@@ -71,8 +70,8 @@ Result<void> ParameterServices::Add(const char* name, const char* type, WirePart
   const std::string of = std::string("rcl_interfaces/srv/") + type;
   auto endpoints = ServiceEndpoints::Start(ServiceEndpoints::Side::kServer,
                                            {.service = (node_ == "/" ? "" : node_) + "/" + name,
-                                            .request_type = DdsType(of + "_Request"),
-                                            .response_type = DdsType(of + "_Response"),
+                                            .request = ServiceType::OfRos(of + "_Request"),
+                                            .response = ServiceType::OfRos(of + "_Response"),
                                             .depth = kDepth,
                                             .dialect = dialect_,
                                             .table = table_},

@@ -8,6 +8,7 @@
 
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/network_discovery/value_form.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/ros_time.h"
 
@@ -17,12 +18,14 @@ namespace {
 
 constexpr const char* kClientId = "clientid=";
 
-// "clientid=1.f.…;": nodes on Cyclone know by it which reader and which writer are of one client, or one service.
-std::string UserData(ServiceEndpoints::Side side, const WireId& participant, std::uint32_t identity) {
+// "clientid=1.f.…;typehash=RIHS01_…;": nodes on Cyclone know by the first which reader and which writer are of one client, or
+// one service.
+std::string UserData(ServiceEndpoints::Side side, const WireId& participant, std::uint32_t identity,
+                     const ServiceType& type) {
   WireId id = participant;
   std::memcpy(id.data() + id.size() - sizeof identity, &identity, sizeof identity);
-  return fmt::format("{}{:02x};", side == ServiceEndpoints::Side::kServer ? "serviceid=" : kClientId,
-                     fmt::join(id, "."));
+  return fmt::format("{}{:02x};{}", side == ServiceEndpoints::Side::kServer ? "serviceid=" : kClientId,
+                     fmt::join(id, "."), type.hash.empty() ? "" : TypeHashText(type.hash));
 }
 
 // What eight octets can have of sixteen.
@@ -45,12 +48,13 @@ Result<std::unique_ptr<ServiceEndpoints>> ServiceEndpoints::Start(Side side, con
   std::unique_ptr<ServiceEndpoints> made(new ServiceEndpoints(side, topics, std::move(on_news)));
   ServiceEndpoints& self = *made;
   const WireEndpointOptions request{.topic = DdsRequestTopic(topics.service),
-                                    .type = topics.request_type,
+                                    .type = topics.request.name,
                                     .qos = {.is_latched = topics.is_latched, .depth = topics.depth},
-                                    .user_data = UserData(side, participant.id(), identity)};
+                                    .user_data = UserData(side, participant.id(), identity, topics.request)};
   WireEndpointOptions reply = request;
   reply.topic = DdsReplyTopic(topics.service);
-  reply.type = topics.response_type;
+  reply.type = topics.response.name;
+  reply.user_data = UserData(side, participant.id(), identity, topics.response);
   const bool is_server = side == Side::kServer;
   auto writer = participant.MakeWriter(is_server ? reply : request, [&self](std::size_t count) {
     self.readers_.store(count, std::memory_order_relaxed);
@@ -101,6 +105,7 @@ std::optional<ServiceMessage> ServiceEndpoints::Read(const WireSample& sample) {
 
 // Servers that look only at who has written the request, as DDS without ROS has them, answer to the writer.
 bool ServiceEndpoints::IsForThis(const CallId& id) const noexcept {
+  if (id.number <= 0) return false;  // whoever answers does not say which call
   return id.client == client_ || (topics_.dialect == ServiceDialect::kBeside && id.client == writer_->id());
 }
 

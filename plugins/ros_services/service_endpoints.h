@@ -14,6 +14,7 @@
 
 #include "plugins/network_discovery/discovery_table.h"
 #include "plugins/network_discovery/writer_clock.h"
+#include "plugins/ros_services/service_type.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {
@@ -48,10 +49,10 @@ enum class ServiceDialect {
 
 /// A service as the wire has it.
 struct ServiceTopics {
-  std::string service = {};        ///< "/save_map"
-  std::string request_type = {};   ///< "std_srvs::srv::dds_::SetBool_Request_"
-  std::string response_type = {};  ///< "std_srvs::srv::dds_::SetBool_Response_"
-  std::uint32_t depth = 10;        ///< newest requests and replies that are kept
+  std::string service = {};  ///< "/save_map"
+  ServiceType request = {};
+  ServiceType response = {};
+  std::uint32_t depth = 10;  ///< newest requests and replies that are kept
   ServiceDialect dialect = ServiceDialect::kInFront;
   bool is_latched = false;                ///< what is said before the other end has come is heard by it, too
   const DiscoveryTable* table = nullptr;  ///< of who calls; must outlive the ends. nullptr: no server waits for readers

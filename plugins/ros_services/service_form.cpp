@@ -61,8 +61,8 @@ class ServiceForm::Maker {
     const MessageDefinition* const request = library_.Find(form_->ros_type_ + std::string(kRequest));
     const MessageDefinition* const response = library_.Find(form_->ros_type_ + std::string(kResponse));
     if (request == nullptr || response == nullptr) return NoSuchService(form_->ros_type_, library_);
-    form_->request_type_ = DdsType(request->name);
-    form_->response_type_ = DdsType(response->name);
+    form_->request_type_ = ServiceType::Of(*request, library_);
+    form_->response_type_ = ServiceType::Of(*response, library_);
     if (const auto made = MakeRequest(*request); !made) return made.error();
     if (const auto made = MakeResponse(*response); !made) return made.error();
     return std::shared_ptr<const ServiceForm>(std::move(form_));
@@ -199,8 +199,10 @@ Result<void> ServiceForm::ReadRequest(std::span<const std::byte> octets, void* a
 bool ServiceForm::WriteResponse(const Outcome& outcome, const void* reply, Octets& octets) const {
   static const Signal kNothing;
   if (!outcome.success) {
-    if (outcome_ != nullptr) outcome_->Encode(&outcome, SinceEpoch(), octets);
-    return outcome_ != nullptr;
+    // A message beside a reply would be taken for a part of that.
+    const bool can_say = says_success_ || (outcome_ != nullptr && reply_is_ == ReplyIs::kNothing);
+    if (can_say) outcome_->Encode(&outcome, SinceEpoch(), octets);
+    return can_say;
   }
   Outcome said = outcome;
   switch (reply_is_) {

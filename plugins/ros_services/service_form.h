@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "plugins/ros_services/service_type.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {
@@ -16,7 +17,8 @@ class TypeInfo;
 /// The arguments of a call and its reply as request and response of a service of ROS 2, whose fields have the same names.
 ///
 /// Services of ROS 2 have no errors. Where a response has fields `success` and `message` that are not of the reply itself, they
-/// say whether there is one, and if not, why. A reply that is a text or a bool may be these, too.
+/// say whether there is one, and if not, why; a `message` alone says why where there is no reply at all. A reply that is a
+/// text or a bool may be these, too.
 ///
 /// Threads: any number at once, each with values of its own. The types must outlive it.
 class ServiceForm {
@@ -28,8 +30,8 @@ class ServiceForm {
 
   /// "std_srvs/srv/SetBool".
   [[nodiscard]] const std::string& ros_type() const noexcept { return ros_type_; }
-  [[nodiscard]] const std::string& request_type() const noexcept { return request_type_; }
-  [[nodiscard]] const std::string& response_type() const noexcept { return response_type_; }
+  [[nodiscard]] const ServiceType& request_type() const noexcept { return request_type_; }
+  [[nodiscard]] const ServiceType& response_type() const noexcept { return response_type_; }
 
   /// How a call has ended: with a reply, or why not.
   struct Outcome {
@@ -50,8 +52,8 @@ class ServiceForm {
   enum class ReplyIs { kNothing, kMessage, kSuccess, kFields };
 
   std::string ros_type_;
-  std::string request_type_;
-  std::string response_type_;
+  ServiceType request_type_;
+  ServiceType response_type_;
   const TypeInfo* arguments_ = nullptr;
   bool is_only_argument_ = false;  // the request is the value of the structure's only field
   bool says_success_ = false;

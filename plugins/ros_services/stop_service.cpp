@@ -4,7 +4,6 @@
 
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
-#include "plugins/ros_messages/names.h"
 
 namespace runnel {
 
@@ -21,8 +20,8 @@ Result<std::unique_ptr<StopService>> StopService::Start(Runtime& runtime, bool m
   std::unique_ptr<StopService> made(new StopService(runtime, may_release, name, std::move(is_kept), std::move(check)));
   auto endpoints = ServiceEndpoints::Start(ServiceEndpoints::Side::kServer,
                                            {.service = made->name_,
-                                            .request_type = DdsType("std_srvs/srv/SetBool_Request"),
-                                            .response_type = DdsType("std_srvs/srv/SetBool_Response"),
+                                            .request = ServiceType::OfRos("std_srvs/srv/SetBool_Request"),
+                                            .response = ServiceType::OfRos("std_srvs/srv/SetBool_Response"),
                                             .dialect = dialect,
                                             .table = table},
                                            participant, kStopIdentity, [self = made.get()] { self->Serve(); });

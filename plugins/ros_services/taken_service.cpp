@@ -74,8 +74,8 @@ Result<void> TakenService::Follow(WireParticipant& participant) {
   const ServiceForm& form = *service_->form;
   auto begun = ServiceEndpoints::Start(ServiceEndpoints::Side::kClient,
                                        {.service = options_.service,
-                                        .request_type = form.request_type(),
-                                        .response_type = form.response_type(),
+                                        .request = form.request_type(),
+                                        .response = form.response_type(),
                                         .dialect = dialect_},
                                        participant, identity_, [wake = wake_] { wake->Notify(); });
   if (!begun) return begun.error();

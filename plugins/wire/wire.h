@@ -76,7 +76,7 @@ struct WireMember {
   std::string user_data = {};
 };
 
-/// Told who is in the network. Called by threads of the engine, one at a time for a participant; must return soon, and
+/// Told who is in the network. Called by threads of the engine (CallBack()), one at a time for a participant; must return soon, and
 /// may not call the participant.
 class WireDiscovery {
  public:
@@ -110,10 +110,19 @@ struct WireSample {
   std::string_view flaw = {};               ///< why there are no octets, though a value has come; else ""
 };
 
-/// How many there are at the other ends, after each change. Called by threads of the engine.
+/// How many there are at the other ends, after each change. Called by threads of the engine, as CallBack() does.
 using OnMatched = std::function<void(std::size_t count)>;
-/// Called by threads of the engine, one at a time for a reader.
+/// Called by threads of the engine, one at a time for a reader, as CallBack() does.
 using OnSample = std::function<void(const WireSample& sample)>;
+
+/// For engines, beneath whose threads nobody catches anything: who throws, for want of memory, has not been told.
+template <typename Callback>
+void CallBack(const Callback& callback) noexcept {
+  try {
+    callback();
+  } catch (...) {  // the next one may find memory again
+  }
+}
 
 /// Destroying it waits for callbacks that run.
 class WireWriter {

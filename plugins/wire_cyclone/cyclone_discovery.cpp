@@ -24,7 +24,8 @@ void TakeAll(dds_entity_t reader, const Visit& visit) {
     dds_sample_info_t infos[kAtOnce];
     const dds_return_t count = dds_take(reader, samples, infos, kAtOnce, kAtOnce);
     if (count <= 0) return;
-    for (dds_return_t i = 0; i < count; ++i) visit(*static_cast<const Sample*>(samples[i]), infos[i]);
+    for (dds_return_t i = 0; i < count; ++i)
+      CallBack([&] { visit(*static_cast<const Sample*>(samples[i]), infos[i]); });
     (void)dds_return_loan(reader, samples, count);
   }
 }

@@ -39,7 +39,7 @@ class CycloneWriter final : public WireWriter {
     dds_listener_t* const listener = dds_create_listener(this);
     dds_lset_publication_matched(listener, [](dds_entity_t, dds_publication_matched_status_t status, void* self) {
       const auto& on_matched = static_cast<CycloneWriter*>(self)->on_matched_;
-      if (on_matched) on_matched(status.current_count);
+      if (on_matched) CallBack([&] { on_matched(status.current_count); });
     });
     writer_ = dds_create_writer(participant, topic, qos, listener);
     dds_delete_listener(listener);
@@ -92,7 +92,7 @@ class CycloneReader final : public WireReader {
         listener, [](dds_entity_t reader, void* self) { static_cast<CycloneReader*>(self)->TakeAll(reader); });
     dds_lset_subscription_matched(listener, [](dds_entity_t, dds_subscription_matched_status_t status, void* self) {
       const auto& on_matched = static_cast<CycloneReader*>(self)->on_matched_;
-      if (on_matched) on_matched(status.current_count);
+      if (on_matched) CallBack([&] { on_matched(status.current_count); });
     });
     reader_ = dds_create_reader(participant, topic, qos, listener);
     dds_delete_listener(listener);
@@ -116,7 +116,7 @@ class CycloneReader final : public WireReader {
       for (dds_return_t i = 0; i < count; ++i) {
         if (infos[i].valid_data) {
           const auto& octets = *static_cast<const OctetsValue*>(values[i])->octets;
-          on_sample_({octets, infos[i].source_timestamp, infos[i].publication_handle});
+          CallBack([&] { on_sample_({octets, infos[i].source_timestamp, infos[i].publication_handle}); });
         }
         ddsi_serdata_unref(values[i]);
       }

@@ -144,36 +144,44 @@ void FastDiscovery::TellMemberGone(const WireId& id) {
 
 void FastDiscovery::on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) {
   const WireId id = IdOf(info.info.m_guid);
-  switch (info.status) {
-    case rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT:
-    case rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT:
-      return TellMember(
-          {.id = id, .name = info.info.m_participantName.to_string(), .user_data = TextOf(info.info.m_userData)});
-    case rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT:
-    case rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT:
-      return TellMemberGone(id);
-  }
+  CallBack([&] {
+    switch (info.status) {
+      case rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT:
+      case rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT:
+        return TellMember(
+            {.id = id, .name = info.info.m_participantName.to_string(), .user_data = TextOf(info.info.m_userData)});
+      case rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT:
+      case rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT:
+        return TellMemberGone(id);
+    }
+  });
 }
 
 void FastDiscovery::onParticipantAuthentication(dds::DomainParticipant*, rtps::ParticipantAuthenticationInfo&& info) {
   if (info.status != rtps::ParticipantAuthenticationInfo::UNAUTHORIZED_PARTICIPANT) return;
-  const std::string why = TakeFastRefusal();
-  const std::lock_guard lock(mutex_);
-  const std::string& name = names_[IdOf(info.guid)];
-  listener_.OnRefused((name.empty() ? "somebody" : name) + ": " +
-                      (why.empty() ? "no certificate that is trusted here" : why));
+  CallBack([&] {
+    const std::string why = TakeFastRefusal();
+    const std::lock_guard lock(mutex_);
+    const std::string& name = names_[IdOf(info.guid)];
+    listener_.OnRefused((name.empty() ? "somebody" : name) + ": " +
+                        (why.empty() ? "no certificate that is trusted here" : why));
+  });
 }
 
 void FastDiscovery::on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
-  if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) return TellGone(IdOf(info.info.guid()));
-  Tell(EndpointOf(info.info, false));
+  CallBack([&] {
+    if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) return TellGone(IdOf(info.info.guid()));
+    Tell(EndpointOf(info.info, false));
+  });
 }
 
 void FastDiscovery::on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {
-  if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) return TellGone(IdOf(info.info.guid()));
-  WireEndpoint endpoint = EndpointOf(info.info, true);
-  endpoint.options.qos.strength = static_cast<std::int32_t>(info.info.m_qos.m_ownershipStrength.value);
-  Tell(endpoint);
+  CallBack([&] {
+    if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) return TellGone(IdOf(info.info.guid()));
+    WireEndpoint endpoint = EndpointOf(info.info, true);
+    endpoint.options.qos.strength = static_cast<std::int32_t>(info.info.m_qos.m_ownershipStrength.value);
+    Tell(endpoint);
+  });
 }
 
 }  // namespace runnel

@@ -90,7 +90,7 @@ class Gate {
   template <typename Callback>
   void Pass(const Callback& callback) {
     const std::lock_guard lock(mutex_);
-    if (is_open_) callback();
+    if (is_open_) CallBack(callback);
   }
   void Shut() {
     const std::lock_guard lock(mutex_);
@@ -236,7 +236,7 @@ class FastReader final : public WireReader, private dds::DataReaderListener {
     gate_.Pass([&] {
       dds::SampleInfo info;
       while (reader->take_next_sample(&octets_, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
-        if (info.valid_data) Look(info);
+        if (info.valid_data) CallBack([&] { Look(info); });
       }
     });
   }

@@ -166,10 +166,12 @@ Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options, st
   if (!options.security) udp->maxMessageSize = LargestDatagram(options);
   udp->maxInitialPeersRange = kProcessesOfAMachine;
   if (options.reach == WireReach::kLoopback) udp->interfaceWhiteList = {"127.0.0.1"};
+  std::string here = "127.0.0.1";  // where others of this machine are asked
   if (!options.interface.empty()) {
     const auto address = AddressOfInterface(options.interface);
     if (!address) return address.error();
     udp->interfaceWhiteList = {*address};
+    here = *address;  // they hear nothing elsewhere
   }
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports.push_back(std::make_shared<ReachDescriptor>(udp, options, std::move(kept)));
@@ -186,7 +188,7 @@ Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options, st
     builtin.metatrafficUnicastLocatorList.push_back(Locator_t(LOCATOR_KIND_UDPv4, 0));  // and no group
   }
   std::vector<std::string> peers = options.peers;
-  if (!asks_all) peers.push_back("127.0.0.1");
+  if (!asks_all) peers.push_back(here);
   for (const std::string& each : peers) {
     const auto peer = Peer(each);
     if (!peer) return peer.error();

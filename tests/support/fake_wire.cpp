@@ -33,7 +33,7 @@ struct FakeEndpoint {
   std::deque<Value> kept;  // by a latched writer
 
   void Take(const Value& value, std::uint64_t writer) const {
-    on_sample({*value.octets, value.time, writer, value.identity, value.related});
+    CallBack([&] { on_sample({*value.octets, value.time, writer, value.identity, value.related}); });
   }
 };
 
@@ -212,7 +212,7 @@ void FakeNetwork::Run() {
 
 void Tell(const FakeParticipant& member, WireEndpoint endpoint) {
   endpoint.is_own = endpoint.participant == member.about().id;
-  member.discovery().OnEndpoint(endpoint);
+  CallBack([&] { member.discovery().OnEndpoint(endpoint); });
 }
 
 void FakeNetwork::AddMember(FakeParticipant& member) {
@@ -256,7 +256,7 @@ void Note(FakeEndpoint& endpoint, const FakeEndpoint& other, bool is_there) {
 
 void Count(FakeEndpoint& endpoint, std::size_t change) {
   endpoint.matched += change;
-  if (endpoint.on_matched) endpoint.on_matched(endpoint.matched);
+  if (endpoint.on_matched) CallBack([&] { endpoint.on_matched(endpoint.matched); });
 }
 
 void FakeNetwork::AddEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint) {

@@ -8,6 +8,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/rfc7230.hpp>
+#include <boost/beast/http/serializer.hpp>
 #include <boost/beast/http/span_body.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -171,12 +172,20 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
     }
     response_.content_length(body.size());
     if (!is_head) response_.body() = {body.data(), body.size()};
+    serializer_.emplace(response_);
+    SendPiece();
+  }
+
+  // So that a slow line is enough for a large answer: who takes some of it is there.
+  void SendPiece() {
     stream_.expires_after(registry_.limits().request_time);
-    http::async_write(stream_, response_, beast::bind_front_handler(&HttpConnection::OnSent, shared_from_this()));
+    http::async_write_some(stream_, *serializer_,
+                           beast::bind_front_handler(&HttpConnection::OnSent, shared_from_this()));
   }
 
   void OnSent(beast::error_code error, std::size_t /*bytes*/) {
     if (error) return Remove();
+    if (!serializer_->is_done()) return SendPiece();
     if (response_.keep_alive()) return Read();
     stream_.socket().shutdown(tcp::socket::shutdown_send, error);
     stream_.expires_after(kTimeToDrain);
@@ -204,6 +213,7 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
   std::optional<http::request_parser<http::empty_body>> parser_;
   HttpRequest request_;
   http::response<http::span_body<const char>> response_;
+  std::optional<http::response_serializer<http::span_body<const char>>> serializer_;  // of response_
   std::string text_;  // that is sent, if it is none of the resources
   std::array<char, 4096> drain_{};
   std::size_t drained_ = 0;

@@ -58,8 +58,8 @@ class RawAsker {
       : id(fmt::format("{:02x}", fmt::join(robot.member.link().participant().id(), ""))),
         endpoints_(Must(ServiceEndpoints::Start(ServiceEndpoints::Side::kClient,
                                                 {.service = "/robot/runnel_commands",
-                                                 .request_type = DdsType("runnel_msgs/srv/Command_Request"),
-                                                 .response_type = DdsType("runnel_msgs/srv/Command_Response"),
+                                                 .request = {DdsType("runnel_msgs/srv/Command_Request")},
+                                                 .response = {DdsType("runnel_msgs/srv/Command_Response")},
                                                  .depth = 32,
                                                  .is_latched = true},
                                                 from.member.link().participant(), 77, [] {}))) {}

@@ -1,4 +1,6 @@
 // Calls carried from a client to a service over a network of this process.
+#include <map>
+
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
@@ -99,6 +101,34 @@ TEST_F(CarriedCallsTest, ComeBackWithTheReplyOrTheReason) {
   EXPECT_THAT(std::string(outcome.error()), testing::HasSubstr("it is negative"));
 }
 
+/// Keeps what endpoints say of themselves, by topic.
+struct Hearer final : WireDiscovery {
+  void OnMember(const WireMember&) override {}
+  void OnMemberGone(const WireId&) override {}
+  void OnEndpoint(const WireEndpoint& endpoint) override {
+    said[endpoint.options.topic].push_back(endpoint.options.user_data);
+  }
+  void OnEndpointGone(const WireId&) override {}
+  std::map<std::string, std::vector<std::string>> said;
+};
+
+// `ros2 topic info -v` and others show it.
+TEST_F(CarriedCallsTest, BothEndsSayTheHashesOfRequestsAndOfReplies) {
+  Offer();
+  Hearer hearer;
+  const auto hearing = std::move(*engine_->Join({.name = "hearing"}, hearer));
+  WaitUntilQuiet(*engine_);
+  const auto says = [](const std::string& hash) {
+    return testing::UnorderedElementsAre(testing::MatchesRegex("clientid=[0-9a-f.]*;typehash=" + hash + ";"),
+                                         testing::MatchesRegex("serviceid=[0-9a-f.]*;typehash=" + hash + ";"));
+  };
+  const std::string request = far_->form->request_type().hash, response = far_->form->response_type().hash;
+  EXPECT_THAT(request, testing::MatchesRegex("RIHS01_[0-9a-f]{64}"));
+  EXPECT_NE(request, response);
+  EXPECT_THAT(hearer.said["rq/doubleRequest"], says(request));
+  EXPECT_THAT(hearer.said["rr/doubleReply"], says(response));
+}
+
 // A client may ask as soon as it has met both ends of a service, which may not have met the reader of its answers yet.
 TEST_F(CarriedCallsTest, TheFirstAnswerWaitsForTheReaderOfWhoAsks) {
   DiscoveryTable table([] {});
@@ -108,7 +138,7 @@ TEST_F(CarriedCallsTest, TheFirstAnswerWaitsForTheReaderOfWhoAsks) {
   ASSERT_TRUE(offered.Follow(*serving, [](std::uint64_t) { return true; }));
   const ServiceTopics topics = offered.endpoints()->topics();
   const auto writer = near_->MakeWriter({.topic = DdsRequestTopic("/double"),
-                                         .type = topics.request_type,
+                                         .type = topics.request.name,
                                          .qos = {.depth = 10},
                                          .user_data = "clientid=1.2;"},
                                         {});
@@ -123,7 +153,7 @@ TEST_F(CarriedCallsTest, TheFirstAnswerWaitsForTheReaderOfWhoAsks) {
   });
   const auto hear = [&](const std::string& user_data, int& heard) {
     auto reader = std::move(*near_->MakeReader(
-        {.topic = DdsReplyTopic("/double"), .type = topics.response_type, .qos = {.depth = 10}, .user_data = user_data},
+        {.topic = DdsReplyTopic("/double"), .type = topics.response.name, .qos = {.depth = 10}, .user_data = user_data},
         [&heard](const WireSample&) { ++heard; }, {}));
     WaitUntilQuiet(*engine_);
     (void)offered.Work();
@@ -139,6 +169,24 @@ TEST_F(CarriedCallsTest, TheFirstAnswerWaitsForTheReaderOfWhoAsks) {
 
 TEST_F(CarriedCallsTest, WaitForAServiceThatComesLater) {
   auto call = client_.Begin(4);
+  (void)taken_->Work();
+  EXPECT_FALSE(call.is_done());
+  Offer();
+  EXPECT_EQ(*Await(call), 8);
+}
+
+// Of a server that does not say which call it answers.
+TEST_F(CarriedCallsTest, AreNotEndedByWhatAnswersNoCall) {
+  auto call = client_.Begin(4);
+  (void)taken_->Work();
+  const auto writer = std::move(*there_->MakeWriter(
+      {.topic = DdsReplyTopic("/double"), .type = far_->form->response_type().name, .qos = {.depth = 10}}, {}));
+  const int wrong = 99;
+  Octets message;
+  ASSERT_TRUE(far_->form->WriteResponse({.success = true, .message = ""}, &wrong, message));
+  ASSERT_TRUE(
+      writer->Write(std::make_shared<const Octets>(WithCallId({taken_->endpoints()->writer_id(), 0}, message)), 1));
+  WaitUntilQuiet(*engine_);
   (void)taken_->Work();
   EXPECT_FALSE(call.is_done());
   Offer();
@@ -185,7 +233,7 @@ TEST_F(CarriedCallsTest, FromBeforeAStopAreRefusedThoughTheyComeAfterIt) {
   Offer();
   PressAndRelease();
   const auto writer = std::move(*near_->MakeWriter(
-      {.topic = DdsRequestTopic("/double"), .type = offered_->endpoints()->topics().request_type, .qos = {.depth = 10}},
+      {.topic = DdsRequestTopic("/double"), .type = offered_->endpoints()->topics().request.name, .qos = {.depth = 10}},
       {}));
   const auto send = [&](std::int64_t number, Duration ago) {
     Octets message;

@@ -101,6 +101,24 @@ TEST_F(RosNodeTest, ItsTopicsSayTheHashesOfTheirMessages) {
   }
 }
 
+// Those of std_srvs/srv/SetBool as rosidl has made them for Iron and later.
+TEST_F(RosNodeTest, ItsServicesSayTheHashesOfTheirMessages) {
+  const auto node = Start({.node = "/base", .parameters = RosParameterUse::kRead});
+  WaitUntilQuiet(*engine_);
+  const auto says = [](const std::string& hash) {
+    return testing::MatchesRegex("serviceid=[0-9a-f.]*;typehash=RIHS01_" + hash + ";");
+  };
+  EXPECT_THAT(listener_.said["rq/base/stopRequest"],
+              says("c62fbb99d94e1b25e8ef9e109f9581956bb1b3361a45a4e5810c36a90d29932e"));
+  EXPECT_THAT(listener_.said["rr/base/stopReply"],
+              says("d0814e7f7b4880ab77e9c57426c7aa1562ab69f11eef8e2e968812f9cbd0b059"));
+  for (const char* const name : {"list_parameters", "get_parameters", "get_parameter_types", "describe_parameters",
+                                 "set_parameters", "set_parameters_atomically"}) {
+    EXPECT_THAT(listener_.said["rq/base/" + std::string(name) + "Request"], says("[0-9a-f]{64}"));
+    EXPECT_THAT(listener_.said["rr/base/" + std::string(name) + "Reply"], says("[0-9a-f]{64}"));
+  }
+}
+
 /// An engine that refuses topics, as one with keys does for want of a permission.
 class RefusingParticipant final : public WireParticipant {
  public:

@@ -104,6 +104,35 @@ TEST(ServiceFormTest, WhatCannotFailSaysSo) {
   EXPECT_FALSE(form->WriteResponse({.success = false, .message = "broken"}, nullptr, octets));
 }
 
+// Who calls would take why there is no reply for the reply.
+TEST(ServiceFormTest, AMessageBesideAReplySaysNoError) {
+  MessageLibrary library;
+  const MessageField message{.name = "message", .type = MessageType::kString};
+  const MessageField level{.name = "level", .type = MessageType::kFloat64};
+  for (const char* const name : {"own_msgs/srv/Read", "own_msgs/srv/Measure", "own_msgs/srv/Do"}) {
+    ASSERT_TRUE(library.Add({.name = std::string(name) + "_Request"}));
+  }
+  ASSERT_TRUE(library.Add({.name = "own_msgs/srv/Read_Response", .fields = {message}}));
+  ASSERT_TRUE(library.Add({.name = "own_msgs/srv/Measure_Response", .fields = {message, level}}));
+  ASSERT_TRUE(library.Add({.name = "own_msgs/srv/Do_Response", .fields = {message}}));
+  const auto make = [&](const TypeInfo* reply, const std::string& as) {
+    return *ServiceForm::Make(nullptr, reply, as, library);
+  };
+  const ServiceForm::Outcome failed{.success = false, .message = "it is broken"};
+  Octets octets;
+  const auto read = make(&TypeOf<std::string>(), "own_msgs/srv/Read");
+  EXPECT_FALSE(read->WriteResponse(failed, nullptr, octets));
+  const ArgumentType<double> levels({"level"});
+  EXPECT_FALSE(make(levels.Get(), "own_msgs/srv/Measure")->WriteResponse(failed, nullptr, octets));
+  EXPECT_TRUE(make(nullptr, "own_msgs/srv/Do")->WriteResponse(failed, nullptr, octets))
+      << "a message is all that it says";
+  const std::string text = "it burns";
+  std::string heard;
+  ASSERT_TRUE(read->WriteResponse({.success = true, .message = ""}, &text, octets));
+  ASSERT_TRUE(read->ReadResponse(octets, &heard));
+  EXPECT_EQ(heard, text);
+}
+
 TEST(ServiceFormTest, WhatDoesNotFitIsTold) {
   EXPECT_THAT(WhyNot(nullptr, nullptr, "std_srvs/srv/Triger"), HasSubstr("did you mean 'std_srvs/srv/Trigger'?"));
   EXPECT_THAT(WhyNot(nullptr, nullptr, "std_srvs/srv/SetBool"), HasSubstr("has nothing of"));

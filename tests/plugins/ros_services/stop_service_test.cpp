@@ -64,8 +64,8 @@ class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
         [this] { return left_ ? Result<void>(*left_) : Result<void>(); }));
     client_ = std::move(*ServiceEndpoints::Start(ServiceEndpoints::Side::kClient,
                                                  {.service = "/base/stop",
-                                                  .request_type = "std_srvs::srv::dds_::SetBool_Request_",
-                                                  .response_type = "std_srvs::srv::dds_::SetBool_Response_",
+                                                  .request = {"std_srvs::srv::dds_::SetBool_Request_"},
+                                                  .response = {"std_srvs::srv::dds_::SetBool_Response_"},
                                                   .dialect = GetParam()},
                                                  *near_, 1, [] {}));
     WaitUntil("it is there", [&] { return client_->is_matched(); });

@@ -1,6 +1,7 @@
 // Which sockets of the process an engine filters when a member joins.
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -8,7 +9,9 @@
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <linux/filter.h>
+#include <net/if.h>
 #include <netinet/in.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -82,6 +85,55 @@ TEST_P(EngineSocketsTest, WhoJoinsWithAnotherReachLeavesTheSocketsOfTheFirstAsTh
   ASSERT_FALSE(open.empty());
   const auto second = engine_->Join({.domain = domain_}, members_);  // which an engine may refuse
   for (const auto& [descriptor, address] : open) EXPECT_FALSE(IsFiltered(descriptor)) << ntohs(address.sin_port);
+}
+
+/// A further address of the loopback interface, as others have them: what is sent to 127.0.0.1 does not come there.
+class FurtherAddress {
+ public:
+  explicit FurtherAddress(const char* address) {
+    std::strcpy(request_.ifr_name, "lo:1");
+    auto& internet = reinterpret_cast<sockaddr_in&>(request_.ifr_addr);
+    internet.sin_family = AF_INET;
+    inet_pton(AF_INET, address, &internet.sin_addr);
+    is_there_ = ioctl(socket_, SIOCSIFADDR, &request_) == 0;
+  }
+  ~FurtherAddress() {
+    request_.ifr_flags = 0;
+    if (is_there_) (void)ioctl(socket_, SIOCSIFFLAGS, &request_);
+    close(socket_);
+  }
+  FurtherAddress(const FurtherAddress&) = delete;
+  FurtherAddress& operator=(const FurtherAddress&) = delete;
+  [[nodiscard]] bool is_there() const noexcept { return is_there_; }
+
+ private:
+  const int socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ifreq request_{};
+  bool is_there_ = false;
+};
+
+TEST_P(EngineSocketsTest, ThoseOfOneMachineMeetByOneInterfaceWithoutMulticast) {
+  constexpr const char* kAddress = "10.9.8.7";
+  if (domain_ != 0) GTEST_SKIP() << "no network of one's own";
+  const FurtherAddress address(kAddress);
+  ASSERT_TRUE(address.is_there());
+  Members others;
+  const auto join = [&](Members& members, const std::string& name) {
+    return engine_->Join({.reach = WireReach::kNetwork, .has_multicast = false, .interface = kAddress, .name = name},
+                         members);
+  };
+  const auto first = join(members_, "first");
+  const auto second = join(others, "second");
+  ASSERT_TRUE(first && second) << (first ? second : first).error().ToString();
+  const auto writer = (*first)->MakeWriter({.topic = "rt/four", .type = "numbers::Four"}, {});
+  Arrived arrived;
+  const auto reader = (*second)->MakeReader({.topic = "rt/four", .type = "numbers::Four"}, arrived.Taker(), {});
+  ASSERT_TRUE(writer && reader);
+  WaitUntil("a value has come", [&] {
+    EXPECT_TRUE((*writer)->Write(Four(1), 1));
+    const std::lock_guard lock(arrived.mutex);
+    return !arrived.values.empty();
+  });
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EngineSocketsTest);

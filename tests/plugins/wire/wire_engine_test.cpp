@@ -1,9 +1,11 @@
 // What each engine behind the seam does, the fake of the tests as well as those that go over a network.
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -75,6 +77,49 @@ TEST_P(WireEngineTest, AValueArrivesWithItsTimeAndWriterOnceBothHaveMatched) {
   EXPECT_TRUE(std::ranges::any_of(known, [&](const WireEndpoint& each) {
     return each.id == (*writer)->id() && each.handle == arrived.writers[0];
   }));
+}
+
+// There is no memory for a moment: that is lost, and the next value comes.
+TEST_P(WireEngineTest, WhoThrowsWhenCalledBackEndsNothing) {
+  const auto throws = [](std::size_t) { throw std::bad_alloc(); };
+  std::atomic<int> come{0};
+  const auto take = [&](const WireSample&) {
+    if (++come == 1) throw std::bad_alloc();
+  };
+  const auto reader = b_->MakeReader(Topic(), take, throws);
+  const auto writer = a_->MakeWriter(Topic(), throws);
+  ASSERT_TRUE(reader && writer);
+  WaitUntil("another one has come", [&] {
+    EXPECT_TRUE((*writer)->Write(Four(1), 1));
+    return come >= 2;
+  });
+}
+
+/// Throws each time it is told of an endpoint of somebody else.
+struct Forgetful final : WireDiscovery {
+  void OnMember(const WireMember&) override {}
+  void OnMemberGone(const WireId&) override {}
+  void OnEndpoint(const WireEndpoint& endpoint) override {
+    if (!endpoint.is_own && ++told > 0) throw std::bad_alloc();
+  }
+  void OnEndpointGone(const WireId&) override {}
+  std::atomic<int> told{0};
+};
+
+TEST_P(WireEngineTest, WhoThrowsWhenToldOfAnEndpointEndsNothing) {
+  Forgetful forgetful;
+  const auto c = engine_->Join({.domain = domain_, .name = "c"}, forgetful);
+  ASSERT_TRUE(c);
+  Arrived arrived;
+  const auto reader = (*c)->MakeReader(Topic(), arrived.Taker(), {});
+  const auto writer = a_->MakeWriter(Topic(), {});
+  ASSERT_TRUE(reader && writer);
+  WaitUntil("a value has come", [&] {
+    EXPECT_TRUE((*writer)->Write(Four(1), 1));
+    const std::lock_guard lock(arrived.mutex);
+    return !arrived.values.empty();
+  });
+  EXPECT_GT(forgetful.told, 0);
 }
 
 TEST_P(WireEngineTest, EachIsToldWhoIsThereAndWhoHasGone) {
