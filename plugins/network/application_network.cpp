@@ -1,126 +1,31 @@
 // Attaches the network to an application that has a <network>.
 
 #include <algorithm>
-#include <chrono>
-#include <cstdint>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "core/base/clock.h"
 #include "core/element/element_path.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "core/plugin/plugin_entry.h"
 #include "plugins/application/application.h"
 #include "plugins/application/extension_registry.h"
-#include "plugins/command_service/application_log.h"
 #include "plugins/command_service/command_service.h"
 #include "plugins/command_service/extension_texts.h"
 #include "plugins/control/element_listing.h"
 #include "plugins/network/application_commands.h"
+#include "plugins/network/application_health.h"
 #include "plugins/network/network_engines.h"
 #include "plugins/network/network_link.h"
 #include "plugins/network/xml_network_tags.h"
-#include "plugins/ros_messages/node_messages.h"
-#include "plugins/scheduling/thread_container.h"
 #include "plugins/wire_shared_memory/shared_memory_wire.h"
 
 namespace runnel {
 
 namespace {
-
-// So long a thread counts as late.
-constexpr auto kLate = std::chrono::seconds(5);
-
-// What supervision says of an input in the log, behind its path.
-constexpr std::string_view kSilent = ": nothing new for ", kFresh = ": values come again";
-
-// The path that ends there; a place in a file may stand in front.
-std::string PathBefore(const std::string& text, std::size_t end) {
-  const std::size_t begin = text.rfind(' ', end) + 1;  // npos + 1 is 0
-  return text.substr(begin, end - begin);
-}
-
-/// How an application is, for /diagnostics: modules that have failed, inputs to which nothing new comes (<on_stale>),
-/// threads whose cycles end too late.
-///
-/// Ownership:  the application must outlive it. Copies begin anew.
-/// Threads:    one at a time; takes the structure lock.
-class ApplicationHealth {
- public:
-  explicit ApplicationHealth(Application& application) : application_(&application) {}
-
-  [[nodiscard]] std::vector<RosDiagnosticStatus> operator()() {
-    ReadLog();
-    const std::string& name = application_->name();
-    std::vector<RosDiagnosticStatus> all;
-    const auto add = [&](RosHealth level, const std::string& of, const std::string& message) {
-      all.push_back({.level = level, .name = name + ": " + of, .message = message, .hardware_id = name, .values = {}});
-    };
-    if (failed_.empty() && silent_.empty()) {
-      add(RosHealth::kOk, "modules", "no fault");
-    } else {
-      add(failed_.empty() ? RosHealth::kWarning : RosHealth::kError, "modules",
-          std::to_string(failed_.size()) + " failed, " + std::to_string(silent_.size()) + " inputs without news");
-    }
-    for (const auto& [path, why] : failed_) add(RosHealth::kError, path, why);
-    for (const auto& [path, why] : silent_) add(RosHealth::kStale, path, why);
-    AddThreads(all);
-    return all;
-  }
-
- private:
-  struct Overruns {
-    std::uint64_t count = 0;
-    Time since{};  // when there was one, on the application's clock
-  };
-
-  void ReadLog() {
-    const auto news = application_->log().ReadEntries(next_in_log_, ApplicationLog::kMostEntries);
-    next_in_log_ = news.next;
-    for (const ApplicationLog::Entry& entry : news.entries) {
-      if (!entry.module.empty() && entry.cause.empty()) failed_.erase(entry.module);
-      if (!entry.module.empty() && !entry.cause.empty()) failed_[entry.module] = entry.cause;
-      if (const std::size_t place = entry.text.find(kSilent); place != std::string::npos) {
-        silent_[PathBefore(entry.text, place)] = entry.text.substr(place + 2);
-      } else if (const std::size_t end = entry.text.find(kFresh); end != std::string::npos) {
-        silent_.erase(PathBefore(entry.text, end));
-      }
-    }
-  }
-
-  void AddThreads(std::vector<RosDiagnosticStatus>& all) {
-    Runtime& runtime = application_->runtime();
-    const Time now = runtime.clock().Now();
-    const std::lock_guard lock(runtime.structure_mutex());
-    runtime.root().VisitAll<const ThreadContainer>([&](const ThreadContainer& thread) {
-      const CycleStatistics cycles = thread.statistics();
-      Overruns& known = overruns_[thread.path()];
-      if (cycles.overruns > known.count) known = {cycles.overruns, now};
-      const bool is_late = known.count > 0 && now - known.since < kLate;
-      all.push_back({.level = is_late ? RosHealth::kWarning : RosHealth::kOk,
-                     .name = application_->name() + ": thread " + thread.name(),
-                     .message = is_late ? "cycles end too late" : "in time",
-                     .hardware_id = application_->name(),
-                     .values = {{"cycles", std::to_string(cycles.cycles)},
-                                {"overruns", std::to_string(cycles.overruns)},
-                                {"period", fmt::format("{:.6f} s", ToSeconds(cycles.period_mean))},
-                                {"longest execution", fmt::format("{:.6f} s", ToSeconds(cycles.execution_max))}}});
-    });
-  }
-
-  Application* application_;
-  std::uint64_t next_in_log_ = 0;
-  std::map<std::string, std::string> failed_;  // modules, and why
-  std::map<std::string, std::string> silent_;  // inputs, and what was said
-  std::map<std::string, Overruns> overruns_;   // by thread
-};
 
 class ApplicationNetwork final : public ApplicationExtension {
  public:
@@ -174,7 +79,7 @@ class ApplicationNetwork final : public ApplicationExtension {
     FrameworkElement& group = application.element();
     RosHooks hooks{
         .set_parameters = [&application](const auto& changes) { return SetParameters(application, changes); },
-        .health = ApplicationHealth(application),
+        .health = ApplicationHealth(group, application.scheduler(), application.log()),
         .set_time = [&application](Time time) { return application.SetTime(time); },
         .clock_lead = [&application] { return application.scheduler().pace().outside_lead(); },
         .is_stop_kept = application.service().application().hooks.is_stop_kept,

@@ -140,26 +140,24 @@ Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& t
   return *made;
 }
 
+// A topic may begin with all of another one, as "/image/compressed" with "/image": what were below the port of that would go
+// with it.
 Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo& type, const std::string& unit,
                                          const std::function<void(Port&)>& finish) {
   const TypedPorts* const typed = FindTypedPorts(type);
   FrameworkElement* group = this;
   const auto words = SplitPath(name);
   for (std::size_t i = 0; i + 1 < words.size(); ++i) {
-    FrameworkElement* const inner = group->FindChild(words[i]);
-    group = inner != nullptr ? inner : &runtime().Create<TopicGroup>(*group, std::string(words[i]));
+    std::string word(words[i]);
+    while (dynamic_cast<const Port*>(group->FindChild(word)) != nullptr) word += '_';
+    FrameworkElement* const inner = group->FindChild(word);
+    group = inner != nullptr ? inner : &runtime().Create<TopicGroup>(*group, word);
   }
-  if (group->FindChild(words.back()) != nullptr) {
-    std::string others;
-    for (const Take& each : takes_) {
-      if (each.options.topic.starts_with(name + "/")) others += (others.empty() ? "" : ", ") + each.options.topic;
-    }
-    return Error{.message = "'" + name + "' is no port, but what others that are taken begin with",
-                 .hint = others.empty() ? "name one of its ports" : "there are " + others};
-  }
-  auto output = typed == nullptr ? nullptr
-                                 : typed->MakeOutput(*group, std::string(words.back()),
-                                                     {.description = "from the network: " + name, .unit = unit});
+  std::string last(words.back());
+  while (group->FindChild(last) != nullptr) last += '_';
+  auto output = typed == nullptr
+                    ? nullptr
+                    : typed->MakeOutput(*group, last, {.description = "from the network: " + name, .unit = unit});
   if (output == nullptr) return Error{.message = "values of type " + type.name() + " can be made by a module only"};
   Port* const made = output.get();
   finish(*made);

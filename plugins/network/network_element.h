@@ -79,7 +79,8 @@ class NetworkElement final : public FrameworkElement {
   void set_on_change(std::function<void()> on_change) { on_change_ = std::move(on_change); }
 
  private:
-  /// An output of this type below the groups that the name says. `finish`: while nobody can find it.
+  /// An output of this type below the groups that the name says; where one of these has a name that is taken, of one with "_"
+  /// behind it. `finish`: while nobody can find it.
   Result<Port*> MakeOutput(
       const std::string& name, const TypeInfo& type, const std::string& unit,
       const std::function<void(Port&)>& finish = [](Port&) {});

@@ -36,12 +36,12 @@ void NetworkLink::Follow() {
   {
     const ChangeScope changes(runtime_);
     wanted = FindOffers();  // anew: the lock has been free
-    // Those whose ports have gone stay, for these may come back.
+    // Those whose ports have gone stay, for these may come back; but not under a name that nobody offers any more.
     EraseWhere(offered_, [&](const auto& each) {
       const bool is_wanted = std::ranges::any_of(wanted, [&](const Wanted& one) {
         return one.path == each->path() && one.options.topic == each->options().topic;
       });
-      return !is_wanted && runtime_.root().Find(each->path()).has_value();
+      return !is_wanted && (runtime_.root().Find(each->path()).has_value() || !IsMeant(each->path(), each->options()));
     });
     for (const auto& each : offered_) {
       const auto found = std::ranges::find_if(wanted, [&](const Wanted& one) {
@@ -58,6 +58,17 @@ void NetworkLink::Follow() {
   TellStructure();
   TellMembers();
   TellTroubles();
+}
+
+bool NetworkLink::IsMeant(const std::string& path, const OfferOptions& as) const {
+  const NetworkOptions& options = element_.options();
+  return std::ranges::any_of(options.offers, [&](const OfferOptions& each) {
+    const std::string topic = each.topic.empty() ? TopicOfPort(options.member.name, path) : each.topic;
+    if (topic != as.topic) return false;
+    if (!each.port.empty()) return PlainPortPath(each.port) == PlainPortPath(path);
+    const auto patterns = PortPatterns::Make(each.patterns);
+    return patterns && patterns->Fit(path);
+  });
 }
 
 std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
@@ -80,12 +91,14 @@ std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
                .hint = "offer it by another topic: <offer port=\"…\" topic=\"…\"/>"});
     }
   };
+  // First those that name a port: what they say of it counts, whatever pattern fits it, too.
   for (const OfferOptions& offer : element_.options().offers) {
-    if (!offer.port.empty()) {
-      const auto port = PathSearch(runtime_).FindPort(offer.port, PathKind::kOutput);
-      if (port && (*port)->life_cycle() != LifeCycle::kDeleted) add(**port, offer);
-      continue;
-    }
+    if (offer.port.empty()) continue;
+    const auto port = PathSearch(runtime_).FindPort(offer.port, PathKind::kOutput);
+    if (port && (*port)->life_cycle() != LifeCycle::kDeleted) add(**port, offer);
+  }
+  for (const OfferOptions& offer : element_.options().offers) {
+    if (!offer.port.empty()) continue;
     const auto patterns = PortPatterns::Make(offer.patterns);
     if (!patterns) continue;  // told when the file was read
     application_.VisitAll<Port>([&](Port& port) {
@@ -177,6 +190,7 @@ void NetworkLink::FollowTakes() {
     }
     for (const auto& each : taken_) each->NoteConnections();
   }
+  before.clear();  // from now on only those publish that are made now
   for (const auto& each : taken_) {
     if (const auto followed = each->Follow(*participant_); !followed) {
       Trouble(each->output().path(), followed.error());

@@ -21,6 +21,7 @@ namespace {
 
 // So long something may go unnoticed of which nobody tells.
 constexpr auto kLookAround = std::chrono::seconds(1);
+constexpr auto kAfterFailure = std::chrono::milliseconds(100);
 // Longer than that it takes only if others have the processor.
 constexpr auto kLatest = std::chrono::microseconds(100);
 // One of so many moments is spent awake at most, waiting for values, with some in advance.
@@ -213,8 +214,9 @@ void NetworkLink::Run() noexcept {
       if (must_look_.exchange(false, std::memory_order_acquire)) Follow();
       SendAll();
     } catch (...) {
-      LookAgain();
       element_.log().Error("the network: {}", DescribeException());
+      wake_->WaitUntil(SteadyClock().Now() + kAfterFailure);  // it may be so each time, as without memory
+      LookAgain();
     }
   }
 }

@@ -115,6 +115,8 @@ class NetworkLink final : private ElementListener {
   [[nodiscard]] bool HasValue() const noexcept;
   void Follow();
   [[nodiscard]] std::vector<Wanted> FindOffers();
+  /// Whether somebody offers what is, or was, at that path, as that topic.
+  [[nodiscard]] bool IsMeant(const std::string& path, const OfferOptions& as) const;
   void MakeOffer(const Wanted& wanted);
   void FollowTakes();
   void FollowDistantPorts();
@@ -128,7 +130,7 @@ class NetworkLink final : private ElementListener {
   [[nodiscard]] bool IsStranger(const WireMember& member) const;
   void TellOwners();
   /// Who write what goes to one input, and are all heard, of which nobody has said that it is meant; "" if that is not so.
-  [[nodiscard]] std::string Masters(TakenPort& taken) const;
+  [[nodiscard]] std::string Masters(const TakenPort& taken) const;
   void TellMasters();
   void TellClocks();
   /// Who is at the other end of an endpoint, and why somebody who is there is not.

@@ -38,7 +38,7 @@ std::string NetworkLink::Picture() {
   const WireMemberOptions& own = element_.options().member;
   return JsonObjectText([&](JsonObject& json) {
     json.Add("name", own.name).Add("element", element_.path());
-    std::map<std::string, Duration> delays;  // the least, by who writes
+    std::map<WireId, Duration> delays;  // the least, by who writes
     AppendList(offered_, json.Key("offers"), [&](const auto& each, std::string& text) {
       const Partner readers = PartnerOf(each->endpoint(), true);
       JsonObject object(text);
@@ -51,10 +51,10 @@ std::string NetworkLink::Picture() {
     });
     AppendList(taken_, json.Key("takes"), [&](const auto& each, std::string& text) {
       const Partner writers = PartnerOf(each->endpoint(), false);
-      const auto delay = each->least_delay();
-      for (const std::string& name : writers.names) {
+      for (const WireEndpoint& writer : table_.Partners(each->endpoint().topic, true)) {
+        const auto delay = each->least_delay(writer.handle);
         if (!delay) continue;
-        const auto [known, is_new] = delays.emplace(name, *delay);
+        const auto [known, is_new] = delays.emplace(writer.participant, *delay);
         if (!is_new) known->second = std::min(known->second, *delay);
       }
       JsonObject object(text);
@@ -75,7 +75,7 @@ std::string NetworkLink::Picture() {
         return each.participant == member.id && each.is_writer && IsInternalTopic(each.options.topic);
       });
       object.AddTextOrNull("name", is_application ? member.name : "");
-      const auto delay = delays.find(member.name);
+      const auto delay = delays.find(member.id);
       object.AddOrNull("delay", delay != delays.end() ? std::optional(ToSeconds(delay->second)) : std::nullopt);
       object.Add("is_simulated", table_.HasSimulatedTime(member.id));
       std::vector<WireEndpoint> offers = endpoints;

@@ -217,7 +217,7 @@ std::string NetworkLink::Text() const {
 }
 
 // Under one name is also who has been killed and started again: of such it is told once values of both come.
-std::string NetworkLink::Masters(TakenPort& taken) const {
+std::string NetworkLink::Masters(const TakenPort& taken) const {
   const WireEndpointOptions endpoint = taken.endpoint();
   if (taken.options().is_exclusive || endpoint.qos.is_exclusive) return {};
   std::set<std::string> names;
@@ -228,12 +228,12 @@ std::string NetworkLink::Masters(TakenPort& taken) const {
     names.insert(name);
     all += (all.empty() ? "" : " and ") + name;
   }
-  const bool come_in_turn = taken.AskWhetherTheyComeInTurn();
-  return names.size() > 1 || come_in_turn ? all + " write it, and all of them are heard" : "";
+  return names.size() > 1 || taken.they_come_in_turn() ? all + " write it, and all of them are heard" : "";
 }
 
 void NetworkLink::TellMasters() {
   for (const auto& each : taken_) {
+    each->NoteTurnIsTold();
     const std::string masters = Masters(*each);
     if (masters.empty()) continue;
     const char* const exclusive = "say <take … exclusive=\"true\"/> if one is enough";

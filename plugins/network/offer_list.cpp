@@ -30,6 +30,19 @@ void LeaveOut(const std::string& path, OfferOptions& offer) {
   if (IsMeantBy(offer, path)) offer.patterns.push_back("!" + ShortPortPath(path));
 }
 
+// Patterns that begin at the root mean what they name, with the application's name or without; of others nobody knows.
+void RenameIn(std::string& pattern, const std::string& from, const std::string& to) {
+  const std::string mark = IsExclusion(pattern) ? "!" : "";
+  const std::string path = pattern.substr(mark.size());
+  const std::size_t inner = from.find('/', 1);
+  for (const std::size_t begin : {std::size_t{0}, inner}) {
+    if (begin == std::string::npos || !IsAtOrBelow(path, from.substr(begin))) continue;
+    const std::size_t to_begin = begin == 0 ? 0 : to.find('/', 1);
+    pattern = mark + to.substr(to_begin) + path.substr(from.size() - begin);
+    return;
+  }
+}
+
 bool IsEmpty(const OfferOptions& offer) {
   return offer.port.empty() && std::ranges::all_of(offer.patterns, IsExclusion);
 }
@@ -90,6 +103,7 @@ Result<void> OfferList::Remove(const std::string& path, const std::string& topic
 void OfferList::Rename(const std::string& from, const std::string& to) {
   for (OfferOptions& each : offers) {
     if (IsAtOrBelow(each.port, from)) each.port = to + each.port.substr(from.size());
+    for (std::string& pattern : each.patterns) RenameIn(pattern, from, to);
   }
 }
 

@@ -17,7 +17,7 @@ struct OfferList {
   Result<void> Add(const std::string& path, OfferOptions wanted);
   /// Without the port, or, with a topic, without that one of it. Errors: it is not offered.
   Result<void> Remove(const std::string& path, const std::string& topic);
-  /// What is at or below `from` is at or below `to` now.
+  /// What is at or below `from` is at or below `to` now, also what a pattern names from the root: "!/laser/scan".
   void Rename(const std::string& from, const std::string& to);
 };
 

@@ -72,7 +72,7 @@ OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, cons
       clock_(std::move(clock)),
       bell_(std::make_shared<OfferBell>(std::move(wake), [this](OfferBell::By by) { SendBy(by); })) {
   reader_ = std::make_unique<Reader>(beside, name, type, *this);
-  if (options_.quality == ValueQuality::kEach) {
+  if (options_.quality == ValueQuality::kEach && options_.rate <= 0) {  // of a bounded rate the newest wins
     each_ = std::make_unique<ProbePort>(beside, name + "_each", type);
     each_->SetWaker(bell_.get());
   } else {
@@ -193,6 +193,14 @@ void OfferedPort::SendBy(OfferBell::By by) {
   if (by == OfferBell::By::kCycle) sent_after_cycles_.fetch_add(sent() - before, std::memory_order_relaxed);
 }
 
+// The two clocks drift: a value that is sent again, as to who reads again, would have another one, and be taken for new.
+Time OfferedPort::StampOf(ValueTimes times) {
+  const bool is_again = stamped_ && stamped_->times.timestamp == times.timestamp &&
+                        stamped_->times.publication_time == times.publication_time;
+  if (!is_again) stamped_ = {times, times.timestamp + clock_.Now()};
+  return stamped_->stamp;
+}
+
 bool OfferedPort::Encode(const void* value, Time stamp, Octets& octets) {
   try {
     form_->codec->Encode(value, stamp, octets);
@@ -240,7 +248,7 @@ bool OfferedPort::SendNewest() {
     octets = pool_.Take();
     bool is_whole = false;
     const bool is_there = source->VisitLatest([&](const void* value, ValueTimes of) {
-      stamp = of.timestamp + clock_.Now();
+      stamp = StampOf(of);
       is_whole = binding->LetsPass(of) && Encode(value, stamp, *octets);
     });
     if (!is_there || !is_whole) return false;
@@ -254,17 +262,14 @@ void OfferedPort::SendEach(std::size_t most) {
   std::shared_ptr<Octets> octets;
   Time stamp;
   bool is_whole = false;
-  const Time now = options_.rate > 0 ? SteadyClock().Now() : Time{};
   for (std::size_t i = 0; i < most; ++i) {
     octets = pool_.Take();
     const bool is_there = each_->Take([&](const void* value, ValueTimes of) {
       const EpochGuard guard;
-      stamp = of.timestamp + clock_.Now();
+      stamp = StampOf(of);
       is_whole = binding_.load(std::memory_order_acquire)->LetsPass(of) && Encode(value, stamp, *octets);
     });
     if (!is_there) return;
-    if (options_.rate > 0 && now < next_) continue;
-    if (options_.rate > 0) next_ = now + FromSeconds(1 / options_.rate);
     if (is_whole) Write(octets, stamp);
   }
   bell_->Ring();  // others have their turn first

@@ -156,6 +156,7 @@ class OfferedPort {
   void SendSafeValue();
   bool SendNewest();  // whether there was one
   void SendEach(std::size_t most);
+  [[nodiscard]] Time StampOf(ValueTimes times);
   bool Encode(const void* value, Time stamp, Octets& octets);
   void Write(const std::shared_ptr<Octets>& octets, Time stamp);  // since 1970
   void Fail(Error error);
@@ -183,7 +184,13 @@ class OfferedPort {
     std::uint64_t count;  // how many the source had published
     bool operator==(const Shown&) const = default;
   };
-  std::optional<Shown> shown_;             // by who has the turn
+  std::optional<Shown> shown_;  // by who has the turn
+  /// What stamp the last value has got.
+  struct Stamped {
+    ValueTimes times;
+    Time stamp;
+  };
+  std::optional<Stamped> stamped_;         // by who has the turn
   bool is_large_ = false;                  // by who has the turn
   std::int64_t bar_ = StopSignal::kNever;  // of the stops, as it was seen last; by who has the turn
   Time again_{};                           // not before; by who has the turn

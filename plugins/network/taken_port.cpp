@@ -4,6 +4,7 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -18,6 +19,16 @@ namespace runnel {
 namespace {
 constexpr std::size_t kMostGone = 64;
 constexpr std::size_t kMostKept = 128;  // of one writer
+constexpr std::size_t kEnd = 128;       // octets
+
+// Of values that are not latched, which come often and may be large, their size and both ends have to do.
+std::size_t HashOf(std::span<const std::byte> octets, bool is_whole) {
+  const auto hash = [](std::span<const std::byte> part) {
+    return std::hash<std::string_view>()({reinterpret_cast<const char*>(part.data()), part.size()});
+  };
+  if (is_whole || octets.size() <= 2 * kEnd) return hash(octets);
+  return hash(octets.first(kEnd)) ^ (3 * hash(octets.last(kEnd))) ^ octets.size();
+}
 }  // namespace
 
 TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock,
@@ -83,7 +94,10 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
         const std::lock_guard lock(mutex_);
         MarkAsDelivered();
       });
-  if (!reader) return reader.error();
+  if (!reader) {
+    *matched_ = 0;
+    return reader.error();
+  }
   reader_ = std::move(*reader);
   return {};
 }
@@ -117,21 +131,21 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
 }
 
 // Under mutex_, as the next two. What writers keep is delivered again to a reader that is made anew, and when a link comes back.
+// Then applications of Runnel send the newest value again that they offer, latched or not.
 void TakenPort::MarkAsDelivered() {
   for (Writer& each : writers_) each.before = each.delivered;
 }
 
 // They are delivered again in their order, and what is new comes after them.
 bool TakenPort::HasComeBefore(Writer& writer, const WireSample& sample) {
-  if (writer.kept == 0) return false;
-  const std::string_view octets(reinterpret_cast<const char*>(sample.octets.data()), sample.octets.size());
-  const Delivered value{sample.source_time, std::hash<std::string_view>()(octets)};
+  const bool is_latched = writer.kept > 0;
+  const Delivered value{sample.source_time, HashOf(sample.octets, is_latched)};
   const auto found = std::ranges::find(writer.before, value);
   const bool is_known = found != writer.before.end();
   writer.before.erase(writer.before.begin(), is_known ? found + 1 : found);
   if (is_known) return true;
   writer.delivered.push_back(value);
-  if (writer.delivered.size() > writer.kept) writer.delivered.pop_front();
+  if (writer.delivered.size() > std::max<std::size_t>(writer.kept, 1)) writer.delivered.pop_front();
   return false;
 }
 
@@ -172,12 +186,6 @@ std::uint64_t TakenPort::chosen() const {
   return ChoosesItself() ? chosen_ : 0;
 }
 
-bool TakenPort::AskWhetherTheyComeInTurn() {
-  const std::lock_guard lock(mutex_);
-  is_turn_told_ = come_in_turn_;
-  return come_in_turn_;
-}
-
 void TakenPort::Take(const WireSample& sample) noexcept {
   try {
     const Duration offset = clock_.Now();
@@ -212,7 +220,8 @@ void TakenPort::Take(const WireSample& sample) noexcept {
     const OwnCycle cycle(now);
     std::optional<Time> timestamp;
     if (held_up > Duration{}) timestamp = now - held_up;
-    if (options_.keeps_stamps && is_comparable) timestamp = std::min(sent, now);
+    // The older one of both: of what is held up for long the soonest of late says too little.
+    if (options_.keeps_stamps && is_comparable) timestamp = std::min({sent, now, timestamp.value_or(now)});
     const auto published = output_.PublishFilled(
         [&](void* value) -> Result<void> {
           const auto read = form_->codec->Decode(sample.octets, value, sample.holder);
@@ -254,16 +263,6 @@ std::optional<Duration> TakenPort::least_delay(std::uint64_t writer) const {
   const std::lock_guard lock(mutex_);
   const auto known = std::ranges::find(writers_, writer, &Writer::handle);
   return known == writers_.end() ? std::nullopt : known->clock.least();
-}
-
-std::optional<Duration> TakenPort::least_delay() const {
-  const std::lock_guard lock(mutex_);
-  std::optional<Duration> least;
-  for (const Writer& each : writers_) {
-    const auto delay = each.clock.least();
-    if (delay) least = std::min(least.value_or(*delay), *delay);
-  }
-  return least;
 }
 
 }  // namespace runnel

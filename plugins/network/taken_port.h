@@ -69,17 +69,23 @@ class TakenPort {
   /// Of writers without a strength, who all match, the one that an exclusive take listens to; 0: none, or the engine chooses.
   [[nodiscard]] std::uint64_t chosen() const;
   /// Whether values of two writers come in turn, who are both heard.
-  [[nodiscard]] bool AskWhetherTheyComeInTurn();
-  /// By how much the clocks of the writers are behind this one's at least, as far as is known (arrival after sending).
-  [[nodiscard]] std::optional<Duration> least_delay() const;
-  /// The same of one writer.
+  [[nodiscard]] bool they_come_in_turn() const {
+    const std::lock_guard lock(mutex_);
+    return come_in_turn_;
+  }
+  /// That has been told by the log; whoever only shows it leaves that to do.
+  void NoteTurnIsTold() {
+    const std::lock_guard lock(mutex_);
+    is_turn_told_ = come_in_turn_;
+  }
+  /// By how much the clock of a writer is behind this one's at least, as far as is known (arrival after sending).
   [[nodiscard]] std::optional<Duration> least_delay(std::uint64_t writer) const;
 
  private:
   /// Stamps may stand still or go back, so that one alone does not tell whether a value has come before.
   struct Delivered {
     std::int64_t stamp = 0;
-    std::size_t hash = 0;  // of its octets
+    std::size_t hash = 0;  // of its octets, or of the ends of them
     bool operator==(const Delivered&) const = default;
   };
   /// What is known of who writes.
@@ -92,7 +98,7 @@ class TakenPort {
     WriterClock clock = {};
     bool is_looked_up = true;              // since Follow()
     std::size_t kept = 0;                  // values that it delivers again; 0: it is not latched
-    std::deque<Delivered> delivered = {};  // the last of them, in their order
+    std::deque<Delivered> delivered = {};  // the last of them, in their order; the last one of who is not latched
     std::deque<Delivered> before = {};     // of those, by the reader of before, or before the link was lost
   };
   [[nodiscard]] Writer& Find(std::uint64_t handle);

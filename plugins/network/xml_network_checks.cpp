@@ -8,6 +8,7 @@
 #include "core/paths/path_search.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/network/xml_network_words.h"
+#include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/values/port_patterns.h"
 
@@ -115,6 +116,21 @@ Result<void> CheckTopicType(const NetworkElement& network, const Port& port, con
                             (*its)->codec->ros_type() + ", and not " + form.codec->ros_type() + ")",
                  .path = port.path(),
                  .hint = "say another topic of one of them"};
+  }
+  return {};
+}
+
+Result<void> CheckIsOfferedOnce(const NetworkElement& network, const OfferOptions& offer) {
+  const NetworkOptions& options = network.options();
+  const auto topic_of = [&](const OfferOptions& each) {
+    return each.topic.empty() ? TopicOfPort(options.member.name, each.port) : each.topic;
+  };
+  for (const OfferOptions& each : options.offers) {
+    if (each.port != offer.port || topic_of(each) != topic_of(offer)) continue;
+    return Error{
+        .message = "is offered as " + topic_of(offer) + " already, in line " + std::to_string(each.position.line),
+        .path = offer.port,
+        .hint = "say all of it in one tag, or another topic"};
   }
   return {};
 }

@@ -141,6 +141,8 @@ void AddOffer(const TagUse& use, OfferOptions offer) {
     }
     const auto fits = CheckTopicType(element, *port, offer, **form);
     if (!fits) return use.Report(fits.error(), use.Get("topic").value_position);
+    if (const auto once = CheckIsOfferedOnce(element, offer); !once)
+      return use.Report(once.error(), path->value_position);
   }
   if (offer.port.empty()) CheckPatterns(use, offer);
   NetworkElement::FindIn(use.parent)->AddOffer(std::move(offer));
@@ -156,9 +158,10 @@ FrameworkElement* HandleOffer(const TagUse& use) {
                use.xml.position());
     return &use.parent;
   }
-  if (const auto wrong = WhatIsWrong(offer)) use.Report(*wrong, use.Find("rate")->value_position);
+  if (const auto wrong = WhatIsWrong(offer))
+    use.Report(*wrong, use.Get(offer.strength < 0 ? "strength" : "rate").value_position);
   if (ports != nullptr) {
-    for (const char* const only : {"topic", "as", "frame", "child_frame"}) {
+    for (const char* const only : {"topic", "service", "as", "frame", "child_frame"}) {
       if (const XmlAttribute* const said = use.Find(only)) {
         use.Report({.message = std::string(only) + " is said of one port", .hint = "write port=\"…\" instead of ports"},
                    said->position);

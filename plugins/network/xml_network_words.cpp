@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 
 #include <fmt/format.h>
+
+#include "core/base/number_text.h"
 
 namespace runnel {
 
@@ -22,7 +25,10 @@ AttributeRule MessageTypeRule() {
               "std_srvs/srv/Trigger"};
 }
 
-std::optional<double> NumberIn(const std::string& text) {
+// Of no use, as what is said is a count.
+constexpr std::int32_t kTooStrong = -1;
+
+std::optional<double> RateIn(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(std::strtod(text.c_str(), nullptr));
 }
 
@@ -97,13 +103,19 @@ OfferOptions OfferSaid(const SaidOf& said) {
                      .child_frame = said("child_frame"),
                      .quality = QualityIn(said("qos")).value_or(ValueQuality::kNewest),
                      .sending = said("sending") == kSendings[1] ? ValueSending::kAfterCycle : ValueSending::kNetwork,
-                     .rate = NumberIn(said("rate")).value_or(0),
+                     .rate = RateIn(said("rate")).value_or(0),
                      .is_measured = said("measured") == "true"};
-  if (const auto strength = NumberIn(said("strength"))) offer.strength = static_cast<std::int32_t>(*strength);
+  if (const std::string strength = said("strength"); !strength.empty()) {
+    offer.strength = NumberIn<std::int32_t>(strength).value_or(kTooStrong);
+  }
   return offer;
 }
 
 std::optional<Error> WhatIsWrong(const OfferOptions& offer) {
+  if (offer.strength == kTooStrong) {
+    return Error{.message =
+                     "a strength is a number from 0 to " + std::to_string(std::numeric_limits<std::int32_t>::max())};
+  }
   if (offer.rate < 0) return Error{.message = "the rate is a number above 0, of values a second"};
   if (offer.rate > 0 && offer.sending == ValueSending::kAfterCycle) {
     return Error{.message = "values of a bounded rate are sent by the network's thread",

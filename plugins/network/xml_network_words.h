@@ -25,7 +25,7 @@ class FileUpdate;
 using SaidOf = std::function<std::string(const char* name)>;
 /// All but the ports, of what has been checked by the rules.
 [[nodiscard]] OfferOptions OfferSaid(const SaidOf& said);
-/// What does not go together, of what each word alone allows.
+/// What does not go together, of what each word alone allows; a strength below 0 stands for one that is too great.
 [[nodiscard]] std::optional<Error> WhatIsWrong(const OfferOptions& offer);
 [[nodiscard]] TakeOptions TakeSaid(const SaidOf& said);
 
@@ -46,6 +46,9 @@ void CheckPatterns(const TagUse& use, const OfferOptions& offer);
 /// Errors: the topic that is said has values of another type already, of another port.
 Result<void> CheckTopicType(const NetworkElement& network, const Port& port, const OfferOptions& offer,
                             const ValueForm& form);
+
+/// Errors: that port is offered as that topic by a tag before, of which one would count only.
+Result<void> CheckIsOfferedOnce(const NetworkElement& network, const OfferOptions& offer);
 
 // What tags of files do.
 

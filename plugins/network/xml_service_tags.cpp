@@ -42,7 +42,7 @@ bool OfferService(const TagUse& use, const Port& port) {
                name->position);
     return true;
   }
-  const auto others = {"topic", "frame", "child_frame", "qos", "sending", "rate", "strength"};
+  const auto others = {"topic", "frame", "child_frame", "qos", "sending", "rate", "strength", "measured"};
   if (!CheckNameIn(use, "service") || !SaysNothingElse(use, others)) return true;
   NetworkElement& network = *NetworkElement::FindIn(use.parent);
   const NetworkOptions& options = network.options();

@@ -38,10 +38,9 @@ std::unique_ptr<StructureTopic> StructureTopic::Start(WireParticipant& participa
 
 void StructureTopic::Tell(const std::string& structure) {
   if (writer_ == nullptr || structure == told_) return;
-  told_ = structure;
   auto octets = std::make_shared<Octets>();
   CdrWriter(*octets).PutText(structure);
-  (void)writer_->Write(octets, 0);
+  if (writer_->Write(octets, 0)) told_ = structure;
 }
 
 void StructureTopic::Follow() {

@@ -119,6 +119,13 @@ TEST_F(TwoRobots, MistakesAreToldWithTheirPlaces) {
   EXPECT_THAT(check(R"(<network><offer ports="gate/*" sending="after_cycle" rate="5"/></network>)"),
               testing::AllOf(HasSubstr("by the network's thread"), HasSubstr("leave out rate, or sending")));
   EXPECT_THAT(check(R"(<network><offer/></network>)"), HasSubstr("<offer> says which ports"));
+  EXPECT_THAT(check(R"(<network><offer ports="gate/*" service="/x"/></network>)"),
+              HasSubstr("service is said of one port"));
+  EXPECT_THAT(check(R"(<network><offer ports="gate/*" strength="3000000000"/></network>)"),
+              testing::AllOf(HasSubstr("wrong.xml:3:42"), HasSubstr("from 0 to 2147483647")));
+  EXPECT_THAT(
+      check("<network><offer port=\"gate/allowed\"/>\n<offer port=\"gate/allowed\" qos=\"latched\"/></network>"),
+      testing::AllOf(HasSubstr("wrong.xml:4:14"), HasSubstr("is offered as /base/gate/allowed already, in line 3")));
 }
 
 TEST_F(TwoRobots, TheyFindEachOtherWithoutMulticast) {

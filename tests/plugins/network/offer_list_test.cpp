@@ -49,5 +49,18 @@ TEST(OfferListTest, PortsGoWithTheirModules) {
   EXPECT_EQ(list.offers[1].port, "/app/laser2/output/scan");
 }
 
+// What has been withdrawn stays so under another name.
+TEST(OfferListTest, PatternsFromTheRootGoWithWhatTheyName) {
+  OfferList list{kRobot,
+                 {{.patterns = {"*/scan", "/laser/*", "/app/laser", "/laser2/scan", "laser/scan", "!/sonar/*"}}}};
+  ASSERT_TRUE(list.Remove(kScan, ""));
+  list.Rename("/app/laser", "/app/eyes");
+  EXPECT_THAT(list.offers.at(0).patterns,
+              ElementsAre("*/scan", "/eyes/*", "/app/eyes", "/laser2/scan", "!/sonar/*", "!/eyes/scan"));
+  list.Rename("/app/eyes", "/app/laser");
+  EXPECT_THAT(list.offers.at(0).patterns,
+              ElementsAre("*/scan", "/laser/*", "/app/laser", "/laser2/scan", "!/sonar/*", "!/laser/scan"));
+}
+
 }  // namespace
 }  // namespace runnel::test

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <thread>
+#include <utility>
 
 #include "tests/plugins/network/network_member.h"
 
@@ -166,6 +167,23 @@ TEST_F(OtherClockTest, TheFirstValuesThatWereSentBeforeAReleaseStayFromBeforeIt)
   EXPECT_LT(Send(1, {}, seconds(40)), released - seconds(20));
   EXPECT_LT(Send(2, {}, seconds(10)), released) << "what was held up with it";
   EXPECT_GT(Send(3, {}, {}), released);
+}
+
+TEST_F(OtherClockTest, OfSeveralThatWriteEachIsShownWithItsOwnDelay) {
+  Begin();
+  (void)Send(1, {}, {});
+  const auto third = Must(engine_->Join({.name = "third"}, table_));
+  const auto form = Must(ValueForm::Make(TypeOf<Place>(), "", ""));
+  const auto first = std::exchange(
+      writer_, Must(third->MakeWriter(
+                   {.topic = "rt/a/place", .type = form->codec->dds_type(), .user_data = form->user_data}, {})));
+  WaitUntil("it is read", [&] { return robot_.Text().find("written by third") != std::string::npos; });
+  (void)Send(2, {}, seconds(40));
+  {
+    const std::lock_guard lock(robot_.runtime.structure_mutex());
+    EXPECT_THAT(robot_.link().Picture(), HasSubstr("\"delay\":40."));
+  }
+  writer_.reset();  // before whose it is
 }
 
 TEST_F(OtherClockTest, WhatIsHeldUpOrOfAClockThatIsBehindIsOld) {

@@ -1,0 +1,77 @@
+// What /diagnostics says of an application: of what is there, and by who knows.
+#include "plugins/network/application_health.h"
+
+#include <stdexcept>
+
+#include "plugins/scheduling/scheduler.h"
+#include "tests/plugins/network/network_member.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class BrokenLamp final : public Module {
+ public:
+  using Module::Module;
+  Input<double> level{this, "level"};
+
+ private:
+  void Update() override { throw std::runtime_error("the wire is through"); }
+};
+
+class ApplicationHealthTest : public testing::Test {
+ protected:
+  void Fail() {
+    (void)scheduler_.Step();
+    for (const Fault& each : scheduler_.TakeFaults()) {
+      log_.Add(ApplicationLog::Kind::kFault, each.path + ": " + each.message, each.path, each.message);
+    }
+  }
+  // As it is when it is next looked at.
+  std::string Text() {
+    std::string text;
+    ApplicationHealth anew = health_;
+    for (const RosDiagnosticStatus& each : anew()) {
+      text += std::to_string(static_cast<int>(each.level)) + " " + each.name + ": " + each.message + "\n";
+    }
+    return text;
+  }
+
+  Runtime runtime_;
+  Group& group_ = runtime_.Create<Group>(runtime_.root(), "house");
+  BrokenLamp& lamp_ = runtime_.Create<BrokenLamp>(group_, "lamp");
+  Scheduler scheduler_{runtime_, {.clock = SchedulerOptions::ClockKind::kSimulated}};
+  ApplicationLog log_{runtime_.clock()};
+  const ApplicationHealth health_{group_, scheduler_, log_};
+};
+
+TEST_F(ApplicationHealthTest, WhoHasFailedIsSoWhateverItSaysAndUntilItGoes) {
+  ASSERT_TRUE(runtime_.MakeReady(runtime_.root()));
+  EXPECT_THAT(Text(), HasSubstr("0 house: modules: no fault"));
+  Fail();
+  const auto has_failed =
+      AllOf(HasSubstr("2 house: modules: 1 failed"), HasSubstr("2 house: /house/lamp: the wire is through"));
+  EXPECT_THAT(Text(), has_failed);
+  log_.Add(LogMessage{.level = LogLevel::kWarning, .path = lamp_.path(), .text = "it is cold"});
+  EXPECT_THAT(Text(), has_failed);
+  ASSERT_TRUE(runtime_.Delete(lamp_));
+  EXPECT_THAT(Text(), HasSubstr("0 house: modules: no fault"));
+}
+
+TEST_F(ApplicationHealthTest, OnlySupervisionSaysOfInputsThatAreThereThatTheyHearNothing) {
+  ASSERT_TRUE(runtime_.MakeReady(runtime_.root()));
+  const std::string input = lamp_.level.path();
+  log_.Add(LogMessage{.level = LogLevel::kWarning, .path = lamp_.path(), .text = "sonar: nothing new for 3 s"});
+  log_.Add(ApplicationLog::Kind::kFault, "house.xml:3:1: /house/other/input/level: nothing new for 3 s");
+  EXPECT_THAT(Text(), HasSubstr("0 house: modules: no fault"));
+  log_.Add(ApplicationLog::Kind::kFault, "house.xml:3:1: " + input + ": nothing new for 3 s");
+  EXPECT_THAT(Text(), HasSubstr("3 house: " + input + ": nothing new for 3 s"));
+  ASSERT_TRUE(runtime_.Delete(lamp_));
+  EXPECT_THAT(Text(), Not(HasSubstr("nothing new")));
+}
+
+}  // namespace
+}  // namespace runnel::test

@@ -1,0 +1,71 @@
+// What is offered while files say it twice, and names change.
+#include "plugins/network/xml_network_words.h"
+#include "tests/plugins/network/network_member.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+class OffersFollow : public testing::Test {
+ protected:
+  void SetOffer(const std::string& port) {
+    const std::lock_guard lock(a_.runtime.structure_mutex());
+    a_.network->set_offers({{.port = port, .topic = "/map", .quality = ValueQuality::kLatched}});
+  }
+
+  const std::shared_ptr<WireEngine> engine_ = MakeFakeWire();
+  Member a_{*engine_, "a"};
+};
+
+TEST_F(OffersFollow, WhatIsSaidOfOnePortCountsMoreThanAPattern) {
+  a_.Offer({.patterns = {"module/*"}});
+  a_.Offer({.port = "/application/module/place", .quality = ValueQuality::kLatched});
+  a_.Begin();
+  EXPECT_THAT(a_.Text(), ContainsRegex("as /a/module/place  [^\n]*latched"));
+  EXPECT_THAT(a_.Text(), ContainsRegex("as /a/module/row  [^\n]*reliable, newest 1"));
+}
+
+// A swap lets it come back under its path; a new name does not.
+TEST_F(OffersFollow, OfANameOfBeforeNothingIsOffered) {
+  a_.Offer({.port = "/application/module/place", .topic = "/map", .quality = ValueQuality::kLatched});
+  a_.Begin();
+  const std::string before = "offers /application/module/output/place as /map";
+  ASSERT_TRUE(a_.runtime.Delete(a_.module));
+  auto& eyes = a_.runtime.Create<Module1>(a_.group, "eyes");
+  ASSERT_TRUE(a_.runtime.MakeReady(eyes));
+  EXPECT_THAT(a_.Text(), HasSubstr(before));
+  SetOffer("/application/eyes/output/place");
+  WaitUntil("it is offered by its new name",
+            [&] { return a_.Text().find("offers /application/eyes/output/place as /map") != std::string::npos; });
+  WaitUntil("it is no more by the one of before", [&] { return a_.Text().find(before) == std::string::npos; });
+}
+
+TEST_F(OffersFollow, OfEachValueTheNewestIsSentWhereTheRateIsBounded) {
+  Member b(*engine_, "b");
+  a_.Offer({.port = "/application/module/place", .topic = "/slow", .quality = ValueQuality::kEach, .rate = 2});
+  b.Take({.topic = "/slow"}, b.module.goal);
+  a_.Begin();
+  b.Begin();
+  WaitUntil("it is read", [&] { return IsConnected(a_.module.place); });
+  a_.module.place.Publish({1, 0});
+  WaitUntil("the first has come", [&] { return b.module.goal.Get().x == 1; });
+  for (int i = 2; i <= 5; ++i) a_.module.place.Publish({1.0 * i, 0});
+  WaitUntil("the last has come", [&] { return b.module.goal.Get().x == 5; });
+}
+
+TEST(OfferWordsTest, AStrengthBeyondThoseOfTheWireIsAMistake) {
+  const auto with = [](const std::string& strength) {
+    return OfferSaid([&](const char* name) { return std::string(name) == "strength" ? strength : ""; });
+  };
+  EXPECT_EQ(with("2147483647").strength, 2147483647);
+  EXPECT_FALSE(WhatIsWrong(with("2147483647")));
+  EXPECT_FALSE(WhatIsWrong(with("")));
+  const auto wrong = WhatIsWrong(with("3000000000"));
+  ASSERT_TRUE(wrong);
+  EXPECT_THAT(wrong->message, HasSubstr("from 0 to 2147483647"));
+}
+
+}  // namespace
+}  // namespace runnel::test
