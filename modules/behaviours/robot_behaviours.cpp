@@ -63,7 +63,9 @@ std::optional<Behaviour::Outcome> EmergencyStopBehaviour::Behave(double activati
     twist.Set({});
     return Outcome{activation, 1.0};
   }
-  const Wish wish = EmergencyStop({.least_way = least_way.Get()}, *view, *others);
+  const double time_step = last_ ? std::min(ToSeconds(now() - *last_), surroundings_timeout.limit.Get()) : 0.0;
+  last_ = now();
+  const Wish wish = EmergencyStop({.least_way = least_way.Get()}, time_step, *view, *others, looking_);
   twist.Set(wish.twist);
   return Outcome{activation * wish.rating, wish.rating};
 }

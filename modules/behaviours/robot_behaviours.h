@@ -149,26 +149,29 @@ class EscapeBehaviour final : public Behaviour {
 };
 
 /// Lets nothing pass but turning on the spot where the way ahead ends, and nothing at all while nobody looks, or it does not know
-/// what the others want.
+/// what the others want. With rangers of narrow view it slows down before what none has looked at, and looks there itself.
 class EmergencyStopBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
   Input<Surroundings> surroundings{this, "surroundings", Measured(internal::kObstacles)};
   Input<Twist2> wanted{this, "wanted", Measured("how the others want to move")};
-  ControlOutput<Twist2> twist{this, "twist", {.description = "standstill, or turning on the spot"}};
+  ControlOutput<Twist2> twist{this, "twist", {.description = "standstill, turning on the spot, or slower than wanted"}};
 
   Parameter<double> least_way{this,
                               "least_way",
                               {.default_value = EmergencyStopConfiguration{}.least_way,
                                .bounds = {0.0, 10.0},
                                .unit = "m",
-                               .description = "with less free way ahead it stops"}};
+                               .description = "with less way ahead that is free, and has been looked at, it stops"}};
   InputTimeout surroundings_timeout{this, surroundings, {.former_name = "timeout"}};
   InputTimeout wanted_timeout{this, wanted, {}};
 
  private:
   std::optional<Outcome> Behave(double activation) override;
+
+  double looking_ = 0.0;  // s, of late
+  std::optional<Time> last_;
 };
 
 }  // namespace runnel

@@ -24,6 +24,9 @@ constexpr double kHandHalfWidth = 1.75;
 constexpr double kBeside = 1.0;     // m; what is further away is not beside it
 constexpr double kLookStep = 0.05;  // rad
 
+constexpr double kSeen = DegreesToRadians(13.0);  // rad off ahead, within the narrowest view
+constexpr double kStraightTurn = 0.01;            // rad/s
+
 // Where the wall is, as if that were on the right; the nearest one if none is on that hand.
 double WallBearing(const Surroundings& surroundings, double hand) {
   const BoundaryPoint on_hand = NearestBoundary(surroundings, hand * kHandMiddle, kHandHalfWidth);
@@ -89,11 +92,28 @@ Wish FollowWall(const SteeringConfiguration& steering, const FollowWallConfigura
   return {Steer(steering, bearing, ahead), std::min(1.0, error)};
 }
 
-Wish EmergencyStop(const EmergencyStopConfiguration& configuration, const Surroundings& surroundings,
-                   const Twist2& wanted) {
-  const double free = FreeRange(surroundings, 0.0, PassingRadius(surroundings));
-  const bool is_too_near = free < configuration.least_way && wanted.forward > 0.0;
-  return {{0.0, wanted.turn}, is_too_near ? 1.0 : 0.0};
+Wish EmergencyStop(const EmergencyStopConfiguration& configuration, double time_step, const Surroundings& surroundings,
+                   const Twist2& wanted, double& looking) {
+  const SteeringConfiguration& steering = configuration.steering;
+  if (wanted.forward <= 0.0) return {{0.0, wanted.turn}, 0.0};
+  if (FreeRange(surroundings, 0.0, PassingRadius(surroundings)) < configuration.least_way) {
+    return {{0.0, wanted.turn}, 1.0};
+  }
+  if (!surroundings.is_vague) return {{0.0, wanted.turn}, 0.0};
+  const BoundaryPoint unseen = Unseen(surroundings);
+  const bool is_near = unseen.distance < configuration.least_way;
+  // Looks end, also where nothing can be told; who drives on for as long may look again.
+  looking = std::clamp(looking + (is_near ? time_step : -time_step), 0.0, configuration.looking_time);
+  if (is_near && looking < configuration.looking_time) {
+    const double turn = std::clamp(steering.turn_gain * unseen.bearing, -steering.turn_limit, steering.turn_limit);
+    return {{0.0, turn}, 1.0};
+  }
+  // On a curve it comes to what the cone ahead has not seen: until it stands it may turn by so much.
+  const double on_curve = kSeen * steering.braking / std::max(std::abs(wanted.turn), kStraightTurn);
+  const double before_unseen =
+      is_near ? configuration.creeping_speed : std::sqrt(2.0 * steering.braking * unseen.distance);
+  const double forward = std::min({wanted.forward, on_curve, before_unseen});
+  return {{forward, wanted.turn}, forward < wanted.forward ? 1.0 : 0.0};
 }
 
 bool WatchProgress(const EscapeConfiguration& configuration, double time_step, const Pose2& pose, Point2 goal,

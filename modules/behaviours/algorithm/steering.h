@@ -60,12 +60,18 @@ struct FollowWallConfiguration {
                               const Surroundings& surroundings);
 
 struct EmergencyStopConfiguration {
-  double least_way = 0.05;  ///< m; with less free way ahead it stops
+  double least_way = 0.05;  ///< m; with less way ahead that is free, and has been looked at, it stops
+  double looking_time =
+      3.0;  ///< s, of standing and looking at what no sensor has looked at; then it is as free as it looks
+  double creeping_speed = 0.1;  ///< m/s, with which it goes on then
+  SteeringConfiguration steering = {};
 };
 
-/// Stands still before it is too late, and lets nothing pass of what is `wanted` but turning on the spot.
-[[nodiscard]] Wish EmergencyStop(const EmergencyStopConfiguration& configuration, const Surroundings& surroundings,
-                                 const Twist2& wanted);
+/// Stands still before it is too late, and lets nothing pass of what is `wanted` but turning on the spot. What rangers of
+/// narrow view have not looked at is not free: it slows down before it and on curves, and turns to where nobody has looked.
+/// `looking`: s, that it has spent with that of late; 0 at the beginning. One cycle of `time_step` s.
+[[nodiscard]] Wish EmergencyStop(const EmergencyStopConfiguration& configuration, double time_step,
+                                 const Surroundings& surroundings, const Twist2& wanted, double& looking);
 
 struct EscapeConfiguration {
   double patience = 4.0;   ///< s without coming nearer, after which it is a dead end
