@@ -121,6 +121,7 @@ inline void Describe(TypeBuilder<BugState>& type) {
       .Field("least_distance", &BugState::least_distance)
       .Field("followed_distance", &BugState::followed_distance)
       .Field("has_reversed", &BugState::has_reversed)
+      .Field("has_doubted", &BugState::has_doubted)
       .Field("lap", &BugState::lap)
       .Field("is_other_loop", &BugState::is_other_loop)
       .Field("closest_point", &BugState::closest_point)

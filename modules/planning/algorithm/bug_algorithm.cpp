@@ -203,6 +203,7 @@ void BugAlgorithm::Hit(BugState& state, const BugInput& input, double contact_be
   state.least_distance = distance;
   state.followed_distance = BugState::kNever;
   state.has_reversed = false;
+  state.has_doubted = false;
   state.is_last_chance = false;
   RestartLap(state, input);
   const BoundaryDirection direction = components_.direction->Choose(View(state, input), contact_bearing);
@@ -218,19 +219,12 @@ Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) 
     ++state.second_looks;
     return LeaveWhereNearest(state, input);
   }
-  if (components_.leave->MayMissPassages(View(state, input))) {
-    if (HasComeNearer(state)) {
-      state.doubted_hit_distance = state.hit_distance;
-      return LeaveWhereNearest(state, input);
-    }
-    // The arcs of far echoes may have closed a passage; from the other side they lie elsewhere.
-    if (input.surroundings.is_vague && !state.has_reversed) {
-      Reverse(state, input);
-      return WallFollowing(state, input);
-    }
+  if (components_.leave->MayMissPassages(View(state, input)) && HasComeNearer(state)) {
+    state.doubted_hit_distance = state.hit_distance;
+    return LeaveWhereNearest(state, input);
   }
   if (!is_at_hit_point || state.second_looks == kSecondLooks || !IsFreeTowardsGoal(View(state, input))) {
-    GiveUp(state, Unreachability::kEnclosed);
+    GoOtherWayOrGiveUp(state, input, Unreachability::kEnclosed);
     return {};
   }
   ++state.second_looks;
@@ -261,6 +255,16 @@ Twist2 BugAlgorithm::WallFollowing(BugState& state, const BugInput& input) const
 
 void BugAlgorithm::StartFollowing(BugState& state, const BugInput& input, BoundaryDirection direction) const {
   state.follower.Start(direction, input.pose, NearestBoundary(input.surroundings).bearing);
+}
+
+// The arcs of far echoes may have closed a passage; from the other side they lie elsewhere. So with rangers of narrow view
+// nothing is out of reach before the robot has gone round the other way, too.
+void BugAlgorithm::GoOtherWayOrGiveUp(BugState& state, const BugInput& input, Unreachability reason) const {
+  if (!input.surroundings.is_vague || state.has_doubted) return GiveUp(state, reason);
+  state.has_doubted = true;
+  state.is_last_chance = false;
+  state.status.mode = PlannerMode::kFollowingBoundary;
+  Reverse(state, input);
 }
 
 void BugAlgorithm::GiveUp(BugState& state, Unreachability reason) const {

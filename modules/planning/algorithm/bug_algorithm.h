@@ -72,6 +72,7 @@ class BugAlgorithm {
   void Leave(BugState& state, const BugInput& input) const;
   void RefuseLeavePoint(BugState& state, const BugInput& input) const;
   void StartFollowing(BugState& state, const BugInput& input, BoundaryDirection direction) const;
+  void GoOtherWayOrGiveUp(BugState& state, const BugInput& input, Unreachability reason) const;
   void GiveUp(BugState& state, Unreachability reason) const;
   [[nodiscard]] BugView View(const BugState& state, const BugInput& input) const {
     return {configuration_, state, input};

@@ -65,7 +65,7 @@ Twist2 BugAlgorithm::LeaveWhereNearest(BugState& state, const BugInput& input) c
   state.least_distance_on_line = state.closest_distance;
   state.least_distance_of_all = state.closest_distance;
   SetOut(state, input);
-  return GoToLeavePoint(state, input);
+  return state.status.mode == PlannerMode::kGoingToLeavePoint ? GoToLeavePoint(state, input) : Twist2{};
 }
 
 void BugAlgorithm::SetOut(BugState& state, const BugInput& input) const {
@@ -83,7 +83,7 @@ void BugAlgorithm::ChooseShorterWay(BugState& state, const BugInput& input) cons
   if (ahead < 0.0) ahead += perimeter;
   // Each leave point is nearer to the goal than the one before, or the robot goes in circles.
   if (state.closest_distance > state.last_leave_distance - kLeavePrecision) {
-    GiveUp(state, Unreachability::kNoProgress);
+    GoOtherWayOrGiveUp(state, input, Unreachability::kNoProgress);
     return;
   }
   state.way_to_leave_point = std::min(ahead, perimeter - ahead);
@@ -163,7 +163,7 @@ void BugAlgorithm::Leave(BugState& state, const BugInput& input) const {
 
 void BugAlgorithm::RefuseLeavePoint(BugState& state, const BugInput& input) const {
   if (state.is_last_chance) {
-    GiveUp(state, Unreachability::kEnclosed);
+    GoOtherWayOrGiveUp(state, input, Unreachability::kEnclosed);
     return;
   }
   state.status.mode = PlannerMode::kFollowingBoundary;
@@ -205,6 +205,7 @@ void BugAlgorithm::TakeOver(BugState& state, const BugInput& input) const {
   state.least_distance = state.status.distance_to_goal;
   state.followed_distance = BugState::kNever;
   state.has_reversed = false;
+  state.has_doubted = false;
   state.refused_at = -BugState::kNever;
   RestartLap(state, input);
 }

@@ -108,6 +108,7 @@ struct BugState {
   double least_distance = kNever;     ///< m to the goal, of all points visited
   double followed_distance = kNever;  ///< m to the goal, of the boundary sensed
   bool has_reversed = false;
+  bool has_doubted = false;  ///< that a lap proved the goal to be out of reach, and gone round the other way
 
   // Since the lap began: at the hit point, where it reversed, or in a loop that both are not on.
   Lap lap;
