@@ -72,6 +72,11 @@ test('notes, places, the selection and open groups go with a name, and back when
   undone = 'undone: delete /mock/car';
   await Undo();
   assert.deepEqual(under('car'), all, 'what else is undone changes no names');
+  for (const name of ['"a=b"', 'so_long_a_nam…']) { // as the application writes such names
+    undone = `redone: rename /mock/car ${name}`;
+    await Redo();
+    assert.deepEqual(under('car'), all, name);
+  }
   await Sleep(20);
   assert.equal(asked.filter(({ op }) => op === 'arrange').length, 3, 'all viewers are told');
 });
@@ -93,6 +98,15 @@ test('what lies within something that is deleted goes with it', async () => {
   openDialog.value.action();
   assert.deepEqual(Changes().map(({ path }) => path), ['/mock/robot', '/mock/laser']);
   openDialog.value = null;
+  await Sleep(20);
+  for (const [all, left] of [[['/mock/robot', '/mock/robot/planner'], '/mock'], [['/mock/laser', '/mock/robot'], null]]) {
+    Choose(all);
+    DeleteCarefully(all);
+    openDialog.value.action();
+    openDialog.value = null;
+    await Sleep(20);
+    assert.equal(selected.value, left, 'nothing is selected that is gone');
+  }
 });
 
 test('what is new is not put into another application of the network', () => {
