@@ -65,9 +65,9 @@ export async function Disconnect(from, to) {
   return reply;
 }
 
-/** How a connection passes values on is said when it is made, so it is made anew, as it was but for `options`. */
-function Reconnect({ from, to, part, ...was }, options, label) {
-  const { pull, convert, when_present, late, queue, on_full } = { ...was, ...options };
+/** How a connection passes values on is said when it is made, so it is made anew, as it is now but for `options` and `part`. */
+function Reconnect({ from, to, part }, options, label) {
+  const { pull, convert, when_present, late, queue, on_full } = { ...structure.connections.get(ConnectionKey({ from, to })), ...options };
   const how = { pull, when_present, late, ...(convert ? { convert } : {}), ...(queue > 0 ? { queue, on_full } : {}) };
   return Apply([Change.disconnect(from, to), Change.connect(Part(from, part), to, how)], label);
 }
