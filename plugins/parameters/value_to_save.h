@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "core/element/configurable.h"
 #include "core/element/framework_element.h"
 #include "core/module/group_parameter.h"
+#include "core/port/port.h"
 #include "plugins/parameters/configuration_saver.h"
 
 namespace runnel {
@@ -37,13 +39,29 @@ struct MadeByRule final : Annotation {
   }
 };
 
-/// The value that files get. Under the structure lock.
+/// Whether its value is that of an output which is connected to it: a file says the connection, by which the value comes
+/// anew. Under the structure lock.
+[[nodiscard]] inline bool HasValueOfOutput(const FrameworkElement& element, const Configurable& parameter) {
+  if (!parameter.is_fed()) return false;
+  return std::ranges::any_of(element.children(), [](FrameworkElement* below) {
+    bool is_connected = false;
+    below->VisitAll<const Port>([&](const Port& feed) { is_connected = is_connected || !feed.Sources().empty(); });
+    return is_connected;
+  });
+}
+
+/// The value that files get: of what an output sets, which may be another one each time, that of before. Under the
+/// structure lock.
 [[nodiscard]] inline std::string TextToSave(const FrameworkElement& element, const Configurable& parameter) {
   const auto* const group = dynamic_cast<const GroupParameter*>(&element);
   const auto targets = group != nullptr ? group->Find() : std::vector<ConfigurableElement>();
+  const std::string* const loaded = LoadedValue::Of(element);
+  const bool is_of_output = targets.empty() ? HasValueOfOutput(element, parameter)
+                                            : HasValueOfOutput(*targets.front().element, *targets.front().configurable);
+  if (is_of_output) return loaded != nullptr ? *loaded : parameter.info().default_value;
   if (!targets.empty()) return TextToSave(*targets.front().element, *targets.front().configurable);
   // Until what it stands for is there again.
-  if (group != nullptr && LoadedValue::Of(element) != nullptr) return *LoadedValue::Of(element);
+  if (group != nullptr && loaded != nullptr) return *loaded;
   return MadeByRule::Before(element, parameter.ToText());
 }
 

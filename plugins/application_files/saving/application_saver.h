@@ -19,7 +19,8 @@ struct SaveTools {
 /// all (replace_file.h), after building it once in a runtime of its own as `runnel check` does: a text that would not
 /// load never replaces a file. If the application came from a file, it is that text with what has changed since, and
 /// all else byte for byte as it was; if it was built by code, a new one. Values that came from the command line or a
-/// configuration are left to these, unless they have been changed since.
+/// configuration are left to these, unless they have been changed since; one that an output sets comes anew by the
+/// connection, and is left as it was.
 ///
 /// An application that came from no file is from now on that of `file`; one that came from another remains that
 /// file's, and `file` is a copy. What is replaced is kept as FILE~. One that is connected with another application cannot be built alone; then only

@@ -150,9 +150,9 @@ test('Ctrl+S and Enter save, once, and a refusal that comes when the dialog is c
 });
 
 test('what is written is what was shown, although others change the application meanwhile', async (t) => {
-  let after = 'b\n';
+  let [file, after] = ['/mock/robot.xml', 'b\n'];
   const { application, inspector, page } = await OpenMock(t, { prepare: (mock) => {
-    mock.answers.preview = (reply) => reply({ ok: true, file: '/mock/robot.xml', before: 'a\n', after });
+    mock.answers.preview = (reply) => reply({ ok: true, file, before: 'a\n', after });
   } });
   await page.locator('#save').click();
   await page.locator('.difference .new', { hasText: 'b' }).waitFor();
@@ -160,6 +160,9 @@ test('what is written is what was shown, although others change the application 
   await page.locator('#save-now').click();
   await page.locator('dialog .problem', { hasText: 'changed meanwhile' }).waitFor();
   await page.locator('.difference .new', { hasText: 'c' }).waitFor();
+  file = '/mock/other.xml';
+  await page.locator('#save-now').click();
+  await page.locator('dialog h2', { hasText: 'other.xml' }).waitFor();
   assert.equal(Asked(application, 'save').length, 0);
   await page.locator('#save-now').click();
   await inspector.closed();

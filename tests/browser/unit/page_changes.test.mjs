@@ -39,7 +39,7 @@ globalThis.document = { addEventListener: (_, listener) => { onKey = listener; }
 const kept = new Map();
 const Allowed = () => { if (keepsNothing) throw new Error('nothing may be kept'); };
 globalThis.localStorage = { getItem: (key) => { Allowed(); return kept.get(key) ?? null; }, setItem: (key, text) => { Allowed(); kept.set(key, text); } };
-const { Redo, Rename, Undo } = await import('../../../plugins/inspector/page/source/state/actions.js');
+const { Redo, Rename, SetConversion, Undo } = await import('../../../plugins/inspector/page/source/state/actions.js');
 const { TakeArrangement, notes, places } = await import('../../../plugins/inspector/page/source/state/arrangement.js');
 const { DeleteCarefully } = await import('../../../plugins/inspector/page/source/state/careful.js');
 const { Choose, GroupForNew, IsOpen, SetOpen, chosen, openDialog, selected } = await import('../../../plugins/inspector/page/source/state/choices.js');
@@ -72,6 +72,11 @@ test('notes, places, the selection and open groups go with a name, and back when
   undone = 'undone: delete /mock/car';
   await Undo();
   assert.deepEqual(under('car'), all, 'what else is undone changes no names');
+  for (const name of ['"a=b"', 'so_long_a_nam…']) { // as the application writes such names
+    undone = `redone: rename /mock/car ${name}`;
+    await Redo();
+    assert.deepEqual(under('car'), all, name);
+  }
   await Sleep(20);
   assert.equal(asked.filter(({ op }) => op === 'arrange').length, 3, 'all viewers are told');
 });
@@ -93,6 +98,25 @@ test('what lies within something that is deleted goes with it', async () => {
   openDialog.value.action();
   assert.deepEqual(Changes().map(({ path }) => path), ['/mock/robot', '/mock/laser']);
   openDialog.value = null;
+  await Sleep(20);
+  for (const [all, left] of [[['/mock/robot', '/mock/robot/planner'], '/mock'], [['/mock/laser', '/mock/robot'], null]]) {
+    Choose(all);
+    DeleteCarefully(all);
+    openDialog.value.action();
+    openDialog.value = null;
+    await Sleep(20);
+    assert.equal(selected.value, left, 'nothing is selected that is gone');
+  }
+});
+
+test('a conversion is changed of the connection as it is, not as it was when somebody began to choose', async () => {
+  const [from, to] = ['/mock/laser/scan', '/mock/robot/scan'];
+  const before = { ...structure.connections.get(`${from} → ${to}`), part: 'ranges' };
+  structure.change({ revision: 2, connected: [{ ...before, queue: 5, on_full: 'refuse' }] }); // by another viewer
+  SetConversion(before, { part: 'ranges[0]', convert: 'round' });
+  const { from: part, convert, queue, on_full: onFull } = Changes().at(-1);
+  assert.deepEqual([part, convert, queue, onFull], [`${from}.ranges[0]`, 'round', 5, 'refuse']);
+  await Sleep(20);
 });
 
 test('what is new is not put into another application of the network', () => {

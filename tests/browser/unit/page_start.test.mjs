@@ -9,13 +9,15 @@ globalThis.localStorage = { getItem: (key) => kept.get(key) ?? null, setItem: (k
 globalThis.matchMedia = () => ({ matches: false, addEventListener() {} });
 globalThis.document = { documentElement: { dataset: {} } };
 globalThis.location = { hash: '', pathname: '/', search: '' };
-globalThis.addEventListener = () => {};
+let onAddress = null;
+globalThis.addEventListener = (_, listener) => { onAddress = listener; };
 globalThis.history = { replaceState: (_, __, address) => {
   if (refuses) throw new Error('too many calls of replaceState()');
   location.hash = address;
 } };
 const { ReadAddress, StartAddress } = await import('../../../plugins/inspector/page/source/address.js');
 const { SetOpen, StartKeeping, openGroups, selected } = await import('../../../plugins/inspector/page/source/state/choices.js');
+const { plots } = await import('../../../plugins/inspector/page/source/plots/plot_list.js');
 const { hello, revision } = await import('../../../plugins/inspector/page/source/state/store.js');
 after(() => setTimeout(() => process.exit(), 100)); // links look at the time for ever
 
@@ -44,4 +46,11 @@ test('a browser that takes no more addresses for a while lets one select neverth
   refuses = false;
   selected.value = '/robot/head';
   assert.match(location.hash, /at=\/robot\/head/);
+});
+
+test('the plots of an address that somebody enters come at once', () => {
+  location.hash = `#${new URLSearchParams({ at: '/robot/arm', plot: '["/robot/arm/pose",["x"],"m"]' })}`;
+  onAddress();
+  assert.deepEqual(plots.value.map(({ unit, curves }) => [unit, ...curves.map(({ port }) => port)]), [['m', '/robot/arm/pose']]);
+  assert.match(location.hash, /plot=/);
 });

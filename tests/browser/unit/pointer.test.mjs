@@ -27,7 +27,7 @@ function Mouse(name, x, y, more = {}) {
 }
 const Press = (key, repeat = false) => OnGraphKey({ key, repeat, target: host, preventDefault() {}, stopPropagation() {} });
 
-AttachPointer(host);
+const detach = AttachPointer(host);
 connection.value = { state: 'open', reason: '' };
 hello.value = { application: 'mock', role: 'change' };
 structure.replaceAll({ revision: 1, ...RobotStructure() });
@@ -123,4 +123,13 @@ test('the end of each finger is heard, whatever becomes of what was under it', (
   finger(7, 'pointerup', 100);
   finger(8, 'pointerup', 200);
   assert.ok(layout.value.boxes.size > 0);
+});
+
+test('a drag ends with the view that it is in', () => {
+  under = { node: '/mock/laser' };
+  Mouse('pointerdown', 410, 10);
+  Mouse('pointermove', 450, 60);
+  assert.notEqual(draft.value, null);
+  detach();
+  assert.equal(draft.value, null);
 });

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { TakeToken, TokenProtocols } from '../../../plugins/inspector/page/source/connection/token.js';
+import { CurrentToken, OwnStorage, TakeToken, TokenProtocols } from '../../../plugins/inspector/page/source/connection/token.js';
 
 class Storage {
   #items = new Map();
@@ -34,4 +34,12 @@ test('a token is kept, and another one takes its place', () => {
 test('only what fits into a header is offered', () => {
   assert.deepEqual(TokenProtocols('Ab-9._~'), ['runnel.token.Ab-9._~']);
   for (const none of ['', 'a b', 'a,b', 'ä']) assert.deepEqual(TokenProtocols(none), []);
+});
+
+test('a page begins in a browser that may not even be asked for what it keeps', () => {
+  Object.defineProperty(globalThis, 'localStorage', { configurable: true, get() { throw new Error('it is refused'); } });
+  assert.equal(typeof CurrentToken(), 'string');
+  assert.equal(Take('', '#token=ghi', OwnStorage()).token, 'ghi');
+  assert.equal(CurrentToken(), 'ghi', 'for this page');
+  delete globalThis.localStorage;
 });

@@ -1,5 +1,6 @@
 // Ports and parameters that follow from static parameters, and outputs that set parameters.
 
+#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "plugins/parameters/configuration_saver.h"
+#include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/structure_editor.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 
@@ -181,6 +183,47 @@ TEST_F(ConstructedPorts, AnOutputMaySetAParameter) {
     <connect from="source/label" to="other/text"/>
   </application>)"),
               ::testing::AllOf(HasSubstr("carries string, but"), HasSubstr("is a parameter that no output can set")));
+}
+
+constexpr const char* kFedByOutput = R"(<application name="demo" thread="control">
+  <thread name="control" period="10ms"/>
+  <clock type="simulated" speed="0"/>
+  <module name="source" type="test/source"/>
+  <module name="other" type="test/source">
+    <parameter name="gain" value="2"/>
+  </module>
+  <group name="group">
+    <parameter name="all" to="inner/gain" value="5"/>
+    <module name="inner" type="test/source"/>
+  </group>
+  <module name="plain" type="test/source"/>
+  <connect from="source/value" to="other/gain group/inner/gain plain/gain"/>
+</application>
+)";
+
+TEST_F(ConstructedPorts, WhatAnOutputHasSetIsSavedOnlyWhenNothingSetsItAnyMore) {
+  const TestFolder folder;
+  WriteAll(folder / "app.xml", kFedByOutput);
+  FrameworkElement* const application = workshop_.Load(folder / "app.xml");
+  ASSERT_NE(application, nullptr);
+  Scheduler scheduler(workshop_.runtime, SchedulerOptionsOf(*application));
+  auto& source = workshop_.Get<Source>("/demo/source");
+  auto& other = workshop_.Get<Source>("/demo/other");
+  auto publish = [&, end = 0](double value) mutable {
+    source.value.Publish(value);
+    EXPECT_TRUE(scheduler.RunUntil(Time(std::chrono::milliseconds(end += 20))));
+    EXPECT_EQ(other.gain.Get(), value);
+  };
+  for (const double value : {3.0, 4.0}) {
+    publish(value);
+    EXPECT_EQ(workshop_.Text(*application, folder.path()), kFedByOutput) << "the same text whatever has come";
+  }
+  ASSERT_TRUE(SaveApplication(application->runtime(), *application, workshop_.tools()));
+  ASSERT_TRUE(other.gain.Set(7));
+  EXPECT_THAT(workshop_.Text(*application, folder.path()), HasSubstr("name=\"gain\" value=\"7\"")) << "by hand";
+  publish(6);
+  ASSERT_TRUE(Port::Disconnect(source.value, workshop_.Get<Port>("/demo/other/parameter/gain/feed/gain")));
+  EXPECT_THAT(workshop_.Text(*application, folder.path()), HasSubstr("name=\"gain\" value=\"6\""));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // What is looked at stands in the address, so that it survives a reload and can be sent to somebody: what is
 // selected, open and folded groups, plots, panels.
 
-import { effect } from '@preact/signals';
+import { batch, effect } from '@preact/signals';
 import { PlotField, plots } from './plots/plot_list.js';
 import { Choose, SetPanels, chosen, openGroups, panels } from './state/choices.js';
 import { hello, revision } from './state/store.js';
@@ -37,7 +37,7 @@ export function WriteAddress({ chosen: paths, open, plots: curves, panels: shown
 /** Takes the address over, and has it follow what is looked at from now on. */
 export function StartAddress() {
   let awaited = Apply(location.hash);
-  addEventListener('hashchange', () => { awaited = Apply(location.hash); });
+  addEventListener('hashchange', () => batch(() => { awaited = Apply(location.hash); })); // or the plots would come with the next change
   effect(() => {
     if (revision.value === 0 || !hello.value) return;
     // Plots need to know the ports that they are of.

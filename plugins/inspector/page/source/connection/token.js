@@ -24,8 +24,13 @@ export function Keep(token, storage) {
   inMemory = token;
 }
 
+/** What the browser keeps for pages; undefined: nothing, where even to ask for it is an error. */
+export function OwnStorage() {
+  try { return globalThis.localStorage; } catch { return undefined; }
+}
+
 /** The one that is kept, or ''. */
-export const CurrentToken = () => Kept(globalThis.localStorage);
+export const CurrentToken = () => Kept(OwnStorage());
 
 /** What a WebSocket offers to show the token: headers of its own it cannot have, and an address is written down. */
 export const TokenProtocols = (token) => (/^[\w.~-]+$/.test(token) ? [`runnel.token.${token}`] : []);

@@ -17,6 +17,8 @@ export function CloseDialog(dialog = openDialog.value) {
 
 export function Dialog({ title, children, className = '', style }) {
   const element = useRef(null);
+  const own = useRef(null); // browsers tell of its end later, when another one may be open
+  own.current = openDialog.peek();
   useEffect(() => {
     const before = document.activeElement;
     element.current.showModal();
@@ -37,7 +39,7 @@ export function Dialog({ title, children, className = '', style }) {
     event.stopPropagation();
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 's') event.preventDefault(); // browsers save their page by it
   };
-  return html`<dialog ref=${element} class=${className} style=${style} aria-label=${title} onClose=${() => CloseDialog()}
+  return html`<dialog ref=${element} class=${className} style=${style} aria-label=${title} onClose=${() => CloseDialog(own.current)}
       onPointerDown=${onPointerDown} onKeyDown=${onKeyDown}>
     <div class="dialog-body">${children}</div></dialog>`;
 }

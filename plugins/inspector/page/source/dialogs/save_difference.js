@@ -23,7 +23,7 @@ export function SaveDifference() {
     send: async () => {
       const now = await PreviewSave();
       if (!now.ok) return now;
-      if (now.before === told.before && now.after === told.after) return Save('', { quiet: true });
+      if (['file', 'before', 'after'].every((name) => now[name] === told[name])) return Save('', { quiet: true });
       Take(now);
       return 'It has been changed meanwhile: this is the difference now.';
     },

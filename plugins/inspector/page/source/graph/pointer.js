@@ -35,7 +35,7 @@ export function AttachPointer(host) {
   for (const [name, handler] of Object.entries(handlers)) {
     host.addEventListener(name, handler, { passive: false, signal: attached.signal });
   }
-  return () => attached.abort();
+  return () => { attached.abort(); pointer.end(); };
 }
 
 class Pointer {

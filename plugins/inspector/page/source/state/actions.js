@@ -65,9 +65,9 @@ export async function Disconnect(from, to) {
   return reply;
 }
 
-/** How a connection passes values on is said when it is made, so it is made anew, as it was but for `options`. */
-function Reconnect({ from, to, part, ...was }, options, label) {
-  const { pull, convert, when_present, late, queue, on_full } = { ...was, ...options };
+/** How a connection passes values on is said when it is made, so it is made anew, as it is now but for `options` and `part`. */
+function Reconnect({ from, to, part }, options, label) {
+  const { pull, convert, when_present, late, queue, on_full } = { ...structure.connections.get(ConnectionKey({ from, to })), ...options };
   const how = { pull, when_present, late, ...(convert ? { convert } : {}), ...(queue > 0 ? { queue, on_full } : {}) };
   return Apply([Change.disconnect(from, to), Change.connect(Part(from, part), to, how)], label);
 }
@@ -93,13 +93,17 @@ export function SetQueue(connection, queue, on_full = 'drop_oldest') {
 
 export async function Delete(path) {
   const reply = await Apply([Change.delete(path)], `delete ${NameOf(path)}`);
-  if (reply.ok && selected.value === path) selected.value = structure.get(path)?.owner ?? ParentOf(path);
+  if (reply.ok && IsIn(selected.value, path)) selected.value = structure.get(path)?.owner ?? ParentOf(path);
   return reply;
 }
 
-export function DeleteAll(paths) {
-  return Apply(paths.map(Change.delete), `delete ${paths.map(NameOf).join(', ')}`);
+export async function DeleteAll(paths) {
+  const reply = await Apply(paths.map(Change.delete), `delete ${paths.map(NameOf).join(', ')}`);
+  if (reply.ok && paths.some((path) => IsIn(selected.value, path))) selected.value = null;
+  return reply;
 }
+
+const IsIn = (path, element) => path === element || (path !== null && path.startsWith(`${element}/`));
 
 /** `settings`: texts of parameters by their names. */
 export function CreateModule(type, group, name, settings) {
@@ -177,11 +181,14 @@ export const CreateThread = (name, options) => Apply([Change.createThread(name, 
 export const Undo = () => Travel('undo');
 export const Redo = () => Travel('redo');
 
+/** What the application says of a rename; not of one whose names it has quoted or shortened. */
+const kRenamed = /^(?:undone|redone): rename (\/[^\s"]+) ([^\s"…]+)$/;
+
 /** Says what has been undone or redone, and whose change it was. */
 async function Travel(op) {
   const reply = await Ask({ op }, `Could not ${op} “${run.value[op]}”`);
   if (!reply.ok) return reply;
-  const [, path, name] = /: rename (\S+) (\S+)$/.exec(reply.text ?? '') ?? [];
+  const [, path, name] = kRenamed.exec(reply.text ?? '') ?? [];
   const names = path ? [path, `${ParentOf(path)}/${name}`] : [];
   if (path) Follow(...(op === 'undo' ? names.reverse() : names));
   const whose = WhoseChange(reply.client, hello.value?.viewer);

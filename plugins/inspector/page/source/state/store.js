@@ -2,7 +2,7 @@
 
 import { batch, computed, signal } from '@preact/signals';
 import { Link } from '../connection/link.js';
-import { Keep, TakeToken } from '../connection/token.js';
+import { Keep, OwnStorage, TakeToken } from '../connection/token.js';
 import { Watches } from '../connection/watches.js';
 import { Catalogue } from '../model/catalogue.js';
 import { OriginsOf } from '../model/origin.js';
@@ -65,7 +65,7 @@ export async function Request(message) {
 
 /** Begins to talk with the application that has sent this page. */
 export function Start(url) {
-  link = new Link(url, TakeToken(location, history, localStorage), { onMessage: Receive, onState: OnState });
+  link = new Link(url, TakeToken(location, history, OwnStorage()), { onMessage: Receive, onState: OnState });
   UseOther(link);
   StartStop(url); // first of all
   link.open();
@@ -74,7 +74,7 @@ export function Start(url) {
 
 /** Shows the server another token. */
 export function UseToken(token) {
-  Keep(token, localStorage);
+  Keep(token, OwnStorage());
   link.show(token);
   ShowToken(token);
 }
