@@ -30,7 +30,6 @@ void ControlTask::ForEachActivity(Use use) {
 
 bool ControlTask::Send(Request& request) noexcept {
   request.id_.store(0, std::memory_order_relaxed);
-  request.uses_.fetch_add(1, std::memory_order_relaxed);
   request.doing_.store("", std::memory_order_relaxed);
   request.Set(Request::State::kSent);
   if (queue_.TryPush(&request)) return true;

@@ -65,8 +65,6 @@ class Request {
   [[nodiscard]] State state() const noexcept { return state_.load(std::memory_order_acquire); }
   /// Of the activity, once it is accepted; 0 for others.
   [[nodiscard]] std::uint32_t id() const noexcept { return id_.load(std::memory_order_relaxed); }
-  /// How often it has been sent: by it, what belongs to one use is known from what belonged to the one before.
-  [[nodiscard]] std::uint32_t uses() const noexcept { return uses_.load(std::memory_order_relaxed); }
   /// Name of the state that the activity is in, to look at; "" if it is in none.
   [[nodiscard]] const char* doing() const noexcept { return doing_.load(std::memory_order_relaxed); }
   [[nodiscard]] const Outcome& outcome() const noexcept { return outcome_; }
@@ -93,7 +91,6 @@ class Request {
   Outcome outcome_;
   std::atomic<State> state_{State::kIdle};
   std::atomic<std::uint32_t> id_{0};
-  std::atomic<std::uint32_t> uses_{0};
   std::atomic<const char*> doing_{""};
 };
 

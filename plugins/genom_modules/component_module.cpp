@@ -174,7 +174,7 @@ void PortReading::Note(const Request* reader, Time measured) noexcept {
   };
   Slot& slot = *std::ranges::min_element(slots, {}, rank);
   slot.reader.store(reader, std::memory_order_relaxed);
-  slot.use.store(reader != nullptr ? reader->uses() : 0, std::memory_order_relaxed);
+  slot.activity.store(reader != nullptr ? reader->id() : 0, std::memory_order_relaxed);
   slot.measured.store(measured, std::memory_order_relaxed);
 }
 
@@ -184,7 +184,7 @@ Time ComponentModule::StampFor(const Request* writer) const noexcept {
   for (const PortReading* each : readings_) {
     for (const PortReading::Slot& slot : each->slots) {
       const Request* const reader = slot.reader.load(std::memory_order_relaxed);
-      if (reader != nullptr && slot.use.load(std::memory_order_relaxed) != reader->uses()) continue;
+      if (reader != nullptr && slot.activity.load(std::memory_order_relaxed) != reader->id()) continue;
       if (reader != nullptr && reader != writer && (writer != nullptr || !IsUnderWay(reader))) continue;
       oldest = std::min(oldest, slot.measured.load(std::memory_order_relaxed));
     }

@@ -122,7 +122,7 @@ struct PortReading {
     // relaxed, all: each tells of itself.
     std::atomic<Time> measured{Time::max()};
     std::atomic<const genom_execution::Request*> reader{nullptr};
-    std::atomic<std::uint32_t> use{0};  // the reader's: a service uses its requests again
+    std::atomic<std::uint32_t> activity{0};  // the reader's: a service uses its requests again
   };
   std::array<Slot, 4> slots;
 

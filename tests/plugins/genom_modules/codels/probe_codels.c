@@ -79,12 +79,6 @@ genom_event do_aim(const probe_aimed *aimed, const genom_context self) {
   return probe_pause_aim;
 }
 
-genom_event do_glance(bool looks, const probe_sighted *sighted, const probe_aimed *aimed, const genom_context self) {
-  if (looks) sighted->read(self);
-  aimed->write(self);
-  return genom_ok;
-}
-
 genom_event do_guess(bool looks, const probe_sighted *sighted, const probe_aimed *aimed, const genom_context self) {
   if (looks) sighted->read(self);
   aimed->write(self);
