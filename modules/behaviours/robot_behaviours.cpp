@@ -7,6 +7,7 @@ namespace runnel {
 namespace {
 constexpr const char* kNoGoal = "goal has never come";
 constexpr const char* kUnclearGoal = "goal is not a number";
+constexpr double kWhileLooking = 0.25;  // of the time counts as being stuck, so that looks have an end
 }  // namespace
 
 std::optional<Behaviour::Outcome> DriveToGoalBehaviour::Behave(double activation) {
@@ -49,8 +50,9 @@ std::optional<Behaviour::Outcome> EscapeBehaviour::Behave(double activation) {
   // While it could not tell, the robot stood.
   const double time_step = last_ ? std::min(ToSeconds(now() - *last_), surroundings_timeout.limit.Get()) : 0.0;
   last_ = now();
-  // Who may do nothing waits for nothing.
-  const double passed = activation > 0.0 ? time_step : 0.0;
+  // Who may do nothing waits for nothing; and a robot that looks at what lies before it does not come nearer meanwhile.
+  const bool must_look = Unseen(*view).distance < EmergencyStopConfiguration{}.least_way;
+  const double passed = activation > 0.0 ? time_step * (must_look ? kWhileLooking : 1.0) : 0.0;
   const bool is_escaping = WatchProgress(configuration, passed, *here, *there, *view, state_);
   return Outcome{is_escaping ? activation : 0.0, is_escaping ? 1.0 : 0.0};
 }
