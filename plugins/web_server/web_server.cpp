@@ -8,6 +8,8 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
 
 #include "plugins/web_server/access_rules.h"
 #include "plugins/web_server/internal/beast_connections.h"
@@ -23,6 +25,9 @@ using internal::TlsIdentity;
 
 // After accepting has failed, for want of descriptors.
 constexpr auto kPause = std::chrono::milliseconds(100);
+// Of what has not been sent yet so much waits in a socket: with more, one that is taken from slowly would be full for so long that
+// its client is thought to take nothing, and a ping would be late.
+constexpr int kUnsent = 32 * 1024;
 // For clients to answer that the server ends.
 constexpr auto kFarewell = std::chrono::milliseconds(200);
 
@@ -125,6 +130,7 @@ class Running final : public WebServer {
       if (!error) {
         boost::system::error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
+        (void)setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsent, sizeof kUnsent);
         Serve(std::move(socket));
         return Accept();
       }

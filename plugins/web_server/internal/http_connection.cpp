@@ -176,9 +176,11 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
     SendPiece();
   }
 
-  // So that a slow line is enough for a large answer: who takes some of it is there.
+  // So that a slow line is enough for a large answer: who takes some of it is there. With TLS it is not seen here what is taken: the
+  // visitor sees to it.
   void SendPiece() {
-    stream_.expires_after(registry_.limits().request_time);
+    stream_.expires_never();
+    if (visitor_ == nullptr) stream_.expires_after(registry_.limits().request_time);
     http::async_write_some(stream_, *serializer_,
                            beast::bind_front_handler(&HttpConnection::OnSent, shared_from_this()));
   }

@@ -33,6 +33,8 @@ constexpr auto kShortestPause = std::chrono::milliseconds(1);
 constexpr auto kTimeToSayGoodbye = std::chrono::milliseconds(1000);
 // Of what has come too soon so much may wait as is handed over in this time; of what may be late, in the other one.
 constexpr double kSecondsOfWaiting = 1, kSecondsOfWaitingLate = 5;
+// Of a larger message so much is sent at once. The rest comes behind pings, and a slow line has as much time for each piece.
+constexpr std::size_t kPiece = 64 * 1024;
 // What is longer does not fit into a closing frame.
 constexpr std::size_t kLongestReason = 120;
 
@@ -240,15 +242,21 @@ class WebSocketConnection final : public WebConnection,
 
   void Write() {
     const Message& message = waiting_.front();
+    const auto piece = boost::asio::buffer(boost::asio::buffer(message.bytes) + written_, kPiece);
     socket_.text(message.is_text);
     // A client that takes nothing of it all that time is not there any more.
     At(Now() + registry_.limits().idle_time, write_timer_, &WebSocketConnection::Cut);
-    socket_.async_write(boost::asio::buffer(message.bytes),
-                        [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnWritten(error); });
+    socket_.async_write_some(written_ + piece.size() == message.bytes.size(), piece,
+                             [self = shared_from_this(), size = piece.size()](beast::error_code error, std::size_t) {
+                               self->written_ += size;
+                               self->OnWritten(error);
+                             });
   }
 
   void OnWritten(beast::error_code error) {
     write_timer_.cancel();
+    if (!error && !is_closing_ && written_ < waiting_.front().bytes.size()) return Write();
+    written_ = 0;
     waiting_bytes_ -= waiting_.front().bytes.size();
     waiting_.pop_front();
     if (error) return Remove();
@@ -305,6 +313,7 @@ class WebSocketConnection final : public WebConnection,
   double early_cost_ = 0;              // of those
   std::optional<WebArrival> arrival_;  // of the message that is being handed over
   std::deque<Message> waiting_;
+  std::size_t written_ = 0;  // of the first
   std::size_t waiting_bytes_ = 0;
   bool is_accepted_ = false;
   bool is_closing_ = false;
