@@ -52,7 +52,13 @@ class WakeHandle : public std::enable_shared_from_this<WakeHandle> {
     if (context_ == nullptr) return;
     boost::asio::post(*context_, [handle = shared_from_this()] {
       handle->is_woken_.store(false);
-      if (const auto alive = handle->connection_.lock()) alive->Poll();
+      const auto alive = handle->connection_.lock();
+      if (alive == nullptr) return;
+      try {
+        alive->Poll();
+      } catch (...) {  // for want of memory
+        alive->Cut();
+      }
     });
   }
   /// The connection goes, and the server may go after it.
@@ -99,7 +105,9 @@ class WebSocketConnection final : public WebConnection,
       bucket_.Consume(text.size(), Now());
       if (bucket_.IsFlood()) Close("too many pings");
     });
-    socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) { self->OnAccepted(error); });
+    socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
+      OrRemove(*self, [&] { self->OnAccepted(error); });
+    });
   }
 
   bool SendText(std::string text) override { return Send({std::move(text), true}); }
@@ -132,6 +140,16 @@ class WebSocketConnection final : public WebConnection,
     beast::error_code ignored;
     socket_.next_layer().close(ignored);
   }
+  void Remove() {
+    if (std::exchange(is_removed_, true)) return;
+    poll_timer_.cancel();
+    read_timer_.cancel();
+    write_timer_.cancel();
+    Cut();
+    Detach();
+    session_.reset();
+    registry_.Remove(shared_from_this());
+  }
 
  private:
   struct Message {
@@ -144,7 +162,7 @@ class WebSocketConnection final : public WebConnection,
   void At(SteadyTime time, boost::asio::steady_timer& timer, void (WebSocketConnection::*act)()) {
     timer.expires_at(time);
     timer.async_wait([self = shared_from_this(), act](beast::error_code cancelled) {
-      if (!cancelled) ((*self).*act)();
+      if (!cancelled) OrRemove(*self, [&] { ((*self).*act)(); });
     });
   }
 
@@ -167,8 +185,9 @@ class WebSocketConnection final : public WebConnection,
   }
 
   void Read() {
-    socket_.async_read(buffer_,
-                       [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnRead(error); });
+    socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      OrRemove(*self, [&] { self->OnRead(error); });
+    });
   }
 
   void OnRead(beast::error_code error) {
@@ -234,8 +253,9 @@ class WebSocketConnection final : public WebConnection,
     if (waiting_bytes_ > 0 && waiting_bytes_ + message.bytes.size() > registry_.limits().waiting_bytes) {
       return false;
     }
-    waiting_bytes_ += message.bytes.size();
+    const std::size_t size = message.bytes.size();
     waiting_.push_back(std::move(message));
+    waiting_bytes_ += size;
     if (waiting_.size() == 1) Write();
     return true;
   }
@@ -249,7 +269,7 @@ class WebSocketConnection final : public WebConnection,
     socket_.async_write_some(written_ + piece.size() == message.bytes.size(), piece,
                              [self = shared_from_this(), size = piece.size()](beast::error_code error, std::size_t) {
                                self->written_ += size;
-                               self->OnWritten(error);
+                               OrRemove(*self, [&] { self->OnWritten(error); });
                              });
   }
 
@@ -286,17 +306,6 @@ class WebSocketConnection final : public WebConnection,
     At(Now() + kTimeToSayGoodbye, poll_timer_, &WebSocketConnection::Cut);
   }
 
-  void Remove() {
-    if (std::exchange(is_removed_, true)) return;
-    poll_timer_.cancel();
-    read_timer_.cancel();
-    write_timer_.cancel();
-    Cut();
-    Detach();
-    session_.reset();
-    registry_.Remove(shared_from_this());
-  }
-
   ConnectionRegistry& registry_;
   HttpRequest request_;
   const std::function<std::unique_ptr<WebSession>(WebClient&)> start_;
@@ -329,7 +338,7 @@ void ServeWebSocket(ConnectionRegistry& registry, tcp::socket socket, HttpReques
   const auto connection = std::make_shared<WebSocketConnection>(registry, std::move(socket), std::move(request),
                                                                 protocol, std::move(name), role);
   registry.Add(connection);
-  connection->Accept();
+  OrRemove(*connection, [&] { connection->Accept(); });
 }
 
 }  // namespace runnel::internal
