@@ -17,6 +17,10 @@ namespace runnel {
 namespace {
 
 constexpr std::size_t kRoomForImages = 4'194'304;
+constexpr const char* kHasMissed =
+    "for a moment there was no memory, so that somebody, or what somebody writes or reads, may not be known here until "
+    "this "
+    "application, or the other one, is started again";
 
 std::string Doubt(const WireEndpointOptions& own, const WireEndpointOptions& other, bool is_writer) {
   const std::string doubt =
@@ -54,6 +58,7 @@ void NetworkLink::TellTroubles() {
   for (const auto& each : taken_) {
     if (const auto error = each->TakeError()) Trouble(each->output().path(), *error);
   }
+  if (table_.has_missed()) Trouble("members", {.message = kHasMissed});
   for (const std::string& why : table_.refusals()) new_troubles_["keys " + why] = "not let in, " + why;
   for (const auto& [of, text] : new_troubles_) {
     const auto told = troubles_.find(of);
@@ -166,6 +171,7 @@ std::string NetworkLink::Text() const {
                               : "\n");
   }
   for (const std::string& why : table_.refusals()) text += "NOT LET IN " + why + "\n";
+  if (table_.has_missed()) text += std::string("NOT ALL: ") + kHasMissed + "\n";
   const std::lock_guard lock(runtime_.structure_mutex());
   const auto add_partners = [&](const WireEndpointOptions& mine, const OfferedPort* offered, const TakenPort* taken) {
     const bool is_writer = offered != nullptr;

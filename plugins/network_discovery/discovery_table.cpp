@@ -51,11 +51,15 @@ void DiscoveryTable::OnNodes(std::span<const std::byte> octets) {
   });
 }
 void DiscoveryTable::OnEndpoint(const WireEndpoint& endpoint) {
-  Change([&] {
-    WireEndpointOptions& options = (endpoints_[endpoint.id] = endpoint).options;
-    for (std::string* const text : {&options.topic, &options.type, &options.user_data, &options.unmet})
-      *text = Printable(*text);
-  });
+  WireEndpoint known = endpoint;  // as a whole, or not at all
+  for (std::string* const text :
+       {&known.options.topic, &known.options.type, &known.options.user_data, &known.options.unmet})
+    *text = Printable(*text);
+  Change([&] { endpoints_.insert_or_assign(endpoint.id, std::move(known)); });
+}
+void DiscoveryTable::OnMissed() noexcept {
+  has_missed_.store(true, std::memory_order_relaxed);  // relaxed: it guards no memory
+  on_change_();
 }
 void DiscoveryTable::OnEndpointGone(const WireId& id) {
   Change([&] { endpoints_.erase(id); });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -21,7 +22,7 @@ inline constexpr const char* kNodesType = "rmw_dds_common::msg::dds_::Participan
 /// Threads: any.
 class DiscoveryTable final : public WireDiscovery {
  public:
-  /// `on_change` is called, without a lock, after each change.
+  /// `on_change` is called, without a lock, after each change. It throws nothing.
   explicit DiscoveryTable(std::function<void()> on_change) : on_change_(std::move(on_change)) {}
 
   void OnMember(const WireMember& member) override;
@@ -29,12 +30,15 @@ class DiscoveryTable final : public WireDiscovery {
   void OnEndpoint(const WireEndpoint& endpoint) override;
   void OnEndpointGone(const WireId& id) override;
   void OnRefused(const std::string& why) override;
+  void OnMissed() noexcept override;
   /// What a member that is there says on kNodesTopic, which may be anything.
   void OnNodes(std::span<const std::byte> octets);
 
   [[nodiscard]] std::vector<WireMember> members() const;
   /// Why some have not been let in, each reason once, the first few.
   [[nodiscard]] std::vector<std::string> refusals() const;
+  /// Whether somebody has been there whom there was no memory to note: from then on not all may be known.
+  [[nodiscard]] bool has_missed() const noexcept { return has_missed_.load(std::memory_order_relaxed); }
   /// Others' and own ones.
   [[nodiscard]] std::vector<WireEndpoint> endpoints() const;
   /// Of others, of the other direction.
@@ -58,6 +62,7 @@ class DiscoveryTable final : public WireDiscovery {
   std::map<WireId, WireEndpoint> endpoints_;
   std::map<WireId, std::string> nodes_;  // their names, by their members
   std::vector<std::string> refusals_;
+  std::atomic<bool> has_missed_{false};
 };
 
 /// What a member with simulated time says of itself, among other things.

@@ -78,7 +78,8 @@ Result<void> OfferedService::Follow(WireParticipant& participant, const std::fun
 Result<std::unique_ptr<AnyCall>> OfferedService::Begin(const ServiceMessage& request) {
   const auto callable = Find();
   if (!callable) return callable.error();
-  if (form_->request_type() != endpoints_->topics().request)
+  const ServiceTopics& topics = endpoints_->topics();
+  if (form_->request_type() != topics.request || form_->response_type() != topics.response)
     return Error{.message = "it is about to be another service"};
   if (pending_.size() >= kMostCalls) return Error{.message = "too many calls are under way"};
   auto call = (*callable)->NewCall();

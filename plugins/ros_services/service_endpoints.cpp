@@ -6,6 +6,7 @@
 
 #include <fmt/ranges.h>
 
+#include "core/base/erase_where.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/network_discovery/value_form.h"
@@ -65,9 +66,13 @@ Result<std::unique_ptr<ServiceEndpoints>> ServiceEndpoints::Start(Side side, con
   auto reader = participant.MakeReader(
       is_server ? request : reply,
       [&self](const WireSample& sample) {
-        auto message = self.Read(sample);
-        if (!message) return;
-        self.Keep(std::move(*message));
+        try {
+          auto message = self.Read(sample);
+          if (!message) return;
+          self.Keep(std::move(*message));
+        } catch (...) {  // for want of memory
+          self.lost_.fetch_add(1, std::memory_order_relaxed);
+        }
         self.on_news_();
       },
       [&self](std::size_t count) {
@@ -165,7 +170,7 @@ bool ServiceEndpoints::IsAwaited(const CallId& id) const {
 void ServiceEndpoints::SendKept() {
   constexpr auto kLongest = std::chrono::seconds(10);
   const Time now = SteadyClock().Now();
-  std::erase_if(kept_, [&](const KeptReply& each) {
+  EraseWhere(kept_, [&](const KeptReply& each) {
     if (IsAwaited(each.id)) return now - each.since > kLongest;
     (void)Send(each.id, each.message);
     return true;

@@ -88,7 +88,8 @@ class ServiceEndpoints {
   }
   [[nodiscard]] const WireId& reader_id() const noexcept { return reader_->id(); }
   [[nodiscard]] const WireId& writer_id() const noexcept { return writer_->id(); }
-  /// Of more than 128, or ServiceTopics::depth, that wait to be taken the newest are left out and counted.
+  /// Of more than 128, or ServiceTopics::depth, that wait to be taken the newest are left out and counted, as is what there is no
+  /// memory for.
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 
  private:

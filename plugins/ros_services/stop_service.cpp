@@ -1,5 +1,6 @@
 #include "plugins/ros_services/stop_service.h"
 
+#include <new>
 #include <utility>
 
 #include "plugins/cdr_values/cdr_reader.h"
@@ -9,6 +10,15 @@ namespace runnel {
 
 namespace {
 constexpr std::uint32_t kStopIdentity = 0x80000100u;  // beyond those of parameters
+
+// Without memory for a name the STOP is pressed all the same.
+std::string Presser(const std::string& service) noexcept {
+  try {
+    return "the service " + service;
+  } catch (const std::bad_alloc&) {
+    return {};
+  }
+}
 }  // namespace
 
 Result<std::unique_ptr<StopService>> StopService::Start(Runtime& runtime, bool may_release, const std::string& node,
@@ -55,16 +65,16 @@ StopService::Answer StopService::Do(const ServiceMessage& request) {
   auto from = CdrReader::Begin(request.message);
   bool is_press = false;
   if (!from || !from->Get(is_press)) return {false, "the request is no std_srvs/srv/SetBool"};
-  const std::string by = "the service " + name_;
+  std::string by = Presser(name_);
   RobotStop& stop = runtime_.robot_stop();
   if (is_press) {
-    std::string done = stop.Press(by) ? "the robot is stopped" : "the robot was stopped already";
+    std::string done = stop.Press(std::move(by)) ? "the robot is stopped" : "the robot was stopped already";
     const auto all = check_ ? check_() : Result<void>();
     return {all.has_value(), all ? std::move(done) : all.error().message};
   }
   if (!may_release_)
     return {false, "the STOP is not released by this service: its file does not say <ros stop_releases=\"true\">"};
-  const auto released = stop.Release(by, {.asked = request.sent, .requests = {}});
+  const auto released = stop.Release(std::move(by), {.asked = request.sent, .requests = {}});
   if (released) return {true, "the STOP is released"};
   return {false, released.error().ToString()};
 }

@@ -8,6 +8,8 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
 
 #include "plugins/web_server/access_rules.h"
 #include "plugins/web_server/internal/beast_connections.h"
@@ -23,6 +25,9 @@ using internal::TlsIdentity;
 
 // After accepting has failed, for want of descriptors.
 constexpr auto kPause = std::chrono::milliseconds(100);
+// Of what has not been sent yet so much waits in a socket: with more, one that is taken from slowly would be full for so long that
+// its client is thought to take nothing, and a ping would be late.
+constexpr int kUnsent = 32 * 1024;
 // For clients to answer that the server ends.
 constexpr auto kFarewell = std::chrono::milliseconds(200);
 
@@ -97,17 +102,19 @@ class Running final : public WebServer {
         port_(acceptor_.local_endpoint().port()),
         thread_([this] {
           Accept();
-          registry_->context().run();
+          Run();
         }) {}
 
   ~Running() override {
     asio::post(registry_->context(), [this] {
-      boost::system::error_code ignored;
-      acceptor_.close(ignored);
-      pause_.cancel();
-      registry_->ForEach([](internal::WebConnection& each) { each.End("the application has ended"); });
-      auto timer = std::make_shared<asio::steady_timer>(registry_->context(), kFarewell);
-      AwaitEnd(std::move(timer), std::chrono::steady_clock::now() + kFarewell);
+      OrStop([this] {
+        boost::system::error_code ignored;
+        acceptor_.close(ignored);
+        pause_.cancel();
+        registry_->ForEach([](internal::WebConnection& each) { each.End("the application has ended"); });
+        auto timer = std::make_shared<asio::steady_timer>(registry_->context(), kFarewell);
+        AwaitEnd(std::move(timer), std::chrono::steady_clock::now() + kFarewell);
+      });
     });
     thread_.join();
     registry_->Clear();
@@ -119,30 +126,81 @@ class Running final : public WebServer {
   [[nodiscard]] std::size_t clients() const noexcept override { return registry_->sessions(); }
 
  private:
-  void Accept() {
+  // Beneath this nobody catches anything. What throws, for want of memory, has ended the connection that it belongs to, or is none.
+  void Run() noexcept {
+    for (;;) {
+      try {
+        registry_->context().run();
+        return;
+      } catch (...) {
+        AcceptAnew();
+      }
+    }
+  }
+  // Asio may have thrown before it called who accepts, who would be gone.
+  void AcceptAnew() noexcept {
+    if (!acceptor_.is_open()) return;
+    boost::system::error_code ignored;
+    pause_.cancel(ignored);
+    acceptor_.cancel(ignored);
+    Accept();
+  }
+  template <typename Do>
+  void OrStop(const Do& act) noexcept {
+    try {
+      act();
+    } catch (...) {
+      registry_->context().stop();
+    }
+  }
+
+  void Accept() noexcept {
+    for (;;) {
+      try {
+        return BeginToAccept();
+      } catch (...) {  // else nobody would be accepted any more
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    }
+  }
+
+  void BeginToAccept() {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
-      if (!acceptor_.is_open()) return;
+      if (!acceptor_.is_open() || error == asio::error::operation_aborted) return;
       if (!error) {
-        boost::system::error_code ignored;
-        socket.set_option(tcp::no_delay(true), ignored);
         Serve(std::move(socket));
         return Accept();
       }
       if (error == asio::error::connection_aborted) return Accept();
+      Pause();
+    });
+  }
+
+  void Pause() noexcept {
+    try {
       pause_.expires_after(kPause);
       pause_.async_wait([this](boost::system::error_code cancelled) {
         if (!cancelled) Accept();
       });
-    });
+    } catch (...) {
+      Accept();
+    }
   }
 
-  void Serve(tcp::socket socket) {
-    std::optional<std::uint32_t> user;
-    if (registry_->rules().AsksForUser()) user = internal::UserOfPeer(socket);
-    if (identity_ != nullptr) {
-      internal::ServeTls(*registry_, identity_, std::move(socket), user);
-    } else {
-      internal::ServeHttp(*registry_, std::move(socket), user);
+  // Or lets it go.
+  void Serve(tcp::socket socket) noexcept {
+    try {
+      boost::system::error_code ignored;
+      socket.set_option(tcp::no_delay(true), ignored);
+      (void)setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsent, sizeof kUnsent);
+      std::optional<std::uint32_t> user;
+      if (registry_->rules().AsksForUser()) user = internal::UserOfPeer(socket);
+      if (identity_ != nullptr) {
+        internal::ServeTls(*registry_, identity_, std::move(socket), user);
+      } else {
+        internal::ServeHttp(*registry_, std::move(socket), user);
+      }
+    } catch (...) {  // for want of memory
     }
   }
 
@@ -151,7 +209,7 @@ class Running final : public WebServer {
       return registry_->context().stop();
     }
     timer->expires_after(std::chrono::milliseconds(2));
-    timer->async_wait([this, timer, end](boost::system::error_code) { AwaitEnd(timer, end); });
+    timer->async_wait([this, timer, end](boost::system::error_code) { OrStop([&] { AwaitEnd(timer, end); }); });
   }
 
   const std::unique_ptr<ConnectionRegistry> registry_;

@@ -18,9 +18,10 @@ struct WebLimits {
   std::size_t visitors = 64;            ///< plain connections at once; the oldest makes room
   double messages_per_second = 200;     ///< of one client, each 4 kB counting as one; more waits or is refused
   std::size_t waiting_bytes = 8 << 20;  ///< for one client that does not read
-  Duration request_time =
-      std::chrono::seconds(10);  ///< for a whole request to come, a handshake, and some of an answer to be taken
-  Duration idle_time = std::chrono::seconds(30);  ///< without a sign of life; pings ask for one
+  /// For a whole request to come, a handshake, and some of an answer to be taken.
+  Duration request_time = std::chrono::seconds(10);
+  /// Without a sign of life, for which pings ask; with TLS, and of WebSockets, for some of what is sent to be taken.
+  Duration idle_time = std::chrono::seconds(30);
 };
 
 struct WebServerOptions {

@@ -86,6 +86,8 @@ class WireDiscovery {
   virtual void OnEndpointGone(const WireId& id) = 0;
   /// Somebody who is not let in, with the engine's words for why: again and again, as often as they try.
   virtual void OnRefused(const std::string& why) { (void)why; }
+  /// One of the above has thrown, or there was no memory for what it is told. Nobody says that again.
+  virtual void OnMissed() noexcept {}
 
  protected:
   ~WireDiscovery() = default;
@@ -115,12 +117,14 @@ using OnMatched = std::function<void(std::size_t count)>;
 /// Called by threads of the engine, one at a time for a reader, as CallBack() does.
 using OnSample = std::function<void(const WireSample& sample)>;
 
-/// For engines, beneath whose threads nobody catches anything: who throws, for want of memory, has not been told.
+/// For engines, beneath whose threads nobody catches anything. False: whoever has thrown, for want of memory, has not been told.
 template <typename Callback>
-void CallBack(const Callback& callback) noexcept {
+bool CallBack(const Callback& callback) noexcept {
   try {
     callback();
+    return true;
   } catch (...) {  // the next one may find memory again
+    return false;
   }
 }
 

@@ -16,16 +16,16 @@ WireId IdOf(const dds_guid_t& guid) {
   return id;
 }
 
-// Each built-in sample that waits, with what is known of it.
+// Each built-in sample that waits, with what is known of it. False: not all could be visited.
 template <typename Sample, typename Visit>
-void TakeAll(dds_entity_t reader, const Visit& visit) {
-  for (;;) {
+bool TakeAll(dds_entity_t reader, const Visit& visit) {
+  for (bool is_told = true;;) {
     void* samples[kAtOnce] = {};
     dds_sample_info_t infos[kAtOnce];
     const dds_return_t count = dds_take(reader, samples, infos, kAtOnce, kAtOnce);
-    if (count <= 0) return;
+    if (count <= 0) return is_told;
     for (dds_return_t i = 0; i < count; ++i)
-      CallBack([&] { visit(*static_cast<const Sample*>(samples[i]), infos[i]); });
+      is_told = CallBack([&] { visit(*static_cast<const Sample*>(samples[i]), infos[i]); }) && is_told;
     (void)dds_return_loan(reader, samples, count);
   }
 }
@@ -139,7 +139,7 @@ dds_entity_t CycloneDiscovery::Read(dds_entity_t participant, dds_entity_t topic
 
 void CycloneDiscovery::TakeMembers(dds_entity_t reader) {
   const std::lock_guard lock(mutex_);
-  TakeAll<dds_builtintopic_participant_t>(reader, [&](const auto& sample, const auto& info) {
+  const bool is_told = TakeAll<dds_builtintopic_participant_t>(reader, [&](const auto& sample, const auto& info) {
     if (!IsThere(info)) return listener_.OnMemberGone(IdOf(sample.key));
     WireMember member{.id = IdOf(sample.key), .user_data = UserDataOf(sample.qos)};
     char* name = nullptr;
@@ -147,11 +147,12 @@ void CycloneDiscovery::TakeMembers(dds_entity_t reader) {
     dds_free(name);
     listener_.OnMember(member);
   });
+  if (!is_told) listener_.OnMissed();
 }
 
 void CycloneDiscovery::TakeEndpoints(dds_entity_t reader, bool is_writer) {
   const std::lock_guard lock(mutex_);
-  TakeAll<dds_builtintopic_endpoint_t>(reader, [&](const auto& sample, const auto& info) {
+  const bool is_told = TakeAll<dds_builtintopic_endpoint_t>(reader, [&](const auto& sample, const auto& info) {
     if (!IsThere(info)) return listener_.OnEndpointGone(IdOf(sample.key));
     WireEndpoint endpoint{.handle = info.instance_handle,
                           .id = IdOf(sample.key),
@@ -165,6 +166,7 @@ void CycloneDiscovery::TakeEndpoints(dds_entity_t reader, bool is_writer) {
     endpoint.options.user_data = UserDataOf(sample.qos);
     listener_.OnEndpoint(endpoint);
   });
+  if (!is_told) listener_.OnMissed();
 }
 
 }  // namespace runnel

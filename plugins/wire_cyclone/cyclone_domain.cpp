@@ -47,12 +47,14 @@ bool IsRefusal(const dds_log_data_t& data, const std::string& text) {
 
 // What it says goes to nobody's terminal; the last is told with an error.
 void Hear(void*, const dds_log_data_t* data) {
-  const std::string text = TextOf(*data);
-  const std::lock_guard lock(AllDomains().mutex);
-  if (IsRefusal(*data, text)) {
-    for (const auto* const each : AllDomains().hearings) (*each)(text);
-  }
-  if ((data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_CONFIG)) != 0) AllDomains().said = text;
+  CallBack([&] {
+    const std::string text = TextOf(*data);
+    const std::lock_guard lock(AllDomains().mutex);
+    if (IsRefusal(*data, text)) {
+      for (const auto* const each : AllDomains().hearings) (*each)(text);
+    }
+    if ((data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_CONFIG)) != 0) AllDomains().said = text;
+  });
 }
 
 std::string PeersText(const WireMemberOptions& options) {

@@ -28,30 +28,44 @@ ddsi_serdata* Make(const ddsi_sertype* type, ddsi_serdata_kind kind, std::shared
   return value;
 }
 
+// Nothing may be thrown through Cyclone DDS, which is written in C. What there is no memory for is lost, as what is malformed.
+template <typename Do>
+ddsi_serdata* OrNone(const Do& make) noexcept {
+  try {
+    return make();
+  } catch (...) {
+    return nullptr;
+  }
+}
+
 // What has come: pieces that may overlap, of which those before have been taken.
 ddsi_serdata* FromPieces(const ddsi_sertype* type, ddsi_serdata_kind kind, const nn_rdata* piece, std::size_t size) {
-  auto octets = std::make_shared<Octets>();
-  octets->reserve(size);
-  for (; piece != nullptr; piece = piece->nextfrag) {
-    const std::size_t end = std::min<std::size_t>(piece->maxp1, size);
-    if (piece->min > octets->size()) return nullptr;
-    if (end <= octets->size()) continue;
-    const auto* const payload =
-        reinterpret_cast<const std::byte*>(NN_RMSG_PAYLOADOFF(piece->rmsg, NN_RDATA_PAYLOAD_OFF(piece)));
-    octets->insert(octets->end(), payload + (octets->size() - piece->min), payload + (end - piece->min));
-  }
-  return octets->size() == size ? Make(type, kind, std::move(octets)) : nullptr;
+  return OrNone([&]() -> ddsi_serdata* {
+    auto octets = std::make_shared<Octets>();
+    octets->reserve(size);
+    for (; piece != nullptr; piece = piece->nextfrag) {
+      const std::size_t end = std::min<std::size_t>(piece->maxp1, size);
+      if (piece->min > octets->size()) return nullptr;
+      if (end <= octets->size()) continue;
+      const auto* const payload =
+          reinterpret_cast<const std::byte*>(NN_RMSG_PAYLOADOFF(piece->rmsg, NN_RDATA_PAYLOAD_OFF(piece)));
+      octets->insert(octets->end(), payload + (octets->size() - piece->min), payload + (end - piece->min));
+    }
+    return octets->size() == size ? Make(type, kind, std::move(octets)) : nullptr;
+  });
 }
 
 ddsi_serdata* FromVector(const ddsi_sertype* type, ddsi_serdata_kind kind, ddsrt_msg_iovlen_t count,
                          const ddsrt_iovec_t* parts, std::size_t size) {
-  auto octets = std::make_shared<Octets>();
-  octets->reserve(size);
-  for (ddsrt_msg_iovlen_t i = 0; i < count && octets->size() < size; ++i) {
-    const auto* const begin = static_cast<const std::byte*>(parts[i].iov_base);
-    octets->insert(octets->end(), begin, begin + std::min<std::size_t>(parts[i].iov_len, size - octets->size()));
-  }
-  return octets->size() == size ? Make(type, kind, std::move(octets)) : nullptr;
+  return OrNone([&]() -> ddsi_serdata* {
+    auto octets = std::make_shared<Octets>();
+    octets->reserve(size);
+    for (ddsrt_msg_iovlen_t i = 0; i < count && octets->size() < size; ++i) {
+      const auto* const begin = static_cast<const std::byte*>(parts[i].iov_base);
+      octets->insert(octets->end(), begin, begin + std::min<std::size_t>(parts[i].iov_len, size - octets->size()));
+    }
+    return octets->size() == size ? Make(type, kind, std::move(octets)) : nullptr;
+  });
 }
 
 void ToOctets(const ddsi_serdata* value, std::size_t begin, std::size_t size, void* to) {

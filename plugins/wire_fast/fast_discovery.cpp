@@ -35,10 +35,12 @@ Said& LastSaid() {
 class Listener final : public dds::LogConsumer {
  public:
   void Consume(const Log::Entry& entry) override {
-    const std::lock_guard lock(LastSaid().mutex);
-    if (entry.kind == Log::Error) LastSaid().last = entry.message;
-    // Others of its kinds are told of values, again and again.
-    if (std::string_view(entry.context.category) == "SECURITY_AUTHENTICATION") LastSaid().refusal = entry.message;
+    CallBack([&] {
+      const std::lock_guard lock(LastSaid().mutex);
+      if (entry.kind == Log::Error) LastSaid().last = entry.message;
+      // Others of its kinds are told of values, again and again.
+      if (std::string_view(entry.context.category) == "SECURITY_AUTHENTICATION") LastSaid().refusal = entry.message;
+    });
   }
 };
 
@@ -142,9 +144,14 @@ void FastDiscovery::TellMemberGone(const WireId& id) {
   listener_.OnMemberGone(id);
 }
 
+template <typename Do>
+void FastDiscovery::TellOrMiss(const Do& tell) {
+  if (!CallBack(tell)) listener_.OnMissed();
+}
+
 void FastDiscovery::on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) {
   const WireId id = IdOf(info.info.m_guid);
-  CallBack([&] {
+  TellOrMiss([&] {
     switch (info.status) {
       case rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT:
       case rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT:
@@ -169,14 +176,14 @@ void FastDiscovery::onParticipantAuthentication(dds::DomainParticipant*, rtps::P
 }
 
 void FastDiscovery::on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
-  CallBack([&] {
+  TellOrMiss([&] {
     if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) return TellGone(IdOf(info.info.guid()));
     Tell(EndpointOf(info.info, false));
   });
 }
 
 void FastDiscovery::on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {
-  CallBack([&] {
+  TellOrMiss([&] {
     if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) return TellGone(IdOf(info.info.guid()));
     WireEndpoint endpoint = EndpointOf(info.info, true);
     endpoint.options.qos.strength = static_cast<std::int32_t>(info.info.m_qos.m_ownershipStrength.value);

@@ -49,6 +49,8 @@ class FastDiscovery final : public eprosima::fastdds::dds::DomainParticipantList
                               eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) override;
 
  private:
+  template <typename Do>
+  void TellOrMiss(const Do& tell);
   void TellMemberGone(const WireId& id);
 
   WireDiscovery& listener_;

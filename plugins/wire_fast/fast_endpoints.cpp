@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <set>
 #include <utility>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -15,6 +14,7 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <fastdds/rtps/common/SerializedPayload.h>
 
+#include "plugins/wire/matched_ends.h"
 #include "plugins/wire_fast/fast_settings.h"
 
 namespace runnel {
@@ -107,27 +107,16 @@ class Matches {
  public:
   Matches(const WireId& own, OnMatched on_matched) : own_(own), on_matched_(std::move(on_matched)) {}
   void Change(const rtps::InstanceHandle_t& other, std::int32_t change) {
-    if (AreOfOneMember(IdOfHandle(other), own_)) return;
-    const std::uint64_t handle = HandleOf(IdOfHandle(other));
-    std::size_t count = 0;
-    {
-      const std::lock_guard lock(mutex_);
-      if (change > 0) matched_.insert(handle);
-      if (change < 0) matched_.erase(handle);
-      count = matched_.size();
-    }
+    if (change == 0 || AreOfOneMember(IdOfHandle(other), own_)) return;
+    const std::size_t count = ends_.Change(HandleOf(IdOfHandle(other)), change > 0);
     if (on_matched_) on_matched_(count);
   }
-  [[nodiscard]] bool Has(std::uint64_t handle) const {
-    const std::lock_guard lock(mutex_);
-    return matched_.contains(handle);
-  }
+  [[nodiscard]] bool Has(std::uint64_t handle) const { return ends_.Has(handle); }
 
  private:
   const WireId own_;
   const OnMatched on_matched_;
-  mutable std::mutex mutex_;
-  std::set<std::uint64_t> matched_;  // guarded by mutex_
+  MatchedEnds ends_;
 };
 
 WireEndpoint OwnEndpoint(const WireId& id, const FastMember& member, const WireEndpointOptions& options,

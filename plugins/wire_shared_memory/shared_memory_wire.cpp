@@ -290,6 +290,7 @@ class SharingParticipant final : public WireParticipant, private WireDiscovery {
     common_.neighbours.RemoveEndpoint(id);
     discovery_.OnEndpointGone(id);
   }
+  void OnMissed() noexcept override { discovery_.OnMissed(); }
 
   WireDiscovery& discovery_;
   Common common_;

@@ -212,15 +212,18 @@ void FakeNetwork::Run() {
 
 void Tell(const FakeParticipant& member, WireEndpoint endpoint) {
   endpoint.is_own = endpoint.participant == member.about().id;
-  CallBack([&] { member.discovery().OnEndpoint(endpoint); });
+  if (!CallBack([&] { member.discovery().OnEndpoint(endpoint); })) member.discovery().OnMissed();
+}
+void Tell(const FakeParticipant& member, const FakeParticipant& other) {
+  if (!CallBack([&] { member.discovery().OnMember(other.about()); })) member.discovery().OnMissed();
 }
 
 void FakeNetwork::AddMember(FakeParticipant& member) {
   members_.push_back(&member);
   for (FakeParticipant* const each : members_) {
     if (each->domain() != member.domain()) continue;
-    each->discovery().OnMember(member.about());
-    if (each != &member) member.discovery().OnMember(each->about());
+    Tell(*each, member);
+    if (each != &member) Tell(member, *each);
   }
   for (const auto& each : endpoints_) {
     if (each->participant->domain() == member.domain()) Tell(member, each->about);

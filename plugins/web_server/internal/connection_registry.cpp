@@ -28,9 +28,8 @@ std::string ConnectionRegistry::ProtocolNames() const {
   return names;
 }
 
-void ConnectionRegistry::Add(std::shared_ptr<WebConnection> connection) {
-  if (connection->is_session()) ++sessions_;
-  connections_.insert(std::move(connection));
+void ConnectionRegistry::Add(const std::shared_ptr<WebConnection>& connection) {
+  if (connections_.insert(connection).second && connection->is_session()) ++sessions_;
 }
 
 void ConnectionRegistry::Remove(const std::shared_ptr<WebConnection>& connection) noexcept {

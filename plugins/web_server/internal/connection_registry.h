@@ -50,6 +50,17 @@ class WebConnection {
   const SteadyTime since_ = std::chrono::steady_clock::now();
 };
 
+/// For whoever is called by the server's thread, beneath which nobody catches anything: who throws, for want of memory, ends its
+/// own connection and no other.
+template <typename Connection, typename Do>
+void OrRemove(Connection& connection, const Do& act) noexcept {
+  try {
+    act();
+  } catch (...) {
+    connection.Remove();
+  }
+}
+
 /// What the connections of one server share. Threads: the server's; `sessions` any.
 class ConnectionRegistry {
  public:
@@ -65,7 +76,7 @@ class ConnectionRegistry {
   /// "a, b, c".
   [[nodiscard]] std::string ProtocolNames() const;
 
-  void Add(std::shared_ptr<WebConnection> connection);
+  void Add(const std::shared_ptr<WebConnection>& connection);
   void Remove(const std::shared_ptr<WebConnection>& connection) noexcept;
   /// One that is no session, unless it is there already. If there are too many, the one that has been there for the longest
   /// time goes.

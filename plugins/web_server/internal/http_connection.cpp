@@ -61,13 +61,20 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
         stream_(std::move(socket)) {}
 
   void Read() {
-    parser_.emplace();
-    parser_->header_limit(static_cast<std::uint32_t>(registry_.limits().header_bytes));
-    parser_->body_limit(0);
-    // Of the whole request, however many pieces it comes in.
-    stream_.expires_after(registry_.limits().request_time);
-    http::async_read(stream_, buffer_, *parser_,
-                     beast::bind_front_handler(&HttpConnection::OnRead, shared_from_this()));
+    OrRemove(*this, [this] {
+      parser_.emplace();
+      parser_->header_limit(static_cast<std::uint32_t>(registry_.limits().header_bytes));
+      parser_->body_limit(0);
+      // Of the whole request, however many pieces it comes in.
+      stream_.expires_after(registry_.limits().request_time);
+      http::async_read(stream_, buffer_, *parser_,
+                       beast::bind_front_handler(&HttpConnection::OnRead, shared_from_this()));
+    });
+  }
+
+  void Remove() {
+    Cut();
+    registry_.Remove(shared_from_this());
   }
 
   void Cut() noexcept override {
@@ -77,6 +84,10 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
 
  private:
   void OnRead(beast::error_code error, std::size_t /*bytes*/) {
+    OrRemove(*this, [&] { Look(error); });
+  }
+
+  void Look(beast::error_code error) {
     if (!error) return Answer();
     request_ = {};
     if (error == http::error::header_limit || error == http::error::buffer_overflow) {
@@ -176,33 +187,34 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
     SendPiece();
   }
 
-  // So that a slow line is enough for a large answer: who takes some of it is there.
+  // So that a slow line is enough for a large answer: who takes some of it is there. With TLS it is not seen here what is taken: the
+  // visitor sees to it.
   void SendPiece() {
-    stream_.expires_after(registry_.limits().request_time);
+    stream_.expires_never();
+    if (visitor_ == nullptr) stream_.expires_after(registry_.limits().request_time);
     http::async_write_some(stream_, *serializer_,
                            beast::bind_front_handler(&HttpConnection::OnSent, shared_from_this()));
   }
 
   void OnSent(beast::error_code error, std::size_t /*bytes*/) {
     if (error) return Remove();
-    if (!serializer_->is_done()) return SendPiece();
-    if (response_.keep_alive()) return Read();
-    stream_.socket().shutdown(tcp::socket::shutdown_send, error);
-    stream_.expires_after(kTimeToDrain);
-    Drain({}, 0);
+    if (serializer_->is_done() && response_.keep_alive()) return Read();
+    OrRemove(*this, [&] {
+      if (!serializer_->is_done()) return SendPiece();
+      stream_.socket().shutdown(tcp::socket::shutdown_send, error);
+      stream_.expires_after(kTimeToDrain);
+      Drain({}, 0);
+    });
   }
 
   // Closing while something is still to be read would take the answer from the client.
   void Drain(beast::error_code error, std::size_t bytes) {
     drained_ += bytes;
     if (error || drained_ > kMostToDrain) return Remove();
-    stream_.async_read_some(boost::asio::buffer(drain_),
-                            beast::bind_front_handler(&HttpConnection::Drain, shared_from_this()));
-  }
-
-  void Remove() {
-    Cut();
-    registry_.Remove(shared_from_this());
+    OrRemove(*this, [this] {
+      stream_.async_read_some(boost::asio::buffer(drain_),
+                              beast::bind_front_handler(&HttpConnection::Drain, shared_from_this()));
+    });
   }
 
   ConnectionRegistry& registry_;

@@ -64,11 +64,17 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
         timer_(registry.context()) {}
 
   void Begin() {
-    CutAfter(registry_.limits().request_time);
-    outer_.next_layer().async_wait(tcp::socket::wait_read, [self = shared_from_this()](error_code error) {
-      if (error) return self->Remove();
-      self->Greet();
+    OrRemove(*this, [this] {
+      CutAfter(registry_.limits().request_time);
+      outer_.next_layer().async_wait(tcp::socket::wait_read, [self = shared_from_this()](error_code error) {
+        if (error) return self->Remove();
+        OrRemove(*self, [&] { self->Greet(); });
+      });
     });
+  }
+  void Remove() {
+    Cut();
+    registry_.Remove(shared_from_this());
   }
 
   void Cut() noexcept override {
@@ -85,7 +91,7 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
     if (count == 1 && first != kHandshakeRecord) return Explain();
     outer_.async_handshake(ssl::stream_base::server, [self = shared_from_this()](error_code error) {
       if (error) return self->Remove();
-      self->Connect();
+      OrRemove(*self, [&] { self->Connect(); });
     });
   }
 
@@ -93,10 +99,12 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
   void Explain() {
     asio::async_write(outer_.next_layer(), asio::buffer(kNotEncrypted),
                       [self = shared_from_this()](error_code, std::size_t) {
-                        error_code ignored;
-                        self->outer_.next_layer().shutdown(tcp::socket::shutdown_send, ignored);
-                        self->CutAfter(kTimeToClose);
-                        self->DrainOuter();
+                        OrRemove(*self, [&] {
+                          error_code ignored;
+                          self->outer_.next_layer().shutdown(tcp::socket::shutdown_send, ignored);
+                          self->CutAfter(kTimeToClose);
+                          self->DrainOuter();
+                        });
                       });
   }
 
@@ -104,7 +112,7 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
   void DrainOuter() {
     outer_.next_layer().async_read_some(asio::buffer(in_), [self = shared_from_this()](error_code error, std::size_t) {
       if (error) return self->Remove();
-      self->DrainOuter();
+      OrRemove(*self, [&] { self->DrainOuter(); });
     });
   }
 
@@ -125,7 +133,9 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
       return Remove();
     }
     inner_.async_wait(tcp::socket::wait_error, [self](error_code) {
-      if (self->inner_.is_open()) self->registry_.AddVisitor(self);
+      OrRemove(*self, [&] {
+        if (self->inner_.is_open()) self->registry_.AddVisitor(self);
+      });
     });
     ServeHttp(registry_, std::move(served), user_, self);
     Decrypt();
@@ -137,22 +147,26 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
       error_code ignored;
       // The other end reads what has come, and closes.
       if (error) return void(self->inner_.shutdown(tcp::socket::shutdown_send, ignored));
-      asio::async_write(self->inner_, asio::buffer(self->in_, bytes), [self](error_code why, std::size_t) {
-        if (why) return;
-        self->Decrypt();
+      OrRemove(*self, [&] {
+        asio::async_write(self->inner_, asio::buffer(self->in_, bytes), [self](error_code why, std::size_t) {
+          if (why) return;
+          OrRemove(*self, [&] { self->Decrypt(); });
+        });
       });
     });
   }
 
   void Encrypt() {
     inner_.async_read_some(asio::buffer(out_), [self = shared_from_this()](error_code error, std::size_t bytes) {
-      if (error) return self->Shutdown();
-      // A client that takes nothing of it all that time is not there any more.
-      self->CutAfter(self->registry_.limits().idle_time);
-      asio::async_write(self->outer_, asio::buffer(self->out_, bytes), [self](error_code why, std::size_t) {
-        self->timer_.cancel();
-        if (why) return self->Remove();
-        self->Encrypt();
+      OrRemove(*self, [&] {
+        if (error) return self->Shutdown();
+        // A client that takes nothing of it all that time is not there any more.
+        self->CutAfter(self->registry_.limits().idle_time);
+        asio::async_write(self->outer_, asio::buffer(self->out_, bytes), [self](error_code why, std::size_t) {
+          self->timer_.cancel();
+          if (why) return self->Remove();
+          OrRemove(*self, [&] { self->Encrypt(); });
+        });
       });
     });
   }
@@ -167,11 +181,6 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
     timer_.async_wait([self = shared_from_this()](error_code cancelled) {
       if (!cancelled) self->Cut();
     });
-  }
-
-  void Remove() {
-    Cut();
-    registry_.Remove(shared_from_this());
   }
 
   ConnectionRegistry& registry_;

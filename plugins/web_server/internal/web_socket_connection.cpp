@@ -33,6 +33,8 @@ constexpr auto kShortestPause = std::chrono::milliseconds(1);
 constexpr auto kTimeToSayGoodbye = std::chrono::milliseconds(1000);
 // Of what has come too soon so much may wait as is handed over in this time; of what may be late, in the other one.
 constexpr double kSecondsOfWaiting = 1, kSecondsOfWaitingLate = 5;
+// Of a larger message so much is sent at once. The rest comes behind pings, and a slow line has as much time for each piece.
+constexpr std::size_t kPiece = 64 * 1024;
 // What is longer does not fit into a closing frame.
 constexpr std::size_t kLongestReason = 120;
 
@@ -50,7 +52,13 @@ class WakeHandle : public std::enable_shared_from_this<WakeHandle> {
     if (context_ == nullptr) return;
     boost::asio::post(*context_, [handle = shared_from_this()] {
       handle->is_woken_.store(false);
-      if (const auto alive = handle->connection_.lock()) alive->Poll();
+      const auto alive = handle->connection_.lock();
+      if (alive == nullptr) return;
+      try {
+        alive->Poll();
+      } catch (...) {  // for want of memory
+        alive->Cut();
+      }
     });
   }
   /// The connection goes, and the server may go after it.
@@ -97,7 +105,9 @@ class WebSocketConnection final : public WebConnection,
       bucket_.Consume(text.size(), Now());
       if (bucket_.IsFlood()) Close("too many pings");
     });
-    socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) { self->OnAccepted(error); });
+    socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
+      OrRemove(*self, [&] { self->OnAccepted(error); });
+    });
   }
 
   bool SendText(std::string text) override { return Send({std::move(text), true}); }
@@ -130,6 +140,16 @@ class WebSocketConnection final : public WebConnection,
     beast::error_code ignored;
     socket_.next_layer().close(ignored);
   }
+  void Remove() {
+    if (std::exchange(is_removed_, true)) return;
+    poll_timer_.cancel();
+    read_timer_.cancel();
+    write_timer_.cancel();
+    Cut();
+    Detach();
+    session_.reset();
+    registry_.Remove(shared_from_this());
+  }
 
  private:
   struct Message {
@@ -142,7 +162,7 @@ class WebSocketConnection final : public WebConnection,
   void At(SteadyTime time, boost::asio::steady_timer& timer, void (WebSocketConnection::*act)()) {
     timer.expires_at(time);
     timer.async_wait([self = shared_from_this(), act](beast::error_code cancelled) {
-      if (!cancelled) ((*self).*act)();
+      if (!cancelled) OrRemove(*self, [&] { ((*self).*act)(); });
     });
   }
 
@@ -165,8 +185,9 @@ class WebSocketConnection final : public WebConnection,
   }
 
   void Read() {
-    socket_.async_read(buffer_,
-                       [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnRead(error); });
+    socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      OrRemove(*self, [&] { self->OnRead(error); });
+    });
   }
 
   void OnRead(beast::error_code error) {
@@ -232,23 +253,30 @@ class WebSocketConnection final : public WebConnection,
     if (waiting_bytes_ > 0 && waiting_bytes_ + message.bytes.size() > registry_.limits().waiting_bytes) {
       return false;
     }
-    waiting_bytes_ += message.bytes.size();
+    const std::size_t size = message.bytes.size();
     waiting_.push_back(std::move(message));
+    waiting_bytes_ += size;
     if (waiting_.size() == 1) Write();
     return true;
   }
 
   void Write() {
     const Message& message = waiting_.front();
+    const auto piece = boost::asio::buffer(boost::asio::buffer(message.bytes) + written_, kPiece);
     socket_.text(message.is_text);
     // A client that takes nothing of it all that time is not there any more.
     At(Now() + registry_.limits().idle_time, write_timer_, &WebSocketConnection::Cut);
-    socket_.async_write(boost::asio::buffer(message.bytes),
-                        [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnWritten(error); });
+    socket_.async_write_some(written_ + piece.size() == message.bytes.size(), piece,
+                             [self = shared_from_this(), size = piece.size()](beast::error_code error, std::size_t) {
+                               self->written_ += size;
+                               OrRemove(*self, [&] { self->OnWritten(error); });
+                             });
   }
 
   void OnWritten(beast::error_code error) {
     write_timer_.cancel();
+    if (!error && !is_closing_ && written_ < waiting_.front().bytes.size()) return Write();
+    written_ = 0;
     waiting_bytes_ -= waiting_.front().bytes.size();
     waiting_.pop_front();
     if (error) return Remove();
@@ -278,17 +306,6 @@ class WebSocketConnection final : public WebConnection,
     At(Now() + kTimeToSayGoodbye, poll_timer_, &WebSocketConnection::Cut);
   }
 
-  void Remove() {
-    if (std::exchange(is_removed_, true)) return;
-    poll_timer_.cancel();
-    read_timer_.cancel();
-    write_timer_.cancel();
-    Cut();
-    Detach();
-    session_.reset();
-    registry_.Remove(shared_from_this());
-  }
-
   ConnectionRegistry& registry_;
   HttpRequest request_;
   const std::function<std::unique_ptr<WebSession>(WebClient&)> start_;
@@ -305,6 +322,7 @@ class WebSocketConnection final : public WebConnection,
   double early_cost_ = 0;              // of those
   std::optional<WebArrival> arrival_;  // of the message that is being handed over
   std::deque<Message> waiting_;
+  std::size_t written_ = 0;  // of the first
   std::size_t waiting_bytes_ = 0;
   bool is_accepted_ = false;
   bool is_closing_ = false;
@@ -320,7 +338,7 @@ void ServeWebSocket(ConnectionRegistry& registry, tcp::socket socket, HttpReques
   const auto connection = std::make_shared<WebSocketConnection>(registry, std::move(socket), std::move(request),
                                                                 protocol, std::move(name), role);
   registry.Add(connection);
-  connection->Accept();
+  OrRemove(*connection, [&] { connection->Accept(); });
 }
 
 }  // namespace runnel::internal

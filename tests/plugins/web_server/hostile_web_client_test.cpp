@@ -1,8 +1,5 @@
-#include <algorithm>
 #include <cstdlib>
 #include <random>
-
-#include <sys/socket.h>
 
 #include "tests/plugins/web_server/web_server_fixture.h"
 
@@ -29,32 +26,6 @@ TEST_F(HostileWebClient, WhoSpeaksVerySlowlyIsLetGo) {
     std::this_thread::sleep_for(20ms);
     return !client.Send("x");
   });
-}
-
-// A browser on a slow line: each piece of the page comes in time, but not the whole.
-TEST_F(HostileWebClient, WhoTakesALargeAnswerSlowlyHasAllOfIt) {
-  Start({.limits = {.request_time = 500ms}});
-  const RawClient client = Client();
-  client.Send("GET /large HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
-  std::string piece(256 * 1024, ' ');
-  std::size_t taken = 0;
-  for (ssize_t more = 1; more > 0; taken += static_cast<std::size_t>(std::max<ssize_t>(more, 0))) {
-    std::this_thread::sleep_for(10ms);
-    more = recv(client.descriptor(), piece.data(), piece.size(), 0);
-  }
-  EXPECT_GT(taken, kLarge.size());
-}
-
-TEST_F(HostileWebClient, WhoTakesNothingOfAnAnswerIsLetGo) {
-  Start({.limits = kImpatient});
-  const RawClient client = Client();
-  client.Send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
-  std::this_thread::sleep_for(1s);
-  std::string piece(256 * 1024, ' ');
-  std::size_t taken = 0;
-  for (ssize_t more = 0; (more = recv(client.descriptor(), piece.data(), piece.size(), 0)) > 0;)
-    taken += static_cast<std::size_t>(more);
-  EXPECT_LT(taken, kLarge.size());
 }
 
 TEST_F(HostileWebClient, WhoClosesHalfOfItIsAnsweredAndLetGo) {

@@ -33,7 +33,10 @@ RawClient::RawClient(std::uint16_t port) : port_(port), descriptor_(socket(AF_IN
 }
 
 RawClient::RawClient(RawClient&& other) noexcept
-    : port_(other.port_), descriptor_(std::exchange(other.descriptor_, -1)), bytes_(std::move(other.bytes_)) {}
+    : port_(other.port_),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      bytes_(std::move(other.bytes_)),
+      begun_(std::move(other.begun_)) {}
 
 RawClient::~RawClient() {
   if (descriptor_ >= 0) close(descriptor_);
@@ -133,19 +136,25 @@ std::optional<RawClient::Message> RawClient::ReceiveAny() {
     }
     return true;
   };
-  if (!have(2)) return {};
-  std::size_t size = byte(1) & 0x7fU;
-  std::size_t head = 2;
-  if (size >= 126) {
-    head = size == 126 ? 4 : 10;
-    if (!have(head)) return {};
-    size = 0;
-    for (std::size_t i = 2; i < head; ++i) size = size * 256 + byte(i);
+  for (;;) {
+    if (!have(2)) return {};
+    std::size_t size = byte(1) & 0x7fU;
+    std::size_t head = 2;
+    if (size >= 126) {
+      head = size == 126 ? 4 : 10;
+      if (!have(head)) return {};
+      size = 0;
+      for (std::size_t i = 2; i < head; ++i) size = size * 256 + byte(i);
+    }
+    if (!have(head + size)) return {};
+    const bool is_last = (byte(0) & 0x80U) != 0;
+    Message frame{byte(0) & 0x0f, bytes_.substr(head, size)};
+    bytes_.erase(0, head + size);
+    if (frame.operation >= 8) return frame;  // it may come between two frames of a message
+    if (frame.operation != 0) begun_.operation = frame.operation;
+    begun_.payload += frame.payload;
+    if (is_last) return std::exchange(begun_, {});
   }
-  if (!have(head + size)) return {};
-  Message message{byte(0) & 0x0f, bytes_.substr(head, size)};
-  bytes_.erase(0, head + size);
-  return message;
 }
 
 bool RawClient::AnswerPing() {

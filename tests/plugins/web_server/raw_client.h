@@ -56,6 +56,7 @@ class RawClient {
   std::uint16_t port_;
   int descriptor_;
   std::string bytes_;
+  Message begun_{};  // whose last frame has not come yet
 };
 
 }  // namespace runnel::test

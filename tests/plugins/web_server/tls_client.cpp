@@ -1,5 +1,7 @@
 #include "tests/plugins/web_server/tls_client.h"
 
+#include <algorithm>
+
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <openssl/ssl.h>
@@ -59,6 +61,13 @@ std::string TlsClient::Read(std::string_view until) {
     read.append(more, static_cast<std::size_t>(count));
   }
   return read;
+}
+
+std::string TlsClient::ReadPiece(std::size_t most) {
+  std::string piece(most, ' ');
+  const int count = is_open_ ? SSL_read(state_->connection, piece.data(), static_cast<int>(most)) : 0;
+  piece.resize(static_cast<std::size_t>(std::max(count, 0)));
+  return piece;
 }
 
 }  // namespace runnel::test

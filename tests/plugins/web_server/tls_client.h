@@ -21,6 +21,8 @@ class TlsClient {
   bool Send(std::string_view bytes);
   /// Until this has come, or the server has closed the connection.
   std::string Read(std::string_view until = {});
+  /// At most so many bytes of what comes next; "": the server has closed the connection.
+  std::string ReadPiece(std::size_t most);
 
  private:
   struct State;

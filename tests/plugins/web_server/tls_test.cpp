@@ -127,6 +127,33 @@ TEST_F(Tls, OneThatDoesNotReadIsLetGo) {
   EXPECT_GT(met.refused, 0);
 }
 
+// Into the sockets within the process fits more than it takes in the time that a piece has.
+TEST_F(Tls, WhoTakesALargeAnswerSlowlyHasAllOfIt) {
+  StartTls({.limits = {.request_time = 500ms}});
+  TlsClient client(server->port(), ours->certificate);
+  ASSERT_TRUE(client.is_open());
+  client.Send("GET /large HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+  std::size_t taken = 0;
+  const auto take = [&] {
+    const std::size_t more = client.ReadPiece(16 * 1024).size();
+    taken += more;
+    return more > 0;
+  };
+  for (int i = 0; i < 30 && take(); ++i) std::this_thread::sleep_for(100ms);
+  while (take()) {
+  }
+  EXPECT_GT(taken, kLarge.size());
+}
+
+TEST_F(Tls, WhoTakesNothingOfAnAnswerIsLetGo) {
+  StartTls({.limits = {.idle_time = 300ms}});
+  TlsClient client(server->port(), ours->certificate);
+  ASSERT_TRUE(client.is_open());
+  client.Send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  std::this_thread::sleep_for(2s);
+  EXPECT_LT(client.Read().size(), kLarge.size());
+}
+
 /// Of what has been sent to clients they take nothing, and nobody loses patience.
 class TlsThatIsStuck : public Tls {
  protected:

@@ -26,6 +26,7 @@ using ::testing::StartsWith;
 
 /// More than the sockets of a connection take.
 inline const std::string kLarge(40'000'000, 'x');
+inline constexpr std::size_t kLargeMessage = 8'000'000;
 
 /// What sessions of a test have met; of any thread.
 struct Met {
@@ -49,7 +50,7 @@ struct Met {
 };
 
 /// Says what it is told. Some words have a meaning: "throw", "close", "role", "much",
-/// "soon".
+/// "large", "soon".
 class Echo final : public WebSession {
  public:
   Echo(WebClient& client, Met& met) : client_(client), met_(met) { ++met_.begun; }
@@ -69,6 +70,10 @@ class Echo final : public WebSession {
       for (int i = 0; i < 100; ++i) {
         if (!client_.SendText(std::string(100'000, 'x'))) ++met_.refused;
       }
+      return;
+    }
+    if (message == "large") {
+      client_.SendText(std::string(kLargeMessage, 'x'));
       return;
     }
     if (message == "soon") {

@@ -103,7 +103,8 @@ struct Forgetful final : WireDiscovery {
     if (!endpoint.is_own && ++told > 0) throw std::bad_alloc();
   }
   void OnEndpointGone(const WireId&) override {}
-  std::atomic<int> told{0};
+  void OnMissed() noexcept override { ++missed; }
+  std::atomic<int> told{0}, missed{0};
 };
 
 TEST_P(WireEngineTest, WhoThrowsWhenToldOfAnEndpointEndsNothing) {
@@ -120,6 +121,7 @@ TEST_P(WireEngineTest, WhoThrowsWhenToldOfAnEndpointEndsNothing) {
     return !arrived.values.empty();
   });
   EXPECT_GT(forgetful.told, 0);
+  WaitUntil("it is told that it has missed something", [&] { return forgetful.missed > 0; });
 }
 
 TEST_P(WireEngineTest, EachIsToldWhoIsThereAndWhoHasGone) {
