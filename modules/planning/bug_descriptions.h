@@ -134,6 +134,8 @@ inline void Describe(TypeBuilder<BugState>& type) {
       .Field("way_to_leave_point", &BugState::way_to_leave_point)
       .Field("is_on_last_stretch", &BugState::is_on_last_stretch)
       .Field("set_out_point", &BugState::set_out_point)
+      .Field("is_off_boundary", &BugState::is_off_boundary)
+      .Field("set_out_contact", &BugState::set_out_contact)
       .Field("set_out_at", &BugState::set_out_at);
 }
 

@@ -1,15 +1,30 @@
 """What a module in Python takes over from the one that was there before it."""
 
-import copy
 import enum
 import functools
 import gc
+import importlib.util
 import inspect
 import operator
 import types
 import weakref
 
 from runnel import _extension
+
+
+def _own_copy():
+    """Python's module `copy`, but one of our own that looks at what it remembers first, also for a class or a function: from Python
+    3.14 on these are copied as what they are."""
+    spec = importlib.util.find_spec("copy")
+    own = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(own)
+    plain = {type, types.FunctionType}
+    own._atomic_types = getattr(own, "_atomic_types", set()) - plain
+    own._deepcopy_dispatch.update(dict.fromkeys(plain, lambda each, notes: each))
+    return own
+
+
+_copy = _own_copy()
 
 
 class _IsPort(Exception):
@@ -59,7 +74,7 @@ class _Notes(dict):
         if method is None:
             return super().get(key, default)
         function = super().get(id(method.__func__), method.__func__)
-        self[key] = types.MethodType(function, copy.deepcopy(method.__self__, self))
+        self[key] = types.MethodType(function, _copy.deepcopy(method.__self__, self))
         return self[key]
 
 
@@ -83,9 +98,15 @@ def _members(old, new):
         if each.name in new.__members__:
             yield each, new[each.name]
         elif issubclass(old, enum.Flag) and issubclass(new, enum.Flag):
-            parts = [one.name for one in old if one in each]
-            if all(part in new.__members__ for part in parts):
-                yield each, functools.reduce(operator.or_, (new[part] for part in parts), new(0))
+            parts = [one for one in old if one in each]
+            nameless = each.value & ~functools.reduce(operator.or_, (one.value for one in parts), 0)
+            if not all(one.name in new.__members__ for one in parts):
+                continue
+            try:
+                rest = new(nameless)
+            except ValueError:  # it has only named ones now
+                continue
+            yield each, functools.reduce(operator.or_, (new[one.name] for one in parts), rest)
 
 
 def _add_successors(memo, before, after):
@@ -127,7 +148,7 @@ def take_over(module, before):
         try:
             done = _Notes(copied, methods)  # without what a copy that fails has begun
             begun.append(done)
-            value = copy.deepcopy(value, done)
+            value = _copy.deepcopy(value, done)
             copied = done
         except _IsPort:
             continue

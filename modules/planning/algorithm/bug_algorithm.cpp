@@ -10,11 +10,12 @@ namespace runnel {
 
 namespace {
 
-constexpr double kSeen = DegreesToRadians(13.0);  // rad off ahead, within the narrowest view
-constexpr double kUnseenNear = 0.05;              // m of the way to what is unseen, at which it looks
-constexpr int kSecondLooks = 3;                   // in a task, so that it ends whatever the sensors say
-constexpr double kLookingTime = 4.0;              // s, of standing and looking before a vague obstacle
-constexpr double kTurnsForLookingRound = 2.5;     // that a robot needs where there is no way on
+constexpr double kSeen = DegreesToRadians(13.0);          // rad off ahead, within the narrowest view
+constexpr double kUnseenNear = 0.05;                      // m of the way to what is unseen, at which it looks
+constexpr int kSecondLooks = 3;                           // in a task, so that it ends whatever the sensors say
+constexpr double kLookingTime = 4.0;                      // s, of standing and looking before a vague obstacle
+constexpr double kTurnsForLookingRound = 2.5;             // that a robot needs where there is no way on
+constexpr double kSameBoundary = DegreesToRadians(60.0);  // rad to either side of where it was
 constexpr double kHitPlace = Lap::kGateDistance + Lap::kGateHalfWidth;
 constexpr double kFalseLeave = 0.05;    // m nearer to the goal, at which a hit is a new one
 constexpr double kRefusalReach = 0.15;  // m, of the way on from a leave point that was blocked
@@ -205,6 +206,7 @@ void BugAlgorithm::Hit(BugState& state, const BugInput& input, double contact_be
   state.has_reversed = false;
   state.has_doubted = false;
   state.is_last_chance = false;
+  state.is_off_boundary = false;
   RestartLap(state, input);
   const BoundaryDirection direction = components_.direction->Choose(View(state, input), contact_bearing);
   state.last_direction = direction;
@@ -253,8 +255,13 @@ Twist2 BugAlgorithm::WallFollowing(BugState& state, const BugInput& input) const
   return state.follower.Update(configuration_.driving, input.pose, input.surroundings, state.faced);
 }
 
-void BugAlgorithm::StartFollowing(BugState& state, const BugInput& input, BoundaryDirection direction) const {
-  state.follower.Start(direction, input.pose, NearestBoundary(input.surroundings).bearing);
+// The boundary at `contact` (rad, world), if there is one still: in a passage the other side may be nearer.
+void BugAlgorithm::StartFollowing(BugState& state, const BugInput& input, BoundaryDirection direction,
+                                  std::optional<double> contact) const {
+  BoundaryPoint nearest;
+  if (contact) nearest = NearestBoundary(input.surroundings, *contact - input.pose.heading, kSameBoundary);
+  if (!std::isfinite(nearest.distance)) nearest = NearestBoundary(input.surroundings);
+  state.follower.Start(direction, input.pose, nearest.bearing);
 }
 
 // The arcs of far echoes may have closed a passage; from the other side they lie elsewhere. So with rangers of narrow view

@@ -71,7 +71,8 @@ class BugAlgorithm {
   [[nodiscard]] std::optional<Twist2> DriveToPoint(const BugState& state, const BugInput& input, Point2 point) const;
   void Leave(BugState& state, const BugInput& input) const;
   void RefuseLeavePoint(BugState& state, const BugInput& input) const;
-  void StartFollowing(BugState& state, const BugInput& input, BoundaryDirection direction) const;
+  void StartFollowing(BugState& state, const BugInput& input, BoundaryDirection direction,
+                      std::optional<double> contact) const;
   void GoOtherWayOrGiveUp(BugState& state, const BugInput& input, Unreachability reason) const;
   void GiveUp(BugState& state, Unreachability reason) const;
   [[nodiscard]] BugView View(const BugState& state, const BugInput& input) const {

@@ -51,7 +51,8 @@ void BugAlgorithm::Reverse(BugState& state, const BugInput& input) const {
   state.has_reversed = true;
   state.followed_distance = BugState::kNever;  // the least distance visited stays
   RestartLap(state, input);
-  StartFollowing(state, input, Opposite(state.follower.direction()));
+  StartFollowing(state, input, Opposite(state.follower.direction()),
+                 state.follower.ContactHeading(input.pose, input.surroundings));
 }
 
 // The lap proves nothing. It went round something that the hit point is not on: the sensors showed a
@@ -72,6 +73,8 @@ void BugAlgorithm::SetOut(BugState& state, const BugInput& input) const {
   state.status.mode = PlannerMode::kGoingToLeavePoint;
   state.set_out_at = state.status.path_length;
   state.set_out_point = Position(input.pose);
+  state.set_out_contact = state.follower.ContactHeading(input.pose, input.surroundings);
+  state.is_off_boundary = state.approach != Approach::kAlongBoundary;
   state.is_on_last_stretch = false;
   state.is_last_chance = state.approach == Approach::kAlongBoundary;
   if (state.approach == Approach::kAlongBoundary) ChooseShorterWay(state, input);
@@ -88,7 +91,7 @@ void BugAlgorithm::ChooseShorterWay(BugState& state, const BugInput& input) cons
   }
   state.way_to_leave_point = std::min(ahead, perimeter - ahead);
   if (perimeter - ahead < ahead) {
-    StartFollowing(state, input, Opposite(state.follower.direction()));
+    StartFollowing(state, input, Opposite(state.follower.direction()), state.set_out_contact);
   }
 }
 
@@ -136,7 +139,7 @@ Twist2 BugAlgorithm::EndPassage(BugState& state, const BugInput& input) const {
 
 std::optional<Twist2> BugAlgorithm::DriveToPoint(const BugState& state, const BugInput& input, Point2 point) const {
   const double distance = Distance(Position(input.pose), point);
-  if (distance < kLeavePrecision) return std::nullopt;
+  if (distance < kLeavePrecision || IsStuck(state, input)) return std::nullopt;
   const double bearing = BearingTo(input, point);
   const WayAhead way = LookAlong(input.surroundings, bearing, TravelRadius(configuration_.driving, input.surroundings));
   if (way.free_range < distance) return LookAt(state, input, way.obstacle_bearing);
@@ -170,7 +173,8 @@ void BugAlgorithm::RefuseLeavePoint(BugState& state, const BugInput& input) cons
   state.leave_point.reset();
   state.crossing.reset();
   state.refused_at = state.status.path_length;
-  StartFollowing(state, input, state.follower.direction());
+  const bool is_where_it_set_out = Distance(Position(input.pose), state.set_out_point) < kPassDistance;
+  StartFollowing(state, input, state.follower.direction(), is_where_it_set_out ? state.set_out_contact : std::nullopt);
 }
 
 // What the generic algorithm keeps account of, whatever variant it is.
@@ -200,14 +204,17 @@ void BugAlgorithm::TakeOver(BugState& state, const BugInput& input) const {
   state.least_distance_of_all = distance;
   state.last_leave_distance = BugState::kNever;
   state.crossing.reset();
-  if (state.status.mode != PlannerMode::kFollowingBoundary) return;
+  if (!is_at_obstacle) return;
   state.status.distance_to_goal = Distance(Position(input.pose), input.goal);
   state.least_distance = state.status.distance_to_goal;
   state.followed_distance = BugState::kNever;
   state.has_reversed = false;
   state.has_doubted = false;
   state.refused_at = -BugState::kNever;
+  const auto leave_point = state.leave_point;
   RestartLap(state, input);
+  // On its way there it goes on, but if it is none, this lap is the one to go by.
+  if (state.status.mode != PlannerMode::kFollowingBoundary) state.leave_point = leave_point;
 }
 
 void BugAlgorithm::Record(BugState& state, const BugInput& input) const {
@@ -221,6 +228,9 @@ void BugAlgorithm::Record(BugState& state, const BugInput& input) const {
   state.least_distance_of_all = std::min(state.least_distance_of_all, status.distance_to_goal);
   if (status.hits == 0) return;
   state.least_distance = std::min(state.least_distance, status.distance_to_goal);
+  const bool has_turned_back = status.mode == PlannerMode::kFollowingBoundary && !state.follower.is_turning();
+  state.is_off_boundary = state.is_off_boundary && !has_turned_back;
+  if (state.is_off_boundary) return;  // whatever it turns there would make the lap one turn too short or too long
   state.lap.Update(input.pose);
   if (status.distance_to_goal < state.closest_distance) {
     state.closest_distance = status.distance_to_goal;

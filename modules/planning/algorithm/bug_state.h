@@ -120,11 +120,13 @@ struct BugState {
   std::optional<Point2> crossing;     ///< of the M-line, just here or just behind
   std::optional<Point2> leave_point;  ///< found, not left yet
   Approach approach = Approach::kNear;
-  bool is_last_chance = false;      ///< if the leave point is blocked, there is no other
-  double way_to_leave_point = 0.0;  ///< m along the boundary, when the robot set out
-  bool is_on_last_stretch = false;  ///< straight to the leave point, no more along the boundary
-  Point2 set_out_point;             ///< from where it set out for the leave point
-  double set_out_at = 0.0;          ///< m, the path's length there
+  bool is_last_chance = false;            ///< if the leave point is blocked, there is no other
+  double way_to_leave_point = 0.0;        ///< m along the boundary, when the robot set out
+  bool is_on_last_stretch = false;        ///< straight to the leave point, no more along the boundary
+  Point2 set_out_point;                   ///< from where it set out for the leave point
+  bool is_off_boundary = false;           ///< since then, until it follows the boundary again: no part of the lap
+  std::optional<double> set_out_contact;  ///< rad, world: where that boundary was, seen from there
+  double set_out_at = 0.0;                ///< m, the path's length there
 };
 
 }  // namespace runnel

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace runnel {
 
@@ -131,6 +130,13 @@ BoundaryPoint WallFollower::Contact(const Surroundings& surroundings) const {
     }
   }
   return nearest(kHandCentre, kHandHalfWidth);
+}
+
+std::optional<double> WallFollower::ContactHeading(const Pose2& pose, const Surroundings& surroundings) const {
+  if (is_turning_) return target_heading_ - MirrorSign(direction_) * kPi / 2;
+  const BoundaryPoint contact = Contact(surroundings);
+  if (!std::isfinite(contact.distance)) return std::nullopt;
+  return pose.heading + contact.bearing;
 }
 
 Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pose2& pose,

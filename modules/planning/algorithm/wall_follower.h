@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "modules/planning/algorithm/driving.h"
 #include "modules/planning/algorithm/faced_headings.h"
 
@@ -29,6 +31,9 @@ class WallFollower {
 
   /// The nearest point of the boundary on the robot's hand.
   [[nodiscard]] BoundaryPoint Contact(const Surroundings& surroundings) const;
+  /// Rad, in the world: where that point is, or will be once the robot has turned the boundary to its hand. Nothing: it
+  /// is lost.
+  [[nodiscard]] std::optional<double> ContactHeading(const Pose2& pose, const Surroundings& surroundings) const;
   [[nodiscard]] BoundaryDirection direction() const { return direction_; }
   /// Whether the robot still turns the boundary to its hand.
   [[nodiscard]] bool is_turning() const { return is_turning_; }

@@ -126,6 +126,10 @@ class Side(enum.Flag):
     RIGHT = 2
 
 
+class Status(enum.IntFlag):  # a device's, which has more bits than have names
+    READY = 1
+
+
 def law():
     return FACTOR
 
@@ -152,6 +156,7 @@ class Base(runnel.Module):
     def __init__(self):
         self.mode = Mode.FOLLOW
         self.sides = Side.LEFT | Side.RIGHT
+        self.status = Status(9)
         self.modes = {Mode.SEARCH: 5.0}
         self.law = law
         self.controller = Controller(7.0)
@@ -162,7 +167,8 @@ class Base(runnel.Module):
 
     def update(self):
         mine = [self.mode is Mode.FOLLOW, self.modes.get(Mode.SEARCH) == 5.0, self.controller == Controller(7.0), self.kind is Controller,
-                Side.LEFT in self.sides, self.sides & Side.RIGHT == Side.RIGHT, self.output.__self__ is self.controller]
+                Side.LEFT in self.sides, self.sides & Side.RIGHT == Side.RIGHT, self.output.__self__ is self.controller,
+                self.status == 9, type(self.status) is Status]
         self.seen.publish([float(all(mine)), self.law(), self.controller.output(), self.output(), self.controller.own(),
                            *(each() for each in self.outputs)])
 
