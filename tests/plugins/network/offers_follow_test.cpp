@@ -1,5 +1,6 @@
 // What is offered while files say it twice, and names change.
 #include "plugins/network/xml_network_words.h"
+#include "plugins/structure/structure_editor.h"
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {
@@ -40,6 +41,26 @@ TEST_F(OffersFollow, OfANameOfBeforeNothingIsOffered) {
   WaitUntil("it is offered by its new name",
             [&] { return a_.Text().find("offers /application/eyes/output/place as /map") != std::string::npos; });
   WaitUntil("it is no more by the one of before", [&] { return a_.Text().find(before) == std::string::npos; });
+}
+
+// A pattern fits the name of before as well.
+TEST_F(OffersFollow, WhatAPatternOffersHasItsNewNameOnly) {
+  a_.Offer({.patterns = {"**"}});
+  AddNetworkChanges(a_.runtime);
+  a_.Begin();
+  const ModuleRegistry modules;
+  StructureEditor editor(a_.runtime, modules, nullptr);
+  const auto is_offered = [&](const std::string& module) {
+    return a_.Text().find("as /a/" + module + "/place") != std::string::npos;
+  };
+  const auto rename = [&](const std::string& before, const std::string& now) {
+    const ChangeOutcome renamed = editor.Apply({RenameElement{"/application/" + before, now}});
+    ASSERT_TRUE(renamed) << renamed.diagnostics.ToString();
+    WaitUntil("it is offered by its new name", [&] { return is_offered(now); });
+    WaitUntil("it is no more by the one of before", [&] { return !is_offered(before); });
+  };
+  rename("module", "eyes");
+  rename("eyes", "module");
 }
 
 TEST_F(OffersFollow, OfEachValueTheNewestIsSentWhereTheRateIsBounded) {
