@@ -24,6 +24,15 @@ class BrokenLamp final : public Module {
   void Update() override { throw std::runtime_error("the wire is through"); }
 };
 
+class SilentDimmer final : public Module {
+ public:
+  using Module::Module;
+  Output<double> level{this, "level"};
+
+ private:
+  void Update() override {}
+};
+
 class ApplicationHealthTest : public testing::Test {
  protected:
   void Fail() {
@@ -45,8 +54,8 @@ class ApplicationHealthTest : public testing::Test {
   Runtime runtime_;
   ThreadContainer& thread_ = CreateThread(runtime_, "control", {.period = std::chrono::milliseconds(10)});
   Group& group_ = runtime_.Create<Group>(runtime_.root(), "house");
+  SilentDimmer& dimmer_ = runtime_.Create<SilentDimmer>(group_, "dimmer");
   BrokenLamp& lamp_ = runtime_.Create<BrokenLamp>(group_, "lamp");
-  Output<double> dimmer_{group_, "dimmer"};
   Scheduler scheduler_{runtime_, {.clock = SchedulerOptions::ClockKind::kSimulated}};
   Supervisor supervisor_{runtime_, scheduler_, [](const ChangeSet&) { return Result<ChangeSet>(ChangeSet()); }};
   ApplicationLog log_{runtime_.clock()};
@@ -68,7 +77,7 @@ TEST_F(ApplicationHealthTest, WhoHasFailedIsSoWhateverItSaysAndUntilItGoes) {
 
 // Whatever others say in the log, and as long as the input is there: also when it has come back.
 TEST_F(ApplicationHealthTest, SupervisionSaysWhichInputsHearNothing) {
-  ASSERT_TRUE(Port::Connect(dimmer_, lamp_.level));
+  ASSERT_TRUE(Port::Connect(dimmer_.level, lamp_.level));
   ASSERT_TRUE(runtime_.MakeReady(runtime_.root()));
   const std::string input = lamp_.level.path();
   ASSERT_TRUE(supervisor_.Add(SupervisionRule{.of = input, .after = std::chrono::milliseconds(30)}));
