@@ -29,6 +29,7 @@ class CommandService;
 class LoadedApplication;
 class PluginManager;
 class RunReport;
+class Supervisor;
 class XmlTagRegistry;
 
 namespace internal {
@@ -254,6 +255,7 @@ class Application {
 
   [[nodiscard]] Runtime& runtime() const noexcept;
   [[nodiscard]] Scheduler& scheduler() noexcept;
+  [[nodiscard]] Supervisor& supervisor() noexcept;
   [[nodiscard]] StructureEditor& editor() noexcept;
   [[nodiscard]] ChangeHistory& history() noexcept;
   [[nodiscard]] PluginManager& plugins() noexcept;

@@ -102,6 +102,7 @@ const std::string& Application::text() const noexcept { return parts_->text(); }
 const ApplicationOptions& Application::options() const noexcept { return parts_->options(); }
 const Extensions& Application::extensions() const noexcept { return parts_->extensions(); }
 Scheduler& Application::scheduler() noexcept { return *parts_->scheduler; }
+Supervisor& Application::supervisor() noexcept { return *parts_->supervisor; }
 StructureEditor& Application::editor() noexcept { return *parts_->editor; }
 ChangeHistory& Application::history() noexcept { return *parts_->history; }
 PluginManager& Application::plugins() noexcept { return parts_->plugins(); }

@@ -11,6 +11,7 @@
 #include "plugins/control/application_state.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/supervision/supervisor.h"
 
 namespace runnel {
 
@@ -20,15 +21,6 @@ namespace {
 constexpr auto kLate = std::chrono::seconds(5);
 // Whoever sends values asks as often as it sends them.
 constexpr auto kLook = std::chrono::milliseconds(90);
-
-// What supervision says of an input in the log, behind its path.
-constexpr std::string_view kSilent = ": nothing new for ", kFresh = ": values come again";
-
-// The path that ends there; a place in a file may stand in front.
-std::string PathBefore(const std::string& text, std::size_t end) {
-  const std::size_t begin = text.rfind(' ', end) + 1;  // npos + 1 is 0
-  return text.substr(begin, end - begin);
-}
 
 }  // namespace
 
@@ -58,30 +50,27 @@ void ApplicationHealth::Look() {
   for (const StuckModule& each : scheduler_->StuckModules()) {
     failed.emplace(each.path, "does not return, since " + DurationText(each.since) + " at least");
   }
-  std::erase_if(silent_, [&](const auto& each) { return !application_->runtime().root().Find(each.first); });
-  if (failed.empty() && silent_.empty()) {
+  std::map<std::string, std::string> silent;  // of which several rules may be
+  for (const Supervisor::Silence& each : supervisor_->Silent()) {
+    const std::string lasts = DurationText(std::chrono::floor<std::chrono::milliseconds>(each.lasts));
+    silent.emplace(each.path, "nothing new for " + lasts + ", at most " + DurationText(each.allowed) + " is allowed");
+  }
+  if (failed.empty() && silent.empty()) {
     Add(RosHealth::kOk, "modules", "no fault");
   } else {
     Add(failed.empty() ? RosHealth::kWarning : RosHealth::kError, "modules",
-        std::to_string(failed.size()) + " failed, " + std::to_string(silent_.size()) + " inputs without news");
+        std::to_string(failed.size()) + " failed, " + std::to_string(silent.size()) + " inputs without news");
   }
   for (const auto& [path, why] : failed) Add(RosHealth::kError, path, why);
-  for (const auto& [path, why] : silent_) Add(RosHealth::kStale, path, why);
+  for (const auto& [path, why] : silent) Add(RosHealth::kStale, path, why);
   AddThreads();
 }
 
-// What modules say themselves has their paths, and is nothing of this.
 void ApplicationHealth::ReadLog() {
   const auto news = log_->ReadEntries(next_in_log_, ApplicationLog::kMostEntries);
   next_in_log_ = news.next;
   for (const ApplicationLog::Entry& entry : news.entries) {
-    if (!entry.module.empty()) {
-      if (!entry.cause.empty()) causes_[entry.module] = entry.cause;
-    } else if (const std::size_t place = entry.text.find(kSilent); place != std::string::npos) {
-      silent_[PathBefore(entry.text, place)] = entry.text.substr(place + 2);
-    } else if (const std::size_t end = entry.text.find(kFresh); end != std::string::npos) {
-      silent_.erase(PathBefore(entry.text, end));
-    }
+    if (!entry.module.empty() && !entry.cause.empty()) causes_[entry.module] = entry.cause;
   }
 }
 

@@ -13,17 +13,19 @@ namespace runnel {
 
 class FrameworkElement;
 class Scheduler;
+class Supervisor;
 
 /// How an application is, for /diagnostics: modules that have failed or are stuck, inputs to which nothing new comes
-/// (<on_stale>), threads whose cycles end too late. Who has failed is asked of the scheduler, so that it goes with the module,
-/// and comes back with it; the log says why.
+/// (<on_stale>), threads whose cycles end too late. Who has failed is asked of the scheduler, and who is silent of
+/// supervision, so that it goes with the module, has its new name, and comes back with it; the log says why one has failed.
 ///
-/// Ownership:  application, scheduler and log must outlive it. Copies go on from what has been read.
+/// Ownership:  application, scheduler, supervisor and log must outlive it. Copies go on from what has been read.
 /// Threads:    one at a time; takes the structure lock, ten times a second at most.
 class ApplicationHealth {
  public:
-  ApplicationHealth(FrameworkElement& application, Scheduler& scheduler, const ApplicationLog& log)
-      : application_(&application), scheduler_(&scheduler), log_(&log) {}
+  ApplicationHealth(FrameworkElement& application, Scheduler& scheduler, const Supervisor& supervisor,
+                    const ApplicationLog& log)
+      : application_(&application), scheduler_(&scheduler), supervisor_(&supervisor), log_(&log) {}
 
   [[nodiscard]] std::vector<RosDiagnosticStatus> operator()();
 
@@ -41,10 +43,10 @@ class ApplicationHealth {
 
   FrameworkElement* application_;
   Scheduler* scheduler_;
+  const Supervisor* supervisor_;
   const ApplicationLog* log_;
   std::uint64_t next_in_log_ = 0;
   std::map<std::string, std::string> causes_;  // of modules that have failed once
-  std::map<std::string, std::string> silent_;  // inputs, and what was said
   std::map<std::string, Overruns> overruns_;   // by thread
   Time looked_{};                              // on the machine's clock
   std::vector<RosDiagnosticStatus> all_;       // as it was then

@@ -79,7 +79,7 @@ class ApplicationNetwork final : public ApplicationExtension {
     FrameworkElement& group = application.element();
     RosHooks hooks{
         .set_parameters = [&application](const auto& changes) { return SetParameters(application, changes); },
-        .health = ApplicationHealth(group, application.scheduler(), application.log()),
+        .health = ApplicationHealth(group, application.scheduler(), application.supervisor(), application.log()),
         .set_time = [&application](Time time) { return application.SetTime(time); },
         .clock_lead = [&application] { return application.scheduler().pace().outside_lead(); },
         .is_stop_kept = application.service().application().hooks.is_stop_kept,

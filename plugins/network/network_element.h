@@ -77,6 +77,11 @@ class NetworkElement final : public FrameworkElement {
 
   /// Who is told that there is more to offer or to take.
   void set_on_change(std::function<void()> on_change) { on_change_ = std::move(on_change); }
+  /// Who is told that what was at this path, and below it, has another one now.
+  void set_on_renamed(std::function<void(const std::string& from)> on_renamed) { on_renamed_ = std::move(on_renamed); }
+  void NoteRenamed(const std::string& from) const {
+    if (on_renamed_) on_renamed_(from);
+  }
 
  private:
   /// An output of this type below the groups that the name says; where one of these has a name that is taken, of one with "_"
@@ -92,6 +97,7 @@ class NetworkElement final : public FrameworkElement {
   std::vector<Take> takes_;
   std::vector<ServiceTake> service_takes_;
   std::function<void()> on_change_;
+  std::function<void(const std::string& from)> on_renamed_;
   std::function<void()> know_types_;
   bool is_simulated_ = false;
   Logger log_{*this};

@@ -36,18 +36,21 @@ void NetworkLink::Follow() {
   {
     const ChangeScope changes(runtime_);
     wanted = FindOffers();  // anew: the lock has been free
-    // Those whose ports have gone stay, for these may come back; but not under a name that nobody offers any more.
+    // Those whose ports have gone stay, for these may come back; but not under a name that nobody offers any more, nor under
+    // one of before, which a pattern may fit, too.
     EraseWhere(offered_, [&](const auto& each) {
       const bool is_wanted = std::ranges::any_of(wanted, [&](const Wanted& one) {
         return one.path == each->path() && one.options.topic == each->options().topic;
       });
-      return !is_wanted && (runtime_.root().Find(each->path()).has_value() || !IsMeant(each->path(), each->options()));
+      const bool is_there = runtime_.root().Find(each->path()).has_value();
+      return !is_wanted && (is_there || each->is_renamed() || !IsMeant(each->path(), each->options()));
     });
     for (const auto& each : offered_) {
       const auto found = std::ranges::find_if(wanted, [&](const Wanted& one) {
         return one.path == each->path() && one.options.topic == each->options().topic;
       });
       each->Attach(found == wanted.end() ? nullptr : found->port);
+      each->set_renamed(false);  // it may have been called so again meanwhile
     }
   }
   FollowDistantPorts();

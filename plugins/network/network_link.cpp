@@ -8,6 +8,7 @@
 #include <sys/prctl.h>
 
 #include "core/base/exception_text.h"
+#include "core/element/element_path.h"
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"
 #include "plugins/network/network_ports.h"
@@ -159,6 +160,7 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
     link->beside_ = std::make_unique<BesideElement>(link->runtime_.root());
     link->runtime_.AddListener(*link);
     element.set_on_change([raw = link.get()] { raw->LookAgain(); });
+    element.set_on_renamed([raw = link.get()](const std::string& from) { raw->NoteRenamed(from); });
     if (NetworkPorts* const ports = NetworkPorts::Of(element)) {
       ports->set_find_type([raw = link.get()](const std::string& path, const TypeInfo* expected) {
         return FindDistantType(raw->table_, path, expected, raw->element_.know_types());
@@ -174,6 +176,7 @@ NetworkLink::~NetworkLink() {
   if (beside_ != nullptr) {
     const std::lock_guard lock(runtime_.structure_mutex());
     element_.set_on_change({});
+    element_.set_on_renamed({});
     if (NetworkPorts* const ports = NetworkPorts::Of(element_)) ports->set_find_type({});
     runtime_.RemoveListener(*this);
   }
@@ -193,6 +196,13 @@ void NetworkLink::LookAgain() noexcept {
   // release: what has changed is seen by who answers.
   must_look_.store(true, std::memory_order_release);
   wake_->Notify();
+}
+
+void NetworkLink::NoteRenamed(const std::string& from) noexcept {
+  for (const auto& each : offered_) {
+    if (IsAtOrBelow(each->path(), from)) each->set_renamed(true);
+  }
+  LookAgain();
 }
 
 void NetworkLink::OnConnected(FrameworkElement&, FrameworkElement& to) {

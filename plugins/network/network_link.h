@@ -107,6 +107,8 @@ class NetworkLink final : private ElementListener {
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
 
   void LookAgain() noexcept;
+  // Under the structure lock.
+  void NoteRenamed(const std::string& from) noexcept;
   // By the thread.
   void Run() noexcept;
   void SendAll();

@@ -1,6 +1,7 @@
 #include "plugins/network/offer_list.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "core/element/element_path.h"
@@ -105,6 +106,14 @@ void OfferList::Rename(const std::string& from, const std::string& to) {
     if (IsAtOrBelow(each.port, from)) each.port = to + each.port.substr(from.size());
     for (std::string& pattern : each.patterns) RenameIn(pattern, from, to);
   }
+}
+
+void OfferList::DropSecond() {
+  std::set<std::pair<std::string, std::string>> known;
+  std::erase_if(offers, [&](const OfferOptions& each) {
+    const std::string topic = each.topic.empty() ? TopicOfPort(network, each.port) : each.topic;
+    return !each.port.empty() && !known.emplace(each.port, topic).second;
+  });
 }
 
 }  // namespace runnel

@@ -19,6 +19,8 @@ struct OfferList {
   Result<void> Remove(const std::string& path, const std::string& topic);
   /// What is at or below `from` is at or below `to` now, also what a pattern names from the root: "!/laser/scan".
   void Rename(const std::string& from, const std::string& to);
+  /// Of two that offer one port as one topic, as when it has got the name of one that has gone, only the first, which counts.
+  void DropSecond();
 };
 
 }  // namespace runnel

@@ -92,7 +92,7 @@ class OfferBell final : public Waker, private AfterCycleWork {
 /// the thread of who presses, and again and again; after the release only what is later than that.
 ///
 /// Threads:     all by the network's thread, outside of cycles, Attach() under the structure lock, too; but Forget(), by
-///              who has that lock, and is_stopped(), by any.
+///              who has that lock, as is_renamed() and set_renamed(), and is_stopped(), by any.
 /// Allocation:  of octets, which are used again.
 class OfferedPort {
  public:
@@ -117,6 +117,9 @@ class OfferedPort {
   Result<void> Begin(WireParticipant& participant);
   /// Takes values of the port from now on, if anybody there reads them; nullptr: of none, as it has gone.
   void Attach(Port* port);
+  /// Whether its port has another path now, by which it will not come back. Under the structure lock.
+  [[nodiscard]] bool is_renamed() const noexcept { return is_renamed_; }
+  void set_renamed(bool value) noexcept { is_renamed_ = value; }
   /// The element is about to go: nobody looks at a port of it any more.
   void Forget(const FrameworkElement& element) noexcept;
 
@@ -172,6 +175,7 @@ class OfferedPort {
   std::function<void()> on_matched_;
   std::unique_ptr<WireWriter> writer_;
   std::atomic<std::size_t> matched_{0};
+  bool is_renamed_ = false;  // under the structure lock
   // Changed under the structure lock; who has loaded it in an EpochGuard may use it, and its source, as long as that lives.
   std::atomic<Binding*> binding_{nullptr};
   std::vector<StopSignal::Subscription> stop_subscriptions_;  // under the structure lock

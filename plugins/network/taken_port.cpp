@@ -21,6 +21,9 @@ constexpr std::size_t kMostGone = 64;
 constexpr std::size_t kMostKept = 128;  // of one writer
 constexpr std::size_t kEnd = 128;       // octets
 
+// No lease is shorter. What comes sooner after its like, as two of a queue that were published at once, counts.
+constexpr auto kShortestLoss = std::chrono::seconds(1);
+
 // Of values that are not latched, which come often and may be large, their size and both ends have to do.
 std::size_t HashOf(std::span<const std::byte> octets, bool is_whole) {
   const auto hash = [](std::span<const std::byte> part) {
@@ -137,9 +140,7 @@ void TakenPort::MarkAsDelivered() {
 }
 
 // They are delivered again in their order, and what is new comes after them.
-bool TakenPort::HasComeBefore(Writer& writer, const WireSample& sample) {
-  const bool is_latched = writer.kept > 0;
-  const Delivered value{sample.source_time, HashOf(sample.octets, is_latched)};
+bool TakenPort::HasComeBefore(Writer& writer, const Delivered& value) {
   const auto found = std::ranges::find(writer.before, value);
   const bool is_known = found != writer.before.end();
   writer.before.erase(writer.before.begin(), is_known ? found + 1 : found);
@@ -197,8 +198,11 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       const std::lock_guard lock(mutex_);
       Writer& writer = Find(sample.writer);
       if (!writer.fits) return;
+      const bool is_latched = writer.kept > 0;
+      const Delivered value{sample.source_time, HashOf(sample.octets, is_latched)};
+      const bool is_the_last = !writer.delivered.empty() && writer.delivered.back() == value;
       // It has come before: it keeps the stamp, or arrival, that it had then.
-      if (HasComeBefore(writer, sample)) return;
+      if (HasComeBefore(writer, value)) return;
       if (!IsHeard(sample.writer)) return;
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
       // By the clocks of both machines, whatever time the application has.
@@ -213,6 +217,9 @@ void TakenPort::Take(const WireSample& sample) noexcept {
                                         : machine - writer.clock.sent();  // simulated time may be faster
         }
       }
+      // Sent again by who had lost this reader, of which nothing is seen here: as where this process stood still.
+      const Duration gap = machine - std::exchange(writer.came, machine);
+      if (is_the_last && held_up > Duration{} && gap >= kShortestLoss) return;
       if (is_comparable) writer.clock.Note(now - sent, now);
       if (is_comparable) sent -= writer.clock.ahead();
     }

@@ -96,6 +96,7 @@ class TakenPort {
     bool has_simulated_time = false;  // which says nothing here
     std::string application = {};     // of Runnel that has it; else ""
     WriterClock clock = {};
+    Time came = {};                        // when its last value did, on the machine's clock
     bool is_looked_up = true;              // since Follow()
     std::size_t kept = 0;                  // values that it delivers again; 0: it is not latched
     std::deque<Delivered> delivered = {};  // the last of them, in their order; the last one of who is not latched
@@ -107,7 +108,7 @@ class TakenPort {
   [[nodiscard]] bool IsHeard(std::uint64_t writer);
   void ForgetGone(const std::vector<WireEndpoint>& writers);
   void MarkAsDelivered();
-  [[nodiscard]] static bool HasComeBefore(Writer& writer, const WireSample& sample);
+  [[nodiscard]] static bool HasComeBefore(Writer& writer, const Delivered& value);
   [[nodiscard]] WireQos WantedQos(const std::vector<WireEndpoint>& writers) const;
   void Refuse(Error error);
 

@@ -159,6 +159,11 @@ ExtensionStep StepOfRenaming(NetworkElement& network, const std::string& from, c
     list.Rename(from, to);
     return std::move(list.offers);
   });
+  step.apply = [&network, from, apply = std::move(step.apply)]() -> Result<void> {
+    auto renamed = apply();
+    if (renamed) network.NoteRenamed(from);
+    return renamed;
+  };
   step.inverse = {};
   return step;
 }

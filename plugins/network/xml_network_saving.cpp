@@ -7,6 +7,7 @@
 
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
+#include "plugins/network/offer_list.h"
 #include "plugins/network/xml_network_words.h"
 #include "plugins/values/port_patterns.h"
 
@@ -40,10 +41,13 @@ void AddWords(const std::vector<Setting>& words, NewElement& element) {
 class OfferTags {
  public:
   OfferTags(NetworkElement& network, FrameworkElement& application, internal::FileUpdate& update)
-      : application_(application), update_(update), left_(network.options().offers) {
-    std::erase_if(left_, [&](const OfferOptions& each) {
+      : application_(application), update_(update) {
+    OfferList list{network.options().member.name, network.options().offers};
+    std::erase_if(list.offers, [&](const OfferOptions& each) {
       return !each.port.empty() && !application.runtime().root().Find(each.port);
     });
+    list.DropSecond();  // a file that says both is refused
+    left_ = std::move(list.offers);
   }
 
   // Those that say what is offered stay as they are; of the others, those of the same options get other patterns, and

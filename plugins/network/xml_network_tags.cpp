@@ -159,7 +159,7 @@ FrameworkElement* HandleOffer(const TagUse& use) {
     return &use.parent;
   }
   if (const auto wrong = WhatIsWrong(offer))
-    use.Report(*wrong, use.Get(offer.strength < 0 ? "strength" : "rate").value_position);
+    use.Report(*wrong, use.Get(offer.strength == kTooStrong ? "strength" : "rate").value_position);
   if (ports != nullptr) {
     for (const char* const only : {"topic", "service", "as", "frame", "child_frame"}) {
       if (const XmlAttribute* const said = use.Find(only)) {

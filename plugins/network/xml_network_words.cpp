@@ -25,9 +25,6 @@ AttributeRule MessageTypeRule() {
               "std_srvs/srv/Trigger"};
 }
 
-// Of no use, as what is said is a count.
-constexpr std::int32_t kTooStrong = -1;
-
 std::optional<double> RateIn(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(std::strtod(text.c_str(), nullptr));
 }

@@ -25,7 +25,9 @@ class FileUpdate;
 using SaidOf = std::function<std::string(const char* name)>;
 /// All but the ports, of what has been checked by the rules.
 [[nodiscard]] OfferOptions OfferSaid(const SaidOf& said);
-/// What does not go together, of what each word alone allows; a strength below 0 stands for one that is too great.
+/// Stands for a strength that is too great, as what is said is a count.
+inline constexpr std::int32_t kTooStrong = -1;
+/// What does not go together, of what each word alone allows.
 [[nodiscard]] std::optional<Error> WhatIsWrong(const OfferOptions& offer);
 [[nodiscard]] TakeOptions TakeSaid(const SaidOf& said);
 

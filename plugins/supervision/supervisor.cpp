@@ -228,6 +228,16 @@ Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
 
 void Supervisor::KeepSafe() { shared_->KeepSafe(shared_->runtime.clock().Now()); }
 
+std::vector<Supervisor::Silence> Supervisor::Silent() const {
+  const Time now = shared_->runtime.clock().Now();
+  std::vector<Silence> silent;
+  for (const auto& [rule, watch] : shared_->watches) {
+    if (watch.is_stale() && shared_->runtime.root().Find(rule->of))
+      silent.push_back({rule->of, now - watch.silent_since(), rule->after});
+  }
+  return silent;
+}
+
 std::vector<Notice> Supervisor::TakeNotices() {
   const std::lock_guard lock(shared_->mutex);
   return std::exchange(shared_->notices, {});

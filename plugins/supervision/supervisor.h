@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -48,6 +49,15 @@ class Supervisor {
   /// Gives ports that drive their safe value where what feeds them is paused, has failed or is stuck, and takes it back
   /// when it publishes again. Done now and then by itself; on a simulated clock by others while a module is stuck.
   void KeepSafe();
+
+  /// A port of a rule of silence to which nothing new comes.
+  struct Silence {
+    std::string path;
+    Duration lasts{};  ///< so far
+    Duration allowed{};
+  };
+  /// Those that are so now, until they count as fresh again, whatever they are called now. Under the structure lock.
+  [[nodiscard]] std::vector<Silence> Silent() const;
 
   /// What has been done since the last call, oldest first.
   [[nodiscard]] std::vector<Notice> TakeNotices();

@@ -33,6 +33,8 @@ class StaleWatch {
   [[nodiscard]] Turn Look(Runtime& runtime, Time now);
   /// When it need be looked at again.
   [[nodiscard]] Time next_look() const noexcept { return next_look_; }
+  /// Whether the input is stale, and not fresh again yet, as of the last look.
+  [[nodiscard]] bool is_stale() const noexcept { return is_stale_; }
   /// Since when nothing has come, as of the last look.
   [[nodiscard]] Time silent_since() const noexcept { return heard_.value_or(Time{}); }
 

@@ -117,7 +117,8 @@ TEST_F(TwoRobots, MistakesAreToldWithTheirPlaces) {
   EXPECT_THAT(check(R"(<network><offer ports="gate/*" sending="after_cycles"/></network>)"),
               HasSubstr("did you mean 'after_cycle'?"));
   EXPECT_THAT(check(R"(<network><offer ports="gate/*" sending="after_cycle" rate="5"/></network>)"),
-              testing::AllOf(HasSubstr("by the network's thread"), HasSubstr("leave out rate, or sending")));
+              testing::AllOf(HasSubstr("wrong.xml:3:60"), HasSubstr("by the network's thread"),
+                             HasSubstr("leave out rate, or sending")));
   EXPECT_THAT(check(R"(<network><offer/></network>)"), HasSubstr("<offer> says which ports"));
   EXPECT_THAT(check(R"(<network><offer ports="gate/*" service="/x"/></network>)"),
               HasSubstr("service is said of one port"));

@@ -49,6 +49,21 @@ TEST(OfferListTest, PortsGoWithTheirModules) {
   EXPECT_EQ(list.offers[1].port, "/app/laser2/output/scan");
 }
 
+// Of a module that has gone the offer stays, as it may come back; meanwhile another one may have got its name.
+TEST(OfferListTest, OfTwoOffersOfOnePortAndTopicTheFirstIsSaved) {
+  OfferList list{kRobot,
+                 {{.port = "/app/eyes/output/scan", .rate = 5},
+                  {.patterns = {"**"}},
+                  {.patterns = {"**"}},
+                  {.port = kScan},
+                  {.port = kScan, .topic = "/scan"}}};
+  list.Rename("/app/laser", "/app/eyes");
+  list.DropSecond();
+  ASSERT_EQ(list.offers.size(), 4u);
+  EXPECT_EQ(list.offers[0].rate, 5);
+  EXPECT_EQ(list.offers[3].topic, "/scan");
+}
+
 // What has been withdrawn stays so under another name.
 TEST(OfferListTest, PatternsFromTheRootGoWithWhatTheyName) {
   OfferList list{kRobot,

@@ -1,5 +1,6 @@
 // What is offered while files say it twice, and names change.
 #include "plugins/network/xml_network_words.h"
+#include "plugins/structure/extension_changes.h"
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {
@@ -40,6 +41,25 @@ TEST_F(OffersFollow, OfANameOfBeforeNothingIsOffered) {
   WaitUntil("it is offered by its new name",
             [&] { return a_.Text().find("offers /application/eyes/output/place as /map") != std::string::npos; });
   WaitUntil("it is no more by the one of before", [&] { return a_.Text().find(before) == std::string::npos; });
+}
+
+// A pattern fits the name of before as well.
+TEST_F(OffersFollow, WhatAPatternOffersHasItsNewNameOnly) {
+  a_.Offer({.patterns = {"**"}});
+  AddNetworkChanges(a_.runtime);
+  a_.Begin();
+  EXPECT_THAT(a_.Text(), HasSubstr("as /a/module/place"));
+  ASSERT_TRUE(a_.runtime.Delete(a_.module));  // as who is renamed: it is made anew
+  ASSERT_TRUE(a_.runtime.MakeReady(a_.runtime.Create<Module1>(a_.group, "eyes")));
+  {
+    const std::lock_guard lock(a_.runtime.structure_mutex());
+    const auto* const changes = a_.runtime.root().FindAnnotation<ExtensionChanges>();
+    ASSERT_NE(changes, nullptr);
+    ASSERT_TRUE(changes->rename("/application/module", "/application/eyes").apply());
+  }
+  WaitUntil("it is offered by its new name", [&] { return a_.Text().find("as /a/eyes/place") != std::string::npos; });
+  WaitUntil("it is no more by the one of before",
+            [&] { return a_.Text().find("as /a/module/place") == std::string::npos; });
 }
 
 TEST_F(OffersFollow, OfEachValueTheNewestIsSentWhereTheRateIsBounded) {

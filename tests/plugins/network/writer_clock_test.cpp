@@ -112,11 +112,12 @@ class OtherClockTest : public testing::Test {
  protected:
   // Sent by that clock, so long ago by this one; returns when it is said to have been measured here.
   Time Send(double x, Duration ahead, Duration ago) {
-    auto octets = std::make_shared<Octets>(20);
-    (*octets)[1] = std::byte(1);
-    std::memcpy(octets->data() + 4, &x, sizeof x);
+    octets_ = std::make_shared<Octets>(20);
+    (*octets_)[1] = std::byte(1);
+    std::memcpy(octets_->data() + 4, &x, sizeof x);
     const auto now = std::chrono::system_clock::now().time_since_epoch();
-    EXPECT_TRUE(writer_->Write(octets, (std::chrono::duration_cast<Duration>(now) + ahead - ago).count()));
+    stamp_ = (std::chrono::duration_cast<Duration>(now) + ahead - ago).count();
+    EXPECT_TRUE(writer_->Write(octets_, stamp_));
     WaitUntil("it has come", [&] { return robot_.module.goal.Get().x == x; });
     return robot_.module.goal.Read().timestamp();
   }
@@ -135,6 +136,9 @@ class OtherClockTest : public testing::Test {
   DiscoveryTable table_{[] {}};
   std::unique_ptr<WireParticipant> other_;
   std::unique_ptr<WireWriter> writer_;
+  // Of what was sent last.
+  std::shared_ptr<Octets> octets_;
+  std::int64_t stamp_ = 0;
 };
 
 TEST_F(OtherClockTest, OfAClockThatIsAheadAgesAreSeen) {
@@ -156,6 +160,21 @@ TEST_F(OtherClockTest, WhatWasHeldUpIsAsOldAsItIsThoughItsArrivalCounts) {
   EXPECT_LE(Send(2, seconds(10), milliseconds(600)), before - milliseconds(100));
   before = robot_.runtime.clock().Now();
   EXPECT_GE(Send(3, seconds(10), {}), before);
+}
+
+// Whoever has lost a reader and found it again sends the newest value again, whether or not that one has noticed.
+TEST_F(OtherClockTest, WhatIsSentAgainLongAfterwardsIsTakenOnce) {
+  Begin(false);
+  (void)Send(1, {}, {});
+  ASSERT_TRUE(writer_->Write(octets_, stamp_));  // but two of a queue may be alike
+  WaitUntilQuiet(*engine_);
+  EXPECT_THAT(robot_.Text(), HasSubstr(", 2 came"));
+  std::this_thread::sleep_for(milliseconds(1100));
+  ASSERT_TRUE(writer_->Write(octets_, stamp_));
+  WaitUntilQuiet(*engine_);
+  EXPECT_THAT(robot_.Text(), HasSubstr(", 2 came"));
+  (void)Send(2, {}, {});
+  EXPECT_THAT(robot_.Text(), HasSubstr(", 3 came"));
 }
 
 // As above, but nothing had come before.
