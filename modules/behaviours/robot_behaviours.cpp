@@ -67,7 +67,7 @@ std::optional<Behaviour::Outcome> EmergencyStopBehaviour::Behave(double activati
   }
   const double time_step = last_ ? std::min(ToSeconds(now() - *last_), surroundings_timeout.limit.Get()) : 0.0;
   last_ = now();
-  const Wish wish = EmergencyStop({.least_way = least_way.Get()}, time_step, *view, *others, looking_);
+  const Wish wish = EmergencyStop({.least_way = least_way.Get()}, time_step, *view, *others, state_);
   twist.Set(wish.twist);
   return Outcome{activation * wish.rating, wish.rating};
 }

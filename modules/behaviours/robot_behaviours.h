@@ -170,7 +170,7 @@ class EmergencyStopBehaviour final : public Behaviour {
  private:
   std::optional<Outcome> Behave(double activation) override;
 
-  double looking_ = 0.0;  // s, of late
+  EmergencyStopState state_;
   std::optional<Time> last_;
 };
 

@@ -93,7 +93,7 @@ Wish FollowWall(const SteeringConfiguration& steering, const FollowWallConfigura
 }
 
 Wish EmergencyStop(const EmergencyStopConfiguration& configuration, double time_step, const Surroundings& surroundings,
-                   const Twist2& wanted, double& looking) {
+                   const Twist2& wanted, EmergencyStopState& state) {
   const SteeringConfiguration& steering = configuration.steering;
   if (wanted.forward <= 0.0) return {{0.0, wanted.turn}, 0.0};
   if (FreeRange(surroundings, 0.0, PassingRadius(surroundings)) < configuration.least_way) {
@@ -102,9 +102,10 @@ Wish EmergencyStop(const EmergencyStopConfiguration& configuration, double time_
   if (!surroundings.is_vague) return {{0.0, wanted.turn}, 0.0};
   const BoundaryPoint unseen = Unseen(surroundings);
   const bool is_near = unseen.distance < configuration.least_way;
-  // Looks end, also where nothing can be told; who drives on for as long may look again.
-  looking = std::clamp(looking + (is_near ? time_step : -time_step), 0.0, configuration.looking_time);
-  if (is_near && looking < configuration.looking_time) {
+  if (is_near && !state.is_creeping) {
+    // Looks end, also where nothing can be told, or where the others turn away from it each time.
+    state.looking += time_step;
+    state.is_creeping = state.looking >= configuration.looking_time;
     const double turn = std::clamp(steering.turn_gain * unseen.bearing, -steering.turn_limit, steering.turn_limit);
     return {{0.0, turn}, 1.0};
   }
@@ -113,6 +114,8 @@ Wish EmergencyStop(const EmergencyStopConfiguration& configuration, double time_
   const double before_unseen =
       is_near ? configuration.creeping_speed : std::sqrt(2.0 * steering.braking * unseen.distance);
   const double forward = std::min({wanted.forward, on_curve, before_unseen});
+  state.looking -= forward * time_step * configuration.looking_time / configuration.creeping_way;
+  if (state.looking <= 0.0) state = {};
   return {{forward, wanted.turn}, forward < wanted.forward ? 1.0 : 0.0};
 }
 

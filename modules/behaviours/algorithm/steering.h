@@ -60,18 +60,24 @@ struct FollowWallConfiguration {
                               const Surroundings& surroundings);
 
 struct EmergencyStopConfiguration {
-  double least_way = 0.05;  ///< m; with less way ahead that is free, and has been looked at, it stops
-  double looking_time =
-      3.0;  ///< s, of standing and looking at what no sensor has looked at; then it is as free as it looks
-  double creeping_speed = 0.1;  ///< m/s, with which it goes on then
+  double least_way = 0.05;      ///< m; with less way ahead that is free, and has been looked at, it stops
+  double looking_time = 3.0;    ///< s, of looking at what no sensor has looked at; then it is as free as it looks
+  double creeping_speed = 0.1;  ///< m/s, with which it goes on then,
+  double creeping_way = 0.3;    ///< m, before it looks again
   SteeringConfiguration steering = {};
+};
+
+/// What has been looked at in vain, or nearly.
+struct EmergencyStopState {
+  double looking = 0.0;      ///< s, where it is
+  bool is_creeping = false;  ///< as it has looked for long enough
 };
 
 /// Stands still before it is too late, and lets nothing pass of what is `wanted` but turning on the spot. What rangers of
 /// narrow view have not looked at is not free: it slows down before it and on curves, and turns to where nobody has looked.
-/// `looking`: s, that it has spent with that of late; 0 at the beginning. One cycle of `time_step` s.
+/// One cycle of `time_step` s.
 [[nodiscard]] Wish EmergencyStop(const EmergencyStopConfiguration& configuration, double time_step,
-                                 const Surroundings& surroundings, const Twist2& wanted, double& looking);
+                                 const Surroundings& surroundings, const Twist2& wanted, EmergencyStopState& state);
 
 struct EscapeConfiguration {
   double patience = 4.0;   ///< s without coming nearer, after which it is a dead end
