@@ -59,7 +59,8 @@ struct KeptFields {
         .Field("is_looking", &WallFollower::is_looking_)
         .Field("looked_round", &WallFollower::looked_round_)
         .Field("look_to", &WallFollower::look_to_)
-        .Field("last_heading", &WallFollower::last_heading_);
+        .Field("last_heading", &WallFollower::last_heading_)
+        .Field("contact_bearing", &WallFollower::contact_bearing_);
   }
   using Gate = Lap::Gate;
   static void Describe(TypeBuilder<Gate>& type) {

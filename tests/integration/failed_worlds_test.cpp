@@ -45,7 +45,8 @@ TEST_P(OnceFailed, ComesToTheRightVerdictAndTouchesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Attempts, OnceFailed,
                          testing::Values(Attempt{"comb_1005", "tangent_bug", "left", "reached"},
-                                         Attempt{"maze_1001", "tangent_bug", "left", "reached"}),
+                                         Attempt{"maze_1001", "tangent_bug", "left", "reached"},
+                                         Attempt{"maze_1010", "bug1", "right", "reached"}),
                          [](const auto& attempt) {
                            return std::string(attempt.param.world) + "_" + attempt.param.planner + "_" +
                                   attempt.param.direction;

@@ -9,11 +9,13 @@ namespace {
 
 // With the boundary on the right, it is looked for from nearly behind to left of ahead:
 // a wall of a concave corner ahead belongs to it, the other wall of a corridor does not.
-constexpr double kHandCentre = DegreesToRadians(-65.0);
-constexpr double kHandHalfWidth = DegreesToRadians(110.0);
+constexpr double kHandRear = DegreesToRadians(-175.0);
+constexpr double kHandFront = DegreesToRadians(45.0);
 // Of that hand what is no more ahead.
-constexpr double kBesideCentre = DegreesToRadians(-117.5);
-constexpr double kBesideHalfWidth = DegreesToRadians(57.5);
+constexpr double kBesideFront = DegreesToRadians(-60.0);
+// Of that hand what is always in it, and what lies no further back than this from the boundary followed before.
+constexpr double kFirmRear = DegreesToRadians(-110.0);
+constexpr double kBackFromContact = DegreesToRadians(90.0);
 constexpr double kBesideReach = 0.30;                        // m, beyond the safe distance
 constexpr double kDistanceGain = 6.0;                        // rad of bearing for each m of error
 constexpr double kCorrectionLimit = DegreesToRadians(60.0);  // so that far off it still advances
@@ -27,9 +29,11 @@ constexpr double kLookedAt = DegreesToRadians(5.0);  // within what counts as fa
 constexpr double kTurnedEnough = DegreesToRadians(10.0);
 constexpr double kOvershoot = DegreesToRadians(30.0);  // of a turn, before it counts as a whole one
 constexpr double kLargeTurn = DegreesToRadians(60.0);
-constexpr double kDetour = DegreesToRadians(15.0);  // off the tangent, that is worth a look
-constexpr double kAhead = DegreesToRadians(-60.0);  // of the boundary, where it is no more beside
-constexpr double kSearchRadius = 0.5;               // m, of the circle towards a lost boundary
+constexpr double kDetour = DegreesToRadians(15.0);            // off the tangent, that is worth a look
+constexpr double kAhead = DegreesToRadians(-60.0);            // of the boundary, where it is no more beside
+constexpr double kBesideConeFront = DegreesToRadians(-77.0);  // of what the ranger beside looks at
+constexpr double kDetached = 0.15;                            // m, further off than the boundary ahead of it
+constexpr double kSearchRadius = 0.5;                         // m, of the circle towards a lost boundary
 
 // What the robot sees, mirrored so that the boundary is on the right, and as if it had not turned to
 // look round.
@@ -46,6 +50,15 @@ class Gaze {
   // the rangers there have looked at.
   [[nodiscard]] bool IsInDoubt(double bearing) const {
     return surroundings_.is_vague && bearing > kAhead && !faced_.Contains(Body(bearing));
+  }
+
+  // The same of the boundary followed. Between the cones ahead and beside, the arc of an echo from elsewhere may go on from
+  // a boundary that has come to its end, and would lead the robot away from it.
+  [[nodiscard]] bool IsInDoubt(const BoundaryPoint& contact, double bearing) const {
+    if (IsInDoubt(bearing)) return true;
+    if (!surroundings_.is_vague || bearing < kBesideConeFront || faced_.Contains(Body(bearing))) return false;
+    const double beside = NearestBoundary(surroundings_, Body(-kPi / 2), kPi / 2 + kBesideConeFront).distance;
+    return beside > contact.distance + kDetached;
   }
 
   // Rad, not wrapped: the robot turns away from the boundary even if it has to turn by more than half
@@ -105,6 +118,8 @@ void WallFollower::Start(BoundaryDirection direction, const Pose2& pose, double 
   is_turning_ = true;
   is_cautious_ = false;
   EndLook();
+  last_heading_ = pose.heading;
+  contact_bearing_ = contact_bearing;
   turn_sign_ = offset >= 0.0 ? sign : -sign;
   target_heading_ = pose.heading + sign * offset;
 }
@@ -114,22 +129,33 @@ void WallFollower::EndLook() {
   looked_round_ = 0.0;
 }
 
+// rad, mirrored, from where on boundary points are on the hand. When the robot has turned towards its boundary, the other
+// side of a passage is behind it, and may be nearer.
+double WallFollower::HandRear() const {
+  if (!contact_bearing_) return kHandRear;
+  double before = MirrorSign(direction_) * WrapAngle(*contact_bearing_ + looked_round_);
+  if (before > kPi / 2) before -= 2 * kPi;
+  return std::max(kHandRear, std::min(kFirmRear, before - kBackFromContact));
+}
+
 BoundaryPoint WallFollower::Contact(const Surroundings& surroundings) const {
   const double sign = MirrorSign(direction_);
-  const auto nearest = [&](double centre, double half_width) {
-    return NearestBoundary(surroundings, sign * centre - looked_round_, half_width);
+  const double rear = surroundings.is_vague ? HandRear() : kHandRear;
+  const auto nearest = [&](double from, double to) {
+    return NearestBoundary(surroundings, sign * (from + to) / 2 - looked_round_, (to - from) / 2);
   };
   if (surroundings.is_vague) {
     // Pushed off its boundary by an arc, the robot may be nearer to the other side of a passage. But what comes nearer
     // from beside it to ahead is one boundary: whether that is beside it must not change with each turn towards it.
-    const BoundaryPoint beside = nearest(kBesideCentre, kBesideHalfWidth);
+    const BoundaryPoint beside = nearest(rear, kBesideFront);
     const int further_ahead = SectorOf(beside.bearing + sign * kSectorWidth);
     if (beside.distance < double{surroundings.safe_distance} + kBesideReach &&
         beside.distance <= ContourDistance(surroundings, further_ahead)) {
       return beside;
     }
   }
-  return nearest(kHandCentre, kHandHalfWidth);
+  const BoundaryPoint contact = nearest(rear, kHandFront);
+  return std::isfinite(contact.distance) ? contact : nearest(kHandRear, kHandFront);
 }
 
 std::optional<double> WallFollower::ContactHeading(const Pose2& pose, const Surroundings& surroundings) const {
@@ -141,6 +167,9 @@ std::optional<double> WallFollower::ContactHeading(const Pose2& pose, const Surr
 
 Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pose2& pose,
                             const Surroundings& surroundings, const FacedHeadings& faced) {
+  const double turned = WrapAngle(pose.heading - last_heading_);
+  last_heading_ = pose.heading;
+  if (contact_bearing_) *contact_bearing_ -= turned;
   if (is_turning_) {
     double remaining = WrapAngle(target_heading_ - pose.heading);
     if (turn_sign_ * remaining < -kOvershoot) remaining += turn_sign_ * 2 * kPi;
@@ -149,8 +178,7 @@ Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pos
   }
   const double sign = MirrorSign(direction_);
   if (is_looking_) {
-    looked_round_ += WrapAngle(pose.heading - last_heading_);
-    last_heading_ = pose.heading;
+    looked_round_ += turned;
     if (std::abs(look_to_ - looked_round_) > kLookedAt) {
       return TurnTowards(configuration, look_to_ - looked_round_);
     }
@@ -159,8 +187,10 @@ Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pos
   const double speed = configuration.following_speed;
   if (!std::isfinite(contact.distance)) {
     EndLook();
+    contact_bearing_.reset();
     return {speed, -sign * speed / kSearchRadius};
   }
+  contact_bearing_ = contact.bearing;
   const double radius = TravelRadius(configuration, surroundings);
   if (is_cautious_ && Distance(turning_place_, Position(pose)) > kCautiousReach) {
     is_cautious_ = false;
@@ -170,11 +200,10 @@ Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pos
   const double contact_bearing = gaze.Mirrored(contact.bearing);
   const double tangent = Tangent(surroundings, contact, contact_bearing);
   const double bearing = gaze.BearingToGo(tangent, lookahead);
-  const auto doubt =
-      gaze.IsInDoubt(contact_bearing) ? std::optional(contact_bearing) : gaze.Doubt(tangent, bearing, lookahead);
+  const auto doubt = gaze.IsInDoubt(contact, contact_bearing) ? std::optional(contact_bearing)
+                                                              : gaze.Doubt(tangent, bearing, lookahead);
   if (doubt) {
     is_looking_ = true;
-    last_heading_ = pose.heading;
     look_to_ = looked_round_ + gaze.Body(*doubt);
     return TurnTowards(configuration, look_to_ - looked_round_);
   }

@@ -40,6 +40,7 @@ class WallFollower {
 
  private:
   void EndLook();
+  [[nodiscard]] double HandRear() const;
 
   friend struct KeptFields;  // names the members for a handover
   BoundaryDirection direction_ = BoundaryDirection::kLeft;
@@ -47,11 +48,12 @@ class WallFollower {
   double target_heading_ = 0.0;  // rad, in the world, while turning
   bool is_cautious_ = false;     // near a place where the way along the boundary was blocked
   Point2 turning_place_;
-  double turn_sign_ = 0.0;     // +1 counter-clockwise
-  bool is_looking_ = false;    // round, to face what is vague
-  double looked_round_ = 0.0;  // rad that it has turned since it began to
-  double look_to_ = 0.0;       // rad, of it
-  double last_heading_ = 0.0;  // rad, in the world
+  double turn_sign_ = 0.0;                 // +1 counter-clockwise
+  bool is_looking_ = false;                // round, to face what is vague
+  double looked_round_ = 0.0;              // rad that it has turned since it began to
+  double look_to_ = 0.0;                   // rad, of it
+  double last_heading_ = 0.0;              // rad, in the world
+  std::optional<double> contact_bearing_;  // rad, of the boundary followed, seen from the pose of the last update
 };
 
 }  // namespace runnel

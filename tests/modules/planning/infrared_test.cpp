@@ -1,5 +1,7 @@
 // What infrared rangers do not see: what lies between their cones, and which boundary an echo belongs to.
 
+#include <initializer_list>
+
 #include <gmock/gmock.h>
 
 #include "tests/modules/planning/drive.h"
@@ -70,6 +72,49 @@ TEST(InfraredFollower, TurnsAlongAWallAheadThatReachesToBesideIt) {
     pose.heading += kTimeStep * twist.turn;
   }
   EXPECT_GE(twist.forward, 0.1);
+}
+
+Surroundings VaguePoints(const Pose2& pose, std::initializer_list<Point2> points) {
+  Surroundings surroundings = VagueWall(0.35, 0.0);
+  surroundings.contour = Surroundings::NothingKnown();
+  for (const Point2 point : points) {
+    const Point2 local = ToBody(pose, point);
+    AddBoundaryPoint(surroundings, {Norm(local), Direction(local)});
+  }
+  return surroundings;
+}
+
+// Led into a passage past the end of the wall it follows, the robot turns back towards that end, and the other side of
+// the passage comes up behind it, nearer. Following that, it would turn round in front of an open passage.
+TEST(InfraredFollower, KeepsToItsBoundaryWhenItHasTurnedTowardsIt) {
+  const Point2 end_of_wall = 0.58 * UnitVector(DegreesToRadians(-138.0));
+  const Point2 other_side = 0.38 * UnitVector(DegreesToRadians(86.0));
+  Pose2 pose;
+  FacedHeadings faced;
+  faced.Start(pose);
+  for (int degree = 0; degree <= 360; ++degree) faced.Update({0, 0, DegreesToRadians(degree)});  // all has been faced
+  WallFollower follower;
+  follower.Start(BoundaryDirection::kLeft, pose, DegreesToRadians(-90.0));
+  for (int step = 0; step < 200; ++step) {
+    const Twist2 twist = follower.Update({}, pose, VaguePoints(pose, {end_of_wall, other_side}), faced);
+    pose.heading = WrapAngle(pose.heading + kTimeStep * twist.turn);
+  }
+  EXPECT_NEAR(follower.Contact(VaguePoints(pose, {end_of_wall, other_side})).distance, 0.58, 0.01);
+}
+
+// Where a wall has ended, the arc of a far echo from elsewhere may go on between the cones ahead and beside.
+TEST(InfraredFollower, LooksAtWhatGoesOnFromABoundaryThatHasEnded) {
+  FacedHeadings faced;
+  faced.Start({});
+  const auto twist_at = [&](const Surroundings& surroundings) {
+    WallFollower follower;
+    follower.Start(BoundaryDirection::kLeft, {}, DegreesToRadians(-90.0));
+    return follower.Update({}, {}, surroundings, faced);
+  };
+  const Twist2 look = twist_at(VaguePoints({}, {0.35 * UnitVector(DegreesToRadians(-75.0))}));
+  EXPECT_EQ(look.forward, 0.0);
+  EXPECT_LT(look.turn, 0.0);
+  EXPECT_GT(twist_at(VagueWall(0.35, DegreesToRadians(-75.0))).forward, 0.1) << "this one is beside it, too";
 }
 
 }  // namespace
