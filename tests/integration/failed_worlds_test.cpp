@@ -1,6 +1,7 @@
 // Worlds of `runnel world` in which a planner once touched a wall or told a wrong verdict with infrared rangers, in the
 // arena's application.
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
@@ -16,8 +17,8 @@ namespace {
 constexpr double kBodyRadius = 0.15;  // m
 
 struct Attempt {
-  const char* world;  // in tests/integration/worlds
-  const char* planner;
+  const char* world;    // in tests/integration/worlds
+  const char* planner;  // its type
   const char* direction;
   const char* verdict;
 };
@@ -34,22 +35,27 @@ TEST_P(OnceFailed, ComesToTheRightVerdictAndTouchesNothing) {
   Diagnostics diagnostics;
   const auto world = ReadWorldFile(file, diagnostics);
   ASSERT_TRUE(world) << diagnostics.ToString();
-  const ApplicationRun run =
-      RunApplication({.name = "arena/infrared.xml",
-                      .replace = {{"planning/bug2", std::string("planning/") + attempt.planner}},
-                      .arguments = {"world=" + file, std::string("first_direction=") + attempt.direction}});
+  const ApplicationRun run = RunApplication(
+      {.name = "arena/infrared.xml",
+       .replace = {{"planning/bug2", attempt.planner},
+                   {R"(<load plugin="planning"/>)", R"(<load plugin="planning"/><load plugin="behaviours"/>)"}},
+       .arguments = {"world=" + file, std::string("first_direction=") + attempt.direction}});
   ASSERT_TRUE(run.outcome);
   EXPECT_EQ(run.outcome->verdict, attempt.verdict) << run.outcome->summary;
   for (const Pose2& pose : run.truth) ASSERT_GT(ClearanceAt(*world, Position(pose)), kBodyRadius);
 }
 
 INSTANTIATE_TEST_SUITE_P(Attempts, OnceFailed,
-                         testing::Values(Attempt{"comb_1005", "tangent_bug", "left", "reached"},
-                                         Attempt{"maze_1001", "tangent_bug", "left", "reached"},
-                                         Attempt{"maze_1010", "bug1", "right", "reached"}),
+                         testing::Values(Attempt{"comb_1005", "planning/tangent_bug", "left", "reached"},
+                                         Attempt{"maze_1001", "planning/tangent_bug", "left", "reached"},
+                                         Attempt{"maze_1007", "behaviours/navigator", "left", "reached"},
+                                         Attempt{"maze_1010", "planning/bug1", "right", "reached"},
+                                         Attempt{"spiral_1014", "planning/rev2", "left", "reached"}),
                          [](const auto& attempt) {
-                           return std::string(attempt.param.world) + "_" + attempt.param.planner + "_" +
-                                  attempt.param.direction;
+                           std::string name = std::string(attempt.param.world) + "_" + attempt.param.planner + "_" +
+                                              attempt.param.direction;
+                           std::ranges::replace(name, '/', '_');
+                           return name;
                          });
 
 }  // namespace
