@@ -1,16 +1,20 @@
 #include "core/base/temporary_folder.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <string>
 #include <system_error>
 
+#include <ftw.h>
 #include <stdlib.h>
-
-#include "core/base/retry.h"
 
 namespace runnel {
 
 namespace fs = std::filesystem;
+
+namespace {
+constexpr int kOpenFolders = 16;
+}
 
 Result<TemporaryFolder> TemporaryFolder::Make(std::string_view purpose) {
   const auto failed = [](const std::error_code& why) {
@@ -25,10 +29,14 @@ Result<TemporaryFolder> TemporaryFolder::Make(std::string_view purpose) {
   return TemporaryFolder(folder);
 }
 
+// By the C library: the iterators that the C++ library removes by end the process where there is no memory.
 TemporaryFolder::~TemporaryFolder() {
   if (path_.empty()) return;
-  std::error_code ignored;  // a folder that stays harms nobody
-  Retry([&] { fs::remove_all(path_, ignored); });
+  const auto remove_one = [](const char* path, const struct stat*, int, FTW*) {
+    (void)std::remove(path);  // what stays harms nobody
+    return 0;
+  };
+  (void)nftw(path_.c_str(), remove_one, kOpenFolders, FTW_DEPTH | FTW_PHYS);
 }
 
 Result<TemporaryCopy> TemporaryCopy::Make(const fs::path& file) {

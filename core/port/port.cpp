@@ -207,7 +207,8 @@ Result<void> Port::Disconnect(Port& from, Port& to) {
     to.RebindSinks();
     return Refusal(from, "cannot be disconnected from " + to.path() + ": " + DescribeException());
   }
-  if (removed.converted) removed.converted->KeepOnly({});
+  // By then it is done, and there is nothing to take back.
+  if (removed.converted) Retry([&] { removed.converted->KeepOnly({}); });
   from.runtime().ForEachListener([&](ElementListener& listener) { listener.OnDisconnected(from, to); });
   return {};
 }

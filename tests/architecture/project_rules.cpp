@@ -47,7 +47,8 @@ void AddApplication(std::vector<IncludeRule>& rules) {
            {"plugins/mcap", "plugins/recording", "plugins/values/port_patterns.h"});
   attached(
       "the network of an application", "plugins/network/application_",
-      {"plugins/cdr_values", "plugins/network", "plugins/ros_messages/names.h", "plugins/ros_messages/node_messages.h",
+      {"plugins/cdr_values", "plugins/network", "plugins/ros_messages/message_library.h",
+       "plugins/ros_messages/names.h", "plugins/ros_messages/node_messages.h",
        "plugins/ros_services/service_endpoints.h", "plugins/wire", "plugins/wire_shared_memory/shared_memory_wire.h"});
   attached("plugins/viewers", "plugins/viewers", {"plugins/foxglove", "plugins/inspector", "plugins/web_server"});
 }

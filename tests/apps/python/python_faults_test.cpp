@@ -48,6 +48,7 @@ constexpr const char* kFile = R"(<application name="robot">
 struct PythonRobot {
   PythonRobot() {
     (void)setenv("PYTHONDONTWRITEBYTECODE", "1", 1);
+    (void)setenv("PATH", std::filesystem::path(RUNNEL_TEST_PYTHON).parent_path().c_str(), 1);
     std::ofstream(folder / "tickers.py") << kModules;
     std::ofstream(folder / "robot.xml") << kFile;
   }

@@ -160,8 +160,10 @@ TEST_P(BugInWorlds, GivesTheRightVerdictWithoutTouchingAWall) {
   EXPECT_GT(outcome.least_clearance, scene.clearance);
   if (scene.perimeter > 0.0 && (sensor == Sensor::kLaser || scene.is_bound_with_infrared)) {
     const double distance = Distance(scene.task.start, scene.task.goal);
+    // With rangers of narrow view the robot goes round the other way, too, before it gives up.
+    const double ways = sensor == Sensor::kInfrared && scene.verdict == PlannerMode::kUnreachable ? 2.0 : 1.0;
     if (const auto factor = BoundFactor(variant.name, scene.crossings)) {
-      EXPECT_LT(outcome.status.path_length, 1.05 * (distance + *factor * scene.perimeter) + 0.5);
+      EXPECT_LT(outcome.status.path_length, 1.05 * (distance + ways * *factor * scene.perimeter) + 0.5);
     }
   }
 }

@@ -148,8 +148,10 @@ TEST_P(WideWorlds, EndRightlyWithinTheBound) {
     const Outcome outcome = Drive(variant.name, direction, sensor, wide.task, "wide" + std::to_string(seed));
     EXPECT_EQ(int(outcome.status.mode), int(wide.is_reachable ? PlannerMode::kReached : PlannerMode::kUnreachable));
     EXPECT_GT(outcome.least_clearance, sensor == Sensor::kLaser ? 0.25 : Robot::kRadius + 0.02);
+    // With rangers of narrow view the robot goes round the other way, too, before it gives up.
+    const double ways = sensor == Sensor::kInfrared && !wide.is_reachable ? 2.0 : 1.0;
     if (const auto bound = Bound(variant.name, wide, outcome.hits)) {
-      EXPECT_LT(outcome.status.path_length, (1 + kMarginPerMetre) * *bound + kMargin);
+      EXPECT_LT(outcome.status.path_length, (1 + kMarginPerMetre) * ways * *bound + kMargin);
     }
     for (std::size_t hit = 0; hit < outcome.hits.size(); ++hit) {
       EXPECT_NEAR(wide.task.world.Clearance(outcome.hits[hit]), kSafeDistance, tolerance) << "hit";
