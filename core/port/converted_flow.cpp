@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <iterator>
 #include <utility>
 
 #include "core/base/retry.h"
@@ -94,12 +93,11 @@ class ConvertedFlow::LinkInput final : public InputBase {
 
  private:
   [[nodiscard]] std::uint64_t dropped() const noexcept override { return worker_.queue().dropped(); }
-  QueueSink* Bind(const std::vector<Source>& sources) override {
-    channel_ = sources.empty() ? nullptr : ChannelOf(*sources.front().output);
-    return channel_ != nullptr ? &worker_.queue() : nullptr;
-  }
+  QueueSink* Bind(const std::vector<Source>& sources) override { return sources.empty() ? nullptr : &worker_.queue(); }
   void TakeOverBinding(InputBase&) noexcept override {}
+  // By then its publishers know of it; what fails before that is done again by Follow().
   void Bound() override {
+    channel_ = sources().empty() ? nullptr : ChannelOf(*sources().front().output);
     if (channel_ == nullptr) return;
     const EpochGuard guard;
     channel_->DeliverNewest(worker_.queue());
@@ -170,13 +168,14 @@ void ConvertedFlow::KeepOnly(const std::vector<Port*>& sources) {
     return std::ranges::any_of(sources, [&](const Port* source) { return link->input.Takes(*source); });
   };
   const auto first = std::stable_partition(links_.begin(), links_.end(), stays);
-  // Out of the list first: publishers are told then of whom they find in it.
-  std::vector<std::unique_ptr<Link>> ended(std::make_move_iterator(first), std::make_move_iterator(links_.end()));
-  links_.erase(first, links_.end());
-  for (auto& link : ended) {
+  const auto kept = static_cast<std::size_t>(first - links_.begin());
+  while (links_.size() > kept) {
+    // Out of the list first: publishers are told then of whom they find in it.
+    Link* const ended = links_.back().release();
+    links_.pop_back();
     // Nobody reads from its channel any more.
-    if (!link->input.sources().empty()) Retry([&] { link->input.Take(nullptr); });
-    Retire([ended_link = link.release()] { delete ended_link; });
+    Retry([&] { ended->input.Take(nullptr); });
+    Retire([ended] { delete ended; });
   }
 }
 

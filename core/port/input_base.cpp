@@ -107,21 +107,26 @@ ArrivalEvent& InputBase::PrepareToWait() {
 }
 
 void InputBase::Rebind(const std::vector<Source>& sources) {
-  std::vector<Port*> outputs;
-  for (const Source& source : sources_) outputs.push_back(source.output);
-  const std::size_t known = outputs.size();
+  std::vector<Source> concerned = sources_;
+  const std::size_t known = concerned.size();
   for (const Source& source : sources) {
-    if (std::ranges::find(outputs, source.output) == outputs.end()) {
-      outputs.push_back(source.output);
-    }
+    if (std::ranges::find(concerned, source.output, &Source::output) == concerned.end()) concerned.push_back(source);
   }
+  std::vector<Port*> outputs;
+  for (const Source& source : concerned) outputs.push_back(source.output);
   const bool was_visited = IsVisited();
   sources_ = sources;
-  sink_ = Bind(sources);
-  // Whom publishers need not know, they are not told of: an output may have thousands of these.
-  if (was_visited || IsVisited()) {
-    for (Port* output : outputs) UpdateChannel(*output);
-    UpdateStops();
+  try {
+    sink_ = Bind(sources);
+    // Whom publishers need not know, they are not told of: an output may have thousands of these.
+    if (was_visited || IsVisited()) {
+      for (Port* output : outputs) UpdateChannel(*output);
+      UpdateStops();
+    }
+  } catch (...) {
+    // Some have been told, and some have not: who calls next, with these sources or those from before, tells all.
+    sources_ = std::move(concerned);
+    throw;
   }
   Bound();
   // What a new connection brings is there already, and no publisher tells of it.

@@ -171,8 +171,11 @@ Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) 
     to.incoming_.push_back(&from);
     to.RebindSinks();
   } catch (...) {  // no memory for the queue
+    // Its outputs stay until nobody is bound to them.
+    std::shared_ptr<internal::ConvertedFlow> converted;
+    if (const Connection* const edge = from.ConnectionTo(to)) converted = edge->converted;
     RemoveEdge(from, to);
-    to.RebindSinks();
+    Retry([&] { to.RebindSinks(); });
     return Refusal(from, "cannot be connected to " + to.path() + ": " + DescribeException());
   }
   from.runtime().ForEachListener([&](ElementListener& listener) { listener.OnConnected(from, to); });
@@ -204,11 +207,10 @@ Result<void> Port::Disconnect(Port& from, Port& to) {
     from.outgoing_.insert(from.outgoing_.begin() + outgoing_place, removed);
     from.NoteOutgoing();
     to.incoming_.insert(to.incoming_.begin() + incoming_place, &from);
-    to.RebindSinks();
+    Retry([&] { to.RebindSinks(); });
     return Refusal(from, "cannot be disconnected from " + to.path() + ": " + DescribeException());
   }
-  // By then it is done, and there is nothing to take back.
-  if (removed.converted) Retry([&] { removed.converted->KeepOnly({}); });
+  if (removed.converted) removed.converted->KeepOnly({});
   from.runtime().ForEachListener([&](ElementListener& listener) { listener.OnDisconnected(from, to); });
   return {};
 }

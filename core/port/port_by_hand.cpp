@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/retry.h"
 #include "core/element/runtime.h"
 #include "core/port/driving_ports.h"
 #include "core/port/port.h"
@@ -114,7 +115,7 @@ Result<void> Port::PublishByHand(const Fill& fill, Setter setter, std::optional<
     RebindSinks();
     PruneConversions();
   } catch (...) {
-    Release(setter);
+    Retry([&] { Release(setter); });
     throw;
   }
   TellOfChange();
@@ -151,6 +152,7 @@ bool Port::Release(Setter setter) {
     PruneConversions();
   } catch (...) {  // some are still bound to it
     extras_->by_hand[SlotOf(setter)] = std::move(released);
+    Retry([&] { RebindSinks(); });
     throw;
   }
   if (slot) {

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/retry.h"
 #include "core/conversion/number_conversion.h"
 #include "core/element/runtime.h"
 #include "core/port/port.h"
@@ -87,11 +88,21 @@ Result<void> Port::SetLimits(InputLimits limits) {
 }
 
 void Port::ExchangeLimits(std::unique_ptr<internal::HeldToLimits> limits) {
-  const auto before = std::exchange(Extras().limits, std::move(limits));
-  RebindSinks();
-  if (!before) return;
-  before->flow->KeepOnly({});
-  if (before->default_value) internal::DeleteLater(std::move(before->default_value));
+  auto& place = Extras().limits;
+  auto before = std::exchange(place, std::move(limits));
+  const auto end = [](internal::HeldToLimits& held) {
+    held.flow->KeepOnly({});
+    if (held.default_value) internal::DeleteLater(std::move(held.default_value));
+  };
+  try {
+    RebindSinks();
+  } catch (...) {  // some are bound to what it was to be held by
+    place.swap(before);
+    Retry([&] { RebindSinks(); });
+    if (before) end(*before);
+    throw;
+  }
+  if (before) end(*before);
 }
 
 const InputLimits& Port::limits() const noexcept {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/retry.h"
 #include "core/conversion/number_conversion.h"
 #include "core/element/runtime.h"
 #include "core/port/converted_flow.h"
@@ -171,6 +172,7 @@ Result<void> Port::SetStop(AnyValue safe_value, Duration brake, DrivingKind comm
     RebindSinks();
   } catch (...) {
     extras_->stop = std::move(before);
+    Retry([&] { RebindSinks(); });
     throw;
   }
   TellOfChange();

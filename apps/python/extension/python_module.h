@@ -18,6 +18,10 @@ class PythonModule;
 
 /// What an object of Python knows of its module, which may be gone.
 struct ModuleHost : std::enable_shared_from_this<ModuleHost> {
+  /// Does nothing: who has made it is std::make_shared(), and pybind11 calls this for what it could not take over where
+  /// memory is short, though others hold it.
+  static void operator delete(void*) noexcept {}
+
   PythonModule* module = nullptr;
   int uses = 0;
   std::atomic<int> holds = 0;
