@@ -17,7 +17,7 @@ namespace runnel {
 ///          is under way, and for one that has been asked for.
 class Lookout {
  public:
-  /// When to look again, by the machine's clock; nothing: when asked.
+  /// When to look again, by the machine's clock; nothing: when asked. If it throws, for lack of memory, soon.
   using Look = std::function<std::optional<Time>()>;
 
   explicit Lookout(Look look) : look_(std::move(look)) {}
@@ -30,6 +30,8 @@ class Lookout {
   }
 
  private:
+  static constexpr Duration kSoon = std::chrono::milliseconds(10);
+
   void Work(const std::stop_token& end) {
     const auto is_asked = [this] { return is_asked_; };
     std::optional<Time> next;
@@ -42,7 +44,11 @@ class Lookout {
       if (end.stop_requested() && !is_asked_) return;
       is_asked_ = false;
       lock.unlock();
-      next = look_();
+      try {
+        next = look_();
+      } catch (...) {
+        next = SteadyClock().Now() + kSoon;
+      }
       lock.lock();
     }
   }

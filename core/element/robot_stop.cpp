@@ -1,5 +1,6 @@
 #include "core/element/robot_stop.h"
 
+#include <new>
 #include <utility>
 
 #include "core/element/runtime.h"
@@ -14,11 +15,17 @@ Error PressedSince() {
 
 RobotStop::RobotStop(const Runtime& runtime) : runtime_(runtime) {}
 
-bool RobotStop::Press(std::string by) {
+bool RobotStop::Press(std::string_view by) noexcept {
+  std::string name;
+  try {
+    name = by;
+  } catch (const std::bad_alloc&) {
+    name = "somebody";  // short enough to need no memory
+  }
   for (;;) {
     const auto note = [&] {
       const std::lock_guard lock(mutex_);
-      Note(true, std::move(by));
+      Note(true, std::move(name));
     };
     if (signal_->Press(note)) return true;
     const std::lock_guard lock(mutex_);

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/base/clock.h"
@@ -45,8 +46,8 @@ class RobotStop {
 
   explicit RobotStop(const Runtime& runtime);
 
-  /// It is in force when this returns. False: it was so before; `by` is not noted then.
-  bool Press(std::string by);
+  /// It is in force when this returns, whatever else is short. False: it was so before; `by` is not noted then.
+  bool Press(std::string_view by) noexcept;
   /// Driving ports count what is stamped and published later than now. An error: it was not in force, or `as_of` does
   /// not know the STOP that is.
   Result<void> Release(std::string by, const AsOf& as_of);

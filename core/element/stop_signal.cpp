@@ -57,7 +57,12 @@ StopSignal::Subscription StopSignal::Listen(Listener listener) {
 void StopSignal::Tell(const Listener& note) {
   if (note) note();
   const std::lock_guard lock(mutex_);
-  for (const Listener& listener : listeners_) listener();
+  for (const Listener& listener : listeners_) {
+    try {
+      listener();
+    } catch (...) {  // those behind it have to know all the same
+    }
+  }
 }
 
 }  // namespace runnel

@@ -57,7 +57,8 @@ class StopSignal : public std::enable_shared_from_this<StopSignal> {
   [[nodiscard]] bool in_force() const noexcept { return bar() == kInForce; }
 
   /// Has `listener` called after each change, by who makes it. It looks at the state itself: of two changes in quick
-  /// succession it may see the later one twice. It must not throw, press, release, listen, or take the structure lock.
+  /// succession it may see the later one twice. It must not press, release, listen, or take the structure lock.
+  /// What it throws, for lack of memory, keeps it from nobody else.
   [[nodiscard]] Subscription Listen(Listener listener);
 
  private:

@@ -4,7 +4,6 @@
 #include <mutex>
 
 #include "core/base/check.h"
-#include "core/base/retry.h"
 #include "core/lockfree/backoff.h"
 
 namespace runnel {
@@ -29,19 +28,13 @@ RetiredList& TheRetired() {
 
 }  // namespace
 
-void Retire(std::function<void()> destroy) {
-  // All that may fail comes first: what is in the list is destroyed, and nobody retires it again.
+void internal::AddRetired(std::function<void()> destroy) {
   std::list<Retired> entry;
-  // Destructors retire, too. What there is no memory for after all is never destroyed.
-  if (!Retry([&] { entry.emplace_back(); })) return;
-  entry.front().destroy = std::move(destroy);
-  {
-    std::list<Retired>& entries = TheRetired().entries;
-    const std::lock_guard lock(TheRetired().mutex);
-    entry.front().epoch = ProcessEpochs().Advance();
-    entries.splice(entries.end(), entry);
-  }
-  CollectRetired();
+  entry.emplace_back().destroy = std::move(destroy);
+  std::list<Retired>& entries = TheRetired().entries;
+  const std::lock_guard lock(TheRetired().mutex);
+  entry.front().epoch = ProcessEpochs().Advance();
+  entries.splice(entries.end(), entry);
 }
 
 std::size_t CollectRetired() {

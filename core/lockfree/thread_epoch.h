@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <utility>
 
+#include "core/base/retry.h"
 #include "core/lockfree/thread_record.h"
 
 namespace runnel {
@@ -61,15 +63,30 @@ template <typename Use>
   return std::forward<Use>(use)();
 }
 
-/// Runs `destroy` when no thread can still see what has been taken out before this call: at once if
-/// no thread is reading, else during a later Retire() or CollectRetired().
-///
-/// Threads: any; takes a lock and may allocate, so never from a cycle.
-void Retire(std::function<void()> destroy);
-
 /// Runs what is due of the retired, and deletes the closed pools of which nobody holds a buffer any
 /// more. Returns how many of the retired are left.
 std::size_t CollectRetired();
+
+namespace internal {
+/// All or nothing.
+void AddRetired(std::function<void()> destroy);
+}  // namespace internal
+
+/// Runs `destroy` when no thread can still see what has been taken out before this call: at once if
+/// no thread is reading, else during a later Retire() or CollectRetired(). Where there is no memory to keep it in, it waits
+/// for some; what there is none for after all is never destroyed.
+///
+/// Threads: any; takes a lock and may allocate, so never from a cycle.
+template <typename Destroy>
+void Retire(Destroy destroy) {
+  union Kept {
+    explicit Kept(Destroy&& given) : destroy(std::move(given)) {}
+    ~Kept() {}  // what is not to be destroyed stays
+    Destroy destroy;
+  } kept(std::move(destroy));
+  if (Retry([&] { internal::AddRetired(kept.destroy); })) kept.destroy.~Destroy();
+  CollectRetired();
+}
 
 /// Waits until every guard that exists now is gone. Precondition: this thread holds none.
 void WaitForReaders();

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <span>
 
+#include "core/base/retry.h"
 #include "core/channel/channel_base.h"
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
@@ -42,6 +43,10 @@ void InputBase::SetWaker(Waker* waker) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (waker_ == waker) return;
   Waker* const before = std::exchange(waker_, waker);
+  if (waker_ == nullptr) {  // who takes it away is about to go, and must not be woken any more
+    Retry([this] { UpdateChannels(); });
+    return;
+  }
   try {
     UpdateChannels();
   } catch (...) {
@@ -80,9 +85,16 @@ Result<void> InputBase::Prepare() {
 
 void InputBase::SetStrategy(Strategy strategy) {
   const std::lock_guard lock(runtime().structure_mutex());
-  if (this->strategy() == strategy) return;
+  const Strategy before = this->strategy();
+  if (before == strategy) return;
   strategy_.store(strategy, std::memory_order_relaxed);
-  Rebind(std::vector<Source>(sources_));
+  try {
+    Rebind(std::vector<Source>(sources_));
+  } catch (...) {
+    strategy_.store(before, std::memory_order_relaxed);
+    Retry([this] { Rebind(std::vector<Source>(sources_)); });
+    throw;
+  }
 }
 
 bool InputBase::Wait(Duration timeout) {
@@ -102,7 +114,14 @@ ArrivalEvent& InputBase::PrepareToWait() {
   if (arrival_) return *arrival_;
   const std::lock_guard lock(runtime().structure_mutex());
   arrival_ = std::make_unique<ArrivalEvent>();
-  UpdateChannels();
+  try {
+    UpdateChannels();
+  } catch (...) {  // some publishers may know it
+    const ArrivalEvent* const unused = arrival_.release();
+    Retry([this] { UpdateChannels(); });
+    Retire([unused] { delete unused; });
+    throw;
+  }
   return *arrival_;
 }
 
@@ -142,12 +161,16 @@ void InputBase::ReplaceSource(const Port& from, Port& to) noexcept {
   }
 }
 
-void InputBase::TakeOverFlow(Port& from) {
-  // Taking over has been checked to be among inputs.
+// Taking over has been checked to be among inputs.
+void InputBase::ExchangeFlow(Port& from) noexcept {
   auto& other = static_cast<InputBase&>(from);
   sources_.swap(other.sources_);
   std::swap(sink_, other.sink_);
   TakeOverBinding(other);
+}
+
+void InputBase::FollowExchange(Port& from) {
+  auto& other = static_cast<InputBase&>(from);
   const auto is_told = [](const InputBase& input) { return input.waker_ || input.arrival_; };
   // A binding that pulls is another one. Else publishers find the same queue, and need to be told only
   // if somebody else is to be woken.
@@ -160,12 +183,6 @@ void InputBase::TakeOverFlow(Port& from) {
   }
   if (arrival_) arrival_->Wake();
   if (waker_ != nullptr && HasValue(*this)) Wake(*waker_);
-  // What holds values to the limits of the one has come over; each has limits of its own.
-  if (!limits().has_some() && !other.limits().has_some()) return;
-  const InputLimits own = other.limits();
-  const InputLimits others = limits();
-  (void)SetLimits(own);
-  (void)other.SetLimits(others);
 }
 
 // Whether publishers have to do anything for this input.

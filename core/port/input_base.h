@@ -64,7 +64,8 @@ class InputBase : public Port {
 
   Result<void> Prepare() override;
   void Rebind(const std::vector<Source>& sources) final;
-  void TakeOverFlow(Port& from) final;
+  void ExchangeFlow(Port& from) noexcept final;
+  void FollowExchange(Port& from) final;
   void ReplaceSource(const Port& from, Port& to) noexcept final;
   /// Typed inputs: bind to the channels of `sources`; the queue that publishers shall fill, or
   /// nullptr.

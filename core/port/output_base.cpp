@@ -46,12 +46,21 @@ void OutputBase::EndPulls() {
 // The channels are exchanged, so that readers stay where they are, and each output keeps its
 // provider. Where one can be pulled and the other cannot, the readers come over, and find nothing
 // until something is published.
-void OutputBase::TakeOverFlow(Port& from) {
+bool OutputBase::ExchangesChannels(Port& from) noexcept {
+  const auto pulls = [](OutputBase& each) { return each.own_channel().pull_point() != nullptr; };
+  return pulls(*this) == pulls(static_cast<OutputBase&>(from));
+}
+
+void OutputBase::FollowExchange(Port& from) {
+  if (!ExchangesChannels(from)) RebindSinks();
+}
+
+void OutputBase::ExchangeFlow(Port& from) noexcept {
+  if (!ExchangesChannels(from)) return;
   auto& other = static_cast<OutputBase&>(from);
   ChannelBase& taken = other.own_channel();
   ChannelBase& left = own_channel();
   PullPoint* const point = taken.pull_point();
-  if ((point != nullptr) != (left.pull_point() != nullptr)) return RebindSinks();
   if (point != nullptr) point->ExchangeProviders(*left.pull_point());
   channel_.store(&taken, std::memory_order_release);
   other.channel_.store(&left, std::memory_order_release);

@@ -35,7 +35,7 @@ class OutputBase : public Port {
   OutputBase(FrameworkElement& group, std::string&& name, const TypeInfo& type, OutputOptions&& options,
              std::unique_ptr<ChannelBase>&& channel);
 
-  // acquire: pairs with the release in TakeOverFlow(), for viewers; publishers are at rest then.
+  // acquire: pairs with the release in ExchangeFlow(), for viewers; publishers are at rest then.
   [[nodiscard, gnu::always_inline]] ChannelBase& own_channel() const noexcept {
     return *channel_.load(std::memory_order_acquire);
   }
@@ -45,7 +45,9 @@ class OutputBase : public Port {
  private:
   [[nodiscard]] ChannelBase* channel() noexcept override { return &own_channel(); }
   void Detach() noexcept override;
-  void TakeOverFlow(Port& from) override;
+  void ExchangeFlow(Port& from) noexcept override;
+  void FollowExchange(Port& from) override;
+  [[nodiscard]] bool ExchangesChannels(Port& from) noexcept;
   void EndPulls();
 
   const std::string unit_;

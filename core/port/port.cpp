@@ -171,11 +171,14 @@ Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) 
     to.incoming_.push_back(&from);
     to.RebindSinks();
   } catch (...) {  // no memory for the queue
-    // Its outputs stay until nobody is bound to them.
+    // Its outputs stay until nobody is bound to them, nor to what was made for them behind it.
     std::shared_ptr<internal::ConvertedFlow> converted;
     if (const Connection* const edge = from.ConnectionTo(to)) converted = edge->converted;
     RemoveEdge(from, to);
-    Retry([&] { to.RebindSinks(); });
+    Retry([&] {
+      to.RebindSinks();
+      to.PruneConversions();
+    });
     return Refusal(from, "cannot be connected to " + to.path() + ": " + DescribeException());
   }
   from.runtime().ForEachListener([&](ElementListener& listener) { listener.OnConnected(from, to); });
@@ -197,20 +200,21 @@ Result<void> Port::Disconnect(Port& from, Port& to) {
   if (edge == nullptr) return Refusal(from, "is not connected to " + to.path());
   const auto outgoing_place = edge - from.outgoing_.data();
   const auto incoming_place = std::ranges::find(to.incoming_, &from) - to.incoming_.begin();
-  const Connection removed = *edge;
+  Connection removed = std::move(from.outgoing_[static_cast<std::size_t>(outgoing_place)]);
   RemoveEdge(from, to);
+  const auto converted = removed.converted;
   try {
     to.RebindSinks();
     to.PruneConversions();
   } catch (...) {
     // Both lists have the room that it has just left.
-    from.outgoing_.insert(from.outgoing_.begin() + outgoing_place, removed);
+    from.outgoing_.insert(from.outgoing_.begin() + outgoing_place, std::move(removed));
     from.NoteOutgoing();
     to.incoming_.insert(to.incoming_.begin() + incoming_place, &from);
     Retry([&] { to.RebindSinks(); });
     return Refusal(from, "cannot be disconnected from " + to.path() + ": " + DescribeException());
   }
-  if (removed.converted) removed.converted->KeepOnly({});
+  if (converted) converted->KeepOnly({});
   from.runtime().ForEachListener([&](ElementListener& listener) { listener.OnDisconnected(from, to); });
   return {};
 }

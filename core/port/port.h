@@ -229,8 +229,10 @@ class Port : public FrameworkElement {
   /// Inputs: take `sources` for the outputs to read from, from now on.
   virtual void Rebind(const std::vector<Source>& sources);
   /// What the port has for its connections goes from `from`, of the same class, to this one, and the
-  /// other way round. Edges have been exchanged already. If it throws it is called the other way round.
-  virtual void TakeOverFlow(Port& /*from*/) {}
+  /// other way round. Edges have been exchanged already.
+  virtual void ExchangeFlow(Port& /*from*/) noexcept {}
+  /// Tells those of it who have to know that flows have been exchanged; on the way back all is bound anew instead.
+  virtual void FollowExchange(Port& /*from*/) {}
   /// Inputs: `to` stands now where `from` stood.
   virtual void ReplaceSource(const Port& /*from*/, Port& /*to*/) noexcept {}
   /// Binds all inputs at the far end anew.

@@ -130,8 +130,9 @@ void Port::HoldToLimits(Links links, std::vector<Source>& sources) const {
   if (!held.default_value && links == Links::kMake) {
     auto channel = internal::MakeChannelFor(type_);
     if (!channel) return;
-    held.default_value = std::make_unique<internal::StandIn>(*this, std::move(channel));
-    (void)held.default_value->PublishFilled(internal::FillWith(held.limits.default_value));
+    auto output = std::make_unique<internal::StandIn>(*this, std::move(channel));
+    (void)output->PublishFilled(internal::FillWith(held.limits.default_value));
+    held.default_value = std::move(output);
   }
   if (held.default_value) sources.push_back({held.default_value.get(), {}});
 }

@@ -72,6 +72,7 @@ Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Du
     return Error{.message = "its module says that something moves by it", .path = path()};
   }
   if (!drives && !is_driving()) return {};
+  auto& state = internal::DrivingState::Of(*this);  // before anything is changed
   std::shared_ptr<const DrivingMark> mark;
   Result<void> set;
   if (drives) {
@@ -84,7 +85,7 @@ Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Du
     if (!safe) return safe.error();
     set = SetStop(std::move(*safe), {}, command, nullptr);
   }
-  if (set) Annotate(std::make_unique<internal::DrivingState>(std::move(mark)));
+  if (set) state = internal::DrivingState(std::move(mark));
   return set;
 }
 

@@ -156,9 +156,18 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   auto& its = internal::DrivingState::Of(from);
   ReserveFor(from);
   from.ReserveFor(*this);
+  // What holds values to the limits of the one goes over with its flow; each has limits of its own.
+  const InputLimits own_limits = limits(), its_limits = from.limits();
+  const auto limit = [&] {
+    if (modules != nullptr || (!own_limits.has_some() && !its_limits.has_some())) return;
+    (void)SetLimits(own_limits);
+    (void)from.SetLimits(its_limits);
+  };
   ExchangeConnections(from, sinks, modules != nullptr ? &modules->before : nullptr);
+  if (modules == nullptr) ExchangeFlow(from);
   try {
-    if (modules == nullptr) TakeOverFlow(from);
+    if (modules == nullptr) FollowExchange(from);
+    limit();
     if (after != before) extras_->stop = after;
     if (modules != nullptr) {
       BindAnew(from);
@@ -180,11 +189,11 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
     // Each as it was, and what has been exchanged by then is exchanged again.
     if (extras_) extras_->stop = before;
     from.ExchangeConnections(*this, sinks, modules != nullptr ? &modules->after : nullptr);
-    if (modules != nullptr) {
-      Retry([&] { from.BindAnew(*this); });
-    } else {
-      from.TakeOverFlow(*this);
-    }
+    if (modules == nullptr) from.ExchangeFlow(*this);
+    Retry([&] {
+      from.BindAnew(*this);
+      limit();
+    });
     throw;
   }
   own.mark = its.mark;

@@ -12,9 +12,9 @@
 #include "core/conversion/number_conversion.h"
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/stand_in.h"
 #include "core/types/text_format.h"
 #include "core/types/type_of.h"
+#include "core/types/value_copy.h"
 
 namespace runnel::internal {
 
@@ -181,7 +181,8 @@ void StopLink::Publish() {
   const Time now = runtime_.clock().Now();
   const auto published = channel_->PublishFilled(
       [](void* context, void* value) {
-        return FillWith(static_cast<const PassedStop*>(context)->safe_value)(value).has_value();
+        const AnyValue& safe = static_cast<const PassedStop*>(context)->safe_value;
+        return CopyValue(safe.type(), safe.get(), value);
       },
       const_cast<PassedStop*>(&stop_), ValueTimes::Of(now));
   RUNNEL_CHECK(published, "a safe value can be copied");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -35,14 +36,18 @@ void OperatorWatch::Hear(std::string_view name, Time at) {
 }
 
 std::optional<Time> OperatorWatch::Look() {
-  std::string why = "<operators>: none of them has been heard for " + DurationText(timeout()) + ", ";
+  std::string why = "<operators>";
   {
     const std::lock_guard lock(mutex_);
     const Time due = heard_ + timeout();
     if (Now() < due) return due;
-    why += last_.empty() ? "nor before" : "the last one was " + last_;
+    try {
+      why += ": none of them has been heard for " + DurationText(timeout()) + ", " +
+             (last_.empty() ? "nor before" : "the last one was " + last_);
+    } catch (const std::bad_alloc&) {  // it is pressed with fewer words
+    }
   }
-  stop_.Press(std::move(why));
+  stop_.Press(why);
   return {};
 }
 
@@ -118,6 +123,9 @@ CommandAnswer PendingCommand::Take() {
 // Nothing can fail once the task is posted: it would be carried out, and nobody be told.
 std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, TaskGroup& tasks,
                                                       std::function<void()> on_done, RobotStop::AsOf as_of) {
+  // Before anything that may fail.
+  const auto* const stop = std::get_if<RobotStopRequest>(&request);
+  const bool has_pressed = stop != nullptr && stop->is_pressed && application_.runtime.robot_stop().Press(stop->by);
   auto pending = std::make_unique<PendingCommand>();
   if (!LetsMove(request)) {
     as_of = {};
@@ -128,7 +136,7 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
   if (publish != nullptr && !publish->received) publish->received = hand_settings_.Now();
   const std::shared_ptr<CommandAnswer>& answer = pending->answer_;
   std::optional<CommandAnswer> at_once;
-  if (const auto* const stop = std::get_if<RobotStopRequest>(&request)) at_once = Do(*stop, as_of);
+  if (stop != nullptr) at_once = Do(*stop, as_of, has_pressed);
   // A block is the STOP of one port: it waits for the worker only where it would wait for the structure lock, too.
   if (const auto* const block = std::get_if<BlockRequest>(&request)) {
     if (const auto lock = TryStructureLock(application_.runtime, kBlockPatience)) at_once = Do(*block);
@@ -222,11 +230,12 @@ Result<void> CheckThatAllStops(Runtime& runtime, const Scheduler* scheduler) {
   return Error{.message = "STOP is in force, but " + left};
 }
 
-CommandAnswer CommandService::Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of) const {
+CommandAnswer CommandService::Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of,
+                                 bool has_pressed) const {
   RobotStop& stop = application_.runtime.robot_stop();
   CommandAnswer answer;
   if (request.is_pressed) {
-    const char* const since = stop.Press(request.by) ? "" : " already";
+    const char* const since = has_pressed ? "" : " already";
     answer = CommandAnswer::Done(std::string("STOP is in force") + since + "; 'runnel release' ends it");
   } else {
     const std::string pressed_by = stop.state().by;

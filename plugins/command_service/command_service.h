@@ -212,7 +212,8 @@ class CommandService {
   [[nodiscard]] CommandAnswer End(const char* name, const char* what,
                                   const std::function<Result<std::string>()>& end) const;
   [[nodiscard]] CommandAnswer Do(const BlockRequest& request);
-  [[nodiscard]] CommandAnswer Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of) const;
+  [[nodiscard]] CommandAnswer Do(const RobotStopRequest& request, const RobotStop::AsOf& as_of,
+                                 bool has_pressed = false) const;
   [[nodiscard]] CommandAnswer Do(const UndoRequest&, const RobotStop::AsOf& as_of) const {
     return TakeHistoryStep(true, as_of);
   }

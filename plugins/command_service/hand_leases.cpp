@@ -18,9 +18,9 @@ const char* HandStateName(HandState state) noexcept {
   return kNames[static_cast<std::size_t>(state)];
 }
 
-void EndedLeases::Add(const std::string& lease) {
+void EndedLeases::Add(std::list<std::string>& lease) noexcept {
   const std::lock_guard lock(mutex_);
-  leases_.push_back(lease);
+  leases_.splice(leases_.end(), lease);
   if (leases_.size() > kRemembered) leases_.pop_front();
 }
 
@@ -32,7 +32,7 @@ bool EndedLeases::Has(const std::string& lease) const {
 Result<void> HandHold::Check(const Request& request, Time now) const {
   if (!request.lease.empty()) {
     if (ended_->Has(request.lease)) return Error{.message = "this hold has ended", .hint = kTakeHoldAgain};
-    if (state_ == HandState::kDriven && lease_ != request.lease) {
+    if (state_ == HandState::kDriven && !Has(request.lease)) {
       return Error{.message = "somebody else drives it"};
     }
     // Who holds a button through STOP and release does not mean what it does afterwards.
@@ -48,13 +48,14 @@ Result<void> HandHold::Check(const Request& request, Time now) const {
 }
 
 bool HandHold::Note(const Request& request) {
-  const bool goes_on =
-      state_ == HandState::kDriven && request.deadline && !request.lease.empty() && lease_ == request.lease;
+  const bool goes_on = state_ == HandState::kDriven && request.deadline && !request.lease.empty() && Has(request.lease);
+  std::list<std::string> lease;
+  if (!request.lease.empty()) lease.push_back(request.lease);
   if (!goes_on) EndLease();
   if (!goes_on) began_ = SteadyClock().Now();
   stops_ = request.stops;
   state_ = request.deadline ? HandState::kDriven : HandState::kSet;
-  lease_ = request.lease;
+  lease_.swap(lease);
   deadline_ = request.deadline.value_or(Duration::zero());
   due_ = request.received + deadline_;
   has_failed = false;
@@ -67,8 +68,8 @@ void HandHold::NoteLost() {
   number = 0;
 }
 
-void HandHold::EndLease() {
-  if (state_ == HandState::kDriven && !lease_.empty()) ended_->Add(lease_);
+void HandHold::EndLease() noexcept {
+  if (state_ == HandState::kDriven) ended_->Add(lease_);
 }
 
 }  // namespace runnel

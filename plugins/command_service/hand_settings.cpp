@@ -215,7 +215,8 @@ void HandSettings::PublishAgainAndAgain(Slot slot, AnyValue value, std::uint64_t
 }
 
 void HandSettings::EndLease(const std::string& lease) {
-  ended_->Add(lease);
+  std::list<std::string> ended{lease};
+  ended_->Add(ended);
   if (watches_) lookout_.Ask();
 }
 

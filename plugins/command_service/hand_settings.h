@@ -2,7 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -35,12 +35,13 @@ enum class HandState {
 /// Threads: any.
 class EndedLeases {
  public:
-  void Add(const std::string& lease);
+  /// Takes over the first of `lease`, if there is one.
+  void Add(std::list<std::string>& lease) noexcept;
   [[nodiscard]] bool Has(const std::string& lease) const;
 
  private:
   mutable std::mutex mutex_;
-  std::deque<std::string> leases_;  // the newest of them
+  std::list<std::string> leases_;  // the newest of them
 };
 
 /// Who sets a port by hand, and until when he has to be heard of again. Only that: it publishes nothing. It lies in the
@@ -80,18 +81,21 @@ class HandHold final : public HandSlot::Hold {
     return has_left() ? Time() : due_;
   }
   /// Who drives has said that he does so no longer (HandSettings::EndLease()).
-  [[nodiscard]] bool has_left() const { return ended_->Has(lease_); }
+  [[nodiscard]] bool has_left() const { return !lease_.empty() && ended_->Has(lease_.front()); }
 
   std::string path = {};     ///< of the port when it was set last, for people
   std::uint64_t number = 0;  ///< which publishing is the last one
   bool has_failed = false;   ///< to get the safe value, which has been told
 
  private:
-  void EndLease();
+  void EndLease() noexcept;
+  [[nodiscard]] bool Has(const std::string& lease) const {
+    return lease_.empty() ? lease.empty() : lease_.front() == lease;
+  }
 
   const std::shared_ptr<EndedLeases> ended_;
   HandState state_ = HandState::kSet;
-  std::string lease_ = {};
+  std::list<std::string> lease_ = {};  // one or none; made with the hold, as there may be no memory when it ends
   Duration deadline_{};
   Time due_{};
   Time began_{};

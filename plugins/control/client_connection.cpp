@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -67,7 +68,11 @@ void ClientConnection::OnEvents(short events) {
     return;
   }
   if ((events & POLLRDHUP) != 0) has_enough_ = true;
-  if ((events & POLLIN) != 0) Read();
+  try {
+    if ((events & POLLIN) != 0) Read();
+  } catch (const std::bad_alloc&) {  // a part of what has come is lost: its client tries again, or says so
+    is_broken_ = true;
+  }
   if ((events & POLLOUT) != 0) Flush();
 }
 
@@ -134,7 +139,11 @@ void ClientConnection::Work(CommandService& service, TaskGroup& tasks) {
       SendEnd(*code);
     }
   } catch (...) {  // of a type's text format, or for want of memory
-    Refuse(CaughtError());
+    try {
+      Refuse(CaughtError());
+    } catch (const std::bad_alloc&) {  // nor is there any to say so
+      is_broken_ = true;
+    }
   }
   Flush();
 }

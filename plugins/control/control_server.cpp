@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -72,7 +74,11 @@ class ControlServer::Loop {
 
   void Run() {
     while (!ends_.load()) {
-      WaitForEvents();
+      try {
+        WaitForEvents();
+      } catch (const std::bad_alloc&) {  // what it has not seen is still there
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
       for (const auto& client : clients_) client->Work(service_, *tasks_);
       std::erase_if(clients_, [](const auto& client) { return client->is_over(); });
     }

@@ -109,7 +109,11 @@ void CycleWatchdog::Run() {
     if (rules_.empty()) {
       has_changed_.wait(lock, is_woken);
     } else if (!has_changed_.wait_for(lock, Interval(), is_woken)) {
-      Look(Now());
+      try {
+        Look(Now());
+      } catch (const std::bad_alloc&) {
+        continue;  // the next look finds what this one could not tell
+      }
       if (std::ranges::all_of(watched_, [](const Watched& each) { return each.fired.empty(); })) continue;
       lock.unlock();
       {
@@ -151,20 +155,22 @@ void CycleWatchdog::Look(Watched& watched, Time now) {
     const auto path = ScheduledElement::PathOf(state.element);
     if (!path || !IsAbout(*known, *path, watched.runner->path())) continue;
     watched.path = *path;
-    watched.fired.push_back(known);
+    watched.fired.reserve(watched.fired.size() + 1);
     Tell(watched, Fault::Kind::kStuck,
          "has not returned from its cycle for " + DurationText(since) + "; at most " + DurationText(after) +
              " is allowed",
          known->rule.on_stuck);
+    watched.fired.push_back(known);
   }
 }
 
 void CycleWatchdog::Return(Watched& watched, Time now) {
   const std::string message = "has returned from its cycle, after " + DurationText(now - watched.seen);
   bool is_told = false;
-  for (const auto& known : std::exchange(watched.fired, {})) {
-    if (std::exchange(is_told, true) && !known->rule.on_return) continue;
-    Tell(watched, Fault::Kind::kReturned, message, known->rule.on_return);
+  for (; !watched.fired.empty(); watched.fired.erase(watched.fired.begin())) {
+    const auto& call = watched.fired.front()->rule.on_return;
+    if (!is_told || call) Tell(watched, Fault::Kind::kReturned, message, call);
+    is_told = true;
   }
   watched.path.clear();
 }

@@ -109,7 +109,7 @@ void ScheduleCompiler::Install() {
   for (const auto& gone : std::exchange(gone_runners_, {})) {
     gone->Install({});
     // Others may be about to tell it of data.
-    Retry([&] { Retire([runner = gone] {}); });
+    Retire([runner = gone] {});
   }
   // Nobody waits for an installation in which no element has changed threads.
   if (!std::exchange(has_handovers_, false)) return;

@@ -209,7 +209,7 @@ void Scheduler::RunWatchdog() noexcept {
     next_watch_ = watchdog_(now);
   } catch (...) {
     ReportException("the watchdog failed: ", std::current_exception(), faults_, runtime_);
-    next_watch_ = now + std::chrono::seconds(1);
+    next_watch_ = now + std::chrono::milliseconds(50);
   }
 }
 

@@ -24,6 +24,23 @@ Result<void> Attempt(const Act& act) {
   }
 }
 
+// What is to be safe is tried again while there is no memory for it.
+template <typename Act>
+Result<void> AttemptWithMemory(const Act& act) {
+  Result<void> done = Error{.message = "out of memory"};
+  const auto attempt = [&] {
+    try {
+      done = act();
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (...) {
+      done = Error{.message = DescribeException()};
+    }
+  };
+  (void)Retry(attempt);
+  return done;
+}
+
 // Kept with a module that a rule has put in the place of another: what had been set at that, and its type.
 struct ReplacedByRule final : Annotation {
   explicit ReplacedByRule(const ReplaceModule& back) : type(back.type), state(back.state) {}
@@ -142,11 +159,15 @@ void Supervisor::Shared::Beside(std::function<void()> act, bool is_long) {
   beside.Ask();
 }
 
-void Supervisor::Shared::WorkBeside() noexcept {
+void Supervisor::Shared::WorkBeside() {
   for (std::unique_lock lock(mutex); !acts.empty(); acts.pop_front()) {
-    const auto act = acts.front();
+    const auto& act = acts.front();
     lock.unlock();
-    act();
+    // It takes care of what it does; what it has no memory to tell keeps up nobody behind it.
+    (void)Attempt([&] {
+      act();
+      return Result<void>();
+    });
     lock.lock();
   }
   ServeRequests(runtime.clock().Now());
@@ -193,7 +214,7 @@ void Supervisor::Shared::PublishMissed(Time now) {
       if (!rule->misses[i] || !PathSearch(runtime).FindPort(safe.port, PathKind::kElement)) continue;
       rule->misses[i] = false;
       rule->holds.resize(rule->misses.size());
-      const auto done = Attempt([&] { return Publish(safe); });
+      const auto done = AttemptWithMemory([&] { return Publish(safe); });
       rule->holds[i] = done.has_value();
       Note({safe.port,
             "is there again; what a rule wants there meanwhile " +
@@ -232,7 +253,7 @@ void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& 
     reaction = given;  // as it is now, for paths change under the lock
     if (which == &SupervisionRule::otherwise) rule.holds.clear(), rule.misses.clear();
   }
-  const auto published = Attempt([&] { return PublishAll(rule, which, reaction); });
+  const auto published = AttemptWithMemory([&] { return PublishAll(rule, which, reaction); });
   const bool is_long = where == Where::kBeside && !reaction.changes.empty();
   auto rest = [this, &rule, which, published, reaction = std::move(reaction),
                notice = Notice{path, why, now, false, is_recovery}]() mutable {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,7 @@ namespace internal {
 
 namespace {
 constexpr Duration kLookForPort = std::chrono::milliseconds(50);
+constexpr Duration kLookAgain = std::chrono::milliseconds(10);
 constexpr Duration kStuckAfter = std::chrono::seconds(1);
 
 /// Why nobody can press by a port, one sentence for each place on the way to it.
@@ -151,29 +153,34 @@ StopButton::~StopButton() {
 
 void StopButton::Work() {
   while (!ends_.load()) {
-    (void)element_->probe.Wait(kLookForPort);
-    TakeValues();
-    if (down_ && !is_set_by_hand_ && !runtime_.robot_stop().in_force())
-      Press(rule_.port);  // somebody else has released it
-    if (!LookForPort()) continue;
-    const auto let_go = std::exchange(let_go_, {});
-    if (!let_go || !rule_.releases) continue;
-    const std::string why = lacks_.empty() ? why_not_ : *lacks_.begin();
-    if (!why.empty()) {  // by whatever else it may have become 0
-      TellOfHeldStop(why);
-      continue;
+    try {
+      Look();
+    } catch (...) {  // for lack of memory; the next look finds what this one has not
+      std::this_thread::sleep_for(kLookAgain);
     }
-    // A STOP that somebody has pressed since it was let go stays.
-    if (!runtime_.robot_stop().Release(rule_.port, *let_go)) continue;
-    tell_({rule_.port, "the STOP is released by its button", runtime_.clock().Now(), false, true});
   }
+}
+
+void StopButton::Look() {
+  (void)element_->probe.Wait(kLookForPort);
+  TakeValues();
+  if (down_ && !is_set_by_hand_ && !runtime_.robot_stop().in_force())
+    Press({rule_.port});  // somebody else has released it
+  if (!LookForPort()) return;
+  const auto let_go = std::exchange(let_go_, {});
+  if (!let_go || !rule_.releases) return;
+  const std::string why = lacks_.empty() ? why_not_ : *lacks_.begin();
+  if (!why.empty()) return TellOfHeldStop(why);  // by whatever else it may have become 0
+  // A STOP that somebody has pressed since it was let go stays.
+  if (!runtime_.robot_stop().Release(rule_.port, *let_go)) return;
+  tell_({rule_.port, "the STOP is released by its button", runtime_.clock().Now(), false, true});
 }
 
 void StopButton::TakeValues() {
   const auto look = [&](const void* value, ValueTimes times) {
     const std::uint64_t source = element_->probe.last_source();
     if (NumberIn(element_->probe.type(), value) != 0) {
-      Press(rule_.port);
+      Press({rule_.port});
       let_go_.reset();
       down_ = Down{source, times};
       return;
@@ -195,7 +202,7 @@ void StopButton::TakeValues() {
   while (element_->probe.Take(look)) {
   }
   const std::uint64_t dropped = element_->probe.dropped();
-  if (dropped != std::exchange(dropped_, dropped)) Press(rule_.port + ", of which values were lost");
+  if (dropped != std::exchange(dropped_, dropped)) Press({rule_.port, ", of which values were lost"});
 }
 
 // Whoever has the structure lock is not waited for.
@@ -214,9 +221,9 @@ bool StopButton::LookForPort() {
     for (const Port* each : sources.front()->ShownPorts()) each->VisitLatest(look);
     is_set_by_hand_ = sources.front()->is_set_by_hand();
     if (down_ && !element_->probe.IsFedBy(down_->source)) down_.reset();  // a value by hand has ended
-    if (is_down && !is_set_by_hand_ && !runtime_.robot_stop().in_force()) Press(rule_.port);
+    if (is_down && !is_set_by_hand_ && !runtime_.robot_stop().in_force()) Press({rule_.port});
     for (const std::string& each : way.lacks) {
-      if (!lacks_.contains(each)) Press(rule_.port + ", as " + each);
+      if (!lacks_.contains(each)) Press({rule_.port, ", as ", each});
     }
     if (!way.lacks.empty()) down_.reset();
     lacks_ = std::move(way.lacks);
@@ -231,7 +238,7 @@ bool StopButton::LookForPort() {
       let_go_.reset();  // a value by hand was let go
     return true;
   }
-  if (!is_gone_) Press(rule_.port + ", which is gone");
+  if (!is_gone_) Press({rule_.port, ", which is gone"});
   is_gone_ = true;
   lacks_.clear();
   down_.reset();  // letting go counts after a press that has come by the next connection
@@ -240,11 +247,20 @@ bool StopButton::LookForPort() {
   return true;
 }
 
-void StopButton::Press(const std::string& by) {
+void StopButton::Press(std::initializer_list<std::string_view> by) noexcept {
   pressed_ = runtime_.robot_stop().requests() + 1;
-  if (!runtime_.robot_stop().Press("the button " + by)) return;
+  std::string name = "the button";
+  try {
+    name += " ";
+    for (const std::string_view each : by) name += each;
+  } catch (const std::bad_alloc&) {  // it is pressed with fewer words
+  }
+  if (!runtime_.robot_stop().Press(name)) return;
   told_.clear();
-  tell_({rule_.port, "STOP, by the button " + by, runtime_.clock().Now()});
+  try {
+    tell_({rule_.port, "STOP, by " + name, runtime_.clock().Now()});
+  } catch (const std::bad_alloc&) {  // who follows the STOP has been told by it
+  }
 }
 
 void StopButton::TellOfHeldStop(const std::string& why) {

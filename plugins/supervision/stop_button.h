@@ -3,11 +3,13 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "core/element/runtime.h"
@@ -43,10 +45,11 @@ class StopButton {
 
  private:
   void Work();
+  void Look();
   void TakeValues();
   /// False: somebody has the structure lock, so that nothing is known.
   bool LookForPort();
-  void Press(const std::string& by);
+  void Press(std::initializer_list<std::string_view> by) noexcept;
   void TellOfHeldStop(const std::string& why);
 
   Runtime& runtime_;

@@ -81,30 +81,44 @@ Time Supervisor::Shared::Watch(Time now) {
     std::string path;
     std::string why;
     bool is_recovery;
+    std::size_t watch;
   };
   std::vector<Due> due;
   Time next = now + kLookForRequests;
   if (!watches.empty()) {
     const std::lock_guard lock(runtime.structure_mutex());
-    for (auto& [rule, watch] : watches) {
+    for (std::size_t i = 0; i < watches.size(); ++i) {
+      auto& [rule, watch] = watches[i];
       const auto turn = watch.Look(runtime, now);
       if (turn == StaleWatch::Turn::kStale) {
         due.push_back({rule, rule->of,
                        "nothing new for " + DurationText(now - watch.silent_since()) + ", at most " +
                            DurationText(rule->after) + " is allowed",
-                       false});
+                       false, i});
       } else if (turn == StaleWatch::Turn::kFresh) {
-        due.push_back({rule, rule->of, "values come again, for " + DurationText(rule->fresh_after) + " now", true});
+        due.push_back({rule, rule->of, "values come again, for " + DurationText(rule->fresh_after) + " now", true, i});
+      } else {
+        next = std::min(next, watch.next_look());
       }
-      next = std::min(next, watch.next_look());
     }
   }
   // Reactions take the lock for as long as they need it. What becomes safe does before anything is taken back.
   std::ranges::stable_partition(due, [](const Due& each) { return !each.is_recovery; });
+  // What has not been done for lack of memory stays due, and keeps up no other one.
+  std::exception_ptr failure;
   for (const Due& each : due) {
-    React(*each.rule, each.is_recovery ? &SupervisionRule::otherwise : &SupervisionRule::reaction, each.path, each.why,
-          now, each.is_recovery);
+    try {
+      React(*each.rule, each.is_recovery ? &SupervisionRule::otherwise : &SupervisionRule::reaction, each.path,
+            each.why, now, each.is_recovery);
+      const std::lock_guard lock(runtime.structure_mutex());
+      StaleWatch& watch = watches[each.watch].second;
+      watch.NoteDone(each.is_recovery ? StaleWatch::Turn::kFresh : StaleWatch::Turn::kStale, now);
+      next = std::min(next, watch.next_look());
+    } catch (...) {
+      failure = std::current_exception();
+    }
   }
+  if (failure) std::rethrow_exception(failure);
   return next;
 }
 

@@ -47,7 +47,7 @@ struct Supervisor::Shared {
   // after the other; in simulated time at once.
   void Beside(std::function<void()> act, bool is_long);
   void FollowPauses(std::string_view but_for);
-  void WorkBeside() noexcept;
+  void WorkBeside();
   void ServeRequests(Time now);
   [[nodiscard]] bool is_real() const noexcept {
     return scheduler.options().clock == SchedulerOptions::ClockKind::kReal;

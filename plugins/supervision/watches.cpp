@@ -100,9 +100,17 @@ StaleWatch::Turn StaleWatch::Look(Runtime& runtime, Time now) {
   if (!heard_) heard_ = now;  // what has never come is missing from now on
   Hear(runtime);
   const Turn turn = Judge(now);
+  if (turn == Turn::kNone) NoteDone(turn, now);
+  return turn;
+}
+
+void StaleWatch::NoteDone(Turn turn, Time now) noexcept {
+  if (turn != Turn::kNone) {
+    is_stale_ = turn == Turn::kStale;
+    well_since_.reset();
+  }
   next_look_ = is_stale_ ? now + std::max(std::min(rule_->after, rule_->fresh_after) / 4, kShortestWait)
                          : SaturatingSum(SaturatingSum(*heard_, rule_->after), Duration(1));
-  return turn;
 }
 
 // Counted from the measurement: what is old when it comes is stale. An output that is gone is silent.
@@ -117,19 +125,13 @@ void StaleWatch::Hear(Runtime& runtime) {
 
 StaleWatch::Turn StaleWatch::Judge(Time now) {
   const bool is_silent = now - *heard_ > rule_->after;
-  if (!is_stale_) {
-    is_stale_ = is_silent;
-    return is_silent ? Turn::kStale : Turn::kNone;
-  }
+  if (!is_stale_) return is_silent ? Turn::kStale : Turn::kNone;
   if (is_silent) {
     well_since_.reset();
     return Turn::kNone;
   }
   if (!well_since_) well_since_ = *heard_;
-  if (*heard_ - *well_since_ < rule_->fresh_after) return Turn::kNone;
-  well_since_.reset();
-  is_stale_ = false;
-  return Turn::kFresh;
+  return *heard_ - *well_since_ < rule_->fresh_after ? Turn::kNone : Turn::kFresh;
 }
 
 void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, const Tell& tell) {

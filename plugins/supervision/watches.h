@@ -29,8 +29,10 @@ class StaleWatch {
   /// Under the structure lock.
   [[nodiscard]] std::vector<std::string>& outputs() noexcept { return outputs_; }
 
-  /// Looks at the outputs; says if the input has become stale or fresh. Under the structure lock.
+  /// Looks at the outputs; says if the input has become stale or fresh, again and again until somebody has done what that
+  /// asks for. Under the structure lock, both.
   [[nodiscard]] Turn Look(Runtime& runtime, Time now);
+  void NoteDone(Turn turn, Time now) noexcept;
   /// When it need be looked at again.
   [[nodiscard]] Time next_look() const noexcept { return next_look_; }
   /// Whether the input is stale, and not fresh again yet, as of the last look.

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,7 @@ namespace runnel {
 namespace {
 
 constexpr int kWaiting = 64;
+constexpr auto kAgain = std::chrono::milliseconds(10);
 
 sockaddr_un AddressOf(const SegmentId& server, socklen_t& size) {
   std::string name = "runnel-segments-";
@@ -101,24 +103,33 @@ void SegmentServer::Withdraw(const WrittenSegment& segment) {
 }
 
 void SegmentServer::Run() noexcept {
-  for (;;) {
-    std::vector<pollfd> seen = {{socket_.number(), POLLIN, 0}};
-    for (const Reader& each : readers_) seen.push_back({each.link->number(), POLLIN, 0});
-    if (poll(seen.data(), seen.size(), -1) < 0 && errno != EINTR) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));  // out of memory, for now
-      continue;
-    }
-    LookAtReaders(seen);
-    if (seen[0].revents == 0) continue;
-    Descriptor asking(accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC));
-    if (asking.is_open()) {
-      Answer(std::move(asking));
-    } else if (errno == EINVAL || errno == EBADF) {
-      return;  // shut down
-    } else if (errno != EINTR && errno != ECONNABORTED) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));  // out of descriptors, for now
+  for (bool goes_on = true; goes_on;) {
+    try {
+      goes_on = Serve();
+    } catch (const std::bad_alloc&) {  // who has asked finds the link closed
+      std::this_thread::sleep_for(kAgain);
     }
   }
+}
+
+bool SegmentServer::Serve() {
+  std::vector<pollfd> seen = {{socket_.number(), POLLIN, 0}};
+  for (const Reader& each : readers_) seen.push_back({each.link->number(), POLLIN, 0});
+  if (poll(seen.data(), seen.size(), -1) < 0 && errno != EINTR) {
+    std::this_thread::sleep_for(kAgain);  // out of memory, for now
+    return true;
+  }
+  LookAtReaders(seen);
+  if (seen[0].revents == 0) return true;
+  Descriptor asking(accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC));
+  if (asking.is_open()) {
+    Answer(std::move(asking));
+  } else if (errno == EINVAL || errno == EBADF) {
+    return false;  // shut down
+  } else if (errno != EINTR && errno != ECONNABORTED) {
+    std::this_thread::sleep_for(kAgain);  // out of descriptors, for now
+  }
+  return true;
 }
 
 void SegmentServer::LookAtReaders(const std::vector<pollfd>& seen) {
@@ -147,9 +158,11 @@ void SegmentServer::Answer(Descriptor asking) {
   head->cmsg_type = SCM_RIGHTS;
   head->cmsg_len = CMSG_LEN(Passing::kFiles);
   std::memcpy(CMSG_DATA(head), files.data(), Passing::kFiles);
+  readers_.reserve(readers_.size() + 1);
+  auto link = std::make_unique<Descriptor>(std::move(asking));
   // It counts before the reader has it.
   found->second.holders->Add(*table);
-  readers_.push_back({std::make_unique<Descriptor>(std::move(asking)), found->second.holders, *table});
+  readers_.push_back({std::move(link), found->second.holders, *table});
   // If it cannot be sent, the link is closed at the other end.
   (void)sendmsg(readers_.back().link->number(), &passing.message, MSG_NOSIGNAL);
 }

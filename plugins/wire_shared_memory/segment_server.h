@@ -40,6 +40,8 @@ class SegmentServer {
     std::shared_ptr<const HoldTable> table;
   };
   void Run() noexcept;
+  /// False: it is shut down.
+  bool Serve();
   // Of those whose link is closed what they held is free.
   void LookAtReaders(const std::vector<pollfd>& seen);
   void Answer(Descriptor asking);

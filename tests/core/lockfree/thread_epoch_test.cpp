@@ -8,6 +8,7 @@
 
 #include "core/base/check.h"
 #include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/fault_injection.h"
 #include "plugins/testing/lock_probe.h"
 #include "tests/support/threads.h"
 #include "tests/support/wait_until.h"
@@ -106,6 +107,16 @@ TEST(RetireTest, DestroysAtOnceWhenNobodyReads) {
   Retire([&] { destroyed = true; });
   EXPECT_TRUE(destroyed);
   EXPECT_EQ(CollectRetired(), 0u);
+}
+
+TEST(RetireTest, NeedsNoMemoryAtOnce) {
+  auto part = std::make_shared<int>(1);
+  const std::weak_ptr<int> known = part;
+  test::FaultInjection injection(test::InjectedFault::kAllocation, 1, 4);
+  Retire([held = std::move(part)] {});
+  injection.End();
+  EXPECT_TRUE(injection.has_struck());
+  EXPECT_TRUE(known.expired());
 }
 
 TEST(RetireTest, WaitsForThoseWhoReadMeanwhile) {

@@ -229,5 +229,42 @@ TEST(DrivingFaults, WhoWatchesTheDeadlinesGoesOn) {
   EXPECT_GT(points, 0u);
 }
 
+// For a while there is none at all.
+TEST(CommandServiceFaults, TheDeadManPressesWithoutMemory) {
+  Runtime runtime;
+  ManualClock machine;
+  OperatorWatch watch(runtime.robot_stop(), &machine);
+  watch.Begin(std::chrono::seconds(2));
+  watch.Hear("an operator whose name is too long to be within itself", machine.Now());
+  machine.Advance(std::chrono::seconds(3));
+  FaultInjection injection(InjectedFault::kAllocation, 1, 1000);
+  const auto next = watch.Look();
+  injection.End();
+  EXPECT_EQ(next, std::nullopt);
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+  EXPECT_FALSE(runtime.robot_stop().state().by.empty());
+}
+
+TEST(CommandServiceFaults, ARequestForAStopPressesBeforeItNeedsMemory) {
+  World world;
+  TaskGroup tasks(world.service.worker());
+  CommandRequest request = RobotStopRequest{true, "a terminal whose name is too long to be within itself"};
+  FaultInjection injection(InjectedFault::kAllocation, 1, 1000);
+  EXPECT_THROW((void)world.service.Begin(std::move(request), tasks, {}, {}), std::bad_alloc);
+  injection.End();
+  EXPECT_TRUE(world.runtime.robot_stop().in_force());
+}
+
+TEST(CommandServiceFaults, AHoldThatEndsWithoutMemoryHasEndedItsLease) {
+  const auto ended = std::make_shared<EndedLeases>();
+  auto hold = std::make_unique<HandHold>(ended);
+  const std::string lease = "a lease whose name is too long to be within itself";
+  (void)hold->Note({.lease = lease, .deadline = std::chrono::seconds(1)});
+  FaultInjection injection(InjectedFault::kAllocation, 1, 1000);
+  hold.reset();
+  injection.End();
+  EXPECT_TRUE(ended->Has(lease));
+}
+
 }  // namespace
 }  // namespace runnel::test
