@@ -1,6 +1,8 @@
 #include "core/port/probe_port.h"
 
 #include <algorithm>
+#include <exception>
+#include <new>
 
 #include "core/channel/channel_base.h"
 #include "core/channel/probe_queue.h"
@@ -20,16 +22,30 @@ ProbePort::~ProbePort() {
 
 bool ProbePort::Take(const Visitor& visit) {
   bool is_taken = false;
-  while (!is_taken) {
-    const bool found = queue_->TryTake([&](const void* value, const Publication& publication, std::uint64_t source) {
-      std::uint64_t& last = taken_[source];
-      if (publication.sequence <= last) return;
-      last = publication.sequence;
-      is_taken = true;
-      last_source_ = source;
+  std::exception_ptr failure;
+  const auto take = [&](const void* value, const Publication& publication, std::uint64_t source) {
+    if (!IsNewer(publication.sequence, source)) return;
+    is_taken = true;
+    last_source_ = source;
+    try {
       visit(value, ValueTimes::Of(publication));
-    });
-    if (!found) return false;
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
+  while (!is_taken) {
+    if (!queue_->TryTake(take)) return false;
+  }
+  if (failure) std::rethrow_exception(failure);
+  return true;
+}
+
+bool ProbePort::IsNewer(std::uint64_t sequence, std::uint64_t source) noexcept {
+  try {
+    std::uint64_t& last = taken_[source];
+    if (sequence <= last) return false;
+    last = sequence;
+  } catch (const std::bad_alloc&) {  // better twice than not at all
   }
   return true;
 }

@@ -30,7 +30,7 @@ class ProbePort final : public InputBase {
   ~ProbePort() override;
 
   /// Shows the oldest value that waits to `visit`, and lets it go; false if none does. What `visit` is
-  /// shown is gone when it returns. `visit` must not throw.
+  /// shown is gone when it returns. What `visit` throws is thrown, and the value gone all the same.
   bool Take(const Visitor& visit);
   /// The number of the channel from which the value came that was taken last: what is set by hand has another one than the
   /// output, and one that takes an output's place has the same. For the same thread.
@@ -46,6 +46,8 @@ class ProbePort final : public InputBase {
   [[nodiscard]] std::uint64_t dropped() const noexcept override;
 
  private:
+  /// Notes it, too.
+  [[nodiscard]] bool IsNewer(std::uint64_t sequence, std::uint64_t source) noexcept;
   QueueSink* Bind(const std::vector<Source>& sources) override;
   void TakeOverBinding(InputBase& from) noexcept override;
   void Bound() override;

@@ -189,6 +189,11 @@ void NetworkElement::AddServiceOffer(ServiceOfferOptions offer) {
   if (on_change_) on_change_();
 }
 
+void NetworkElement::set_services(std::vector<ServiceOfferOptions> services) {
+  options_.services = std::move(services);
+  if (on_change_) on_change_();
+}
+
 Result<Port*> NetworkElement::AddServiceTake(const ServiceTakeOptions& take, const Port& client) {
   const auto known =
       std::ranges::find(service_takes_, take.service, [](const ServiceTake& each) { return each.options.service; });

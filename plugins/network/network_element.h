@@ -64,6 +64,8 @@ class NetworkElement final : public FrameworkElement {
   };
   [[nodiscard]] const std::vector<ServiceTake>& service_takes() const noexcept { return service_takes_; }
   void AddServiceOffer(ServiceOfferOptions offer);
+  /// The same ones in the same order; their ports may have other paths now.
+  void set_services(std::vector<ServiceOfferOptions> services);
   /// The output that stands for the service elsewhere, of the type of the client's port; made if there is none. Errors: there is
   /// one of another type; what is no client; what does not fit.
   Result<Port*> AddServiceTake(const ServiceTakeOptions& take, const Port& client);

@@ -67,7 +67,8 @@ void NetworkServices::AddNew() {
   std::vector<std::unique_ptr<TakenService>> taken;
   for (std::size_t i = offered_.size(); i < offers.size(); ++i) {
     offered.push_back(
-        std::make_unique<OfferedService>(runtime, offers[i], messages, dialect_, ++made_, wake_, &table_));
+        std::make_unique<OfferedService>(runtime, offers[i], messages, dialect_, ++made_, wake_, &table_,
+                                         [&options, i]() -> const std::string& { return options.services[i].port; }));
   }
   for (std::size_t i = taken_.size(); i < takes.size(); ++i) {
     const auto& take = takes[i];

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostAfterCycle = 8192;
 // Of one queue, after one cycle.
 constexpr std::size_t kFew = 8;
-// The safe value, while it is stopped: for those who come, or have missed it.
+// The safe value, while it is stopped, for those who come, or have missed it; and what could not be sent.
 constexpr auto kAgain = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -159,7 +159,7 @@ void OfferedPort::Forget(const FrameworkElement& element) noexcept {
 
 const TypeInfo& OfferedPort::type() const noexcept { return reader_->type(); }
 
-bool OfferedPort::is_stopped() const noexcept {
+bool OfferedPort::is_stopped() const {
   const EpochGuard guard;
   const Binding* const binding = binding_.load(std::memory_order_acquire);
   return binding != nullptr &&
@@ -173,11 +173,12 @@ std::optional<Time> OfferedPort::Send(Time now) {
     return now + kAgain;
   }
   if (options_.rate > 0 && now < next_) return next_;  // the bell keeps on ringing
-  if (writer_ != nullptr && bell_->Answer()) bell_->SendByNetwork();
-  return {};
+  const bool was_left = is_left_.load(std::memory_order_relaxed) && is_left_.exchange(false, std::memory_order_relaxed);
+  if (writer_ != nullptr && (bell_->Answer() || was_left)) bell_->SendByNetwork();
+  return is_left_.load(std::memory_order_relaxed) ? std::optional(now + kAgain) : std::nullopt;
 }
 
-void OfferedPort::SendBy(OfferBell::By by) {
+void OfferedPort::SendBy(OfferBell::By by) noexcept {
   const std::uint64_t before = sent();
   try {
     SendSafeValue();
@@ -188,8 +189,10 @@ void OfferedPort::SendBy(OfferBell::By by) {
       next_ = SteadyClock().Now() + FromSeconds(1 / options_.rate);
     }
   } catch (...) {
-    Fail({.message = "a value cannot be sent: " + DescribeException()});
+    Fail();
   }
+  if (by == OfferBell::By::kNetwork) return;
+  if (is_left_.load(std::memory_order_relaxed)) bell_->Ring();
   if (by == OfferBell::By::kCycle) sent_after_cycles_.fetch_add(sent() - before, std::memory_order_relaxed);
 }
 
@@ -201,73 +204,75 @@ Time OfferedPort::StampOf(ValueTimes times) {
   return stamped_->stamp;
 }
 
-bool OfferedPort::Encode(const void* value, Time stamp, Octets& octets) {
-  try {
-    form_->codec->Encode(value, stamp, octets);
-  } catch (...) {
-    Fail({.message = "a value cannot be sent: " + DescribeException()});
-    octets.clear();
-  }
-  return !octets.empty();
-}
-
 // Once for each stop and release that has been seen: nobody elsewhere goes on by a value from before.
 void OfferedPort::SendSafeValue() {
   std::shared_ptr<Octets> octets;
   Time stamp;
+  std::int64_t bar;
   {
     const EpochGuard guard;
     const Binding* const binding = binding_.load(std::memory_order_acquire);
     if (binding == nullptr || binding->stops.empty()) return;
     const auto latest = std::ranges::max_element(binding->stops, {}, [](const auto& each) { return each.stop->bar(); });
-    const std::int64_t bar = latest->stop->bar();
-    const std::int64_t before = std::exchange(bar_, bar);
+    bar = latest->stop->bar();
     const Time now = SteadyClock().Now();
-    const bool is_new = bar != before && before != StopSignal::kInForce;
-    if (bar == StopSignal::kNever || !(is_new || (bar == StopSignal::kInForce && now >= again_))) return;
+    const bool is_new = bar != bar_ && bar_ != StopSignal::kInForce;
+    if (bar == StopSignal::kNever || !(is_new || (bar == StopSignal::kInForce && now >= again_))) {
+      bar_ = bar;
+      return;
+    }
     again_ = now + kAgain / 2;
     octets = pool_.Take();
     stamp = reader_->runtime().clock().Now() + clock_.Now();
-    if (!Encode(latest->safe_value.get(), stamp, *octets)) return;
+    form_->codec->Encode(latest->safe_value.get(), stamp, *octets);
     shown_.reset();  // what counts again comes after it
   }
   Write(octets, stamp);
+  bar_ = bar;
 }
 
 bool OfferedPort::SendNewest() {
   std::shared_ptr<Octets> octets;
   Time stamp;
+  Shown newest{};
   {
     const EpochGuard guard;  // what is loaded now stays so long
     // acquire: pairs with SetBinding().
     const Binding* const binding = binding_.load(std::memory_order_acquire);
     const Port* const source = binding != nullptr ? binding->source.load(std::memory_order_acquire) : nullptr;
     if (source == nullptr) return false;
-    const Shown newest{binding->number, source->publications()};
+    newest = {binding->number, source->publications()};
     if (newest == shown_) return false;
     octets = pool_.Take();
     bool is_whole = false;
     const bool is_there = source->VisitLatest([&](const void* value, ValueTimes of) {
       stamp = StampOf(of);
-      is_whole = binding->LetsPass(of) && Encode(value, stamp, *octets);
+      is_whole = binding->LetsPass(of);
+      if (is_whole) form_->codec->Encode(value, stamp, *octets);
     });
     if (!is_there || !is_whole) return false;
-    shown_ = newest;
   }
   Write(octets, stamp);
+  shown_ = newest;
   return true;
 }
 
 void OfferedPort::SendEach(std::size_t most) {
   std::shared_ptr<Octets> octets;
   Time stamp;
-  bool is_whole = false;
   for (std::size_t i = 0; i < most; ++i) {
     octets = pool_.Take();
+    bool is_whole = false;
     const bool is_there = each_->Take([&](const void* value, ValueTimes of) {
-      const EpochGuard guard;
-      stamp = StampOf(of);
-      is_whole = binding_.load(std::memory_order_acquire)->LetsPass(of) && Encode(value, stamp, *octets);
+      try {
+        const EpochGuard guard;
+        stamp = StampOf(of);
+        if (!binding_.load(std::memory_order_acquire)->LetsPass(of)) return;
+        form_->codec->Encode(value, stamp, *octets);
+        is_whole = true;
+      } catch (...) {
+        Fail();
+      }
     });
     if (!is_there) return;
     if (is_whole) Write(octets, stamp);
@@ -279,23 +284,33 @@ void OfferedPort::Write(const std::shared_ptr<Octets>& octets, Time stamp) {
   is_large_ = is_large_ || octets->size() > kMostAfterCycle;
   bell_->set_sent_after_cycles(options_.sending == ValueSending::kAfterCycle && options_.rate <= 0 && !is_large_);
   const auto written = writer_->Write(octets, stamp.time_since_epoch().count());
-  if (!written) return Fail(written.error());
-  sent_.fetch_add(1, std::memory_order_relaxed);
-}
-
-void OfferedPort::Fail(Error error) {
+  if (written) {
+    sent_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  Error error = written.error();
   error.path = path_;
   const std::lock_guard lock(mutex_);
   error_ = std::move(error);
 }
 
+// Who takes the error makes its text: here there may be no memory for one.
+void OfferedPort::Fail() noexcept {
+  is_left_.store(true, std::memory_order_relaxed);
+  const std::lock_guard lock(mutex_);
+  failure_ = std::current_exception();
+}
+
 bool OfferedPort::has_error() const {
   const std::lock_guard lock(mutex_);
-  return error_.has_value();
+  return error_.has_value() || failure_ != nullptr;
 }
 
 std::optional<Error> OfferedPort::TakeError() {
   const std::lock_guard lock(mutex_);
+  if (failure_ != nullptr)
+    error_ = Error{.message = "a value cannot be sent: " + DescribeException(failure_), .path = path_};
+  failure_ = nullptr;
   return std::exchange(error_, {});
 }
 

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -137,7 +138,7 @@ class OfferedPort {
   }
 
   /// Whether its safe value is sent, as the robot or this port is stopped.
-  [[nodiscard]] bool is_stopped() const noexcept;
+  [[nodiscard]] bool is_stopped() const;
   [[nodiscard]] std::size_t matched() const noexcept { return matched_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t sent() const noexcept { return sent_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t dropped() const noexcept { return each_ ? each_->dropped() : 0; }
@@ -155,14 +156,13 @@ class OfferedPort {
 
   void SetBinding(const Port* source, std::vector<internal::PassedStop> stops);  // under the structure lock
   // By who has the turn.
-  void SendBy(OfferBell::By by);
+  void SendBy(OfferBell::By by) noexcept;
   void SendSafeValue();
   bool SendNewest();  // whether there was one
   void SendEach(std::size_t most);
   [[nodiscard]] Time StampOf(ValueTimes times);
-  bool Encode(const void* value, Time stamp, Octets& octets);
   void Write(const std::shared_ptr<Octets>& octets, Time stamp);  // since 1970
-  void Fail(Error error);
+  void Fail() noexcept;                                           // within a handler
 
   const std::string path_;
   const OfferOptions options_;
@@ -198,10 +198,12 @@ class OfferedPort {
   bool is_large_ = false;                  // by who has the turn
   std::int64_t bar_ = StopSignal::kNever;  // of the stops, as it was seen last; by who has the turn
   Time again_{};                           // not before; by who has the turn
+  std::atomic<bool> is_left_{false};       // something could not be sent, as for want of memory
   std::atomic<std::uint64_t> sent_{0};
   std::atomic<std::uint64_t> sent_after_cycles_{0};
   mutable std::mutex mutex_;
-  std::optional<Error> error_;  // guarded by mutex_
+  std::optional<Error> error_;  // of the engine; guarded by mutex_
+  std::exception_ptr failure_;  // guarded by mutex_
 };
 
 }  // namespace runnel

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
+#include "core/element/element_path.h"
 #include "core/element/runtime.h"
 #include "plugins/network/offer_list.h"
 #include "plugins/network/xml_network_words.h"
@@ -159,10 +160,23 @@ ExtensionStep StepOfRenaming(NetworkElement& network, const std::string& from, c
     list.Rename(from, to);
     return std::move(list.offers);
   });
-  step.apply = [&network, from, apply = std::move(step.apply)]() -> Result<void> {
+  auto before = std::make_shared<std::optional<std::vector<ServiceOfferOptions>>>();
+  step.apply = [&network, from, to, before, apply = std::move(step.apply)]() -> Result<void> {
+    auto services = network.options().services;
+    *before = services;
+    for (ServiceOfferOptions& each : services) {
+      if (IsAtOrBelow(each.port, from)) each.port = to + each.port.substr(from.size());
+    }
     auto renamed = apply();
-    if (renamed) network.NoteRenamed(from);
+    if (!renamed) return renamed;
+    network.set_services(std::move(services));
+    network.NoteRenamed(from);
     return renamed;
+  };
+  step.undo = [&network, before, undo = std::move(step.undo)] {
+    if (*before) network.set_services(std::move(**before));
+    before->reset();
+    undo();
   };
   step.inverse = {};
   return step;

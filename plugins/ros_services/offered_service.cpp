@@ -19,17 +19,21 @@ constexpr Duration kForEver = std::chrono::hours(24 * 365);
 
 OfferedService::OfferedService(Runtime& runtime, ServiceOfferOptions options, const MessageLibrary& library,
                                ServiceDialect dialect, std::uint32_t identity, std::shared_ptr<WakeEvent> wake,
-                               const DiscoveryTable* table)
+                               const DiscoveryTable* table, std::function<const std::string&()> path)
     : runtime_(runtime),
       options_(std::move(options)),
       library_(library),
       dialect_(dialect),
       identity_(identity),
       wake_(std::move(wake)),
-      table_(table) {}
+      table_(table),
+      path_(std::move(path)) {
+  pending_.reserve(kMostCalls);
+}
 
 Result<Callable*> OfferedService::Find() {
   if (callable_ != nullptr) return callable_;
+  if (path_) options_.port = path_();
   const auto port = PathSearch(runtime_).FindPort(options_.port, PathKind::kOutput);
   if (!port) return port.error();
   auto* const callable = (*port)->FindAnnotation<Callable>();
@@ -88,22 +92,31 @@ Result<std::unique_ptr<AnyCall>> OfferedService::Begin(const ServiceMessage& req
   return call;
 }
 
+void OfferedService::Serve(const ServiceMessage& request) {
+  std::shared_ptr<const ServiceForm> form;
+  Result<std::unique_ptr<AnyCall>> begun = std::unique_ptr<AnyCall>();
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());  // which may take its time
+    begun = Begin(request);
+    form = form_;
+  }
+  if (begun) {
+    pending_.push_back({request.id, std::move(form), std::move(*begun)});
+  } else if (form != nullptr) {
+    Answer(request.id, *form, {.success = false, .message = begun.error().ToString()}, nullptr);
+  }
+}
+
 bool OfferedService::Work() {
   if (endpoints_ == nullptr) return false;
-  while (const auto request = endpoints_->Take()) {
-    std::shared_ptr<const ServiceForm> form;
-    Result<std::unique_ptr<AnyCall>> begun = std::unique_ptr<AnyCall>();
-    {
-      const std::lock_guard lock(runtime_.structure_mutex());  // which may take its time
-      begun = Begin(*request);
-      form = form_;
+  endpoints_->TakeWaiting([this](const ServiceMessage& request) {
+    try {
+      Serve(request);
+    } catch (...) {  // for want of memory, of an answer, too
+      ++failed_;
+      throw;
     }
-    if (begun) {
-      pending_.push_back({request->id, std::move(form), std::move(*begun)});
-    } else if (form != nullptr) {
-      Answer(request->id, *form, {.success = false, .message = begun.error().ToString()}, nullptr);
-    }
-  }
+  });
   const Time now = runtime_.clock().Now();
   EraseWhere(pending_, [&](Pending& each) {
     const CallStatus status = each.call->Poll(now);
@@ -119,14 +132,15 @@ bool OfferedService::Work() {
 
 void OfferedService::Answer(const CallId& id, const ServiceForm& form, const ServiceForm::Outcome& outcome,
                             const void* reply) {
-  ++(outcome.success ? answered_ : failed_);
+  std::uint64_t& count = outcome.success ? answered_ : failed_;
   if (!form.WriteResponse(outcome, reply, octets_)) {
     error_ = Error{.message = "a call has failed, which a " + form.ros_type() + " cannot say: " + outcome.message,
                    .path = options_.port,
                    .hint = "take a service type with success and message in its response"};
-    return;
+  } else if (const auto sent = endpoints_->Reply(id, octets_); !sent) {
+    error_ = sent.error();
   }
-  if (const auto sent = endpoints_->Reply(id, octets_); !sent) error_ = sent.error();
+  ++count;
 }
 
 std::string OfferedService::Text() const {

@@ -20,7 +20,7 @@ class WakeEvent;
 
 /// A service of this application that nodes elsewhere may call.
 struct ServiceOfferOptions {
-  std::string port = {};     ///< by its path from the root
+  std::string port = {};     ///< by its path from the root, which may become another one
   std::string service = {};  ///< "/save_map"
   std::string as = {};       ///< "std_srvs/srv/Trigger"; "": made of its types
   SourcePosition position = {};
@@ -35,9 +35,11 @@ class OfferedService {
  public:
   static constexpr std::size_t kMostCalls = 64;  ///< under way at once
 
-  /// `identity`: as ServiceEndpoints. `wake` wakes the thread that calls Work(). `table`: ServiceTopics::table.
+  /// `identity`: as ServiceEndpoints. `wake` wakes the thread that calls Work(). `table`: ServiceTopics::table. `path`: what the
+  /// port is called now, under the structure lock; nullptr: as `options` say.
   OfferedService(Runtime& runtime, ServiceOfferOptions options, const MessageLibrary& library, ServiceDialect dialect,
-                 std::uint32_t identity, std::shared_ptr<WakeEvent> wake, const DiscoveryTable* table = nullptr);
+                 std::uint32_t identity, std::shared_ptr<WakeEvent> wake, const DiscoveryTable* table = nullptr,
+                 std::function<const std::string&()> path = {});
 
   [[nodiscard]] const ServiceOfferOptions& options() const noexcept { return options_; }
   /// The structure has changed, or who is there: offers the service while it is there. Errors: what it cannot be offered as.
@@ -63,15 +65,17 @@ class OfferedService {
   // Under the structure lock.
   Result<Callable*> Find();
   Result<std::unique_ptr<AnyCall>> Begin(const ServiceMessage& request);
+  void Serve(const ServiceMessage& request);
   void Answer(const CallId& id, const ServiceForm& form, const ServiceForm::Outcome& outcome, const void* reply);
 
   Runtime& runtime_;
-  const ServiceOfferOptions options_;
+  ServiceOfferOptions options_;  // `port` changed by the thread, under the structure lock
   const MessageLibrary& library_;
   const ServiceDialect dialect_;
   const std::uint32_t identity_;
   const std::shared_ptr<WakeEvent> wake_;
   const DiscoveryTable* const table_;
+  const std::function<const std::string&()> path_;
   // Of the service as it is now; changed under the structure lock.
   Port* port_ = nullptr;
   Callable* callable_ = nullptr;

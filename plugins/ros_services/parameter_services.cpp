@@ -25,6 +25,9 @@ constexpr std::uint32_t kIdentity = 0x80000000u;  // beyond those of services th
 // So often it is looked what has changed, while somebody listens.
 constexpr auto kLookForChanges = std::chrono::milliseconds(200);
 constexpr auto kNoHurry = std::chrono::hours(1);
+constexpr auto kAfterFailure = std::chrono::milliseconds(100);
+// Each is set by itself, between two cycles.
+constexpr std::size_t kMostAlone = 1000;
 
 template <typename T>
 void Write(const T& value, Octets& octets) {
@@ -209,37 +212,58 @@ std::vector<RosParameterDescriptor> ParameterServices::DescribeAll(const Names& 
   return descriptors;
 }
 
-Result<ParameterChange> ParameterServices::Prepare(const RosParameter& wanted) const {
+std::vector<Result<ParameterChange>> ParameterServices::Prepare(const Wanted& wanted) const {
   const std::lock_guard lock(application_.runtime().structure_mutex());
   const Parameters all = FindAll();
-  const auto found = all.find(wanted.name);
-  if (found == all.end()) {
-    return Error{.message = "there is no parameter '" + wanted.name + "'",
-                 .hint = NearestNameHint(wanted.name, NamesOf(all, [](const auto& each) { return each.first; }))};
-  }
-  if (set_ == nullptr) {
-    return Error{.message = "parameters may not be set from elsewhere",
-                 .hint = "the application's file is to say <ros parameters=\"write\"/>"};
-  }
-  auto text = TextOf(wanted.value, found->second.parameter->type());
-  if (!text) return text.error();
-  if (const auto checked = found->second.parameter->CheckText(*text); !checked) return checked.error();
-  return ParameterChange{found->second.path, std::move(*text)};
+  bool has_hint = false;
+  const auto prepare = [&](const RosParameter& each) -> Result<ParameterChange> {
+    const auto found = all.find(each.name);
+    if (found == all.end()) {
+      Error error{.message = "there is no parameter '" + each.name + "'"};
+      if (!std::exchange(has_hint, true))  // of many it would take long
+        error.hint = NearestNameHint(each.name, NamesOf(all, [](const auto& known) { return known.first; }));
+      return error;
+    }
+    if (set_ == nullptr) {
+      return Error{.message = "parameters may not be set from elsewhere",
+                   .hint = "the application's file is to say <ros parameters=\"write\"/>"};
+    }
+    auto text = TextOf(each.value, found->second.parameter->type());
+    if (!text) return text.error();
+    if (const auto checked = found->second.parameter->CheckText(*text); !checked) return checked.error();
+    return ParameterChange{found->second.path, std::move(*text)};
+  };
+  std::vector<Result<ParameterChange>> changes;
+  for (const RosParameter& each : wanted) changes.push_back(prepare(each));
+  return changes;
 }
 
 std::vector<RosSetResult> ParameterServices::Set(const Wanted& wanted, Time sent) const {
+  if (wanted.size() > kMostAlone) {
+    return std::vector<RosSetResult>(wanted.size(),
+                                     {.successful = false,
+                                      .reason = "at most " + std::to_string(kMostAlone) +
+                                                " are set one by one; set_parameters_atomically takes more"});
+  }
   std::vector<RosSetResult> results;
-  for (const RosParameter& each : wanted) results.push_back(SetAtomically({each}, sent));
+  for (auto& change : Prepare(wanted)) {
+    if (ends_) change = Error{.message = "the application ends"};
+    results.push_back(change ? SetTogether({*change}, sent)
+                             : RosSetResult{.successful = false, .reason = Sentence(change.error())});
+  }
   return results;
 }
 
 RosSetResult ParameterServices::SetAtomically(const Wanted& wanted, Time sent) const {
   std::vector<ParameterChange> changes;
-  for (const RosParameter& each : wanted) {
-    auto change = Prepare(each);
+  for (auto& change : Prepare(wanted)) {
     if (!change) return {.successful = false, .reason = Sentence(change.error())};
     changes.push_back(std::move(*change));
   }
+  return SetTogether(changes, sent);
+}
+
+RosSetResult ParameterServices::SetTogether(const std::vector<ParameterChange>& changes, Time sent) const {
   if (changes.empty()) return {.successful = true, .reason = ""};
   auto done = application_.runtime().robot_stop().CheckIsKnown({.asked = sent, .requests = {}});
   if (done) done = set_(changes);
@@ -249,19 +273,22 @@ RosSetResult ParameterServices::SetAtomically(const Wanted& wanted, Time sent) c
 void ParameterServices::Run() noexcept {
   Octets octets;
   while (!ends_) {
+    Duration pause = kNoHurry;
     try {
       for (const auto& each : servers_) {
-        while (const auto request = each->endpoints->Take()) {
+        each->endpoints->TakeWaiting([&](const ServiceMessage& request) {
+          if (ends_) return;
           // What is no request has no answer.
-          if (each->answer(*request, octets)) (void)each->endpoints->Reply(request->id, octets);
-        }
+          if (each->answer(request, octets)) (void)each->endpoints->Reply(request.id, octets);
+        });
       }
       TellChanges();
+      if (listeners_.load(std::memory_order_relaxed) > 0) pause = kLookForChanges;
     } catch (...) {
       log_.Error("parameters of ROS 2: {}", DescribeException());
+      pause = kAfterFailure;  // requests may be left
     }
-    const bool is_heard = listeners_.load(std::memory_order_relaxed) > 0;
-    if (!ends_) wake_->WaitUntil(SteadyClock().Now() + (is_heard ? Duration(kLookForChanges) : Duration(kNoHurry)));
+    if (!ends_) wake_->WaitUntil(SteadyClock().Now() + pause);
   }
 }
 

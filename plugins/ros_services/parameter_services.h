@@ -72,7 +72,8 @@ class ParameterServices {
   [[nodiscard]] Parameters FindAll() const;
   template <typename Use>
   void ForEach(const Names& names, const Use& use) const;
-  [[nodiscard]] Result<ParameterChange> Prepare(const RosParameter& wanted) const;
+  [[nodiscard]] std::vector<Result<ParameterChange>> Prepare(const Wanted& wanted) const;
+  [[nodiscard]] RosSetResult SetTogether(const std::vector<ParameterChange>& changes, Time sent) const;
   void Run() noexcept;
   void TellChanges();
   [[nodiscard]] std::map<std::string, RosParameterValue> Values() const;

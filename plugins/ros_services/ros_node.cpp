@@ -152,6 +152,7 @@ void RosNode::Tell(std::vector<WireId> readers, std::vector<WireId> writers) {
 }
 
 std::optional<Time> RosNode::Work(Time now) {
+  if (stop_ != nullptr) stop_->ServeLeft();
   const auto clock = SendClock(now);
   const auto health = diagnostics_ != nullptr ? diagnostics_->Send(now) : std::nullopt;
   return clock && health ? std::min(clock, health) : clock ? clock : health;

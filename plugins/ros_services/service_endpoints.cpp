@@ -123,8 +123,12 @@ void ServiceEndpoints::Keep(ServiceMessage message) {
   }
 }
 
+std::size_t ServiceEndpoints::waiting() {
+  const std::lock_guard lock(mutex_);
+  return messages_.size();
+}
+
 std::optional<ServiceMessage> ServiceEndpoints::Take() {
-  if (!kept_.empty()) SendKept();
   const std::lock_guard lock(mutex_);
   while (!messages_.empty()) {
     ServiceMessage first = std::move(messages_.front());

@@ -78,10 +78,21 @@ class ServiceEndpoints {
   /// Of a client: sends a request; the how manyth of its calls it is.
   Result<std::int64_t> Request(std::span<const std::byte> message);
   /// Of a server. An answer whose reader is not matched yet, as of a client that has just come, is kept for it, for 10 s at
-  /// most: Take() sends it.
+  /// most: SendKept() sends it.
   Result<void> Reply(const CallId& id, std::span<const std::byte> message);
   /// The next request, or reply to this client.
   [[nodiscard]] std::optional<ServiceMessage> Take();
+  /// Has `use` called for each that waits now, but for none that comes meanwhile, so that whoever asks, or answers, without end
+  /// keeps nobody waiting; then SendKept().
+  template <typename Use>
+  void TakeWaiting(const Use& use) {
+    for (std::size_t left = waiting(); left > 0; --left) {
+      if (const auto message = Take()) use(*message);
+    }
+    SendKept();
+  }
+  /// The answers whose readers have been matched meanwhile.
+  void SendKept();
   /// Somebody at the other end both takes and sends.
   [[nodiscard]] bool is_matched() const noexcept {
     return readers_.load(std::memory_order_relaxed) > 0 && writers_.load(std::memory_order_relaxed) > 0;
@@ -97,7 +108,7 @@ class ServiceEndpoints {
       : side_(side), topics_(std::move(topics)), on_news_(std::move(on_news)) {}
   [[nodiscard]] std::optional<ServiceMessage> Read(const WireSample& sample);
   [[nodiscard]] bool IsAwaited(const CallId& id) const;
-  void SendKept();
+  [[nodiscard]] std::size_t waiting();
   [[nodiscard]] bool IsForThis(const CallId& id) const noexcept;
   void Keep(ServiceMessage message);
   Result<std::int64_t> Send(const CallId& id, std::span<const std::byte> message);

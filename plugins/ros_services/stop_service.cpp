@@ -47,15 +47,21 @@ void StopService::Serve() noexcept {
   if (endpoints == nullptr) return;
   try {
     const std::lock_guard lock(serving_);
-    while (const auto request = endpoints->Take()) {
-      Answer answer = Do(*request);
-      if (answer.success && is_kept_ && !is_kept_()) answer.message += "; the next process would not know of it yet";
-      Octets octets;
-      CdrWriter to(octets);
-      to.Put(answer.success);
-      to.PutText(answer.message);
-      (void)endpoints->Reply(request->id, octets);  // who does not hear it asks again
-    }
+    endpoints->TakeWaiting([&](const ServiceMessage& request) { Serve(request); });
+  } catch (...) {
+    is_left_.store(true, std::memory_order_relaxed);
+  }
+}
+
+void StopService::Serve(const ServiceMessage& request) noexcept {
+  try {
+    Answer answer = Do(request);
+    if (answer.success && is_kept_ && !is_kept_()) answer.message += "; the next process would not know of it yet";
+    Octets octets;
+    CdrWriter to(octets);
+    to.Put(answer.success);
+    to.PutText(answer.message);
+    (void)known_.load()->Reply(request.id, octets);  // who does not hear it asks again
   } catch (...) {
     // For lack of memory: there is no answer, which whoever waits for one takes for what it is.
   }

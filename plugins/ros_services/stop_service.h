@@ -28,8 +28,12 @@ class StopService {
 
   [[nodiscard]] const ServiceEndpoints& endpoints() const noexcept { return *endpoints_; }
 
-  /// Answers what has come, and whom an answer is kept for. Any thread.
+  /// Does and answers what has come, then answers those whom an answer is kept for. Any thread.
   void Serve() noexcept;
+  /// Serves again, where there was no memory for an answer that is kept. Any thread.
+  void ServeLeft() noexcept {
+    if (is_left_.exchange(false, std::memory_order_relaxed)) Serve();
+  }
 
  private:
   StopService(Runtime& runtime, bool may_release, std::string name, std::function<bool()> is_kept,
@@ -44,6 +48,7 @@ class StopService {
     std::string message;
   };
   Answer Do(const ServiceMessage& request);
+  void Serve(const ServiceMessage& request) noexcept;
 
   Runtime& runtime_;
   const bool may_release_;
@@ -51,6 +56,7 @@ class StopService {
   const std::function<bool()> is_kept_;
   const std::function<Result<void>()> check_;  // RosHooks::check_stop
   std::mutex serving_;
+  std::atomic<bool> is_left_{false};
   std::atomic<ServiceEndpoints*> known_{nullptr};  // by then they may take requests
   std::unique_ptr<ServiceEndpoints> endpoints_;
 };

@@ -66,7 +66,7 @@ TakenService::~TakenService() {
   }
   // Clients that have found it may still be about to ring.
   Retire([ring = ring_] {});
-  for (Pending& each : pending_) End(each, CallStatus::kDisconnected, "the network has gone");
+  for (const Pending& each : pending_) End(*each.call, CallStatus::kDisconnected, "the network has gone");
 }
 
 Result<void> TakenService::Follow(WireParticipant& participant) {
@@ -91,19 +91,19 @@ bool TakenService::Work() {
   const Time now = runtime_.clock().Now();
   EraseWhere(pending_, [&](Pending& each) {
     if (each.call->is_given_up.load(std::memory_order_relaxed) || now >= each.call->deadline) {
-      End(each, CallStatus::kTimedOut,
+      End(*each.call, CallStatus::kTimedOut,
           (is_matched ? "no answer from " : "there is no service ") + options_.service +
               (is_matched ? "" : " in the network"));
       return true;
     }
     if (!is_matched || each.request.empty()) return false;
     if (each.call->IsFromBefore(runtime_.robot_stop())) {
-      End(each, CallStatus::kFailed, kCalledBeforeStop);
+      End(*each.call, CallStatus::kFailed, kCalledBeforeStop);
       return true;
     }
     const auto sent = endpoints_->Request(each.request);
     each.request.clear();
-    if (!sent) End(each, CallStatus::kFailed, sent.error().message);
+    if (!sent) End(*each.call, CallStatus::kFailed, sent.error().message);
     if (sent) each.number = *sent;
     return !sent;
   });
@@ -112,38 +112,43 @@ bool TakenService::Work() {
 
 void TakenService::TakeCalls() {
   for (CallBase* call = nullptr; service_->endpoint.queue.TryPop(call);) {
-    Pending pending{0, call, {}};
     try {
+      Pending pending{0, call, {}};
       service_->form->WriteRequest(service_->calls->ArgumentsOf(*call), pending.request);
       pending_.push_back(std::move(pending));
     } catch (...) {
-      End(pending, CallStatus::kFailed, DescribeException());
+      End(*call, CallStatus::kFailed, DescribeException());
     }
   }
 }
 
 void TakenService::TakeReplies() {
-  while (const auto reply = endpoints_->Take()) {
-    const auto of = std::ranges::find(pending_, reply->id.number, &Pending::number);
-    if (of == pending_.end()) continue;  // it came too late
-    const auto outcome = service_->form->ReadResponse(reply->message, service_->calls->ReplyOf(*of->call));
-    if (!outcome) {
-      End(*of, CallStatus::kFailed, "the answer cannot be read: " + outcome.error().message);
-      error_ = outcome.error();
-    } else if (outcome->success) {
-      End(*of, CallStatus::kAnswered, "");
-    } else {
-      End(*of, CallStatus::kFailed,
-          outcome->message.empty() ? options_.service + " says no reason" : Printable(outcome->message));
+  endpoints_->TakeWaiting([this](const ServiceMessage& reply) {
+    const auto of = std::ranges::find(pending_, reply.id.number, &Pending::number);
+    if (of == pending_.end()) return;  // it came too late
+    CallBase& call = *of->call;
+    pending_.erase(of);  // first: once it has ended, its client uses it again
+    try {
+      const auto outcome = service_->form->ReadResponse(reply.message, service_->calls->ReplyOf(call));
+      if (!outcome) {
+        error_ = outcome.error();
+        End(call, CallStatus::kFailed, "the answer cannot be read: " + error_->message);
+      } else if (outcome->success) {
+        End(call, CallStatus::kAnswered, "");
+      } else {
+        End(call, CallStatus::kFailed,
+            outcome->message.empty() ? options_.service + " says no reason" : Printable(outcome->message));
+      }
+    } catch (...) {
+      End(call, CallStatus::kFailed, DescribeException());
     }
-    pending_.erase(of);
-  }
+  });
 }
 
-void TakenService::End(Pending& pending, CallStatus status, const std::string& why) {
-  if (status != CallStatus::kAnswered) return service_->endpoint.End(*pending.call, status, why);
+void TakenService::End(CallBase& call, CallStatus status, std::string_view why) noexcept {
+  if (status != CallStatus::kAnswered) return service_->endpoint.End(call, status, why);
   service_->endpoint.answered.fetch_add(1, std::memory_order_relaxed);
-  pending.call->Answer(status);
+  call.Answer(status);
 }
 
 std::string TakenService::Text() const {

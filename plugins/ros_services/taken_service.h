@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/element/runtime.h"
@@ -68,7 +69,7 @@ class TakenService {
   };
   void TakeCalls();
   void TakeReplies();
-  void End(Pending& pending, CallStatus status, const std::string& why);
+  void End(CallBase& call, CallStatus status, std::string_view why) noexcept;
 
   Runtime& runtime_;
   const std::string path_;

@@ -177,6 +177,7 @@ void StopButton::Look() {
 }
 
 void StopButton::TakeValues() {
+  bool is_old = false;
   const auto look = [&](const void* value, ValueTimes times) {
     const std::uint64_t source = element_->probe.last_source();
     if (NumberIn(element_->probe.type(), value) != 0) {
@@ -195,12 +196,13 @@ void StopButton::TakeValues() {
       // What was held up on its way is older than what others have pressed since.
       if (let_go_->requests != pressed_)
         let_go_->asked = SteadyClock().Now() - (runtime_.clock().Now() - times.timestamp);
-    } else if (rule_.releases) {
-      TellOfHeldStop("its 0 bears the time of what was pressed");
+    } else {
+      is_old = true;
     }
   };
   while (element_->probe.Take(look)) {
   }
+  if (is_old && rule_.releases) TellOfHeldStop("its 0 bears the time of what was pressed");
   const std::uint64_t dropped = element_->probe.dropped();
   if (dropped != std::exchange(dropped_, dropped)) Press({rule_.port, ", of which values were lost"});
 }

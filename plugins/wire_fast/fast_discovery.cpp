@@ -169,8 +169,9 @@ void FastDiscovery::onParticipantAuthentication(dds::DomainParticipant*, rtps::P
   CallBack([&] {
     const std::string why = TakeFastRefusal();
     const std::lock_guard lock(mutex_);
-    const std::string& name = names_[IdOf(info.guid)];
-    listener_.OnRefused((name.empty() ? "somebody" : name) + ": " +
+    const auto known = names_.find(IdOf(info.guid));  // whoever is refused may never have been told of
+    const bool has_name = known != names_.end() && !known->second.empty();
+    listener_.OnRefused((has_name ? known->second : "somebody") + ": " +
                         (why.empty() ? "no certificate that is trusted here" : why));
   });
 }

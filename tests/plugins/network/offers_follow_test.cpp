@@ -1,5 +1,6 @@
 // What is offered while files say it twice, and names change.
 #include "plugins/network/xml_network_words.h"
+#include "plugins/services/service.h"
 #include "plugins/structure/extension_changes.h"
 #include "tests/plugins/network/network_member.h"
 
@@ -60,6 +61,57 @@ TEST_F(OffersFollow, WhatAPatternOffersHasItsNewNameOnly) {
   WaitUntil("it is offered by its new name", [&] { return a_.Text().find("as /a/eyes/place") != std::string::npos; });
   WaitUntil("it is no more by the one of before",
             [&] { return a_.Text().find("as /a/module/place") == std::string::npos; });
+}
+
+class Arm final : public Module {
+ public:
+  using Module::Module;
+  Service<int()> count{this, "count", [](Arm&) { return 1; }};
+
+ private:
+  void Update() override {}
+};
+
+// Whoever gets the name of before is not called in its place.
+TEST_F(OffersFollow, AServiceHasItsNewName) {
+  const auto make = [&](const char* name) -> Arm& {
+    auto& made = a_.runtime.Create<Arm>(a_.group, name);
+    EXPECT_TRUE(a_.runtime.MakeReady(made));
+    return made;
+  };
+  const auto is_offered = [&](const std::string& arm) {
+    return a_.Text().find("offers the service /application/" + arm + "/output/count as /count  runnel_msgs") !=
+           std::string::npos;
+  };
+  Arm& arm = make("arm");
+  AddNetworkChanges(a_.runtime);
+  a_.Begin();
+  {
+    const std::lock_guard lock(a_.runtime.structure_mutex());
+    a_.network->AddServiceOffer({.port = "/application/arm/output/count", .service = "/count"});
+    a_.network->AddServiceOffer({.port = "/application/arm_2/output/count", .service = "/other"});
+  }
+  WaitUntil("it is offered", [&] { return is_offered("arm"); });
+  ASSERT_TRUE(a_.runtime.Delete(arm));  // as who is renamed: it is made anew
+  Arm& renamed = make("arm_of_before");
+  ExtensionStep step;
+  {
+    const std::lock_guard lock(a_.runtime.structure_mutex());
+    const auto* const changes = a_.runtime.root().FindAnnotation<ExtensionChanges>();
+    ASSERT_NE(changes, nullptr);
+    step = changes->rename("/application/arm", "/application/arm_of_before");
+    ASSERT_TRUE(step.apply());
+  }
+  make("arm");
+  WaitUntil("it is offered by its new name", [&] { return is_offered("arm_of_before"); });
+  EXPECT_FALSE(is_offered("arm"));
+  EXPECT_EQ(a_.network->options().services[1].port, "/application/arm_2/output/count");
+  {
+    const std::lock_guard lock(a_.runtime.structure_mutex());
+    step.undo();
+  }
+  ASSERT_TRUE(a_.runtime.Delete(renamed));
+  WaitUntil("it is offered by the one of before again", [&] { return is_offered("arm"); });
 }
 
 TEST_F(OffersFollow, OfEachValueTheNewestIsSentWhereTheRateIsBounded) {

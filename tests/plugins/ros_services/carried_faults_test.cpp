@@ -5,6 +5,8 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <regex>
+#include <string>
 
 #include "core/element/runtime.h"
 #include "core/lockfree/wake_event.h"
@@ -46,14 +48,17 @@ struct Ends {
     output = FindTypedPorts(client.port().type())->MakeOutput(group, "far");
     DistantService::PublishBy(*output, far);
     (void)Port::Connect(*output, client.port());
-    taken = std::make_unique<TakenService>(runtime, "/a/far", ServiceTakeOptions{.service = "/double"}, far,
-                                           ServiceDialect::kInFront, 1, wake);
-    (void)taken->Follow(*near);
+    Take(*near);
     offered = std::make_unique<OfferedService>(runtime, ServiceOfferOptions{.port = "/a/double", .service = "/double"},
                                                MessageLibrary::Standard(), ServiceDialect::kInFront, 2, wake);
     (void)offered->Follow(*there, [](std::uint64_t) { return true; });
     WaitUntilQuiet(*engine);
     for (int i = 0; i < 4; ++i) calls[static_cast<std::size_t>(i)] = client.Begin(i + 1);
+  }
+  void Take(WireParticipant& participant) {
+    taken = std::make_unique<TakenService>(runtime, "/a/far", ServiceTakeOptions{.service = "/double"}, far,
+                                           ServiceDialect::kInFront, 1, wake);
+    (void)taken->Follow(participant);
   }
 
   Runtime runtime;
@@ -70,31 +75,52 @@ struct Ends {
   std::shared_ptr<DistantService> far;
   std::unique_ptr<TakenService> taken;
   std::unique_ptr<OfferedService> offered;
+  std::unique_ptr<ServiceEndpoints> other;
   std::array<CallFuture<int(int)>, 4> calls;
 };
 
 // One turn of the network's thread, which tells what it catches and goes on.
 void TakeTurn(const auto& end) {
   try {
-    (void)end->Work();
+    if (end != nullptr) (void)end->Work();
   } catch (const std::bad_alloc&) {
   }
 }
 
-/// `fails` meets the failing allocation; then both ends go on, until each call has ended.
-void Endure(const std::function<void(Ends&)>& before, const std::function<void(Ends&)>& fails) {
+/// "…, 3 answered, 1 failed".
+int Counted(const OfferedService& offered) {
+  const std::string text = offered.Text();
+  std::smatch found;
+  EXPECT_TRUE(std::regex_search(text, found, std::regex("([0-9]+) answered, ([0-9]+) failed"))) << text;
+  return std::stoi(found[1]) + std::stoi(found[2]);
+}
+
+/// `fails` meets the failing allocation, or several; then both ends go on, until each call has ended. `all_come`: to the
+/// service.
+void Endure(const std::function<void(Ends&)>& before, const std::function<void(Ends&)>& fails, bool all_come = false,
+            std::size_t further = 0) {
   auto ends = std::make_unique<Ends>();
   before(*ends);
   const std::size_t points = AtEachPoint(
       InjectedFault::kAllocation, [&] { fails(*ends); },
       [&](bool) {
+        const auto take_turns = [&] {
+          TakeTurn(ends->taken);
+          TakeTurn(ends->offered);
+          ends->service.Serve();
+        };
         for (auto& call : ends->calls) {
           WaitUntil("the call has ended", [&] {
-            TakeTurn(ends->taken);
-            TakeTurn(ends->offered);
-            ends->service.Serve();
+            take_turns();
             return call.is_done();
           });
+        }
+        WaitUntil("nothing is under way any more", [&] { return ends->taken == nullptr || !ends->taken->Work(); });
+        take_turns();
+        const ServiceEndpoint& endpoint = ends->far->endpoint;
+        ASSERT_EQ(endpoint.answered + endpoint.failed, ends->calls.size()) << "each is given back once";
+        if (all_come) {
+          ASSERT_EQ(Counted(*ends->offered), 4);
         }
         for (int i = 0; i < 4; ++i) {
           const auto outcome = ends->calls[static_cast<std::size_t>(i)].outcome();
@@ -104,22 +130,79 @@ void Endure(const std::function<void(Ends&)>& before, const std::function<void(E
         }
         ends = std::make_unique<Ends>();
         before(*ends);
-      });
-  EXPECT_GT(points, 5u);
+      },
+      further);
+  EXPECT_GT(points, 0u);
+}
+
+void AreSent(Ends& ends) {
+  TakeTurn(ends.taken);
+  WaitUntilQuiet(*ends.engine);
 }
 
 void AreServed(Ends& ends) {
-  TakeTurn(ends.taken);
-  WaitUntilQuiet(*ends.engine);
+  AreSent(ends);
   TakeTurn(ends.offered);
   ends.service.Serve();
+}
+
+// By a node whose answers are no answers of this service.
+void AreAnsweredWrongly(Ends& ends) {
+  const ServiceTopics topics = ends.offered->endpoints()->topics();
+  ends.offered.reset();
+  ends.other = std::move(*ServiceEndpoints::Start(ServiceEndpoints::Side::kServer, topics, *ends.there, 3, [] {}));
+  WaitUntilQuiet(*ends.engine);
+  AreSent(ends);
+  while (const auto request = ends.other->Take()) (void)ends.other->Reply(request->id, Octets(8));
+  WaitUntilQuiet(*ends.engine);
 }
 
 TEST(CarriedFaults, CallsAreSentOnceOrEnd) {
   Endure([](Ends&) {}, [](Ends& ends) { TakeTurn(ends.taken); });
 }
+TEST(CarriedFaults, RequestsAreAnsweredOrCounted) {
+  Endure(
+      AreSent, [](Ends& ends) { TakeTurn(ends.offered); }, true);
+}
 TEST(CarriedFaults, AnswersComeBackOrTheCallsEnd) {
-  Endure(AreServed, [](Ends& ends) { TakeTurn(ends.offered); });
+  Endure(
+      AreServed, [](Ends& ends) { TakeTurn(ends.offered); }, true);
+}
+TEST(CarriedFaults, CallsWhoseAnswersCannotBeReadEndOnce) {
+  Endure(AreAnsweredWrongly, [](Ends& ends) { TakeTurn(ends.taken); });
+}
+
+/// A network in which nobody is.
+struct Empty final : WireParticipant {
+  struct Writer final : WireWriter {
+    [[nodiscard]] const WireId& id() const noexcept override { return own; }
+    [[nodiscard]] bool HasReader(std::uint64_t) const override { return false; }
+    Result<void> Write(const std::shared_ptr<const Octets>&, std::int64_t) override { return {}; }
+    WireId own{1};
+  };
+  struct Reader final : WireReader {
+    [[nodiscard]] const WireId& id() const noexcept override { return own; }
+    WireId own{2};
+  };
+  [[nodiscard]] const WireId& id() const noexcept override { return own; }
+  Result<std::unique_ptr<WireWriter>> MakeWriter(const WireEndpointOptions&, OnMatched) override {
+    return std::unique_ptr<WireWriter>(std::make_unique<Writer>());
+  }
+  Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions&, OnSample, OnMatched) override {
+    return std::unique_ptr<WireReader>(std::make_unique<Reader>());
+  }
+  WireId own{3};
+};
+
+TEST(CarriedFaults, CallsEndWithTheNetwork) {
+  Empty empty;
+  const auto wait_for_somebody = [&](Ends& ends) {
+    ends.taken.reset();
+    ends.Take(empty);
+    TakeTurn(ends.taken);
+  };
+  Endure(
+      wait_for_somebody, [](Ends& ends) { ends.taken.reset(); }, false, 20);
 }
 
 }  // namespace

@@ -8,9 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/element/runtime.h"
+#include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/network_discovery/discovery_table.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/service_endpoints.h"
+#include "plugins/ros_services/stop_service.h"
 #include "plugins/testing/fault_injection.h"
 
 namespace runnel::test {
@@ -57,6 +60,12 @@ class Alone final : public WireParticipant {
 
 Octets Message(int number) { return {std::byte(0), std::byte(1), std::byte(0), std::byte(0), std::byte(number)}; }
 
+WireEndpoint EndpointOf(std::uint64_t handle, bool is_writer, const std::string& topic) {
+  WireEndpoint made{.handle = handle, .id = {static_cast<std::uint8_t>(handle)}, .is_writer = is_writer};
+  made.options = {.topic = topic, .user_data = kClient};
+  return made;
+}
+
 std::unique_ptr<ServiceEndpoints> Serve(Alone& alone, const DiscoveryTable* table) {
   return std::move(*ServiceEndpoints::Start(ServiceEndpoints::Side::kServer, {.service = "/double", .table = table},
                                             alone, 1, [] {}));
@@ -78,13 +87,8 @@ TEST(EndpointFaults, ARequestThatThereIsNoMemoryForIsCounted) {
 
 TEST(EndpointFaults, AnswersThatHaveWaitedGoOnceEach) {
   constexpr int kAnswers = 3;
-  const auto endpoint = [](std::uint64_t handle, bool is_writer, const std::string& topic) {
-    WireEndpoint made{.handle = handle, .id = {static_cast<std::uint8_t>(handle)}, .is_writer = is_writer};
-    made.options = {.topic = topic, .user_data = kClient};
-    return made;
-  };
   DiscoveryTable table([] {});
-  table.OnEndpoint(endpoint(kCaller, true, DdsRequestTopic("/double")));
+  table.OnEndpoint(EndpointOf(kCaller, true, DdsRequestTopic("/double")));
   Alone alone;
   std::unique_ptr<ServiceEndpoints> server;
   const auto keep = [&] {
@@ -95,14 +99,14 @@ TEST(EndpointFaults, AnswersThatHaveWaitedGoOnceEach) {
     for (int i = 1; i <= kAnswers; ++i)
       ASSERT_TRUE(server->Reply({.client = {1}, .number = i, .writer = kCaller}, Message(i)));
     ASSERT_TRUE(alone.written.empty()) << "the reader is not there yet";
-    table.OnEndpoint(endpoint(kItsReader, false, DdsReplyTopic("/double")));
+    table.OnEndpoint(EndpointOf(kItsReader, false, DdsReplyTopic("/double")));
     alone.has_reader = true;
   };
   keep();
   const std::size_t points = AtEachPoint(
-      InjectedFault::kAllocation, [&] { (void)CallBack([&] { (void)server->Take(); }); },
+      InjectedFault::kAllocation, [&] { (void)CallBack([&] { server->SendKept(); }); },
       [&](bool) {
-        (void)server->Take();
+        server->SendKept();
         ASSERT_EQ(alone.written.size(), static_cast<std::size_t>(kAnswers));
         for (int i = 1; i <= kAnswers; ++i) {
           EXPECT_EQ(alone.written[static_cast<std::size_t>(i - 1)],
@@ -111,6 +115,38 @@ TEST(EndpointFaults, AnswersThatHaveWaitedGoOnceEach) {
         keep();
       });
   EXPECT_GT(points, 3U);
+}
+
+// Neither for an answer that is kept for somebody else, nor for one that there is no memory for.
+TEST(EndpointFaults, AStopWaitsForNoAnswer) {
+  Runtime runtime;
+  DiscoveryTable table([] {});
+  table.OnEndpoint(EndpointOf(kCaller, true, DdsRequestTopic("/base/stop")));
+  for (const std::size_t further : {std::size_t{0}, std::size_t{1000}}) {
+    Alone alone;
+    std::unique_ptr<StopService> service;
+    const auto ask = [&](std::int64_t number, bool is_press) {
+      Octets message;
+      CdrWriter(message).Put(is_press);
+      return WithCallId({.client = {1}, .number = number, .writer = 0}, message);
+    };
+    const Octets release = ask(1, false), press = ask(2, true);
+    const auto begin = [&] {
+      (void)runtime.robot_stop().Release("a test");
+      service = std::move(*StopService::Start(runtime, true, "/base", alone, ServiceDialect::kInFront, {}, {}, &table));
+      alone.come({.octets = release, .writer = kCaller});
+      ASSERT_TRUE(alone.written.empty()) << "the answer waits for its reader";
+    };
+    begin();
+    const std::size_t points = AtEachPoint(
+        InjectedFault::kAllocation, [&] { (void)CallBack([&] { alone.come({.octets = press, .writer = kCaller}); }); },
+        [&](bool) {
+          EXPECT_NE(runtime.robot_stop().in_force(), service->endpoints().lost() > 0);
+          begin();
+        },
+        further);
+    EXPECT_GT(points, 3U);
+  }
 }
 
 }  // namespace
