@@ -60,10 +60,14 @@ void EndWatch::Begin(Application& application, std::function<void()> print, std:
   thread_ = std::jthread([this](const std::stop_token& stop) { Run(stop); });
 }
 
-void EndWatch::WaitFor(std::string what) {
+void EndWatch::WaitFor(std::string_view what) noexcept {
   const std::lock_guard lock(mutex_);
   if (awaited_.empty()) seen_ = std::min(signals.load(), 1);
-  awaited_ = std::move(what);
+  try {
+    awaited_ = what;
+  } catch (const std::bad_alloc&) {
+    awaited_ = "something";
+  }
   // The scheduler may go after this; a handler that has found it is about to end.
   to_be_ended.store(nullptr);
   while (handlers.load() != 0) std::this_thread::yield();
@@ -73,7 +77,7 @@ bool EndWatch::has_come() noexcept { return signals.load() > 0; }
 
 void EndWatch::Run(const std::stop_token& stop) {
   Duration since_asked{};
-  for (; !stop.stop_requested(); std::this_thread::sleep_for(kLook)) {
+  const auto look = [&] {
     const std::lock_guard lock(mutex_);
     const int come = signals.load();
     if (awaited_.empty()) {
@@ -87,6 +91,12 @@ void EndWatch::Run(const std::stop_token& stop) {
       since_asked += kLook;
     }
     if (since_asked > kPatience) Look();
+  };
+  for (; !stop.stop_requested(); std::this_thread::sleep_for(kLook)) {
+    try {
+      look();
+    } catch (const std::bad_alloc&) {  // the next look tells what this one could not
+    }
   }
 }
 

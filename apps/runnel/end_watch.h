@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -51,7 +52,7 @@ class EndWatch final : public ApplicationExtension {
   [[nodiscard]] static bool has_come() noexcept;
 
   /// The run is over, and neither function of Begin() is called any more. `what`: what comes to its end now, in words.
-  void WaitFor(std::string what);
+  void WaitFor(std::string_view what) noexcept;
 
  private:
   void Run(const std::stop_token& stop);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <utility>
 
 #include "core/base/exception_text.h"
@@ -208,7 +209,10 @@ Result<void> Application::Start() {
     const auto look = [&](Duration) {
       if (MachineClock::now() < next_look) return false;
       next_look = MachineClock::now() + kLookAround;
-      Attend();
+      try {
+        Attend();
+      } catch (const std::bad_alloc&) {  // the next look tells what this one could not
+      }
       return false;
     };
     try {
@@ -245,9 +249,13 @@ Result<Duration> Application::Run(const RunOptions& options) {
   }
   NoteStart();
   const auto look = [&](Duration so_far) {
-    Attend();
-    const bool is_over = options.is_over && options.is_over(so_far);
-    return IsOver() || is_over;
+    try {
+      Attend();
+      const bool is_over = options.is_over && options.is_over(so_far);
+      return IsOver() || is_over;
+    } catch (const std::bad_alloc&) {  // the next look tells what this one could not
+      return false;
+    }
   };
   if (!parts.scheduler->HasTasks()) return NothingToRun();
   const bool is_real = parts.scheduler->options().clock == ClockKind::kReal;

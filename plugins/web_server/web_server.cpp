@@ -11,6 +11,7 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
+#include "core/base/retry.h"
 #include "plugins/web_server/access_rules.h"
 #include "plugins/web_server/internal/beast_connections.h"
 
@@ -106,16 +107,9 @@ class Running final : public WebServer {
         }) {}
 
   ~Running() override {
-    asio::post(registry_->context(), [this] {
-      OrStop([this] {
-        boost::system::error_code ignored;
-        acceptor_.close(ignored);
-        pause_.cancel();
-        registry_->ForEach([](internal::WebConnection& each) { each.End("the application has ended"); });
-        auto timer = std::make_shared<asio::steady_timer>(registry_->context(), kFarewell);
-        AwaitEnd(std::move(timer), std::chrono::steady_clock::now() + kFarewell);
-      });
-    });
+    const bool is_told =
+        Retry([this] { asio::post(registry_->context(), [this] { OrStop([this] { SayFarewell(); }); }); });
+    if (!is_told) registry_->context().stop();
     thread_.join();
     registry_->Clear();
   }
@@ -126,13 +120,15 @@ class Running final : public WebServer {
   [[nodiscard]] std::size_t clients() const noexcept override { return registry_->sessions(); }
 
  private:
-  // Beneath this nobody catches anything. What throws, for want of memory, has ended the connection that it belongs to, or is none.
+  // Beneath this nobody catches anything. What throws, for want of memory, has lost the connection that it belongs to,
+  // or is none.
   void Run() noexcept {
     for (;;) {
       try {
         registry_->context().run();
         return;
       } catch (...) {
+        registry_->RemoveLost();
         AcceptAnew();
       }
     }
@@ -155,7 +151,7 @@ class Running final : public WebServer {
   }
 
   void Accept() noexcept {
-    for (;;) {
+    while (acceptor_.is_open() && !registry_->context().stopped()) {
       try {
         return BeginToAccept();
       } catch (...) {  // else nobody would be accepted any more
@@ -202,6 +198,15 @@ class Running final : public WebServer {
       }
     } catch (...) {  // for want of memory
     }
+  }
+
+  void SayFarewell() {
+    boost::system::error_code ignored;
+    acceptor_.close(ignored);
+    pause_.cancel();
+    registry_->ForEach([](internal::WebConnection& each) { each.End("the application has ended"); });
+    auto timer = std::make_shared<asio::steady_timer>(registry_->context(), kFarewell);
+    AwaitEnd(std::move(timer), std::chrono::steady_clock::now() + kFarewell);
   }
 
   void AwaitEnd(std::shared_ptr<asio::steady_timer> timer, std::chrono::steady_clock::time_point end) {

@@ -38,7 +38,8 @@ class WebClient {
   /// Says why, and ends the session; nothing is sent or received any more.
   virtual void Close(std::string reason) = 0;
   /// Gives the session a turn. May be kept and called by any thread, and does nothing once the
-  /// client or the server has gone.
+  /// client or the server has gone. Does not throw; where there is no memory for it, the session has the turn that it
+  /// has asked for itself.
   [[nodiscard]] virtual std::function<void()> Waker() = 0;
   /// The subprotocol that was agreed on.
   [[nodiscard]] virtual const std::string& protocol() const = 0;

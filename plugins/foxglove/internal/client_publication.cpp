@@ -2,6 +2,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
@@ -56,8 +57,8 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
   if (port->is_proxy() && port->Sinks().empty()) {
     return Error{.message = "nothing is connected to this port that could read it", .path = input.path};
   }
-  auto& place = runtime.Create<Place>(runtime.root(), name);
   shared.places.insert(name);
+  auto& place = runtime.Create<Place>(runtime.root(), name);
   place.output = port->MakeOutput(place, port->name(), {});
   if (!place.output) {
     return Error{.message = "only a module can make a " + input.type->name(), .path = input.path};
@@ -66,11 +67,14 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
   return Port::Connect(*place.output, *port);
 }
 
+// What does not come about even so ends with the deadline, or with the server.
 ClientPublication::~ClientPublication() {
-  if (!lease_.empty()) shared_.application.service.EndLease(lease_);
+  if (!lease_.empty()) Retry([this] { shared_.application.service.EndLease(lease_); });
   if (input_.drives) return;
-  shared_.tasks->Post([&shared = shared_, place = place_] {
-    if (shared.places.erase(place) > 0) DeletePlace(shared.runtime(), place);
+  Retry([this] {
+    shared_.tasks->Post([&shared = shared_, place = place_] {
+      if (DeletePlace(shared.runtime(), place)) shared.places.erase(place);
+    });
   });
 }
 
@@ -149,12 +153,14 @@ Result<void> ClientPublication::PublishWaiting() {
   return {};
 }
 
-void DeletePlace(Runtime& runtime, const std::string& name) {
-  std::unique_lock lock(runtime.structure_mutex());
-  FrameworkElement* const place = runtime.root().FindChild(name);
-  lock.unlock();
-  // That somebody else has deleted it is as good.
-  if (place != nullptr) (void)runtime.Delete(*place);
+bool DeletePlace(Runtime& runtime, const std::string& name) noexcept {
+  return Retry([&] {
+    std::unique_lock lock(runtime.structure_mutex());
+    FrameworkElement* const place = runtime.root().FindChild(name);
+    lock.unlock();
+    // That somebody else has deleted it is as good.
+    if (place != nullptr) (void)runtime.Delete(*place);
+  });
 }
 
 }  // namespace runnel::internal

@@ -172,17 +172,16 @@ void Directory::AddChannel(std::string topic, const std::string& port, const Typ
 }
 
 const Directory::Encodings& Directory::EncodingsOf(const TypeInfo& type) {
-  const auto [place, is_new] = encodings_.try_emplace(&type);
-  auto& [plain, transform] = place->second;
-  if (is_new) {
-    for (FoxgloveChannel& channel : ChannelsFor(type, "")) {
-      plain.push_back(std::make_shared<const FoxgloveChannel>(std::move(channel)));
-    }
-    if (auto channel = TransformChannelFor(type)) {
-      transform = std::make_shared<const FoxgloveChannel>(std::move(*channel));
-    }
+  const auto known = encodings_.find(&type);
+  if (known != encodings_.end()) return known->second;
+  Encodings made;
+  for (FoxgloveChannel& channel : ChannelsFor(type, "")) {
+    made.plain.push_back(std::make_shared<const FoxgloveChannel>(std::move(channel)));
   }
-  return place->second;
+  if (auto channel = TransformChannelFor(type)) {
+    made.transform = std::make_shared<const FoxgloveChannel>(std::move(*channel));
+  }
+  return encodings_.emplace(&type, std::move(made)).first->second;
 }
 
 bool Directory::VisitParameters(const std::vector<std::string>& names, const ParameterVisitor& visit) const {

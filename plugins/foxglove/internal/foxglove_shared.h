@@ -36,7 +36,7 @@ struct FoxgloveShared {
   std::unique_ptr<TaskGroup> tasks;
 };
 
-/// Deletes what a client has brought, if it is still there. Waits.
-void DeletePlace(Runtime& runtime, const std::string& name);
+/// Deletes what a client has brought, if it is still there. Waits. False: for want of memory it is there still.
+bool DeletePlace(Runtime& runtime, const std::string& name) noexcept;
 
 }  // namespace runnel::internal

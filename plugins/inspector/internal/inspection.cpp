@@ -141,13 +141,13 @@ void Inspection::LookAtRegistry(SteadyTime now) {
   lock.unlock();
   look_at_registry_ = now + kLookAtRegistry;
   if (registry == registry_) return;
-  registry_ = registry;
   // Modules are made for it, some of which take their time.
   cataloguing_ = tasks_.Post([this] {
     auto made = std::make_shared<const Catalogue>(MakeCatalogue(application_));
     const std::lock_guard guard(mutex_);
     catalogue_ = std::move(made);
   });
+  registry_ = registry;
 }
 
 }  // namespace runnel::internal

@@ -3,11 +3,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/retry.h"
+
 namespace runnel::internal {
 
 ConnectionRegistry::ConnectionRegistry(WebServerOptions options, AccessRules rules,
                                        const std::vector<WebResource>& resources, std::vector<WebProtocol> protocols)
     : options_(std::move(options)), rules_(std::move(rules)), resources_(resources), protocols_(std::move(protocols)) {}
+
+// Beast needs memory where a context ends in which there are WebSockets.
+ConnectionRegistry::~ConnectionRegistry() {
+  Retry([this] { context_.shutdown(); });
+}
 
 const WebResource* ConnectionRegistry::FindResource(std::string_view path) const {
   const auto found = std::ranges::find(resources_, path, &WebResource::path);
@@ -36,6 +43,15 @@ void ConnectionRegistry::Remove(const std::shared_ptr<WebConnection>& connection
   if (connections_.erase(connection) > 0 && connection->is_session()) --sessions_;
 }
 
+void ConnectionRegistry::RemoveLost() noexcept {
+  for (;;) {
+    const auto lost = std::ranges::find_if(connections_, [](const auto& each) { return each->is_lost(); });
+    if (lost == connections_.end()) return;
+    const std::shared_ptr<WebConnection> connection = *lost;
+    connection->Remove();
+  }
+}
+
 void ConnectionRegistry::AddVisitor(const std::shared_ptr<WebConnection>& visitor) {
   if (!connections_.insert(visitor).second || connections_.size() - sessions_.load() <= limits().visitors) return;
   std::shared_ptr<WebConnection> oldest;
@@ -43,8 +59,7 @@ void ConnectionRegistry::AddVisitor(const std::shared_ptr<WebConnection>& visito
     if (each->is_session()) continue;
     if (oldest == nullptr || each->since() < oldest->since()) oldest = each;
   }
-  oldest->Cut();
-  Remove(oldest);
+  oldest->Remove();
 }
 
 bool ConnectionRegistry::MakeRoomFor(WebRole role, bool is_kept) {
@@ -61,8 +76,8 @@ bool ConnectionRegistry::MakeRoomFor(WebRole role, bool is_kept) {
   if (alike < limits().clients) return true;
   if (least == nullptr) return false;
   least->End("somebody who may do more needs the place");
-  least->Detach();
-  Remove(least);
+  least->GiveUpPlace();
+  --sessions_;
   return true;
 }
 
@@ -72,9 +87,8 @@ void ConnectionRegistry::ForEach(const std::function<void(WebConnection&)>& use)
 }
 
 void ConnectionRegistry::Clear() noexcept {
-  for (const auto& each : connections_) each->Detach();
-  connections_.clear();
-  sessions_.store(0);
+  for (const auto& each : connections_) each->Lose();
+  RemoveLost();
 }
 
 }  // namespace runnel::internal

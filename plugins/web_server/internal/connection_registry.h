@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include <boost/asio/io_context.hpp>
@@ -28,10 +29,12 @@ class WebConnection {
   virtual void Poll() {}
   /// Ends it in order, if its protocol has an order to end in.
   virtual void End(std::string_view /*reason*/) { Cut(); }
-  /// Ends it at once.
+  /// Ends it at once; it is removed when it hears of that.
   virtual void Cut() noexcept = 0;
-  /// No other thread reaches it any more: the server ends.
-  virtual void Detach() noexcept {}
+  /// It has ended, with its session.
+  virtual void Remove() = 0;
+  /// Of a session that is to end soon: it is none any more.
+  void GiveUpPlace() noexcept { role_.reset(); }
 
   [[nodiscard]] bool is_session() const noexcept { return role_.has_value(); }
   /// Of a session.
@@ -40,14 +43,22 @@ class WebConnection {
   [[nodiscard]] bool is_kept() const noexcept { return is_kept_; }
   [[nodiscard]] SteadyTime since() const noexcept { return since_; }
 
+  /// It will not hear of one of its operations, and maybe of nothing any more.
+  void Lose() noexcept {
+    is_lost_ = true;
+    Cut();
+  }
+  [[nodiscard]] bool is_lost() const noexcept { return is_lost_; }
+
  protected:
   /// `role`: of a session; nothing: it is none.
   explicit WebConnection(std::optional<WebRole> role, bool is_kept = false) : role_(role), is_kept_(is_kept) {}
 
  private:
-  const std::optional<WebRole> role_;
+  std::optional<WebRole> role_;
   const bool is_kept_;
   const SteadyTime since_ = std::chrono::steady_clock::now();
+  bool is_lost_ = false;
 };
 
 /// For whoever is called by the server's thread, beneath which nobody catches anything: who throws, for want of memory, ends its
@@ -61,11 +72,35 @@ void OrRemove(Connection& connection, const Do& act) noexcept {
   }
 }
 
+/// What Asio and Beast call when an operation of `connection` has ended: `act(connection, results…)`. Where they find no
+/// memory themselves they drop it instead, and the connection is lost: nothing would be read of it any more, and nobody
+/// would know.
+template <typename Connection, typename Act>
+class Handler {
+ public:
+  Handler(Connection& connection, Act act) : connection_(connection.shared_from_this()), act_(std::move(act)) {}
+  Handler(Handler&&) noexcept = default;
+  ~Handler() {
+    // Not removed here: it may be its session that is being called.
+    if (connection_ != nullptr) connection_->Lose();
+  }
+  template <typename... Results>
+  void operator()(Results... results) {
+    const auto connection = std::move(connection_);
+    OrRemove(*connection, [&] { std::invoke(act_, *connection, results...); });
+  }
+
+ private:
+  std::shared_ptr<Connection> connection_;  // nullptr: it has been called, or moved
+  Act act_;
+};
+
 /// What the connections of one server share. Threads: the server's; `sessions` any.
 class ConnectionRegistry {
  public:
   ConnectionRegistry(WebServerOptions options, AccessRules rules, const std::vector<WebResource>& resources,
                      std::vector<WebProtocol> protocols);
+  ~ConnectionRegistry();
 
   [[nodiscard]] boost::asio::io_context& context() noexcept { return context_; }
   [[nodiscard]] const WebLimits& limits() const noexcept { return options_.limits; }
@@ -78,6 +113,8 @@ class ConnectionRegistry {
 
   void Add(const std::shared_ptr<WebConnection>& connection);
   void Remove(const std::shared_ptr<WebConnection>& connection) noexcept;
+  /// Those that will not hear by themselves that they have been cut.
+  void RemoveLost() noexcept;
   /// One that is no session, unless it is there already. If there are too many, the one that has been there for the longest
   /// time goes.
   void AddVisitor(const std::shared_ptr<WebConnection>& visitor);
@@ -93,7 +130,12 @@ class ConnectionRegistry {
   void Clear() noexcept;
 
  private:
-  boost::asio::io_context context_{1};
+  struct Context : boost::asio::io_context {
+    using io_context::io_context;
+    using io_context::shutdown;
+  };
+
+  Context context_{1};
   const WebServerOptions options_;
   const AccessRules rules_;
   const std::vector<WebResource> resources_;

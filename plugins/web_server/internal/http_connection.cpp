@@ -2,7 +2,6 @@
 #include <optional>
 #include <utility>
 
-#include <boost/beast/core/bind_handler.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -61,18 +60,15 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
         stream_(std::move(socket)) {}
 
   void Read() {
-    OrRemove(*this, [this] {
-      parser_.emplace();
-      parser_->header_limit(static_cast<std::uint32_t>(registry_.limits().header_bytes));
-      parser_->body_limit(0);
-      // Of the whole request, however many pieces it comes in.
-      stream_.expires_after(registry_.limits().request_time);
-      http::async_read(stream_, buffer_, *parser_,
-                       beast::bind_front_handler(&HttpConnection::OnRead, shared_from_this()));
-    });
+    parser_.emplace();
+    parser_->header_limit(static_cast<std::uint32_t>(registry_.limits().header_bytes));
+    parser_->body_limit(0);
+    // Of the whole request, however many pieces it comes in.
+    stream_.expires_after(registry_.limits().request_time);
+    http::async_read(stream_, buffer_, *parser_, Handler(*this, &HttpConnection::OnRead));
   }
 
-  void Remove() {
+  void Remove() override {
     Cut();
     registry_.Remove(shared_from_this());
   }
@@ -84,10 +80,6 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
 
  private:
   void OnRead(beast::error_code error, std::size_t /*bytes*/) {
-    OrRemove(*this, [&] { Look(error); });
-  }
-
-  void Look(beast::error_code error) {
     if (!error) return Answer();
     request_ = {};
     if (error == http::error::header_limit || error == http::error::buffer_overflow) {
@@ -192,29 +184,23 @@ class HttpConnection final : public WebConnection, public std::enable_shared_fro
   void SendPiece() {
     stream_.expires_never();
     if (visitor_ == nullptr) stream_.expires_after(registry_.limits().request_time);
-    http::async_write_some(stream_, *serializer_,
-                           beast::bind_front_handler(&HttpConnection::OnSent, shared_from_this()));
+    http::async_write_some(stream_, *serializer_, Handler(*this, &HttpConnection::OnSent));
   }
 
   void OnSent(beast::error_code error, std::size_t /*bytes*/) {
     if (error) return Remove();
     if (serializer_->is_done() && response_.keep_alive()) return Read();
-    OrRemove(*this, [&] {
-      if (!serializer_->is_done()) return SendPiece();
-      stream_.socket().shutdown(tcp::socket::shutdown_send, error);
-      stream_.expires_after(kTimeToDrain);
-      Drain({}, 0);
-    });
+    if (!serializer_->is_done()) return SendPiece();
+    stream_.socket().shutdown(tcp::socket::shutdown_send, error);
+    stream_.expires_after(kTimeToDrain);
+    Drain({}, 0);
   }
 
   // Closing while something is still to be read would take the answer from the client.
   void Drain(beast::error_code error, std::size_t bytes) {
     drained_ += bytes;
     if (error || drained_ > kMostToDrain) return Remove();
-    OrRemove(*this, [this] {
-      stream_.async_read_some(boost::asio::buffer(drain_),
-                              beast::bind_front_handler(&HttpConnection::Drain, shared_from_this()));
-    });
+    stream_.async_read_some(boost::asio::buffer(drain_), Handler(*this, &HttpConnection::Drain));
   }
 
   ConnectionRegistry& registry_;
@@ -238,7 +224,7 @@ void ServeHttp(ConnectionRegistry& registry, tcp::socket socket, std::optional<s
   const bool is_visitor = visitor == nullptr;
   const auto connection = std::make_shared<HttpConnection>(registry, std::move(socket), user, std::move(visitor));
   if (is_visitor) registry.AddVisitor(connection);
-  connection->Read();
+  OrRemove(*connection, [&] { connection->Read(); });
 }
 
 }  // namespace runnel::internal

@@ -64,15 +64,10 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
         timer_(registry.context()) {}
 
   void Begin() {
-    OrRemove(*this, [this] {
-      CutAfter(registry_.limits().request_time);
-      outer_.next_layer().async_wait(tcp::socket::wait_read, [self = shared_from_this()](error_code error) {
-        if (error) return self->Remove();
-        OrRemove(*self, [&] { self->Greet(); });
-      });
-    });
+    CutAfter(registry_.limits().request_time);
+    outer_.next_layer().async_wait(tcp::socket::wait_read, Handler(*this, &TlsRelay::Greet));
   }
-  void Remove() {
+  void Remove() override {
     Cut();
     registry_.Remove(shared_from_this());
   }
@@ -85,45 +80,36 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
   }
 
  private:
-  void Greet() {
+  void Greet(error_code failure) {
+    if (failure) return Remove();
     char first = 0;
     const ssize_t count = recv(outer_.next_layer().native_handle(), &first, 1, MSG_PEEK | MSG_DONTWAIT);
     if (count == 1 && first != kHandshakeRecord) return Explain();
-    outer_.async_handshake(ssl::stream_base::server, [self = shared_from_this()](error_code error) {
-      if (error) return self->Remove();
-      OrRemove(*self, [&] { self->Connect(); });
-    });
+    outer_.async_handshake(ssl::stream_base::server, Handler(*this, &TlsRelay::Connect));
   }
 
   // For a person who has typed the address without https://.
   void Explain() {
-    asio::async_write(outer_.next_layer(), asio::buffer(kNotEncrypted),
-                      [self = shared_from_this()](error_code, std::size_t) {
-                        OrRemove(*self, [&] {
-                          error_code ignored;
-                          self->outer_.next_layer().shutdown(tcp::socket::shutdown_send, ignored);
-                          self->CutAfter(kTimeToClose);
-                          self->DrainOuter();
-                        });
-                      });
+    asio::async_write(outer_.next_layer(), asio::buffer(kNotEncrypted), Handler(*this, &TlsRelay::OnExplained));
+  }
+  void OnExplained(error_code ignored, std::size_t /*bytes*/) {
+    outer_.next_layer().shutdown(tcp::socket::shutdown_send, ignored);
+    CutAfter(kTimeToClose);
+    DrainOuter({}, 0);
   }
 
   // Closing while something is still to be read would take the answer from the client.
-  void DrainOuter() {
-    outer_.next_layer().async_read_some(asio::buffer(in_), [self = shared_from_this()](error_code error, std::size_t) {
-      if (error) return self->Remove();
-      OrRemove(*self, [&] { self->DrainOuter(); });
-    });
+  void DrainOuter(error_code error, std::size_t /*bytes*/) {
+    if (error) return Remove();
+    outer_.next_layer().async_read_some(asio::buffer(in_), Handler(*this, &TlsRelay::DrainOuter));
   }
 
   // The end that speaks HTTP ends this one by closing. This one counts for both as long as it has something to send, but
   // while there is a session, which counts itself.
-  void Connect() {
+  void Connect(error_code error) {
     timer_.cancel();
-    const auto self = shared_from_this();
     int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return Remove();
-    error_code error;
+    if (error || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return Remove();
     inner_.assign(tcp::v4(), ends[0], error);
     tcp::socket served(registry_.context());
     if (!error) served.assign(tcp::v4(), ends[1], error);
@@ -132,55 +118,46 @@ class TlsRelay final : public WebConnection, public std::enable_shared_from_this
       if (!served.is_open()) close(ends[1]);
       return Remove();
     }
-    inner_.async_wait(tcp::socket::wait_error, [self](error_code) {
-      OrRemove(*self, [&] {
-        if (self->inner_.is_open()) self->registry_.AddVisitor(self);
-      });
-    });
-    ServeHttp(registry_, std::move(served), user_, self);
-    Decrypt();
-    Encrypt();
+    inner_.async_wait(tcp::socket::wait_error, Handler(*this, [](TlsRelay& self, error_code) {
+                        if (self.inner_.is_open()) self.registry_.AddVisitor(self.shared_from_this());
+                      }));
+    ServeHttp(registry_, std::move(served), user_, shared_from_this());
+    Decrypt({}, 0);
+    Encrypt({}, 0);
   }
 
-  void Decrypt() {
-    outer_.async_read_some(asio::buffer(in_), [self = shared_from_this()](error_code error, std::size_t bytes) {
-      error_code ignored;
-      // The other end reads what has come, and closes.
-      if (error) return void(self->inner_.shutdown(tcp::socket::shutdown_send, ignored));
-      OrRemove(*self, [&] {
-        asio::async_write(self->inner_, asio::buffer(self->in_, bytes), [self](error_code why, std::size_t) {
-          if (why) return;
-          OrRemove(*self, [&] { self->Decrypt(); });
-        });
-      });
-    });
+  void Decrypt(error_code error, std::size_t /*bytes*/) {
+    if (!error) outer_.async_read_some(asio::buffer(in_), Handler(*this, &TlsRelay::OnDecrypted));
+  }
+  void OnDecrypted(error_code error, std::size_t bytes) {
+    error_code ignored;
+    // The other end reads what has come, and closes.
+    if (error) return void(inner_.shutdown(tcp::socket::shutdown_send, ignored));
+    asio::async_write(inner_, asio::buffer(in_, bytes), Handler(*this, &TlsRelay::Decrypt));
   }
 
-  void Encrypt() {
-    inner_.async_read_some(asio::buffer(out_), [self = shared_from_this()](error_code error, std::size_t bytes) {
-      OrRemove(*self, [&] {
-        if (error) return self->Shutdown();
-        // A client that takes nothing of it all that time is not there any more.
-        self->CutAfter(self->registry_.limits().idle_time);
-        asio::async_write(self->outer_, asio::buffer(self->out_, bytes), [self](error_code why, std::size_t) {
-          self->timer_.cancel();
-          if (why) return self->Remove();
-          OrRemove(*self, [&] { self->Encrypt(); });
-        });
-      });
-    });
+  void Encrypt(error_code error, std::size_t /*bytes*/) {
+    timer_.cancel();
+    if (error) return Remove();
+    inner_.async_read_some(asio::buffer(out_), Handler(*this, &TlsRelay::OnAnswer));
+  }
+  void OnAnswer(error_code error, std::size_t bytes) {
+    if (error) return Shutdown();
+    // A client that takes nothing of it all that time is not there any more.
+    CutAfter(registry_.limits().idle_time);
+    asio::async_write(outer_, asio::buffer(out_, bytes), Handler(*this, &TlsRelay::Encrypt));
   }
 
   void Shutdown() {
     CutAfter(kTimeToClose);
-    outer_.async_shutdown([self = shared_from_this()](error_code) { self->Remove(); });
+    outer_.async_shutdown(Handler(*this, [](TlsRelay& self, error_code) { self.Remove(); }));
   }
 
   void CutAfter(Duration time) {
     timer_.expires_after(time);
-    timer_.async_wait([self = shared_from_this()](error_code cancelled) {
-      if (!cancelled) self->Cut();
-    });
+    timer_.async_wait(Handler(*this, [](TlsRelay& self, error_code cancelled) {
+      if (!cancelled) self.Cut();
+    }));
   }
 
   ConnectionRegistry& registry_;
@@ -230,7 +207,7 @@ void ServeTls(ConnectionRegistry& registry, const std::shared_ptr<TlsIdentity>& 
               std::optional<std::uint32_t> user) {
   const auto relay = std::make_shared<TlsRelay>(registry, identity, std::move(socket), user);
   registry.AddVisitor(relay);
-  relay->Begin();
+  OrRemove(*relay, [&] { relay->Begin(); });
 }
 
 }  // namespace runnel::internal

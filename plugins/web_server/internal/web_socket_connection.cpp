@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -46,20 +45,14 @@ class WakeHandle : public std::enable_shared_from_this<WakeHandle> {
   WakeHandle(boost::asio::io_context& context, std::weak_ptr<WebConnection> connection)
       : context_(&context), connection_(std::move(connection)) {}
 
-  void Wake() {
-    if (is_woken_.exchange(true)) return;
+  void Wake() noexcept {
     const std::lock_guard lock(mutex_);
-    if (context_ == nullptr) return;
-    boost::asio::post(*context_, [handle = shared_from_this()] {
-      handle->is_woken_.store(false);
-      const auto alive = handle->connection_.lock();
-      if (alive == nullptr) return;
-      try {
-        alive->Poll();
-      } catch (...) {  // for want of memory
-        alive->Cut();
-      }
-    });
+    if (context_ == nullptr || is_woken_) return;
+    try {
+      boost::asio::post(*context_, [handle = shared_from_this()] { handle->Turn(); });
+      is_woken_ = true;
+    } catch (...) {  // for want of memory: its session has the next turn that it has asked for itself
+    }
   }
   /// The connection goes, and the server may go after it.
   void Forget() {
@@ -68,10 +61,18 @@ class WakeHandle : public std::enable_shared_from_this<WakeHandle> {
   }
 
  private:
+  void Turn() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_woken_ = false;
+    }
+    if (const auto alive = connection_.lock()) OrRemove(*alive, [&] { alive->Poll(); });
+  }
+
   std::mutex mutex_;
   boost::asio::io_context* context_;  // guarded by mutex_; nullptr when the connection has gone
   const std::weak_ptr<WebConnection> connection_;
-  std::atomic<bool> is_woken_{false};  // a turn has been asked for and has not come yet
+  bool is_woken_ = false;  // guarded by mutex_: a turn has been asked for and has not come yet
 };
 
 /// One WebSocket with its session.
@@ -105,9 +106,7 @@ class WebSocketConnection final : public WebConnection,
       bucket_.Consume(text.size(), Now());
       if (bucket_.IsFlood()) Close("too many pings");
     });
-    socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
-      OrRemove(*self, [&] { self->OnAccepted(error); });
-    });
+    socket_.async_accept(request_, Handler(*this, &WebSocketConnection::OnAccepted));
   }
 
   bool SendText(std::string text) override { return Send({std::move(text), true}); }
@@ -133,20 +132,17 @@ class WebSocketConnection final : public WebConnection,
     }
     return [handle = wake_handle_] { handle->Wake(); };
   }
-  void Detach() noexcept override {
-    if (wake_handle_) wake_handle_->Forget();
-  }
   void Cut() noexcept override {
     beast::error_code ignored;
     socket_.next_layer().close(ignored);
   }
-  void Remove() {
+  void Remove() override {
     if (std::exchange(is_removed_, true)) return;
     poll_timer_.cancel();
     read_timer_.cancel();
     write_timer_.cancel();
     Cut();
-    Detach();
+    if (wake_handle_) wake_handle_->Forget();
     session_.reset();
     registry_.Remove(shared_from_this());
   }
@@ -161,9 +157,9 @@ class WebSocketConnection final : public WebConnection,
   // Unless the timer is cancelled or set anew by then.
   void At(SteadyTime time, boost::asio::steady_timer& timer, void (WebSocketConnection::*act)()) {
     timer.expires_at(time);
-    timer.async_wait([self = shared_from_this(), act](beast::error_code cancelled) {
-      if (!cancelled) OrRemove(*self, [&] { ((*self).*act)(); });
-    });
+    timer.async_wait(Handler(*this, [act](WebSocketConnection& self, beast::error_code cancelled) {
+      if (!cancelled) (self.*act)();
+    }));
   }
 
   template <typename Do>
@@ -184,13 +180,9 @@ class WebSocketConnection final : public WebConnection,
     Read();
   }
 
-  void Read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-      OrRemove(*self, [&] { self->OnRead(error); });
-    });
-  }
+  void Read() { socket_.async_read(buffer_, Handler(*this, &WebSocketConnection::OnRead)); }
 
-  void OnRead(beast::error_code error) {
+  void OnRead(beast::error_code error, std::size_t /*bytes*/) {
     // What was read before may be handed over after a failed write has removed this.
     if (error || is_removed_) return Remove();
     if (is_closing_) {  // only the client's end of it is of interest
@@ -267,13 +259,12 @@ class WebSocketConnection final : public WebConnection,
     // A client that takes nothing of it all that time is not there any more.
     At(Now() + registry_.limits().idle_time, write_timer_, &WebSocketConnection::Cut);
     socket_.async_write_some(written_ + piece.size() == message.bytes.size(), piece,
-                             [self = shared_from_this(), size = piece.size()](beast::error_code error, std::size_t) {
-                               self->written_ += size;
-                               OrRemove(*self, [&] { self->OnWritten(error); });
-                             });
+                             Handler(*this, [size = piece.size()](WebSocketConnection& self, beast::error_code error,
+                                                                  std::size_t) { self.OnWritten(error, size); }));
   }
 
-  void OnWritten(beast::error_code error) {
+  void OnWritten(beast::error_code error, std::size_t size) {
+    written_ += size;
     write_timer_.cancel();
     if (!error && !is_closing_ && written_ < waiting_.front().bytes.size()) return Write();
     written_ = 0;
@@ -295,14 +286,14 @@ class WebSocketConnection final : public WebConnection,
     websocket::close_reason why(code);
     const std::string cut(reason.substr(0, WholeCharacters(reason, kLongestReason)));
     why.reason.assign(cut.data(), cut.size());
-    socket_.async_close(why, [self = shared_from_this()](beast::error_code) { self->Remove(); });
+    socket_.async_close(why, Handler(*this, [](WebSocketConnection& self, beast::error_code) { self.Remove(); }));
   }
 
   // Whoever does not close its end soon is cut.
   void BeginClosing() {
     is_closing_ = true;
     // Not here: it may be the session itself that has asked for it.
-    boost::asio::post(registry_.context(), [self = shared_from_this()] { self->session_.reset(); });
+    boost::asio::post(registry_.context(), Handler(*this, [](WebSocketConnection& self) { self.session_.reset(); }));
     At(Now() + kTimeToSayGoodbye, poll_timer_, &WebSocketConnection::Cut);
   }
 

@@ -1,3 +1,6 @@
+#include <new>
+
+#include "plugins/testing/fault_injection.h"
 #include "tests/plugins/foxglove/foxglove_fixture.h"
 
 namespace runnel::test {
@@ -37,6 +40,28 @@ TEST_F(FoxgloveTest, AdvertisesAllThatComesOut) {
   EXPECT_EQ(pose["schemaName"], "foxglove.PoseInFrame");
   EXPECT_EQ(Json::parse(pose["schema"].get<std::string>())["title"], "foxglove.PoseInFrame");
   EXPECT_EQ(channels["/robot/speed"]["schemaName"], "double");
+}
+
+TEST_F(FoxgloveTest, AdvertisesAllOfItToTheNextClientWhereverMemoryHasRunOut) {
+  bool has_struck = true;
+  for (std::size_t nth = 1; has_struck; nth += 7) {  // it allocates very often
+    protocol = FoxgloveProtocol({.service = service, .name = "", .version = "", .steady_clock = &steady_clock});
+    session = protocol.start(client);
+    {
+      FaultInjection fault(InjectedFault::kAllocation, nth);
+      try {
+        session->OnPoll();
+      } catch (const std::bad_alloc&) {
+      }
+      has_struck = fault.has_struck();
+    }
+    client.texts.clear();
+    channels.clear();
+    session = protocol.start(client);
+    Turn();
+    Turn();
+    ASSERT_EQ(Channels().size(), 8u) << nth;
+  }
 }
 
 TEST_F(FoxgloveTest, TellsTheLogInItsOwnSchema) {

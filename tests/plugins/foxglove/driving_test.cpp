@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plugins/testing/fault_injection.h"
 #include "tests/plugins/foxglove/foxglove_fixture.h"
 
 namespace runnel::test {
@@ -33,6 +34,10 @@ class FoxgloveDriving : public FoxgloveTest {
   }
   bool Reads(const Input<double>& input, double wanted) {
     return Wait([&] { return input.Get() == wanted; });
+  }
+  std::size_t Brought() {  // by clients
+    const std::lock_guard lock(runtime.structure_mutex());
+    return runtime.root().children().size() - 1;
   }
   auto Hands() { return service.hand_settings().All(); }
   bool IsLost() {
@@ -90,6 +95,33 @@ TEST_F(FoxgloveDriving, EndsWithTheConnectionWhoeverHasTheStructureAndTheWorker)
   const HeldStructure held(runtime);
   session = nullptr;
   WaitUntil("it is at rest", [&] { return base.wheels.Get() == 0 && base.lift.Get() == 0.2; });
+}
+
+TEST_F(FoxgloveDriving, EndsWithTheConnectionWhereMemoryIsShort) {
+  Begin();
+  Advertise(1, "/base/wheels");
+  Advertise(2, "/robot/limit");
+  Publish(1, "0.3");
+  ASSERT_TRUE(Reads(base.wheels, 0.3));
+  ASSERT_TRUE(Wait([&] { return Brought() == 1; }));
+  {
+    const FaultInjection short_of_memory(InjectedFault::kAllocation, 1, 20);
+    session = nullptr;
+  }
+  WaitUntil("it is at rest", [&] { return base.wheels.Get() == 0; });
+  WaitUntil("nothing is left behind", [&] { return Brought() == 0; });
+}
+
+TEST_F(FoxgloveDriving, TheEndTakesAwayWhatTheWorkerHadNoTimeForWhereMemoryIsShort) {
+  Begin();
+  Advertise(1, "/robot/limit");
+  ASSERT_TRUE(Wait([&] { return Brought() == 1; }));
+  const Busy busy(service);
+  session = nullptr;
+  {
+    const FaultInjection short_of_memory(InjectedFault::kAllocation, 1, 20);
+    protocol = {};
+  }
 }
 
 TEST_F(FoxgloveDriving, WhoIsSilentDrivesNoLongerUntilHeSaysSomethingAnew) {
