@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,6 +51,7 @@ template <typename Use>
 auto RunReport::Attempt(Source& source, const Use& use) -> std::optional<decltype(use(*source.monitor))> {
   try {
     return use(*source.monitor);
+  } catch (const std::bad_alloc&) {  // that is no fault of the monitor, which can be asked again
   } catch (...) {
     Fail(source, DescribeException());
   }
@@ -118,6 +120,7 @@ std::string RunReport::Finish(Diagnostics& diagnostics) {
   std::string text;
   for (Source& source : sources_) {
     const auto said = Attempt(source, [](RunMonitor& monitor) { return monitor.Finish(); });
+    if (!said && !source.has_failed) Fail(source, "out of memory");
     if (!said) continue;
     if (!*said) {
       diagnostics.Add(said->error().WithPath(source.path).WithPosition(source.position));

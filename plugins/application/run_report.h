@@ -54,7 +54,7 @@ class RunReport final : public ElementListener {
     bool has_failed = false;
   };
 
-  /// What `use` makes of the monitor; nothing if that throws.
+  /// What `use` makes of the monitor; nothing if that throws, which has failed for good then unless memory was short.
   template <typename Use>
   auto Attempt(Source& source, const Use& use) -> std::optional<decltype(use(*source.monitor))>;
   void Fail(Source& source, const std::string& why);

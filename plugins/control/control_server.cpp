@@ -125,7 +125,13 @@ class ControlServer::Loop {
       must_pause_ = errno != EAGAIN && errno != EINTR && errno != ECONNABORTED;
       return;
     }
-    auto client = std::make_unique<ClientConnection>(descriptor, options_.longest_request);
+    std::unique_ptr<ClientConnection> client;
+    try {
+      client = std::make_unique<ClientConnection>(descriptor, options_.longest_request);
+    } catch (const std::bad_alloc&) {  // who has called finds the line closed
+      close(descriptor);
+      throw;
+    }
     if (!IsOwner(descriptor)) return;
     if (clients_.size() >= options_.most_clients && !EvictQuietClient()) {
       const Error full{.message =
