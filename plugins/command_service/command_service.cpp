@@ -71,20 +71,28 @@ class StructureRecorder final : public ElementListener {
   StructureRecorder& operator=(const StructureRecorder&) = delete;
 
   void OnReady(FrameworkElement& element) override {
-    const std::string type = FindModuleType(element);
-    Add("put in " + element.path() + (type.empty() ? "" : " (" + type + ")"));
+    Add([&] {
+      const std::string type = FindModuleType(element);
+      return "put in " + element.path() + (type.empty() ? "" : " (" + type + ")");
+    });
   }
-  void OnDeleted(FrameworkElement& element) override { Add("took out " + element.path()); }
+  void OnDeleted(FrameworkElement& element) override {
+    Add([&] { return "took out " + element.path(); });
+  }
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override {
-    Add("connected " + from.path() + " to " + to.path());
+    Add([&] { return "connected " + from.path() + " to " + to.path(); });
   }
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override {
-    Add("disconnected " + from.path() + " from " + to.path());
+    Add([&] { return "disconnected " + from.path() + " from " + to.path(); });
   }
 
  private:
-  void Add(std::string text) {
-    if (!CommandWorker::IsThisThread()) log_.Add(ApplicationLog::Kind::kChange, std::move(text));
+  template <typename Words>
+  void Add(const Words& words) noexcept {
+    try {
+      if (!CommandWorker::IsThisThread()) log_.Add(ApplicationLog::Kind::kChange, words());
+    } catch (const std::bad_alloc&) {  // what has been done is done, whether it is in the log or not
+    }
   }
 
   Runtime& runtime_;

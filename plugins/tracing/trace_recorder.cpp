@@ -145,17 +145,22 @@ void TraceRecorder::Add(internal::TraceSpan span) {
   }
 }
 
-void TraceRecorder::AddChange(const std::string& what) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!follows_structure_) return;
+void TraceRecorder::AddChange(const std::function<std::string()>& words) noexcept {
+  try {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!follows_structure_) return;
+    }
+    Add({JsonText(words()), "structure", SteadyClock().Now(), {}, {}});
+  } catch (const std::bad_alloc&) {  // what has been done is done, whether it is in the trace or not
   }
-  Add({JsonText(what), "structure", SteadyClock().Now(), {}, {}});
 }
 
 void TraceRecorder::OnReady(FrameworkElement& element) {
-  const std::string type = FindModuleType(element);
-  AddChange("put in " + element.path() + (type.empty() ? "" : " (" + type + ")"));
+  AddChange([&] {
+    const std::string type = FindModuleType(element);
+    return "put in " + element.path() + (type.empty() ? "" : " (" + type + ")");
+  });
 }
 
 }  // namespace runnel

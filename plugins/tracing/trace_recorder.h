@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -64,17 +65,19 @@ class TraceRecorder final : public CycleTracer, private ElementListener {
   TraceRecorder(Runtime& runtime, TraceOptions options, TraceFile file);
 
   void OnReady(FrameworkElement& element) override;
-  void OnDeleted(FrameworkElement& element) override { AddChange("took out " + element.path()); }
+  void OnDeleted(FrameworkElement& element) override {
+    AddChange([&] { return "took out " + element.path(); });
+  }
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override {
-    AddChange("connected " + from.path() + " to " + to.path());
+    AddChange([&] { return "connected " + from.path() + " to " + to.path(); });
   }
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override {
-    AddChange("disconnected " + from.path() + " from " + to.path());
+    AddChange([&] { return "disconnected " + from.path() + " from " + to.path(); });
   }
 
   void Add(internal::TraceSpan span);
   std::uint64_t GiveNumber(const std::string& name);
-  void AddChange(const std::string& what);
+  void AddChange(const std::function<std::string()>& words) noexcept;
   [[nodiscard]] internal::PendingTrace TakePending();
   void Work() noexcept;
   void WriteUntilTheEnd();

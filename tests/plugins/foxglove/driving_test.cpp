@@ -122,6 +122,7 @@ TEST_F(FoxgloveDriving, TheEndTakesAwayWhatTheWorkerHadNoTimeForWhereMemoryIsSho
     const FaultInjection short_of_memory(InjectedFault::kAllocation, 1, 20);
     protocol = {};
   }
+  EXPECT_EQ(Brought(), 0u);
 }
 
 TEST_F(FoxgloveDriving, WhoIsSilentDrivesNoLongerUntilHeSaysSomethingAnew) {
