@@ -90,6 +90,7 @@ Result<void> Navigator::Construct() {
                      {&follow_wall.activity, &teller.detour},
                      {&pose, &drive.pose},
                      {&pose, &escape.pose},
+                     {&pose, &emergency_stop.pose},
                      {&pose, &teller.pose},
                      {&goal, &drive.goal},
                      {&goal, &escape.goal},

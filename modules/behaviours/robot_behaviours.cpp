@@ -50,9 +50,10 @@ std::optional<Behaviour::Outcome> EscapeBehaviour::Behave(double activation) {
   // While it could not tell, the robot stood.
   const double time_step = last_ ? std::min(ToSeconds(now() - *last_), surroundings_timeout.limit.Get()) : 0.0;
   last_ = now();
-  // Who may do nothing waits for nothing; and a robot that looks at what lies before it does not come nearer meanwhile.
-  const bool must_look = Unseen(*view).distance < EmergencyStopConfiguration{}.least_way;
-  const double passed = activation > 0.0 ? time_step * (must_look ? kWhileLooking : 1.0) : 0.0;
+  // Who may do nothing, or may not move, waits for nothing; and a robot that looks at what lies before it does not come
+  // nearer meanwhile.
+  const bool may_move = activation > 0.0 && !runtime().robot_stop().in_force();
+  const double passed = may_move ? time_step * (IsUnseenNear(*view) ? kWhileLooking : 1.0) : 0.0;
   const bool is_escaping = WatchProgress(configuration, passed, *here, *there, *view, state_);
   return Outcome{is_escaping ? activation : 0.0, is_escaping ? 1.0 : 0.0};
 }
@@ -60,14 +61,14 @@ std::optional<Behaviour::Outcome> EscapeBehaviour::Behave(double activation) {
 std::optional<Behaviour::Outcome> EmergencyStopBehaviour::Behave(double activation) {
   const auto view = surroundings_timeout.Read(surroundings, now());
   const auto others = wanted_timeout.Read(wanted, now());
-  if (!view || !others) {
-    Warn(view ? wanted_timeout.words() : surroundings_timeout.words());
+  const auto here = pose_timeout.Read(pose, now());
+  const bool must_know_where = view && view->is_vague;
+  if (!view || !others || (must_know_where && !here)) {
+    Warn(!view ? surroundings_timeout.words() : !others ? wanted_timeout.words() : pose_timeout.words());
     twist.Set({});
     return Outcome{activation, 1.0};
   }
-  const double time_step = last_ ? std::min(ToSeconds(now() - *last_), surroundings_timeout.limit.Get()) : 0.0;
-  last_ = now();
-  const Wish wish = EmergencyStop({.least_way = least_way.Get()}, time_step, *view, *others, state_);
+  const Wish wish = EmergencyStop({.least_way = least_way.Get()}, here ? *here : Pose2{}, *view, *others, state_);
   twist.Set(wish.twist);
   return Outcome{activation * wish.rating, wish.rating};
 }

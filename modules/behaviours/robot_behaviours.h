@@ -48,6 +48,7 @@ inline void Describe(TypeBuilder<EscapeState>& type) {
   type.Name("EscapeState")
       .Field("has_goal", &EscapeState::has_goal)
       .Field("goal", &EscapeState::goal)
+      .Field("position", &EscapeState::position)
       .Field("least_distance", &EscapeState::least_distance)
       .Field("idle_time", &EscapeState::idle_time)
       .Field("is_escaping", &EscapeState::is_escaping)
@@ -149,13 +150,16 @@ class EscapeBehaviour final : public Behaviour {
 };
 
 /// Lets nothing pass but turning on the spot where the way ahead ends, and nothing at all while nobody looks, or it does not know
-/// what the others want. With rangers of narrow view it slows down before what none has looked at, and looks there itself.
+/// what the others want. With rangers of narrow view it slows down before what none has looked at, and looks there itself; by them
+/// it needs to know where the robot is, too.
 class EmergencyStopBehaviour final : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
   Input<Surroundings> surroundings{this, "surroundings", Measured(internal::kObstacles)};
   Input<Twist2> wanted{this, "wanted", Measured("how the others want to move")};
+  Input<Pose2> pose{
+      this, "pose", {.description = "of the robot, for rangers of narrow view", .ageing = Ageing::kTimesOut}};
   ControlOutput<Twist2> twist{this, "twist", {.description = "standstill, turning on the spot, or slower than wanted"}};
 
   Parameter<double> least_way{this,
@@ -163,15 +167,15 @@ class EmergencyStopBehaviour final : public Behaviour {
                               {.default_value = EmergencyStopConfiguration{}.least_way,
                                .bounds = {0.0, 10.0},
                                .unit = "m",
-                               .description = "with less way ahead that is free, and has been looked at, it stops"}};
+                               .description = "with less way ahead that is free it stops"}};
   InputTimeout surroundings_timeout{this, surroundings, {.former_name = "timeout"}};
   InputTimeout wanted_timeout{this, wanted, {}};
+  InputTimeout pose_timeout{this, pose, {}};
 
  private:
   std::optional<Outcome> Behave(double activation) override;
 
   EmergencyStopState state_;
-  std::optional<Time> last_;
 };
 
 }  // namespace runnel

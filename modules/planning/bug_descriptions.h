@@ -101,6 +101,8 @@ inline void Describe(TypeBuilder<BugState>& type) {
       .Field("composition", &BugState::composition)
       .Field("last_pose", &BugState::last_pose)
       .Field("last_twist", &BugState::last_twist)
+      .Field("still_pose", &BugState::still_pose)
+      .Field("commanded", &BugState::commanded)
       .Field("hits", &BugState::hits)
       .Field("leaves", &BugState::leaves)
       .Field("least_distance_of_all", &BugState::least_distance_of_all)

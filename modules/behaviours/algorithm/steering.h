@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "modules/types/algorithm/pose.h"
 #include "modules/types/algorithm/surroundings.h"
 
@@ -55,34 +57,36 @@ struct FollowWallConfiguration {
 };
 
 /// Along the wall on its hand: from there, swings the gaze round to the first way that is free. Where there is no wall
-/// it turns to where one should be. Its rating: how far it is from driving beside a wall.
+/// it drives in a circle towards where one should be. Its rating: how far it is from driving beside a wall.
 [[nodiscard]] Wish FollowWall(const SteeringConfiguration& steering, const FollowWallConfiguration& configuration,
                               const Surroundings& surroundings);
 
 struct EmergencyStopConfiguration {
-  double least_way = 0.05;      ///< m; with less way ahead that is free, and has been looked at, it stops
-  double looking_time = 3.0;    ///< s, of looking at what no sensor has looked at; then it is as free as it looks
-  double creeping_speed = 0.1;  ///< m/s, with which it goes on then,
-  double creeping_way = 0.3;    ///< m, before it looks again
+  double least_way = 0.05;      ///< m; with less way ahead that is free it stops
+  double creeping_speed = 0.1;  ///< m/s, into what it has faced and no sensor can tell of
   SteeringConfiguration steering = {};
 };
 
-/// What has been looked at in vain, or nearly.
+/// Where it looks, and has looked.
 struct EmergencyStopState {
-  double looking = 0.0;      ///< s, where it is
-  bool is_creeping = false;  ///< as it has looked for long enough
+  std::optional<double> look = {};  ///< rad, world: where it turns to, to see what is there
+  std::optional<Pose2> faced = {};  ///< where its last look ended
 };
 
+/// Whether a sensor of narrow view has to be turned to what lies straight ahead before the robot goes on.
+[[nodiscard]] bool IsUnseenNear(const Surroundings& surroundings);
+
 /// Stands still before it is too late, and lets nothing pass of what is `wanted` but turning on the spot. What rangers of
-/// narrow view have not looked at is not free: it slows down before it and on curves, and turns to where nobody has looked.
-/// One cycle of `time_step` s.
-[[nodiscard]] Wish EmergencyStop(const EmergencyStopConfiguration& configuration, double time_step,
+/// narrow view have not looked at is not free: it slows down before it and on curves, turns to it until it faces it, and
+/// then lets the others go on. What was faced from where it stands is known as well as it can be. The pose counts only with
+/// such rangers.
+[[nodiscard]] Wish EmergencyStop(const EmergencyStopConfiguration& configuration, const Pose2& pose,
                                  const Surroundings& surroundings, const Twist2& wanted, EmergencyStopState& state);
 
 struct EscapeConfiguration {
   double patience = 4.0;   ///< s without coming nearer, after which it is a dead end
   double progress = 0.1;   ///< m, by which it must come nearer
-  double margin = 0.2;     ///< m, by which it leaves nearer to the goal than it came
+  double margin = 0.2;     ///< m, by which it leaves nearer to the goal than it came, but in the open,
   double free_way = 1.0;   ///< m towards the goal, with which it leaves
   double tolerance = 0.1;  ///< m, nearer than this it is there
 };
@@ -91,6 +95,7 @@ struct EscapeConfiguration {
 struct EscapeState {
   bool has_goal = false;
   Point2 goal = {};
+  Point2 position = {};         ///< of the robot in the cycle before
   double least_distance = 0.0;  ///< m, that it has come near
   double idle_time = 0.0;       ///< s, since it did
   bool is_escaping = false;

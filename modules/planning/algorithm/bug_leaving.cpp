@@ -28,19 +28,16 @@ bool IsNearAlongTheBoundary(const BugState& state) {
 }
 
 constexpr double kProgress = 0.10;       // m that count as having got on
-constexpr double kMoving = 0.005;        // m or rad in a step, commanded
-constexpr double kStill = 0.0005;        // m or rad in a step
+constexpr double kMoving = 0.2;          // m or rad, commanded,
+constexpr double kRecent = 3.0;          // s, or so, lately
+constexpr double kStill = 0.04;          // m or rad; poses are not as exact as to tell less from standstill
 constexpr double kCrossingReach = 0.15;  // m past a crossing within which it may still leave there
 constexpr double kLineTolerance = 0.08;  // m; a robot that comes so near to the line is on it
 constexpr double kParallel = 0.001;      // m in a step by which it comes nearer at least, else it passes
 
-// Commanded to move, and not moving at all. With noise in its poses this cannot be seen.
-bool IsHeld(const BugState& state, const BugInput& input) {
-  const double moved = Distance(Position(state.last_pose), Position(input.pose));
-  const double turned = std::abs(WrapAngle(input.pose.heading - state.last_pose.heading));
-  const double forward = state.last_twist.forward * input.time_step;
-  const double turn = std::abs(state.last_twist.turn) * input.time_step;
-  return forward + turn > kMoving && moved < kStill && turned < kStill;
+// Commanded to move, and not moving. Turns to and fro, which come to nothing, are none that it was held back from.
+bool IsHeld(const BugState& state) {
+  return state.commanded.forward > kMoving || std::abs(state.commanded.turn) > kMoving;
 }
 
 }  // namespace
@@ -116,6 +113,10 @@ std::optional<Twist2> BugAlgorithm::GoAlongBoundary(BugState& state, const BugIn
     state.is_on_last_stretch = true;
   }
   if (state.is_on_last_stretch) return DriveToPoint(state, input, *state.leave_point);
+  if (IsStuck(state, input)) {
+    GiveUp(state, Unreachability::kNoRoom);
+    return Twist2{};
+  }
   const bool has_missed_it = WayGone(state) > 2.0 * (state.way_to_leave_point + kWayTolerance);
   if (has_missed_it) {
     state.status.mode = PlannerMode::kFollowingBoundary;
@@ -186,7 +187,7 @@ void BugAlgorithm::Begin(BugState& state, const BugInput& input) const {
   state.goal = input.goal;
   state.composition = components_.Fingerprint();
   state.line_start = input.start;
-  state.last_pose = input.pose;
+  state.last_pose = state.still_pose = input.pose;
   state.progress_point = Position(input.pose);
   state.faced.Start(input.pose);
 }
@@ -240,8 +241,16 @@ void BugAlgorithm::Record(BugState& state, const BugInput& input) const {
 }
 
 void BugAlgorithm::RecordIdleTime(BugState& state, const BugInput& input) const {
+  const double kept = std::max(0.0, 1.0 - input.time_step / kRecent);
+  state.commanded.forward = kept * state.commanded.forward + state.last_twist.forward * input.time_step;
+  state.commanded.turn = kept * state.commanded.turn + state.last_twist.turn * input.time_step;
+  const double moved = Distance(Position(state.still_pose), Position(input.pose));
+  if (moved > kStill || std::abs(WrapAngle(input.pose.heading - state.still_pose.heading)) > kStill) {
+    state.still_pose = input.pose;
+    state.commanded = {};
+  }
   // Neither blind nor held by somebody else is without room.
-  if (input.surroundings.is_measured && !IsHeld(state, input)) state.idle_time += input.time_step;
+  if (input.surroundings.is_measured && !IsHeld(state)) state.idle_time += input.time_step;
   if (Distance(state.progress_point, Position(input.pose)) > kProgress) {
     state.progress_point = Position(input.pose);
     state.idle_time = 0.0;

@@ -82,6 +82,8 @@ struct BugState {
   std::uint64_t composition = 0;  ///< of the variant that drove last; 0: none has
   Pose2 last_pose;                ///< in the update before
   Twist2 last_twist;              ///< commanded then
+  Pose2 still_pose;               ///< where it has been since it last moved
+  Twist2 commanded;               ///< m and rad, lately, since then
 
   PointHistory hits;    ///< in the order they were met
   PointHistory leaves;  ///< without those that turned out to be none

@@ -188,7 +188,8 @@ Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pos
   if (!std::isfinite(contact.distance)) {
     EndLook();
     contact_bearing_.reset();
-    return {speed, -sign * speed / kSearchRadius};
+    const double searching = std::min(speed, configuration.turn_limit * kSearchRadius);
+    return {searching, -sign * searching / kSearchRadius};
   }
   contact_bearing_ = contact.bearing;
   const double radius = TravelRadius(configuration, surroundings);

@@ -1,3 +1,5 @@
+#include <random>
+
 #include "gmock/gmock.h"
 #include "tests/modules/planning/drive.h"
 
@@ -210,16 +212,37 @@ TEST(BugRules, IsThereAtOnceIfItStartsThereWhateverTheVariant) {
 }
 
 TEST(BugRules, DoesNotTakeBeingHeldForLackOfRoom) {
-  Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
+  std::mt19937 dice;
+  const auto noise = [&](double most) { return most * (2.0 * static_cast<double>(dice()) / 4294967295.0 - 1.0); };
+  for (const double most : {0.0, 0.0003, 0.001, 0.01}) {  // m and rad
+    for (const bool is_at_wall : {false, true}) {
+      Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
+      const BugAlgorithm bug = Make("bug2");
+      if (is_at_wall) session.StepUntil(bug, HasHit);
+      for (int step = 0; step < 50; ++step) session.Step(bug);
+      session.Stop();
+      const Surroundings view = session.Look();
+      for (int step = 0; step < 2000; ++step) {  // a gate lets no command pass for 100 s
+        const Pose2 pose = session.pose();
+        const Pose2 noisy = {pose.x + noise(most), pose.y + noise(most), pose.heading + noise(most)};
+        (void)bug.Update(session.state, {kTimeStep, noisy, view, {-3, 0.2}, {3, 0.1}});
+      }
+      const PlannerStatus status = session.StepUntil(bug, IsFinished).status;
+      EXPECT_EQ(status.mode, PlannerMode::kReached) << most << ' ' << is_at_wall;
+      EXPECT_EQ(status.hits, 1u) << most << ' ' << is_at_wall;
+    }
+  }
+}
+
+TEST(BugRules, FindsLackOfRoomAlsoOnceItHasBeenHeld) {
+  Session session(World({Box(0, 0, 0.62, 0.62)}), {0, 0}, {3, 0});
   const BugAlgorithm bug = Make("bug2");
-  session.StepUntil(bug, HasHit);
-  for (int step = 0; step < 50; ++step) session.Step(bug);
+  for (int step = 0; step < 100; ++step) session.Step(bug);
   session.Stop();
   const Surroundings view = session.Look();
-  for (int step = 0; step < 2000; ++step) {  // a gate lets no command pass for 100 s
-    (void)bug.Update(session.state, {kTimeStep, session.pose(), view, {-3, 0.2}, {3, 0.1}});
-  }
-  EXPECT_EQ(session.StepUntil(bug, IsFinished).status.mode, PlannerMode::kReached);
+  for (int step = 0; step < 400; ++step)
+    (void)bug.Update(session.state, {kTimeStep, session.pose(), view, {0, 0}, {3, 0}});
+  EXPECT_EQ(session.StepUntil(bug, IsFinished).status.unreachability, Unreachability::kNoRoom);
 }
 
 TEST(BugRules, GivesTheSameCommandsForTheSameMeasurements) {

@@ -99,10 +99,16 @@ TEST_P(RefusedWay, IsNoPartOfTheLap) {
 }
 
 TEST_P(RefusedWay, IsGivenUpWhereTheRobotDoesNotGetOn) {
-  SetOut();
-  for (int step = 0; step < 1000; ++step) (void)Put({kSetOut + (step % 2 == 0 ? 0.001 : 0.0), 0, 0});
-  EXPECT_EQ(state.status.mode, PlannerMode::kUnreachable);
-  EXPECT_EQ(state.status.unreachability, Unreachability::kNoRoom);
+  for (const Approach approach : {Approach::kNear, Approach::kAlongBoundary, Approach::kAcross, Approach::kBack}) {
+    const BugState before = state;
+    SetOut();
+    state.approach = approach;
+    state.way_to_leave_point = 10.0;
+    for (int step = 0; step < 1300; ++step) (void)Put({kSetOut + (step % 2 == 0 ? 0.05 : 0.0), 0, 0});
+    EXPECT_EQ(state.status.mode, PlannerMode::kUnreachable) << static_cast<int>(approach);
+    EXPECT_EQ(state.status.unreachability, Unreachability::kNoRoom);
+    state = before;
+  }
 }
 
 // What the one before has found on its lap is not what the other one would have.

@@ -156,7 +156,7 @@ TEST(StandstillInRealTime, APauseWaitsForNoOtherOne) {
   auto& other = robot.runtime.Create<Doing>(robot.runtime.root(), "other");
   other.action = [&](Doing&) {
     is_hanging = hangs.load();
-    hangs.wait(true);
+    if (is_hanging) hangs.wait(true);
   };
   AssignThread(other, CreateThread(robot.runtime, "apart", {.period = 10ms}));
   MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
