@@ -47,8 +47,8 @@ void OutputBase::EndPulls() {
 // provider. Where one can be pulled and the other cannot, the readers come over, and find nothing
 // until something is published.
 bool OutputBase::ExchangesChannels(Port& from) noexcept {
-  const auto pulls = [](OutputBase& each) { return each.own_channel().pull_point() != nullptr; };
-  return pulls(*this) == pulls(static_cast<OutputBase&>(from));
+  const ChannelBase& other = static_cast<OutputBase&>(from).own_channel();
+  return (own_channel().pull_point() == nullptr) == (other.pull_point() == nullptr);
 }
 
 void OutputBase::FollowExchange(Port& from) {

@@ -228,10 +228,9 @@ class Port : public FrameworkElement {
   };
   /// Inputs: take `sources` for the outputs to read from, from now on.
   virtual void Rebind(const std::vector<Source>& sources);
-  /// What the port has for its connections goes from `from`, of the same class, to this one, and the
-  /// other way round. Edges have been exchanged already.
+  /// What two ports of one class have for their connections is exchanged; edges have been already. The second tells who
+  /// has to know of it; on the way back all is bound anew instead.
   virtual void ExchangeFlow(Port& /*from*/) noexcept {}
-  /// Tells those of it who have to know that flows have been exchanged; on the way back all is bound anew instead.
   virtual void FollowExchange(Port& /*from*/) {}
   /// Inputs: `to` stands now where `from` stood.
   virtual void ReplaceSource(const Port& /*from*/, Port& /*to*/) noexcept {}
@@ -262,10 +261,8 @@ class Port : public FrameworkElement {
   Result<void> SetStop(AnyValue safe_value, Duration brake, DrivingKind command, std::shared_ptr<StopSignal> robot);
   internal::PortExtras& Extras();
 
-  /// The times that a value published now by the calling thread bears: in a cycle, it is as old as the oldest
-  /// measurement that its module has read.
+  /// What a value published now by the calling thread bears: in a cycle, the oldest that its module has read.
   [[nodiscard]] inline ValueTimes PublicationTimes() const noexcept;
-  /// The time that a value published now by the calling thread bears.
   [[nodiscard]] inline Time PublicationTime() const noexcept;
   /// The times of a value that was measured at `timestamp`, for which the clock's coarse time will do outside of cycles.
   [[nodiscard]] inline ValueTimes PublicationTimes(Time timestamp) const noexcept;

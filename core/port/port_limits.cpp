@@ -1,6 +1,7 @@
 // What inputs take (Port::SetLimits()).
 
 #include <algorithm>
+#include <exception>
 #include <mutex>
 #include <utility>
 
@@ -89,20 +90,18 @@ Result<void> Port::SetLimits(InputLimits limits) {
 
 void Port::ExchangeLimits(std::unique_ptr<internal::HeldToLimits> limits) {
   auto& place = Extras().limits;
-  auto before = std::exchange(place, std::move(limits));
-  const auto end = [](internal::HeldToLimits& held) {
-    held.flow->KeepOnly({});
-    if (held.default_value) internal::DeleteLater(std::move(held.default_value));
-  };
+  auto ended = std::exchange(place, std::move(limits));
+  std::exception_ptr failure;
   try {
     RebindSinks();
   } catch (...) {  // some are bound to what it was to be held by
-    place.swap(before);
+    failure = std::current_exception();
+    place.swap(ended);
     Retry([&] { RebindSinks(); });
-    if (before) end(*before);
-    throw;
   }
-  if (before) end(*before);
+  if (ended) ended->flow->KeepOnly({});
+  if (ended && ended->default_value) internal::DeleteLater(std::move(ended->default_value));
+  if (failure) std::rethrow_exception(failure);
 }
 
 const InputLimits& Port::limits() const noexcept {

@@ -159,15 +159,14 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   // What holds values to the limits of the one goes over with its flow; each has limits of its own.
   const InputLimits own_limits = limits(), its_limits = from.limits();
   const auto limit = [&] {
-    if (modules != nullptr || (!own_limits.has_some() && !its_limits.has_some())) return;
+    if (!own_limits.has_some() && !its_limits.has_some()) return;
     (void)SetLimits(own_limits);
     (void)from.SetLimits(its_limits);
   };
   ExchangeConnections(from, sinks, modules != nullptr ? &modules->before : nullptr);
   if (modules == nullptr) ExchangeFlow(from);
   try {
-    if (modules == nullptr) FollowExchange(from);
-    limit();
+    if (modules == nullptr) FollowExchange(from), limit();
     if (after != before) extras_->stop = after;
     if (modules != nullptr) {
       BindAnew(from);
@@ -192,7 +191,7 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
     if (modules == nullptr) from.ExchangeFlow(*this);
     Retry([&] {
       from.BindAnew(*this);
-      limit();
+      if (modules == nullptr) limit();
     });
     throw;
   }

@@ -50,6 +50,7 @@ struct OfferOptions {
   std::optional<std::int32_t> strength = {};  ///< the only one that counts, if no stronger one is there
   bool is_measured = false;                   ///< a velocity that is no command: it goes on in STOP
   SourcePosition position = {};
+  std::vector<std::string> ports_before = {};  ///< it has been renamed from, the last one last
 
   bool operator==(const OfferOptions&) const = default;
 };

@@ -169,6 +169,7 @@ bool OfferedPort::is_stopped() const {
 std::optional<Time> OfferedPort::Send(Time now) {
   if (is_stopped() && writer_ != nullptr) {
     (void)bell_->Answer();
+    is_left_.store(false, std::memory_order_relaxed);
     bell_->SendByNetwork();
     return now + kAgain;
   }

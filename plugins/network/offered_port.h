@@ -19,7 +19,7 @@
 #include "core/port/probe_port.h"
 #include "plugins/network/network_options.h"
 #include "plugins/network/sending_turns.h"
-#include "plugins/network/value_forecast.h"
+#include "plugins/network_discovery/value_forecast.h"
 #include "plugins/network_discovery/value_form.h"
 #include "plugins/ros_services/ros_time.h"
 #include "plugins/wire/octet_pool.h"

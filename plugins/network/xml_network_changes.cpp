@@ -164,9 +164,7 @@ ExtensionStep StepOfRenaming(NetworkElement& network, const std::string& from, c
   step.apply = [&network, from, to, before, apply = std::move(step.apply)]() -> Result<void> {
     auto services = network.options().services;
     *before = services;
-    for (ServiceOfferOptions& each : services) {
-      if (IsAtOrBelow(each.port, from)) each.port = to + each.port.substr(from.size());
-    }
+    RenamePorts(services, from, to);
     auto renamed = apply();
     if (!renamed) return renamed;
     network.set_services(std::move(services));

@@ -69,14 +69,20 @@ Result<void> OfferedService::Follow(WireParticipant& participant, const std::fun
   }
   if (!found || (endpoints_ != nullptr && endpoints_->topics() != topics)) {
     pending_.clear();
-    endpoints_.reset();
+    SetEndpoints(nullptr);
   }
   if (!found || endpoints_ != nullptr) return found;
   auto begun = ServiceEndpoints::Start(ServiceEndpoints::Side::kServer, topics, participant, identity_,
                                        [wake = wake_] { wake->Notify(); });
   if (!begun) return begun.error();
-  endpoints_ = std::move(*begun);
+  SetEndpoints(std::move(*begun));
   return {};
+}
+
+// Who has the lock may be looking at those of before (Text()), which go after it.
+void OfferedService::SetEndpoints(std::unique_ptr<ServiceEndpoints> next) {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  endpoints_.swap(next);
 }
 
 Result<std::unique_ptr<AnyCall>> OfferedService::Begin(const ServiceMessage& request) {
@@ -132,7 +138,7 @@ bool OfferedService::Work() {
 
 void OfferedService::Answer(const CallId& id, const ServiceForm& form, const ServiceForm::Outcome& outcome,
                             const void* reply) {
-  std::uint64_t& count = outcome.success ? answered_ : failed_;
+  std::atomic<std::uint64_t>& count = outcome.success ? answered_ : failed_;
   if (!form.WriteResponse(outcome, reply, octets_)) {
     error_ = Error{.message = "a call has failed, which a " + form.ros_type() + " cannot say: " + outcome.message,
                    .path = options_.port,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,13 +25,14 @@ struct ServiceOfferOptions {
   std::string service = {};  ///< "/save_map"
   std::string as = {};       ///< "std_srvs/srv/Trigger"; "": made of its types
   SourcePosition position = {};
+  std::vector<std::string> ports_before = {};  ///< it has been renamed from, the last one last
 };
 
 /// Carries calls from the network to a service of the application and its answers back. The service is called as from a
 /// terminal: in its module's cycle or by its own thread. Whoever calls waits as long as it likes; when it has gone, the call is
 /// given up.
 ///
-/// Threads: all by the network's thread; but Forget(), by who has the structure lock. Outside of cycles.
+/// Threads: all by the network's thread; but Forget() and Text(), by who has the structure lock. Outside of cycles.
 class OfferedService {
  public:
   static constexpr std::size_t kMostCalls = 64;  ///< under way at once
@@ -63,6 +65,7 @@ class OfferedService {
   };
 
   // Under the structure lock.
+  void SetEndpoints(std::unique_ptr<ServiceEndpoints> next);
   Result<Callable*> Find();
   Result<std::unique_ptr<AnyCall>> Begin(const ServiceMessage& request);
   void Serve(const ServiceMessage& request);
@@ -83,8 +86,8 @@ class OfferedService {
   // The thread's own.
   std::unique_ptr<ServiceEndpoints> endpoints_;
   std::vector<Pending> pending_;
-  std::uint64_t answered_ = 0;
-  std::uint64_t failed_ = 0;
+  std::atomic<std::uint64_t> answered_{0};  // statistics, both
+  std::atomic<std::uint64_t> failed_{0};
   Octets octets_;
   std::optional<Error> error_;
 };

@@ -272,17 +272,24 @@ RosSetResult ParameterServices::SetTogether(const std::vector<ParameterChange>& 
 
 void ParameterServices::Run() noexcept {
   Octets octets;
+  Time next_look{};
   while (!ends_) {
     Duration pause = kNoHurry;
     try {
+      // One of each in turn: to set many may take long.
+      bool is_left = false;
       for (const auto& each : servers_) {
-        each->endpoints->TakeWaiting([&](const ServiceMessage& request) {
-          if (ends_) return;
-          // What is no request has no answer.
-          if (each->answer(request, octets)) (void)each->endpoints->Reply(request.id, octets);
-        });
+        const auto request = ends_ ? std::nullopt : each->endpoints->Take();
+        // What is no request has no answer.
+        if (request && each->answer(*request, octets)) (void)each->endpoints->Reply(request->id, octets);
+        each->endpoints->SendKept();
+        is_left = is_left || each->endpoints->waiting() > 0;
       }
+      const Time now = SteadyClock().Now();
+      if (is_left && now < next_look) continue;
+      next_look = now + kLookForChanges;
       TellChanges();
+      if (is_left) continue;
       if (listeners_.load(std::memory_order_relaxed) > 0) pause = kLookForChanges;
     } catch (...) {
       log_.Error("parameters of ROS 2: {}", DescribeException());

@@ -91,6 +91,8 @@ class ServiceEndpoints {
     }
     SendKept();
   }
+  /// How many have come and not been taken.
+  [[nodiscard]] std::size_t waiting();
   /// The answers whose readers have been matched meanwhile.
   void SendKept();
   /// Somebody at the other end both takes and sends.
@@ -108,7 +110,6 @@ class ServiceEndpoints {
       : side_(side), topics_(std::move(topics)), on_news_(std::move(on_news)) {}
   [[nodiscard]] std::optional<ServiceMessage> Read(const WireSample& sample);
   [[nodiscard]] bool IsAwaited(const CallId& id) const;
-  [[nodiscard]] std::size_t waiting();
   [[nodiscard]] bool IsForThis(const CallId& id) const noexcept;
   void Keep(ServiceMessage message);
   Result<std::int64_t> Send(const CallId& id, std::span<const std::byte> message);

@@ -79,6 +79,7 @@ Result<void> TakenService::Follow(WireParticipant& participant) {
                                         .dialect = dialect_},
                                        participant, identity_, [wake = wake_] { wake->Notify(); });
   if (!begun) return begun.error();
+  const std::lock_guard lock(runtime_.structure_mutex());  // by which others look at them (Text())
   endpoints_ = std::move(*begun);
   return {};
 }

@@ -75,6 +75,7 @@ void CycleWatchdog::StartIfNeeded() {
 void CycleWatchdog::Follow(Runners runners) {
   const std::lock_guard lock(mutex_);
   std::vector<Watched> watched;
+  watched.reserve(runners.size());  // none is moved before there is room for all
   for (auto& runner : runners) {
     const auto known = std::ranges::find(watched_, runner, &Watched::runner);
     watched.push_back(known != watched_.end() ? std::move(*known) : Watched{.runner = std::move(runner)});
@@ -111,16 +112,13 @@ void CycleWatchdog::Run() {
     } else if (!has_changed_.wait_for(lock, Interval(), is_woken)) {
       try {
         Look(Now());
-      } catch (const std::bad_alloc&) {
-        continue;  // the next look finds what this one could not tell
-      }
-      if (std::ranges::all_of(watched_, [](const Watched& each) { return each.fired.empty(); })) continue;
-      lock.unlock();
-      {
+        if (std::ranges::all_of(watched_, [](const Watched& each) { return each.fired.empty(); })) continue;
+        lock.unlock();
         const std::lock_guard listening(listening_);
         if (listener_) listener_();
+      } catch (const std::bad_alloc&) {  // the next look finds what this one could not tell
       }
-      lock.lock();
+      if (!lock.owns_lock()) lock.lock();
     }
   }
 }
@@ -165,6 +163,7 @@ void CycleWatchdog::Look(Watched& watched, Time now) {
 }
 
 void CycleWatchdog::Return(Watched& watched, Time now) {
+  if (watched.fired.empty()) return;
   const std::string message = "has returned from its cycle, after " + DurationText(now - watched.seen);
   bool is_told = false;
   for (; !watched.fired.empty(); watched.fired.erase(watched.fired.begin())) {

@@ -137,11 +137,17 @@ bool FaultDispatcher::Try(const Fault& fault, const std::function<void()>& call)
 }
 
 void FaultDispatcher::Apply(const FaultRule& rule, const Fault& fault) {
-  try {
-    rule.call ? rule.call(fault) : EndForFault();
-  } catch (...) {
-    Log({rule.of, "the fault rule failed: " + DescribeException(), fault.time});
-  }
+  // A rule for which there is no memory has done nothing yet.
+  const auto call = [&] {
+    try {
+      rule.call ? rule.call(fault) : EndForFault();
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (...) {
+      Note({rule.of, "the fault rule failed: " + DescribeException(), fault.time});
+    }
+  };
+  if (!Retry(call)) Note({rule.of, "the fault rule failed: out of memory", fault.time});
 }
 
 void FaultDispatcher::AddRule(FaultRule rule) {

@@ -24,21 +24,16 @@ Result<void> Attempt(const Act& act) {
   }
 }
 
-// What is to be safe is tried again while there is no memory for it.
+// What is to be safe and finds no memory has not been done, and is due until it is.
 template <typename Act>
-Result<void> AttemptWithMemory(const Act& act) {
-  Result<void> done = Error{.message = "out of memory"};
-  const auto attempt = [&] {
-    try {
-      done = act();
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (...) {
-      done = Error{.message = DescribeException()};
-    }
-  };
-  (void)Retry(attempt);
-  return done;
+Result<void> AttemptOrThrow(const Act& act) {
+  try {
+    return act();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+    return Error{.message = DescribeException()};
+  }
 }
 
 // Kept with a module that a rule has put in the place of another: what had been set at that, and its type.
@@ -212,9 +207,9 @@ void Supervisor::Shared::PublishMissed(Time now) {
     for (std::size_t i = 0; i < rule->misses.size(); ++i) {
       const SafeValue& safe = rule->reaction.published[i];
       if (!rule->misses[i] || !PathSearch(runtime).FindPort(safe.port, PathKind::kElement)) continue;
-      rule->misses[i] = false;
       rule->holds.resize(rule->misses.size());
-      const auto done = AttemptWithMemory([&] { return Publish(safe); });
+      const auto done = AttemptOrThrow([&] { return Publish(safe); });
+      rule->misses[i] = false;
       rule->holds[i] = done.has_value();
       Note({safe.port,
             "is there again; what a rule wants there meanwhile " +
@@ -253,21 +248,25 @@ void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& 
     reaction = given;  // as it is now, for paths change under the lock
     if (which == &SupervisionRule::otherwise) rule.holds.clear(), rule.misses.clear();
   }
-  const auto published = AttemptWithMemory([&] { return PublishAll(rule, which, reaction); });
+  const auto published = AttemptOrThrow([&] { return PublishAll(rule, which, reaction); });
   const bool is_long = where == Where::kBeside && !reaction.changes.empty();
   auto rest = [this, &rule, which, published, reaction = std::move(reaction),
                notice = Notice{path, why, now, false, is_recovery}]() mutable {
     const auto carried_out = Attempt([&] { return CarryOut(rule, which, reaction, notice.time); });
     const Result<void>& done = published ? carried_out : published;
     if (reaction.ends_run) scheduler.EndForFault();
-    notice.is_failure = !done;
-    if (!done) {
-      notice.message += "; what was to be done about it failed: " + done.error().ToString();
-    } else if (!reaction.description.empty()) {
-      notice.message += "; " + reaction.description;
-    }
-    if (reaction.ends_run) notice.message += "; ends the run";
-    Note(std::move(notice));
+    // It is done by then, and not done again where there is no memory to tell of it.
+    (void)Attempt([&] {
+      notice.is_failure = !done;
+      if (!done) {
+        notice.message += "; what was to be done about it failed: " + done.error().ToString();
+      } else if (!reaction.description.empty()) {
+        notice.message += "; " + reaction.description;
+      }
+      if (reaction.ends_run) notice.message += "; ends the run";
+      Note(std::move(notice));
+      return Result<void>();
+    });
   };
   if (where == Where::kHere) return rest();
   Beside(std::move(rest), is_long);

@@ -215,10 +215,11 @@ void Supervisor::Shared::FollowPauses(std::string_view but_for) {
       applies = scheduler.IsPaused(**found, but_for);
       of = each->of;
     }
-    if (applies == std::exchange(each->is_applied, applies)) continue;
+    if (applies == each->is_applied) continue;
     const Which which = applies ? &SupervisionRule::reaction : &SupervisionRule::otherwise;
-    if (((*each).*which).is_empty()) continue;
-    React(*each, which, of, applies ? "is paused" : "goes on", runtime.clock().Now(), false, Where::kHere);
+    if (!((*each).*which).is_empty())
+      React(*each, which, of, applies ? "is paused" : "goes on", runtime.clock().Now(), false, Where::kHere);
+    each->is_applied = applies;
   }
 }
 

@@ -99,12 +99,19 @@ bool IsStillCut(const FrameworkElement& parameter) {
 StaleWatch::Turn StaleWatch::Look(Runtime& runtime, Time now) {
   if (!heard_) heard_ = now;  // what has never come is missing from now on
   Hear(runtime);
-  const Turn turn = Judge(now);
-  if (turn == Turn::kNone) NoteDone(turn, now);
-  return turn;
+  const bool is_silent = now - *heard_ > rule_->after;
+  // A part of it may have been done, so it is done again; silence first, whatever has come meanwhile.
+  if (pending_ == Turn::kNone) {
+    pending_ = Judge(is_silent);
+  } else if (is_silent) {
+    pending_ = Turn::kStale;
+  }
+  if (pending_ == Turn::kNone) NoteDone(pending_, now);
+  return pending_;
 }
 
 void StaleWatch::NoteDone(Turn turn, Time now) noexcept {
+  pending_ = Turn::kNone;
   if (turn != Turn::kNone) {
     is_stale_ = turn == Turn::kStale;
     well_since_.reset();
@@ -123,8 +130,7 @@ void StaleWatch::Hear(Runtime& runtime) {
   }
 }
 
-StaleWatch::Turn StaleWatch::Judge(Time now) {
-  const bool is_silent = now - *heard_ > rule_->after;
+StaleWatch::Turn StaleWatch::Judge(bool is_silent) {
   if (!is_stale_) return is_silent ? Turn::kStale : Turn::kNone;
   if (is_silent) {
     well_since_.reset();

@@ -42,13 +42,14 @@ class StaleWatch {
 
  private:
   void Hear(Runtime& runtime);
-  [[nodiscard]] Turn Judge(Time now);
+  [[nodiscard]] Turn Judge(bool is_silent);
 
   const std::shared_ptr<const SupervisionRule> rule_;
   std::vector<std::string> outputs_;  // by path: modules may be replaced meanwhile
   std::optional<Time> heard_;         // the newest timestamp, or the first look
   std::optional<Time> well_since_;    // while stale: since when values come again
   bool is_stale_ = false;
+  Turn pending_ = Turn::kNone;  // what has been said, and not been done
   Time next_look_{};
 };
 

@@ -1,5 +1,6 @@
 #include <atomic>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include "core/base/retry.h"
@@ -67,11 +68,24 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
   return Port::Connect(*place.output, *port);
 }
 
+namespace {
+// Not for long: others are served by the same thread.
+template <typename Action>
+void TrySome(const Action& action) noexcept {
+  for (int attempt = 0; attempt < 30; ++attempt) {
+    try {
+      return action();
+    } catch (const std::bad_alloc&) {
+    }
+  }
+}
+}  // namespace
+
 // What does not come about even so ends with the deadline, or with the server.
 ClientPublication::~ClientPublication() {
-  if (!lease_.empty()) Retry([this] { shared_.application.service.EndLease(lease_); });
+  if (!lease_.empty()) TrySome([this] { shared_.application.service.EndLease(lease_); });
   if (input_.drives) return;
-  Retry([this] {
+  TrySome([this] {
     shared_.tasks->Post([&shared = shared_, place = place_] {
       if (DeletePlace(shared.runtime(), place)) shared.places.erase(place);
     });

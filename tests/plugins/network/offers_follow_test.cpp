@@ -1,4 +1,7 @@
 // What is offered while files say it twice, and names change.
+#include <chrono>
+#include <thread>
+
 #include "plugins/network/xml_network_words.h"
 #include "plugins/services/service.h"
 #include "plugins/structure/extension_changes.h"
@@ -137,6 +140,25 @@ TEST(OfferWordsTest, AStrengthBeyondThoseOfTheWireIsAMistake) {
   const auto wrong = WhatIsWrong(with("3000000000"));
   ASSERT_TRUE(wrong);
   EXPECT_THAT(wrong->message, HasSubstr("from 0 to 2147483647"));
+}
+
+// Its endpoints go while somebody looks at them.
+TEST_F(OffersFollow, AServiceComesAndGoesWhileItIsShown) {
+  a_.Begin();
+  {
+    const std::lock_guard lock(a_.runtime.structure_mutex());
+    a_.network->AddServiceOffer({.port = "/application/arm/output/count", .service = "/arm/count_of_what_it_holds"});
+  }
+  std::jthread shows([this](const std::stop_token& end) {
+    while (!end.stop_requested()) (void)a_.Text();
+  });
+  for (int i = 0; i < 200; ++i) {
+    auto& arm = a_.runtime.Create<Arm>(a_.group, "arm");
+    ASSERT_TRUE(a_.runtime.MakeReady(arm));
+    std::this_thread::sleep_for(std::chrono::microseconds(300));
+    ASSERT_TRUE(a_.runtime.Delete(arm));
+    std::this_thread::sleep_for(std::chrono::microseconds(300));
+  }
 }
 
 }  // namespace

@@ -33,5 +33,39 @@ TEST(SilenceFaults, TheSafeValueComesAllTheSame) {
   }
 }
 
+// Silent, well again, silent: what has begun is done, whatever comes meanwhile.
+TEST(SilenceFaults, ASensorMayChangeItsMindBeforeItIsReactedTo) {
+  for (const bool is_well_again : {false, true}) {
+    for (std::size_t nth = 1;; ++nth) {
+      SCOPED_TRACE(std::to_string(nth) + (is_well_again ? ", well again" : ", silent"));
+      Robot robot{SchedulerOptions::ClockKind::kSimulated};
+      const std::string port = robot.reader.in.path();
+      MustSucceed(robot.supervisor.Add({.of = port,
+                                        .after = 30ms,
+                                        .fresh_after = 50ms,
+                                        .reaction = {.published = {{port, "5"}}, .description = "rests"},
+                                        .otherwise = {.released = {port}, .description = "goes on"}}));
+      robot.scheduler.RunUntil(At(60));
+      robot.laser_works = false;
+      robot.scheduler.RunUntil(At(80));
+      if (is_well_again) {
+        robot.scheduler.RunUntil(At(150));
+        robot.laser_works = true;
+        robot.scheduler.RunUntil(At(190));
+      }
+      FaultInjection injection(InjectedFault::kAllocation, nth);
+      try {
+        robot.scheduler.RunUntil(At(is_well_again ? 230 : 100));
+      } catch (const std::bad_alloc&) {
+      }
+      injection.End();
+      robot.laser_works = !is_well_again;
+      robot.scheduler.RunUntil(At(900));
+      EXPECT_EQ(robot.seen, is_well_again ? 5 : 1);
+      if (!injection.has_struck() || ::testing::Test::HasFailure()) break;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace runnel::supervised

@@ -1,4 +1,4 @@
-#include "plugins/network/value_forecast.h"
+#include "plugins/network_discovery/value_forecast.h"
 
 #include <algorithm>
 #include <chrono>
