@@ -18,7 +18,7 @@ class ElementListener {
   /// The element and all below it have become ready: they are complete and configured.
   virtual void OnReady(FrameworkElement& /*element*/) {}
   /// The element and all below it are about to be deleted; they are still whole, and marked
-  /// deleted.
+  /// deleted. If it throws, for lack of memory, it is called again.
   virtual void OnDeleted(FrameworkElement& /*element*/) {}
   /// Ports: data now flows, or no longer flows, from one to the other.
   virtual void OnConnected(FrameworkElement& /*from*/, FrameworkElement& /*to*/) {}

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "core/base/exception_text.h"
+#include "core/base/retry.h"
 #include "core/element/own_thread.h"
 #include "core/lockfree/thread_epoch.h"
 
@@ -158,15 +159,9 @@ Result<UnlistedElement> Runtime::Unlist(FrameworkElement& element) {
   if (place_of(parent->owned_) == parent->owned_.end()) {
     return Refuse(element, "a part of another element cannot be deleted by itself", "delete " + parent->path());
   }
-  std::vector<std::pair<FrameworkElement*, LifeCycle>> before;
-  element.Visit([&](FrameworkElement& each) { before.emplace_back(&each, each.life_cycle_); });
-  for (const auto& each : before) each.first->life_cycle_ = LifeCycle::kDeleted;
-  try {
-    ForEachListener([&](ElementListener& listener) { listener.OnDeleted(element); });
-  } catch (...) {  // so that it can be deleted later
-    for (const auto& [each, life_cycle] : before) each->life_cycle_ = life_cycle;
-    throw;
-  }
+  element.Visit([](FrameworkElement& each) { each.life_cycle_ = LifeCycle::kDeleted; });
+  // All are told, since nobody could tell some of them that it is there again.
+  ForEachListener([&](ElementListener& listener) { Retry([&] { listener.OnDeleted(element); }); });
   element.LeaveParent();
   // Anew, since what listeners did may have moved it.
   const auto place = place_of(parent->owned_);

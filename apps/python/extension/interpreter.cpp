@@ -25,7 +25,10 @@ void EndChild(py::handle error) {
 }
 
 bool KeepInterrupt(const py::error_already_set& thrown) {
-  if (this_thread_place.cycles <= 0) EndChild(thrown.value());
+  if (this_thread_place.cycles <= 0) {
+    if (thrown.trace()) (void)PyException_SetTraceback(thrown.value().ptr(), thrown.trace().ptr());
+    EndChild(thrown.value());
+  }
   if (this_thread_place.calls == 0 || thrown.matches(PyExc_Exception)) return false;
   this_thread_place.interrupt = std::make_exception_ptr(thrown);
   return true;
