@@ -131,15 +131,13 @@ void InputBase::Rebind(const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     if (std::ranges::find(concerned, source.output, &Source::output) == concerned.end()) concerned.push_back(source);
   }
-  std::vector<Port*> outputs;
-  for (const Source& source : concerned) outputs.push_back(source.output);
   const bool was_visited = IsVisited();
   sources_ = sources;
   try {
     sink_ = Bind(sources);
     // Whom publishers need not know, they are not told of: an output may have thousands of these.
     if (was_visited || IsVisited()) {
-      for (Port* output : outputs) UpdateChannel(*output);
+      for (const Source& each : concerned) UpdateChannel(*each.output);
       UpdateStops();
     }
   } catch (...) {
@@ -150,8 +148,8 @@ void InputBase::Rebind(const std::vector<Source>& sources) {
   Bound();
   // What a new connection brings is there already, and no publisher tells of it.
   if (arrival_) arrival_->Wake();
-  const auto added = std::span(outputs).subspan(known);
-  const auto brings_data = [](const Port* output) { return HasValue(*output); };
+  const auto added = std::span(concerned).subspan(known);
+  const auto brings_data = [](const Source& each) { return HasValue(*each.output); };
   if (waker_ != nullptr && std::ranges::any_of(added, brings_data)) Wake(*waker_);
 }
 

@@ -43,9 +43,6 @@ void OutputBase::EndPulls() {
   if (PullPoint* const point = own_channel().pull_point()) point->SetProvider({});
 }
 
-// The channels are exchanged, so that readers stay where they are, and each output keeps its
-// provider. Where one can be pulled and the other cannot, the readers come over, and find nothing
-// until something is published.
 bool OutputBase::ExchangesChannels(Port& from) noexcept {
   const ChannelBase& other = static_cast<OutputBase&>(from).own_channel();
   return (own_channel().pull_point() == nullptr) == (other.pull_point() == nullptr);
@@ -55,6 +52,9 @@ void OutputBase::FollowExchange(Port& from) {
   if (!ExchangesChannels(from)) RebindSinks();
 }
 
+// The channels are exchanged, so that readers stay where they are, and each output keeps its
+// provider. Where one can be pulled and the other cannot, the readers come over, and find nothing
+// until something is published.
 void OutputBase::ExchangeFlow(Port& from) noexcept {
   if (!ExchangesChannels(from)) return;
   auto& other = static_cast<OutputBase&>(from);
