@@ -51,5 +51,5 @@ def hear_interrupts():
 def ends_well(text, *arguments, code=0):
     done = subprocess.run([sys.executable, "-c", BEGIN + textwrap.dedent(text), *arguments], capture_output=True, text=True, timeout=120,
                           preexec_fn=hear_interrupts)
-    assert (done.returncode, done.stdout) == (code, "done\n"), done.stdout + done.stderr
+    assert (done.returncode, done.stdout) == (code, "done\n"), f"{done.returncode}: {done.stdout}{done.stderr}"
     return done.stderr

@@ -22,12 +22,20 @@ def read():
             return
 
 
+class Never(runnel.Module):
+    def update(self):
+        has_begun.set()
+        while True:
+            time.sleep(0.01)
+
+
 def interrupt():
     while True:
         time.sleep(0.02)
         os.kill(os.getpid(), signal.SIGINT)
 
 
+has_begun = threading.Event()
 app = ticking(Slow)
 reader = app.reader("/tick/out")
 threading.Thread(target=read, daemon=True).start()
@@ -47,13 +55,8 @@ print("done")
 
 def test_a_second_interrupt_while_the_interpreter_ends_ends_the_process():
     ends_well(INTERRUPTED_AT_THE_END + '''
-class Never(runnel.Module):
-    def update(self):
-        while True:
-            time.sleep(0.01)
-
-
 app.create("never", Never)
+has_begun.wait()
 threading.Thread(target=interrupt, daemon=True).start()
 try:
     app.close()
