@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -18,12 +19,25 @@ struct FieldOptions {
   std::string description = {};
 };
 
+namespace internal {
+
+// GCC and Clang end it with "kNamed = &runnel::Pose2::heading]".
+template <auto kNamed>
+[[nodiscard]] constexpr const char* FunctionOf() {
+  return __PRETTY_FUNCTION__;
+}
+
+// "heading" of what a compiler says of `&Pose2::heading` or of a member `heading_`, "near_by" of `Approach::kNearBy`.
+[[nodiscard]] std::string NameIn(std::string_view function);
+
+}  // namespace internal
+
 /// Writes the description of T. The author of a type puts beside it, in its namespace (or in
 /// runnel, for types of others):
 ///
 ///     inline void Describe(TypeBuilder<Pose2>& type) {
-///       type.Name("Pose2").Field("x", &Pose2::x, {.unit = "m"}).Field("y", &Pose2::y,
-///           {.unit = "m"}).Field("heading", &Pose2::heading, {.unit = "rad"});
+///       type.Name("Pose2").Fields<&Pose2::x, &Pose2::y>({.unit = "m"}).Field("heading", &Pose2::heading,
+///           {.unit = "rad"});
 ///     }
 ///     inline void Describe(TypeBuilder<Side>& type) {
 ///       type.Name("Side").Value("left", Side::kLeft).Value("right", Side::kRight);
@@ -61,11 +75,25 @@ class TypeBuilder {
     return *this;
   }
 
+  /// Several, each with its own name, without a '_' at the end: Fields<&Pose2::x, &Pose2::y>({.unit = "m"}).
+  template <auto... kMembers>
+  TypeBuilder& Fields(const FieldOptions& options = {}) {
+    (Field(internal::NameIn(internal::FunctionOf<kMembers>()), kMembers, options), ...);
+    return *this;
+  }
+
   TypeBuilder& Value(std::string name, T value) requires std::is_enum_v<T> {
     type_.kind_ = TypeKind::kEnumeration;
     type_.enumeration_ = {[](const void* at) { return static_cast<std::int64_t>(*static_cast<const T*>(at)); },
                           [](void* at, std::int64_t number) { *static_cast<T*>(at) = static_cast<T>(number); }};
     type_.enumerators_.push_back({std::move(name), static_cast<std::int64_t>(value)});
+    return *this;
+  }
+
+  /// Several, by their own names: Values<Side::kLeft, Side::kFarRight>() are "left" and "far_right".
+  template <auto... kValues>
+  TypeBuilder& Values() {
+    (Value(internal::NameIn(internal::FunctionOf<kValues>()), kValues), ...);
     return *this;
   }
 

@@ -9,6 +9,8 @@ namespace runnel {
 
 namespace {
 
+bool IsCapital(char c) { return c >= 'A' && c <= 'Z'; }
+
 // Types may contain themselves (a tree has a list of trees), so those that have been looked at are kept.
 bool IsAnyPart(const TypeInfo& type, bool (*is_meant)(const TypeInfo& part), std::vector<const TypeInfo*>& known) {
   if (std::ranges::find(known, &type) != known.end()) return false;
@@ -45,5 +47,22 @@ void TypeInfo::AddField(std::string&& name, const TypeInfo& type, FieldOptions&&
   kind_ = TypeKind::kStructure;
   fields_.push_back({std::move(name), &type, std::move(options.unit), std::move(options.description), address});
 }
+
+namespace internal {
+
+std::string NameIn(std::string_view function) {
+  std::string_view own = function.substr(function.rfind(':') + 1);
+  own.remove_suffix(own.ends_with("_]") ? 2 : 1);
+  if (!own.starts_with('k') || own.size() == 1 || !IsCapital(own[1])) return std::string(own);
+  own.remove_prefix(1);
+  std::string name;
+  for (const char c : own) {
+    if (IsCapital(c) && !name.empty()) name += '_';
+    name += IsCapital(c) ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return name;
+}
+
+}  // namespace internal
 
 }  // namespace runnel

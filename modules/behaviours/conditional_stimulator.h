@@ -14,19 +14,12 @@
 namespace runnel {
 
 inline void Describe(TypeBuilder<ConditionKind>& type) {
-  type.Name("ConditionKind")
-      .Value("permanent", ConditionKind::kPermanent)
-      .Value("ordering", ConditionKind::kOrdering)
-      .Value("enabling", ConditionKind::kEnabling);
+  type.Name("ConditionKind").Values<ConditionKind::kPermanent, ConditionKind::kOrdering, ConditionKind::kEnabling>();
 }
 inline void Describe(TypeBuilder<Relation>& type) {
   type.Name("Relation")
-      .Value("greater", Relation::kGreater)
-      .Value("at_least", Relation::kAtLeast)
-      .Value("equal", Relation::kEqual)
-      .Value("at_most", Relation::kAtMost)
-      .Value("less", Relation::kLess)
-      .Value("not_equal", Relation::kNotEqual);
+      .Values<Relation::kGreater, Relation::kAtLeast, Relation::kEqual, Relation::kAtMost, Relation::kLess,
+              Relation::kNotEqual>();
 }
 
 /// Which conditions of a conditional stimulator have been met, for who takes its place: bit i for condition i.
@@ -35,7 +28,7 @@ struct MetConditions {
   std::uint32_t feedbacks = 0;
 };
 inline void Describe(TypeBuilder<MetConditions>& type) {
-  type.Name("MetConditions").Field("inputs", &MetConditions::inputs).Field("feedbacks", &MetConditions::feedbacks);
+  type.Name("MetConditions").Fields<&MetConditions::inputs, &MetConditions::feedbacks>();
 }
 
 /// Stimulates others when conditions are met, in an order if they ask for one: for sequences. The ports input1 … and

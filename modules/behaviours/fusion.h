@@ -51,9 +51,7 @@ class ValueFusion {
 
 inline void Describe(TypeBuilder<FusionMethod>& type) {
   type.Name("FusionMethod")
-      .Value("winner_takes_all", FusionMethod::kWinnerTakesAll)
-      .Value("weighted_average", FusionMethod::kWeightedAverage)
-      .Value("weighted_sum", FusionMethod::kWeightedSum);
+      .Values<FusionMethod::kWinnerTakesAll, FusionMethod::kWeightedAverage, FusionMethod::kWeightedSum>();
 }
 
 /// Makes what several behaviours want one, by how active each is: the only way in which two of them may command one

@@ -9,14 +9,10 @@
 namespace runnel {
 
 inline void Describe(TypeBuilder<CurveKind>& type) {
-  type.Name("CurveKind")
-      .Value("rise", CurveKind::kRise)
-      .Value("fall", CurveKind::kFall)
-      .Value("rise_fall", CurveKind::kRiseFall)
-      .Value("fall_rise", CurveKind::kFallRise);
+  type.Name("CurveKind").Values<CurveKind::kRise, CurveKind::kFall, CurveKind::kRiseFall, CurveKind::kFallRise>();
 }
 inline void Describe(TypeBuilder<CurveShape>& type) {
-  type.Name("CurveShape").Value("sine", CurveShape::kSine).Value("linear", CurveShape::kLinear);
+  type.Name("CurveShape").Values<CurveShape::kSine, CurveShape::kLinear>();
 }
 
 /// Makes an activity of a number, by a curve: how what is no behaviour, a distance, a charge, stimulates and inhibits

@@ -41,18 +41,13 @@ struct SteeringParameters {
 };
 
 inline void Describe(TypeBuilder<FirstTurn>& type) {
-  type.Name("FirstTurn").Value("left", FirstTurn::kLeft).Value("right", FirstTurn::kRight);
+  type.Name("FirstTurn").Values<FirstTurn::kLeft, FirstTurn::kRight>();
 }
 
 inline void Describe(TypeBuilder<EscapeState>& type) {
   type.Name("EscapeState")
-      .Field("has_goal", &EscapeState::has_goal)
-      .Field("goal", &EscapeState::goal)
-      .Field("position", &EscapeState::position)
-      .Field("least_distance", &EscapeState::least_distance)
-      .Field("idle_time", &EscapeState::idle_time)
-      .Field("is_escaping", &EscapeState::is_escaping)
-      .Field("stuck_distance", &EscapeState::stuck_distance);
+      .Fields<&EscapeState::has_goal, &EscapeState::goal, &EscapeState::position, &EscapeState::least_distance,
+              &EscapeState::idle_time, &EscapeState::is_escaping, &EscapeState::stuck_distance>();
 }
 
 /// Straight to the goal. Content within the tolerance; active as long as it is not.

@@ -23,13 +23,8 @@ enum class GateState {
 
 inline void Describe(TypeBuilder<GateState>& type) {
   type.Name("GateState")
-      .Value("open", GateState::kOpen)
-      .Value("never_came", GateState::kNeverCame)
-      .Value("old", GateState::kOld)
-      .Value("contact", GateState::kContact)
-      .Value("stopped", GateState::kStopped)
-      .Value("not_a_number", GateState::kNotANumber)
-      .Value("old_contact", GateState::kOldContact);
+      .Values<GateState::kOpen, GateState::kNeverCame, GateState::kOld, GateState::kContact, GateState::kStopped,
+              GateState::kNotANumber, GateState::kOldContact>();
 }
 
 /// Stands between whoever commands and the drive: lets commands pass while they are fresh and

@@ -16,9 +16,7 @@ struct Place {
   Pose2 pose;
 };
 
-inline void Describe(TypeBuilder<Place>& type) {
-  type.Name("Place").Field("name", &Place::name).Field("pose", &Place::pose);
-}
+inline void Describe(TypeBuilder<Place>& type) { type.Name("Place").Fields<&Place::name, &Place::pose>(); }
 
 /// A place that is noted, or noted anew: what changes a list of places.
 struct NotedPlace {
@@ -27,7 +25,7 @@ struct NotedPlace {
 };
 
 inline void Describe(TypeBuilder<NotedPlace>& type) {
-  type.Name("NotedPlace").Field("name", &NotedPlace::name).Field("pose", &NotedPlace::pose);
+  type.Name("NotedPlace").Fields<&NotedPlace::name, &NotedPlace::pose>();
 }
 
 /// Errors: a place without a name.

@@ -13,7 +13,7 @@
 namespace runnel {
 
 inline void Describe(TypeBuilder<BoundaryDirection>& type) {
-  type.Name("BoundaryDirection").Value("left", BoundaryDirection::kLeft).Value("right", BoundaryDirection::kRight);
+  type.Name("BoundaryDirection").Values<BoundaryDirection::kLeft, BoundaryDirection::kRight>();
 }
 
 /// The values of `Kind` bear the names of the components, which are in the same order.
@@ -36,47 +36,27 @@ inline void Describe(TypeBuilder<RevisitKind>& type) { DescribeKinds(type, "Revi
 /// Names the parts that only their classes know.
 struct KeptFields {
   static void Describe(TypeBuilder<PointHistory>& type) {
-    type.Name("PointHistory")
-        .Field("points", &PointHistory::points_)
-        .Field("total", &PointHistory::total_)
-        .Field("size", &PointHistory::size_);
+    type.Name("PointHistory").Fields<&PointHistory::points_, &PointHistory::total_, &PointHistory::size_>();
   }
   static void Describe(TypeBuilder<FacedHeadings>& type) {
     type.Name("FacedHeadings")
-        .Field("place", &FacedHeadings::place_)
-        .Field("heading", &FacedHeadings::heading_)
-        .Field("left", &FacedHeadings::left_)
-        .Field("right", &FacedHeadings::right_);
+        .Fields<&FacedHeadings::place_, &FacedHeadings::heading_, &FacedHeadings::left_, &FacedHeadings::right_>();
   }
   static void Describe(TypeBuilder<WallFollower>& type) {
     type.Name("WallFollower")
-        .Field("direction", &WallFollower::direction_)
-        .Field("is_turning", &WallFollower::is_turning_)
-        .Field("target_heading", &WallFollower::target_heading_)
-        .Field("is_cautious", &WallFollower::is_cautious_)
-        .Field("turning_place", &WallFollower::turning_place_)
-        .Field("turn_sign", &WallFollower::turn_sign_)
-        .Field("is_looking", &WallFollower::is_looking_)
-        .Field("looked_round", &WallFollower::looked_round_)
-        .Field("look_to", &WallFollower::look_to_)
-        .Field("last_heading", &WallFollower::last_heading_)
-        .Field("contact_bearing", &WallFollower::contact_bearing_);
+        .Fields<&WallFollower::direction_, &WallFollower::is_turning_, &WallFollower::target_heading_,
+                &WallFollower::is_cautious_, &WallFollower::turning_place_, &WallFollower::turn_sign_,
+                &WallFollower::is_looking_, &WallFollower::looked_round_, &WallFollower::look_to_,
+                &WallFollower::last_heading_, &WallFollower::contact_bearing_>();
   }
   using Gate = Lap::Gate;
   static void Describe(TypeBuilder<Gate>& type) {
-    type.Name("Lap::Gate").Field("pose", &Gate::pose).Field("length", &Gate::length).Field("turned", &Gate::turned);
+    type.Name("Lap::Gate").Fields<&Gate::pose, &Gate::length, &Gate::turned>();
   }
   static void Describe(TypeBuilder<Lap>& type) {
     type.Name("Lap")
-        .Field("hit", &Lap::hit_)
-        .Field("last", &Lap::last_)
-        .Field("gate", &Lap::gate_)
-        .Field("second_gate", &Lap::second_gate_)
-        .Field("has_gate", &Lap::has_gate_)
-        .Field("is_complete", &Lap::is_complete_)
-        .Field("is_circling", &Lap::is_circling_)
-        .Field("length", &Lap::length_)
-        .Field("turned", &Lap::turned_);
+        .Fields<&Lap::hit_, &Lap::last_, &Lap::gate_, &Lap::second_gate_, &Lap::has_gate_, &Lap::is_complete_,
+                &Lap::is_circling_, &Lap::length_, &Lap::turned_>();
   }
 };
 
@@ -85,61 +65,23 @@ requires requires(TypeBuilder<T>& type) { KeptFields::Describe(type); }
 void Describe(TypeBuilder<T>& type) { KeptFields::Describe(type); }
 
 inline void Describe(TypeBuilder<Approach>& type) {
-  type.Name("Approach")
-      .Value("near", Approach::kNear)
-      .Value("along_boundary", Approach::kAlongBoundary)
-      .Value("across", Approach::kAcross)
-      .Value("back", Approach::kBack);
+  type.Name("Approach").Values<Approach::kNear, Approach::kAlongBoundary, Approach::kAcross, Approach::kBack>();
 }
 
 inline void Describe(TypeBuilder<BugState>& type) {
   type.Name("BugState")
-      .Field("status", &BugState::status)
-      .Field("has_task", &BugState::has_task)
-      .Field("start", &BugState::start)
-      .Field("goal", &BugState::goal)
-      .Field("composition", &BugState::composition)
-      .Field("last_pose", &BugState::last_pose)
-      .Field("last_twist", &BugState::last_twist)
-      .Field("still_pose", &BugState::still_pose)
-      .Field("commanded", &BugState::commanded)
-      .Field("hits", &BugState::hits)
-      .Field("leaves", &BugState::leaves)
-      .Field("least_distance_of_all", &BugState::least_distance_of_all)
-      .Field("line_start", &BugState::line_start)
-      .Field("least_distance_on_line", &BugState::least_distance_on_line)
-      .Field("last_leave_distance", &BugState::last_leave_distance)
-      .Field("last_direction", &BugState::last_direction)
-      .Field("node_side", &BugState::node_side)
-      .Field("second_looks", &BugState::second_looks)
-      .Field("doubted_hit_distance", &BugState::doubted_hit_distance)
-      .Field("faced", &BugState::faced)
-      .Field("look", &BugState::look)
-      .Field("look_back", &BugState::look_back)
-      .Field("progress_point", &BugState::progress_point)
-      .Field("idle_time", &BugState::idle_time)
-      .Field("refused_at", &BugState::refused_at)
-      .Field("follower", &BugState::follower)
-      .Field("hit_distance", &BugState::hit_distance)
-      .Field("least_distance", &BugState::least_distance)
-      .Field("followed_distance", &BugState::followed_distance)
-      .Field("has_reversed", &BugState::has_reversed)
-      .Field("has_doubted", &BugState::has_doubted)
-      .Field("lap", &BugState::lap)
-      .Field("is_other_loop", &BugState::is_other_loop)
-      .Field("closest_point", &BugState::closest_point)
-      .Field("closest_distance", &BugState::closest_distance)
-      .Field("closest_length", &BugState::closest_length)
-      .Field("crossing", &BugState::crossing)
-      .Field("leave_point", &BugState::leave_point)
-      .Field("approach", &BugState::approach)
-      .Field("is_last_chance", &BugState::is_last_chance)
-      .Field("way_to_leave_point", &BugState::way_to_leave_point)
-      .Field("is_on_last_stretch", &BugState::is_on_last_stretch)
-      .Field("set_out_point", &BugState::set_out_point)
-      .Field("is_off_boundary", &BugState::is_off_boundary)
-      .Field("set_out_contact", &BugState::set_out_contact)
-      .Field("set_out_at", &BugState::set_out_at);
+      .Fields<
+          &BugState::status, &BugState::has_task, &BugState::start, &BugState::goal, &BugState::composition,
+          &BugState::last_pose, &BugState::last_twist, &BugState::still_pose, &BugState::commanded, &BugState::hits,
+          &BugState::leaves, &BugState::least_distance_of_all, &BugState::line_start, &BugState::least_distance_on_line,
+          &BugState::last_leave_distance, &BugState::last_direction, &BugState::node_side, &BugState::second_looks,
+          &BugState::doubted_hit_distance, &BugState::faced, &BugState::look, &BugState::look_back,
+          &BugState::progress_point, &BugState::idle_time, &BugState::refused_at, &BugState::follower,
+          &BugState::hit_distance, &BugState::least_distance, &BugState::followed_distance, &BugState::has_reversed,
+          &BugState::has_doubted, &BugState::lap, &BugState::is_other_loop, &BugState::closest_point,
+          &BugState::closest_distance, &BugState::closest_length, &BugState::crossing, &BugState::leave_point,
+          &BugState::approach, &BugState::is_last_chance, &BugState::way_to_leave_point, &BugState::is_on_last_stretch,
+          &BugState::set_out_point, &BugState::is_off_boundary, &BugState::set_out_contact, &BugState::set_out_at>();
 }
 
 }  // namespace runnel

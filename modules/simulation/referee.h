@@ -38,10 +38,7 @@ enum class Verdict : std::uint8_t {
 enum class Expectation : std::uint8_t { kReached, kUnreachable, kEither };
 
 inline void Describe(TypeBuilder<Expectation>& type) {
-  type.Name("Expectation")
-      .Value("reached", Expectation::kReached)
-      .Value("unreachable", Expectation::kUnreachable)
-      .Value("either", Expectation::kEither);
+  type.Name("Expectation").Values<Expectation::kReached, Expectation::kUnreachable, Expectation::kEither>();
 }
 
 /// Watches the robot as it really moves and the planner as it speaks, and judges: reached,

@@ -8,19 +8,11 @@
 namespace runnel {
 
 inline void Describe(TypeBuilder<DrawnKind>& type) {
-  type.Name("DrawnKind")
-      .Value("points", DrawnKind::kPoints)
-      .Value("line", DrawnKind::kLine)
-      .Value("closed_line", DrawnKind::kClosedLine)
-      .Value("text", DrawnKind::kText);
+  type.Name("DrawnKind").Values<DrawnKind::kPoints, DrawnKind::kLine, DrawnKind::kClosedLine, DrawnKind::kText>();
 }
 
 inline void Describe(TypeBuilder<DrawnColour>& type) {
-  type.Name("DrawnColour")
-      .Field("red", &DrawnColour::red)
-      .Field("green", &DrawnColour::green)
-      .Field("blue", &DrawnColour::blue)
-      .Field("alpha", &DrawnColour::alpha);
+  type.Name("DrawnColour").Fields<&DrawnColour::red, &DrawnColour::green, &DrawnColour::blue, &DrawnColour::alpha>();
 }
 
 inline void Describe(TypeBuilder<DrawnItem>& type) {
@@ -40,7 +32,7 @@ inline void Describe(TypeBuilder<DrawnItem>& type) {
 ///       drawing.Publish(std::move(seen));
 ///     }
 inline void Describe(TypeBuilder<Drawing>& type) {
-  type.Name("Drawing").SemanticTag("drawing").Field("frame", &Drawing::frame).Field("items", &Drawing::items);
+  type.Name("Drawing").SemanticTag("drawing").Fields<&Drawing::frame, &Drawing::items>();
 }
 
 }  // namespace runnel

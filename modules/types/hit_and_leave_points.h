@@ -10,8 +10,7 @@ namespace runnel {
 inline void Describe(TypeBuilder<HitAndLeavePoints>& type) {
   type.Name("HitAndLeavePoints")
       .SemanticTag("hit_and_leave_points")
-      .Field("hits", &HitAndLeavePoints::hits)
-      .Field("leaves", &HitAndLeavePoints::leaves);
+      .Fields<&HitAndLeavePoints::hits, &HitAndLeavePoints::leaves>();
 }
 
 }  // namespace runnel

@@ -10,9 +10,7 @@ namespace runnel {
 inline void Describe(TypeBuilder<Image>& type) {
   type.Name("Image")
       .SemanticTag("image")
-      .Field("width", &Image::width)
-      .Field("height", &Image::height)
-      .Field("encoding", &Image::encoding)
+      .Fields<&Image::width, &Image::height, &Image::encoding>()
       .Field("row_stride", &Image::row_stride, {.description = "bytes from row to row"})
       .Field("data", &Image::data);
 }

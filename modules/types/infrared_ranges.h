@@ -7,10 +7,8 @@ namespace runnel {
 
 inline void Describe(TypeBuilder<InfraredRanges>& type) {
   type.Name("InfraredRanges")
-      .Field("front", &InfraredRanges::front, {.unit = "m"})
-      .Field("left", &InfraredRanges::left, {.unit = "m"})
-      .Field("right", &InfraredRanges::right, {.unit = "m"})
-      .Field("range_maximum", &InfraredRanges::range_maximum, {.unit = "m"})
+      .Fields<&InfraredRanges::front, &InfraredRanges::left, &InfraredRanges::right, &InfraredRanges::range_maximum>(
+          {.unit = "m"})
       .Field("field_of_view", &InfraredRanges::field_of_view, {.unit = "rad"});
 }
 

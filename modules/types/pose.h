@@ -6,14 +6,13 @@
 namespace runnel {
 
 inline void Describe(TypeBuilder<Point2>& type) {
-  type.Name("Point2").SemanticTag("point").Field("x", &Point2::x, {.unit = "m"}).Field("y", &Point2::y, {.unit = "m"});
+  type.Name("Point2").SemanticTag("point").Fields<&Point2::x, &Point2::y>({.unit = "m"});
 }
 
 inline void Describe(TypeBuilder<Pose2>& type) {
   type.Name("Pose2")
       .SemanticTag("pose")
-      .Field("x", &Pose2::x, {.unit = "m"})
-      .Field("y", &Pose2::y, {.unit = "m"})
+      .Fields<&Pose2::x, &Pose2::y>({.unit = "m"})
       .Field("heading", &Pose2::heading, {.unit = "rad"});
 }
 

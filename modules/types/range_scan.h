@@ -8,11 +8,8 @@ namespace runnel {
 inline void Describe(TypeBuilder<RangeScan>& type) {
   type.Name("RangeScan")
       .SemanticTag("range_scan")
-      .Field("start_angle", &RangeScan::start_angle, {.unit = "rad"})
-      .Field("angle_step", &RangeScan::angle_step, {.unit = "rad"})
-      .Field("range_minimum", &RangeScan::range_minimum, {.unit = "m"})
-      .Field("range_maximum", &RangeScan::range_maximum, {.unit = "m"})
-      .Field("ranges", &RangeScan::ranges, {.unit = "m"});
+      .Fields<&RangeScan::start_angle, &RangeScan::angle_step>({.unit = "rad"})
+      .Fields<&RangeScan::range_minimum, &RangeScan::range_maximum, &RangeScan::ranges>({.unit = "m"});
 }
 
 }  // namespace runnel

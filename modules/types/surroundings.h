@@ -7,8 +7,7 @@ namespace runnel {
 
 inline void Describe(TypeBuilder<Surroundings>& type) {
   type.Name("Surroundings")
-      .Field("sensor_range", &Surroundings::sensor_range, {.unit = "m"})
-      .Field("safe_distance", &Surroundings::safe_distance, {.unit = "m"})
+      .Fields<&Surroundings::sensor_range, &Surroundings::safe_distance>({.unit = "m"})
       .Field("is_vague", &Surroundings::is_vague,
              {.description = "whether the sensor cannot tell where in a cone an echo came from"})
       .Field("is_measured", &Surroundings::is_measured, {.description = "false as long as the sensor has said nothing"})

@@ -6,9 +6,7 @@
 namespace runnel {
 
 inline void Describe(TypeBuilder<WheelSpeeds>& type) {
-  type.Name("WheelSpeeds")
-      .Field("left", &WheelSpeeds::left, {.unit = "rad/s"})
-      .Field("right", &WheelSpeeds::right, {.unit = "rad/s"});
+  type.Name("WheelSpeeds").Fields<&WheelSpeeds::left, &WheelSpeeds::right>({.unit = "rad/s"});
 }
 
 }  // namespace runnel

@@ -9,18 +9,14 @@ namespace runnel {
 
 inline void Describe(TypeBuilder<MapOutline>& type) {
   type.Name("MapOutline")
-      .Field("points", &MapOutline::points, {.unit = "m"})
-      .Field("height", &MapOutline::height, {.unit = "m"})
+      .Fields<&MapOutline::points, &MapOutline::height>({.unit = "m"})
       .Field("is_hole", &MapOutline::is_hole, {.description = "within the outlines that come before it"});
 }
 
 inline void Describe(TypeBuilder<WorldMap>& type) {
   type.Name("WorldMap")
       .SemanticTag("world_map")
-      .Field("name", &WorldMap::name)
-      .Field("start", &WorldMap::start)
-      .Field("goal", &WorldMap::goal)
-      .Field("outlines", &WorldMap::outlines)
+      .Fields<&WorldMap::name, &WorldMap::start, &WorldMap::goal, &WorldMap::outlines>()
       .Field("bounds", &WorldMap::bounds, {.unit = "m"});
 }
 

@@ -102,10 +102,7 @@ class DerivedActivity final : public HeldBack {
 };
 
 inline void Describe(TypeBuilder<StimulationMode>& type) {
-  type.Name("StimulationMode")
-      .Value("auto", StimulationMode::kAuto)
-      .Value("enabled", StimulationMode::kEnabled)
-      .Value("disabled", StimulationMode::kDisabled);
+  type.Name("StimulationMode").Values<StimulationMode::kAuto, StimulationMode::kEnabled, StimulationMode::kDisabled>();
 }
 
 /// What viewers show of a behaviour. Copied freely.
@@ -121,10 +118,8 @@ struct BehaviourState {
 inline void Describe(TypeBuilder<BehaviourState>& type) {
   type.Name("BehaviourState")
       .SemanticTag("behaviour_state")
-      .Field("activation", &BehaviourState::activation)
-      .Field("activity", &BehaviourState::activity)
-      .Field("target_rating", &BehaviourState::target_rating)
-      .Field("mode", &BehaviourState::mode);
+      .Fields<&BehaviourState::activation, &BehaviourState::activity, &BehaviourState::target_rating,
+              &BehaviourState::mode>();
 }
 
 /// For checks of networks: on whose activity it depends whether a behaviour is active, by the inputs to which that comes.

@@ -71,7 +71,7 @@ struct CommitReply {
   std::uint64_t revision = 0;  ///< that there is now
 };
 inline void Describe(TypeBuilder<CommitReply>& type) {
-  type.Name("CommitReply").Field("is_applied", &CommitReply::is_applied).Field("revision", &CommitReply::revision);
+  type.Name("CommitReply").Fields<&CommitReply::is_applied, &CommitReply::revision>();
 }
 
 }  // namespace runnel

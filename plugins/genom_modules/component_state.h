@@ -33,26 +33,17 @@ struct ComponentState {
 
 inline void Describe(TypeBuilder<TaskState>& type) {
   type.Name("genom::task_state")
-      .Field("name", &TaskState::name)
-      .Field("cycles", &TaskState::cycles)
-      .Field("last", &TaskState::last, {.unit = "s"})
-      .Field("longest", &TaskState::longest, {.unit = "s"})
-      .Field("average", &TaskState::average, {.unit = "s"})
+      .Fields<&TaskState::name, &TaskState::cycles>()
+      .Fields<&TaskState::last, &TaskState::longest, &TaskState::average>({.unit = "s"})
       .Field("load", &TaskState::load);
 }
 inline void Describe(TypeBuilder<ActivityState>& type) {
-  type.Name("genom::activity_state")
-      .Field("id", &ActivityState::id)
-      .Field("service", &ActivityState::service)
-      .Field("state", &ActivityState::state);
+  type.Name("genom::activity_state").Fields<&ActivityState::id, &ActivityState::service, &ActivityState::state>();
 }
 inline void Describe(TypeBuilder<ComponentState>& type) {
   type.Name("genom::component_state")
-      .Field("component", &ComponentState::component)
-      .Field("version", &ComponentState::version)
-      .Field("digest", &ComponentState::digest)
-      .Field("tasks", &ComponentState::tasks)
-      .Field("activities", &ComponentState::activities);
+      .Fields<&ComponentState::component, &ComponentState::version, &ComponentState::digest, &ComponentState::tasks,
+              &ComponentState::activities>();
 }
 
 }  // namespace runnel::genom_modules

@@ -56,37 +56,25 @@ struct RosDiagnostics {
 // Names with a dot: whoever describes a type of the same message has its name to himself.
 inline void Describe(TypeBuilder<RosLog>& type) {
   type.Name("ros.Log")
-      .Field("stamp", &RosLog::stamp)
-      .Field("level", &RosLog::level)
-      .Field("name", &RosLog::name)
-      .Field("msg", &RosLog::msg)
-      .Field("file", &RosLog::file)
-      .Field("function", &RosLog::function)
-      .Field("line", &RosLog::line);
+      .Fields<&RosLog::stamp, &RosLog::level, &RosLog::name, &RosLog::msg, &RosLog::file, &RosLog::function,
+              &RosLog::line>();
 }
 inline void Describe(TypeBuilder<RosHeader>& type) {
-  type.Name("ros.Header").Field("stamp", &RosHeader::stamp).Field("frame_id", &RosHeader::frame_id);
+  type.Name("ros.Header").Fields<&RosHeader::stamp, &RosHeader::frame_id>();
 }
 inline void Describe(TypeBuilder<RosKeyValue>& type) {
-  type.Name("ros.KeyValue").Field("key", &RosKeyValue::key).Field("value", &RosKeyValue::value);
+  type.Name("ros.KeyValue").Fields<&RosKeyValue::key, &RosKeyValue::value>();
 }
 inline void Describe(TypeBuilder<RosHealth>& type) {
-  type.Name("ros.Health")
-      .Value("ok", RosHealth::kOk)
-      .Value("warning", RosHealth::kWarning)
-      .Value("error", RosHealth::kError)
-      .Value("stale", RosHealth::kStale);
+  type.Name("ros.Health").Values<RosHealth::kOk, RosHealth::kWarning, RosHealth::kError, RosHealth::kStale>();
 }
 inline void Describe(TypeBuilder<RosDiagnosticStatus>& type) {
   type.Name("ros.DiagnosticStatus")
-      .Field("level", &RosDiagnosticStatus::level)
-      .Field("name", &RosDiagnosticStatus::name)
-      .Field("message", &RosDiagnosticStatus::message)
-      .Field("hardware_id", &RosDiagnosticStatus::hardware_id)
-      .Field("values", &RosDiagnosticStatus::values);
+      .Fields<&RosDiagnosticStatus::level, &RosDiagnosticStatus::name, &RosDiagnosticStatus::message,
+              &RosDiagnosticStatus::hardware_id, &RosDiagnosticStatus::values>();
 }
 inline void Describe(TypeBuilder<RosDiagnostics>& type) {
-  type.Name("ros.Diagnostics").Field("header", &RosDiagnostics::header).Field("status", &RosDiagnostics::status);
+  type.Name("ros.Diagnostics").Fields<&RosDiagnostics::header, &RosDiagnostics::status>();
 }
 
 }  // namespace runnel

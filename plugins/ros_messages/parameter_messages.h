@@ -108,76 +108,48 @@ struct RosParameterEvent {
 
 inline void Describe(TypeBuilder<RosParameterType>& type) {
   type.Name("ros.ParameterType")
-      .Value("not_set", RosParameterType::kNotSet)
-      .Value("bool", RosParameterType::kBool)
-      .Value("integer", RosParameterType::kInteger)
-      .Value("double", RosParameterType::kDouble)
-      .Value("string", RosParameterType::kString)
-      .Value("byte_array", RosParameterType::kByteArray)
-      .Value("bool_array", RosParameterType::kBoolArray)
-      .Value("integer_array", RosParameterType::kIntegerArray)
-      .Value("double_array", RosParameterType::kDoubleArray)
-      .Value("string_array", RosParameterType::kStringArray);
+      .Values<RosParameterType::kNotSet, RosParameterType::kBool, RosParameterType::kInteger, RosParameterType::kDouble,
+              RosParameterType::kString, RosParameterType::kByteArray, RosParameterType::kBoolArray,
+              RosParameterType::kIntegerArray, RosParameterType::kDoubleArray, RosParameterType::kStringArray>();
 }
 inline void Describe(TypeBuilder<RosParameterValue>& type) {
   type.Name("ros.ParameterValue")
-      .Field("type", &RosParameterValue::type)
-      .Field("bool_value", &RosParameterValue::bool_value)
-      .Field("integer_value", &RosParameterValue::integer_value)
-      .Field("double_value", &RosParameterValue::double_value)
-      .Field("string_value", &RosParameterValue::string_value)
-      .Field("byte_array_value", &RosParameterValue::byte_array_value)
-      .Field("bool_array_value", &RosParameterValue::bool_array_value)
-      .Field("integer_array_value", &RosParameterValue::integer_array_value)
-      .Field("double_array_value", &RosParameterValue::double_array_value)
-      .Field("string_array_value", &RosParameterValue::string_array_value);
+      .Fields<&RosParameterValue::type, &RosParameterValue::bool_value, &RosParameterValue::integer_value,
+              &RosParameterValue::double_value, &RosParameterValue::string_value, &RosParameterValue::byte_array_value,
+              &RosParameterValue::bool_array_value, &RosParameterValue::integer_array_value,
+              &RosParameterValue::double_array_value, &RosParameterValue::string_array_value>();
 }
 inline void Describe(TypeBuilder<RosParameter>& type) {
-  type.Name("ros.Parameter").Field("name", &RosParameter::name).Field("value", &RosParameter::value);
+  type.Name("ros.Parameter").Fields<&RosParameter::name, &RosParameter::value>();
 }
 inline void Describe(TypeBuilder<RosFloatRange>& type) {
   type.Name("ros.FloatingPointRange")
-      .Field("from_value", &RosFloatRange::from_value)
-      .Field("to_value", &RosFloatRange::to_value)
-      .Field("step", &RosFloatRange::step);
+      .Fields<&RosFloatRange::from_value, &RosFloatRange::to_value, &RosFloatRange::step>();
 }
 inline void Describe(TypeBuilder<RosIntegerRange>& type) {
   type.Name("ros.IntegerRange")
-      .Field("from_value", &RosIntegerRange::from_value)
-      .Field("to_value", &RosIntegerRange::to_value)
-      .Field("step", &RosIntegerRange::step);
+      .Fields<&RosIntegerRange::from_value, &RosIntegerRange::to_value, &RosIntegerRange::step>();
 }
 inline void Describe(TypeBuilder<RosParameterDescriptor>& type) {
   type.Name("ros.ParameterDescriptor")
-      .Field("name", &RosParameterDescriptor::name)
-      .Field("type", &RosParameterDescriptor::type)
-      .Field("description", &RosParameterDescriptor::description)
-      .Field("additional_constraints", &RosParameterDescriptor::additional_constraints)
-      .Field("read_only", &RosParameterDescriptor::read_only)
-      .Field("dynamic_typing", &RosParameterDescriptor::dynamic_typing)
-      .Field("floating_point_range", &RosParameterDescriptor::floating_point_range)
-      .Field("integer_range", &RosParameterDescriptor::integer_range);
+      .Fields<&RosParameterDescriptor::name, &RosParameterDescriptor::type, &RosParameterDescriptor::description,
+              &RosParameterDescriptor::additional_constraints, &RosParameterDescriptor::read_only,
+              &RosParameterDescriptor::dynamic_typing, &RosParameterDescriptor::floating_point_range,
+              &RosParameterDescriptor::integer_range>();
 }
 inline void Describe(TypeBuilder<RosSetResult>& type) {
-  type.Name("ros.SetParametersResult")
-      .Field("successful", &RosSetResult::successful)
-      .Field("reason", &RosSetResult::reason);
+  type.Name("ros.SetParametersResult").Fields<&RosSetResult::successful, &RosSetResult::reason>();
 }
 inline void Describe(TypeBuilder<RosListRequest>& type) {
-  type.Name("ros.ListParameters_Request")
-      .Field("prefixes", &RosListRequest::prefixes)
-      .Field("depth", &RosListRequest::depth);
+  type.Name("ros.ListParameters_Request").Fields<&RosListRequest::prefixes, &RosListRequest::depth>();
 }
 inline void Describe(TypeBuilder<RosListReply>& type) {
-  type.Name("ros.ListParametersResult").Field("names", &RosListReply::names).Field("prefixes", &RosListReply::prefixes);
+  type.Name("ros.ListParametersResult").Fields<&RosListReply::names, &RosListReply::prefixes>();
 }
 inline void Describe(TypeBuilder<RosParameterEvent>& type) {
   type.Name("ros.ParameterEvent")
-      .Field("stamp", &RosParameterEvent::stamp)
-      .Field("node", &RosParameterEvent::node)
-      .Field("new_parameters", &RosParameterEvent::new_parameters)
-      .Field("changed_parameters", &RosParameterEvent::changed_parameters)
-      .Field("deleted_parameters", &RosParameterEvent::deleted_parameters);
+      .Fields<&RosParameterEvent::stamp, &RosParameterEvent::node, &RosParameterEvent::new_parameters,
+              &RosParameterEvent::changed_parameters, &RosParameterEvent::deleted_parameters>();
 }
 
 }  // namespace runnel

@@ -45,10 +45,7 @@ Result<void> SetLeafFromJson(const TypeInfo& type, const ValueToken& token, void
 Result<void> ReadDuration(const TypeInfo& type, const ValueToken& token, Duration& value) {
   constexpr std::int64_t kPerSecond = 1'000'000'000;
   TypeInfo description(typeid(SecondsAndRest));  // of this only, and known to nobody
-  TypeBuilder<SecondsAndRest>(description)
-      .Name(type.name())
-      .Field("sec", &SecondsAndRest::sec)
-      .Field("nsec", &SecondsAndRest::nsec);
+  TypeBuilder<SecondsAndRest>(description).Name(type.name()).Fields<&SecondsAndRest::sec, &SecondsAndRest::nsec>();
   SecondsAndRest parts;
   if (auto read = SetFromTokens(description, token, SetLeafFromJson, &parts); !read) return read;
   if (parts.nsec < 0 || parts.nsec >= kPerSecond) {

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/check.h"
+#include "core/base/nearest_name.h"
 #include "core/types/eigen_types.h"
 #include "core/types/shared_vector_types.h"
 #include "core/types/text_format.h"
@@ -309,6 +310,33 @@ TEST(TypeInfo, OfAListWithMemoryOfOthersIsAsOfAnyList) {
 TEST(TypeInfo, MakesValues) {
   const auto point = TypeOf<Point>().Make();
   EXPECT_EQ(*static_cast<Point*>(point.get()), Point{});
+}
+
+struct Base {
+  int of_base = 0;
+};
+template <typename T>
+struct Kept : Base {
+  T first = {};
+  T k = {};
+  T kept_ = {};
+};
+enum class Turn { kLeft, kSharpLeft, kU, kNot2 };
+void Describe(TypeBuilder<Kept<std::array<double, 2>>>& type) {
+  using Own = Kept<std::array<double, 2>>;
+  type.Name("test::Kept").Fields<&Own::first, &Own::k, &Own::kept_>({.unit = "m"}).Fields<&Own::of_base>();
+}
+void Describe(TypeBuilder<Turn>& type) {
+  type.Name("test::Turn").Values<Turn::kLeft, Turn::kSharpLeft, Turn::kU, Turn::kNot2>();
+}
+
+TEST(TypeBuilder, NamesMembersAndEnumeratorsByThemselves) {
+  const TypeInfo& type = TypeOf<Kept<std::array<double, 2>>>();
+  EXPECT_EQ(NamesOf(type.fields(), &FieldInfo::name), (std::vector<std::string>{"first", "k", "kept", "of_base"}));
+  EXPECT_EQ(type.FindField("kept")->unit, "m");
+  EXPECT_EQ(type.FindField("of_base")->unit, "");
+  EXPECT_EQ(NamesOf(TypeOf<Turn>().enumerators(), &EnumeratorInfo::name),
+            (std::vector<std::string>{"left", "sharp_left", "u", "not2"}));
 }
 
 }  // namespace
