@@ -8,7 +8,6 @@
 #include "apps/arena/journal.h"
 #include "apps/arena/progress.h"
 #include "apps/arena/report.h"
-#include "apps/arena/runner.h"
 #include "apps/program.h"
 
 namespace runnel::arena {

@@ -51,6 +51,18 @@ struct Speed {
 /// "250 simulated seconds per real second and core, 600 per second of processor time".
 [[nodiscard]] std::string TextOf(const Speed& speed);
 
+/// Columns of words first, then of numbers; behind them a line may have a remark.
+struct TextTable {
+  std::vector<std::string> titles;
+  std::size_t words;
+  std::size_t numbers;
+  std::vector<std::vector<std::string>> lines = {};
+};
+[[nodiscard]] TextTable RunTable(const std::vector<Row>& rows);
+[[nodiscard]] TextTable SummaryTable(const std::vector<Row>& rows);
+/// Whether the verdict is wrong, and what the run itself has to say.
+[[nodiscard]] std::string RemarkOf(const Row& row);
+
 /// A block for each world, one for the variants, and notes.
 [[nodiscard]] std::string TablesText(const std::vector<Row>& rows, const std::vector<RunRecord>& records);
 
@@ -62,8 +74,8 @@ struct Speed {
 /// light and dark surroundings.
 [[nodiscard]] std::string HtmlReport(const Matrix& matrix, const std::vector<RunRecord>& records,
                                      const RunSettings& settings);
-/// What page/style.css has: one set of colours for light, one for dark surroundings; and page/script.js.
-extern const std::string_view kPageStyle, kPageScript;
+/// What is in page/, with the places for the rest in braces.
+extern const std::string_view kPage;
 
 /// Draws the run as the referee does, into <folder>/<world>-<variant>-<sensor>-<direction>-<seed>.svg. Errors: it cannot be written.
 Result<void> WritePicture(const std::filesystem::path& folder, const Course& course, const RunRecord& record);

@@ -1,5 +1,3 @@
-#include "apps/arena/runner.h"
-
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -23,6 +21,7 @@
 
 #include "apps/arena/application_text.h"
 #include "apps/arena/bounds.h"
+#include "apps/arena/matrix.h"
 #include "core/base/temporary_folder.h"
 
 namespace runnel::arena {

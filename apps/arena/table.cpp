@@ -9,22 +9,21 @@ namespace runnel::arena {
 
 namespace {
 
-using Line = std::vector<std::string>;
-
 constexpr const char* kNone = "-";
 
-// The first columns are words, the last, if there is one more than numbers, a remark.
-std::string Aligned(const std::vector<Line>& lines, std::size_t words, std::size_t numbers) {
-  std::vector<std::size_t> widths(words + numbers + 1, 0);
-  for (const Line& line : lines) {
+std::string Aligned(const TextTable& table) {
+  std::vector<std::size_t> widths(table.words + table.numbers + 1, 0);
+  auto lines = table.lines;
+  lines.insert(lines.begin(), table.titles);
+  for (const auto& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
   }
   std::string text;
-  for (const Line& line : lines) {
+  for (const auto& line : lines) {
     std::string out = " ";
     for (std::size_t i = 0; i < line.size(); ++i) {
       const std::string padding(widths[i] - line[i].size(), ' ');
-      const bool is_number = i >= words && i < words + numbers;
+      const bool is_number = i >= table.words && i < table.words + table.numbers;
       out += " " + (is_number ? padding + line[i] : line[i] + padding);
     }
     out.erase(out.find_last_not_of(' ') + 1);
@@ -35,48 +34,53 @@ std::string Aligned(const std::vector<Line>& lines, std::size_t words, std::size
 
 std::string OrNone(const std::optional<double>& number, int digits) { return number ? Fixed(*number, digits) : kNone; }
 
-Line LineOf(const Row& row) {
-  const RunRecord& record = *row.record;
-  std::string remark = record.result.remark;
-  if (!row.is_right) {
-    const std::string fault = MayFailByDesign(record) ? "fails by design, no guarantee" : "WRONG";
-    remark = fault + (remark.empty() ? "" : ": " + remark);
-  }
-  return {record.key.variant,
-          record.key.sensor,
-          record.key.direction,
-          std::to_string(record.key.seed),
-          record.result.outcome,
-          Fixed(record.result.path_length, 2),
-          OrNone(row.ratio, 2),
-          OrNone(row.bound, 2) + (row.is_over_bound ? "!" : " "),
-          Fixed(record.result.simulated_time, 1),
-          Fixed(record.wall_time, 2),
-          remark};
-}
-
 std::string WorldText(const Course& course, const std::vector<Row>& rows) {
-  std::vector<Line> lines{
-      {"variant", "sensor", "direction", "seed", "outcome", "length/m", "ratio", "bound/m ", "time/s", "real/s"}};
-  for (const Row& row : rows) {
-    if (row.course == &course) lines.push_back(LineOf(row));
-  }
+  std::vector<Row> own;
+  std::ranges::copy_if(rows, std::back_inserter(own), [&](const Row& row) { return row.course == &course; });
+  TextTable table = RunTable(own);
+  // The world stands above.
+  table.titles.erase(table.titles.begin());
+  for (auto& line : table.lines) line.erase(line.begin());
+  --table.words;
   const std::string truth =
       course.shortest ? "shortest path " + Fixed(course.shortest->length, 2) + " m" : "the goal cannot be reached";
-  return course.name + ": " + truth + "\n" + Aligned(lines, 5, 5) + "\n";
-}
-
-std::string SummaryText(const std::vector<Summary>& summaries) {
-  std::vector<Line> lines{{"variant", "runs", "right", "success", "mean ratio", "all paths/m"}};
-  for (const Summary& summary : summaries) {
-    const double share = 100.0 * static_cast<double>(summary.right) / static_cast<double>(summary.runs);
-    lines.push_back({summary.variant, std::to_string(summary.runs), std::to_string(summary.right),
-                     Fixed(share, 1) + " %", OrNone(summary.mean_ratio, 3), Fixed(summary.path_length, 1)});
-  }
-  return "summary\n" + Aligned(lines, 1, 5);
+  return course.name + ": " + truth + "\n" + Aligned(table) + "\n";
 }
 
 }  // namespace
+
+std::string RemarkOf(const Row& row) {
+  const std::string& remark = row.record->result.remark;
+  if (row.is_right) return remark;
+  const std::string fault = MayFailByDesign(*row.record) ? "fails by design, no guarantee" : "WRONG";
+  return fault + (remark.empty() ? "" : ": " + remark);
+}
+
+TextTable RunTable(const std::vector<Row>& rows) {
+  TextTable table{{"world", "variant", "sensor", "direction", "seed", "outcome", "length/m", "ratio", "bound/m ",
+                   "time/s", "real/s", "hits", "remark"},
+                  6,
+                  6};
+  for (const Row& row : rows) {
+    const RunKey& key = row.record->key;
+    const RunResult& result = row.record->result;
+    table.lines.push_back({key.world, key.variant, key.sensor, key.direction, std::to_string(key.seed), result.outcome,
+                           Fixed(result.path_length, 2), OrNone(row.ratio, 2),
+                           OrNone(row.bound, 2) + (row.is_over_bound ? "!" : " "), Fixed(result.simulated_time, 1),
+                           Fixed(row.record->wall_time, 2), std::to_string(result.hits.size()), RemarkOf(row)});
+  }
+  return table;
+}
+
+TextTable SummaryTable(const std::vector<Row>& rows) {
+  TextTable table{{"variant", "runs", "right", "success", "mean ratio", "all paths/m"}, 1, 5};
+  for (const Summary& summary : SummariesOf(rows)) {
+    const double share = 100.0 * static_cast<double>(summary.right) / static_cast<double>(summary.runs);
+    table.lines.push_back({summary.variant, std::to_string(summary.runs), std::to_string(summary.right),
+                           Fixed(share, 1) + " %", OrNone(summary.mean_ratio, 3), Fixed(summary.path_length, 1)});
+  }
+  return table;
+}
 
 std::string Fixed(double number, int digits) { return fmt::format("{:.{}f}", number, digits); }
 
@@ -147,7 +151,7 @@ std::string TablesText(const std::vector<Row>& rows, const std::vector<RunRecord
     told.push_back(row.course);
     text += WorldText(*row.course, rows);
   }
-  text += SummaryText(SummariesOf(rows));
+  text += "summary\n" + Aligned(SummaryTable(rows));
   if (std::ranges::any_of(rows, &Row::is_over_bound)) {
     text += "  !  longer than the bound, which holds for a point that follows boundaries exactly\n";
   }

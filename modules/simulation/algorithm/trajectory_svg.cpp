@@ -77,6 +77,12 @@ class Drawing {
   void DrawStraightLine() {
     svg_.Line(canvas_.Pixel(Position(world_.start)), canvas_.Pixel(world_.goal),
               Style({"class", "straight-line", "stroke", "#9aa5b4", "stroke-width", "1.2", "stroke-dasharray", "5 5"}));
+    if (!trajectory_.shortest.empty()) DrawShortest(canvas_.Pixels(trajectory_.shortest));
+  }
+
+  void DrawShortest(const std::vector<Point2>& pixels) {
+    svg_.Polyline(pixels, Style({"class", "shortest", "fill", "none", "stroke", "#667182", "stroke-width", "1.6",
+                                 "stroke-dasharray", "2 4"}));
   }
 
   void DrawRobot() {
@@ -148,6 +154,10 @@ class Drawing {
       svg_.Line({x, y - 4}, {x + 24, y - 4},
                 Style({"stroke", look.colour, "stroke-width", "3", "stroke-linecap", "round"}));
       x = DrawLegendText({x + 32, y}, look.label);
+    }
+    if (!trajectory_.shortest.empty()) {
+      DrawShortest({{x, y - 4}, {x + 24, y - 4}});
+      x = DrawLegendText({x + 32, y}, "shortest path");
     }
     if (!trajectory_.hits.empty()) {
       DrawHit({x + 6, y - 4}, "");

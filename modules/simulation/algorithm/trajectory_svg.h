@@ -19,6 +19,7 @@ struct Trajectory {
   std::vector<PathSample> path = {};  ///< in the order of time
   std::vector<Point2> hits = {};      ///< where an obstacle was met, in the order of time
   std::vector<Point2> leaves = {};    ///< where an obstacle was left again
+  std::vector<Point2> shortest = {};  ///< the shortest path there is, drawn beside; may be empty
   std::optional<Pose2> end = {};      ///< where the robot is drawn
   double robot_radius = RobotOptions{}.radius;
   std::string verdict = {};  ///< for example "goal reached"; "" leaves it out

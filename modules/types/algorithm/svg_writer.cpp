@@ -83,6 +83,6 @@ void SvgWriter::OpenGroup(std::string_view style) { text_ += "<g " + std::string
 
 void SvgWriter::CloseGroup() { text_ += "</g>\n"; }
 
-std::string SvgWriter::Take() { return std::exchange(text_, {}); }
+std::string SvgWriter::Close() { return std::exchange(text_, {}) + "</svg>\n"; }
 
 }  // namespace runnel

@@ -25,10 +25,8 @@ class SvgWriter {
   void Text(Point2 place, std::string_view text, std::string_view style);
   void OpenGroup(std::string_view style);
   void CloseGroup();
-  /// Gives away what has been written.
-  [[nodiscard]] std::string Take();
   /// Ends the file and gives it away.
-  [[nodiscard]] std::string Close() { return Take() + "</svg>\n"; }
+  [[nodiscard]] std::string Close();
 
  private:
   std::string text_;
