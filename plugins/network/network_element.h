@@ -70,6 +70,9 @@ class NetworkElement final : public FrameworkElement {
   /// one of another type; what is no client; what does not fit.
   Result<Port*> AddServiceTake(const ServiceTakeOptions& take, const Port& client);
 
+  /// Those that may be taken back, the last one last.
+  [[nodiscard]] std::vector<OfferRenaming>& renamings() noexcept { return renamings_; }
+
   /// Makes all types known that modules here have ports of.
   void set_know_types(std::function<void()> know_types) { know_types_ = std::move(know_types); }
   [[nodiscard]] const std::function<void()>& know_types() const noexcept { return know_types_; }
@@ -98,6 +101,7 @@ class NetworkElement final : public FrameworkElement {
   NetworkOptions options_;
   std::vector<Take> takes_;
   std::vector<ServiceTake> service_takes_;
+  std::vector<OfferRenaming> renamings_;
   std::function<void()> on_change_;
   std::function<void(const std::string& from)> on_renamed_;
   std::function<void()> know_types_;

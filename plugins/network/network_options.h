@@ -50,9 +50,25 @@ struct OfferOptions {
   std::optional<std::int32_t> strength = {};  ///< the only one that counts, if no stronger one is there
   bool is_measured = false;                   ///< a velocity that is no command: it goes on in STOP
   SourcePosition position = {};
-  std::vector<std::string> ports_before = {};  ///< it has been renamed from, the last one last
 
   bool operator==(const OfferOptions&) const = default;
+};
+
+/// All that others may read and call.
+struct Offered {
+  std::vector<OfferOptions> ports = {};
+  std::vector<ServiceOfferOptions> services = {};
+
+  bool operator==(const Offered&) const = default;
+};
+
+/// What was offered before and after something was called `to` instead of `from`. As long as it is just that, calling it `from`
+/// again restores it: something else that is gone may have been offered by the name.
+struct OfferRenaming {
+  std::string from;
+  std::string to;
+  Offered before;
+  Offered after;
 };
 
 /// A topic whose values go to ports of this application.

@@ -102,8 +102,8 @@ Result<void> OfferList::Remove(const std::string& path, const std::string& topic
 }
 
 void OfferList::Rename(const std::string& from, const std::string& to) {
-  RenamePorts(offers, from, to);
   for (OfferOptions& each : offers) {
+    MovePath(each.port, from, to);
     for (std::string& pattern : each.patterns) RenameIn(pattern, from, to);
   }
 }

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -11,21 +9,9 @@
 
 namespace runnel {
 
-/// Renaming back moves what the renaming has moved, and nothing else that has the name by then.
-template <typename Offer>
-void RenamePorts(std::vector<Offer>& offers, const std::string& from, const std::string& to) {
-  const auto is_meant = [&](const Offer& each) { return IsAtOrBelow(each.port, from); };
-  const auto renamed = [&](const Offer& each) { return to + each.port.substr(from.size()); };
-  const auto comes_back = [&](const Offer& each) {
-    return is_meant(each) && !each.ports_before.empty() && each.ports_before.back() == renamed(each);
-  };
-  const bool is_back = std::ranges::any_of(offers, comes_back);
-  for (Offer& each : offers) {
-    if (is_back ? !comes_back(each) : !is_meant(each)) continue;
-    std::string port = renamed(each);
-    is_back ? each.ports_before.pop_back() : each.ports_before.push_back(each.port);
-    each.port = std::move(port);
-  }
+/// What is at or below `from` is at or below `to` now.
+inline void MovePath(std::string& path, const std::string& from, const std::string& to) {
+  if (IsAtOrBelow(path, from)) path.replace(0, from.size(), to);
 }
 
 /// What an application called `network` offers, as it comes and goes.

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
@@ -154,29 +156,46 @@ Result<ExtensionStep> CheckTake(NetworkElement& network, const ExtensionChange& 
   return step;
 }
 
+void Rename(Offered& offered, std::vector<OfferRenaming>& known, const std::string& network, const std::string& from,
+            const std::string& to) {
+  constexpr std::size_t kMostKnown = 100;
+  const auto undone = std::ranges::find_if(
+      known, [&](const OfferRenaming& each) { return each.from == to && each.to == from && each.after == offered; });
+  if (undone != known.end()) {
+    offered = std::move(undone->before);
+    known.erase(undone);
+    return;
+  }
+  const Offered before = offered;
+  OfferList list{network, std::move(offered.ports)};
+  list.Rename(from, to);
+  offered.ports = std::move(list.offers);
+  for (ServiceOfferOptions& each : offered.services) MovePath(each.port, from, to);
+  if (known.size() == kMostKnown) known.erase(known.begin());
+  known.push_back({from, to, before, offered});
+}
+
 ExtensionStep StepOfRenaming(NetworkElement& network, const std::string& from, const std::string& to) {
-  ExtensionStep step = StepOf(network, {}, [&network, from, to](const Offers& offers) -> Result<Offers> {
-    OfferList list{network.options().member.name, offers};
-    list.Rename(from, to);
-    return std::move(list.offers);
-  });
-  auto before = std::make_shared<std::optional<std::vector<ServiceOfferOptions>>>();
-  step.apply = [&network, from, to, before, apply = std::move(step.apply)]() -> Result<void> {
-    auto services = network.options().services;
-    *before = services;
-    RenamePorts(services, from, to);
-    auto renamed = apply();
-    if (!renamed) return renamed;
-    network.set_services(std::move(services));
+  using State = std::pair<Offered, std::vector<OfferRenaming>>;
+  const auto set = [&network](State state) {
+    network.set_offers(std::move(state.first.ports));
+    network.set_services(std::move(state.first.services));
+    network.renamings() = std::move(state.second);
+  };
+  auto before = std::make_shared<std::optional<State>>();
+  ExtensionStep step;
+  step.apply = [&network, from, to, before, set]() -> Result<void> {
+    State state{{network.options().offers, network.options().services}, network.renamings()};
+    *before = state;
+    Rename(state.first, state.second, network.options().member.name, from, to);
+    set(std::move(state));
     network.NoteRenamed(from);
-    return renamed;
+    return {};
   };
-  step.undo = [&network, before, undo = std::move(step.undo)] {
-    if (*before) network.set_services(std::move(**before));
+  step.undo = [before, set] {
+    if (*before) set(std::move(**before));
     before->reset();
-    undo();
   };
-  step.inverse = {};
   return step;
 }
 

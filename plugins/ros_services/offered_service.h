@@ -25,7 +25,8 @@ struct ServiceOfferOptions {
   std::string service = {};  ///< "/save_map"
   std::string as = {};       ///< "std_srvs/srv/Trigger"; "": made of its types
   SourcePosition position = {};
-  std::vector<std::string> ports_before = {};  ///< it has been renamed from, the last one last
+
+  bool operator==(const ServiceOfferOptions&) const = default;
 };
 
 /// Carries calls from the network to a service of the application and its answers back. The service is called as from a

@@ -14,7 +14,7 @@
 
 #include "plugins/network_discovery/discovery_table.h"
 #include "plugins/network_discovery/writer_clock.h"
-#include "plugins/ros_services/service_type.h"
+#include "plugins/ros_services/service_form.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {

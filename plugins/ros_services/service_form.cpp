@@ -13,10 +13,17 @@
 
 namespace runnel {
 
+ServiceType ServiceType::Of(const MessageDefinition& definition, const MessageLibrary& library) {
+  return {DdsType(definition.name), TypeHashOf(definition, library)};
+}
+
+ServiceType ServiceType::OfRos(const std::string& message) {
+  const MessageLibrary& library = MessageLibrary::Standard();
+  return Of(*library.Find(message), library);
+}
+
 static void Describe(TypeBuilder<ServiceForm::Outcome>& type) {
-  type.Name("ros.ServiceOutcome")
-      .Field("success", &ServiceForm::Outcome::success)
-      .Field("message", &ServiceForm::Outcome::message);
+  type.Name("ros.ServiceOutcome").Fields<&ServiceForm::Outcome::success, &ServiceForm::Outcome::message>();
 }
 
 namespace {

@@ -5,14 +5,27 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "plugins/ros_services/service_type.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {
 
 class MessageCodec;
 class MessageLibrary;
+struct MessageDefinition;
 class TypeInfo;
+
+/// What requests or responses of a service are on the wire.
+struct ServiceType {
+  std::string name = {};  ///< "std_srvs::srv::dds_::SetBool_Request_"
+  std::string hash = {};  ///< "RIHS01_…" (TypeHashOf()), which others are told; "": they are not
+
+  /// `library`: has the messages inside.
+  [[nodiscard]] static ServiceType Of(const MessageDefinition& definition, const MessageLibrary& library);
+  /// Of a message that ROS 2 has: "std_srvs/srv/SetBool_Request".
+  [[nodiscard]] static ServiceType OfRos(const std::string& message);
+
+  friend bool operator==(const ServiceType&, const ServiceType&) = default;
+};
 
 /// The arguments of a call and its reply as request and response of a service of ROS 2, whose fields have the same names.
 ///

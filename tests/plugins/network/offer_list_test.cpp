@@ -49,17 +49,6 @@ TEST(OfferListTest, PortsGoWithTheirModules) {
   EXPECT_EQ(list.offers[1].port, "/app/laser2/output/scan");
 }
 
-TEST(OfferListTest, WhatHasGotOneNamePartsAgain) {
-  OfferList list{kRobot, {{.port = "/app/left/output/scan"}, {.port = "/app/right/output/scan"}}};
-  list.Rename("/app/right", "/app/left");  // which has gone
-  EXPECT_EQ(list.offers[1].port, "/app/left/output/scan");
-  list.Rename("/app/left", "/app/right");
-  EXPECT_EQ(list.offers[0].port, "/app/left/output/scan");
-  EXPECT_EQ(list.offers[1].port, "/app/right/output/scan");
-  list.Rename("/app/left", "/app/middle");
-  EXPECT_EQ(list.offers[0].port, "/app/middle/output/scan");
-}
-
 // Of a module that has gone the offer stays, as it may come back; meanwhile another one may have got its name.
 TEST(OfferListTest, OfTwoOffersOfOnePortAndTopicTheFirstIsSaved) {
   OfferList list{kRobot,

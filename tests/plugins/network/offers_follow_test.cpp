@@ -117,6 +117,38 @@ TEST_F(OffersFollow, AServiceHasItsNewName) {
   WaitUntil("it is offered by the one of before again", [&] { return is_offered("arm"); });
 }
 
+// A renaming that is taken back leaves all as it was, also what is offered of something that has gone. If it is not just that
+// any more, what has the name goes along.
+TEST_F(OffersFollow, ARenamingIsTakenBack) {
+  AddNetworkChanges(a_.runtime);
+  a_.Begin();
+  const std::lock_guard lock(a_.runtime.structure_mutex());
+  const auto rename = [&](const std::string& from, const std::string& to) {
+    ASSERT_TRUE(a_.runtime.root()
+                    .FindAnnotation<ExtensionChanges>()
+                    ->rename("/application/" + from, "/application/" + to)
+                    .apply());
+  };
+  const auto ports = [&] {
+    std::vector<std::string> all;
+    for (const OfferOptions& each : a_.network->options().offers) all.push_back(each.port);
+    return all;
+  };
+  a_.network->AddServiceOffer({.port = "/application/left/count", .service = "/count"});
+  a_.network->set_offers({{.port = "/application/left/scan"}, {.port = "/application/right/scan"}});
+  rename("right", "left");
+  rename("left", "middle");
+  EXPECT_EQ(ports(), (std::vector<std::string>{"/application/middle/scan", "/application/middle/scan"}));
+  rename("middle", "left");
+  rename("left", "right");
+  EXPECT_EQ(ports(), (std::vector<std::string>{"/application/left/scan", "/application/right/scan"}));
+  EXPECT_EQ(a_.network->options().services[0].port, "/application/left/count");
+  rename("right", "left");
+  a_.network->set_offers({{.port = "/application/left/scan"}, {.port = "/application/left/state"}});
+  rename("left", "right");
+  EXPECT_EQ(ports(), (std::vector<std::string>{"/application/right/scan", "/application/right/state"}));
+}
+
 TEST_F(OffersFollow, OfEachValueTheNewestIsSentWhereTheRateIsBounded) {
   Member b(*engine_, "b");
   a_.Offer({.port = "/application/module/place", .topic = "/slow", .quality = ValueQuality::kEach, .rate = 2});
