@@ -53,23 +53,15 @@ void CycleWatchdog::MovePaths(const std::function<void(std::string& path)>& move
   for (const auto& each : rules_) move(each->rule.of);
 }
 
-// Under the mutex.
+// Under the mutex. Whom nobody asks for anything has no thread.
 void CycleWatchdog::Change() {
-  looks_anew_ = true;
-  StartIfNeeded();
-  has_changed_.notify_all();
+  if (lookout_ && !rules_.empty()) lookout_->Ask();
 }
 
 void CycleWatchdog::Begin() {
   const std::lock_guard lock(mutex_);
-  is_running_ = true;
-  StartIfNeeded();
-}
-
-// Under the mutex. Whom nobody asks for anything has no thread.
-void CycleWatchdog::StartIfNeeded() {
-  if (!is_running_ || rules_.empty() || thread_.joinable()) return;
-  thread_ = std::thread([this] { Run(); });
+  if (!lookout_) lookout_ = std::make_unique<Lookout>([this] { return LookAround(); });
+  Change();
 }
 
 void CycleWatchdog::Follow(Runners runners) {
@@ -84,14 +76,9 @@ void CycleWatchdog::Follow(Runners runners) {
 }
 
 void CycleWatchdog::End() {
-  std::thread ended;
-  {
-    const std::lock_guard lock(mutex_);
-    is_running_ = false;
-    ended.swap(thread_);
-  }
-  has_changed_.notify_all();
-  if (ended.joinable()) ended.join();
+  std::unique_ptr<Lookout> ended;  // waits for its look without the lock
+  const std::lock_guard lock(mutex_);
+  ended.swap(lookout_);
 }
 
 // Under the mutex.
@@ -103,24 +90,16 @@ Duration CycleWatchdog::Interval() const {
   return std::max(shortest / kLooksInTime, kShortestInterval);
 }
 
-void CycleWatchdog::Run() {
+std::optional<Time> CycleWatchdog::LookAround() {
   std::unique_lock lock(mutex_);
-  while (is_running_) {
-    const auto is_woken = [this] { return !is_running_ || std::exchange(looks_anew_, false); };
-    if (rules_.empty()) {
-      has_changed_.wait(lock, is_woken);
-    } else if (!has_changed_.wait_for(lock, Interval(), is_woken)) {
-      try {
-        Look(Now());
-        if (std::ranges::all_of(watched_, [](const Watched& each) { return each.fired.empty(); })) continue;
-        lock.unlock();
-        const std::lock_guard listening(listening_);
-        if (listener_) listener_();
-      } catch (const std::bad_alloc&) {  // the next look finds what this one could not tell
-      }
-      if (!lock.owns_lock()) lock.lock();
-    }
-  }
+  if (rules_.empty()) return {};
+  Look(Now());
+  const Time next = Now() + Interval();
+  if (std::ranges::all_of(watched_, [](const Watched& each) { return each.fired.empty(); })) return next;
+  lock.unlock();
+  const std::lock_guard listening(listening_);
+  if (listener_) listener_();
+  return next;
 }
 
 void CycleWatchdog::SetListener(std::function<void()> listener) {

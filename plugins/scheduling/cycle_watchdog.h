@@ -1,14 +1,14 @@
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/base/lookout.h"
 #include "plugins/scheduling/cycle_runner.h"
 #include "plugins/scheduling/fault.h"
 
@@ -84,7 +84,7 @@ class CycleWatchdog {
     std::vector<std::shared_ptr<KnownRule>> fired = {};
   };
 
-  void Run();
+  std::optional<Time> LookAround();
   void Look(Time now);
   void Look(Watched& watched, Time now);
   [[nodiscard]] bool IsAbout(const KnownRule& known, const std::string& path, const std::string& thread) const;
@@ -93,20 +93,16 @@ class CycleWatchdog {
             const std::function<void(const Fault&)>& call);
   [[nodiscard]] Duration Interval() const;
   void Change();
-  void StartIfNeeded();
 
   FaultDispatcher& faults_;
   const Clock& clock_;
   mutable std::mutex mutex_;  // a leaf but for the dispatcher's
-  std::condition_variable has_changed_;
   // Guarded by mutex_:
   std::vector<std::shared_ptr<KnownRule>> rules_;
   std::vector<Watched> watched_;
-  bool is_running_ = false;
-  bool looks_anew_ = false;
-  std::thread thread_;
-  std::mutex listening_;            // not under mutex_
-  std::function<void()> listener_;  // guarded by listening_
+  std::mutex listening_;              // not under mutex_
+  std::function<void()> listener_;    // guarded by listening_
+  std::unique_ptr<Lookout> lookout_;  // between Begin() and End(); guarded by mutex_
 };
 
 }  // namespace runnel

@@ -26,30 +26,30 @@ FaultDispatcher::~FaultDispatcher() {
 }
 
 void FaultDispatcher::Raise(std::unique_ptr<FaultRecord> record) noexcept {
+  Keep(std::move(record));
+  event_.Notify();
+}
+
+void FaultDispatcher::Keep(std::unique_ptr<FaultRecord> record) noexcept {
   FaultRecord* const added = record.release();
   FaultRecord* head = raised_.load(std::memory_order_relaxed);
   do {
     added->next_ = head;
     // release: pairs with the acquire in Dispatch(): the record is filled.
   } while (!raised_.compare_exchange_weak(head, added, std::memory_order_release, std::memory_order_relaxed));
-  event_.Notify();
 }
 
-void FaultDispatcher::Dispatch() {
+bool FaultDispatcher::Dispatch() noexcept {
   // relaxed: only whether there is something; simulated time asks in each step.
-  if (raised_.load(std::memory_order_relaxed) == nullptr) return;
+  if (raised_.load(std::memory_order_relaxed) == nullptr) return true;
   // acquire, release: what the thread before has done is seen.
-  if (is_dispatching_.exchange(true, std::memory_order_acquire)) return;
-  try {
-    DispatchAlone();
-  } catch (...) {
-    is_dispatching_.store(false, std::memory_order_release);
-    throw;
-  }
+  if (is_dispatching_.exchange(true, std::memory_order_acquire)) return true;
+  const bool are_all = DispatchAlone();
   is_dispatching_.store(false, std::memory_order_release);
+  return are_all;
 }
 
-void FaultDispatcher::DispatchAlone() {
+bool FaultDispatcher::DispatchAlone() noexcept {
   // acquire: pairs with the release in Raise().
   FaultRecord* newest = raised_.exchange(nullptr, std::memory_order_acquire);
   FaultRecord* oldest = nullptr;
@@ -61,12 +61,13 @@ void FaultDispatcher::DispatchAlone() {
     std::unique_ptr<FaultRecord> record(std::exchange(oldest, oldest->next_));
     try {
       Answer(*record);
-    } catch (...) {  // what is not told now is told the next time
-      Raise(std::move(record));
-      while (oldest != nullptr) Raise(std::unique_ptr<FaultRecord>(std::exchange(oldest, oldest->next_)));
-      throw;
+    } catch (...) {  // what is not answered now is answered the next time, in order
+      Keep(std::move(record));
+      while (oldest != nullptr) Keep(std::unique_ptr<FaultRecord>(std::exchange(oldest, oldest->next_)));
+      return false;
     }
   }
+  return true;
 }
 
 // What has its own answer is told first, for that may take a while.
@@ -85,9 +86,16 @@ void FaultDispatcher::Report(const Fault& fault) {
   if (!action) return ApplyRules(fault);
   lock.lock();
   if (beside_) {
-    *beside_ = std::jthread([=, this, before = std::move(*beside_)] {
-      if (!Retry([&] { Act(fault, action); })) Note(fault);
-    });
+    const auto before = std::make_shared<std::jthread>(std::move(*beside_));
+    try {
+      *beside_ = std::jthread([=, this] {
+        if (!Retry([&] { Act(fault, action); })) Note(fault);
+        *before = {};  // waits for it
+      });
+    } catch (...) {  // no thread can be had; whoever waits for the one before does so without the lock
+      *beside_ = std::move(*before);
+      throw;
+    }
     return;
   }
   lock.unlock();
@@ -111,8 +119,12 @@ void FaultDispatcher::ApplyRules(const Fault& fault) {
   std::vector<FaultRule> rules;
   {
     const std::lock_guard lock(mutex_);
-    log_.push_back(fault);
+    // The end of the run needs no memory. It is logged when nothing can fail any more.
+    for (const FaultRule& each : rules_) {
+      if (!each.call && IsAtOrBelow(fault.path, each.of)) EndForFault();
+    }
     rules = rules_;
+    log_.push_back(fault);
   }
   for (const FaultRule& rule : rules) {
     if (IsAtOrBelow(fault.path, rule.of)) Apply(rule, fault);

@@ -46,8 +46,8 @@ class FaultDispatcher {
   void Raise(std::unique_ptr<FaultRecord> record) noexcept;
 
   /// Applies the rules to what has been raised, in the order of raising, and logs it. Nothing while another thread
-  /// is about it.
-  void Dispatch();
+  /// is about it. False: there was no memory, or no thread, for some, which are due at the next call.
+  bool Dispatch() noexcept;
   /// Logs the fault and applies the rules to it, at once. Outside of cycles.
   void Report(const Fault& fault);
   /// Logs it, and applies no rule. Whatever there is no memory for is not logged.
@@ -83,7 +83,8 @@ class FaultDispatcher {
   [[nodiscard]] WakeEvent& event() noexcept { return event_; }
 
  private:
-  void DispatchAlone();
+  void Keep(std::unique_ptr<FaultRecord> record) noexcept;
+  bool DispatchAlone() noexcept;
   void Answer(const FaultRecord& record);
   void Log(Fault fault);
   void Act(const Fault& fault, const Action& action);

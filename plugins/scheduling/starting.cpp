@@ -18,6 +18,8 @@ namespace runnel {
 
 namespace {
 
+constexpr Duration kSoon = std::chrono::milliseconds(50);  // what has failed is tried again
+
 // Without memory even for this there is nothing to tell it with; what has failed is tried again.
 void ReportException(const char* what, const std::exception_ptr& exception, FaultDispatcher& faults,
                      Runtime& runtime) noexcept {
@@ -157,12 +159,15 @@ bool Scheduler::is_running() const {
 }
 
 void Scheduler::Supervise() {
+  bool are_faults_due = false;
   while (supervises_.load(std::memory_order_acquire)) {
-    if (watchdog_) {
-      faults_.event().WaitUntil(next_watch_);
+    const Time soon = are_faults_due ? runtime_.clock().Now() + kSoon : Time::max();
+    if (watchdog_ || are_faults_due) {
+      faults_.event().WaitUntil(watchdog_ ? std::min(next_watch_, soon) : soon);
     } else {
       faults_.event().Wait();
     }
+    are_faults_due = !faults_.Dispatch();
     Maintain();
     RunWatchdog();
   }
@@ -174,7 +179,6 @@ void Scheduler::Maintain() noexcept {
   std::exception_ptr failure;
   const bool is_done = Retry([&] {
     try {
-      faults_.Dispatch();
       const std::lock_guard lock(runtime_.structure_mutex());
       if (is_running_) BringUpToDate();
     } catch (...) {
@@ -209,7 +213,7 @@ void Scheduler::RunWatchdog() noexcept {
     next_watch_ = watchdog_(now);
   } catch (...) {
     ReportException("the watchdog failed: ", std::current_exception(), faults_, runtime_);
-    next_watch_ = now + std::chrono::milliseconds(50);
+    next_watch_ = now + kSoon;
   }
 }
 
@@ -221,7 +225,7 @@ void Scheduler::AddStuckRule(StuckRule rule) {
 
 void Scheduler::SetStuckListener(std::function<void()> listener) {
   cycle_watchdog_.SetListener([this, listener = std::move(listener)] {
-    faults_.Dispatch();
+    if (!faults_.Dispatch()) faults_.event().Notify();  // who supervises tries again
     if (listener) listener();
   });
 }

@@ -1,13 +1,17 @@
 // What is done when a rule applies.
 
+#include <chrono>
+#include <iterator>
+#include <thread>
+
 #include "core/base/exception_text.h"
+#include "core/base/retry.h"
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "plugins/parameters/value_to_save.h"
 #include "plugins/structure/element_state.h"
 #include "plugins/structure/value_by_hand.h"
-#include "plugins/supervision/serve_requests.h"
 #include "plugins/supervision/supervisor_shared.h"
 
 namespace runnel {
@@ -33,6 +37,20 @@ Result<void> AttemptOrThrow(const Act& act) {
     throw;
   } catch (...) {
     return Error{.message = DescribeException()};
+  }
+}
+
+// Of what finds no memory nothing has been done. It may be there in a moment.
+template <typename Act>
+auto WithMemory(const Act& act) {
+  constexpr int kAttempts = 1000;
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return act();
+    } catch (const std::bad_alloc&) {
+      if (attempt == kAttempts) throw;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
   }
 }
 
@@ -97,9 +115,24 @@ Result<void> Supervisor::Shared::Release(const std::string& port, Time now) {
   return {};
 }
 
+// Under the structure lock. What could not be released is left, and due at the next look.
+Result<void> Supervisor::Shared::ReleaseEach(std::list<std::string>& ports, Time now) {
+  Result<void> done;
+  for (auto port = ports.begin(); port != ports.end();) {
+    bool is_released = false;
+    EachForItself().Do([&] {
+      auto released = Release(*port, now);
+      is_released = released.has_value();
+      if (!released && done) done = std::move(released);
+    });
+    port = is_released ? ports.erase(port) : std::next(port);
+  }
+  return done;
+}
+
 // Files that are saved until it is taken back have what people have made there. What a rule before has made is none of
-// theirs.
-void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet back) {
+// theirs. `noted`: of how many that has been kept; the next attempt goes on there.
+void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet back, std::size_t& noted) {
   const std::lock_guard lock(runtime.structure_mutex());
   const auto note = [this](const std::string& path, const std::string& before, PathKind kind,
                            MadeByRule::Lacking lacking = {}) -> FrameworkElement* {
@@ -111,7 +144,8 @@ void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet bac
         std::make_unique<MadeByRule>(MadeByRule::Before(**found, before), std::move(now), std::move(lacking)));
     return *found;
   };
-  for (const Change& each : back) {
+  for (; noted < back.size(); ++noted) {
+    const Change& each = back[noted];
     if (const auto* const set = std::get_if<SetParameter>(&each)) note(set->path, set->value, PathKind::kParameter);
     const auto* const replace = std::get_if<ReplaceModule>(&each);
     if (replace == nullptr) continue;
@@ -151,32 +185,27 @@ void Supervisor::Shared::Beside(std::function<void()> act, bool is_long) {
     if (is_real() && (is_long || !acts.empty())) acts.push_back(std::exchange(act, nullptr));
   }
   if (act) return act();
-  beside.Ask();
+  try {
+    beside.Ask();
+  } catch (...) {  // Watch() asks, too
+  }
 }
 
 void Supervisor::Shared::WorkBeside() {
-  for (std::unique_lock lock(mutex); !acts.empty(); acts.pop_front()) {
-    const auto& act = acts.front();
+  EachForItself parts;
+  for (std::unique_lock lock(mutex); !acts.empty();) {
     lock.unlock();
-    // It takes care of what it does; what it has no memory to tell keeps up nobody behind it.
-    (void)Attempt([&] {
-      act();
-      return Result<void>();
-    });
+    parts.Do(acts.front());
+    lock.lock();
+    std::list<std::function<void()>> done;
+    done.splice(done.end(), acts, acts.begin());
+    lock.unlock();
+    done.clear();  // with all that it holds, which may want other locks
     lock.lock();
   }
-  ServeRequests(runtime.clock().Now());
-}
-
-void Supervisor::Shared::ServeRequests(Time now) {
-  const auto tell = [&](const std::string& path, std::string what, bool is_failure) {
-    Note({path, std::move(what), now, is_failure});
-  };
-  const auto served = Attempt([&] {
-    internal::ServeRequests(runtime, perform, tell);
-    return Result<void>();
-  });
-  if (!served) tell("", "a request of a module failed: " + served.error().message, true);
+  parts.Do([&] { FollowPausesAgain(); });
+  parts.Do([&] { ServeRequests(runtime.clock().Now()); });
+  parts.End();
 }
 
 // Safe values come first, and also if the rest fails.
@@ -203,43 +232,51 @@ Result<void> Supervisor::Shared::PublishAll(KnownRule& rule, Which which, const 
 }
 
 void Supervisor::Shared::PublishMissed(Time now) {
+  EachForItself parts;
   for (const auto& rule : rules) {
     for (std::size_t i = 0; i < rule->misses.size(); ++i) {
       const SafeValue& safe = rule->reaction.published[i];
       if (!rule->misses[i] || !PathSearch(runtime).FindPort(safe.port, PathKind::kElement)) continue;
-      rule->holds.resize(rule->misses.size());
-      const auto done = AttemptOrThrow([&] { return Publish(safe); });
-      rule->misses[i] = false;
-      rule->holds[i] = done.has_value();
-      Note({safe.port,
-            "is there again; what a rule wants there meanwhile " +
-                (done ? "is set" : "cannot be set: " + done.error().ToString()),
-            now, !done});
+      parts.Do([&] {
+        rule->holds.resize(rule->misses.size());
+        const auto done = AttemptOrThrow([&] { return Publish(safe); });
+        rule->misses[i] = false;
+        rule->holds[i] = done.has_value();
+        Note({safe.port,
+              "is there again; what a rule wants there meanwhile " +
+                  (done ? "is set" : "cannot be set: " + done.error().ToString()),
+              now, !done});
+      });
     }
   }
+  parts.End();
 }
 
 Result<void> Supervisor::Shared::CarryOut(KnownRule& rule, Which which, Reaction& reaction, Time now) {
   Result<void> done;
+  std::list<std::string> left;
+  WithMemory([&] { left.assign(reaction.released.begin(), reaction.released.end()); });
   if (!reaction.changes.empty()) {
-    GiveBack(runtime, reaction.changes);
-    auto back = perform(reaction.changes);
-    if (back) NotePassing(rule, which, std::move(*back));
-    if (!back) done = back.error();
+    WithMemory([&] { GiveBack(runtime, reaction.changes); });
+    const auto back = WithMemory([&] { return perform(reaction.changes); });
+    std::size_t noted = 0;
+    if (!back) {
+      done = back.error();
+    } else if (!Retry([&] { NotePassing(rule, which, *back, noted); })) {
+      done = Error{.message = "files will have its values"};
+    }
   }
-  for (const std::string& each : reaction.released) {
-    auto released = Release(each, now);
-    if (released) continue;
-    const std::lock_guard lock(runtime.structure_mutex());
-    later.push_back(each);
-    if (done) done = released;
-  }
+  if (left.empty()) return done;
+  const std::lock_guard lock(runtime.structure_mutex());
+  auto released = ReleaseEach(left, now);
+  later.splice(later.end(), left);
+  if (done) done = std::move(released);
   return done;
 }
 
 // What can be said of a reaction that failed is told; the application runs on as it is, and ends if it was to end.
 void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& path, const std::string& why, Time now,
-                               bool is_recovery, Where where) {
+                               bool is_recovery, Where where) try {
   const Reaction& given = rule.*which;
   Reaction reaction{.ends_run = given.ends_run};
   // What only ends the run waits for no lock: the module that is stuck may have it.
@@ -249,14 +286,15 @@ void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& 
     if (which == &SupervisionRule::otherwise) rule.holds.clear(), rule.misses.clear();
   }
   const auto published = AttemptOrThrow([&] { return PublishAll(rule, which, reaction); });
-  const bool is_long = where == Where::kBeside && !reaction.changes.empty();
+  const bool is_long = !reaction.changes.empty();
+  const bool is_short = !is_long && reaction.released.empty();  // it waits behind no other one
   auto rest = [this, &rule, which, published, reaction = std::move(reaction),
                notice = Notice{path, why, now, false, is_recovery}]() mutable {
     const auto carried_out = Attempt([&] { return CarryOut(rule, which, reaction, notice.time); });
     const Result<void>& done = published ? carried_out : published;
     if (reaction.ends_run) scheduler.EndForFault();
     // It is done by then, and not done again where there is no memory to tell of it.
-    (void)Attempt([&] {
+    EachForItself().Do([&] {
       notice.is_failure = !done;
       if (!done) {
         notice.message += "; what was to be done about it failed: " + done.error().ToString();
@@ -265,11 +303,13 @@ void Supervisor::Shared::React(KnownRule& rule, Which which, const std::string& 
       }
       if (reaction.ends_run) notice.message += "; ends the run";
       Note(std::move(notice));
-      return Result<void>();
     });
   };
-  if (where == Where::kHere) return rest();
+  if (where == Where::kHere || is_short) return rest();
   Beside(std::move(rest), is_long);
+} catch (...) {  // no memory: it is due, but for the end of the run, which needs none
+  if ((rule.*which).ends_run) scheduler.EndForFault();
+  throw;
 }
 
 }  // namespace runnel

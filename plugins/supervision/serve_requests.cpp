@@ -1,22 +1,25 @@
-#include "plugins/supervision/serve_requests.h"
+// What modules ask for (StructureRequest), in the order in which they asked. A request may delete who has asked.
 
 #include <cstdint>
 #include <mutex>
 #include <vector>
 
+#include "core/base/exception_text.h"
 #include "plugins/structure/change_text.h"
 #include "plugins/structure/structure_request.h"
+#include "plugins/supervision/supervisor_shared.h"
 
-namespace runnel::internal {
+namespace runnel {
 
-void ServeRequests(Runtime& runtime, const Supervisor::Perform& perform, const TellAnswer& tell) {
+// Outside of cycles and without locks.
+void Supervisor::Shared::ServeRequests(Time now) {
   struct Asked {
     std::uint64_t id;
     std::string path;
     std::string text;
   };
   std::vector<Asked> all;
-  const auto find = [&runtime](std::uint64_t id) -> StructureRequest* {
+  const auto find = [this](std::uint64_t id) -> StructureRequest* {
     for (StructureRequest* each : StructureRequests::Of(runtime)->all()) {
       if (each->element().id() == id && each->is_asked()) return each;
     }
@@ -33,16 +36,26 @@ void ServeRequests(Runtime& runtime, const Supervisor::Perform& perform, const T
     }
   }
   for (const Asked& each : all) {
-    Diagnostics diagnostics;
-    const PlacedChanges placed = ParseChanges(each.text, {each.path}, diagnostics);
-    const auto made = diagnostics.ok() ? perform(placed.changes) : Result<ChangeSet>(diagnostics.errors().front());
-    const Result<void> done = made ? Result<void>() : made.error();
-    tell(each.path,
-         done ? "has had it done: " + each.text : "asked in vain for: " + each.text + ": " + done.error().ToString(),
-         !done);
-    const std::lock_guard lock(runtime.structure_mutex());
-    if (StructureRequest* const request = find(each.id)) request->Answer(done);
+    Result<void> done;
+    try {
+      Diagnostics diagnostics;
+      const PlacedChanges placed = ParseChanges(each.text, {each.path}, diagnostics);
+      const auto made = diagnostics.ok() ? perform(placed.changes) : Result<ChangeSet>(diagnostics.errors().front());
+      if (!made) done = made.error();
+    } catch (...) {
+      done = Error{.message = DescribeException()};
+    }
+    {
+      const std::lock_guard lock(runtime.structure_mutex());
+      if (StructureRequest* const request = find(each.id)) request->Answer(done);
+    }
+    // It has been answered, whether there is memory to tell of it or not.
+    EachForItself().Do([&] {
+      Note({each.path,
+            done ? "has had it done: " + each.text : "asked in vain for: " + each.text + ": " + done.error().ToString(),
+            now, !done});
+    });
   }
 }
 
-}  // namespace runnel::internal
+}  // namespace runnel

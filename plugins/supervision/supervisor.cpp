@@ -5,7 +5,6 @@
 #include <ranges>
 #include <utility>
 
-#include "core/base/erase_where.h"
 #include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
@@ -43,11 +42,15 @@ void Supervisor::Shared::MovePaths(const PathFollowers::Move& move) {
 
 void Supervisor::Shared::KeepSafe(Time now) {
   const std::lock_guard lock(runtime.structure_mutex());
-  PublishMissed(now);
-  EraseWhere(later, [&](const std::string& each) { return static_cast<bool>(Release(each, now)); });
-  standstill.Look(runtime, scheduler, now, [&](const Port& port, std::string what, bool is_recovery) {
-    Note({port.path(), std::move(what), now, false, is_recovery});
+  EachForItself parts;
+  parts.Do([&] { PublishMissed(now); });
+  (void)ReleaseEach(later, now);
+  parts.Do([&] {
+    standstill.Look(runtime, scheduler, now, [&](const Port& port, std::string what, bool is_recovery) {
+      Note({port.path(), std::move(what), now, false, is_recovery});
+    });
   });
+  parts.End();
 }
 
 // Told once when it begins, and once when it ends.
@@ -69,13 +72,22 @@ void Supervisor::Shared::TellOverruns(Time now) {
 }
 
 Time Supervisor::Shared::Watch(Time now) {
-  if (is_real()) {
-    beside.Ask();
-  } else {
+  Time next = now + kLookForRequests;
+  EachForItself parts;
+  parts.Do([&] {
+    if (is_real()) return beside.Ask();
+    FollowPausesAgain();
     ServeRequests(now);
-  }
-  KeepSafe(now);
-  TellOverruns(now);
+  });
+  parts.Do([&] { KeepSafe(now); });
+  parts.Do([&] { TellOverruns(now); });
+  parts.Do([&] { next = std::min(next, LookForSilence(now)); });
+  parts.End();
+  return next;
+}
+
+// When to look again.
+Time Supervisor::Shared::LookForSilence(Time now) {
   struct Due {
     std::shared_ptr<KnownRule> rule;
     std::string path;
@@ -84,7 +96,7 @@ Time Supervisor::Shared::Watch(Time now) {
     std::size_t watch;
   };
   std::vector<Due> due;
-  Time next = now + kLookForRequests;
+  Time next = Time::max();
   if (!watches.empty()) {
     const std::lock_guard lock(runtime.structure_mutex());
     for (std::size_t i = 0; i < watches.size(); ++i) {
@@ -104,21 +116,19 @@ Time Supervisor::Shared::Watch(Time now) {
   }
   // Reactions take the lock for as long as they need it. What becomes safe does before anything is taken back.
   std::ranges::stable_partition(due, [](const Due& each) { return !each.is_recovery; });
-  // What has not been done for lack of memory stays due, and keeps up no other one.
-  std::exception_ptr failure;
+  // What has not been done for lack of memory stays due.
+  EachForItself reactions;
   for (const Due& each : due) {
-    try {
+    reactions.Do([&] {
       React(*each.rule, each.is_recovery ? &SupervisionRule::otherwise : &SupervisionRule::reaction, each.path,
             each.why, now, each.is_recovery);
       const std::lock_guard lock(runtime.structure_mutex());
       StaleWatch& watch = watches[each.watch].second;
       watch.NoteDone(each.is_recovery ? StaleWatch::Turn::kFresh : StaleWatch::Turn::kStale, now);
       next = std::min(next, watch.next_look());
-    } catch (...) {
-      failure = std::current_exception();
-    }
+    });
   }
-  if (failure) std::rethrow_exception(failure);
+  reactions.End();
   return next;
 }
 
@@ -204,28 +214,52 @@ Result<void> Supervisor::Add(StopButtonRule rule) {
 
 // As if what `but_for` pauses went on.
 void Supervisor::Shared::FollowPauses(std::string_view but_for) {
+  EachForItself reactions;
   for (const auto& each : rules) {
     if (each->when != SupervisionRule::When::kPaused) continue;
-    bool applies = false;
-    std::string of;
-    {
-      const std::lock_guard structure(runtime.structure_mutex());
-      const auto found = runtime.root().Find(each->of);
-      if (!found) continue;  // it stays as it is
-      applies = scheduler.IsPaused(**found, but_for);
-      of = each->of;
-    }
-    if (applies == each->is_applied) continue;
-    const Which which = applies ? &SupervisionRule::reaction : &SupervisionRule::otherwise;
-    if (!((*each).*which).is_empty())
-      React(*each, which, of, applies ? "is paused" : "goes on", runtime.clock().Now(), false, Where::kHere);
-    each->is_applied = applies;
+    reactions.Do([&] {
+      bool applies = false;
+      std::string of;
+      {
+        const std::lock_guard structure(runtime.structure_mutex());
+        const auto found = runtime.root().Find(each->of);
+        if (!found) return;  // it stays as it is
+        applies = scheduler.IsPaused(**found, but_for);
+        of = each->of;
+      }
+      if (applies == each->is_applied) return;
+      const Which which = applies ? &SupervisionRule::reaction : &SupervisionRule::otherwise;
+      each->is_applied.reset();
+      if (!((*each).*which).is_empty())
+        React(*each, which, of, applies ? "is paused" : "goes on", runtime.clock().Now(), false, Where::kHere);
+      each->is_applied = applies;
+    });
+  }
+  reactions.End();
+}
+
+// What was not done to its end, as it is now. Whoever pauses something just now does it himself.
+void Supervisor::Shared::FollowPausesAgain() {
+  if (!has_pauses_left) return;
+  const std::unique_lock lock(pausing, std::try_to_lock);
+  if (!lock) return;
+  has_pauses_left = false;
+  try {
+    FollowPauses("");
+  } catch (...) {
+    has_pauses_left = true;
+    throw;
   }
 }
 
 // Who goes on finds what the rules have taken back. Who is paused waits for the end of no other one's cycle.
 Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
   const RobotStop::AsOf as_of = shared_->runtime.robot_stop().AsOfNow();
+  // Whatever comes between: a look later the rules are as they should be.
+  const struct LookAgain {
+    ~LookAgain() { has_pauses_left = true; }
+    std::atomic<bool>& has_pauses_left;
+  } look_again{shared_->has_pauses_left};
   const Result<void> paused = is_paused ? scheduler_.SetPaused(path, true) : Result<void>();
   const std::lock_guard lock(shared_->pausing);
   // What is stuck is paused all the same.

@@ -141,7 +141,8 @@ StaleWatch::Turn StaleWatch::Judge(bool is_silent) {
 }
 
 void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, const Tell& tell) {
-  if (std::exchange(revision_, runtime.revision()) != runtime.revision()) {
+  if (revision_ != runtime.revision()) {
+    revision_ = ~std::uint64_t{};  // until all are found
     driven_.clear();
     outputs_.clear();
     runtime.root().Visit([this, now](FrameworkElement& element) {
@@ -151,16 +152,21 @@ void Standstill::Look(Runtime& runtime, const Scheduler& scheduler, Time now, co
       if (drives || MarkOf(*port) != nullptr) driven_.push_back({port, port->Sinks(), Feeding(*port, now), drives});
       if (port->direction() == Port::Direction::kOutput) outputs_.push_back(port);
     });
+    revision_ = runtime.revision();
   }
+  EachForItself ports;
   for (const Driven& each : driven_) {
-    LookAtReaders(each, scheduler, tell);
-    LookAtSources(each, scheduler, now, tell);
+    ports.Do([&] { LookAtReaders(each, scheduler, tell); });
+    ports.Do([&] { LookAtSources(each, scheduler, now, tell); });
   }
   for (Port* const each : outputs_) {
-    (void)WhySilent(*each, scheduler, now);  // it is noted: a rule may have switched it away, and switch it back
-    if (!each->stamps_ahead() || std::exchange(each->FindOrAnnotate<RestMark>().is_ahead_told, true)) continue;
-    tell(*each, "bears times of measurement that are still to come; they count as the time of publication", false);
+    ports.Do([&] {
+      (void)WhySilent(*each, scheduler, now);  // it is noted: a rule may have switched it away, and switch it back
+      if (!each->stamps_ahead() || std::exchange(each->FindOrAnnotate<RestMark>().is_ahead_told, true)) return;
+      tell(*each, "bears times of measurement that are still to come; they count as the time of publication", false);
+    });
   }
+  ports.End();
 }
 
 Feeding::Feeding(Port& port, Time now) : port_(port), at_(now), sources_(port.Sources()) {

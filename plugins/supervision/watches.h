@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,6 +14,30 @@
 #include "core/port/port.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/supervision/supervision_rules.h"
+
+namespace runnel {
+
+/// Does several things, of which none keeps up another.
+class EachForItself {
+ public:
+  template <typename Part>
+  void Do(const Part& part) noexcept {
+    try {
+      part();
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+  }
+  /// Throws what one of them has thrown.
+  void End() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::exception_ptr failure_;
+};
+
+}  // namespace runnel
 
 namespace runnel::internal {
 

@@ -7,6 +7,7 @@
 #include <pthread.h>
 
 #include "core/lockfree/thread_epoch.h"
+#include "plugins/scheduling/fault_dispatcher.h"
 #include "plugins/testing/fault_injection.h"
 #include "tests/plugins/scheduling/real_threads_fixture.h"
 
@@ -119,6 +120,37 @@ TEST_F(SchedulingFaults, WhatHasLeftTheTreeRunsNoMoreThoughNoScheduleCanBeMade) 
       return world.free.runner()->schedule()->entries.empty();
     });
     world.runtime.Destroy(std::move(taken));
+  }
+}
+
+TEST(FaultOfAModule, IsAnsweredOnceByEachRuleHoweverShortMemoryIs) {
+  int first = 0, second = 0;
+  const auto needs_memory = [](const Fault& fault, int& calls) {
+    const std::string text = fault.path + " has failed, and that is too long to be kept without memory";
+    if (!text.empty()) ++calls;
+  };
+  for (std::size_t nth = 1;; ++nth) {
+    SCOPED_TRACE(nth);
+    first = second = 0;
+    FaultDispatcher faults;
+    faults.AddRule({.of = "/robot", .call = [&](const Fault& fault) { needs_memory(fault, first); }});
+    faults.AddRule({.of = "/robot", .call = [&](const Fault& fault) { needs_memory(fault, second); }});
+    for (const char* const name : {"/robot/a", "/robot/b"}) {
+      auto record = std::make_unique<FaultRecord>(name);
+      record->Fill("no answer", At(10), 1);
+      faults.Raise(std::move(record));
+    }
+    FaultInjection injection(InjectedFault::kAllocation, nth);
+    try {
+      faults.Dispatch();
+    } catch (const std::bad_alloc&) {
+    }
+    injection.End();
+    faults.Dispatch();
+    EXPECT_EQ(first, 2);
+    EXPECT_EQ(second, 2);
+    EXPECT_THAT(faults.Take(), ::testing::SizeIs(2));
+    if (!injection.has_struck() || ::testing::Test::HasFailure()) break;
   }
 }
 

@@ -1,0 +1,205 @@
+// What rules do while memory is short: nothing keeps up the end of the run, or another rule, and nothing is done twice.
+
+#include <thread>
+
+#include "plugins/parameters/parameter.h"
+#include "plugins/parameters/value_to_save.h"
+#include "plugins/scheduling/fault_dispatcher.h"
+#include "plugins/structure/structure_request.h"
+#include "plugins/testing/fault_injection.h"
+#include "tests/plugins/supervision/supervised_robot.h"
+
+namespace runnel::supervised {
+namespace {
+
+using test::FaultInjection;
+using test::InjectedFault;
+using ::testing::SizeIs;
+using When = SupervisionRule::When;
+
+class ReactionFaults : public ::testing::Test {
+ protected:
+  ReactionFaults() {
+    robot.infrared.action = [this](Doing& module) {
+      if (infrared_throws) throw std::runtime_error("no echo");
+      module.out.Publish(2);
+    };
+  }
+  ~ReactionFaults() override { robot.scheduler.Stop(); }
+  void EndsTheRun() {
+    WaitUntil("the run is to end", [&] { return robot.scheduler.stop_requested(); });
+  }
+
+  std::atomic<bool> infrared_throws{false};
+  Robot robot{SchedulerOptions::ClockKind::kReal};
+};
+
+TEST_F(ReactionFaults, TheRunEndsThoughChangesFindNoMemory) {
+  robot.before_changes = [] { throw std::bad_alloc(); };
+  MustSucceed(robot.supervisor.Add(
+      {.when = When::kFault,
+       .of = robot.laser.path(),
+       .reaction = {.changes = Switch(robot.reader.in, robot.laser.out, robot.infrared.out), .ends_run = true}}));
+  MustSucceed(robot.scheduler.Start());
+  robot.laser_throws = true;
+  EndsTheRun();
+}
+
+TEST_F(ReactionFaults, TheRunEndsThoughAnotherRuleWaitsForMemory) {
+  std::atomic<int> tries{0};
+  robot.before_changes = [&] { ++tries, throw std::bad_alloc(); };
+  MustSucceed(
+      robot.supervisor.Add({.when = When::kFault,
+                            .of = robot.laser.path(),
+                            .reaction = {.changes = Switch(robot.reader.in, robot.laser.out, robot.infrared.out)}}));
+  MustSucceed(robot.supervisor.Add(
+      {.when = When::kFault, .of = robot.infrared.path(), .reaction = {.released = {"/reader/in"}, .ends_run = true}}));
+  MustSucceed(robot.scheduler.Start());
+  robot.laser_throws = true;
+  WaitUntil("the first rule waits", [&] { return tries > 2; });
+  infrared_throws = true;
+  EndsTheRun();
+}
+
+TEST_F(ReactionFaults, TheRunEndsThoughTheModuleThatIsStuckHasTheLock) {
+  std::atomic<bool> is_stuck{false}, goes_on{false};
+  robot.infrared.action = [&](Doing&) {
+    if (!is_stuck) return;
+    const std::lock_guard lock(robot.runtime.structure_mutex());
+    while (!goes_on) std::this_thread::yield();
+    is_stuck = false;
+  };
+  MustSucceed(robot.supervisor.Add(
+      {.when = When::kStuck, .of = robot.infrared.path(), .after = 50ms, .reaction = {.ends_run = true}}));
+  robot.scheduler.SetStuckListener({});  // has its thread look after faults, as an application does
+  MustSucceed(robot.scheduler.Start());
+  is_stuck = true;
+  WaitUntil("the run is to end", [&] { return robot.scheduler.stop_requested(); });
+  goes_on = true;
+}
+
+TEST(FaultsWithoutMemory, EndTheRunAllTheSame) {
+  FaultDispatcher faults;
+  faults.AddRule({.of = "/robot"});
+  auto record = std::make_unique<FaultRecord>("/robot/laser");
+  record->Fill("no answer", At(10), 1);
+  faults.Raise(std::move(record));
+  FaultInjection injection(InjectedFault::kAllocation, 1, 1000);
+  EXPECT_FALSE(faults.Dispatch()) << "it is not told";
+  injection.End();
+  EXPECT_TRUE(faults.stop_requested());
+  EXPECT_TRUE(faults.Dispatch());
+  EXPECT_THAT(faults.Take(), SizeIs(1));
+}
+
+// Of two that are mended by threads of their own the second one waits for the first without a lock.
+TEST(FaultsWithoutMemory, AreMendedByAThreadOrLater) {
+  for (std::size_t nth = 1;; ++nth) {
+    SCOPED_TRACE(nth);
+    FaultDispatcher faults;
+    faults.SetActsBeside(true);
+    std::atomic<bool> goes_on{false};
+    faults.SetHandler([&](const Fault&) -> FaultDispatcher::Action {
+      return [&] {
+        while (!goes_on) std::this_thread::yield();
+        return std::string("it has been mended by what was returned");
+      };
+    });
+    const auto raise = [&](const char* path) {
+      auto record = std::make_unique<FaultRecord>(path);
+      record->Fill("does not answer, and that is a longer text", At(10), 1);
+      faults.Raise(std::move(record));
+    };
+    raise("/robot/a");
+    EXPECT_TRUE(faults.Dispatch());
+    raise("/robot/b");
+    FaultInjection injection(InjectedFault::kAllocation, nth);
+    (void)faults.Dispatch();
+    injection.End();
+    EXPECT_TRUE(faults.Dispatch());
+    goes_on = true;
+    faults.SetActsBeside(false);
+    EXPECT_THAT(faults.Take(), SizeIs(2));
+    if (!injection.has_struck() || ::testing::Test::HasFailure()) break;
+  }
+}
+
+struct TwoParameters final : Module {
+  using Module::Module;
+  Parameter<double> p{this, "p", {.default_value = 0}};
+  Parameter<double> q{this, "q", {.default_value = 0}};
+  void Update() override {}
+};
+
+// Two rules, one after the other: what is saved is what a person has set.
+TEST(NotesOfRules, AreMadeOnceThoughMemoryIsShort) {
+  for (std::size_t nth = 1;; ++nth) {
+    SCOPED_TRACE(nth);
+    Robot robot{SchedulerOptions::ClockKind::kSimulated};
+    auto& two = robot.runtime.Create<TwoParameters>(robot.runtime.root(), "two");
+    MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+    bool is_second = false;
+    std::optional<FaultInjection> injection;
+    Supervisor supervisor{robot.runtime, robot.scheduler, [&](const ChangeSet& changes) -> Result<ChangeSet> {
+                            ChangeSet back;
+                            const ChangeOutcome outcome = robot.editor.Apply(changes, {}, {}, &back);
+                            if (!outcome) return outcome.diagnostics.errors().front();
+                            if (is_second && !injection) injection.emplace(InjectedFault::kAllocation, nth);
+                            return back;
+                          }};
+    const std::string p = two.path() + "/p", q = two.path() + "/q";
+    for (const auto& [of, value] : {std::pair(robot.laser.path(), "1"), std::pair(robot.infrared.path(), "2")}) {
+      MustSucceed(supervisor.Add(
+          {.when = When::kFault, .of = of, .reaction = {.changes = {SetParameter{p, value}, SetParameter{q, value}}}}));
+    }
+    robot.laser_throws = true;
+    robot.scheduler.RunUntil(At(100));
+    is_second = true;
+    robot.infrared.action = [](Doing&) { throw std::runtime_error("no echo"); };
+    robot.scheduler.RunUntil(At(130));
+    ASSERT_TRUE(injection);
+    injection->End();
+    robot.scheduler.RunUntil(At(300));
+    EXPECT_EQ(two.p.Get(), 2);
+    EXPECT_EQ(two.q.Get(), 2);
+    EXPECT_EQ(TextToSave(**robot.runtime.root().Find(p), two.p), "0");
+    EXPECT_EQ(TextToSave(**robot.runtime.root().Find(q), two.q), "0");
+    if (!injection->has_struck() || ::testing::Test::HasFailure()) break;
+  }
+}
+
+struct Asking final : Module {
+  using Module::Module;
+  StructureRequest request{this};
+  int answers = 0;
+  void Update() override {
+    if (request.answer() != nullptr) ++answers;
+  }
+};
+
+TEST(RequestsOfModules, AreServedOnceThoughMemoryIsShort) {
+  for (std::size_t nth = 1;; ++nth) {
+    SCOPED_TRACE(nth);
+    Robot robot{SchedulerOptions::ClockKind::kSimulated};
+    int performed = 0;
+    robot.before_changes = [&] { ++performed; };
+    auto& asking = robot.runtime.Create<Asking>(robot.runtime.root(), "asking");
+    MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+    robot.scheduler.RunUntil(At(60));
+    ASSERT_TRUE(asking.request.Ask("disconnect " + robot.laser.out.path() + " " + robot.reader.in.path()));
+    FaultInjection injection(InjectedFault::kAllocation, nth);
+    try {
+      robot.scheduler.RunUntil(At(200));
+    } catch (const std::bad_alloc&) {
+    }
+    injection.End();
+    robot.scheduler.RunUntil(At(600));
+    ASSERT_GT(asking.answers, 0);
+    EXPECT_LE(performed, 1);
+    EXPECT_EQ(asking.request.answer()->has_value(), robot.reader.in.Sources().empty());
+    if (!injection.has_struck() || ::testing::Test::HasFailure()) break;
+  }
+}
+
+}  // namespace
+}  // namespace runnel::supervised
