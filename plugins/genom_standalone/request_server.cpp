@@ -1,7 +1,6 @@
 #include "plugins/genom_standalone/request_server.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/base/nearest_name.h"

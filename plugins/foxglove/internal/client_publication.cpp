@@ -1,6 +1,5 @@
 #include <atomic>
 #include <mutex>
-#include <new>
 #include <utility>
 
 #include "core/base/retry.h"
@@ -75,7 +74,7 @@ void TrySome(const Action& action) noexcept {
   for (int attempt = 0; attempt < 30; ++attempt) {
     try {
       return action();
-    } catch (const std::bad_alloc&) {
+    } catch (...) {  // no memory, or no thread
     }
   }
 }

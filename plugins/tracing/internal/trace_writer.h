@@ -70,7 +70,6 @@ class TraceWriter {
   void WriteCycle(const KnownThread& known, const TraceEvent& event);
   void CloseFault(KnownThread& known);
   void TellOfLost(int track, std::uint64_t lost);
-  // Whether its number is that of a name.
 
   TraceFile file_;
   const bool is_simulated_;
