@@ -136,7 +136,7 @@ void CycleWatchdog::Look(Watched& watched, Time now) {
     Tell(watched, Fault::Kind::kStuck,
          "has not returned from its cycle for " + DurationText(since) + "; at most " + DurationText(after) +
              " is allowed",
-         known->rule.on_stuck);
+         known->rule.on_stuck, known->rule.ends_run);
     watched.fired.push_back(known);
   }
 }
@@ -154,14 +154,14 @@ void CycleWatchdog::Return(Watched& watched, Time now) {
 }
 
 void CycleWatchdog::Tell(const Watched& watched, Fault::Kind kind, std::string message,
-                         const std::function<void(const Fault&)>& call) {
+                         const std::function<void(const Fault&)>& call, bool ends_run) {
   faults_.Raise(std::make_unique<FaultRecord>(Fault{.path = watched.path,
                                                     .message = std::move(message),
                                                     .time = clock_.Now(),
                                                     .cycle = watched.runner->cycles_begun(),
                                                     .is_mended = kind == Fault::Kind::kReturned,
                                                     .kind = kind},
-                                              call));
+                                              call, ends_run));
 }
 
 std::vector<StuckModule> CycleWatchdog::Stuck() const {

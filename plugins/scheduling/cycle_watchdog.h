@@ -20,6 +20,7 @@ struct StuckRule {
   Duration after{};      ///< of the machine's clock; 0: it may take as long as it likes
   /// Called as a FaultRule's are, once for each run that takes too long ...
   std::function<void(const Fault&)> on_stuck = {};
+  bool ends_run = false;  ///< as FaultRule's, of `on_stuck`
   /// ... and when it has come to its end after all.
   std::function<void(const Fault&)> on_return = {};
 };
@@ -90,7 +91,7 @@ class CycleWatchdog {
   [[nodiscard]] bool IsAbout(const KnownRule& known, const std::string& path, const std::string& thread) const;
   void Return(Watched& watched, Time now);
   void Tell(const Watched& watched, Fault::Kind kind, std::string message,
-            const std::function<void(const Fault&)>& call);
+            const std::function<void(const Fault&)>& call, bool ends_run = false);
   [[nodiscard]] Duration Interval() const;
   void Change();
 

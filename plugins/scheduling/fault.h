@@ -35,6 +35,7 @@ struct FaultRule {
   /// What is called then, which must not call Scheduler::Stop(); what it throws is reported as a fault of `of`.
   /// Without, Scheduler::stop_requested() becomes true.
   std::function<void(const Fault&)> call = {};
+  bool ends_run = false;  ///< `call` does that; it becomes true in any case where there is no memory to call
 };
 
 }  // namespace runnel

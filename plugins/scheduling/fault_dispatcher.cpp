@@ -1,5 +1,6 @@
 #include "plugins/scheduling/fault_dispatcher.h"
 
+#include <algorithm>
 #include <mutex>
 #include <new>
 
@@ -21,27 +22,25 @@ void FaultRecord::Fill(std::string_view message, Time time, std::uint64_t cycle)
 }
 
 FaultDispatcher::~FaultDispatcher() {
-  FaultRecord* record = raised_.load(std::memory_order_acquire);
-  while (record != nullptr) delete std::exchange(record, record->next_);
+  for (FaultRecord* record : {raised_.load(std::memory_order_acquire), unanswered_.load(std::memory_order_acquire)}) {
+    while (record != nullptr) delete std::exchange(record, record->next_);
+  }
 }
 
 void FaultDispatcher::Raise(std::unique_ptr<FaultRecord> record) noexcept {
-  Keep(std::move(record));
-  event_.Notify();
-}
-
-void FaultDispatcher::Keep(std::unique_ptr<FaultRecord> record) noexcept {
   FaultRecord* const added = record.release();
   FaultRecord* head = raised_.load(std::memory_order_relaxed);
   do {
     added->next_ = head;
     // release: pairs with the acquire in Dispatch(): the record is filled.
   } while (!raised_.compare_exchange_weak(head, added, std::memory_order_release, std::memory_order_relaxed));
+  event_.Notify();
 }
 
 bool FaultDispatcher::Dispatch() noexcept {
   // relaxed: only whether there is something; simulated time asks in each step.
-  if (raised_.load(std::memory_order_relaxed) == nullptr) return true;
+  if (raised_.load(std::memory_order_relaxed) == nullptr && unanswered_.load(std::memory_order_relaxed) == nullptr)
+    return true;
   // acquire, release: what the thread before has done is seen.
   if (is_dispatching_.exchange(true, std::memory_order_acquire)) return true;
   const bool are_all = DispatchAlone();
@@ -57,17 +56,33 @@ bool FaultDispatcher::DispatchAlone() noexcept {
     FaultRecord* const before = std::exchange(newest->next_, oldest);
     oldest = std::exchange(newest, before);
   }
+  // relaxed: of who dispatches; see Dispatch().
+  if (FaultRecord* const first = unanswered_.exchange(nullptr, std::memory_order_relaxed)) {
+    FaultRecord* last = first;
+    while (last->next_ != nullptr) last = last->next_;
+    last->next_ = std::exchange(oldest, first);
+  }
   while (oldest != nullptr) {
-    std::unique_ptr<FaultRecord> record(std::exchange(oldest, oldest->next_));
     try {
-      Answer(*record);
+      Answer(*oldest);
     } catch (...) {  // what is not answered now is answered the next time, in order
-      Keep(std::move(record));
-      while (oldest != nullptr) Keep(std::unique_ptr<FaultRecord>(std::exchange(oldest, oldest->next_)));
+      for (const FaultRecord* each = oldest; each != nullptr; each = each->next_) EndIfRuled(*each);
+      unanswered_.store(oldest, std::memory_order_relaxed);
       return false;
     }
+    delete std::exchange(oldest, oldest->next_);
   }
   return true;
+}
+
+// The end of the run waits for no memory.
+void FaultDispatcher::EndIfRuled(const FaultRecord& record) noexcept {
+  const std::lock_guard lock(mutex_);
+  const bool is_thrown = record.fault_.kind == Fault::Kind::kThrown;
+  const auto ends = [&](const FaultRule& rule) {
+    return (!rule.call || rule.ends_run) && IsAtOrBelow(record.fault_.path, rule.of);
+  };
+  if (record.ends_run_ || (is_thrown && std::ranges::any_of(rules_, ends))) EndForFault();
 }
 
 // What has its own answer is told first, for that may take a while.
@@ -119,12 +134,8 @@ void FaultDispatcher::ApplyRules(const Fault& fault) {
   std::vector<FaultRule> rules;
   {
     const std::lock_guard lock(mutex_);
-    // The end of the run needs no memory. It is logged when nothing can fail any more.
-    for (const FaultRule& each : rules_) {
-      if (!each.call && IsAtOrBelow(fault.path, each.of)) EndForFault();
-    }
     rules = rules_;
-    log_.push_back(fault);
+    log_.push_back(fault);  // when nothing can fail any more
   }
   for (const FaultRule& rule : rules) {
     if (IsAtOrBelow(fault.path, rule.of)) Apply(rule, fault);

@@ -22,7 +22,8 @@ class FaultRecord {
  public:
   explicit FaultRecord(std::string path);
   /// One that is known already, with what is to be done about it in the place of the rules.
-  FaultRecord(Fault fault, std::function<void(const Fault&)> call) : fault_(std::move(fault)), call_(std::move(call)) {}
+  FaultRecord(Fault fault, std::function<void(const Fault&)> call, bool ends_run = false)
+      : fault_(std::move(fault)), call_(std::move(call)), ends_run_(ends_run) {}
   /// Cuts `message` off where the room ends.
   void Fill(std::string_view message, Time time, std::uint64_t cycle) noexcept;
   [[nodiscard]] const Fault& fault() const noexcept { return fault_; }
@@ -31,6 +32,7 @@ class FaultRecord {
   friend class FaultDispatcher;
   Fault fault_;
   std::function<void(const Fault&)> call_;
+  bool ends_run_ = false;
   FaultRecord* next_ = nullptr;
 };
 
@@ -83,8 +85,8 @@ class FaultDispatcher {
   [[nodiscard]] WakeEvent& event() noexcept { return event_; }
 
  private:
-  void Keep(std::unique_ptr<FaultRecord> record) noexcept;
   bool DispatchAlone() noexcept;
+  void EndIfRuled(const FaultRecord& record) noexcept;
   void Answer(const FaultRecord& record);
   void Log(Fault fault);
   void Act(const Fault& fault, const Action& action);
@@ -94,6 +96,7 @@ class FaultDispatcher {
 
   // A stack that is only ever pushed to and taken as a whole, so no address can come back to life.
   std::atomic<FaultRecord*> raised_{nullptr};
+  std::atomic<FaultRecord*> unanswered_{nullptr};  // for lack of memory, the oldest first; of who dispatches
   std::atomic<bool> is_dispatching_{false};
   std::atomic<bool> stop_requested_{false};
   std::atomic<bool> ended_by_fault_{false};

@@ -131,21 +131,27 @@ Result<void> Supervisor::Shared::ReleaseEach(std::list<std::string>& ports, Time
 }
 
 // Files that are saved until it is taken back have what people have made there. What a rule before has made is none of
-// theirs. `noted`: of how many that has been kept; the next attempt goes on there.
-void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet back, std::size_t& noted) {
+// theirs. `noted`: by changes and elements what an attempt before has kept.
+void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet back,
+                                     std::vector<std::pair<std::size_t, std::uint64_t>>& noted) {
+  std::size_t number = 0;
   const std::lock_guard lock(runtime.structure_mutex());
-  const auto note = [this](const std::string& path, const std::string& before, PathKind kind,
-                           MadeByRule::Lacking lacking = {}) -> FrameworkElement* {
+  const auto note = [&, this](const std::string& path, const std::string& before, PathKind kind,
+                              MadeByRule::Lacking lacking = {}) -> FrameworkElement* {
     const auto found = PathSearch(runtime).Find(path, kind);
     if (!found) return nullptr;
     const auto* const parameter = dynamic_cast<const Configurable*>(*found);
     std::string now = parameter != nullptr ? parameter->ToText() : FindModuleType(**found);
+    const std::pair mark(number, (*found)->id());
+    if (std::ranges::find(noted, mark) != noted.end()) return *found;
+    noted.reserve(noted.size() + 1);
     (*found)->Annotate(
         std::make_unique<MadeByRule>(MadeByRule::Before(**found, before), std::move(now), std::move(lacking)));
+    noted.push_back(mark);
     return *found;
   };
-  for (; noted < back.size(); ++noted) {
-    const Change& each = back[noted];
+  for (const Change& each : back) {
+    ++number;
     if (const auto* const set = std::get_if<SetParameter>(&each)) note(set->path, set->value, PathKind::kParameter);
     const auto* const replace = std::get_if<ReplaceModule>(&each);
     if (replace == nullptr) continue;
@@ -253,19 +259,17 @@ void Supervisor::Shared::PublishMissed(Time now) {
 }
 
 Result<void> Supervisor::Shared::CarryOut(KnownRule& rule, Which which, Reaction& reaction, Time now) {
-  Result<void> done;
   std::list<std::string> left;
   WithMemory([&] { left.assign(reaction.released.begin(), reaction.released.end()); });
-  if (!reaction.changes.empty()) {
+  auto done = Attempt([&]() -> Result<void> {
+    if (reaction.changes.empty()) return {};
     WithMemory([&] { GiveBack(runtime, reaction.changes); });
     const auto back = WithMemory([&] { return perform(reaction.changes); });
-    std::size_t noted = 0;
-    if (!back) {
-      done = back.error();
-    } else if (!Retry([&] { NotePassing(rule, which, *back, noted); })) {
-      done = Error{.message = "files will have its values"};
-    }
-  }
+    if (!back) return back.error();
+    std::vector<std::pair<std::size_t, std::uint64_t>> noted;
+    if (Retry([&] { NotePassing(rule, which, *back, noted); })) return {};
+    return Error{.message = "files will have its values"};
+  });
   if (left.empty()) return done;
   const std::lock_guard lock(runtime.structure_mutex());
   auto released = ReleaseEach(left, now);

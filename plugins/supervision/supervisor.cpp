@@ -188,12 +188,14 @@ Result<void> Supervisor::Add(SupervisionRule rule) {
   if (known->when == When::kStale) {
     if (auto added = shared_->AddWatch(known); !added) return added;
   } else if (known->when == When::kFault && !known->reaction.is_empty()) {
-    scheduler_.AddFaultRule(
-        {.of = known->of, .call = Shared::CallOf(shared_, known, &SupervisionRule::reaction, "has failed")});
+    scheduler_.AddFaultRule({.of = known->of,
+                             .call = Shared::CallOf(shared_, known, &SupervisionRule::reaction, "has failed"),
+                             .ends_run = known->reaction.ends_run});
   } else if (known->when == When::kStuck) {
     scheduler_.AddStuckRule({.of = known->of,
                              .after = known->after,
                              .on_stuck = Shared::CallOf(shared_, known, &SupervisionRule::reaction, "is stuck"),
+                             .ends_run = known->reaction.ends_run,
                              .on_return = Shared::CallOf(shared_, known, &SupervisionRule::otherwise, "has returned")});
   }
   const std::lock_guard lock(shared_->runtime.structure_mutex());

@@ -43,7 +43,8 @@ struct Supervisor::Shared {
              bool is_recovery = false, Where where = Where::kBeside);
   Result<void> PublishAll(KnownRule& rule, Which which, const Reaction& reaction);
   Result<void> CarryOut(KnownRule& rule, Which which, Reaction& reaction, Time now);
-  void NotePassing(KnownRule& rule, Which which, ChangeSet back, std::size_t& noted);
+  void NotePassing(KnownRule& rule, Which which, ChangeSet back,
+                   std::vector<std::pair<std::size_t, std::uint64_t>>& noted);
   // What may take as long as it takes, and must keep up nobody who looks whether all is well: in real time beside him, one
   // after the other; in simulated time at once.
   void Beside(std::function<void()> act, bool is_long);

@@ -1,6 +1,7 @@
 // What rules do while memory is short: nothing keeps up the end of the run, or another rule, and nothing is done twice.
 
 #include <thread>
+#include <tuple>
 
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/value_to_save.h"
@@ -92,6 +93,46 @@ TEST(FaultsWithoutMemory, EndTheRunAllTheSame) {
   EXPECT_THAT(faults.Take(), SizeIs(1));
 }
 
+// Whatever is in front of it.
+TEST(FaultsWithoutMemory, EndTheRunBehindOthers) {
+  for (const bool is_stuck : {false, true}) {
+    FaultDispatcher faults;
+    faults.AddRule({.of = "/robot/base", .call = [](const Fault&) {}, .ends_run = !is_stuck});
+    faults.Raise(std::make_unique<FaultRecord>(
+        Fault{.path = "/robot/a_laser_of_a_long_name", .message = "stuck", .kind = Fault::Kind::kStuck},
+        [](const Fault&) {}));
+    faults.Raise(std::make_unique<FaultRecord>(
+        Fault{.path = "/robot/base", .message = "no", .kind = is_stuck ? Fault::Kind::kStuck : Fault::Kind::kThrown},
+        [](const Fault&) {}, is_stuck));
+    const FaultInjection injection(InjectedFault::kAllocation, 1, 1000);
+    EXPECT_FALSE(faults.Dispatch());
+    EXPECT_TRUE(faults.stop_requested()) << is_stuck;
+  }
+}
+
+TEST(FaultsWithoutMemory, AreAnsweredInTheirOrder) {
+  FaultDispatcher faults;
+  std::vector<std::string> order;
+  order.reserve(10);
+  std::optional<FaultInjection> injection;
+  const auto make = [&](Fault::Kind kind, const char* name) {
+    return std::make_unique<FaultRecord>(Fault{.path = "/robot/a", .message = name, .kind = kind},
+                                         [&order, name](const Fault&) { order.emplace_back(name); });
+  };
+  auto third = make(Fault::Kind::kStuck, "third");
+  faults.Raise(std::make_unique<FaultRecord>(Fault{.path = "/a", .message = "first", .kind = Fault::Kind::kStuck},
+                                             [&](const Fault&) {
+                                               order.emplace_back("first");
+                                               faults.Raise(std::move(third));
+                                               injection.emplace(InjectedFault::kAllocation, 1, 10);
+                                             }));
+  faults.Raise(make(Fault::Kind::kReturned, "second"));
+  EXPECT_FALSE(faults.Dispatch());
+  injection.reset();
+  EXPECT_TRUE(faults.Dispatch());
+  EXPECT_EQ(order, (std::vector<std::string>{"first", "second", "third"}));
+}
+
 // Of two that are mended by threads of their own the second one waits for the first without a lock.
 TEST(FaultsWithoutMemory, AreMendedByAThreadOrLater) {
   for (std::size_t nth = 1;; ++nth) {
@@ -165,6 +206,89 @@ TEST(NotesOfRules, AreMadeOnceThoughMemoryIsShort) {
     EXPECT_EQ(TextToSave(**robot.runtime.root().Find(p), two.p), "0");
     EXPECT_EQ(TextToSave(**robot.runtime.root().Find(q), two.q), "0");
     if (!injection->has_struck() || ::testing::Test::HasFailure()) break;
+  }
+}
+
+template <int kNumber>
+struct Arm final : Module {
+  using Module::Module;
+  Parameter<double> p{this, "p", {.default_value = 0}};
+  Parameter<double> q{this, "q", {.default_value = 0}};
+  void Update() override {}
+  static void AddTo(ModuleRegistry& modules) {
+    MustSucceed(modules.Add({"test/arm" + std::to_string(kNumber), "", "test",
+                             [](const Placement& placement) { return std::make_unique<Arm>(placement); }}));
+  }
+};
+
+TEST(NotesOfRules, OfReplacementsAreMadeOnceThoughMemoryIsShort) {
+  for (std::size_t nth = 1;; ++nth) {
+    SCOPED_TRACE(nth);
+    Robot robot{SchedulerOptions::ClockKind::kSimulated};
+    Arm<1>::AddTo(robot.modules), Arm<2>::AddTo(robot.modules), Arm<3>::AddTo(robot.modules);
+    ASSERT_TRUE(robot.editor.Apply({CreateModule{.path = "/two", .type = "test/arm1"}}));
+    ASSERT_TRUE(robot.editor.Apply({SetParameter{"/two/p", "7"}, SetParameter{"/two/q", "8"}}));
+    bool is_second = false;
+    std::optional<FaultInjection> injection;
+    Supervisor supervisor{robot.runtime, robot.scheduler, [&](const ChangeSet& changes) -> Result<ChangeSet> {
+                            ChangeSet back;
+                            const ChangeOutcome outcome = robot.editor.Apply(changes, {}, {}, &back);
+                            if (!outcome) return outcome.diagnostics.errors().front();
+                            if (is_second && !injection) injection.emplace(InjectedFault::kAllocation, nth);
+                            return back;
+                          }};
+    for (const auto& [of, type, value] :
+         {std::tuple(robot.laser.path(), "test/arm2", "1"), std::tuple(robot.infrared.path(), "test/arm3", "3")}) {
+      ReplaceModule replace{.path = "/two", .type = type, .settings = {{"p", value}, {"q", value}}};
+      MustSucceed(supervisor.Add({.when = When::kFault, .of = of, .reaction = {.changes = {std::move(replace)}}}));
+    }
+    robot.laser_throws = true;
+    robot.scheduler.RunUntil(At(100));
+    is_second = true;
+    robot.infrared.action = [](Doing&) { throw 7; };
+    robot.scheduler.RunUntil(At(130));
+    ASSERT_TRUE(injection);
+    const bool has_struck = injection->has_struck();
+    injection.reset();
+    robot.scheduler.RunUntil(At(300));
+    for (const auto& [path, value] : {std::pair("/two/p", "7"), std::pair("/two/q", "8")}) {
+      FrameworkElement& parameter = **robot.runtime.root().Find(path);
+      EXPECT_EQ(TextToSave(parameter, dynamic_cast<const Configurable&>(parameter)), value) << path;
+    }
+    EXPECT_EQ(MadeByRule::Before(**robot.runtime.root().Find("/two"), "test/arm3"), "test/arm1");
+    if (!has_struck || ::testing::Test::HasFailure()) break;
+  }
+}
+
+// Whatever becomes of the changes.
+TEST(ReleasesOfRules, ComeThoughTheErrorOfTheChangesFindsNoMemory) {
+  for (std::size_t nth = 1; nth < 10; ++nth) {
+    SCOPED_TRACE(nth);
+    Robot robot{SchedulerOptions::ClockKind::kSimulated};
+    const std::string port = robot.reader.in.path();
+    std::optional<FaultInjection> injection;
+    Supervisor supervisor{robot.runtime, robot.scheduler, [&](const ChangeSet&) -> Result<ChangeSet> {
+                            Error error{.message = "that cannot be changed, as a longer text says"};
+                            if (!injection) injection.emplace(InjectedFault::kAllocation, nth);
+                            return error;
+                          }};
+    MustSucceed(supervisor.Add(
+        {.of = port,
+         .after = 30ms,
+         .fresh_after = 50ms,
+         .reaction = {.published = {{port, "5"}}},
+         .otherwise = {.released = {port}, .changes = Switch(robot.reader.in, robot.laser.out, robot.infrared.out)}}));
+    robot.scheduler.RunUntil(At(60));
+    robot.laser_works = false;
+    robot.scheduler.RunUntil(At(150));
+    robot.laser_works = true;
+    try {
+      robot.scheduler.RunUntil(At(400));
+    } catch (const std::bad_alloc&) {
+    }
+    injection.reset();
+    robot.scheduler.RunUntil(At(900));
+    EXPECT_EQ(robot.seen, 1);
   }
 }
 
