@@ -155,10 +155,6 @@ class Drawing {
                 Style({"stroke", look.colour, "stroke-width", "3", "stroke-linecap", "round"}));
       x = DrawLegendText({x + 32, y}, look.label);
     }
-    if (!trajectory_.shortest.empty()) {
-      DrawShortest({{x, y - 4}, {x + 24, y - 4}});
-      x = DrawLegendText({x + 32, y}, "shortest path");
-    }
     if (!trajectory_.hits.empty()) {
       DrawHit({x + 6, y - 4}, "");
       x = DrawLegendText({x + 18, y}, "hit point");
@@ -167,6 +163,10 @@ class Drawing {
       DrawLeave({x + 6, y - 4}, "");
       DrawLegendText({x + 18, y}, "leave point");
     }
+    if (trajectory_.shortest.empty()) return;
+    // In a line of its own, for want of room.
+    DrawShortest({{kMargin, y + 12}, {kMargin + 24, y + 12}});
+    DrawLegendText({kMargin + 32, y + 16}, "shortest path");
   }
 
   /// Where the next entry begins.

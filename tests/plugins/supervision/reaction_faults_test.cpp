@@ -31,7 +31,9 @@ class ReactionFaults : public ::testing::Test {
     WaitUntil("the run is to end", [&] { return robot.scheduler.stop_requested(); });
   }
 
-  std::atomic<bool> infrared_throws{false};
+  // Before the robot, whose threads use them until it is stopped.
+  std::atomic<bool> infrared_throws{false}, is_stuck{false}, goes_on{false};
+  std::atomic<int> tries{0};
   Robot robot{SchedulerOptions::ClockKind::kReal};
 };
 
@@ -47,8 +49,7 @@ TEST_F(ReactionFaults, TheRunEndsThoughChangesFindNoMemory) {
 }
 
 TEST_F(ReactionFaults, TheRunEndsThoughAnotherRuleWaitsForMemory) {
-  std::atomic<int> tries{0};
-  robot.before_changes = [&] { ++tries, throw std::bad_alloc(); };
+  robot.before_changes = [this] { ++tries, throw std::bad_alloc(); };
   MustSucceed(
       robot.supervisor.Add({.when = When::kFault,
                             .of = robot.laser.path(),
@@ -63,8 +64,7 @@ TEST_F(ReactionFaults, TheRunEndsThoughAnotherRuleWaitsForMemory) {
 }
 
 TEST_F(ReactionFaults, TheRunEndsThoughTheModuleThatIsStuckHasTheLock) {
-  std::atomic<bool> is_stuck{false}, goes_on{false};
-  robot.infrared.action = [&](Doing&) {
+  robot.infrared.action = [this](Doing&) {
     if (!is_stuck) return;
     const std::lock_guard lock(robot.runtime.structure_mutex());
     while (!goes_on) std::this_thread::yield();
