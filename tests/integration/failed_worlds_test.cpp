@@ -48,6 +48,7 @@ TEST_P(OnceFailed, ComesToTheRightVerdictAndTouchesNothing) {
 INSTANTIATE_TEST_SUITE_P(Attempts, OnceFailed,
                          testing::Values(Attempt{"comb_1005", "planning/tangent_bug", "left", "reached"},
                                          Attempt{"comb_1026", "behaviours/navigator", "right", "reached"},
+                                         Attempt{"comb_1043", "planning/tangent_bug", "left", "reached"},
                                          Attempt{"maze_1001", "planning/tangent_bug", "left", "reached"},
                                          Attempt{"maze_1007", "behaviours/navigator", "left", "reached"},
                                          Attempt{"maze_1010", "planning/bug1", "right", "reached"},

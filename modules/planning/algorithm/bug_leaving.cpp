@@ -37,7 +37,8 @@ constexpr double kParallel = 0.001;      // m in a step by which it comes nearer
 
 // Commanded to move, and not moving. Turns to and fro, which come to nothing, are none that it was held back from.
 bool IsHeld(const BugState& state) {
-  return state.commanded.forward > kMoving || std::abs(state.commanded.turn) > kMoving;
+  const double turn = std::abs(state.commanded.turn);
+  return state.commanded.forward > kMoving || (turn > kMoving && turn > state.turns / 2);
 }
 
 }  // namespace
@@ -244,10 +245,12 @@ void BugAlgorithm::RecordIdleTime(BugState& state, const BugInput& input) const 
   const double kept = std::max(0.0, 1.0 - input.time_step / kRecent);
   state.commanded.forward = kept * state.commanded.forward + state.last_twist.forward * input.time_step;
   state.commanded.turn = kept * state.commanded.turn + state.last_twist.turn * input.time_step;
+  state.turns = kept * state.turns + std::abs(state.last_twist.turn) * input.time_step;
   const double moved = Distance(Position(state.still_pose), Position(input.pose));
   if (moved > kStill || std::abs(WrapAngle(input.pose.heading - state.still_pose.heading)) > kStill) {
     state.still_pose = input.pose;
     state.commanded = {};
+    state.turns = 0.0;
   }
   // Neither blind nor held by somebody else is without room.
   if (input.surroundings.is_measured && !IsHeld(state)) state.idle_time += input.time_step;

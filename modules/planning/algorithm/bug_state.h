@@ -84,6 +84,7 @@ struct BugState {
   Twist2 last_twist;              ///< commanded then
   Pose2 still_pose;               ///< where it has been since it last moved
   Twist2 commanded;               ///< m and rad, lately, since then
+  double turns = 0.0;             ///< rad, the same, to and fro alike
 
   PointHistory hits;    ///< in the order they were met
   PointHistory leaves;  ///< without those that turned out to be none
