@@ -36,9 +36,7 @@ std::string Picture(const Course& course, const RunRecord& record) {
 // `rows`: of the lines, if they are runs.
 std::string HtmlTable(const TextTable& table, const std::vector<Row>& rows = {}) {
   std::string text = "<div class=\"scroll\"><table><thead><tr>";
-  const auto look = [&](std::size_t i) {
-    return i >= table.words && i < table.words + table.numbers ? " class=\"number\"" : "";
-  };
+  const auto look = [&](std::size_t i) { return table.IsNumber(i) ? " class=\"number\"" : ""; };
   for (std::size_t i = 0; i < table.titles.size(); ++i) {
     text += fmt::format("<th scope=\"col\"{}><button type=\"button\">{}</button></th>", look(i), table.titles[i]);
   }

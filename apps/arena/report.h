@@ -57,6 +57,7 @@ struct TextTable {
   std::size_t words;
   std::size_t numbers;
   std::vector<std::vector<std::string>> lines = {};
+  [[nodiscard]] bool IsNumber(std::size_t column) const { return column >= words && column < words + numbers; }
 };
 [[nodiscard]] TextTable RunTable(const std::vector<Row>& rows);
 [[nodiscard]] TextTable SummaryTable(const std::vector<Row>& rows);

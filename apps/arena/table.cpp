@@ -23,8 +23,7 @@ std::string Aligned(const TextTable& table) {
     std::string out = " ";
     for (std::size_t i = 0; i < line.size(); ++i) {
       const std::string padding(widths[i] - line[i].size(), ' ');
-      const bool is_number = i >= table.words && i < table.words + table.numbers;
-      out += " " + (is_number ? padding + line[i] : line[i] + padding);
+      out += " " + (table.IsNumber(i) ? padding + line[i] : line[i] + padding);
     }
     out.erase(out.find_last_not_of(' ') + 1);
     text += out + "\n";

@@ -25,6 +25,11 @@ Result<void> CheckElementName(std::string_view name);
   return path.starts_with(subtree) && (path.size() == subtree.size() || path[subtree.size()] == '/');
 }
 
+/// What is at or below `from` is at or below `to` now. Other paths stay.
+inline void MovePath(std::string& path, std::string_view from, std::string_view to) {
+  if (IsAtOrBelow(path, from)) path.replace(0, from.size(), to);
+}
+
 [[nodiscard]] inline bool IsAbsolutePath(std::string_view path) { return !path.empty() && path.front() == '/'; }
 
 }  // namespace runnel

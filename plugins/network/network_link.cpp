@@ -5,8 +5,6 @@
 #include <mutex>
 #include <utility>
 
-#include <sys/prctl.h>
-
 #include "core/base/exception_text.h"
 #include "core/element/element_path.h"
 #include "core/element/not_saved.h"
@@ -23,24 +21,11 @@ namespace {
 // So long something may go unnoticed of which nobody tells.
 constexpr auto kLookAround = std::chrono::seconds(1);
 constexpr auto kAfterFailure = std::chrono::milliseconds(100);
-// Longer than that it takes only if others have the processor.
-constexpr auto kLatest = std::chrono::microseconds(100);
-// One of so many moments is spent awake at most, waiting for values, with some in advance.
-constexpr int kShareAwake = 16;
-constexpr auto kInAdvance = std::chrono::milliseconds(100);
 
 // So often it is looked whether a call has ended, while one is under way.
 constexpr auto kLookAtCalls = std::chrono::milliseconds(1);
 // … whether its time is over.
 constexpr auto kLookAtTime = std::chrono::milliseconds(10);
-
-void PauseProcessor() noexcept {
-#if defined(__x86_64__) || defined(__i386__)
-  __builtin_ia32_pause();
-#elif defined(__aarch64__)
-  asm volatile("yield");
-#endif
-}
 
 /// Beside the tree: no part of the application, so that nobody finds or saves it.
 class BesideElement final : public FrameworkElement {
@@ -219,7 +204,6 @@ void NetworkLink::OnDeleted(FrameworkElement& element) {
 }
 
 void NetworkLink::Run() noexcept {
-  (void)prctl(PR_SET_TIMERSLACK, 1UL);  // nanoseconds: it is to wake in time
   while (!ends_) {
     try {
       if (must_look_.exchange(false, std::memory_order_acquire)) Follow();
@@ -236,7 +220,6 @@ void NetworkLink::SendAll() {
   const Time now = SteadyClock().Now();
   Time deadline = now + kLookAround;
   for (const auto& each : offered_) {
-    each->NoteValue(is_late_ ? now - waking_ : now);
     if (const auto again = each->Send(now)) deadline = std::min(deadline, *again);
   }
   const auto clock = node_ != nullptr ? node_->Work(now) : std::nullopt;
@@ -253,41 +236,7 @@ void NetworkLink::SendAll() {
       return LookAgain();
     }
   }
-  is_late_ = false;
-  if (!must_look_ && !ends_) WaitForValues(deadline);
-}
-
-bool NetworkLink::HasValue() const noexcept {
-  return std::ranges::any_of(offered_, [](const auto& each) { return each->has_value(); });
-}
-
-// Asleep until a value is likely to come, and awake as long as it is: so the publisher need not wake this thread.
-void NetworkLink::WaitForValues(Time deadline) {
-  static const bool is_alone =
-      std::thread::hardware_concurrency() < 2;  // awake, it would only be in the publisher's way
-  const Time now = SteadyClock().Now();
-  std::optional<ValueForecast::Window> next;
-  for (const auto& each : offered_) {
-    const auto window = is_alone ? std::nullopt : each->window(now);
-    if (window && (!next || window->begin < next->begin)) next = window;
-  }
-  if (!next || next->begin - waking_ >= deadline || awake_ > now) return Sleep(deadline);
-  if (now < next->begin - waking_) {
-    Sleep(next->begin - waking_);
-    if (is_early_ || HasValue()) return;
-  }
-  const Time began = SteadyClock().Now();
-  while (!HasValue() && SteadyClock().Now() < next->end) PauseProcessor();
-  is_late_ = false;
-  awake_ = std::max(awake_, began - kInAdvance) + kShareAwake * (SteadyClock().Now() - began);
-}
-
-void NetworkLink::Sleep(Time deadline) {
-  wake_->WaitUntil(deadline);
-  is_late_ = true;
-  const Duration late = SteadyClock().Now() - deadline;
-  is_early_ = late < Duration{};  // somebody has rung, maybe for what has been sent already
-  if (!is_early_ && !HasValue()) waking_ += (std::min<Duration>(late, kLatest) - waking_) / 8;
+  if (!must_look_ && !ends_) wake_->WaitUntil(deadline);
 }
 
 }  // namespace runnel

@@ -112,9 +112,6 @@ class NetworkLink final : private ElementListener {
   // By the thread.
   void Run() noexcept;
   void SendAll();
-  void WaitForValues(Time deadline);
-  void Sleep(Time deadline);
-  [[nodiscard]] bool HasValue() const noexcept;
   void Follow();
   [[nodiscard]] std::vector<Wanted> FindOffers();
   /// Whether somebody offers what is, or was, at that path, as that topic.
@@ -163,10 +160,6 @@ class NetworkLink final : private ElementListener {
   std::vector<std::unique_ptr<TakenPort>> taken_;
   // The thread's own.
   std::uint64_t made_ = 0;
-  Duration waking_{};      // mean: what it takes from a timer to this thread
-  bool is_late_ = false;   // by that, since it slept when a value came
-  bool is_early_ = false;  // woken by somebody, and not by the time
-  Time awake_{};           // when as much time has passed as makes up for what has been spent awake
   const Time began_ = SteadyClock().Now();
   Time next_look_{};                                 // for what has gone wrong
   std::map<std::string, std::string> troubles_;      // by whom they are, as they have been told

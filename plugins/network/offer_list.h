@@ -4,15 +4,9 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/element/element_path.h"
 #include "plugins/network/network_options.h"
 
 namespace runnel {
-
-/// What is at or below `from` is at or below `to` now.
-inline void MovePath(std::string& path, const std::string& from, const std::string& to) {
-  if (IsAtOrBelow(path, from)) path.replace(0, from.size(), to);
-}
 
 /// What an application called `network` offers, as it comes and goes.
 struct OfferList {

@@ -19,7 +19,6 @@
 #include "core/port/probe_port.h"
 #include "plugins/network/network_options.h"
 #include "plugins/network/sending_turns.h"
-#include "plugins/network_discovery/value_forecast.h"
 #include "plugins/network_discovery/value_form.h"
 #include "plugins/ros_services/ros_time.h"
 #include "plugins/wire/octet_pool.h"
@@ -50,7 +49,6 @@ class OfferBell final : public Waker, private AfterCycleWork {
     turns_.Ring();
     wake_->Notify();
   }
-  [[nodiscard]] bool has_rung() const noexcept { return turns_.has_rung(); }
   [[nodiscard]] bool Answer() noexcept { return turns_.Answer(); }
 
   /// Has what is there sent, by this thread or by who is at it already.
@@ -126,16 +124,6 @@ class OfferedPort {
 
   /// Sends what is due. When it wants to be called again though nothing wakes; nothing: not before.
   std::optional<Time> Send(Time now);
-  /// Whether Send() has a value to send at once, as far as is known.
-  [[nodiscard]] bool has_value() const noexcept { return options_.rate <= 0 && bell_->has_rung(); }
-  /// While a value is likely to come.
-  [[nodiscard]] std::optional<ValueForecast::Window> window(Time now) const {
-    return options_.rate > 0 ? std::nullopt : forecast_.window(now);
-  }
-  /// Before anything is sent: if there is a value, it has come at `time`.
-  void NoteValue(Time time) {
-    if (has_value()) forecast_.Note(time);
-  }
 
   /// Whether its safe value is sent, as the robot or this port is stopped.
   [[nodiscard]] bool is_stopped() const;
@@ -180,7 +168,6 @@ class OfferedPort {
   std::atomic<Binding*> binding_{nullptr};
   std::vector<StopSignal::Subscription> stop_subscriptions_;  // under the structure lock
   OctetPool pool_;
-  ValueForecast forecast_;
   Time next_{};  // not before
   /// Of the newest value that was sent.
   struct Shown {

@@ -29,10 +29,10 @@ class SendingTurns {
   // where it rings in a run for another, by that one. exchange: several ring, and a store would end what began with the
   // release of another (its release sequence), whose value then might not be found.
   void Ring() noexcept { (void)has_rung_.exchange(true, std::memory_order_release); }
-  // relaxed: only who answers looks at what has been published.
-  [[nodiscard]] bool has_rung() const noexcept { return has_rung_.load(std::memory_order_relaxed); }
-  // Before the run and never after it: what is rung for meanwhile is answered next time.
-  [[nodiscard]] bool Answer() noexcept { return has_rung() && has_rung_.exchange(false, std::memory_order_acquire); }
+  // Before the run and never after it: what is rung for meanwhile is answered next time. relaxed: whether it is worth an exchange.
+  [[nodiscard]] bool Answer() noexcept {
+    return has_rung_.load(std::memory_order_relaxed) && has_rung_.exchange(false, std::memory_order_acquire);
+  }
 
   /// Has `send` called, once, or leaves that to who is at it. `ring` is called if others have come meanwhile. Neither may throw.
   template <typename SendNow, typename RingBell>

@@ -86,9 +86,7 @@ struct Rebase {
   const std::string& from;
   const std::string& to;
 
-  void Move(std::string& path) const {
-    if (IsAtOrBelow(path, from)) path = to + path.substr(from.size());
-  }
+  void Move(std::string& path) const { MovePath(path, from, to); }
   void operator()(ConnectPorts& change) const {
     Move(change.from);
     Move(change.to);

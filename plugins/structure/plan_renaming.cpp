@@ -42,12 +42,6 @@ std::string Sibling(const FrameworkElement& element, const std::string& name) {
   return element.parent()->path() + "/" + name;
 }
 
-// `path` of something at or below `from`, as it is below `to`; nullopt for others.
-std::optional<std::string> Moved(const std::string& path, const std::string& from, const std::string& to) {
-  if (!IsAtOrBelow(path, from)) return {};
-  return to + path.substr(from.size());
-}
-
 // Where in the file it stands.
 void KeepPlace(FrameworkElement& made, const FrameworkElement& before) {
   const auto* const place = before.FindAnnotation<SourcePlace>();
@@ -105,7 +99,7 @@ Result<void> Plan::Check(const RenameElement& change) {
   // Those that wait for their ends are noted by their paths.
   std::vector<LateConnection> late;
   for (const LateConnection& each : overlay_.late()) {
-    if (Moved(each.from, before, after) || Moved(each.to, before, after)) late.push_back(each);
+    if (IsAtOrBelow(each.from, before) || IsAtOrBelow(each.to, before)) late.push_back(each);
   }
   for (const LateConnection& each : late) {
     if (auto cut = Check(DisconnectPorts{each.from, each.to}); !cut) return cut;
@@ -113,8 +107,9 @@ Result<void> Plan::Check(const RenameElement& change) {
   if (auto targets = MoveTargets(element, change.name); !targets) return targets;
   if (auto moved = MoveTo(*place, element); !moved) return moved;
   for (const LateConnection& each : late) {
-    const ConnectPorts tie{Moved(each.from, before, after).value_or(each.from),
-                           Moved(each.to, before, after).value_or(each.to), each.options};
+    ConnectPorts tie{each.from, each.to, each.options};
+    MovePath(tie.from, before, after);
+    MovePath(tie.to, before, after);
     if (auto tied = TieAgain(tie); !tied) return tied;
   }
   // The name of before takes all of it back.

@@ -26,12 +26,6 @@ std::uint64_t Random::NextBits() {
   return result;
 }
 
-double Random::NextSigned() { return static_cast<double>(NextBits() >> 11) * 0x1.0p-52 - 1.0; }
-
-double Random::Between(double low, double high) { return low + (high - low) * (NextSigned() + 1.0) / 2.0; }
-
-int Random::Below(int count) { return static_cast<int>(Between(0.0, count)); }
-
 double GaussianNoise::operator()(double standard_deviation) {
   if (standard_deviation == 0.0) return 0.0;
   if (has_spare_) {

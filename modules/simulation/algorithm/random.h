@@ -15,11 +15,12 @@ class Random {
   explicit Random(std::uint64_t seed);
 
   [[nodiscard]] std::uint64_t NextBits();
-  [[nodiscard]] double NextSigned();  ///< uniform in [-1, 1)
+  /// Uniform in [-1, 1).
+  [[nodiscard]] double NextSigned() { return static_cast<double>(NextBits() >> 11) * 0x1.0p-52 - 1.0; }
   /// Uniform in [low, high).
-  [[nodiscard]] double Between(double low, double high);
+  [[nodiscard]] double Between(double low, double high) { return low + (high - low) * (NextSigned() + 1.0) / 2.0; }
   /// One of 0 … count - 1. Precondition: count > 0.
-  [[nodiscard]] int Below(int count);
+  [[nodiscard]] int Below(int count) { return static_cast<int>(Between(0.0, count)); }
   [[nodiscard]] bool Coin() { return Below(2) == 1; }
 
  private:

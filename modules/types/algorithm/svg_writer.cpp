@@ -2,7 +2,6 @@
 
 #include <array>
 #include <charconv>
-#include <utility>
 
 namespace runnel {
 
@@ -78,11 +77,5 @@ void SvgWriter::Text(Point2 place, std::string_view text, std::string_view style
   text_ += "<text" + Attribute("x", place.x) + Attribute("y", place.y) + " " + std::string(style) + ">" +
            EscapedXml(text) + "</text>\n";
 }
-
-void SvgWriter::OpenGroup(std::string_view style) { text_ += "<g " + std::string(style) + ">\n"; }
-
-void SvgWriter::CloseGroup() { text_ += "</g>\n"; }
-
-std::string SvgWriter::Close() { return std::exchange(text_, {}) + "</svg>\n"; }
 
 }  // namespace runnel

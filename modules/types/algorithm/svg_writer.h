@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "modules/types/algorithm/point.h"
@@ -23,10 +24,10 @@ class SvgWriter {
   /// Closed rings as one shape: rings within rings are holes.
   void Rings(const std::vector<std::vector<Point2>>& rings, std::string_view style);
   void Text(Point2 place, std::string_view text, std::string_view style);
-  void OpenGroup(std::string_view style);
-  void CloseGroup();
+  void OpenGroup(std::string_view style) { text_ += "<g " + std::string(style) + ">\n"; }
+  void CloseGroup() { text_ += "</g>\n"; }
   /// Ends the file and gives it away.
-  [[nodiscard]] std::string Close();
+  [[nodiscard]] std::string Close() { return std::exchange(text_, {}) + "</svg>\n"; }
 
  private:
   std::string text_;
