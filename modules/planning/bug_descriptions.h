@@ -72,17 +72,17 @@ inline void Describe(TypeBuilder<BugState>& type) {
   type.Name("BugState")
       .Fields<&BugState::status, &BugState::has_task, &BugState::start, &BugState::goal, &BugState::composition,
               &BugState::last_pose, &BugState::last_twist, &BugState::still_pose, &BugState::commanded,
-              &BugState::turns, &BugState::hits, &BugState::leaves, &BugState::least_distance_of_all,
-              &BugState::line_start, &BugState::least_distance_on_line, &BugState::last_leave_distance,
-              &BugState::last_direction, &BugState::node_side, &BugState::second_looks, &BugState::doubted_hit_distance,
-              &BugState::faced, &BugState::look, &BugState::look_back, &BugState::progress_point, &BugState::idle_time,
-              &BugState::refused_at, &BugState::follower, &BugState::hit_distance, &BugState::least_distance,
-              &BugState::followed_distance, &BugState::has_reversed, &BugState::has_doubted, &BugState::lap,
-              &BugState::is_other_loop, &BugState::closest_point, &BugState::closest_distance,
-              &BugState::closest_length, &BugState::crossing, &BugState::leave_point, &BugState::approach,
-              &BugState::is_last_chance, &BugState::way_to_leave_point, &BugState::is_on_last_stretch,
-              &BugState::set_out_point, &BugState::is_off_boundary, &BugState::set_out_contact,
-              &BugState::set_out_at>();
+              &BugState::earlier_turn, &BugState::turning, &BugState::response, &BugState::hits, &BugState::leaves,
+              &BugState::least_distance_of_all, &BugState::line_start, &BugState::least_distance_on_line,
+              &BugState::last_leave_distance, &BugState::last_direction, &BugState::node_side, &BugState::second_looks,
+              &BugState::doubted_hit_distance, &BugState::faced, &BugState::look, &BugState::look_back,
+              &BugState::progress_point, &BugState::idle_time, &BugState::refused_at, &BugState::follower,
+              &BugState::hit_distance, &BugState::least_distance, &BugState::followed_distance, &BugState::has_reversed,
+              &BugState::has_doubted, &BugState::lap, &BugState::is_other_loop, &BugState::closest_point,
+              &BugState::closest_distance, &BugState::closest_length, &BugState::crossing, &BugState::leave_point,
+              &BugState::approach, &BugState::is_last_chance, &BugState::way_to_leave_point,
+              &BugState::is_on_last_stretch, &BugState::set_out_point, &BugState::is_off_boundary,
+              &BugState::set_out_contact, &BugState::set_out_at>();
 }
 
 }  // namespace runnel

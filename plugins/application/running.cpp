@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/exception_text.h"
+#include "core/base/retry.h"
 #include "core/element/source_place.h"
 #include "plugins/application/internal/application_parts.h"
 
@@ -220,7 +221,9 @@ Result<void> Application::Start() {
       Attend();
       LogProfile();
     } catch (...) {
-      parts_->Add({ApplicationEvent::Kind::kFailure, "error: the run has ended: " + DescribeException() + "\n"});
+      Retry([&] {
+        parts_->Add({ApplicationEvent::Kind::kFailure, "error: the run has ended: " + DescribeException() + "\n"});
+      });
     }
     parts_->is_running = false;
   });

@@ -1,6 +1,8 @@
 #include "plugins/scheduling/cycle_watchdog.h"
 
 #include <algorithm>
+#include <exception>
+#include <functional>
 #include <utility>
 
 #include "core/element/element_path.h"
@@ -53,8 +55,14 @@ void CycleWatchdog::MovePaths(const std::function<void(std::string& path)>& move
   for (const auto& each : rules_) move(each->rule.of);
 }
 
-// Under the mutex. Whom nobody asks for anything has no thread.
+// Under the mutex, as what follows.
+void CycleWatchdog::MakeRoom() {
+  for (Watched& each : watched_) each.fired.reserve(each.fired.size() + rules_.size());
+}
+
+// Whom nobody asks for anything has no thread.
 void CycleWatchdog::Change() {
+  MakeRoom();
   if (lookout_ && !rules_.empty()) lookout_->Ask();
 }
 
@@ -73,6 +81,7 @@ void CycleWatchdog::Follow(Runners runners) {
     watched.push_back(known != watched_.end() ? std::move(*known) : Watched{.runner = std::move(runner)});
   }
   watched_ = std::move(watched);
+  MakeRoom();
 }
 
 void CycleWatchdog::End() {
@@ -113,8 +122,18 @@ bool CycleWatchdog::IsAbout(const KnownRule& known, const std::string& path, con
                               [&](const auto& each) { return !each->IsDefault() && IsAbout(*each, path, thread); });
 }
 
+// That a module is stuck is known, and the run ends, also where there is no memory to tell of it.
 void CycleWatchdog::Look(Time now) {
-  for (Watched& each : watched_) Look(each, now);
+  std::exception_ptr failure;
+  for (Watched& each : watched_) {
+    try {
+      Look(each, now);
+      TellStuck(each, now);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
 }
 
 void CycleWatchdog::Look(Watched& watched, Time now) {
@@ -129,23 +148,36 @@ void CycleWatchdog::Look(Watched& watched, Time now) {
   for (const auto& known : rules_) {
     const Duration after = known->rule.after;
     if (after == Duration{} || since < after || std::ranges::count(watched.fired, known) > 0) continue;
-    const auto path = ScheduledElement::PathOf(state.element);
-    if (!path || !IsAbout(*known, *path, watched.runner->path())) continue;
-    watched.path = *path;
-    watched.fired.reserve(watched.fired.size() + 1);
-    Tell(watched, Fault::Kind::kStuck,
-         "has not returned from its cycle for " + DurationText(since) + "; at most " + DurationText(after) +
-             " is allowed",
-         known->rule.on_stuck, known->rule.ends_run);
-    watched.fired.push_back(known);
+    const auto note = [&](const std::string& path) {
+      if (IsAbout(*known, path, watched.runner->path())) watched.fired.push_back(known);
+    };
+    ScheduledElement::WithPath(state.element, std::ref(note));
+  }
+}
+
+void CycleWatchdog::TellStuck(Watched& watched, Time now) {
+  for (; watched.told < watched.fired.size(); ++watched.told) {
+    const StuckRule& rule = watched.fired[watched.told]->rule;
+    try {
+      const auto keep = [&](const std::string& path) { watched.path = path; };
+      ScheduledElement::WithPath(watched.state.element, std::ref(keep));
+      Tell(watched, Fault::Kind::kStuck,
+           "has not returned from its cycle for " + DurationText(now - watched.seen) + "; at most " +
+               DurationText(rule.after) + " is allowed",
+           rule.on_stuck, rule.ends_run);
+    } catch (...) {
+      if (rule.ends_run) faults_.EndForFault();
+      throw;
+    }
   }
 }
 
 void CycleWatchdog::Return(Watched& watched, Time now) {
+  watched.fired.resize(watched.told);
   if (watched.fired.empty()) return;
   const std::string message = "has returned from its cycle, after " + DurationText(now - watched.seen);
   bool is_told = false;
-  for (; !watched.fired.empty(); watched.fired.erase(watched.fired.begin())) {
+  for (; !watched.fired.empty(); watched.fired.erase(watched.fired.begin()), --watched.told) {
     const auto& call = watched.fired.front()->rule.on_return;
     if (!is_told || call) Tell(watched, Fault::Kind::kReturned, message, call);
     is_told = true;

@@ -82,17 +82,20 @@ class CycleWatchdog {
     RunningTask::State state = {};
     Time seen{};  // first
     std::string path = {};
-    std::vector<std::shared_ptr<KnownRule>> fired = {};
+    std::vector<std::shared_ptr<KnownRule>> fired = {};  // with room for all rules
+    std::size_t told = 0;                                // of those
   };
 
   std::optional<Time> LookAround();
   void Look(Time now);
   void Look(Watched& watched, Time now);
+  void TellStuck(Watched& watched, Time now);
   [[nodiscard]] bool IsAbout(const KnownRule& known, const std::string& path, const std::string& thread) const;
   void Return(Watched& watched, Time now);
   void Tell(const Watched& watched, Fault::Kind kind, std::string message,
             const std::function<void(const Fault&)>& call, bool ends_run = false);
   [[nodiscard]] Duration Interval() const;
+  void MakeRoom();
   void Change();
 
   FaultDispatcher& faults_;

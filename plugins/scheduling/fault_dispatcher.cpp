@@ -1,6 +1,7 @@
 #include "plugins/scheduling/fault_dispatcher.h"
 
 #include <algorithm>
+#include <chrono>
 #include <mutex>
 #include <new>
 
@@ -9,6 +10,13 @@
 #include "core/element/element_path.h"
 
 namespace runnel {
+
+namespace {
+
+constexpr const char* kRuleFailed = "the fault rule failed: ";
+constexpr const char* kHandlerFailed = "the fault handler failed: ";
+
+}  // namespace
 
 FaultRecord::FaultRecord(std::string path) {
   fault_.path = std::move(path);
@@ -21,7 +29,13 @@ void FaultRecord::Fill(std::string_view message, Time time, std::uint64_t cycle)
   fault_.cycle = cycle;
 }
 
+bool FaultRecord::IsOverdue() const noexcept {
+  constexpr Duration kLongest = std::chrono::seconds(1);
+  return due_since_ != Time{} && SteadyClock().Now() - due_since_ > kLongest;
+}
+
 FaultDispatcher::~FaultDispatcher() {
+  SetActsBeside(false);  // whose threads raise again what they have no memory for
   for (FaultRecord* record : {raised_.load(std::memory_order_acquire), unanswered_.load(std::memory_order_acquire)}) {
     while (record != nullptr) delete std::exchange(record, record->next_);
   }
@@ -39,13 +53,14 @@ void FaultDispatcher::Raise(std::unique_ptr<FaultRecord> record) noexcept {
 
 bool FaultDispatcher::Dispatch() noexcept {
   // relaxed: only whether there is something; simulated time asks in each step.
-  if (raised_.load(std::memory_order_relaxed) == nullptr && unanswered_.load(std::memory_order_relaxed) == nullptr)
-    return true;
-  // acquire, release: what the thread before has done is seen.
-  if (is_dispatching_.exchange(true, std::memory_order_acquire)) return true;
-  const bool are_all = DispatchAlone();
-  is_dispatching_.store(false, std::memory_order_release);
-  return are_all;
+  while (raised_.load(std::memory_order_relaxed) != nullptr || unanswered_.load(std::memory_order_relaxed) != nullptr) {
+    // acq_rel: what the thread before has done is seen; and what who has come meanwhile, and gone, has raised.
+    if (is_dispatching_.exchange(true, std::memory_order_acq_rel)) return true;
+    const bool are_all = DispatchAlone();
+    (void)is_dispatching_.exchange(false, std::memory_order_acq_rel);
+    if (!are_all) return false;
+  }
+  return true;
 }
 
 bool FaultDispatcher::DispatchAlone() noexcept {
@@ -63,58 +78,73 @@ bool FaultDispatcher::DispatchAlone() noexcept {
     last->next_ = std::exchange(oldest, first);
   }
   while (oldest != nullptr) {
+    FaultRecord* const next = oldest->next_;
     try {
-      Answer(*oldest);
+      if (Answer(*oldest)) delete oldest;
     } catch (...) {  // what is not answered now is answered the next time, in order
-      for (const FaultRecord* each = oldest; each != nullptr; each = each->next_) EndIfRuled(*each);
+      for (FaultRecord* each = oldest; each != nullptr; each = each->next_) Defer(*each);
       unanswered_.store(oldest, std::memory_order_relaxed);
       return false;
     }
-    delete std::exchange(oldest, oldest->next_);
+    oldest = next;
   }
   return true;
 }
 
-// The end of the run waits for no memory.
-void FaultDispatcher::EndIfRuled(const FaultRecord& record) noexcept {
+// The end of the run waits for no memory, but for a handler that may mend the fault.
+void FaultDispatcher::Defer(FaultRecord& record) noexcept {
+  if (record.due_since_ == Time{}) record.due_since_ = SteadyClock().Now();
   const std::lock_guard lock(mutex_);
   const bool is_thrown = record.fault_.kind == Fault::Kind::kThrown;
+  if (is_thrown && handler_ && !record.IsOverdue()) return;
   const auto ends = [&](const FaultRule& rule) {
     return (!rule.call || rule.ends_run) && IsAtOrBelow(record.fault_.path, rule.of);
   };
   if (record.ends_run_ || (is_thrown && std::ranges::any_of(rules_, ends))) EndForFault();
 }
 
-// What has its own answer is told first, for that may take a while.
-void FaultDispatcher::Answer(const FaultRecord& record) {
-  if (record.fault().kind == Fault::Kind::kThrown) return Report(record.fault());
-  Log(record.fault());
-  if (record.call_) Apply({.of = record.fault().path, .call = record.call_}, record.fault());
-}
-
-void FaultDispatcher::Report(const Fault& fault) {
+// Whether it has been; else a thread has the record. What has its own answer is told first, for that may take a while.
+bool FaultDispatcher::Answer(FaultRecord& record) {
+  const Fault& fault = record.fault_;
+  if (fault.kind != Fault::Kind::kThrown) {
+    LogOnce(record);
+    if (record.call_) Try(record, fault.path, kRuleFailed, [&] { record.call_(fault); });
+    return true;
+  }
   Action action;
   std::unique_lock lock(mutex_);
   const Handler handler = handler_;
   lock.unlock();
-  if (handler) (void)Try(fault, [&] { action = handler(fault); });
-  if (!action) return ApplyRules(fault);
+  if (handler) Try(record, fault.path, kHandlerFailed, [&] { action = handler(fault); });
+  if (!action) return ApplyRules(record), true;
   lock.lock();
-  if (beside_) {
-    const auto before = std::make_shared<std::jthread>(std::move(*beside_));
-    try {
-      *beside_ = std::jthread([=, this] {
-        if (!Retry([&] { Act(fault, action); })) Note(fault);
-        *before = {};  // waits for it
-      });
-    } catch (...) {  // no thread can be had; whoever waits for the one before does so without the lock
-      *beside_ = std::move(*before);
-      throw;
-    }
-    return;
+  if (!beside_) {
+    lock.unlock();
+    return Act(record, action), true;
   }
-  lock.unlock();
-  Act(fault, action);
+  const auto before = std::make_shared<std::jthread>(std::move(*beside_));
+  try {
+    *beside_ = std::jthread([=, this, &record] {
+      try {
+        Act(record, action);
+        delete &record;
+      } catch (...) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        Defer(record);
+        Raise(std::unique_ptr<FaultRecord>(&record));
+      }
+      *before = {};  // waits for it
+    });
+  } catch (...) {  // no thread can be had; whoever waits for the one before does so without the lock
+    *beside_ = std::move(*before);
+    throw;
+  }
+  return false;
+}
+
+void FaultDispatcher::Report(Fault fault) {
+  Raise(std::make_unique<FaultRecord>(std::move(fault), nullptr));
+  (void)Dispatch();
 }
 
 void FaultDispatcher::SetActsBeside(bool acts_beside) {
@@ -124,21 +154,26 @@ void FaultDispatcher::SetActsBeside(bool acts_beside) {
   if (acts_beside) beside_.emplace();
 }
 
-void FaultDispatcher::Act(const Fault& fault, const Action& action) {
+void FaultDispatcher::Act(FaultRecord& record, const Action& action) {
+  const Fault& fault = record.fault_;
   std::string done;
-  if (!Try(fault, [&] { done = action(); })) return ApplyRules(fault);
+  if (!Try(record, fault.path, kHandlerFailed, [&] { done = action(); })) return ApplyRules(record);
   Retry([&] { Log({fault.path, fault.message + "; " + done, fault.time, fault.cycle, true}); });
 }
 
-void FaultDispatcher::ApplyRules(const Fault& fault) {
-  std::vector<FaultRule> rules;
-  {
-    const std::lock_guard lock(mutex_);
-    rules = rules_;
-    log_.push_back(fault);  // when nothing can fail any more
-  }
-  for (const FaultRule& rule : rules) {
-    if (IsAtOrBelow(fault.path, rule.of)) Apply(rule, fault);
+void FaultDispatcher::ApplyRules(FaultRecord& record) {
+  const Fault& fault = record.fault_;
+  LogOnce(record);
+  for (;; ++record.rule_) {
+    FaultRule rule;
+    {
+      const std::lock_guard lock(mutex_);
+      if (record.rule_ >= rules_.size()) return;
+      rule = rules_[record.rule_];
+    }
+    if (!IsAtOrBelow(fault.path, rule.of)) continue;
+    if (!rule.call) EndForFault();
+    if (rule.call) Try(record, rule.of, kRuleFailed, [&] { rule.call(fault); });
   }
 }
 
@@ -147,30 +182,24 @@ void FaultDispatcher::SetHandler(Handler handler) {
   handler_ = std::move(handler);
 }
 
-bool FaultDispatcher::Try(const Fault& fault, const std::function<void()>& call) {
+// What has no memory has done nothing yet, and is asked again, but not without end.
+bool FaultDispatcher::Try(FaultRecord& record, const std::string& of, const char* failed,
+                          const std::function<void()>& call) {
+  std::exception_ptr failure;
   try {
     call();
     return true;
   } catch (const std::bad_alloc&) {
-    throw;  // it is asked again
+    if (!record.IsOverdue()) throw;
+    failure = std::current_exception();
   } catch (...) {
-    Log({fault.path, "the fault handler failed: " + DescribeException(), fault.time});
+    failure = std::current_exception();
+  }
+  try {
+    Log({of, failed + DescribeException(failure), record.fault_.time});
+  } catch (...) {
   }
   return false;
-}
-
-void FaultDispatcher::Apply(const FaultRule& rule, const Fault& fault) {
-  // A rule for which there is no memory has done nothing yet.
-  const auto call = [&] {
-    try {
-      rule.call ? rule.call(fault) : EndForFault();
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (...) {
-      Note({rule.of, "the fault rule failed: " + DescribeException(), fault.time});
-    }
-  };
-  if (!Retry(call)) Note({rule.of, "the fault rule failed: out of memory", fault.time});
 }
 
 void FaultDispatcher::AddRule(FaultRule rule) {
@@ -193,6 +222,11 @@ void FaultDispatcher::Note(Fault fault) noexcept {
     Log(std::move(fault));
   } catch (...) {
   }
+}
+
+void FaultDispatcher::LogOnce(FaultRecord& record) {
+  if (!record.is_logged_) Log(record.fault_);
+  record.is_logged_ = true;
 }
 
 std::vector<Fault> FaultDispatcher::Take() {

@@ -30,10 +30,16 @@ class FaultRecord {
 
  private:
   friend class FaultDispatcher;
+  [[nodiscard]] bool IsOverdue() const noexcept;
+
   Fault fault_;
   std::function<void(const Fault&)> call_;
   bool ends_run_ = false;
   FaultRecord* next_ = nullptr;
+  // How far it has been answered.
+  bool is_logged_ = false;
+  std::size_t rule_ = 0;  // of those that apply to it, the first that has not been called
+  Time due_since_{};      // by the machine's clock, as memory is short
 };
 
 /// Takes faults from the cycles in which they happen to those who act on them and tell of them.
@@ -48,10 +54,11 @@ class FaultDispatcher {
   void Raise(std::unique_ptr<FaultRecord> record) noexcept;
 
   /// Applies the rules to what has been raised, in the order of raising, and logs it. Nothing while another thread
-  /// is about it. False: there was no memory, or no thread, for some, which are due at the next call.
+  /// is about it. False: there was no memory, or no thread, for some, which are due at the next call, from where they
+  /// have got to; what has no memory for a second has failed.
   bool Dispatch() noexcept;
-  /// Logs the fault and applies the rules to it, at once. Outside of cycles.
-  void Report(const Fault& fault);
+  /// Raises a fault of no cycle, and dispatches. Errors: no memory to raise it.
+  void Report(Fault fault);
   /// Logs it, and applies no rule. Whatever there is no memory for is not logged.
   void Note(Fault fault) noexcept;
   /// What has been logged since the last call, oldest first.
@@ -86,13 +93,13 @@ class FaultDispatcher {
 
  private:
   bool DispatchAlone() noexcept;
-  void EndIfRuled(const FaultRecord& record) noexcept;
-  void Answer(const FaultRecord& record);
+  void Defer(FaultRecord& record) noexcept;
+  [[nodiscard]] bool Answer(FaultRecord& record);
   void Log(Fault fault);
-  void Act(const Fault& fault, const Action& action);
-  void ApplyRules(const Fault& fault);
-  bool Try(const Fault& fault, const std::function<void()>& call);
-  void Apply(const FaultRule& rule, const Fault& fault);
+  void LogOnce(FaultRecord& record);
+  void Act(FaultRecord& record, const Action& action);
+  void ApplyRules(FaultRecord& record);
+  bool Try(FaultRecord& record, const std::string& of, const char* failed, const std::function<void()>& call);
 
   // A stack that is only ever pushed to and taken as a whole, so no address can come back to life.
   std::atomic<FaultRecord*> raised_{nullptr};

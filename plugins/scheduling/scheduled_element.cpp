@@ -39,10 +39,10 @@ ScheduledElement::~ScheduledElement() {
   living.all.erase(this);
 }
 
-std::optional<std::string> ScheduledElement::PathOf(const ScheduledElement* element) {
+void ScheduledElement::WithPath(const ScheduledElement* element, const std::function<void(const std::string&)>& use) {
   LivingElements& living = LivingElements::OfProcess();
   const std::lock_guard lock(living.mutex);
-  return living.all.contains(element) ? std::optional(element->path()) : std::nullopt;
+  if (living.all.contains(element)) use(element->path());
 }
 
 BoundCall ScheduledElement::Watched(const Task& task, TaskWatch& watch) {

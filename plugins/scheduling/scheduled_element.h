@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,8 +70,8 @@ class ScheduledElement final : public Waker {
   [[nodiscard]] const ChainSteps* chains() const noexcept { return chains_.load(std::memory_order_acquire); }
   void set_chains(const ChainSteps* chains) noexcept { chains_.store(chains, std::memory_order_release); }
 
-  /// The path of an element that may be gone by now; nullopt if it is.
-  [[nodiscard]] static std::optional<std::string> PathOf(const ScheduledElement* element);
+  /// Calls use(PATH) with the path of an element that may be gone by now, unless it is.
+  static void WithPath(const ScheduledElement* element, const std::function<void(const std::string&)>& use);
 
   /// nullptr: nothing is written down of it. By the thread whose cycle has it.
   [[nodiscard]] TracedElement* traced() noexcept { return traced_.get(); }

@@ -34,7 +34,7 @@ void ReportException(const char* what, const std::exception_ptr& exception, Faul
 // Room comes first: a thread that could not be kept would be waited for here, under the lock that its cycle
 // may need.
 void Scheduler::StartThreads(Time first) {
-  ending_.reserve(ending_.size() + threads_.size());
+  ending_.reserve(ending_.size() + threads_.size() + runners_.size());
   threads_.reserve(threads_.size() + runners_.size());
   const auto is_gone = [this](const auto& thread) {
     return std::ranges::find(runners_, thread->runner()) == runners_.end();

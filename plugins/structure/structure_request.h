@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "core/base/result.h"
 #include "core/element/annotation.h"
 #include "core/element/framework_element.h"
+#include "core/element/runtime.h"
 
 namespace runnel {
 
@@ -41,7 +44,15 @@ class StructureRequest {
 
   /// False, and nothing is asked for, while the request before has no answer yet, or if the text is longer than
   /// kLongest bytes. Lets go of the answer before.
-  bool Ask(std::string_view changes) noexcept;
+  bool Ask(std::string_view changes) noexcept {
+    // acquire: pairs with the release in Answer(): who carried the last one out is done with the text.
+    if (changes.size() > kLongest || state_.load(std::memory_order_acquire) == State::kAsked) return false;
+    std::ranges::copy(changes, text_.begin());
+    length_ = changes.size();
+    // release: pairs with the acquire in is_asked().
+    state_.store(State::kAsked, std::memory_order_release);
+    return true;
+  }
   /// What has become of the last request; nullptr while there is no answer.
   [[nodiscard]] const Result<void>* answer() const noexcept {
     // acquire: pairs with the release in Answer(): the answer is there.
@@ -76,7 +87,9 @@ class StructureRequest {
 class StructureRequests final : public Annotation {
  public:
   /// nullptr if no module has ever had one.
-  [[nodiscard]] static StructureRequests* Of(Runtime& runtime);
+  [[nodiscard]] static StructureRequests* Of(Runtime& runtime) {
+    return runtime.root().FindAnnotation<StructureRequests>();
+  }
 
   [[nodiscard]] const std::vector<StructureRequest*>& all() const noexcept { return all_; }
 
@@ -84,5 +97,17 @@ class StructureRequests final : public Annotation {
   friend class StructureRequest;
   std::vector<StructureRequest*> all_;
 };
+
+inline StructureRequest::StructureRequest(FrameworkElement* element) : element_(*element) {
+  Runtime& runtime = element_.runtime();
+  const std::lock_guard lock(runtime.structure_mutex());
+  runtime.root().FindOrAnnotate<StructureRequests>().all_.push_back(this);
+}
+
+inline StructureRequest::~StructureRequest() {
+  Runtime& runtime = element_.runtime();
+  const std::lock_guard lock(runtime.structure_mutex());
+  std::erase(StructureRequests::Of(runtime)->all_, this);
+}
 
 }  // namespace runnel

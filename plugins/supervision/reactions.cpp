@@ -259,8 +259,7 @@ void Supervisor::Shared::PublishMissed(Time now) {
 }
 
 Result<void> Supervisor::Shared::CarryOut(KnownRule& rule, Which which, Reaction& reaction, Time now) {
-  std::list<std::string> left;
-  WithMemory([&] { left.assign(reaction.released.begin(), reaction.released.end()); });
+  std::list<std::string> left = std::move(reaction.released);
   auto done = Attempt([&]() -> Result<void> {
     if (reaction.changes.empty()) return {};
     WithMemory([&] { GiveBack(runtime, reaction.changes); });

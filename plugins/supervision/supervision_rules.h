@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <list>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/base/clock.h"
@@ -21,7 +23,7 @@ struct SafeValue {
 /// structure, as one change set, and perhaps the end of the run.
 struct Reaction {
   std::vector<SafeValue> published = {};
-  std::vector<std::string> released = {};  ///< paths of ports whose readers find again what is published
+  std::list<std::string> released = {};  ///< paths of ports whose readers find again what is published
   ChangeSet changes = {};
   bool ends_run = false;
   std::string description = {};  ///< in the past: "switched /a/in from /b/out to /c/out"
@@ -30,7 +32,18 @@ struct Reaction {
     return published.empty() && released.empty() && changes.empty() && !ends_run;
   }
   /// `move` is called with each path, and with the description.
-  void MovePaths(const std::function<void(std::string& path)>& move);
+  void MovePaths(const std::function<void(std::string& path)>& move) {
+    for (SafeValue& each : published) move(each.port);
+    for (std::string& each : released) move(each);
+    for (Change& each : changes) {  // those that reactions are made of
+      const auto move_ends = [&](auto& tie) { move(tie.from), move(tie.to); };
+      if (auto* const cut = std::get_if<DisconnectPorts>(&each)) move_ends(*cut);
+      if (auto* const tie = std::get_if<ConnectPorts>(&each)) move_ends(*tie);
+      if (auto* const set = std::get_if<SetParameter>(&each)) move(set->path);
+      if (auto* const replace = std::get_if<ReplaceModule>(&each)) move(replace->path);
+    }
+    move(description);
+  }
   /// Has this one, which is done when all is well again, release what the first one publishes.
   void TakeBack(const Reaction& first) {
     for (const SafeValue& each : first.published) released.push_back(each.port);

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace runnel {
 
 /// How a number becomes an activity.
@@ -25,8 +29,31 @@ struct Curve {
 };
 
 /// Whether the four stand in their order.
-[[nodiscard]] bool IsOrdered(const Curve& curve);
+[[nodiscard]] inline bool IsOrdered(const Curve& curve) {
+  if (!(curve.start < curve.end)) return false;
+  const bool has_two = curve.kind == CurveKind::kRiseFall || curve.kind == CurveKind::kFallRise;
+  return !has_two || (curve.end <= curve.second_start && curve.second_start < curve.second_end);
+}
+
 /// Within [0, 1]. Precondition: IsOrdered().
-[[nodiscard]] double ValueAt(const Curve& curve, double x);
+[[nodiscard]] inline double ValueAt(const Curve& curve, double x) {
+  const auto rise = [&](double start, double end) {
+    const double part = std::clamp((x - start) / (end - start), 0.0, 1.0);
+    if (curve.shape == CurveShape::kLinear) return part;
+    return std::clamp(0.5 + 0.5 * std::sin(std::numbers::pi * (part - 0.5)), 0.0, 1.0);
+  };
+  const double first = rise(curve.start, curve.end);
+  switch (curve.kind) {
+    case CurveKind::kRise:
+      return first;
+    case CurveKind::kFall:
+      return 1.0 - first;
+    case CurveKind::kRiseFall:
+      return first - rise(curve.second_start, curve.second_end);
+    case CurveKind::kFallRise:
+      return 1.0 - first + rise(curve.second_start, curve.second_end);
+  }
+  return 0.0;
+}
 
 }  // namespace runnel

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace runnel {
 
@@ -34,7 +35,7 @@ BugOutput BugAlgorithm::Update(BugState& state, const BugInput& input) const {
   if (input.surroundings.is_measured && !IsFinal(state.status.mode)) twist = LookFirst(state, input);
   if (IsFinal(state.status.mode)) twist = {};
   state.last_pose = input.pose;
-  state.last_twist = twist;
+  state.earlier_turn = std::exchange(state.last_twist, twist).turn;
   return {twist, state.status};
 }
 

@@ -29,16 +29,21 @@ bool IsNearAlongTheBoundary(const BugState& state) {
 
 constexpr double kProgress = 0.10;       // m that count as having got on
 constexpr double kMoving = 0.2;          // m or rad, commanded,
+constexpr double kMovingTime = 1.5;      // s; at less than full speed that is so much of it
 constexpr double kRecent = 3.0;          // s, or so, lately
+constexpr double kResponse = 0.15;       // of the turns commanded; a robot that does less does not follow
 constexpr double kStill = 0.04;          // m or rad; poses are not as exact as to tell less from standstill
 constexpr double kCrossingReach = 0.15;  // m past a crossing within which it may still leave there
 constexpr double kLineTolerance = 0.08;  // m; a robot that comes so near to the line is on it
 constexpr double kParallel = 0.001;      // m in a step by which it comes nearer at least, else it passes
 
-// Commanded to move, and not moving. Turns to and fro, which come to nothing, are none that it was held back from.
-bool IsHeld(const BugState& state) {
-  const double turn = std::abs(state.commanded.turn);
-  return state.commanded.forward > kMoving || (turn > kMoving && turn > state.turns / 2);
+// Commanded to move, and not moving. A robot that turns to and fro, and comes to nothing, does what it is told. What it
+// turns is looked at an update later: at once, the noise of a pose would be in the command and in what seems to follow.
+bool IsHeld(const BugState& state, const DrivingConfiguration& driving) {
+  const double speed = std::max(driving.cruise_speed, driving.following_speed);
+  return state.commanded.forward > std::min(kMoving, kMovingTime * speed) ||
+         (std::abs(state.commanded.turn) > std::min(kMoving, kMovingTime * driving.turn_limit) &&
+          state.response < kResponse * state.turning);
 }
 
 }  // namespace
@@ -245,15 +250,16 @@ void BugAlgorithm::RecordIdleTime(BugState& state, const BugInput& input) const 
   const double kept = std::max(0.0, 1.0 - input.time_step / kRecent);
   state.commanded.forward = kept * state.commanded.forward + state.last_twist.forward * input.time_step;
   state.commanded.turn = kept * state.commanded.turn + state.last_twist.turn * input.time_step;
-  state.turns = kept * state.turns + std::abs(state.last_twist.turn) * input.time_step;
+  state.turning = kept * state.turning + state.earlier_turn * state.earlier_turn * input.time_step;
+  state.response = kept * state.response + state.earlier_turn * WrapAngle(input.pose.heading - state.last_pose.heading);
   const double moved = Distance(Position(state.still_pose), Position(input.pose));
   if (moved > kStill || std::abs(WrapAngle(input.pose.heading - state.still_pose.heading)) > kStill) {
     state.still_pose = input.pose;
     state.commanded = {};
-    state.turns = 0.0;
+    state.turning = state.response = 0.0;
   }
   // Neither blind nor held by somebody else is without room.
-  if (input.surroundings.is_measured && !IsHeld(state)) state.idle_time += input.time_step;
+  if (input.surroundings.is_measured && !IsHeld(state, configuration_.driving)) state.idle_time += input.time_step;
   if (Distance(state.progress_point, Position(input.pose)) > kProgress) {
     state.progress_point = Position(input.pose);
     state.idle_time = 0.0;

@@ -84,7 +84,9 @@ struct BugState {
   Twist2 last_twist;              ///< commanded then
   Pose2 still_pose;               ///< where it has been since it last moved
   Twist2 commanded;               ///< m and rad, lately, since then
-  double turns = 0.0;             ///< rad, the same, to and fro alike
+  double earlier_turn = 0.0;      ///< rad/s, commanded in the update before the last
+  double turning = 0.0;           ///< rad^2/s, commanded turns times themselves, as `commanded`
+  double response = 0.0;          ///< rad^2/s, times what the heading has turned an update later
 
   PointHistory hits;    ///< in the order they were met
   PointHistory leaves;  ///< without those that turned out to be none

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "modules/planning/algorithm/bug_state.h"
 #include "modules/planning/algorithm/driving.h"
 
@@ -31,23 +33,42 @@ struct BugView {
 };
 
 /// m from the robot to the goal.
-[[nodiscard]] double DistanceToGoal(const BugView& view);
+[[nodiscard]] inline double DistanceToGoal(const BugView& view) {
+  return Distance(Position(view.input.pose), view.input.goal);
+}
 /// rad, of a point of the world in the body's frame.
-[[nodiscard]] double BearingTo(const BugInput& input, Point2 point);
+[[nodiscard]] inline double BearingTo(const BugInput& input, Point2 point) {
+  return Direction(ToBody(input.pose, point));
+}
 
 /// m, the radius of the disc that has to pass: as wide as the clearance at this very place allows,
 /// since narrower would call a way free that runs into the boundary followed, and wider would call
 /// the tangent blocked.
-[[nodiscard]] double PassingRadius(const BugView& view);
+[[nodiscard]] inline double PassingRadius(const BugView& view) {
+  constexpr double kClearanceNoise = 0.02;  // m, of the distance to a boundary followed
+  const Surroundings& surroundings = view.input.surroundings;
+  const double narrowest = TravelRadius(view.configuration.driving, surroundings);
+  return std::clamp(NearestBoundary(surroundings).distance - kClearanceNoise, narrowest,
+                    double{surroundings.safe_distance});
+}
 
 /// m, how far the robot sees a way to be free or not: the sensors' range, and if they only feel,
 /// what a robot knows by having been there.
-[[nodiscard]] double ViewRange(const BugView& view);
+[[nodiscard]] inline double ViewRange(const BugView& view) {
+  return std::max(double{view.input.surroundings.sensor_range},
+                  view.configuration.leave_range + view.configuration.leave_margin);
+}
 
 /// F of DistBug: m of the straight way to the goal that are free, at most the view range.
-[[nodiscard]] double FreeRangeTowardsGoal(const BugView& view);
+[[nodiscard]] inline double FreeRangeTowardsGoal(const BugView& view) {
+  const double free = FreeRange(view.input.surroundings, BearingTo(view.input, view.input.goal), PassingRadius(view));
+  return std::min(free, ViewRange(view));
+}
 
 /// Whether the straight way to the goal is free for at least the leave range, or to the goal.
-[[nodiscard]] bool IsFreeTowardsGoal(const BugView& view);
+[[nodiscard]] inline bool IsFreeTowardsGoal(const BugView& view) {
+  return FreeRange(view.input.surroundings, BearingTo(view.input, view.input.goal), PassingRadius(view)) >=
+         std::min(view.configuration.leave_range, DistanceToGoal(view));
+}
 
 }  // namespace runnel

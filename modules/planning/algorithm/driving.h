@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "modules/types/algorithm/pose.h"
@@ -35,17 +37,35 @@ struct DrivingConfiguration {
 };
 
 /// m, the radius of the disc that has to pass where the robot drives.
-[[nodiscard]] double TravelRadius(const DrivingConfiguration& configuration, const Surroundings& surroundings);
+[[nodiscard]] inline double TravelRadius(const DrivingConfiguration& configuration, const Surroundings& surroundings) {
+  return double{surroundings.safe_distance} - configuration.width_tolerance;
+}
 
 /// Turns on the spot towards `bearing` (rad, body's frame; beyond +-pi it chooses the way round).
-[[nodiscard]] Twist2 TurnTowards(const DrivingConfiguration& configuration, double bearing);
+[[nodiscard]] inline Twist2 TurnTowards(const DrivingConfiguration& configuration, double bearing) {
+  return {0.0, std::clamp(configuration.turn_gain * bearing, -configuration.turn_limit, configuration.turn_limit)};
+}
+
+/// m/s, from which the robot stops within `distance` m.
+[[nodiscard]] inline double SpeedToStopWithin(const DrivingConfiguration& configuration, double distance) {
+  return std::sqrt(2.0 * configuration.braking * std::max(0.0, distance));
+}
 
 /// Drives towards `bearing` at up to `speed` m/s, the slower the more it has to turn and the nearer
 /// the end of the free way ahead is.
-[[nodiscard]] Twist2 DriveTowards(const DrivingConfiguration& configuration, const Surroundings& surroundings,
-                                  double bearing, double speed);
-
-/// m/s, from which the robot stops within `distance` m.
-[[nodiscard]] double SpeedToStopWithin(const DrivingConfiguration& configuration, double distance);
+[[nodiscard]] inline Twist2 DriveTowards(const DrivingConfiguration& configuration, const Surroundings& surroundings,
+                                         double bearing, double speed) {
+  constexpr double kNearly = DegreesToRadians(5.0), kBehind = DegreesToRadians(-177.0);
+  // What is straight behind is turned to by the left, however the pose wavers.
+  Twist2 twist = TurnTowards(configuration, bearing < kBehind ? bearing + 2.0 * kPi : bearing);
+  const double part = 1.0 - std::abs(bearing) / configuration.turning_bearing;
+  if (part <= 0.0) return twist;
+  const double radius = TravelRadius(configuration, surroundings);
+  double free = FreeRange(surroundings, 0.0, radius);
+  // Beside a wall the only free way may be a narrow one: nearly there is there.
+  if (std::abs(bearing) < kNearly) free = std::max(free, FreeRange(surroundings, bearing, radius));
+  twist.forward = std::min(speed * part, SpeedToStopWithin(configuration, free));
+  return twist;
+}
 
 }  // namespace runnel

@@ -234,6 +234,26 @@ TEST(BugRules, DoesNotTakeBeingHeldForLackOfRoom) {
   }
 }
 
+TEST(BugRules, DoesNotTakeBeingHeldForLackOfRoomHoweverSlowItIs) {
+  for (const double speed : {0.1, 0.05, 0.02}) {
+    for (const char* const variant : {"bug2", "tangent_bug"}) {
+      SCOPED_TRACE(std::string(variant) + " at " + std::to_string(speed) + " m/s");
+      BugConfiguration slow;
+      slow.driving.cruise_speed = slow.driving.following_speed = speed;
+      const BugAlgorithm bug(slow, Assemble(kBugVariants.at(VariantIndex(variant)).composition));
+      Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
+      for (int step = 0; step < 40; ++step) session.Step(bug);
+      session.Stop();
+      const Surroundings view = session.Look();
+      PlannerStatus status;
+      for (int step = 0; step < 2000; ++step)
+        status = bug.Update(session.state, {kTimeStep, session.pose(), view, {-3, 0.2}, {3, 0.1}}).status;
+      EXPECT_EQ(status.mode, PlannerMode::kMotionToGoal);
+      EXPECT_EQ(status.hits, 0u);
+    }
+  }
+}
+
 TEST(BugRules, FindsLackOfRoomAlsoOnceItHasBeenHeld) {
   Session session(World({Box(0, 0, 0.62, 0.62)}), {0, 0}, {3, 0});
   const BugAlgorithm bug = Make("bug2");

@@ -70,6 +70,42 @@ TEST_F(SchedulingFaults, AllThreadsAreStartedOrNone) {
   EXPECT_GT(points, 10u);
 }
 
+TEST_F(SchedulingFaults, StoppingTakesNoMemory) {
+  TwoThreads world;
+  MustSucceed(world.scheduler.Start());
+  ExpectItRuns(world);
+  const FaultInjection injection(InjectedFault::kAllocation, 1, 1000);
+  world.scheduler.Stop();
+  EXPECT_FALSE(injection.has_struck());
+}
+
+// The thread that looks has no memory from the time on at which the first one is stuck.
+TEST_F(SchedulingFaults, AModuleIsKnownToBeStuckThoughThereIsNoMemoryToTell) {
+  std::atomic<bool> is_stuck{false}, is_short{true};
+  TwoThreads world;
+  for (Doing* each : {&world.gone, &world.other}) {
+    each->action = [&is_stuck](Doing&) {
+      while (is_stuck) std::this_thread::yield();
+    };
+  }
+  std::atomic<int> called{0};
+  world.scheduler.AddStuckRule({.of = "/gone", .after = 5ms});
+  world.scheduler.AddStuckRule(
+      {.of = "/other", .after = 50ms, .on_stuck = [&](const Fault&) { ++called; }, .ends_run = true});
+  std::optional<FaultInjection> injection;  // of the thread that looks
+  world.scheduler.SetStuckListener([&] {
+    if (is_short && !injection) injection.emplace(InjectedFault::kAllocation, 1, 1'000'000);
+    if (!is_short) injection.reset();
+  });
+  MustSucceed(world.scheduler.Start());
+  is_stuck = true;
+  WaitUntil("the run is to end", [&] { return world.scheduler.stop_requested(); });
+  EXPECT_EQ(called, 0);
+  world.scheduler.Stop();  // waits for none that is stuck
+  is_stuck = is_short = false;
+  WaitUntil("they have returned", [&] { return world.scheduler.StuckModules().empty(); });
+}
+
 TEST_F(SchedulingFaults, AThreadThatTheSystemDoesNotGiveIsAnError) {
   TwoThreads world;
   world.scheduler.RequestStop();

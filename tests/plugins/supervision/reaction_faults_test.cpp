@@ -165,6 +165,80 @@ TEST(FaultsWithoutMemory, AreMendedByAThreadOrLater) {
   }
 }
 
+// What has been handed to a thread is not lost with it.
+TEST(FaultsWithoutMemory, AreDueAgainIfTheirThreadHasNone) {
+  FaultDispatcher faults;
+  faults.SetActsBeside(true);
+  faults.AddRule({.of = "/robot"});
+  std::atomic<int> tries{0};
+  faults.SetHandler([&](const Fault&) -> FaultDispatcher::Action {
+    return [&]() -> std::string {
+      if (++tries < 3) throw std::bad_alloc();
+      return "it has been put back";
+    };
+  });
+  auto record = std::make_unique<FaultRecord>("/robot/laser");
+  record->Fill("does not answer, and that is a longer text", At(10), 1);
+  faults.Raise(std::move(record));
+  test::WaitUntil("it has been mended", [&] { return faults.Dispatch() && tries == 3; });
+  faults.SetActsBeside(false);
+  const auto told = faults.Take();
+  ASSERT_THAT(told, SizeIs(1));
+  EXPECT_TRUE(told[0].is_mended);
+  EXPECT_FALSE(faults.stop_requested());
+}
+
+// The rule behind it waits for memory; it does not itself.
+TEST(FaultsWithoutMemory, ARuleThatFailsIsNotAppliedAgain) {
+  FaultDispatcher faults;
+  std::optional<FaultInjection> injection;
+  int first = 0, second = 0;
+  faults.AddRule({.of = "/robot", .call = [&](const Fault&) {
+                    ++first;
+                    injection.emplace(InjectedFault::kAllocation, 1, 1000);
+                    throw 7;
+                  }});
+  faults.AddRule({.of = "/robot/of_a_path_that_is_long", .call = [&](const Fault&) { ++second; }});
+  auto record = std::make_unique<FaultRecord>("/robot/of_a_path_that_is_long");
+  record->Fill("no", At(10), 1);
+  faults.Raise(std::move(record));
+  EXPECT_FALSE(faults.Dispatch());
+  injection.reset();
+  EXPECT_TRUE(faults.Dispatch());
+  EXPECT_EQ(first, 1);
+  EXPECT_EQ(second, 1);
+  EXPECT_THAT(faults.Take(), SizeIs(1));
+}
+
+TEST(FaultsWithoutMemory, EndNoRunThatTheirHandlerLetsGoOn) {
+  FaultDispatcher faults;
+  faults.AddRule({.of = "/robot"});
+  faults.SetHandler([](const Fault&) -> FaultDispatcher::Action { return [] { return std::string("put back"); }; });
+  for (const char* const path : {"/robot/laser_of_a_long_name", "/robot/planner_of_a_long_name"}) {
+    auto record = std::make_unique<FaultRecord>(path);
+    record->Fill("no", At(10), 1);
+    faults.Raise(std::move(record));
+  }
+  FaultInjection injection(InjectedFault::kAllocation, 1);
+  EXPECT_FALSE(faults.Dispatch());
+  injection.End();
+  EXPECT_TRUE(faults.Dispatch());
+  EXPECT_FALSE(faults.stop_requested());
+  EXPECT_THAT(faults.Take(), SizeIs(2));
+}
+
+// What only says that it has no memory is not waited for without end, nor does it keep up others.
+TEST(FaultsWithoutMemory, ARuleThatNeverHasSomeFailsAfterAWhile) {
+  FaultDispatcher faults;
+  int second = 0;
+  faults.AddRule({.of = "/robot", .call = [](const Fault&) { throw std::bad_alloc(); }});
+  faults.AddRule({.of = "/robot", .call = [&](const Fault&) { ++second; }});
+  faults.Report({.path = "/robot/laser", .message = "no"});
+  test::WaitUntil("the other rule has been applied", [&] { return faults.Dispatch(); });
+  EXPECT_EQ(second, 1);
+  EXPECT_THAT(faults.Take(), SizeIs(2));
+}
+
 struct TwoParameters final : Module {
   using Module::Module;
   Parameter<double> p{this, "p", {.default_value = 0}};
