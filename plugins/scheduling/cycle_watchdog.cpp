@@ -1,8 +1,8 @@
 #include "plugins/scheduling/cycle_watchdog.h"
 
 #include <algorithm>
-#include <exception>
 #include <functional>
+#include <ranges>
 #include <utility>
 
 #include "core/element/element_path.h"
@@ -122,18 +122,17 @@ bool CycleWatchdog::IsAbout(const KnownRule& known, const std::string& path, con
                               [&](const auto& each) { return !each->IsDefault() && IsAbout(*each, path, thread); });
 }
 
-// That a module is stuck is known, and the run ends, also where there is no memory to tell of it.
+// That a module is stuck is known, and the run ends, also where there is no memory to tell of it; that is told later.
 void CycleWatchdog::Look(Time now) {
-  std::exception_ptr failure;
   for (Watched& each : watched_) {
     try {
       Look(each, now);
       TellStuck(each, now);
     } catch (...) {
-      failure = std::current_exception();
+      const auto ends = [](const auto& known) { return known->rule.ends_run; };
+      if (std::ranges::any_of(each.fired | std::views::drop(each.told), ends)) faults_.EndForFault();
     }
   }
-  if (failure) std::rethrow_exception(failure);
 }
 
 void CycleWatchdog::Look(Watched& watched, Time now) {
@@ -158,17 +157,12 @@ void CycleWatchdog::Look(Watched& watched, Time now) {
 void CycleWatchdog::TellStuck(Watched& watched, Time now) {
   for (; watched.told < watched.fired.size(); ++watched.told) {
     const StuckRule& rule = watched.fired[watched.told]->rule;
-    try {
-      const auto keep = [&](const std::string& path) { watched.path = path; };
-      ScheduledElement::WithPath(watched.state.element, std::ref(keep));
-      Tell(watched, Fault::Kind::kStuck,
-           "has not returned from its cycle for " + DurationText(now - watched.seen) + "; at most " +
-               DurationText(rule.after) + " is allowed",
-           rule.on_stuck, rule.ends_run);
-    } catch (...) {
-      if (rule.ends_run) faults_.EndForFault();
-      throw;
-    }
+    const auto keep = [&](const std::string& path) { watched.path = path; };
+    ScheduledElement::WithPath(watched.state.element, std::ref(keep));
+    Tell(watched, Fault::Kind::kStuck,
+         "has not returned from its cycle for " + DurationText(now - watched.seen) + "; at most " +
+             DurationText(rule.after) + " is allowed",
+         rule.on_stuck, rule.ends_run);
   }
 }
 

@@ -29,9 +29,12 @@ void FaultRecord::Fill(std::string_view message, Time time, std::uint64_t cycle)
   fault_.cycle = cycle;
 }
 
-bool FaultRecord::IsOverdue() const noexcept {
-  constexpr Duration kLongest = std::chrono::seconds(1);
-  return due_since_ != Time{} && SteadyClock().Now() - due_since_ > kLongest;
+bool FaultRecord::IsOverdue() noexcept {
+  const Time now = SteadyClock().Now();
+  if (due_since_ == Time{}) due_since_ = now;
+  if (now - due_since_ <= std::chrono::seconds(1)) return false;
+  due_since_ = {};
+  return true;
 }
 
 FaultDispatcher::~FaultDispatcher() {
@@ -82,7 +85,7 @@ bool FaultDispatcher::DispatchAlone() noexcept {
     try {
       if (Answer(*oldest)) delete oldest;
     } catch (...) {  // what is not answered now is answered the next time, in order
-      for (FaultRecord* each = oldest; each != nullptr; each = each->next_) Defer(*each);
+      for (const FaultRecord* each = oldest; each != nullptr; each = each->next_) EndIfRuled(*each);
       unanswered_.store(oldest, std::memory_order_relaxed);
       return false;
     }
@@ -92,11 +95,10 @@ bool FaultDispatcher::DispatchAlone() noexcept {
 }
 
 // The end of the run waits for no memory, but for a handler that may mend the fault.
-void FaultDispatcher::Defer(FaultRecord& record) noexcept {
-  if (record.due_since_ == Time{}) record.due_since_ = SteadyClock().Now();
+void FaultDispatcher::EndIfRuled(const FaultRecord& record) noexcept {
   const std::lock_guard lock(mutex_);
   const bool is_thrown = record.fault_.kind == Fault::Kind::kThrown;
-  if (is_thrown && handler_ && !record.IsOverdue()) return;
+  if (is_thrown && handler_ && !record.is_for_rules_) return;
   const auto ends = [&](const FaultRule& rule) {
     return (!rule.call || rule.ends_run) && IsAtOrBelow(record.fault_.path, rule.of);
   };
@@ -107,10 +109,12 @@ void FaultDispatcher::Defer(FaultRecord& record) noexcept {
 bool FaultDispatcher::Answer(FaultRecord& record) {
   const Fault& fault = record.fault_;
   if (fault.kind != Fault::Kind::kThrown) {
-    LogOnce(record);
-    if (record.call_) Try(record, fault.path, kRuleFailed, [&] { record.call_(fault); });
+    if (!record.is_logged_) Log(fault), record.is_logged_ = true;
+    const bool has_failed = record.call_ && !Try(record, fault.path, kRuleFailed, [&] { record.call_(fault); });
+    if (has_failed && record.ends_run_) EndForFault();
     return true;
   }
+  if (record.is_for_rules_) return ApplyRules(record), true;
   Action action;
   std::unique_lock lock(mutex_);
   const Handler handler = handler_;
@@ -130,14 +134,16 @@ bool FaultDispatcher::Answer(FaultRecord& record) {
         delete &record;
       } catch (...) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        Defer(record);
+        EndIfRuled(record);
         Raise(std::unique_ptr<FaultRecord>(&record));
       }
       *before = {};  // waits for it
     });
   } catch (...) {  // no thread can be had; whoever waits for the one before does so without the lock
     *beside_ = std::move(*before);
-    throw;
+    if (!record.IsOverdue()) throw;
+    lock.unlock();
+    return ApplyRules(record), true;
   }
   return false;
 }
@@ -163,8 +169,9 @@ void FaultDispatcher::Act(FaultRecord& record, const Action& action) {
 
 void FaultDispatcher::ApplyRules(FaultRecord& record) {
   const Fault& fault = record.fault_;
-  LogOnce(record);
-  for (;; ++record.rule_) {
+  record.is_for_rules_ = true;
+  if (!record.is_logged_) Log(fault), record.is_logged_ = true;
+  for (;; ++record.rule_, record.due_since_ = {}) {
     FaultRule rule;
     {
       const std::lock_guard lock(mutex_);
@@ -172,8 +179,8 @@ void FaultDispatcher::ApplyRules(FaultRecord& record) {
       rule = rules_[record.rule_];
     }
     if (!IsAtOrBelow(fault.path, rule.of)) continue;
-    if (!rule.call) EndForFault();
-    if (rule.call) Try(record, rule.of, kRuleFailed, [&] { rule.call(fault); });
+    const bool is_done = rule.call && Try(record, rule.of, kRuleFailed, [&] { rule.call(fault); });
+    if (!rule.call || (!is_done && rule.ends_run)) EndForFault();
   }
 }
 
@@ -183,8 +190,8 @@ void FaultDispatcher::SetHandler(Handler handler) {
 }
 
 // What has no memory has done nothing yet, and is asked again, but not without end.
-bool FaultDispatcher::Try(FaultRecord& record, const std::string& of, const char* failed,
-                          const std::function<void()>& call) {
+template <typename Call>
+bool FaultDispatcher::Try(FaultRecord& record, const std::string& of, const char* failed, const Call& call) {
   std::exception_ptr failure;
   try {
     call();
@@ -222,11 +229,6 @@ void FaultDispatcher::Note(Fault fault) noexcept {
     Log(std::move(fault));
   } catch (...) {
   }
-}
-
-void FaultDispatcher::LogOnce(FaultRecord& record) {
-  if (!record.is_logged_) Log(record.fault_);
-  record.is_logged_ = true;
 }
 
 std::vector<Fault> FaultDispatcher::Take() {

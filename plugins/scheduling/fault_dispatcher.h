@@ -30,16 +30,18 @@ class FaultRecord {
 
  private:
   friend class FaultDispatcher;
-  [[nodiscard]] bool IsOverdue() const noexcept;
+  /// That memory, or a thread, was not there. Whether that is so for long.
+  [[nodiscard]] bool IsOverdue() noexcept;
 
   Fault fault_;
   std::function<void(const Fault&)> call_;
   bool ends_run_ = false;
   FaultRecord* next_ = nullptr;
   // How far it has been answered.
+  bool is_for_rules_ = false;  // no handler mends it
   bool is_logged_ = false;
   std::size_t rule_ = 0;  // of those that apply to it, the first that has not been called
-  Time due_since_{};      // by the machine's clock, as memory is short
+  Time due_since_{};      // by the machine's clock, as memory is short for what is to be done now
 };
 
 /// Takes faults from the cycles in which they happen to those who act on them and tell of them.
@@ -93,13 +95,13 @@ class FaultDispatcher {
 
  private:
   bool DispatchAlone() noexcept;
-  void Defer(FaultRecord& record) noexcept;
+  void EndIfRuled(const FaultRecord& record) noexcept;
   [[nodiscard]] bool Answer(FaultRecord& record);
   void Log(Fault fault);
-  void LogOnce(FaultRecord& record);
   void Act(FaultRecord& record, const Action& action);
   void ApplyRules(FaultRecord& record);
-  bool Try(FaultRecord& record, const std::string& of, const char* failed, const std::function<void()>& call);
+  template <typename Call>
+  bool Try(FaultRecord& record, const std::string& of, const char* failed, const Call& call);
 
   // A stack that is only ever pushed to and taken as a whole, so no address can come back to life.
   std::atomic<FaultRecord*> raised_{nullptr};

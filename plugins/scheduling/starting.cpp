@@ -224,10 +224,11 @@ void Scheduler::AddStuckRule(StuckRule rule) {
 }
 
 void Scheduler::SetStuckListener(std::function<void()> listener) {
-  cycle_watchdog_.SetListener([this, listener = std::move(listener)] {
+  const auto dispatch = [this] {
     if (!faults_.Dispatch()) faults_.event().Notify();  // who supervises tries again
-    if (listener) listener();
-  });
+  };
+  if (!listener) return cycle_watchdog_.SetListener(dispatch);  // who stops may have no memory, and this takes none
+  cycle_watchdog_.SetListener([dispatch, listener = std::move(listener)] { dispatch(), listener(); });
 }
 
 Result<void> Scheduler::SetStuckLimit(const std::string& of, Duration after) {

@@ -40,7 +40,7 @@ constexpr double kParallel = 0.001;      // m in a step by which it comes nearer
 // Commanded to move, and not moving. A robot that turns to and fro, and comes to nothing, does what it is told. What it
 // turns is looked at an update later: at once, the noise of a pose would be in the command and in what seems to follow.
 bool IsHeld(const BugState& state, const DrivingConfiguration& driving) {
-  const double speed = std::max(driving.cruise_speed, driving.following_speed);
+  const double speed = std::min(driving.cruise_speed, driving.following_speed);
   return state.commanded.forward > std::min(kMoving, kMovingTime * speed) ||
          (std::abs(state.commanded.turn) > std::min(kMoving, kMovingTime * driving.turn_limit) &&
           state.response < kResponse * state.turning);

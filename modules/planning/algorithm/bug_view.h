@@ -36,9 +36,11 @@ struct BugView {
 [[nodiscard]] inline double DistanceToGoal(const BugView& view) {
   return Distance(Position(view.input.pose), view.input.goal);
 }
-/// rad, of a point of the world in the body's frame.
+/// rad, of a point of the world in the body's frame, from -177 to 183 degrees: what is straight behind is to the left,
+/// however the pose wavers.
 [[nodiscard]] inline double BearingTo(const BugInput& input, Point2 point) {
-  return Direction(ToBody(input.pose, point));
+  const double bearing = Direction(ToBody(input.pose, point));
+  return bearing < DegreesToRadians(-177.0) ? bearing + 2.0 * kPi : bearing;
 }
 
 /// m, the radius of the disc that has to pass: as wide as the clearance at this very place allows,

@@ -55,9 +55,8 @@ struct DrivingConfiguration {
 /// the end of the free way ahead is.
 [[nodiscard]] inline Twist2 DriveTowards(const DrivingConfiguration& configuration, const Surroundings& surroundings,
                                          double bearing, double speed) {
-  constexpr double kNearly = DegreesToRadians(5.0), kBehind = DegreesToRadians(-177.0);
-  // What is straight behind is turned to by the left, however the pose wavers.
-  Twist2 twist = TurnTowards(configuration, bearing < kBehind ? bearing + 2.0 * kPi : bearing);
+  constexpr double kNearly = DegreesToRadians(5.0);
+  Twist2 twist = TurnTowards(configuration, bearing);
   const double part = 1.0 - std::abs(bearing) / configuration.turning_bearing;
   if (part <= 0.0) return twist;
   const double radius = TravelRadius(configuration, surroundings);

@@ -254,6 +254,28 @@ TEST(BugRules, DoesNotTakeBeingHeldForLackOfRoomHoweverSlowItIs) {
   }
 }
 
+// Straight behind it is where the sign of a bearing wavers with the pose.
+TEST(BugRules, DoesNotTakeBeingHeldForLackOfRoomWithTheGoalBehind) {
+  std::mt19937 dice;
+  const auto noise = [&] { return 0.01 * (2.0 * static_cast<double>(dice()) / 4294967295.0 - 1.0); };  // m and rad
+  for (const bool is_vague : {false, true}) {
+    for (const char* const variant : {"bug1", "bug2", "tangent_bug", "dist_bug"}) {
+      SCOPED_TRACE(std::string(variant) + (is_vague ? ", vague" : ""));
+      const BugAlgorithm bug = Make(variant);
+      Session session(World({Box(0, 5, 1, 1)}), {3, 0}, {-3, 0});
+      Surroundings view = session.Look();
+      view.is_vague = is_vague;
+      PlannerStatus status;
+      for (int step = 0; step < 2000; ++step) {
+        const Pose2 pose = {3 + noise(), noise(), noise()};
+        status = bug.Update(session.state, {kTimeStep, pose, view, {3, 0}, {-3, 0}}).status;
+      }
+      EXPECT_EQ(status.mode, PlannerMode::kMotionToGoal);
+      EXPECT_EQ(status.hits, 0u);
+    }
+  }
+}
+
 TEST(BugRules, FindsLackOfRoomAlsoOnceItHasBeenHeld) {
   Session session(World({Box(0, 0, 0.62, 0.62)}), {0, 0}, {3, 0});
   const BugAlgorithm bug = Make("bug2");

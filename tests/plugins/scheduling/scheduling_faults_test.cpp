@@ -39,6 +39,24 @@ struct TwoThreads {
   Scheduler scheduler{runtime};
 };
 
+/// While it lives, the system gives no thread.
+class NoThreads {
+ public:
+  NoThreads() {
+    EXPECT_EQ(pthread_getattr_default_np(&before_), 0);
+    pthread_attr_t huge;
+    EXPECT_EQ(pthread_getattr_default_np(&huge), 0);
+    EXPECT_EQ(pthread_attr_setstacksize(&huge, std::numeric_limits<std::size_t>::max() / 2 + 1), 0);
+    EXPECT_EQ(pthread_setattr_default_np(&huge), 0);
+  }
+  ~NoThreads() { EXPECT_EQ(pthread_setattr_default_np(&before_), 0); }
+  NoThreads(const NoThreads&) = delete;
+  NoThreads& operator=(const NoThreads&) = delete;
+
+ private:
+  pthread_attr_t before_;
+};
+
 class SchedulingFaults : public ::testing::Test {
  protected:
   static void ExpectItRuns(TwoThreads& world) {
@@ -75,6 +93,7 @@ TEST_F(SchedulingFaults, StoppingTakesNoMemory) {
   MustSucceed(world.scheduler.Start());
   ExpectItRuns(world);
   const FaultInjection injection(InjectedFault::kAllocation, 1, 1000);
+  world.scheduler.SetStuckListener({});
   world.scheduler.Stop();
   EXPECT_FALSE(injection.has_struck());
 }
@@ -90,6 +109,7 @@ TEST_F(SchedulingFaults, AModuleIsKnownToBeStuckThoughThereIsNoMemoryToTell) {
   }
   std::atomic<int> called{0};
   world.scheduler.AddStuckRule({.of = "/gone", .after = 5ms});
+  world.scheduler.AddStuckRule({.of = "/other", .after = 50ms});
   world.scheduler.AddStuckRule(
       {.of = "/other", .after = 50ms, .on_stuck = [&](const Fault&) { ++called; }, .ends_run = true});
   std::optional<FaultInjection> injection;  // of the thread that looks
@@ -109,14 +129,9 @@ TEST_F(SchedulingFaults, AModuleIsKnownToBeStuckThoughThereIsNoMemoryToTell) {
 TEST_F(SchedulingFaults, AThreadThatTheSystemDoesNotGiveIsAnError) {
   TwoThreads world;
   world.scheduler.RequestStop();
-  pthread_attr_t before;
-  ASSERT_EQ(pthread_getattr_default_np(&before), 0);
-  pthread_attr_t huge;
-  ASSERT_EQ(pthread_getattr_default_np(&huge), 0);
-  ASSERT_EQ(pthread_attr_setstacksize(&huge, std::numeric_limits<std::size_t>::max() / 2 + 1), 0);
-  ASSERT_EQ(pthread_setattr_default_np(&huge), 0);
+  std::optional<NoThreads> no_threads(std::in_place);
   const auto started = world.scheduler.Start();
-  ASSERT_EQ(pthread_setattr_default_np(&before), 0);
+  no_threads.reset();
   ASSERT_FALSE(started);
   EXPECT_THAT(started.error().ToString(), ::testing::HasSubstr("could not be started"));
   EXPECT_FALSE(world.scheduler.is_running());
@@ -188,6 +203,21 @@ TEST(FaultOfAModule, IsAnsweredOnceByEachRuleHoweverShortMemoryIs) {
     EXPECT_THAT(faults.Take(), ::testing::SizeIs(2));
     if (!injection.has_struck() || ::testing::Test::HasFailure()) break;
   }
+}
+
+TEST(FaultOfAModule, IsAnsweredByItsRulesIfNoThreadCanMendIt) {
+  FaultDispatcher faults;
+  faults.SetActsBeside(true);
+  int mended = 0, applied = 0;
+  faults.SetHandler(
+      [&](const Fault&) -> FaultDispatcher::Action { return [&] { return ++mended, std::string("put back"); }; });
+  faults.AddRule({.of = "/robot", .call = [&](const Fault&) { ++applied; }});
+  const NoThreads no_threads;
+  faults.Report({.path = "/robot/laser", .message = "no"});
+  EXPECT_EQ(applied, 0) << "one may be had in a moment";
+  WaitUntil("the rule has been applied", [&] { return faults.Dispatch(); });
+  EXPECT_EQ(applied, 1);
+  EXPECT_EQ(mended, 0);
 }
 
 }  // namespace

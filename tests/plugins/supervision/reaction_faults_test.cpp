@@ -213,7 +213,9 @@ TEST(FaultsWithoutMemory, ARuleThatFailsIsNotAppliedAgain) {
 TEST(FaultsWithoutMemory, EndNoRunThatTheirHandlerLetsGoOn) {
   FaultDispatcher faults;
   faults.AddRule({.of = "/robot"});
-  faults.SetHandler([](const Fault&) -> FaultDispatcher::Action { return [] { return std::string("put back"); }; });
+  faults.SetHandler([](const Fault&) -> FaultDispatcher::Action {
+    return [] { return std::string("has been put back, which is a longer text"); };
+  });
   for (const char* const path : {"/robot/laser_of_a_long_name", "/robot/planner_of_a_long_name"}) {
     auto record = std::make_unique<FaultRecord>(path);
     record->Fill("no", At(10), 1);
@@ -225,6 +227,46 @@ TEST(FaultsWithoutMemory, EndNoRunThatTheirHandlerLetsGoOn) {
   EXPECT_TRUE(faults.Dispatch());
   EXPECT_FALSE(faults.stop_requested());
   EXPECT_THAT(faults.Take(), SizeIs(2));
+}
+
+// A rule that has been applied is not applied to what is mended after all, nor the handler asked again.
+TEST(FaultsWithoutMemory, StayWithTheRulesOnceTheirHandlerHasDeclined) {
+  FaultDispatcher faults;
+  std::optional<FaultInjection> injection;
+  int asked = 0, first = 0, second = 0;
+  faults.SetHandler([&](const Fault&) -> FaultDispatcher::Action {
+    return ++asked == 1 ? FaultDispatcher::Action() : [] { return std::string("put back"); };
+  });
+  faults.AddRule(
+      {.of = "/", .call = [&](const Fault&) { ++first, injection.emplace(InjectedFault::kAllocation, 1, 1000); }});
+  faults.AddRule({.of = "/robot/of_a_path_that_is_long", .call = [&](const Fault&) { ++second; }, .ends_run = true});
+  auto record = std::make_unique<FaultRecord>("/robot/of_a_path_that_is_long");
+  record->Fill("no", At(10), 1);
+  faults.Raise(std::move(record));
+  EXPECT_FALSE(faults.Dispatch());
+  EXPECT_TRUE(faults.stop_requested());
+  injection.reset();
+  EXPECT_TRUE(faults.Dispatch());
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(first, 1);
+  EXPECT_EQ(second, 1);
+  EXPECT_THAT(faults.Take(), SizeIs(1));
+}
+
+// Each rule has its time, and the run ends where one says so that never has memory.
+TEST(FaultsWithoutMemory, ARuleThatEndsTheRunDoesSoWithoutAny) {
+  FaultDispatcher faults;
+  faults.SetHandler([](const Fault&) { return FaultDispatcher::Action(); });
+  int tries = 0;
+  faults.AddRule({.of = "/robot", .call = [](const Fault&) { throw std::bad_alloc(); }});
+  faults.AddRule({.of = "/robot", .call = [&](const Fault&) {
+                    if (++tries == 1) throw std::bad_alloc();
+                  }});
+  faults.AddRule({.of = "/robot", .call = [](const Fault&) { throw 7; }, .ends_run = true});
+  faults.Report({.path = "/robot/laser", .message = "no"});
+  test::WaitUntil("all have been applied", [&] { return faults.Dispatch(); });
+  EXPECT_EQ(tries, 2);
+  EXPECT_TRUE(faults.stop_requested());
 }
 
 // What only says that it has no memory is not waited for without end, nor does it keep up others.
