@@ -52,6 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Attempts, OnceFailed,
                                          Attempt{"maze_1001", "planning/tangent_bug", "left", "reached"},
                                          Attempt{"maze_1007", "behaviours/navigator", "left", "reached"},
                                          Attempt{"maze_1010", "planning/bug1", "right", "reached"},
+                                         Attempt{"maze_1032", "planning/alg2", "right", "unreachable"},
                                          Attempt{"spiral_1014", "planning/rev2", "left", "reached"}),
                          [](const auto& attempt) {
                            std::string name = std::string(attempt.param.world) + "_" + attempt.param.planner + "_" +
