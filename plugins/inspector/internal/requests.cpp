@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/command_service/save_place.h"
@@ -18,12 +19,13 @@ namespace runnel::internal {
 namespace {
 
 constexpr std::size_t kMostErrors = 100;
+constexpr std::size_t kLongestText = 5000;  // of an error, which may repeat what its client has said
 
 void AppendError(const RequestError& each, std::string& text) {
   JsonObject json(text);
-  json.Add("message", each.error.message);
-  json.AddTextOrNull("path", each.error.path);
-  json.AddTextOrNull("hint", each.error.hint);
+  json.Add("message", Shortened(each.error.message, kLongestText));
+  json.AddTextOrNull("path", Shortened(each.error.path, kLongestText));
+  json.AddTextOrNull("hint", Shortened(each.error.hint, kLongestText));
   json.AddOrNull("change", each.change);
 }
 

@@ -2,11 +2,14 @@
 
 #include <utility>
 
+#include "core/base/characters.h"
+
 namespace runnel::internal {
 
 namespace {
 
 constexpr int kDeepest = 4;
+constexpr std::size_t kLongestName = 100;  // what is longer names nothing, and is repeated and compared with what does
 // Whole numbers that every JSON reader gets right.
 constexpr std::uint64_t kLargestWhole = 9007199254740992;
 
@@ -45,8 +48,9 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text, std::optional<st
   JsonMembers members(*json);
   message.request = members.Count("request", kLargestWhole);
   if (number != nullptr) *number = message.request;
-  for (const auto& [name, value] : json->members()) message.fields.push_back(name);
+  for (const auto& [name, value] : json->members()) message.fields.push_back(Shortened(name, kLongestName));
   for (const auto& [name, member] : kTexts) message.*member = members.Text(name).value_or("");
+  message.op = Shortened(std::move(message.op), kLongestName);
   if (const auto changes = members.List("changes")) ReadChanges(*changes, message);
   if (const JsonPart* const entries = members.Find("entries")) {
     if (!entries->is_object()) members.Complain("\"entries\" must be an object");

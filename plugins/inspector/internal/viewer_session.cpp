@@ -21,6 +21,7 @@ using std::chrono::milliseconds;
 constexpr std::size_t kMostWatches = 500;
 constexpr std::size_t kMostPending = 64;
 constexpr std::size_t kMostReplies = 1000;
+constexpr std::size_t kMostBytes = 8 << 20;  // of replies, if it is more than one
 constexpr std::size_t kMostLogEntries = 500;
 // A viewer for which more is waiting gets no values, rates and states until it has taken it.
 constexpr std::size_t kSlow = 1 << 20;
@@ -205,7 +206,11 @@ void ViewerSession::SendReplies() {
     return true;
   });
   while (!replies_.empty() && client_.SendText(replies_.front())) replies_.pop_front();
-  if (replies_.size() > kMostReplies) client_.Close("too many replies wait to be read");
+  std::size_t bytes = 0;
+  for (const std::string& each : replies_) bytes += each.size();
+  if (replies_.size() > kMostReplies || (replies_.size() > 1 && bytes > kMostBytes)) {
+    client_.Close("too many replies wait to be read");
+  }
 }
 
 void ViewerSession::SendLog() {

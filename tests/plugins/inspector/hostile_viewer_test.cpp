@@ -8,6 +8,9 @@ namespace runnel::test {
 
 namespace {
 
+// JSON says each line end by two characters.
+const std::string kLargePanel = R"({"panel": 1, "widgets": []})" + std::string(250'000, '\n');
+
 class HostileViewer : public RunningInspectorTest {
  protected:
   /// That cycles run, and viewers are served.
@@ -148,6 +151,48 @@ TEST_F(HostileViewer, OneThatDoesNotReadMissesValuesAndIsLetGo) {
   }
   WaitUntil("the client that does not read is gone", [&] { return server->clients() == 0; });
   ExpectThatAllIsWell();
+}
+
+// Refusals of who may do nothing else: there is no end of what can be refused.
+TEST_F(HostileViewer, OneThatReadsNoRefusalsIsLetGo) {
+  Start({}, {.limits = {.messages_per_second = 1e9, .waiting_bytes = 100'000, .idle_time = 1h}});
+  const Viewer viewer = View();
+  const Json unknown{{"op", std::string(300, 'x')}, {"request", 1}};
+  WaitUntil("the client that does not read is gone", [&] {
+    viewer.Send(unknown);
+    return server->clients() == 0;
+  });
+  ExpectThatAllIsWell();
+}
+
+TEST_F(HostileViewer, OneThatReadsNoLargeRepliesIsLetGoThoughFewWait) {
+  Start({}, {.limits = {.messages_per_second = 100'000, .waiting_bytes = 100'000, .idle_time = 1h}});
+  Viewer viewer = View();
+  EXPECT_EQ(viewer.Ask({{"op", "save_panel"}, {"value", kLargePanel}})["ok"], true);
+  for (int i = 0; i < 50; ++i) viewer.Send({{"op", "panel"}});
+  WaitUntil("the client that does not read is gone", [&] { return server->clients() == 0; });
+  ExpectThatAllIsWell();
+}
+
+TEST_F(HostileViewer, OneReplyMayBeLargerThanWhatMayWait) {
+  Start({}, {.limits = {.waiting_bytes = 1000}});
+  Viewer viewer = View();
+  EXPECT_EQ(viewer.Ask({{"op", "save_panel"}, {"value", kLargePanel}})["ok"], true);
+  EXPECT_EQ(viewer.Ask({{"op", "panel"}})["text"], kLargePanel);
+}
+
+TEST_F(HostileViewer, WhatIsRepeatedOfItsMessagesIsCut) {
+  Start({}, {.limits = {.messages_per_second = 100'000}});
+  Viewer viewer = View();
+  const std::string much(1'000'000, 'x');
+  for (const Json& message :
+       {Json{{"op", much}}, Json{{"op", "save"}, {much, 1}}, Json{{"op", much}, {"rate", "x"}},
+        Json{{"op", "watch"}, {"path", "/app/a"}, {"as", much}}, Json{{"op", "pause"}, {"path", much}},
+        Json{{"op", "arrange"}, {"entries", {{much, 5}}}}, Json{{"op", "reload"}, {"plugin", much}}}) {
+    const Json reply = viewer.Ask(message);
+    EXPECT_EQ(reply["ok"], false);
+    EXPECT_LT(reply.dump().size(), 30'000U) << message.dump().substr(0, 60);
+  }
 }
 
 TEST_F(HostileViewer, RandomMessagesDoNoHarm) {
