@@ -77,17 +77,22 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
     return {};
   }
   const auto writers = table_.Partners(endpoint_.topic, true);
+  const WireQos qos = WantedQos(writers);
   {
     const std::lock_guard lock(mutex_);
     for (Writer& each : writers_) each.is_looked_up = false;
     ForgetGone(writers);
+    for (const WireEndpoint& each : writers) {
+      Writer& writer = Find(each.handle);
+      if (!qos.is_latched) writer.passed_over = writer.kept;
+    }
   }
-  const WireQos qos = WantedQos(writers);
   if (reader_ != nullptr && (qos == endpoint_.qos || writers.empty())) return {};
   reader_.reset();
   {
     const std::lock_guard lock(mutex_);
     endpoint_.qos = qos;
+    made_ = SteadyClock().Now();
     MarkAsDelivered();
   }
   auto reader = participant.MakeReader(
@@ -117,6 +122,7 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
     if (before != gone_.end()) {
       writer.before = writer.delivered = before->delivered;
       writer.clock = before->clock;
+      writer.passed_over = before->passed_over;
     }
     known = writers_.insert(writers_.end(), std::move(writer));
   }
@@ -133,7 +139,7 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
   return writer;
 }
 
-// Under mutex_, as the next two. What writers keep is delivered again to a reader that is made anew, and when a link comes back.
+// Under mutex_, as the next three. What writers keep is delivered again to a reader that is made anew, and when a link comes back.
 // Then applications of Runnel send the newest value again that they offer, latched or not.
 void TakenPort::MarkAsDelivered() {
   for (Writer& each : writers_) each.before = each.delivered;
@@ -148,6 +154,17 @@ bool TakenPort::HasComeBefore(Writer& writer, const Delivered& value) {
   writer.delivered.push_back(value);
   if (writer.delivered.size() > std::max<std::size_t>(writer.kept, 1)) writer.delivered.pop_front();
   return false;
+}
+
+// What a latched writer kept while the reader was not latched, as another writer was not, is delivered once that has gone: it is
+// no news. It comes at once, before all else, and was sent before this reader was made, unless by the clocks of both it cannot be.
+bool TakenPort::IsPassedOver(Writer& writer, Duration on_its_way, Time now) const {
+  constexpr auto kLongest = std::chrono::seconds(3);
+  if (!endpoint_.qos.is_latched || writer.passed_over == 0) return false;
+  const Duration way = on_its_way + writer.clock.ahead();
+  const bool is_news = now - made_ > kLongest || (way < now - made_ && way > -WriterClock::kMostOfNetworks);
+  writer.passed_over = is_news ? 0 : writer.passed_over - 1;
+  return !is_news;
 }
 
 void TakenPort::ForgetGone(const std::vector<WireEndpoint>& writers) {
@@ -201,13 +218,13 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       const bool is_latched = writer.kept > 0;
       const Delivered value{sample.source_time, HashOf(sample.octets, is_latched)};
       const bool is_the_last = !writer.delivered.empty() && writer.delivered.back() == value;
-      // It has come before: it keeps the stamp, or arrival, that it had then.
-      if (HasComeBefore(writer, value)) return;
-      if (!IsHeard(sample.writer)) return;
-      is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
       // By the clocks of both machines, whatever time the application has.
       const Time machine = SteadyClock().Now();
       const Duration on_its_way = ClockOffset{}.Now() + machine.time_since_epoch() - Duration(sample.source_time);
+      // It has come before: it keeps the stamp, or arrival, that it had then.
+      const bool is_passed_over = IsPassedOver(writer, on_its_way, machine);
+      if (HasComeBefore(writer, value) || is_passed_over || !IsHeard(sample.writer)) return;
+      is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
       if (!writer.has_simulated_time) {
         // What a latched writer keeps may have lain there for hours.
         const Duration longest = writer.kept > 0 ? kFarthest : WriterClock::kLongestDelay;

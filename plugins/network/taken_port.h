@@ -100,6 +100,7 @@ class TakenPort {
     bool is_looked_up = true;              // since Follow()
     std::size_t kept = 0;                  // values that it delivers again; 0: it is not latched
     std::deque<Delivered> delivered = {};  // the last of them, in their order; the last one of who is not latched
+    std::size_t passed_over = 0;           // values, at most, that it kept and this reader did not ask for
     std::deque<Delivered> before = {};     // of those, by the reader of before, or before the link was lost
   };
   [[nodiscard]] Writer& Find(std::uint64_t handle);
@@ -109,6 +110,7 @@ class TakenPort {
   void ForgetGone(const std::vector<WireEndpoint>& writers);
   void MarkAsDelivered();
   [[nodiscard]] static bool HasComeBefore(Writer& writer, const Delivered& value);
+  [[nodiscard]] bool IsPassedOver(Writer& writer, Duration on_its_way, Time now) const;
   [[nodiscard]] WireQos WantedQos(const std::vector<WireEndpoint>& writers) const;
   void Refuse(Error error);
 
@@ -131,6 +133,7 @@ class TakenPort {
   bool is_turn_told_ = false;           // likewise
   std::uint64_t chosen_ = 0;            // likewise
   Time chosen_came_{};                  // likewise: the last value of that
+  Time made_{};                         // likewise: when the reader was
   std::optional<Error> error_;          // likewise
   std::unique_ptr<WireReader> reader_;  // goes first: as long as it is there, values come that use all of this
 };
