@@ -56,6 +56,7 @@ Result<std::optional<std::string>> ValueOf(Runtime& runtime, const std::string& 
   const Port& port = **found;
   if (auto readable = CheckIsReadable(port); !readable) return readable.error();
   std::optional<std::string> text;
+  for (const Port* source : port.ShownPorts()) source->NoteLook();
   (void)VisitShown(port, [&](const void* value, ValueTimes) { text = ToText(port.type(), value); });
   return text;
 }

@@ -39,6 +39,26 @@ TEST_F(ControlTest, GetsOneValue) {
   EXPECT_THAT(nothing.errors, HasSubstr("nothing has been published there yet"));
 }
 
+/// Publishes only what somebody wants to see, as `genom_state` of components and drawings of planners are.
+class Unasked final : public Module {
+ public:
+  using Module::Module;
+  Output<int> out{this, "out"};
+
+ private:
+  void Update() override {
+    if (out.is_watched()) out.Publish(7);
+  }
+};
+
+TEST_F(ControlTest, GettingIsLookingForWhatIsPublishedOnlyThen) {
+  Register<Unasked>("test/unasked");
+  ASSERT_EQ(Change("create /got test/unasked; create /shown test/unasked").code, 0);
+  const Told got = Ask("get /got/out");
+  EXPECT_EQ(got.output, "7\n") << got.errors;
+  EXPECT_THAT(Ask("echo /shown/out count=1").output, HasSubstr("7"));
+}
+
 TEST_F(ControlTest, ListsWhatHasFailed) {
   EXPECT_THAT(Ask("ls").output, Not(HasSubstr("FAILED")));
   ASSERT_EQ(Change("create /worn test/failing").code, 0);
