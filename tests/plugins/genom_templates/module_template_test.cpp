@@ -13,11 +13,11 @@ namespace {
 
 using testing::HasSubstr;
 
-Result<TemplateOutput> ModuleOf(const std::string& text) {
+Result<TemplateOutput> ModuleOf(const std::string& text, const std::string& name = "runnel") {
   Diagnostics diagnostics;
   const auto description = ReadDescriptionText(text, "c.gen", {}, diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.ToString();
-  return RunTemplate(RUNNEL_GENOM_TEMPLATE_FOLDER "/runnel", DescriptionJson(*description), {});
+  return RunTemplate(std::string(RUNNEL_GENOM_TEMPLATE_FOLDER "/") + name, DescriptionJson(*description), {});
 }
 
 std::string Refusal(const std::string& text) {
@@ -53,6 +53,27 @@ TEST(ModuleTemplateTest, WordsOfCxxAreNoNames) {
               HasSubstr("c.gen:1:8: a struct cannot be called 'template'"));
   EXPECT_EQ(Refusal("module m { struct template { long x; }; }; component c { port in m::template p; };\n"), "")
       << "m_template";
+}
+
+TEST(ModuleTemplateTest, WordsOfCxxAreNoNamesOfWhatCodelsInCxxSeeOfAComponent) {
+  const auto refusal_of = [](const std::string& before, const std::string& name, const std::string& items) {
+    return Refusal("typedef double real;\n" + before + "\ncomponent " + name + " {\n" + items + " };\n");
+  };
+  EXPECT_THAT(refusal_of("", "c", "lang \"c++\"; port in real class;"),
+              HasSubstr("c.gen:4:26: a port cannot be called 'class', which is a word of C++; give it another name"));
+  EXPECT_THAT(refusal_of("interface far { function delete(in long a); };", "c", "lang \"c++\"; uses far;"),
+              HasSubstr("a remote cannot be called 'delete'"));
+  EXPECT_THAT(refusal_of("interface new { port in real p; };", "c", "lang \"c++\"; provides new;"),
+              HasSubstr("an interface cannot be called 'new'"));
+  EXPECT_THAT(refusal_of("", "this", "lang \"c++\"; port in real p;"),
+              HasSubstr("c.gen:3:11: a component cannot be called 'this'"));
+  EXPECT_EQ(refusal_of("interface new { port in real p; }; interface far { function delete(in long a); };", "this",
+                       "lang \"c\"; provides new; uses far; port in real class;"),
+            "")
+      << "this_class, new_p, this_delete";
+  const auto mappings = ModuleOf("typedef double real; component c { lang \"c++\"; port in real class; };", "mappings");
+  ASSERT_FALSE(mappings) << "its headers alone, too";
+  EXPECT_THAT(mappings.error().ToString(), HasSubstr("a port cannot be called 'class'"));
 }
 
 TEST(ModuleTemplateTest, PartsOfWhatMayNotBeThereAreNoParameters) {

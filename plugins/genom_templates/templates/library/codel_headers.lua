@@ -3,6 +3,7 @@
 return function(component)
   file("../mappings/accomponent.h.in", "ac" .. component.name .. ".h", {component = component})
   if component.lang == "c++" then
+    library("words_of_cxx")(component)
     file("../mappings/cxx_types.h.in", component.name .. "_cxx_types.h", {component = component})
     file("../mappings/genom3_cxx.h.in", "genom3_cxx.h", {})
   else

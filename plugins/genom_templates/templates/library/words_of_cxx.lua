@@ -24,6 +24,14 @@ return function(component)
       if component.lang ~= "c" or not each:find("::") then check(each:match("([%w_]+)$"), "a name of '" .. type.name .. "'", type) end
     end
   end
+  -- In C they all have the component's or the interface's name in front.
+  for _, list in ipairs(component.lang ~= "c" and {{component}, component.ports, component.remotes} or {}) do
+    local kind = list == component.ports and "a port" or list == component.remotes and "a remote" or "a component"
+    for _, each in ipairs(list) do
+      check(has(each, "interface") and each.interface or "", "an interface", each)
+      check(each.name, kind, each)
+    end
+  end
   for _, owners in ipairs({component.services, component.tasks}) do
     for _, owner in ipairs(owners) do
       for _, list in ipairs({has(owner, "parameters") and owner.parameters or {}, has(owner, "variables") and owner.variables or {}}) do
