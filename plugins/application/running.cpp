@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "core/base/erase_where.h"
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
 #include "core/element/source_place.h"
@@ -123,36 +124,44 @@ void Application::Attend() {
   FrameworkElement& root = parts.runtime().root();
   FlushLog();
   // Not before the start, which only shows what the system refuses to real-time threads.
-  if (!std::exchange(parts.has_warned, true)) {
+  if (!parts.has_warned) {
     std::vector<Error> warnings = parts.scheduler->Warnings();
     std::string text = WarningsText(warnings, parts.runtime());
     for (const Error& warning : warnings) {
       parts.log->Add(ApplicationLog::Kind::kWarning, warning.ToString());
     }
     if (!text.empty()) parts.Add({Kind::kWarning, std::move(text)});
+    parts.has_warned = true;
   }
-  for (const Fault& fault : parts.scheduler->TakeFaults()) {
-    parts.report->Hear(fault);
+  parts.scheduler->TakeFaults(parts.untold_faults);
+  for (const Fault& fault : parts.untold_faults) parts.report->Hear(fault);
+  EraseWhere(parts.untold_faults, [&](const Fault& fault) {
     std::string text = FaultText(fault, parts.start, root);
     const bool is_fault = fault.kind == Fault::Kind::kThrown || fault.kind == Fault::Kind::kStuck;
     parts.log->Add(is_fault ? ApplicationLog::Kind::kFault : ApplicationLog::Kind::kWarning, text, fault.path,
                    fault.is_mended ? "" : fault.message);
     parts.Add({Kind::kFault, std::move(text), fault});
-  }
+    return true;
+  });
   for (const auto& extension : parts.extensions()) {
-    const auto failure = extension->TakeFailure();
-    if (!failure) continue;
-    parts.log->Add(ApplicationLog::Kind::kWarning, failure->ToString());
-    Diagnostics diagnostics;
-    diagnostics.Add(*failure);
-    parts.Add({Kind::kFailure, diagnostics.ToString()});
+    parts.untold_failures.reserve(parts.untold_failures.size() + 1);
+    if (auto failure = extension->TakeFailure()) parts.untold_failures.push_back(*std::move(failure));
   }
-  for (const Notice& notice : parts.supervisor->TakeNotices()) {
+  EraseWhere(parts.untold_failures, [&](const Error& failure) {
+    Diagnostics diagnostics;
+    diagnostics.Add(failure);
+    parts.log->Add(ApplicationLog::Kind::kWarning, failure.ToString());
+    parts.Add({Kind::kFailure, diagnostics.ToString()});
+    return true;
+  });
+  parts.supervisor->TakeNotices(parts.untold_notices);
+  EraseWhere(parts.untold_notices, [&](const Notice& notice) {
     std::string text = NoticeText(notice, parts.start, root);
     const bool is_good = notice.is_recovery && !notice.is_failure;
     parts.log->Add(is_good ? ApplicationLog::Kind::kInfo : ApplicationLog::Kind::kFault, text);
     parts.Add({Kind::kNotice, std::move(text)});
-  }
+    return true;
+  });
 }
 
 // For those who read the log later, at the end of a run.
@@ -205,7 +214,7 @@ Result<void> Application::Start() {
   }
   parts.ends = false;
   parts.is_running = true;
-  parts.thread = std::thread([this, is_real] {
+  const auto run = [this, is_real] {
     auto next_look = MachineClock::now();
     const auto look = [&](Duration) {
       if (MachineClock::now() < next_look) return false;
@@ -226,7 +235,13 @@ Result<void> Application::Start() {
       });
     }
     parts_->is_running = false;
-  });
+  };
+  try {
+    parts.thread = std::thread(run);
+  } catch (const std::exception&) {
+    Stop();
+    return Error{.message = "the application cannot be run: " + DescribeException()};
+  }
   return {};
 }
 

@@ -29,10 +29,13 @@ void FaultRecord::Fill(std::string_view message, Time time, std::uint64_t cycle)
   fault_.cycle = cycle;
 }
 
+void FaultRecord::NoteDue() noexcept {
+  if (due_since_ == Time{}) due_since_ = SteadyClock().Now();
+}
+
 bool FaultRecord::IsOverdue() noexcept {
-  const Time now = SteadyClock().Now();
-  if (due_since_ == Time{}) due_since_ = now;
-  if (now - due_since_ <= std::chrono::seconds(1)) return false;
+  NoteDue();
+  if (SteadyClock().Now() - due_since_ <= std::chrono::seconds(1)) return false;
   due_since_ = {};
   return true;
 }
@@ -85,7 +88,7 @@ bool FaultDispatcher::DispatchAlone() noexcept {
     try {
       if (Answer(*oldest)) delete oldest;
     } catch (...) {  // what is not answered now is answered the next time, in order
-      for (const FaultRecord* each = oldest; each != nullptr; each = each->next_) EndIfRuled(*each);
+      for (FaultRecord* each = oldest; each != nullptr; each = each->next_) each->NoteDue(), EndIfRuled(*each);
       unanswered_.store(oldest, std::memory_order_relaxed);
       return false;
     }
@@ -162,6 +165,7 @@ void FaultDispatcher::SetActsBeside(bool acts_beside) {
 
 void FaultDispatcher::Act(FaultRecord& record, const Action& action) {
   const Fault& fault = record.fault_;
+  if (!std::exchange(record.is_acted_on_, true)) record.due_since_ = {};
   std::string done;
   if (!Try(record, fault.path, kHandlerFailed, [&] { done = action(); })) return ApplyRules(record);
   Retry([&] { Log({fault.path, fault.message + "; " + done, fault.time, fault.cycle, true}); });
@@ -231,9 +235,10 @@ void FaultDispatcher::Note(Fault fault) noexcept {
   }
 }
 
-std::vector<Fault> FaultDispatcher::Take() {
+void FaultDispatcher::Take(std::vector<Fault>& to) {
   const std::lock_guard lock(mutex_);
-  return std::exchange(log_, {});
+  to.insert(to.end(), std::make_move_iterator(log_.begin()), std::make_move_iterator(log_.end()));
+  log_.clear();
 }
 
 }  // namespace runnel

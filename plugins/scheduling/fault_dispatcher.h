@@ -30,7 +30,9 @@ class FaultRecord {
 
  private:
   friend class FaultDispatcher;
-  /// That memory, or a thread, was not there. Whether that is so for long.
+  /// That memory, or a thread, was not there, for this one or one in front of it.
+  void NoteDue() noexcept;
+  /// The same; whether that is so for long.
   [[nodiscard]] bool IsOverdue() noexcept;
 
   Fault fault_;
@@ -38,6 +40,7 @@ class FaultRecord {
   bool ends_run_ = false;
   FaultRecord* next_ = nullptr;
   // How far it has been answered.
+  bool is_acted_on_ = false;   // a thread has called what the handler returned
   bool is_for_rules_ = false;  // no handler mends it
   bool is_logged_ = false;
   std::size_t rule_ = 0;  // of those that apply to it, the first that has not been called
@@ -63,8 +66,8 @@ class FaultDispatcher {
   void Report(Fault fault);
   /// Logs it, and applies no rule. Whatever there is no memory for is not logged.
   void Note(Fault fault) noexcept;
-  /// What has been logged since the last call, oldest first.
-  [[nodiscard]] std::vector<Fault> Take();
+  /// What has been logged since the last call, oldest first, behind what is there. Errors: no memory; nothing is taken.
+  void Take(std::vector<Fault>& to);
 
   /// See Scheduler::SetFaultHandler().
   using Action = std::function<std::string()>;

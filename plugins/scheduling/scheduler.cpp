@@ -156,9 +156,10 @@ void Scheduler::FollowChanges() {
   const std::lock_guard lock(runtime_.structure_mutex());
   has_stepped_ = true;
   BringUpToDate();
-  if (std::exchange(has_other_runners_, false)) {
+  if (has_other_runners_) {
     simulation_.SetRunners(runners_);
     cycle_watchdog_.Follow(runners_);
+    has_other_runners_ = false;
   }
   cycle_watchdog_.Begin();
   simulation_.FollowOptions();
@@ -218,9 +219,15 @@ bool Scheduler::RunUntil(Time end) {
 }
 
 std::vector<Fault> Scheduler::TakeFaults() {
+  std::vector<Fault> taken;
+  TakeFaults(taken);
+  return taken;
+}
+
+void Scheduler::TakeFaults(std::vector<Fault>& to) {
   // Two at once would apply the rules in parallel, and out of order.
   if (!supervises_.load(std::memory_order_acquire)) faults_.Dispatch();
-  return faults_.Take();
+  faults_.Take(to);
 }
 
 Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, Duration timeout,

@@ -124,6 +124,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// The faults since the last call, oldest first. While real threads run, those that the
   /// supervising thread has not attended to yet come with a later call.
   [[nodiscard]] std::vector<Fault> TakeFaults();
+  /// The same, behind what is there. Errors: no memory; nothing is taken.
+  void TakeFaults(std::vector<Fault>& to);
   void AddFaultRule(FaultRule rule) { faults_.AddRule(std::move(rule)); }
 
   /// Whether any thread has anything to run. Brings the schedules up to date.

@@ -7,18 +7,20 @@
 namespace runnel {
 
 void SimulatedExecutor::SetRunners(const std::vector<std::shared_ptr<CycleRunner>>& runners) {
-  const std::vector<PeriodicThread> before = std::exchange(periodic_, {});
-  waiting_.clear();
+  std::vector<PeriodicThread> periodic;
+  std::vector<std::shared_ptr<CycleRunner>> waiting;
   for (const auto& runner : runners) {
     if (runner->waits_for_data()) {
-      waiting_.push_back(runner);
+      waiting.push_back(runner);
       continue;
     }
-    const auto known = std::ranges::find(before, runner, &PeriodicThread::runner);
+    const auto known = std::ranges::find(periodic_, runner, &PeriodicThread::runner);
     const ThreadOptions& options = runner->options();
     const DueTime at_once(clock_.Now(), options.period, options.on_overrun);
-    periodic_.push_back({runner, known == before.end() ? at_once : known->due});
+    periodic.push_back({runner, known == periodic_.end() ? at_once : known->due});
   }
+  periodic_ = std::move(periodic);
+  waiting_ = std::move(waiting);
 }
 
 void SimulatedExecutor::BeginAt(Time first) {

@@ -55,8 +55,8 @@ void Scheduler::StartThreads(Time first) {
       realtime_warnings_.push_back(std::move(*warning));
     }
   }
-  has_other_runners_ = false;
   cycle_watchdog_.Follow(runners_);
+  has_other_runners_ = false;
 }
 
 // Something with tasks that nobody has made ready would be there, connected, and silent for ever.

@@ -290,8 +290,16 @@ std::vector<Supervisor::Silence> Supervisor::Silent() const {
 }
 
 std::vector<Notice> Supervisor::TakeNotices() {
+  std::vector<Notice> taken;
+  TakeNotices(taken);
+  return taken;
+}
+
+void Supervisor::TakeNotices(std::vector<Notice>& to) {
   const std::lock_guard lock(shared_->mutex);
-  return std::exchange(shared_->notices, {});
+  auto& notices = shared_->notices;
+  to.insert(to.end(), std::make_move_iterator(notices.begin()), std::make_move_iterator(notices.end()));
+  notices.clear();
 }
 
 }  // namespace runnel

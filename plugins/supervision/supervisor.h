@@ -61,6 +61,8 @@ class Supervisor {
 
   /// What has been done since the last call, oldest first.
   [[nodiscard]] std::vector<Notice> TakeNotices();
+  /// The same, behind what is there. Errors: no memory; nothing is taken.
+  void TakeNotices(std::vector<Notice>& to);
 
  private:
   struct Shared;

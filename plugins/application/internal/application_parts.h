@@ -52,6 +52,10 @@ struct Application::Parts final : ApplicationDescription {
   bool has_started = false;             // once, at least
   bool has_warned = false;              // of what the scheduler finds doubtful
   std::mutex attending;                 // one at a time; before all others
+  // What no look has found the memory to tell of yet; guarded by attending.
+  std::vector<Fault> untold_faults;
+  std::vector<Error> untold_failures;
+  std::vector<Notice> untold_notices;
   std::mutex events_mutex;              // a leaf
   std::deque<ApplicationEvent> events;  // guarded by events_mutex
   std::atomic<std::uint64_t> ties{0};   // made so far

@@ -20,6 +20,7 @@ namespace {
 using test::FaultInjection;
 using test::InjectedFault;
 using ::testing::SizeIs;
+using testing::TakeAll;
 
 TEST(FaultsWithoutMemory, EndTheRunAllTheSame) {
   FaultDispatcher faults;
@@ -32,7 +33,7 @@ TEST(FaultsWithoutMemory, EndTheRunAllTheSame) {
   injection.End();
   EXPECT_TRUE(faults.stop_requested());
   EXPECT_TRUE(faults.Dispatch());
-  EXPECT_THAT(faults.Take(), SizeIs(1));
+  EXPECT_THAT(TakeAll(faults), SizeIs(1));
 }
 
 // Whatever is in front of it.
@@ -102,7 +103,7 @@ TEST(FaultsWithoutMemory, AreMendedByAThreadOrLater) {
     EXPECT_TRUE(faults.Dispatch());
     goes_on = true;
     faults.SetActsBeside(false);
-    EXPECT_THAT(faults.Take(), SizeIs(2));
+    EXPECT_THAT(TakeAll(faults), SizeIs(2));
     if (!injection.has_struck() || ::testing::Test::HasFailure()) break;
   }
 }
@@ -124,7 +125,7 @@ TEST(FaultsWithoutMemory, AreDueAgainIfTheirThreadHasNone) {
   faults.Raise(std::move(record));
   test::WaitUntil("it has been mended", [&] { return faults.Dispatch() && tries == 3; });
   faults.SetActsBeside(false);
-  const auto told = faults.Take();
+  const auto told = TakeAll(faults);
   ASSERT_THAT(told, SizeIs(1));
   EXPECT_TRUE(told[0].is_mended);
   EXPECT_FALSE(faults.stop_requested());
@@ -149,7 +150,7 @@ TEST(FaultsWithoutMemory, ARuleThatFailsIsNotAppliedAgain) {
   EXPECT_TRUE(faults.Dispatch());
   EXPECT_EQ(first, 1);
   EXPECT_EQ(second, 1);
-  EXPECT_THAT(faults.Take(), SizeIs(1));
+  EXPECT_THAT(TakeAll(faults), SizeIs(1));
 }
 
 TEST(FaultsWithoutMemory, EndNoRunThatTheirHandlerLetsGoOn) {
@@ -168,7 +169,7 @@ TEST(FaultsWithoutMemory, EndNoRunThatTheirHandlerLetsGoOn) {
   injection.End();
   EXPECT_TRUE(faults.Dispatch());
   EXPECT_FALSE(faults.stop_requested());
-  EXPECT_THAT(faults.Take(), SizeIs(2));
+  EXPECT_THAT(TakeAll(faults), SizeIs(2));
 }
 
 // A rule that has been applied is not applied to what is mended after all, nor the handler asked again.
@@ -192,7 +193,7 @@ TEST(FaultsWithoutMemory, StayWithTheRulesOnceTheirHandlerHasDeclined) {
   EXPECT_EQ(asked, 1);
   EXPECT_EQ(first, 1);
   EXPECT_EQ(second, 1);
-  EXPECT_THAT(faults.Take(), SizeIs(1));
+  EXPECT_THAT(TakeAll(faults), SizeIs(1));
 }
 
 // Each rule has its time, and the run ends where one says so that never has memory.
@@ -220,7 +221,43 @@ TEST(FaultsWithoutMemory, ARuleThatNeverHasSomeFailsAfterAWhile) {
   faults.Report({.path = "/robot/laser", .message = "no"});
   test::WaitUntil("the other rule has been applied", [&] { return faults.Dispatch(); });
   EXPECT_EQ(second, 1);
-  EXPECT_THAT(faults.Take(), SizeIs(2));
+  EXPECT_THAT(TakeAll(faults), SizeIs(2));
+}
+
+// All that wait are overdue together: one that nothing mends is in front of others for no longer.
+TEST(FaultsWithoutMemory, ThoseBehindWaitForNoMoreThanTheFirst) {
+  FaultDispatcher faults;
+  int asked_of_second = 0, applied = 0;
+  faults.SetHandler([&](const Fault& fault) -> FaultDispatcher::Action {
+    asked_of_second += fault.path == "/second";
+    throw std::bad_alloc();
+  });
+  faults.AddRule({.call = [&](const Fault&) { ++applied; }});
+  for (const char* const path : {"/first", "/second"}) {
+    faults.Raise(std::make_unique<FaultRecord>(Fault{.path = path, .message = "no"}, nullptr));
+  }
+  test::WaitUntil("all have been answered to", [&] { return faults.Dispatch(); });
+  EXPECT_EQ(asked_of_second, 1);
+  EXPECT_EQ(applied, 2);
+}
+
+// What the handler has waited for is not taken from the time of what it has returned.
+TEST(FaultsWithoutMemory, WhatMendsOneHasATimeOfItsOwn) {
+  FaultDispatcher faults;
+  int asked = 0, tries = 0;
+  faults.SetHandler([&](const Fault&) -> FaultDispatcher::Action {
+    if (++asked == 1) throw std::bad_alloc();
+    return [&] {
+      if (++tries > 1) return std::string("it has been put back");
+      std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // longer than it may be without memory
+      throw std::bad_alloc();
+    };
+  });
+  faults.Raise(std::make_unique<FaultRecord>(Fault{.path = "/robot", .message = "no"}, nullptr));
+  test::WaitUntil("it has been answered to", [&] { return faults.Dispatch(); });
+  const auto told = TakeAll(faults);
+  ASSERT_THAT(told, SizeIs(1));
+  EXPECT_TRUE(told[0].is_mended);
 }
 
 }  // namespace

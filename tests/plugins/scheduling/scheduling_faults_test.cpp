@@ -1,5 +1,6 @@
 // Memory and threads that are not there: nothing is half started, and what is gone runs no more.
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -86,6 +87,36 @@ TEST_F(SchedulingFaults, AllThreadsAreStartedOrNone) {
         world = std::make_unique<TwoThreads>();
       });
   EXPECT_GT(points, 10u);
+}
+
+// Also what was known before.
+TEST_F(SchedulingFaults, AllThatIsSimulatedIsSteppedOnceThereIsMemory) {
+  for (std::size_t nth = 1;; ++nth) {
+    SCOPED_TRACE(nth);
+    Runtime runtime;
+    Scheduler scheduler(runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+    std::array<int, 3> runs{};
+    const auto add = [&](const std::string& name, int& counted) {
+      auto& module = runtime.Create<Doing>(runtime.root(), name);
+      module.action = [&counted](Doing&) { ++counted; };
+      AssignThread(module, CreateThread(runtime, name + "_thread", {.period = 1ms}));
+      MustSucceed(runtime.MakeReady(module));
+    };
+    add("before", runs[0]);
+    EXPECT_TRUE(scheduler.Step());
+    add("one", runs[1]);
+    add("other", runs[2]);
+    FaultInjection injection(InjectedFault::kAllocation, nth);
+    try {
+      (void)scheduler.Step();
+    } catch (const std::bad_alloc&) {
+    }
+    injection.End();
+    runs = {};
+    EXPECT_TRUE(scheduler.RunUntil(runtime.clock().Now() + 2ms));
+    EXPECT_THAT(runs, ::testing::Each(::testing::Gt(0)));
+    if (!injection.has_struck() || HasFailure()) break;
+  }
 }
 
 TEST_F(SchedulingFaults, StoppingTakesNoMemory) {
@@ -200,7 +231,7 @@ TEST(FaultOfAModule, IsAnsweredOnceByEachRuleHoweverShortMemoryIs) {
     faults.Dispatch();
     EXPECT_EQ(first, 2);
     EXPECT_EQ(second, 2);
-    EXPECT_THAT(faults.Take(), ::testing::SizeIs(2));
+    EXPECT_THAT(TakeAll(faults), ::testing::SizeIs(2));
     if (!injection.has_struck() || ::testing::Test::HasFailure()) break;
   }
 }

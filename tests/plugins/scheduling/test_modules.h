@@ -12,11 +12,19 @@
 #include "core/module/sense_control_module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
+#include "plugins/scheduling/fault_dispatcher.h"
 
 namespace runnel::testing {
 
 /// Who ran, in which order.
 using Diary = std::vector<std::string>;
+
+/// What has been logged since the last call.
+inline std::vector<Fault> TakeAll(FaultDispatcher& faults) {
+  std::vector<Fault> taken;
+  faults.Take(taken);
+  return taken;
+}
 
 /// No module: a test publishes by it.
 class Feeder final : public Group {
