@@ -34,9 +34,11 @@ class RosNodeTest : public testing::Test {
     void OnMemberGone(const WireId&) override {}
     void OnEndpoint(const WireEndpoint& endpoint) override {
       said[endpoint.options.topic] = endpoint.options.user_data;
+      qos[endpoint.options.topic] = endpoint.options.qos;
     }
     void OnEndpointGone(const WireId&) override {}
-    std::map<std::string, std::string> said;  // by topic
+    std::map<std::string, std::string> said;  // by topic, as the next
+    std::map<std::string, WireQos> qos;
   };
   Runtime runtime_;
   Group& group_ = runtime_.Create<Group>(runtime_.root(), "robot");
@@ -49,9 +51,15 @@ class RosNodeTest : public testing::Test {
   std::unique_ptr<WireParticipant> there_ = std::move(*engine_->Join({.name = "there"}, listener_));
 };
 
+// As ROS_DISTRO may say them.
+TEST(RosDistributionsTest, AreAllThatSpeakThisWireByTheirAge) {
+  EXPECT_THAT(RosDistributions(),
+              testing::ElementsAre("foxy", "galactic", "humble", "iron", "jazzy", "kilted", "rolling"));
+}
+
 // 16 octets of the participant's id, 8 more up to Humble, and the count of its nodes.
 TEST_F(RosNodeTest, IsToldAsTheOthersDistributionHasIt) {
-  for (const std::string& distribution : RosDistributions()) {
+  for (const std::string distribution : {"foxy", "galactic", "humble", "iron", "jazzy", "kilted", "rolling"}) {
     const bool is_old = distribution == "foxy" || distribution == "galactic" || distribution == "humble";
     const auto node = Start({.distribution = distribution, .node = "/base"});
     const auto reader = Hear("ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_");
@@ -74,6 +82,18 @@ TEST_F(RosNodeTest, SaysWhatModulesSayByNamesWithDots) {
   EXPECT_EQ(said.name, "robot.sonar");
   EXPECT_EQ(said.msg, "no echo");
   EXPECT_EQ(said.level, 30);
+}
+
+// As ROS 2 has it: who comes late is not told what is long over. An engine drops what is older.
+TEST_F(RosNodeTest, KeepsWhatModulesHaveSaidForTenSeconds) {
+  const auto node = Start({.node = "/base", .sends_log = true, .parameters = RosParameterUse::kRead});
+  WaitUntilQuiet(*engine_);
+  const WireQos log = listener_.qos["rt/rosout"];
+  EXPECT_EQ(log.lifespan, std::chrono::seconds(10));
+  EXPECT_TRUE(log.is_latched);
+  EXPECT_EQ(log.depth, 1000U);
+  EXPECT_EQ(listener_.qos["rt/parameter_events"].lifespan, Duration{});
+  EXPECT_EQ(listener_.qos["rq/base/get_parametersRequest"].depth, 1000U);
 }
 
 // Stamps of all that it sends count from 1970; so does the time by which others compare them.
