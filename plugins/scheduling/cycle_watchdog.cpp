@@ -57,7 +57,9 @@ void CycleWatchdog::MovePaths(const std::function<void(std::string& path)>& move
 
 // Under the mutex, as what follows.
 void CycleWatchdog::MakeRoom() {
-  for (Watched& each : watched_) each.fired.reserve(each.fired.size() + rules_.size());
+  for (Watched& each : watched_) {
+    for (auto* const rules : {&each.fired, &each.returned}) rules->reserve(rules->size() + rules_.size());
+  }
 }
 
 // Whom nobody asks for anything has no thread.
@@ -127,6 +129,7 @@ void CycleWatchdog::Look(Time now) {
   for (Watched& each : watched_) {
     try {
       Look(each, now);
+      TellReturned(each);
       TellStuck(each, now);
     } catch (...) {
       const auto ends = [](const auto& known) { return known->rule.ends_run; };
@@ -138,7 +141,13 @@ void CycleWatchdog::Look(Time now) {
 void CycleWatchdog::Look(Watched& watched, Time now) {
   const RunningTask::State state = watched.runner->running().Look();
   if (state.element == nullptr || state != watched.state) {
-    Return(watched, now);
+    watched.fired.resize(watched.told);
+    if (std::exchange(watched.told, 0) > 0) {
+      watched.returned.swap(watched.fired);
+      watched.path_of_returned.swap(watched.path);
+      watched.lasted = now - watched.seen;
+    }
+    watched.path.clear();
     watched.state = state;
     watched.seen = now;
     return;
@@ -159,35 +168,34 @@ void CycleWatchdog::TellStuck(Watched& watched, Time now) {
     const StuckRule& rule = watched.fired[watched.told]->rule;
     const auto keep = [&](const std::string& path) { watched.path = path; };
     ScheduledElement::WithPath(watched.state.element, std::ref(keep));
-    Tell(watched, Fault::Kind::kStuck,
-         "has not returned from its cycle for " + DurationText(now - watched.seen) + "; at most " +
-             DurationText(rule.after) + " is allowed",
+    Tell(watched,
+         {.path = watched.path,
+          .message = "has not returned from its cycle for " + DurationText(now - watched.seen) + "; at most " +
+                     DurationText(rule.after) + " is allowed",
+          .kind = Fault::Kind::kStuck},
          rule.on_stuck, rule.ends_run);
   }
 }
 
-void CycleWatchdog::Return(Watched& watched, Time now) {
-  watched.fired.resize(watched.told);
-  if (watched.fired.empty()) return;
-  const std::string message = "has returned from its cycle, after " + DurationText(now - watched.seen);
+void CycleWatchdog::TellReturned(Watched& watched) {
   bool is_told = false;
-  for (; !watched.fired.empty(); watched.fired.erase(watched.fired.begin()), --watched.told) {
-    const auto& call = watched.fired.front()->rule.on_return;
-    if (!is_told || call) Tell(watched, Fault::Kind::kReturned, message, call);
-    is_told = true;
+  for (auto& rules = watched.returned; !rules.empty(); rules.erase(rules.begin())) {
+    const auto& call = rules.front()->rule.on_return;
+    if (std::exchange(is_told, true) && !call) continue;
+    Tell(watched,
+         {.path = watched.path_of_returned,
+          .message = "has returned from its cycle, after " + DurationText(watched.lasted),
+          .is_mended = true,
+          .kind = Fault::Kind::kReturned},
+         call);
   }
-  watched.path.clear();
 }
 
-void CycleWatchdog::Tell(const Watched& watched, Fault::Kind kind, std::string message,
-                         const std::function<void(const Fault&)>& call, bool ends_run) {
-  faults_.Raise(std::make_unique<FaultRecord>(Fault{.path = watched.path,
-                                                    .message = std::move(message),
-                                                    .time = clock_.Now(),
-                                                    .cycle = watched.runner->cycles_begun(),
-                                                    .is_mended = kind == Fault::Kind::kReturned,
-                                                    .kind = kind},
-                                              call, ends_run));
+void CycleWatchdog::Tell(const Watched& watched, Fault fault, const std::function<void(const Fault&)>& call,
+                         bool ends_run) {
+  fault.time = clock_.Now();
+  fault.cycle = watched.runner->cycles_begun();
+  faults_.Raise(std::make_unique<FaultRecord>(std::move(fault), call, ends_run));
 }
 
 std::vector<StuckModule> CycleWatchdog::Stuck() const {

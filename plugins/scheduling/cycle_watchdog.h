@@ -82,8 +82,12 @@ class CycleWatchdog {
     RunningTask::State state = {};
     Time seen{};  // first
     std::string path = {};
-    std::vector<std::shared_ptr<KnownRule>> fired = {};  // with room for all rules
-    std::size_t told = 0;                                // of those
+    // With room for all rules.
+    std::vector<std::shared_ptr<KnownRule>> fired = {}, returned = {};
+    std::size_t told = 0;  // of those that have fired; none, while there is a return to be told of
+    // Of the run that has returned:
+    std::string path_of_returned = {};
+    Duration lasted{};
   };
 
   std::optional<Time> LookAround();
@@ -91,9 +95,8 @@ class CycleWatchdog {
   void Look(Watched& watched, Time now);
   void TellStuck(Watched& watched, Time now);
   [[nodiscard]] bool IsAbout(const KnownRule& known, const std::string& path, const std::string& thread) const;
-  void Return(Watched& watched, Time now);
-  void Tell(const Watched& watched, Fault::Kind kind, std::string message,
-            const std::function<void(const Fault&)>& call, bool ends_run = false);
+  void TellReturned(Watched& watched);
+  void Tell(const Watched& watched, Fault fault, const std::function<void(const Fault&)>& call, bool ends_run = false);
   [[nodiscard]] Duration Interval() const;
   void MakeRoom();
   void Change();

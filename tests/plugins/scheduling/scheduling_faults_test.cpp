@@ -157,6 +157,35 @@ TEST_F(SchedulingFaults, AModuleIsKnownToBeStuckThoughThereIsNoMemoryToTell) {
   WaitUntil("they have returned", [&] { return world.scheduler.StuckModules().empty(); });
 }
 
+// The thread that looks has no memory to tell that it has returned.
+TEST_F(SchedulingFaults, AModuleThatIsStuckOnceMoreIsKnownToBe) {
+  std::atomic<bool> is_stuck{true}, is_short{true};
+  TwoThreads world;
+  world.gone.action = [&](Doing&) {
+    while (is_stuck) std::this_thread::yield();
+  };
+  world.scheduler.AddStuckRule({.of = "/gone", .after = 5ms});
+  std::optional<FaultInjection> injection;
+  world.scheduler.SetStuckListener([&] {
+    if (is_short && !injection) injection.emplace(InjectedFault::kAllocation, 1, 1'000'000);
+    if (!is_short) injection.reset();
+  });
+  MustSucceed(world.scheduler.Start());
+  const auto count = [&] { return world.scheduler.StuckModules().size(); };
+  WaitUntil("it is stuck", [&] { return count() == 1 && !world.scheduler.TakeFaults().empty(); });
+  is_stuck = false;
+  WaitUntil("it has returned", [&] { return count() == 0; });
+  is_stuck = true;
+  WaitUntil("it is stuck once more", [&] { return count() == 1; });
+  is_short = false;
+  std::vector<Fault> told;
+  WaitUntil("all has been told", [&] { return world.scheduler.TakeFaults(told), told.size() == 2; });
+  is_stuck = false;
+  EXPECT_EQ(told[0].kind, Fault::Kind::kReturned);
+  EXPECT_EQ(told[1].kind, Fault::Kind::kStuck);
+  for (const Fault& each : told) EXPECT_EQ(each.path, "/gone");
+}
+
 TEST_F(SchedulingFaults, AThreadThatTheSystemDoesNotGiveIsAnError) {
   TwoThreads world;
   world.scheduler.RequestStop();
