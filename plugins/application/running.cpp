@@ -79,6 +79,10 @@ bool Application::Parts::EndsWithin(Duration longest) {
 }
 
 Duration Application::Parts::RunThreads(std::optional<Duration> limit, const LookAround& look) {
+  const struct Threads {
+    ~Threads() { of.Stop(); }
+    Scheduler& of;
+  } ended_whatever_is_thrown{*scheduler};
   const Clock& clock = runtime().clock();
   const Time begun = clock.Now();
   auto latest = MachineClock::time_point::max();
@@ -92,9 +96,7 @@ Duration Application::Parts::RunThreads(std::optional<Duration> limit, const Loo
     latest = std::min(latest, MachineClock::now() + kGraceTime);
     is_over = MachineClock::now() >= latest;
   }
-  so_far = clock.Now() - begun;
-  scheduler->Stop();
-  return so_far;
+  return clock.Now() - begun;
 }
 
 Result<Duration> Application::Parts::RunCycles(std::optional<Duration> limit, bool waits_for_tasks,

@@ -41,6 +41,12 @@ TEST(RunningFaults, AnApplicationStartsOrStands) {
   }
 }
 
+TEST(RunningFaults, NoThreadRunsOnWhenWhoLooksThrows) {
+  const auto application = LoadCounting(CountingInRealTime());
+  EXPECT_THROW((void)application->Run({.is_over = [](Duration) -> bool { throw 7; }}), int);
+  EXPECT_FALSE(application->scheduler().is_running());
+}
+
 TEST(RunningFaults, AllFaultsAreToldAndHeardOf) {
   constexpr const char* kText = R"(<application name="counting">
   <clock type="simulated" speed="0"/> <thread name="main" period="10ms"/>
