@@ -1,8 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/element/runtime.h"
@@ -28,9 +30,16 @@ class StructureWalk {
   /// Whether there is now what has been confirmed; elements that were found are still there then.
   [[nodiscard]] bool is_current() const { return seen_ == runtime_.revision(); }
   /// The next walk begins at once.
-  void Forget() noexcept;
+  void Forget() noexcept {
+    seen_.reset();
+    under_way_.reset();
+  }
 
  private:
+  static constexpr auto kHold = std::chrono::milliseconds(2);
+  static constexpr int kMostRestarts = 20;
+  static constexpr std::size_t kStride = 64;  // elements between two looks at the clock
+
   Runtime& runtime_;
   std::optional<std::uint64_t> seen_;       // the runtime's revision that has been confirmed
   std::optional<std::uint64_t> walked_;     // that the last walk has come through
@@ -38,5 +47,30 @@ class StructureWalk {
   int restarts_ = 0;
   std::vector<FrameworkElement*> ahead_;  // valid while the runtime has that revision
 };
+
+inline StructureWalk::Outcome StructureWalk::Continue(const std::function<void()>& begin, const Visitor& visit) {
+  if (is_current()) return Outcome::kUnchanged;
+  const auto until = std::chrono::steady_clock::now() + kHold;
+  const std::uint64_t revision = runtime_.revision();
+  const auto before = std::exchange(under_way_, std::nullopt);
+  if (before != revision) {
+    restarts_ = before ? restarts_ + 1 : 0;
+    ahead_ = {&runtime_.root()};
+    begin();
+  }
+  for (std::size_t i = 1; !ahead_.empty(); ++i) {
+    FrameworkElement& element = *ahead_.back();
+    ahead_.pop_back();
+    const auto& children = element.children();
+    if (visit(element)) ahead_.insert(ahead_.end(), children.rbegin(), children.rend());
+    const bool is_late = i % kStride == 0 && std::chrono::steady_clock::now() >= until;
+    if (!is_late || restarts_ > kMostRestarts || ahead_.empty()) continue;
+    under_way_ = revision;
+    return Outcome::kUnderWay;
+  }
+  restarts_ = 0;
+  walked_ = revision;
+  return Outcome::kSeen;
+}
 
 }  // namespace runnel
