@@ -445,8 +445,8 @@ class Remote:
                     if payload.split()[:1] != [b"0"]:
                         raise _error("".join(said))
                     return
-                for line in payload.decode().removesuffix("\n").split("\n") if kind == "out" else ():
-                    found = re.fullmatch(r"(\S+) s  \(measured at \S+ s, \d+ not shown\)  (.*)", line, re.S)
+                if kind == "out":  # one value: its text may have lines, and look like this
+                    found = re.fullmatch(r"(\S+) s  \(measured at \S+ s, \d+ not shown\)  (.*)\n", payload.decode(), re.S)
                     yield float(found[1]), self._value(path, found[2])
         finally:
             writer.close()

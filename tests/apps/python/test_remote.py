@@ -91,3 +91,32 @@ def test_recorded_from_outside(app, served):
             assert reader.wait(30)
             list(reader)
     assert len(runnel.read("far.mcap")["/world/pose"]) >= 1
+
+
+class Speaker(runnel.Module):
+    text = runnel.Parameter("")
+    out = runnel.Output("string")
+
+    def update(self):
+        self.out.publish(self.text)
+
+
+TEXTS = ["one", "next\x85line", "para\u2029graph\u2028line", "a\nb\n", "\n", "a\r\n", "", "none  (3 not shown)",
+         "a\n1.000 s  (measured at 1.000 s, 0 not shown)  b"]
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_texts_come_as_they_are_whatever_is_in_them(text):
+    async def first():
+        async for _, value in remote.values("/speaker/out"):
+            return value
+
+    with runnel.compose("demo", control=True) as app:
+        app.thread("control", 0.01)
+        app.create("speaker", Speaker)
+        app.set("/speaker/text", text)
+        app.start()
+        assert app.reader("/speaker/out").wait(30)
+        with runnel.connect("demo") as remote:
+            assert (remote.read("/speaker/out"), remote["/speaker/text"]) == (text, text)
+            assert asyncio.run(first()) == text
