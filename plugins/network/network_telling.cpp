@@ -180,8 +180,8 @@ std::string NetworkLink::Text() const {
       const std::string misfit = is_writer ? Misfit(mine, other.options) : Misfit(other.options, mine);
       text += std::string(is_writer ? "    read by " : "    written by ") + table_.NameOf(other.participant) + " (" +
               QosText(other.options.qos) + ")" + (misfit.empty() ? "" : ": NOT MATCHED, " + misfit);
-      if (misfit.empty() && is_writer && !offered->HasReader(other.handle))
-        text += ": not matched (yet), for a reason that it does not say";
+      const bool is_matched = is_writer ? offered->HasReader(other.handle) : taken->matched() > 0;
+      if (misfit.empty() && !is_matched) text += ": not matched (yet), for a reason that it does not say";
       const std::string doubt = misfit.empty() ? Doubt(mine, other.options, is_writer) : "";
       const auto delay = taken != nullptr ? taken->least_delay(other.handle) : std::nullopt;
       if (delay) text += ", " + DurationText(*delay) + " on its way by both clocks";
