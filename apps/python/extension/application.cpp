@@ -68,7 +68,13 @@ Open Load(const std::string& kind, const std::string& text, const std::string& f
                   : kind == "text" ? Application::LoadText(text, options, folder)
                                    : Application::Compose(text, options);
     diagnostics = loaded.diagnostics();
-    if (loaded) open->application = loaded.Take();
+    if (loaded) {
+      // The application is the first of the two to end.
+      const auto both = std::make_shared<std::pair<std::shared_ptr<NameChanges>, std::unique_ptr<Application>>>(
+          open->names, loaded.Take());
+      both->second->runtime().AddListener(*both->first);
+      open->application = {both, both->second.get()};
+    }
     if (kind == "compose" && open->application) {
       if (auto ready = open->application->MakeReady(); !ready) diagnostics.Add(ready.error());
     }

@@ -193,6 +193,23 @@ bool Reader::Wait(double seconds) {
 
 std::uint64_t Reader::dropped() const { return dynamic_cast<InputBase&>(tied_.port(Use(*tied_.open()))).dropped(); }
 
+bool Reader::IsAt(const std::string& path) {
+  const std::uint64_t names = tied_.open()->names->count();
+  if (names_ == names) return true;
+  const bool may_wait = this_thread_place.cycles <= 0;
+  const Use use(*tied_.open());
+  const auto look = [&] {
+    std::unique_lock lock(use->runtime().structure_mutex(), std::defer_lock);
+    if (may_wait) lock.lock();
+    if (!may_wait && !lock.try_lock()) return true;
+    const auto found = PathSearch(use->runtime()).FindPort(path, PathKind::kOutput);
+    const bool is_there = found && std::ranges::count(tied_.port(use).incoming(), *found) > 0;
+    if (is_there) names_ = names;
+    return is_there;
+  };
+  return may_wait ? WithoutGil(look) : look();
+}
+
 void BindPorts(py::module_& module) {
   py::class_<Reader, std::shared_ptr<Reader>>(module, "Reader",
                                               R"(Reads a port of an application in this process, also after swaps.
@@ -205,6 +222,7 @@ the value, or an array of it, lives.
            "The next value that has not been given out: of a queue the oldest, else the newest. None if there is none.")
       .def("wait", &Reader::Wait, py::arg("timeout") = 1.0,
            "Waits until there is something new; False if there is not after `timeout` (s, of the machine).")
+      .def("_is_at", &Reader::IsAt)
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__",
            [](Reader& reader) {

@@ -10,6 +10,7 @@
 #include <pybind11/pybind11.h>
 
 #include "apps/python/extension/interpreter.h"
+#include "core/element/element_listener.h"
 #include "core/port/input_base.h"
 #include "core/port/typed_ports.h"
 #include "plugins/application/application.h"
@@ -18,11 +19,23 @@
 
 namespace runnel::python {
 
+/// Counts what may give a path another meaning. Threads: any.
+class NameChanges final : public ElementListener {
+ public:
+  void OnReady(FrameworkElement& /*element*/) override { ++count_; }
+  void OnDeleted(FrameworkElement& /*element*/) override { ++count_; }
+  [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+
+ private:
+  std::atomic<std::uint64_t> count_ = 0;
+};
+
 /// An application, until it is closed: what Python has of it keeps this.
 ///
 /// Threads: with the GIL, but for what is atomic.
 struct OpenApplication {
   std::shared_ptr<Application> application;
+  const std::shared_ptr<NameChanges> names = std::make_shared<NameChanges>();
   std::vector<std::shared_ptr<ClientRecording>> recordings = {};  ///< that have begun and have not ended
   std::thread::id runs_in = {};                                   ///< whose call runs cycles; one at a time
   std::atomic<bool> is_quit = false;                              ///< that call is to end
@@ -116,6 +129,8 @@ class Reader {
   /// Waits without the GIL; false: nothing new has come. Ctrl-C ends it.
   bool Wait(double seconds);
   [[nodiscard]] std::uint64_t dropped() const;
+  /// Whether the path means what this reads. In a cycle, for which changes wait, as it was before them.
+  [[nodiscard]] bool IsAt(const std::string& path);
   [[nodiscard]] double timestamp() const { return ToSeconds(times_.timestamp); }
   [[nodiscard]] double publication_time() const { return ToSeconds(times_.publication_time); }
   [[nodiscard]] const TiedPort& tied() const noexcept { return tied_; }
@@ -124,6 +139,7 @@ class Reader {
   TiedPort tied_;
   ValueTimes times_;
   bool is_waited_for_ = false;
+  std::atomic<std::uint64_t> names_ = 0;  // how many changes of names there had been when it was there
 };
 
 void BindPorts(pybind11::module_& module);

@@ -265,7 +265,7 @@ class Application(_extension.Application):
 
     def delete(self, path):
         """Deletes an element, with all below it."""
-        self._readers.clear()
+        self._readers.clear()  # what undo() would look for
         self._delete(path)
 
     def thread(self, name, period=None, priority=0):
@@ -283,17 +283,14 @@ class Application(_extension.Application):
     def apply(self, text):
         """Changes as text, all or none: "connect /a/out /b/in; set /b/gain 2"."""
         self._apply(text)
-        self._readers.clear()  # names may mean others now
 
     def undo(self):
         """Takes the last change back."""
         self._undo()
-        self._readers.clear()
 
     def redo(self):
         """Makes the change again that was taken back last."""
         self._redo()
-        self._readers.clear()
 
     def reload(self, plugin="python"):
         """Loads a plugin anew, and makes its modules anew; "python": the files of all modules in Python."""
@@ -315,7 +312,7 @@ class Application(_extension.Application):
 
     def read(self, path):
         """The newest value of a port; None if there is none yet. Not copied, but for inputs."""
-        reader = self._readers.get(path)
+        reader = self._kept(path)
         if reader is None:
             reader = self._read_input(path)
             if not isinstance(reader, _extension.Reader):
@@ -323,10 +320,16 @@ class Application(_extension.Application):
             self._readers[path] = reader
         return reader.read()
 
+    def _kept(self, path):
+        # Names may mean others now: anybody can rename and delete. It stays: who takes a deletion back connects it again.
+        reader = self._readers.get(path)
+        return reader if reader is not None and reader._is_at(path) else None
+
     def __getitem__(self, path):
         """A parameter's value, or a port's newest."""
-        if path in self._readers:
-            return self.read(path)
+        reader = self._kept(path)
+        if reader is not None:
+            return reader.read()
         try:
             return self._get(path)
         except _extension.Error as no_parameter:
