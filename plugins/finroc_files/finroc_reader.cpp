@@ -56,10 +56,15 @@ void FinrocReader::Warn(std::string message, std::string hint, const SourcePosit
 
 void FinrocReader::Read(XmlElement root, const fs::path& file) {
   ReadContents(root, application_, file);
-  if (has_thread_) return;
-  FrameworkElement& threads = context_.runtime().Create<Group>(application_, "threads");
-  AssignThread(application_,
-               context_.runtime().Create<ThreadContainer>(threads, "main", ThreadOptions{.period = kUsualPeriod}));
+  if (!has_thread_) AddThread("main", kUsualPeriod, application_);
+}
+
+void FinrocReader::AddThread(const std::string& name, Duration period, FrameworkElement& of) {
+  FrameworkElement* threads = application_.FindChild("threads");
+  if (threads == nullptr) threads = &context_.runtime().Create<Group>(application_, "threads");
+  const ThreadOptions options{.period = period};
+  AssignThread(of, context_.runtime().Create<ThreadContainer>(*threads, FreeName(*threads, name), options));
+  has_thread_ = true;
 }
 
 void FinrocReader::ReadContents(XmlElement root, FrameworkElement& group, const fs::path& file) {
@@ -68,7 +73,9 @@ void FinrocReader::ReadContents(XmlElement root, FrameworkElement& group, const 
   for (const XmlElement child : root.children()) {
     if (child.name() == "element") ReadElement(child, group, file);
   }
-  MakeInterfacePorts(root, group);
+  for (const XmlElement child : root.children()) {
+    if (child.name() == "interface") ReadInterface(child, group);
+  }
   for (const XmlElement child : root.children()) {
     if (child.name() == "edge") {
       ReadEdge(child, group);
@@ -152,17 +159,14 @@ void FinrocReader::ReadGroup(XmlElement element, const std::string& type, Framew
 }
 
 void FinrocReader::MakeThread(XmlElement element, FrameworkElement& group) {
-  ThreadOptions options{.period = kUsualPeriod};
-  const std::string period = StaticParameter(element, "cycle_time");
-  if (const auto duration = ParseDuration(period); duration && *duration > Duration::zero()) {
-    options.period = *duration;
-  } else if (!period.empty()) {
-    Warn("the cycle time '" + period + "' is no duration", "it is 40ms now", element.position(), group);
+  Duration period = kUsualPeriod;
+  const std::string text = StaticParameter(element, "cycle_time");
+  if (const auto duration = ParseDuration(text); duration && *duration > Duration::zero()) {
+    period = *duration;
+  } else if (!text.empty()) {
+    Warn("the cycle time '" + text + "' is no duration", "it is 40ms now", element.position(), group);
   }
-  FrameworkElement* threads = application_.FindChild("threads");
-  if (threads == nullptr) threads = &context_.runtime().Create<Group>(application_, "threads");
-  AssignThread(group, context_.runtime().Create<ThreadContainer>(*threads, FreeName(*threads, group.name()), options));
-  has_thread_ = true;
+  AddThread(group.name(), period, group);
 }
 
 void FinrocReader::ReadModule(XmlElement element, FrameworkElement& parent) {
@@ -187,12 +191,6 @@ void FinrocReader::ReadModule(XmlElement element, FrameworkElement& parent) {
 
 // A port passes on, so that it needs no more than a direction, which the interface is called after,
 // and the type of what it is connected to.
-void FinrocReader::MakeInterfacePorts(XmlElement root, FrameworkElement& group) {
-  for (const XmlElement child : root.children()) {
-    if (child.name() == "interface") ReadInterface(child, group);
-  }
-}
-
 void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) {
   if (&group == &application_) {
     return Warn("an application has no interface", "put what is in it into a group", interface.position(), group);

@@ -31,8 +31,8 @@ class FinrocReader {
   void ReadModule(XmlElement element, FrameworkElement& parent);
   void ReadStaticParameters(XmlElement element, FrameworkElement& module);
   void MakeThread(XmlElement element, FrameworkElement& group);
+  void AddThread(const std::string& name, Duration period, FrameworkElement& of);
   void ReadInterface(XmlElement interface, FrameworkElement& group);
-  void MakeInterfacePorts(XmlElement root, FrameworkElement& group);
   void ReadEdge(XmlElement edge, FrameworkElement& group);
   Port* FindEnd(const XmlAttribute& path, FrameworkElement& group, PathKind end);
   void ReadConversion(XmlElement conversion, FrameworkElement& group, ConnectOptions& options);

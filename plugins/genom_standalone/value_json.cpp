@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "core/base/nearest_name.h"
@@ -17,34 +18,18 @@ Error Wrong(const std::string& path, const std::string& message, std::string hin
   return Error{.message = message, .path = path, .hint = std::move(hint)};
 }
 
+// In the order of their kinds; behind them are the numbers of enumerators.
+using Numbers = std::tuple<bool, std::uint8_t, char, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t,
+                           std::int64_t, std::uint64_t, float, double, std::uint32_t>;
+static_assert(std::tuple_size_v<Numbers> == static_cast<std::size_t>(ValueKind::kEnum) + 1);
+
 // Calls `use` with the number that the value is, or that stands for it.
-template <typename Use>
+template <std::size_t kKind = 0, typename Use>
 auto WithNumber(ValueKind kind, void* value, Use use) {
-  const auto as = [&]<typename Number>(std::type_identity<Number>) { return use(*static_cast<Number*>(value)); };
-  switch (kind) {
-    case ValueKind::kBoolean:
-      return as(std::type_identity<bool>());
-    case ValueKind::kOctet:
-      return as(std::type_identity<std::uint8_t>());
-    case ValueKind::kCharacter:
-      return as(std::type_identity<char>());
-    case ValueKind::kShort:
-      return as(std::type_identity<std::int16_t>());
-    case ValueKind::kUnsignedShort:
-      return as(std::type_identity<std::uint16_t>());
-    case ValueKind::kLong:
-      return as(std::type_identity<std::int32_t>());
-    case ValueKind::kLongLong:
-      return as(std::type_identity<std::int64_t>());
-    case ValueKind::kUnsignedLongLong:
-      return as(std::type_identity<std::uint64_t>());
-    case ValueKind::kFloat:
-      return as(std::type_identity<float>());
-    case ValueKind::kDouble:
-      return as(std::type_identity<double>());
-    default:
-      return as(std::type_identity<std::uint32_t>());  // enumerators, too
+  if constexpr (kKind + 1 < std::tuple_size_v<Numbers>) {
+    if (static_cast<std::size_t>(kind) != kKind) return WithNumber<kKind + 1>(kind, value, use);
   }
+  return use(*static_cast<std::tuple_element_t<kKind, Numbers>*>(value));
 }
 
 // Of a union: which member is set, nullptr if none.

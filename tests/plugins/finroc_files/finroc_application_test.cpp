@@ -206,6 +206,25 @@ TEST_F(FinrocApplication, TellsOfEdgesToOtherProcessesAndOfFlags) {
   EXPECT_TRUE(shop_.Get<Port>("/robot/b/input/value").Sources().empty());
 }
 
+TEST_F(FinrocApplication, KeepsFlagsOfEdgesWhateverAttributesStandBesideThem) {
+  FrameworkElement* const application = Build(R"(<Finstructable defaultname="robot">
+  <element name="A" group="finroc_projects_test" type="Source"/>
+  <element name="B" group="finroc_projects_test" type="Sink"/>
+  <edge comment="before" src="A/Output/Value" dest="B/Input/Value" flags="Optional" more="behind"/>
+  <edge src="A/Output/Value" dest="B/Input/Second" flags="SchedulingNeutral" comment="behind"/>
+  <edge src="A/Output/Value" dest="B/Input/Label" flags="Reconnect|SchedulingNeutral" comment="behind"><conversion operation="ToString"/></edge>
+</Finstructable>)");
+  ASSERT_NE(application, nullptr) << said_;
+  const auto& source = shop_.Get<Port>("/robot/a/output/value");
+  const auto options = [&](const std::string& input) {
+    const ConnectOptions found = source.OptionsTo(shop_.Get<Port>("/robot/b/input/" + input));
+    return std::pair(found.when_present, found.late);
+  };
+  EXPECT_EQ(options("value"), std::pair(true, false));
+  EXPECT_EQ(options("second"), std::pair(false, true));
+  EXPECT_EQ(options("label"), std::pair(true, true));
+}
+
 TEST_F(FinrocApplication, WarnsOfInputsThatNothingFeedsAnyMore) {
   ASSERT_NE(Build(R"(<Finstructable>
   <element name="A" group="finroc_projects_test" type="Filter"/>

@@ -75,5 +75,21 @@ TEST_F(GenomConflictsTest, PortsAndInterruptedServices) {
   EXPECT_THAT(ExcludedBy("writes_too"), ElementsAre("writes"));
 }
 
+// The original accepts these, and nothing keeps them apart.
+TEST(GenomVerdictsOfConflicts, OfAnAsynchronousCodelAndOneThatInterruptsAll) {
+  const auto of = [](const std::string& codel, const std::string& interrupts) {
+    return "ids { long v; }; task t { " + codel + " yield pause::start; }; task u; activity a() { task u; interrupts " +
+           interrupts + "; codel<start> l(out v) yield ether; };";
+  };
+  ExpectVerdictsInComponent({
+      {kWrong, of("async codel<start> k(out v)", "all")},
+      {kWrong, of("async codel<start> k(in v)", "all")},
+      {kRight, of("codel<start> k(out v)", "all")},
+      {kWrong, of("async codel<start> k(out v)", "a")},
+      {kRight, of("async codel<start> k()", "all")},
+  });
+  EXPECT_THAT(WrongsInComponent(of("async codel<start> k(out v)", "all")), testing::HasSubstr("'k'"));
+}
+
 }  // namespace
 }  // namespace runnel::test
