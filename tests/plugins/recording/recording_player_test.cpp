@@ -21,6 +21,15 @@ class RecordingPlayerTest : public RecordingTest {
                                               const PlayerOptions& options = {}) {
     return Player::Prepare(application.runtime, Must(McapReader::Open(file)), options);
   }
+  /// The connections that a file has which is saved meanwhile, of what is played.
+  static std::string Saved(Application& application) {
+    std::string text;
+    for (const ChangeSet& back : application.runtime.root().FindAnnotation<SwitchedByRules>()->all.back()()) {
+      for (const Change& each : back)
+        text += std::get<ConnectPorts>(each).from + " " + std::get<ConnectPorts>(each).to + "\n";
+    }
+    return text;
+  }
 };
 
 TEST_F(RecordingPlayerTest, WhatReadsThePlayedPublishesTheSameBitForBitAtTheSameTimes) {
@@ -94,18 +103,9 @@ TEST_F(RecordingPlayerTest, AFileThatIsSavedMeanwhileKeepsTheConnections) {
   Application recorded, other;
   const std::string file = Record("a.mcap", recorded, seconds(1));
   auto player = Must(Play(other, file, {.ports = {"/source/number"}}));
-  const auto& switched = other.runtime.root().FindAnnotation<SwitchedByRules>()->all;
-  const auto connected = [&] {
-    std::string text;
-    for (const ChangeSet& back : switched.back()()) {
-      for (const Change& each : back)
-        text += std::get<ConnectPorts>(each).from + " " + std::get<ConnectPorts>(each).to + "\n";
-    }
-    return text;
-  };
-  EXPECT_EQ(connected(), "/source/output/number /sink/input/number\n");
+  EXPECT_EQ(Saved(other), "/source/output/number /sink/input/number\n");
   player.reset();
-  EXPECT_EQ(connected(), "");
+  EXPECT_EQ(Saved(other), "");
 }
 
 // As a task of a component that has a thread of its own.
@@ -127,6 +127,45 @@ TEST_F(RecordingPlayerTest, WhatIsBelowAModuleThatRestsRestsToo) {
     other.Run(milliseconds(100));
     EXPECT_EQ(below.cycles, cycles) << ports;
   }
+}
+
+TEST_F(RecordingPlayerTest, AModuleWhosePortsArePlayedMayBeDeletedMeanwhile) {
+  Application recorded;
+  const std::string file = Record("a.mcap", recorded, seconds(1));
+  for (const auto& [ports, published] : std::map<std::string, unsigned>{{"/source/*", 10u}, {"/source/number", 5u}}) {
+    Application other;
+    const auto player = Must(Play(other, file, {.ports = {ports}}));
+    player->Start(Time{});
+    other.Run(milliseconds(50));
+    EXPECT_EQ(player->published(), published);
+    Must(other.runtime.Delete(*other.source));
+    other.Run(milliseconds(50));
+    EXPECT_EQ(player->published(), published) << "its tasks have gone with it: " << ports;
+    EXPECT_FALSE(player->failure());
+    EXPECT_EQ(Saved(other), "") << ports;
+  }
+}
+
+// The player's own task goes on, and says where what cannot be read was to be played.
+TEST_F(RecordingPlayerTest, AnInputThatIsPlayedMayBeDeletedMeanwhile) {
+  auto writer = Must(McapWriter::Create(Path("input.mcap"), {}));
+  const auto schema = Must(writer->AddSchema("double", "jsonschema", kNumberSchema));
+  const auto channel = Must(writer->AddChannel(schema, "/sink/input/number", "json", {}));
+  Must(writer->AddMessage({channel, 1, 0, 0, R"({"value":7})"}));
+  Must(writer->AddMessage({channel, 2, 60'000'000, 0, R"({"value":14})"}));
+  Must(writer->AddMessage({channel, 3, 70'000'000, 0, R"({"value":"oops"})"}));
+  Must(writer->Finish());
+  Application other;
+  const auto player = Must(Play(other, Path("input.mcap")));
+  player->Start(Time{});
+  other.Run(milliseconds(50));
+  EXPECT_EQ(player->published(), 1u);
+  Must(other.runtime.Delete(*other.sink));
+  other.Run(milliseconds(50));
+  EXPECT_EQ(player->published(), 2u);
+  ASSERT_TRUE(player->failure());
+  EXPECT_THAT(player->failure()->ToString(), HasSubstr("/sink/input/number: the value recorded at 0.07"));
+  EXPECT_EQ(Saved(other), "");
 }
 
 TEST_F(RecordingPlayerTest, PlaysAStretchFromLaterOn) {
