@@ -175,22 +175,22 @@ Result<int> AskToRecord(ControlClient& client, const Request& request) {
       [&](std::string_view text) {
         last = text;
         if (is_terminal) {
-          std::cout << "\r\x1b[K" << text.substr(0, text.find('\n')) << std::flush;
+          std::cout << "\r\x1b[K" << Coloured(text.substr(0, text.find('\n')), STDOUT_FILENO) << std::flush;
         }
         return go_on();
       },
       [&](std::string_view text) {
-        std::cerr << (is_terminal ? "\n" : "") << text << std::flush;
+        std::cerr << (is_terminal ? "\n" : "") << Coloured(text, STDERR_FILENO) << std::flush;
         return go_on();
       });
   if (is_terminal) std::cout << "\r\x1b[K";
-  if (code && *code == 0) std::cout << last << std::flush;
+  if (code && *code == 0) std::cout << Coloured(last, STDOUT_FILENO) << std::flush;
   return code;
 }
 
 // Where somebody sits who can be asked.
 bool IsMeant(const std::string& what) {
-  std::cerr << what << "? [y/N] " << std::flush;
+  std::cerr << Coloured(what, STDERR_FILENO) << "? [y/N] " << std::flush;
   std::string answer;
   return std::getline(std::cin, answer) && (answer == "y" || answer == "yes");
 }
