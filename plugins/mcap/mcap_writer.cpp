@@ -122,9 +122,12 @@ Result<void> McapWriter::AddMessage(const McapMessage& message) {
   RUNNEL_CHECK(count != statistics_.messages_of.end(), "a message needs a channel of its file");
   chunk_start_ = chunk_.empty() ? message.log_time : std::min(chunk_start_, message.log_time);
   chunk_end_ = chunk_.empty() ? message.log_time : std::max(chunk_end_, message.log_time);
-  index_[message.channel].push_back({message.log_time, chunk_.size()});
-  AppendMcapRecord(McapOpcode::kMessage, chunk_,
+  record_.clear();
+  AppendMcapRecord(McapOpcode::kMessage, record_,
                    [&](McapBytesWriter& bytes) { MessageHead(bytes, message).Bytes(message.data); });
+  chunk_.reserve(chunk_.size() + record_.size());  // without memory it is neither here nor in the index
+  index_[message.channel].push_back({message.log_time, chunk_.size()});
+  chunk_ += record_;
   McapStatistics& all = statistics_;
   all.start = all.messages == 0 ? message.log_time : std::min(all.start, message.log_time);
   all.end = std::max(all.end, message.log_time);
@@ -199,15 +202,13 @@ Result<void> McapWriter::WriteChunk() {
         .Bytes(compressed_);
   });
   const std::uint64_t chunk_length = bytes.size();
-  const std::uint64_t chunk_offset = offset_;
   std::string offsets;
   AppendMessageIndexes(bytes, offsets);
-  // At one go, so that a file that was never finished ends behind a chunk.
-  if (auto written = Write(bytes); !written) return written;
-  AppendMcapRecord(McapOpcode::kChunkIndex, chunk_indexes_, [&](McapBytesWriter& writer) {
+  record_.clear();
+  AppendMcapRecord(McapOpcode::kChunkIndex, record_, [&](McapBytesWriter& writer) {
     writer.Number(chunk_start_)
         .Number(chunk_end_)
-        .Number(chunk_offset)
+        .Number(offset_)
         .Number(chunk_length)
         .Text(offsets)
         .Number(bytes.size() - chunk_length)
@@ -215,6 +216,10 @@ Result<void> McapWriter::WriteChunk() {
         .Number(static_cast<std::uint64_t>(compressed_.size()))
         .Number(static_cast<std::uint64_t>(chunk_.size()));
   });
+  chunk_indexes_.reserve(chunk_indexes_.size() + record_.size());  // what follows needs no memory
+  // At one go, so that a file that was never finished ends behind a chunk.
+  if (auto written = Write(bytes); !written) return written;
+  chunk_indexes_ += record_;
   ++statistics_.chunks;
   chunk_.clear();
   index_.clear();

@@ -48,6 +48,11 @@ class McapWriter {
   /// Ends the chunk, writes the summary, and closes the file. Idempotent.
   Result<void> Finish();
 
+  /// Precondition: as of AddMessage(). Those that have been given to the system so far.
+  [[nodiscard]] std::uint64_t written_messages(std::uint16_t channel) const {
+    const auto waiting = index_.find(channel);
+    return statistics_.messages_of.at(channel) - (waiting == index_.end() ? 0 : waiting->second.size());
+  }
   /// Bytes that have been given to the system so far.
   [[nodiscard]] std::uint64_t written_bytes() const noexcept { return offset_; }
 

@@ -173,7 +173,7 @@ Result<void> Recorder::Finish() {
     DisconnectProbes();
     EndWriting();
     const std::lock_guard lock(mutex_);
-    for (const auto& each : recorded_) status_.dropped += each->dropped();
+    for (const auto& each : recorded_) status_.dropped += each->dropped() + each->probe->waiting();
     ended.swap(recorded_);
   }
   const std::lock_guard lock(mutex_);

@@ -132,6 +132,8 @@ class Recorder final : public ElementListener, public BackpressureSource {
   // By the writing thread, or by Finish() when that has ended.
   void Write() noexcept;
   void WriteUntilEnd();
+  void EndFile();
+  void CountWritten();
   bool WriteWaiting();
   std::uint64_t WriteWaitingOf(Recorded& recorded);
   Result<void> WriteValue(Recorded& recorded, ValueTimes times);
@@ -164,7 +166,8 @@ class Recorder final : public ElementListener, public BackpressureSource {
   std::unique_ptr<McapWriter> writer_;
   std::map<std::string, std::uint16_t> schemas_;
   std::map<std::string, std::uint16_t> channels_;
-  bool has_begun_ = false;  // else its file goes with it
+  std::vector<std::uint16_t> channels_of_ports_;  // in which each value stands once
+  bool has_begun_ = false;                        // else its file goes with it
   bool has_finished_ = false;
   std::uint64_t written_drops_ = 0;
   std::uint32_t written_messages_ = 0;

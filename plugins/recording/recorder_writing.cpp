@@ -35,12 +35,14 @@ Result<std::uint16_t> FindOrMake(std::map<std::string, std::uint16_t>& known, co
 
 }  // namespace
 
-// Whatever is thrown here ends the recording, and nothing else.
+// Whatever is thrown here ends the recording, and nothing else: the file has its end all the same.
 void Recorder::Write() noexcept {
-  try {
-    WriteUntilEnd();
-  } catch (...) {
-    NoteException();
+  for (const auto step : {&Recorder::WriteUntilEnd, &Recorder::EndFile, &Recorder::CountWritten}) {
+    try {
+      (this->*step)();
+    } catch (...) {
+      NoteException();
+    }
   }
 }
 
@@ -60,11 +62,21 @@ void Recorder::WriteUntilEnd() {
     wake_.wait_for(lock, kLookAgain, [this] { return is_woken_; });
     is_woken_ = false;
   }
-  if (has_failed_) return;
+}
+
+void Recorder::EndFile() {
   Note(WriteDrops());
   Note(writer_->Finish());
+}
+
+// Of a file that has failed, not what was waiting to be written.
+void Recorder::CountWritten() {
+  std::uint64_t written = 0;
+  for (const std::uint16_t channel : channels_of_ports_) written += writer_->written_messages(channel);
   const std::lock_guard lock(mutex_);
   status_.bytes = writer_->written_bytes();
+  status_.dropped += status_.values - std::min(status_.values, written);
+  status_.values = written;
 }
 
 bool Recorder::WriteWaiting() {
@@ -128,11 +140,8 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
       if (!status_.unwritable) status_.unwritable = std::move(error);
       continue;
     }
-    if (auto written = WriteValue(recorded, times); !written) {
-      Note(written);
-      break;
-    }
     ++count;
+    Note(WriteValue(recorded, times));
   }
   return count;
 }
@@ -167,7 +176,9 @@ Result<std::uint16_t> Recorder::ChannelFor(const FoxgloveChannel& form, const st
                                  [&] { return writer_->AddSchema(form.schema_name, kSchemaEncoding, form.schema); });
   if (!schema) return schema.error();
   return FindOrMake(channels_, port + " " + form.topic + " " + form.schema_name, [&] {
-    return writer_->AddChannel(*schema, form.topic, kMessageEncoding, {{is_view ? kViewOfKey : kPortKey, port}});
+    auto added = writer_->AddChannel(*schema, form.topic, kMessageEncoding, {{is_view ? kViewOfKey : kPortKey, port}});
+    if (added && !is_view) channels_of_ports_.push_back(*added);
+    return added;
   });
 }
 

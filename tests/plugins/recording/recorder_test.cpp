@@ -219,7 +219,7 @@ TEST_F(RecorderTest, AFullDiskEndsTheRecordingAndNotTheApplication) {
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   rlimit small = before;
-  small.rlim_cur = 10'000;
+  small.rlim_cur = 800'000;
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
   application.Run(seconds(2000));
   const auto finished = recorder->Finish();
@@ -231,6 +231,14 @@ TEST_F(RecorderTest, AFullDiskEndsTheRecordingAndNotTheApplication) {
   EXPECT_FALSE(recorder->TakeFailure()) << "told once";
   EXPECT_EQ(application.runtime.clock().Now(), Time(seconds(2000)));
   EXPECT_FALSE(Must(McapReader::Open(Path("a.mcap")))->contents().ended_properly);
+  std::uint64_t written = 0;
+  for (const char* port : {"/source/output/number", "/source/output/sample", "/sink/output/sum"}) {
+    written += ValuesOf(Path("a.mcap"), port).size();
+  }
+  const RecordingStatus status = recorder->status();
+  EXPECT_GT(written, 0u);
+  EXPECT_EQ(status.values, written);
+  EXPECT_EQ(status.values + status.dropped, 3 * 200'000u) << "nothing is both or neither";
 }
 
 TEST_F(RecorderTest, OfAKilledProcessAllButTheLastSecondIsThere) {

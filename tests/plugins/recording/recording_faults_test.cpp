@@ -8,6 +8,7 @@
 
 #include "plugins/testing/fault_injection.h"
 #include "tests/plugins/recording/recording_fixture.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
@@ -109,6 +110,38 @@ TEST_F(RecordingFaults, OneThatEndsWithoutMemoryLetsTheApplicationGo) {
       });
 }
 
+TEST_F(RecordingFaults, OneThatCannotTakeUpANewPortHasAllThatCameUntilThenAndAnEnd) {
+  std::unique_ptr<Application> application;
+  std::unique_ptr<Recorder> recorder;
+  int failures = 0;
+  const auto begin = [&] {
+    std::filesystem::remove(Path("a.mcap"));
+    application = std::make_unique<Application>();
+    recorder = Must(Recorder::Start(application->runtime, &application->scheduler, {.file = Path("a.mcap")}));
+    application->Run(milliseconds(50));
+    WaitUntil("all has been taken", [&] { return recorder->status().values == 15; });
+  };
+  begin();
+  AtEachPoint(
+      InjectedFault::kAllocation,
+      [&] {
+        try {
+          auto& late = application->runtime.Create<Source>(application->runtime.root(), "late");
+          (void)application->runtime.MakeReady(late);
+        } catch (const std::bad_alloc&) {
+        }
+      },
+      [&](bool) {
+        failures += !recorder->Finish();
+        ASSERT_EQ(ValuesOf(Path("a.mcap"), "/source/output/number").size(), 5u);
+        ASSERT_EQ(recorder->status().values, 15u) << "of three ports";
+        ASSERT_TRUE(Must(McapReader::Open(Path("a.mcap")))->contents().ended_properly);
+        recorder.reset();
+        begin();
+      });
+  EXPECT_GT(failures, 5);
+}
+
 TEST_F(RecordingFaults, OneThatCannotWriteOnLetsTheApplicationGoOn) {
   bool fails = true;
   int failures = 0;
@@ -127,11 +160,13 @@ TEST_F(RecordingFaults, OneThatCannotWriteOnLetsTheApplicationGoOn) {
     fails = recorder->TakeFailure().has_value();  // of a value, too, which is left out
     failures += fails;
     ASSERT_TRUE(finished || fails);
+    const RecordingStatus status = recorder->status();
     recorder.reset();
     ASSERT_TRUE(source.out.outgoing().empty());
     ASSERT_EQ(source.out.publications(), 10u);
     const auto values = ValuesOf(file, "/source/output/out");
     ASSERT_LE(values.size(), 10u);
+    ASSERT_EQ(status.values, values.size());
     if (!fails) {
       ASSERT_EQ(values.size(), 10u);
     }
