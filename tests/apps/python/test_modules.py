@@ -280,6 +280,41 @@ def test_cycles_of_modules_in_cpp_run_while_python_keeps_its_lock(xml):
         assert seen >= 20
 
 
+class Waiting(runnel.Module):
+    period = 0.001
+    updates = 0
+
+    def update(self):
+        Waiting.updates += 1
+
+
+def test_on_a_real_clock_modules_in_cpp_do_not_wait_for_one_in_python_that_waits_for_the_lock():
+    Waiting.updates = 0
+    before = sys.getswitchinterval()
+    with runnel.compose("demo", clock="real") as app:
+        app.thread("control", 0.005)
+        app.create("world", "simulation/world", world="rooms")
+        app.create("waiting", Waiting)
+        reader = app.reader("/world/pose", queue=10)
+        app.start()
+        end = time.monotonic() + 60
+        while Waiting.updates < 3 and time.monotonic() < end:
+            time.sleep(0.001)
+        sys.setswitchinterval(1000)
+        try:
+            updates, seen = Waiting.updates, 0
+            while seen < 20 and time.monotonic() < end:
+                seen += len(list(reader))
+            assert updates >= 3 and Waiting.updates <= updates + 1, "it waits, but for what it has asked for before"
+            updates = Waiting.updates
+        finally:
+            sys.setswitchinterval(before)
+        assert seen >= 20
+        while Waiting.updates == updates and time.monotonic() < end:
+            time.sleep(0.001)
+        assert Waiting.updates > updates
+
+
 def test_an_application_that_nobody_closes_ends_when_it_is_let_go_of():
     app = runnel.compose("numbers")
     app.create("counter", Counter)
