@@ -110,6 +110,19 @@ TEST_F(Recording, IsReplayedWithoutItsApplication) {
   }
 }
 
+TEST_F(Recording, IsReplayedIntoWhatComesWithRunnelByItsName) {
+  RecordTheDemo();
+  const std::string replay = "replay " + Path("run.mcap") + " ";
+  const Ended ended = Runnel(replay + "bug_demo world=" + kWorlds + "one_obstacle.xml --rate 0 --quiet" + kSensors +
+                             "--record " + Path("again.mcap"));
+  EXPECT_EQ(ended.code, kDone) << ended.text;
+  EXPECT_THAT(ended.text, HasSubstr("values at 4 ports"));
+  EXPECT_EQ(ValuesOf(Path("again.mcap"), kTwist), ValuesOf(Path("run.mcap"), kTwist));
+  const Ended wrong = Runnel(replay + "bug_demos --rate 0");
+  EXPECT_EQ(wrong.code, kBadInput);
+  EXPECT_THAT(wrong.text, HasSubstr("bug_demos"));
+}
+
 TEST_F(Recording, PlaysAStretchFromLaterOn) {
   RecordTheDemo();
   const Ended ended = Runnel("replay " + Path("run.mcap") + " " + kDemo +
