@@ -38,17 +38,17 @@ void NetworkLink::Follow() {
     wanted = FindOffers();  // anew: the lock has been free
     // Those whose ports have gone stay, for these may come back; but not under a name that nobody offers any more, nor under
     // one of before, which a pattern may fit, too.
-    EraseWhere(offered_, [&](const auto& each) {
-      const bool is_wanted = std::ranges::any_of(wanted, [&](const Wanted& one) {
+    const auto find = [&](const std::unique_ptr<OfferedPort>& each) {
+      return std::ranges::find_if(wanted, [&](const Wanted& one) {
         return one.path == each->path() && one.options.topic == each->options().topic;
       });
+    };
+    EraseWhere(offered_, [&](const auto& each) {
       const bool is_there = runtime_.root().Find(each->path()).has_value();
-      return !is_wanted && (is_there || each->is_renamed() || !IsMeant(each->path(), each->options()));
+      return find(each) == wanted.end() && (is_there || each->is_renamed() || !IsMeant(each->path(), each->options()));
     });
     for (const auto& each : offered_) {
-      const auto found = std::ranges::find_if(wanted, [&](const Wanted& one) {
-        return one.path == each->path() && one.options.topic == each->options().topic;
-      });
+      const auto found = find(each);
       each->Attach(found == wanted.end() ? nullptr : found->port);
       each->set_renamed(false);  // it may have been called so again meanwhile
     }
@@ -180,16 +180,11 @@ void NetworkLink::FollowTakes() {
     const std::lock_guard lock(runtime_.structure_mutex());
     takes = element_.takes();
     for (const auto& each : takes) {
-      const auto is_it = [&](const auto& one) { return &one->output() == each.output; };
-      const auto other =
-          std::ranges::find_if(taken_, [&](const auto& one) { return is_it(one) && one->options() != each.options; });
-      if (other != taken_.end()) {
-        before.push_back(std::move(*other));
-        taken_.erase(other);
-      }
-      const bool is_there = std::ranges::any_of(taken_, is_it);
-      if (!is_there)
-        taken_.push_back(std::make_unique<TakenPort>(*each.output, each.options, each.form, clock_, table_));
+      auto known = std::ranges::find(taken_, each.output, [](const auto& one) { return &one->output(); });
+      if (known != taken_.end() && (*known)->options() == each.options) continue;
+      before.push_back(std::make_unique<TakenPort>(*each.output, each.options, each.form, clock_, table_));
+      if (known == taken_.end()) known = taken_.emplace(known);
+      before.back().swap(*known);
     }
     for (const auto& each : taken_) each->NoteConnections();
   }

@@ -211,7 +211,7 @@ void NetworkLink::Run() noexcept {
     } catch (...) {
       element_.log().Error("the network: {}", DescribeException());
       wake_->WaitUntil(SteadyClock().Now() + kAfterFailure);  // it may be so each time, as without memory
-      must_look_ = true;  // without a notification, which would end the next wait
+      must_look_ = true;                                      // without a notification, which would end the next wait
     }
   }
 }

@@ -46,24 +46,22 @@ std::string NetworkLink::Picture() {
           .Add("topic", each->options().topic)
           .AddTextOrNull("misfit", readers.misfit)
           .Add("is_stopped", each->is_stopped());
-      AppendList(readers.names, object.Key("readers"),
-                 [](const std::string& name, std::string& to) { AppendJsonString(name, to); });
+      AppendList(readers.names, object.Key("readers"), AppendJsonString);
     });
     AppendList(taken_, json.Key("takes"), [&](const auto& each, std::string& text) {
       const Partner writers = PartnerOf(each->endpoint(), false);
       for (const WireEndpoint& writer : table_.Partners(each->endpoint().topic, true)) {
         const auto delay = each->least_delay(writer.handle);
         if (!delay) continue;
-        const auto [known, is_new] = delays.emplace(writer.participant, *delay);
-        if (!is_new) known->second = std::min(known->second, *delay);
+        Duration& least = delays.emplace(writer.participant, *delay).first->second;
+        least = std::min(least, *delay);
       }
       JsonObject object(text);
       object.Add("port", each->output().path())
           .Add("topic", each->options().topic)
           .AddTextOrNull("misfit", writers.misfit.empty() ? Masters(*each) : writers.misfit);
       object.Add("is_wanted", !each->output().outgoing().empty());
-      AppendList(writers.names, object.Key("writers"),
-                 [](const std::string& name, std::string& to) { AppendJsonString(name, to); });
+      AppendList(writers.names, object.Key("writers"), AppendJsonString);
       object.AddTextOrNull("owner", each->Owner().name);
     });
     std::vector<WireMember> others = table_.members();

@@ -19,8 +19,7 @@ namespace {
 constexpr std::size_t kRoomForImages = 4'194'304;
 constexpr const char* kHasMissed =
     "for a moment there was no memory, so that somebody, or what somebody writes or reads, may not be known here until "
-    "this "
-    "application, or the other one, is started again";
+    "this application, or the other one, is started again";
 
 std::string Doubt(const WireEndpointOptions& own, const WireEndpointOptions& other, bool is_writer) {
   const std::string doubt =
@@ -52,12 +51,11 @@ void NetworkLink::TellTroubles() {
   }
   TellMissing();
   TellMasters();
-  for (const auto& each : offered_) {
-    if (const auto error = each->TakeError()) Trouble(each->path(), *error);
-  }
-  for (const auto& each : taken_) {
-    if (const auto error = each->TakeError()) Trouble(each->output().path(), *error);
-  }
+  const auto tell_error = [&](auto& port, const std::string& path) {
+    if (const auto error = port.TakeError()) Trouble(path, *error);
+  };
+  for (const auto& each : offered_) tell_error(*each, each->path());
+  for (const auto& each : taken_) tell_error(*each, each->output().path());
   if (table_.has_missed()) Trouble("members", {.message = kHasMissed});
   for (const std::string& why : table_.refusals()) new_troubles_["keys " + why] = "not let in, " + why;
   for (const auto& [of, text] : new_troubles_) {
@@ -82,9 +80,7 @@ void NetworkLink::TellMissing() {
     const std::string path = "/" + each->options().topic;
     const auto member = MemberOfPath(table_, path);
     if (!member) continue;
-    const auto known = missing_.find(topic);
-    const Time since = known != missing_.end() ? known->second : now;
-    missing[topic] = since;
+    const Time since = missing[topic] = missing_.try_emplace(topic, now).first->second;
     if (now - since < kPatience) {
       is_missing_young_ = true;
     } else {
@@ -113,9 +109,7 @@ void NetworkLink::TellMembers() {
       now[each.id] = name;
       continue;
     }
-    const auto known = strangers_.find(each.id);
-    const Time since = known != strangers_.end() ? known->second : SteadyClock().Now();
-    strangers[each.id] = since;
+    const Time since = strangers[each.id] = strangers_.try_emplace(each.id, SteadyClock().Now()).first->second;
     if (SteadyClock().Now() - since > kPatience) {
       Trouble("keys " + name,
               {.message = name + " is there, but shows no keys that are trusted here, or does not trust these"});

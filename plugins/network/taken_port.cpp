@@ -80,10 +80,9 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
   const WireQos qos = WantedQos(writers);
   {
     const std::lock_guard lock(mutex_);
-    for (Writer& each : writers_) each.is_looked_up = false;
     ForgetGone(writers);
     for (const WireEndpoint& each : writers) {
-      Writer& writer = Find(each.handle);
+      Writer& writer = Find(each.handle, true);
       if (!qos.is_latched) writer.passed_over = writer.kept;
     }
   }
@@ -111,9 +110,9 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
 }
 
 // The table has been told of it before its first value comes.
-TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
+TakenPort::Writer& TakenPort::Find(std::uint64_t handle, bool looks_again) {
   auto known = std::ranges::find(writers_, handle, &Writer::handle);
-  if (known != writers_.end() && known->is_looked_up) return *known;
+  if (known != writers_.end() && !looks_again) return *known;
   const auto endpoint = table_.FindWriter(handle);
   if (known == writers_.end()) {
     ForgetGone(table_.Partners(endpoint_.topic, true));
@@ -127,7 +126,6 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
     known = writers_.insert(writers_.end(), std::move(writer));
   }
   Writer& writer = *known;
-  writer.is_looked_up = true;
   if (endpoint) {
     writer.id = endpoint->id;
     writer.fits = TypeMisfit(endpoint->options.user_data, endpoint_.user_data).empty();

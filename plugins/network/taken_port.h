@@ -97,13 +97,12 @@ class TakenPort {
     std::string application = {};     // of Runnel that has it; else ""
     WriterClock clock = {};
     Time came = {};                        // when its last value did, on the machine's clock
-    bool is_looked_up = true;              // since Follow()
     std::size_t kept = 0;                  // values that it delivers again; 0: it is not latched
     std::deque<Delivered> delivered = {};  // the last of them, in their order; the last one of who is not latched
     std::size_t passed_over = 0;           // values, at most, that it kept and this reader did not ask for
     std::deque<Delivered> before = {};     // of those, by the reader of before, or before the link was lost
   };
-  [[nodiscard]] Writer& Find(std::uint64_t handle);
+  [[nodiscard]] Writer& Find(std::uint64_t handle, bool looks_again = false);
   void Take(const WireSample& sample) noexcept;
   [[nodiscard]] bool ChoosesItself() const noexcept { return options_.is_exclusive && !endpoint_.qos.is_exclusive; }
   [[nodiscard]] bool IsHeard(std::uint64_t writer);

@@ -1,6 +1,7 @@
 #include "plugins/network_discovery/discovery_table.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "core/base/characters.h"
 #include "plugins/cdr_values/cdr_reader.h"
@@ -82,16 +83,14 @@ std::vector<std::string> DiscoveryTable::refusals() const {
 
 std::vector<WireMember> DiscoveryTable::members() const {
   const std::lock_guard lock(mutex_);
-  std::vector<WireMember> all;
-  for (const auto& [id, member] : members_) all.push_back(member);
-  return all;
+  const auto all = std::views::values(members_);
+  return {all.begin(), all.end()};
 }
 
 std::vector<WireEndpoint> DiscoveryTable::endpoints() const {
   const std::lock_guard lock(mutex_);
-  std::vector<WireEndpoint> all;
-  for (const auto& [id, endpoint] : endpoints_) all.push_back(endpoint);
-  return all;
+  const auto all = std::views::values(endpoints_);
+  return {all.begin(), all.end()};
 }
 
 std::vector<WireEndpoint> DiscoveryTable::Partners(const std::string& topic, bool writers) const {

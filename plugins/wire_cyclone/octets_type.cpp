@@ -29,10 +29,13 @@ ddsi_serdata* Make(const ddsi_sertype* type, ddsi_serdata_kind kind, std::shared
 }
 
 // Nothing may be thrown through Cyclone DDS, which is written in C. What there is no memory for is lost, as what is malformed.
-template <typename Do>
-ddsi_serdata* OrNone(const Do& make) noexcept {
+template <typename Fill>
+ddsi_serdata* Filled(const ddsi_sertype* type, ddsi_serdata_kind kind, std::size_t size, const Fill& fill) noexcept {
   try {
-    return make();
+    auto octets = std::make_shared<Octets>();
+    octets->reserve(size);
+    fill(*octets);
+    return octets->size() == size ? Make(type, kind, std::move(octets)) : nullptr;
   } catch (...) {
     return nullptr;
   }
@@ -40,31 +43,25 @@ ddsi_serdata* OrNone(const Do& make) noexcept {
 
 // What has come: pieces that may overlap, of which those before have been taken.
 ddsi_serdata* FromPieces(const ddsi_sertype* type, ddsi_serdata_kind kind, const nn_rdata* piece, std::size_t size) {
-  return OrNone([&]() -> ddsi_serdata* {
-    auto octets = std::make_shared<Octets>();
-    octets->reserve(size);
+  return Filled(type, kind, size, [&](Octets& octets) {
     for (; piece != nullptr; piece = piece->nextfrag) {
       const std::size_t end = std::min<std::size_t>(piece->maxp1, size);
-      if (piece->min > octets->size()) return nullptr;
-      if (end <= octets->size()) continue;
+      if (piece->min > octets.size()) return;
+      if (end <= octets.size()) continue;
       const auto* const payload =
           reinterpret_cast<const std::byte*>(NN_RMSG_PAYLOADOFF(piece->rmsg, NN_RDATA_PAYLOAD_OFF(piece)));
-      octets->insert(octets->end(), payload + (octets->size() - piece->min), payload + (end - piece->min));
+      octets.insert(octets.end(), payload + (octets.size() - piece->min), payload + (end - piece->min));
     }
-    return octets->size() == size ? Make(type, kind, std::move(octets)) : nullptr;
   });
 }
 
 ddsi_serdata* FromVector(const ddsi_sertype* type, ddsi_serdata_kind kind, ddsrt_msg_iovlen_t count,
                          const ddsrt_iovec_t* parts, std::size_t size) {
-  return OrNone([&]() -> ddsi_serdata* {
-    auto octets = std::make_shared<Octets>();
-    octets->reserve(size);
-    for (ddsrt_msg_iovlen_t i = 0; i < count && octets->size() < size; ++i) {
+  return Filled(type, kind, size, [&](Octets& octets) {
+    for (ddsrt_msg_iovlen_t i = 0; i < count && octets.size() < size; ++i) {
       const auto* const begin = static_cast<const std::byte*>(parts[i].iov_base);
-      octets->insert(octets->end(), begin, begin + std::min<std::size_t>(parts[i].iov_len, size - octets->size()));
+      octets.insert(octets.end(), begin, begin + std::min<std::size_t>(parts[i].iov_len, size - octets.size()));
     }
-    return octets->size() == size ? Make(type, kind, std::move(octets)) : nullptr;
   });
 }
 
