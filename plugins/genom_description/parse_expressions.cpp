@@ -41,25 +41,21 @@ Constant Parser::BinaryExpression(int binding) {
     if (found == nullptr || (found->operation == '>' && angles_ > 1)) return left;
     reader_.Take();
     const Constant right = BinaryExpression(found->binding + 1);
-    Computed result = Compute(left, found->operation, right);
-    if (!result.error.empty()) {
-      problems_.Add(mark.place, result.error);
-      result.value = {.kind = Constant::Kind::kUnsigned, .whole = 1};
-    }
-    left = std::move(result.value);
+    left = ValueOf(Compute(left, found->operation, right), mark.place);
   }
+}
+
+Constant Parser::ValueOf(Computed result, Place place) {
+  if (result.error.empty()) return std::move(result.value);
+  problems_.Add(place, result.error);
+  return {.kind = Constant::Kind::kUnsigned, .whole = 1};
 }
 
 Constant Parser::UnaryExpression() {
   const Token mark = reader_.Peek();
   if (!mark.IsMark("-") && !mark.IsMark("+") && !mark.IsMark("~")) return PrimaryExpression();
   reader_.Take();
-  Computed result = Compute(mark.text[0], PrimaryExpression());
-  if (!result.error.empty()) {
-    problems_.Add(mark.place, result.error);
-    result.value = {.kind = Constant::Kind::kUnsigned, .whole = 1};
-  }
-  return result.value;
+  return ValueOf(Compute(mark.text[0], PrimaryExpression()), mark.place);
 }
 
 Constant Parser::PrimaryExpression() {

@@ -111,6 +111,8 @@ class Parser {
   // parse_expressions.cpp
   Constant Expression();
   Constant BinaryExpression(int binding);
+  /// After a mistake there, 1.
+  Constant ValueOf(Computed result, Place place);
   Constant UnaryExpression();
   Constant PrimaryExpression();
   Constant NamedConstant();

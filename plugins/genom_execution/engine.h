@@ -99,6 +99,19 @@ class Engine {
   Pass RunControl();
   /// `is_forced`: also if a periodic task is not due, so that it comes to an end after Stop().
   Pass RunTask(std::size_t task, Time now, bool is_forced = false);
+  /// Everything that can be done at this time, by one thread: the control task, and those tasks that are `its`. What never
+  /// pauses goes on when it is called the next time.
+  template <typename IsOne>
+  void RunAll(Time now, bool is_forced, const IsOne& its) {
+    for (int round = 0; round < kMostRounds; ++round) {
+      const std::uint64_t before = changes();
+      (void)RunControl();
+      bool goes_on = false;
+      for (std::size_t i = 0; i < tasks_.size(); ++i) goes_on |= its(i) && RunTask(i, now, is_forced) == Pass::kAgain;
+      if ((!goes_on && changes() == before) || is_ended()) return;
+    }
+  }
+  static constexpr int kMostRounds = 1000;
   /// All that is under way is to end.
   void Stop() noexcept;
 

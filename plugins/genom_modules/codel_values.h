@@ -14,17 +14,6 @@ namespace runnel::genom_execution {
 namespace internal {
 
 template <typename View>
-inline constexpr bool kIsArray = false;
-template <typename E, std::size_t count>
-inline constexpr bool kIsArray<std::array<E, count>> = true;
-
-template <typename View>
-inline constexpr bool kIsList = false;
-template <typename E, std::size_t most>
-inline constexpr bool kIsList<BoundedList<E, most>> = true;
-template <typename E>
-inline constexpr bool kIsList<OwnedList<E>> = true;
-template <typename View>
 inline constexpr bool kIsPresence = false;
 template <typename E>
 inline constexpr bool kIsPresence<Presence<E>> = true;
@@ -41,13 +30,13 @@ template <typename View, typename Value>
 void ToView(View& view, const Value& value) {
   if constexpr (std::is_same_v<View, OwnedText>) {
     view.Set(value);
-  } else if constexpr (internal::kIsList<View>) {
+  } else if constexpr (requires(View list) { list.Resize(1); }) {
     if (!view.Resize(value.size())) return;
     for (std::size_t i = 0; i < value.size(); ++i) ToView(view.buffer[i], value[i]);
   } else if constexpr (internal::kIsPresence<View>) {
     view.is_present = value._present;
     ToView(view.value, value._value);
-  } else if constexpr (internal::kIsArray<View>) {
+  } else if constexpr (requires(View array) { array.size(); }) {
     for (std::size_t i = 0; i < view.size(); ++i) ToView(view[i], value[i]);
   } else {
     internal::CheckThatTheyAreAlike<View, Value>();
@@ -59,7 +48,7 @@ template <typename View, typename Value>
 void ToCodel(Value& value, const View& view) {
   if constexpr (std::is_same_v<View, OwnedText>) {
     value = view.view();
-  } else if constexpr (internal::kIsList<View>) {
+  } else if constexpr (requires(View list) { list.Resize(1); }) {
     value.resize(view.length);
     for (std::size_t i = 0; i < value.size(); ++i) {
       if constexpr (std::is_same_v<typename Value::value_type, bool>) {  // those of std::vector<bool> are no lvalues
@@ -71,7 +60,7 @@ void ToCodel(Value& value, const View& view) {
   } else if constexpr (internal::kIsPresence<View>) {
     value._present = view.is_present;
     ToCodel(value._value, view.value);
-  } else if constexpr (internal::kIsArray<View>) {
+  } else if constexpr (requires(View array) { array.size(); }) {
     for (std::size_t i = 0; i < view.size(); ++i) ToCodel(value[i], view[i]);
   } else {
     internal::CheckThatTheyAreAlike<View, Value>();

@@ -20,8 +20,6 @@ using genom_execution::Request;
 
 namespace {
 
-// A component that never pauses goes on in the next cycle.
-constexpr int kMostRounds = 1000;
 // Of a cycle for codels of other threads. They are short, or they are asynchronous ones, which are not waited for.
 constexpr Duration kPatience = std::chrono::milliseconds(20);
 // For those that another component is to take the place of: cycles are held meanwhile.
@@ -140,7 +138,24 @@ void ComponentModule::CheckPeriods() const {
   }
 }
 
+void ComponentModule::AskAtOnce(ModulePart& part, const std::function<bool()>& has_asked) {
+  const runnel::internal::FlagHold hold(is_busy_, true);
+  if (!engine_ || !has_run_ || is_broken_ || is_settled_) return;
+  do {
+    part.BeforePasses(*engine_, now());
+    try {
+      (void)engine_->RunControl();
+    } catch (...) {
+      NoteFault("");
+    }
+    part.AfterPasses();
+  } while (!has_asked());
+  own_part_.target.Wake();
+}
+
 void ComponentModule::Update() {
+  const runnel::internal::FlagHold hold(is_busy_, false);
+  if (!hold.has()) return;
   if (is_broken_.load(std::memory_order_acquire)) {
     if (has_fault_.load(std::memory_order_acquire)) throw std::runtime_error(fault_);
     return;
@@ -196,33 +211,28 @@ void ComponentModule::RunOwnTask(std::size_t task, Time time) noexcept {
   if (is_broken_.load(std::memory_order_acquire)) return;
   has_run_.store(true, std::memory_order_relaxed);
   try {
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < Engine::kMostRounds; ++round) {
       const std::uint64_t changes = engine_->changes();
       const Pass pass = engine_->RunTask(task, time);
       if (pass == Pass::kWaiting || (pass == Pass::kIdle && engine_->changes() == changes)) return;
     }
   } catch (...) {
-    if (!is_fault_taken_.test_and_set(std::memory_order_relaxed)) {
-      fault_ = std::string("task '") + component_.tasks[task].name + "': " + DescribeException();
-      has_fault_.store(true, std::memory_order_release);
-    }
-    is_broken_.store(true, std::memory_order_release);
-    own_part_.target.Wake();
+    NoteFault(std::string("task '") + component_.tasks[task].name + "': ");
   }
 }
 
-void ComponentModule::RunPasses(Time time, bool is_forced) {
-  for (int round = 0; round < kMostRounds; ++round) {
-    const std::uint64_t changes = engine_->changes();
-    (void)engine_->RunControl();
-    bool goes_on = false;
-    for (std::size_t i = 0; i < own_tasks_.size(); ++i) {
-      if (own_tasks_[i] != nullptr && !is_forced) continue;
-      goes_on |= engine_->RunTask(i, time, is_forced) == Pass::kAgain;
-    }
-    if (!goes_on && engine_->changes() == changes) return;
-    if (is_forced && engine_->is_ended()) return;
+// Of the exception that is being handled, for the next cycle.
+void ComponentModule::NoteFault(const std::string& where) noexcept {
+  if (!is_fault_taken_.test_and_set(std::memory_order_relaxed)) {
+    fault_ = where + DescribeException();
+    has_fault_.store(true, std::memory_order_release);
   }
+  is_broken_.store(true, std::memory_order_release);
+  own_part_.target.Wake();
+}
+
+void ComponentModule::RunPasses(Time time, bool is_forced) {
+  engine_->RunAll(time, is_forced, [&](std::size_t task) { return is_forced || own_tasks_[task] == nullptr; });
 }
 
 void ComponentModule::EndActivities(Time deadline) {

@@ -25,7 +25,6 @@ using genom_execution::Pass;
 namespace {
 
 constexpr int kDone = 0, kFailed = 1, kBadArguments = 2;
-constexpr int kMostRounds = 1000;  // of a component that never pauses, before time goes on
 
 LineServer* g_server = nullptr;  // for signal handlers
 volatile std::sig_atomic_t g_is_told_to_end = 0;
@@ -117,18 +116,6 @@ class TaskThreads {
   std::vector<std::thread> threads_;
 };
 
-// As a component does in cycles of Runnel: everything that can be done at this time is done.
-void RunAll(Engine& engine, Time time, bool is_forced) {
-  for (int round = 0; round < kMostRounds; ++round) {
-    const std::uint64_t changes = engine.changes();
-    (void)engine.RunControl();
-    bool goes_on = false;
-    for (std::size_t i = 0; i < engine.tasks().size(); ++i)
-      goes_on |= engine.RunTask(i, time, is_forced) == Pass::kAgain;
-    if ((!goes_on && engine.changes() == changes) || engine.is_ended()) return;
-  }
-}
-
 // False: something was thrown, as there is no memory; it is told.
 bool Serve(LineServer& lines, RequestServer& server) {
   try {
@@ -153,9 +140,10 @@ int Report(const Engine& engine) {
 int RunStepped(const StandaloneComponent& component, LineServer& lines) {
   Engine engine(component.table, {.ids = component.ids, .is_single_threaded = true});
   Time time{};
+  const auto all = [](std::size_t) { return true; };
   const auto step = [&](Duration by) {
     time += by;
-    RunAll(engine, time, false);
+    engine.RunAll(time, false, all);
     return time;
   };
   bool is_well = true;
@@ -165,7 +153,7 @@ int RunStepped(const StandaloneComponent& component, LineServer& lines) {
       is_well = Serve(lines, server);
     }
     engine.Stop();
-    for (int round = 0; round < kMostRounds && !engine.is_ended(); ++round) RunAll(engine, time, true);
+    for (int i = 0; i < Engine::kMostRounds && !engine.is_ended(); ++i) engine.RunAll(time, true, all);
     server.Answer();
     lines.Flush();
     if (!engine.is_ended()) {

@@ -45,7 +45,11 @@ TEST_F(GenomDemo, IsSentInterruptedResumedAndSwapped) {
   const Ended refused = Runnel("call /guide/set_limits '{limits: {speed: 3, turn_rate: 1}}'");
   EXPECT_EQ(refused.code, kRunFailed);
   EXPECT_THAT(refused.text, HasSubstr("guide::too_far {limit: 1}"));
+  const Ended unset = Runnel("set /guide/set_limits '{speed: 3, turn_rate: 1}'");
+  EXPECT_NE(unset.code, kDone);
+  EXPECT_THAT(unset.text, HasSubstr("refuses the value: guide::too_far {limit: 1}"));
   EXPECT_EQ(Runnel("set /guide/set_limits '{speed: 0.3, turn_rate: 1.2}'").code, kDone);
+  EXPECT_THAT(Runnel("get /guide/output/genom_state").text, HasSubstr("component: \"guide\""));
   EXPECT_EQ(Runnel("call /guide/set_limits '{limits: {speed: 0.35, turn_rate: 1.2}}'").code, kDone);
   EXPECT_THAT(Limits("{speed: 0.35, turn_rate: 1.2}"), HasSubstr("{speed: 0.35, turn_rate: 1.2}"));
   EXPECT_EQ(Runnel("call /guide/set_limits").code, kDone) << "all arguments have defaults";

@@ -43,6 +43,18 @@ TEST_F(ComponentLifeTest, EndsActivitiesBeforeAnotherTakesItsPlaceAndBeginsAfres
   EXPECT_THAT(Outcome("wait", *again), testing::Not(testing::AnyOf("pending", HasSubstr("interrupted"))));
 }
 
+// It runs in a thread that no hold of cycles keeps.
+TEST_F(ComponentLifeTest, WaitsForAnAsynchronousCodelBeforeAnotherTakesItsPlace) {
+  static const SteadyClock clock;  // outlives the rig; on others a cycle waits for it anyway
+  rig.runtime.set_clock(clock);
+  rig.RunCycles(2);
+  const auto grind = Begin("grind", "{times: 1, microseconds: 200000}");
+  rig.RunCycles(2);
+  ASSERT_EQ(Outcome("grind", *grind), "pending");
+  rig.module.FindAnnotation<BeforeHandOver>()->settle();
+  EXPECT_EQ(Outcome("grind", *grind), "1");
+}
+
 // Also if another was to take its place, and has not.
 TEST_F(ComponentLifeTest, StaysKilled) {
   rig.RunCycles(2);

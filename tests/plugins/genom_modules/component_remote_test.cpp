@@ -1,5 +1,6 @@
 // Components that call each other's services: one whose codels are in C, and one in C++, in threads of one application.
 
+#include "core/module/hand_over.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/scheduling/scheduler.h"
 #include "tests/plugins/genom_modules/component_fixture.h"
@@ -85,6 +86,25 @@ TEST_F(ComponentRemoteTest, ComesBackFromOneThatDoesNotAnswer) {
       kLongEnough);
   ASSERT_TRUE(rig.runtime.Delete(rig.module));
   EXPECT_NE(call->Poll(clock_.Now()), CallStatus::kPending) << "the component has come to its end";
+}
+
+TEST_F(ComponentRemoteTest, SaysThatNoneCanTakeItsPlaceWhileOneDoesNotAnswer) {
+  ASSERT_TRUE(Port::Connect(PortOf(*mill_, "beep"), PortAt("beep")));
+  Port& beep = PortOf(*mill_, "beep");
+  rig.RunCycles(2);
+  const auto call = Begin("ask", "{times: 3}");
+  const auto has_called = [&] {
+    rig.RunCycle();
+    return beep.FindAnnotation<Callable>()->state().waiting == 1;
+  };
+  WaitUntil("it has called", has_called, kLongEnough);
+  std::string said;
+  try {
+    rig.module.FindAnnotation<BeforeHandOver>()->settle();
+  } catch (const std::exception& error) {
+    said = error.what();
+  }
+  EXPECT_EQ(said, "one of its asynchronous codels does not come back");
 }
 
 }  // namespace

@@ -127,5 +127,29 @@ TEST_F(TaskModuleTest, WorksInRealThreads) {
   EXPECT_TRUE(scheduler.TakeFaults().empty());
 }
 
+// The next one is given to its thread at once, by the cycle that it has set off, or that was looking for its end.
+class AsynchronousCodelTest : public TaskModuleTest, public testing::WithParamInterface<Activation> {};
+
+TEST_P(AsynchronousCodelTest, ThatGoesOnWithItselfIsNeverLost) {
+  AssignThread(rig.module, CreateThread(rig.runtime, "its", {.activation = GetParam()}));
+  (void)CreateThread(rig.runtime, "fast", {.period = 10ms});
+  rig.Set("thread_of_drive", "fast");
+  static const SteadyClock clock;  // outlives the rig
+  rig.runtime.set_clock(clock);
+  Scheduler scheduler(rig.runtime);
+  ASSERT_EQ(Refusal(), "");
+  ASSERT_TRUE(scheduler.Start());
+  for (const char* microseconds : {"0", "100"}) {
+    const auto call = Ask(scheduler, "grind", std::string("{times: 1000, microseconds: ") + microseconds + "}");
+    WaitUntil(
+        "it is answered", [&] { return call->Poll(Time()) != CallStatus::kPending; }, kPatience);
+    EXPECT_EQ(Outcome("grind", *call), "1000");
+  }
+  scheduler.Stop();
+  EXPECT_TRUE(scheduler.TakeFaults().empty());
+}
+INSTANTIATE_TEST_SUITE_P(InAThread, AsynchronousCodelTest,
+                         testing::Values(Activation::kTrigger, Activation::kFreeRunning));
+
 }  // namespace
 }  // namespace runnel::test

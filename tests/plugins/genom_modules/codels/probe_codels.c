@@ -1,5 +1,6 @@
 #include <math.h>
 #include <pthread.h>
+#include <unistd.h>
 
 #include "acprobe.h"
 #include "probe_c_types.h"
@@ -109,6 +110,12 @@ genom_event do_slow(bool *is_elsewhere, const genom_context self) {
   (void)self;
   *is_elsewhere = !pthread_equal(pthread_self(), cycle_thread);
   return probe_ether;
+}
+
+genom_event do_grind(uint32_t times, uint32_t microseconds, uint32_t *done, const genom_context self) {
+  (void)self;
+  usleep(microseconds);
+  return ++*done < times ? probe_start : probe_ether;
 }
 
 genom_event do_ask(uint16_t times, const probe_beep *beep, int32_t *sum, const genom_context self) {
