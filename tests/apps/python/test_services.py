@@ -133,6 +133,16 @@ def test_who_is_outside_calls_them(app):
         app.call("/mapper/explore")
 
 
+def test_who_is_outside_says_what_has_no_default(xml):
+    with runnel.load(xml / "apps/genom_demo.xml", speed=0) as app:
+        with pytest.raises(TypeError, match="the service wants 'id', too"):
+            app.call("/guide/abort_activity", {})
+        app.run_for(0.1)
+        with pytest.raises(runnel.Error, match="refuses the value: guide::too_far"):
+            app.set("/guide/set_limits", {"speed": 3, "turn_rate": 1})
+        app.set("/guide/set_limits", {"speed": 0.3, "turn_rate": 1})
+
+
 def test_connections_are_checked_by_type(app):
     with pytest.raises(runnel.Error, match="takes service void"):
         app.connect("/mapper/save", "/asker/nobody")

@@ -1,5 +1,6 @@
 // Services as the protocol has them.
 
+#include "plugins/services/any_call.h"
 #include "plugins/services/service.h"
 #include "tests/plugins/foxglove/foxglove_fixture.h"
 
@@ -104,6 +105,21 @@ TEST_F(FoxgloveServices, SayWhatIsWrong) {
   EXPECT_THAT(Failure(), HasSubstr("'json' here, not as 'cdr'"));
   session->OnBinary("\x02 short");
   EXPECT_THAT(Complaint(), HasSubstr("shorter than it says"));
+}
+
+// As components described for GenoM3 have it: nothing is right if it is not said.
+TEST_F(FoxgloveServices, WantWhatHasNoDefault) {
+  const ServiceSignature& signature = internal::MakeServiceSignatureKnown<Pose2(std::string), true>();
+  clerk->where.port().Annotate<Callable>(std::make_unique<CallableService>(
+      clerk->where, signature, signature.MakeForm({"name"}), "", CallableOptions{.required = {"name"}}));
+  Begin();
+  Find();
+  CallIt("/clerk/where", 1, "{}");
+  EXPECT_THAT(Failure(), HasSubstr("argument 'name' is not given"));
+  CallIt("/clerk/where", 2, R"({"name":"dock"})");
+  clerk->where.Serve();
+  session->OnPoll();
+  EXPECT_NE(Reply(2), "");
 }
 
 TEST_F(FoxgloveServices, GoWithTheirModule) {
