@@ -121,6 +121,9 @@ TEST_F(TaskModuleTest, WorksInRealThreads) {
   EXPECT_EQ(answer("slow", ""), "true");
   for (int i = 0; i < 50; ++i) EXPECT_EQ(answer("set_gain", "{gain: " + std::to_string(i % 10) + "}"), "done");
   EXPECT_THAT(answer("get", ""), HasSubstr("gain: 9"));
+  for (int i = 0; i < 50; ++i) rig.Set("set_gain", std::to_string(i % 9));  // between two cycles of the module's thread
+  EXPECT_THROW(rig.Set("set_gain", "12"), ElementError);
+  EXPECT_THAT(answer("get", ""), HasSubstr("gain: 4"));
   EXPECT_EQ(answer("wait", "{turns: 2}"), "2");
   scheduler.Stop();
   EXPECT_GT(state.Read()->tasks.at(0).longest, 0) << "what codels take is measured for those who look";
