@@ -137,7 +137,6 @@ class Recorder final : public ElementListener, public BackpressureSource {
   bool WriteWaiting();
   std::uint64_t WriteWaitingOf(Recorded& recorded);
   Result<void> WriteValue(Recorded& recorded, ValueTimes times);
-  Result<void> AddChannels(Recorded& recorded);
   std::uint64_t WriteLog();
   Result<std::uint16_t> ChannelFor(const FoxgloveChannel& form, const std::string& port, bool is_view);
   Result<void> WriteDrops();

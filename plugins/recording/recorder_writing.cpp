@@ -149,24 +149,17 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
 // Its log time is when it was published here, in the order of which values are replayed; its publish time
 // when it was measured, as whoever published it there said.
 Result<void> Recorder::WriteValue(Recorded& recorded, ValueTimes times) {
-  if (recorded.channels.empty()) {
-    if (auto added = AddChannels(recorded); !added) return added;
+  // A port that has come back goes on in its channels, if it has its type.
+  for (std::size_t i = recorded.channels.size(); i < recorded.forms.size(); ++i) {
+    const auto channel = ChannelFor(recorded.forms[i], recorded.path, i > 0);
+    if (!channel) return channel.error();
+    recorded.channels.push_back(*channel);
   }
   ++recorded.sequence;
   for (std::size_t i = 0; i < recorded.channels.size(); ++i) {
     auto added = writer_->AddMessage({recorded.channels[i], recorded.sequence, Nanoseconds(times.publication_time),
                                       Nanoseconds(times.timestamp), recorded.messages[i]});
     if (!added) return added;
-  }
-  return {};
-}
-
-// A port that has come back goes on in its channels, if it has its type.
-Result<void> Recorder::AddChannels(Recorded& recorded) {
-  for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
-    const auto channel = ChannelFor(recorded.forms[i], recorded.path, i > 0);
-    if (!channel) return channel.error();
-    recorded.channels.push_back(*channel);
   }
   return {};
 }

@@ -157,9 +157,9 @@ TEST_F(HostileViewer, OneThatDoesNotReadMissesValuesAndIsLetGo) {
 TEST_F(HostileViewer, OneThatReadsNoRefusalsIsLetGo) {
   Start({}, {.limits = {.messages_per_second = 1e9, .waiting_bytes = 100'000, .idle_time = 1h}});
   const Viewer viewer = View();
-  const Json unknown{{"op", std::string(300, 'x')}, {"request", 1}};
+  const Json wrong{{"op", "watch"}, {"path", "/app/a"}, {"as", std::string(4000, 'x')}};  // a reply of as much
   WaitUntil("the client that does not read is gone", [&] {
-    viewer.Send(unknown);
+    viewer.Send(wrong);
     return server->clients() == 0;
   });
   ExpectThatAllIsWell();
