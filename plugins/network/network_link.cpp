@@ -203,16 +203,23 @@ void NetworkLink::OnDeleted(FrameworkElement& element) {
   LookAgain();
 }
 
+// What fails is tried again after a pause, as it may fail each time, as without memory; what can be sent is sent meanwhile.
 void NetworkLink::Run() noexcept {
-  while (!ends_) {
+  const auto attempt = [this](void (NetworkLink::*work)()) {
     try {
-      if (must_look_.exchange(false, std::memory_order_acquire)) Follow();
-      SendAll();
+      (this->*work)();
+      return true;
     } catch (...) {
       element_.log().Error("the network: {}", DescribeException());
-      wake_->WaitUntil(SteadyClock().Now() + kAfterFailure);  // it may be so each time, as without memory
-      must_look_ = true;                                      // without a notification, which would end the next wait
+      must_look_ = true;  // without a notification, which would end the next wait
+      follows_from_ = SteadyClock().Now() + kAfterFailure;
+      return false;
     }
+  };
+  while (!ends_) {
+    const bool follows = SteadyClock().Now() >= follows_from_;
+    if (follows && must_look_.exchange(false, std::memory_order_acquire)) attempt(&NetworkLink::Follow);
+    if (!attempt(&NetworkLink::SendAll)) wake_->WaitUntil(follows_from_);
   }
 }
 
@@ -236,7 +243,8 @@ void NetworkLink::SendAll() {
       return LookAgain();
     }
   }
-  if (!must_look_ && !ends_) wake_->WaitUntil(deadline);
+  if (must_look_) deadline = std::min(deadline, follows_from_);
+  if (!ends_) wake_->WaitUntil(deadline);
 }
 
 }  // namespace runnel

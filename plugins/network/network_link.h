@@ -162,6 +162,7 @@ class NetworkLink final : private ElementListener {
   std::uint64_t made_ = 0;
   const Time began_ = SteadyClock().Now();
   Time next_look_{};                                 // for what has gone wrong
+  Time follows_from_{};                              // not before, as something has failed
   std::map<std::string, std::string> troubles_;      // by whom they are, as they have been told
   std::map<std::string, std::string> new_troubles_;  // as they are now
   std::map<WireId, std::string> members_;

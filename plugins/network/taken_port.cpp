@@ -45,8 +45,10 @@ TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const Va
   output_.Annotate(std::make_unique<WritersElsewhere>(matched_));
 }
 
-// As much as all of them offer, so that none is left out and nothing that they keep is missed.
-WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
+// Under mutex_. As much as all of them offer, so that none is left out and nothing that they keep is missed. What one keeps that
+// was not asked for when it came, beside others that keep nothing, is no command of now: as long as that has not been replaced by
+// what has been heard, nobody is asked for what is kept.
+WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) {
   WireQos qos = QosOf(options_.quality.value_or(ValueQuality::kNewest));
   const auto fits = [&](const WireEndpoint& each) { return each.options.type == endpoint_.type; };
   // Readers have writers with a strength, or those without, as ROS 2's are: who has said one counts more.
@@ -60,12 +62,16 @@ WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
   for (const WireEndpoint& each : writers) {
     if (!fits(each)) continue;
     qos.is_reliable = qos.is_reliable && each.options.qos.is_reliable;
-    is_latched = (is_first || is_latched) && each.options.qos.is_latched;
+    is_latched = (is_first || is_latched) && each.options.qos.is_latched &&
+                 !(Find(each.handle).is_passed_over && Find(each.handle).keeps_unheard());
     all_are_exclusive = all_are_exclusive && each.options.qos.is_exclusive;
     qos.depth = std::max(qos.depth, std::min(each.options.qos.depth, 128u));
     is_first = false;
   }
   qos.is_latched = is_latched;
+  for (const WireEndpoint& each : writers) {
+    Find(each.handle).is_passed_over = !is_latched && Find(each.handle).keeps_unheard();
+  }
   qos.is_exclusive = qos.is_exclusive || (!is_first && all_are_exclusive);
   return qos;
 }
@@ -77,21 +83,18 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
     return {};
   }
   const auto writers = table_.Partners(endpoint_.topic, true);
-  const WireQos qos = WantedQos(writers);
+  WireQos qos;
   {
     const std::lock_guard lock(mutex_);
     ForgetGone(writers);
-    for (const WireEndpoint& each : writers) {
-      Writer& writer = Find(each.handle, true);
-      if (!qos.is_latched) writer.passed_over = writer.kept;
-    }
+    for (const WireEndpoint& each : writers) (void)Find(each.handle, true);
+    qos = WantedQos(writers);
   }
   if (reader_ != nullptr && (qos == endpoint_.qos || writers.empty())) return {};
   reader_.reset();
   {
     const std::lock_guard lock(mutex_);
     endpoint_.qos = qos;
-    made_ = SteadyClock().Now();
     MarkAsDelivered();
   }
   auto reader = participant.MakeReader(
@@ -121,7 +124,7 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle, bool looks_again) {
     if (before != gone_.end()) {
       writer.before = writer.delivered = before->delivered;
       writer.clock = before->clock;
-      writer.passed_over = before->passed_over;
+      writer.is_passed_over = before->is_passed_over;
     }
     known = writers_.insert(writers_.end(), std::move(writer));
   }
@@ -137,7 +140,7 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle, bool looks_again) {
   return writer;
 }
 
-// Under mutex_, as the next three. What writers keep is delivered again to a reader that is made anew, and when a link comes back.
+// Under mutex_, as the next two. What writers keep is delivered again to a reader that is made anew, and when a link comes back.
 // Then applications of Runnel send the newest value again that they offer, latched or not.
 void TakenPort::MarkAsDelivered() {
   for (Writer& each : writers_) each.before = each.delivered;
@@ -152,17 +155,6 @@ bool TakenPort::HasComeBefore(Writer& writer, const Delivered& value) {
   writer.delivered.push_back(value);
   if (writer.delivered.size() > std::max<std::size_t>(writer.kept, 1)) writer.delivered.pop_front();
   return false;
-}
-
-// What a latched writer kept while the reader was not latched, as another writer was not, is delivered once that has gone: it is
-// no news. It comes at once, before all else, and was sent before this reader was made, unless by the clocks of both it cannot be.
-bool TakenPort::IsPassedOver(Writer& writer, Duration on_its_way, Time now) const {
-  constexpr auto kLongest = std::chrono::seconds(3);
-  if (!endpoint_.qos.is_latched || writer.passed_over == 0) return false;
-  const Duration way = on_its_way + writer.clock.ahead();
-  const bool is_news = now - made_ > kLongest || (way < now - made_ && way > -WriterClock::kMostOfNetworks);
-  writer.passed_over = is_news ? 0 : writer.passed_over - 1;
-  return !is_news;
 }
 
 void TakenPort::ForgetGone(const std::vector<WireEndpoint>& writers) {
@@ -220,8 +212,7 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       const Time machine = SteadyClock().Now();
       const Duration on_its_way = ClockOffset{}.Now() + machine.time_since_epoch() - Duration(sample.source_time);
       // It has come before: it keeps the stamp, or arrival, that it had then.
-      const bool is_passed_over = IsPassedOver(writer, on_its_way, machine);
-      if (HasComeBefore(writer, value) || is_passed_over || !IsHeard(sample.writer)) return;
+      if (HasComeBefore(writer, value) || !IsHeard(sample.writer)) return;
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
       if (!writer.has_simulated_time) {
         // What a latched writer keeps may have lain there for hours.

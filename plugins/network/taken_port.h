@@ -99,8 +99,9 @@ class TakenPort {
     Time came = {};                        // when its last value did, on the machine's clock
     std::size_t kept = 0;                  // values that it delivers again; 0: it is not latched
     std::deque<Delivered> delivered = {};  // the last of them, in their order; the last one of who is not latched
-    std::size_t passed_over = 0;           // values, at most, that it kept and this reader did not ask for
+    bool is_passed_over = false;           // the reader has not asked for what it keeps
     std::deque<Delivered> before = {};     // of those, by the reader of before, or before the link was lost
+    [[nodiscard]] bool keeps_unheard() const { return delivered.size() < kept; }
   };
   [[nodiscard]] Writer& Find(std::uint64_t handle, bool looks_again = false);
   void Take(const WireSample& sample) noexcept;
@@ -109,8 +110,7 @@ class TakenPort {
   void ForgetGone(const std::vector<WireEndpoint>& writers);
   void MarkAsDelivered();
   [[nodiscard]] static bool HasComeBefore(Writer& writer, const Delivered& value);
-  [[nodiscard]] bool IsPassedOver(Writer& writer, Duration on_its_way, Time now) const;
-  [[nodiscard]] WireQos WantedQos(const std::vector<WireEndpoint>& writers) const;
+  [[nodiscard]] WireQos WantedQos(const std::vector<WireEndpoint>& writers);
   void Refuse(Error error);
 
   Port& output_;
@@ -132,7 +132,6 @@ class TakenPort {
   bool is_turn_told_ = false;           // likewise
   std::uint64_t chosen_ = 0;            // likewise
   Time chosen_came_{};                  // likewise: the last value of that
-  Time made_{};                         // likewise: when the reader was
   std::optional<Error> error_;          // likewise
   std::unique_ptr<WireReader> reader_;  // goes first: as long as it is there, values come that use all of this
 };

@@ -88,7 +88,10 @@ bool FaultDispatcher::DispatchAlone() noexcept {
     try {
       if (Answer(*oldest)) delete oldest;
     } catch (...) {  // what is not answered now is answered the next time, in order
-      for (FaultRecord* each = oldest; each != nullptr; each = each->next_) each->NoteDue(), EndIfRuled(*each);
+      for (FaultRecord* each = oldest; each != nullptr; each = each->next_) {
+        if (each->fault_.kind == Fault::Kind::kThrown && !each->is_for_rules_) each->NoteDue();
+        EndIfRuled(*each);
+      }
       unanswered_.store(oldest, std::memory_order_relaxed);
       return false;
     }
@@ -173,7 +176,7 @@ void FaultDispatcher::Act(FaultRecord& record, const Action& action) {
 
 void FaultDispatcher::ApplyRules(FaultRecord& record) {
   const Fault& fault = record.fault_;
-  record.is_for_rules_ = true;
+  if (!std::exchange(record.is_for_rules_, true)) record.due_since_ = {};
   if (!record.is_logged_) Log(fault), record.is_logged_ = true;
   for (;; ++record.rule_, record.due_since_ = {}) {
     FaultRule rule;

@@ -30,7 +30,7 @@ class FaultRecord {
 
  private:
   friend class FaultDispatcher;
-  /// That memory, or a thread, was not there, for this one or one in front of it.
+  /// That memory, or a thread, was not there, for this one, or to have one in front of it mended.
   void NoteDue() noexcept;
   /// The same; whether that is so for long.
   [[nodiscard]] bool IsOverdue() noexcept;

@@ -120,6 +120,9 @@ TEST_F(FailingEngineTest, WhatItHadNoMemoryForIsTriedAgainAndNotWithoutAPause) {
   std::this_thread::sleep_for(std::chrono::milliseconds(300));  // whatever else there was to be looked at
   EXPECT_LE(engine_.failures, 20 + (SteadyClock().Now() - begun) / std::chrono::milliseconds(100));
   EXPECT_FALSE(robot_.module.goal.Read().has_value());
+  robot_.module.place.Publish({3, 0});
+  WaitUntil("what it offers is sent meanwhile", [&] { return planner_.module.goal.Get().x == 3; });
+  EXPECT_FALSE(robot_.module.goal.Read().has_value());
   engine_.lacks_memory = false;
   WaitUntil("it is heard", [&] { return robot_.module.goal.Get().x == 7; });
 }

@@ -241,6 +241,26 @@ TEST(FaultsWithoutMemory, ThoseBehindWaitForNoMoreThanTheFirst) {
   EXPECT_EQ(applied, 2);
 }
 
+// The time of a reaction begins when it is tried.
+TEST(FaultsWithoutMemory, AReactionBehindOneThatFailsIsTriedAgain) {
+  for (const bool is_stuck : {false, true}) {
+    FaultDispatcher faults;
+    int tries = 0;
+    const auto react = [&](const Fault&) {
+      if (++tries == 1) throw std::bad_alloc();
+    };
+    faults.AddRule({.of = "/first", .call = [](const Fault&) { throw std::bad_alloc(); }});
+    if (!is_stuck) faults.AddRule({.of = "/motor", .call = react});
+    faults.Raise(std::make_unique<FaultRecord>(Fault{.path = "/first", .message = "no"}, nullptr));
+    faults.Raise(std::make_unique<FaultRecord>(
+        Fault{.path = "/motor", .message = "no", .kind = is_stuck ? Fault::Kind::kStuck : Fault::Kind::kThrown},
+        react));
+    test::WaitUntil("all have been answered to", [&] { return faults.Dispatch(); });
+    EXPECT_EQ(tries, 2);
+    EXPECT_THAT(TakeAll(faults), SizeIs(3)) << "two faults, and a rule that has failed";
+  }
+}
+
 // What the handler has waited for is not taken from the time of what it has returned.
 TEST(FaultsWithoutMemory, WhatMendsOneHasATimeOfItsOwn) {
   FaultDispatcher faults;
