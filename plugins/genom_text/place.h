@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/diagnostics.h"
@@ -26,17 +28,34 @@ class Problems {
   explicit Problems(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   /// The index of a file's name, made if it is new.
-  int FileIndex(const std::string& name);
+  int FileIndex(const std::string& name) {
+    const auto found = std::ranges::find(files_, name);
+    if (found != files_.end()) return static_cast<int>(found - files_.begin());
+    files_.push_back(name);
+    return static_cast<int>(files_.size()) - 1;
+  }
   [[nodiscard]] const std::string& FileName(int index) const { return files_.at(static_cast<std::size_t>(index)); }
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
-  [[nodiscard]] SourcePosition PositionOf(Place place) const;
+  [[nodiscard]] SourcePosition PositionOf(Place place) const {
+    return place.file < 0 ? SourcePosition{} : SourcePosition{FileName(place.file), place.line, place.column};
+  }
 
-  void Add(Place place, std::string message, std::string hint = {});
-  void Warn(Place place, std::string message, std::string hint = {});
+  void Add(Place place, std::string message, std::string hint = {}) {
+    if (++count_ > kMost) return;
+    diagnostics_.Add({.message = std::move(message), .position = PositionOf(place), .hint = std::move(hint)});
+  }
+  void Warn(Place place, std::string message, std::string hint = {}) {
+    if (diagnostics_.warnings().size() >= kMost) return;
+    diagnostics_.AddWarning({.message = std::move(message), .position = PositionOf(place), .hint = std::move(hint)});
+  }
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
 
   /// "declared in file:3:5", for hints.
-  [[nodiscard]] std::string DeclaredAt(Place place) const;
+  [[nodiscard]] std::string DeclaredAt(Place place) const {
+    if (place.file < 0) return "it is declared by the language";
+    return "it is declared in " + FileName(place.file) + ":" + std::to_string(place.line) + ":" +
+           std::to_string(place.column);
+  }
 
  private:
   Diagnostics& diagnostics_;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+
+#include "core/base/check.h"
 #include "core/base/clock.h"
 
 namespace runnel {
@@ -18,7 +21,7 @@ class Pacing {
   }
 
   /// speed 0: as fast as it can. `real` must outlive this. Precondition: Takes(speed).
-  Pacing(double speed, const Clock& real);
+  Pacing(double speed, const Clock& real) : speed_(speed), real_(real) { RUNNEL_CHECK(Takes(speed), kBounds); }
 
   /// When, on the real clock, the simulated time `simulated` is due. The first call ties the two
   /// clocks together; so does one that finds the simulation more than kLongestLag behind, so that
@@ -34,6 +37,9 @@ class Pacing {
   static constexpr Duration kLongestLag = std::chrono::milliseconds(200);
 
  private:
+  static constexpr double kLongestWait = 4e9;  // s; what a Time can hold, less the machine's own time
+  static constexpr const char* kBounds = "the speed of simulated time is 0 or from 1e-6 to 1e6";
+
   double speed_;
   const Clock& real_;
   bool is_tied_ = false;
@@ -41,5 +47,34 @@ class Pacing {
   Time asked_for_{};  // last
   Time real_start_{};
 };
+
+inline Time Pacing::Deadline(Time simulated) {
+  const Time now = real_.Now();
+  asked_for_ = simulated;
+  if (speed_ == 0) return now;
+  const auto deadline = [&] {
+    const double wait = ToSeconds(simulated - simulated_start_) / speed_;
+    return real_start_ + FromSeconds(std::clamp(wait, -kLongestWait, kLongestWait));
+  };
+  if (!is_tied_ || deadline() + kLongestLag < now) {
+    is_tied_ = true;
+    simulated_start_ = simulated;
+    real_start_ = now;
+  }
+  return deadline();
+}
+
+inline void Pacing::SetSpeed(double speed) {
+  RUNNEL_CHECK(Takes(speed), kBounds);
+  if (is_tied_ && speed_ != 0) {
+    const Time now = real_.Now();
+    const double passed = ToSeconds(now - real_start_) * speed_;
+    const double needed = ToSeconds(asked_for_ - simulated_start_);
+    simulated_start_ += FromSeconds(std::min(passed, needed));
+    real_start_ = now;
+  }
+  is_tied_ = is_tied_ && speed_ != 0;
+  speed_ = speed;
+}
 
 }  // namespace runnel
