@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "plugins/genom_execution/component_table.h"
@@ -25,16 +28,37 @@ class Outcome {
     detail_size_ = 0;
   }
   /// With one of the component.
-  void Fail(Event exception, const void* detail, std::size_t size) noexcept;
+  void Fail(Event exception, const void* detail, std::size_t size) noexcept {
+    Fail(exception);
+    detail_size_ = std::min(size, detail_.size());
+    if (detail_size_ > 0) std::memcpy(detail_.data(), detail, detail_size_);
+  }
 
   [[nodiscard]] bool is_success() const noexcept { return exception_ == nullptr; }
   [[nodiscard]] Event exception() const noexcept { return exception_; }
   [[nodiscard]] const void* detail() const noexcept { return detail_size_ > 0 ? detail_.data() : nullptr; }
   /// Of one of the engine: what it has with it, nullptr for nothing, and what that is called.
   [[nodiscard]] const std::array<const char*, 2>& words() const noexcept { return words_; }
-  [[nodiscard]] std::array<const char*, 2> word_names() const noexcept;
+  [[nodiscard]] std::array<const char*, 2> word_names() const noexcept {
+    return {exception_ == kBadTransition ? "from" : exception_ == kInterrupted ? "by" : "what", "to"};
+  }
   /// "bad_transition {from: go, to: ::courier::halt}". Allocates.
-  [[nodiscard]] std::string Text(const ComponentTable& component) const;
+  [[nodiscard]] std::string Text(const ComponentTable& component) const {
+    if (is_success()) return "";
+    for (const ExceptionTable& each : component.exceptions) {
+      if (each.exception != exception_) continue;
+      if (each.detail_text == nullptr || detail_size_ == 0) return each.name;
+      return std::string(each.name) + " " + each.detail_text(detail_.data());
+    }
+    std::string_view name = exception_;
+    if (name.starts_with("::genom::")) name.remove_prefix(9);
+    std::string text(name);
+    const auto names = word_names();
+    if (words_[0] != nullptr) text += std::string(" {") + names[0] + ": " + words_[0];
+    if (words_[1] != nullptr) text += std::string(", ") + names[1] + ": " + words_[1];
+    if (words_[0] != nullptr) text += "}";
+    return text;
+  }
 
  private:
   Event exception_ = nullptr;
@@ -56,8 +80,13 @@ class Request {
     kDone       ///< its maker's again
   };
 
-  Request(const ComponentTable& component, const ServiceTable& service);
-  ~Request();
+  Request(const ComponentTable& component, const ServiceTable& service)
+      : service_(service),
+        data_(service.make != nullptr ? service.make() : nullptr),
+        outcome_(component.largest_detail) {}
+  ~Request() {
+    if (data_ != nullptr && service_.destroy != nullptr) service_.destroy(data_);
+  }
 
   [[nodiscard]] const ServiceTable& service() const noexcept { return service_; }
   [[nodiscard]] void* data() noexcept { return data_; }

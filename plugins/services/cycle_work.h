@@ -1,12 +1,17 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/base/exception_text.h"
 #include "core/channel/waker.h"
 #include "core/element/annotation.h"
 #include "core/module/executable.h"
+#include "core/module/wake_source.h"
 
 namespace runnel {
 
@@ -30,13 +35,44 @@ class CyclePart {
 class CycleWork final : public Annotation {
  public:
   /// Of the module that `element` is part of; nullptr if nothing there is executed: the owner does it itself.
-  static CycleWork* Add(FrameworkElement& element, CyclePart& part);
+  static CycleWork* Add(FrameworkElement& element, CyclePart& part) {
+    FrameworkElement* module = &element;
+    while (module != nullptr && module->FindAnnotation<Executable>() == nullptr) module = module->parent();
+    if (module == nullptr) return nullptr;
+    CycleWork* const work = &module->FindOrAnnotate<CycleWork>();
+    // Done as a whole, or again the next time.
+    if (work->element_ == nullptr) {
+      auto executable = std::make_unique<Executable>(
+          [work, inner = *module->FindAnnotation<Executable>()] { return work->Wrap(inner.tasks()); });
+      module->Annotate(std::make_unique<WakeSource>([work](Waker* waker) {
+        for (CyclePart* each : work->parts_) each->SetWaker(waker);
+      }));
+      module->Annotate(std::move(executable));  // in the place of the other one: needs no memory
+      work->element_ = module;
+    }
+    work->parts_.push_back(&part);
+    return work;
+  }
   void Remove(CyclePart& part) noexcept { std::erase(parts_, &part); }
   [[nodiscard]] FrameworkElement& module() const noexcept { return *element_; }
 
  private:
-  void Run();
-  [[nodiscard]] std::vector<Task> Wrap(std::vector<Task> tasks);
+  void Run() {
+    try {
+      for (CyclePart* part : parts_) part->BeforeUpdate();
+      (*module_)();
+    } catch (...) {
+      const std::string what = DescribeException();
+      for (CyclePart* part : parts_) part->AfterFault(what);
+      throw;
+    }
+  }
+  [[nodiscard]] std::vector<Task> Wrap(std::vector<Task> tasks) {
+    if (tasks.empty()) return tasks;
+    if (!module_) module_ = tasks.front().run;
+    tasks.front().run = BoundCall::To<&CycleWork::Run>(*this);
+    return tasks;
+  }
 
   FrameworkElement* element_ = nullptr;
   std::vector<CyclePart*> parts_;
