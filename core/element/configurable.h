@@ -50,6 +50,10 @@ class Configurable {
   /// An output has given it its value, and nobody has set it since.
   [[nodiscard]] virtual bool is_fed() const noexcept { return false; }
 
+  /// What its module has made of the value that was set last: nothing as long as it has not said; an error if it has
+  /// refused it, and the value is that of before.
+  [[nodiscard]] virtual std::optional<Result<void>> Outcome() const { return Result<void>(); }
+
   // The same by the text format.
   Result<void> SetFromText(std::string_view text);
   [[nodiscard]] Result<void> CheckText(std::string_view text) const;

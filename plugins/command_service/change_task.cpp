@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/erase_where.h"
+#include "core/element/configurable.h"
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/command_service/caught_error.h"
@@ -24,8 +26,9 @@ namespace runnel {
 
 namespace {
 
-// A module whose thread runs no cycles never proves itself.
+// A module whose thread runs no cycles never proves itself, and never says whether it takes a value.
 constexpr Duration kLongestProbation = std::chrono::seconds(3);
+constexpr Duration kLongestSetting = std::chrono::milliseconds(500);
 // How long after one look at the new modules the next one comes: each time twice as long, since a module
 // of a fast thread proves itself soon.
 constexpr Duration kFirstLook = std::chrono::milliseconds(1);
@@ -120,6 +123,7 @@ struct ChangeTask {
   void Apply();
   void FindSwaps();
   void LookAfterProbation();
+  void LookAtSettings();
   [[nodiscard]] bool IsOver() const;
   void Conclude();
 
@@ -129,6 +133,8 @@ struct ChangeTask {
   const RobotStop::AsOf as_of;
   const std::string made_anew;
   std::vector<Swap> swaps = {};
+  std::vector<std::string> settings =
+      {};  // paths of parameters whose modules have not said what they make of the values
   bool has_begun = false;
   bool is_on_probation = false;
   bool has_proved = false;
@@ -140,8 +146,12 @@ std::optional<Duration> ChangeTask::Step() {
   if (!std::exchange(has_begun, true)) {
     if (!IsMeant()) return {};
     Apply();
-    if (!is_on_probation) return {};
-    until = std::chrono::steady_clock::now() + kLongestProbation;
+    try {
+      LookAtSettings();
+    } catch (const std::bad_alloc&) {  // as below
+    }
+    if (!is_on_probation && settings.empty()) return {};
+    until = std::chrono::steady_clock::now() + (is_on_probation ? kLongestProbation : kLongestSetting);
     look_again = kFirstLook;
     return look_again;
   }
@@ -149,6 +159,7 @@ std::optional<Duration> ChangeTask::Step() {
   has_proved = !is_on_probation;
   try {
     LookAfterProbation();
+    LookAtSettings();
   } catch (const std::bad_alloc&) {  // it has been done all the same; there may be memory at the next look
     has_proved = false;
   }
@@ -202,6 +213,7 @@ void ChangeTask::Apply() {
     *answer = CommandAnswer::Failed(CaughtError());
   }
   is_on_probation = *answer && !swaps.empty();
+  if (!*answer) settings.clear();
   if (*answer) answer->text = meaning.empty() ? DoneText(outcome.hold_time, std::move(text)) : std::move(meaning);
   application.log.Add(ApplicationLog::Kind::kChange, *answer ? std::move(entry) : "refused: " + entry);
 }
@@ -209,9 +221,22 @@ void ChangeTask::Apply() {
 void ChangeTask::FindSwaps() {
   for (const Change& each : request.placed.changes) {
     const auto* const replace = std::get_if<ReplaceModule>(&each);
+    if (const auto* const set = std::get_if<SetParameter>(&each)) settings.push_back(set->path);
     if (replace == nullptr || replace->probation_cycles == 0) continue;
     swaps.push_back({replace->path, IdOf(application.runtime, replace->path)});
   }
+}
+
+void ChangeTask::LookAtSettings() {
+  if (settings.empty()) return;
+  const std::lock_guard lock(application.runtime.structure_mutex());
+  EraseWhere(settings, [this](const std::string& path) {
+    const auto found = PathSearch(application.runtime).Find(path, PathKind::kParameter);
+    const auto* const parameter = found ? dynamic_cast<const Configurable*>(*found) : nullptr;
+    const auto said = parameter != nullptr ? parameter->Outcome() : Result<void>();
+    if (said && !*said) answer->diagnostics.Add(said->error()), answer->outcome = CommandAnswer::Outcome::kFailed;
+    return said.has_value();
+  });
 }
 
 void ChangeTask::LookAfterProbation() {
@@ -224,7 +249,7 @@ void ChangeTask::LookAfterProbation() {
 
 bool ChangeTask::IsOver() const {
   if (std::ranges::any_of(swaps, &Swap::is_back)) return true;
-  if (!is_on_probation) return has_proved;
+  if (!is_on_probation && settings.empty()) return has_proved;
   // Nothing proves itself while time stands still.
   if (application.pace != nullptr && application.pace->is_paused()) return true;
   return std::chrono::steady_clock::now() > until;

@@ -2,30 +2,43 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "core/types/type_info.h"
 #include "core/types/value_tokens.h"
 #include "plugins/genom_modules/component_module.h"
 #include "plugins/parameters/parameter.h"
 
 namespace runnel::genom_modules {
 
+/// Errors: a member of the structure, or of one inside of it, is not there.
+inline Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said) {
+  if (type.kind() != TypeKind::kStructure || said.kind != ValueToken::Kind::kStructure) return {};
+  for (const FieldInfo& field : type.fields()) {
+    const ValueToken* name = said.First();
+    std::size_t left = said.count;
+    for (; left > 0 && name->text != field.name; left -= 2) name = name->Next()->Next();
+    if (left == 0) return Error{.message = "'" + field.name + "' is not given", .hint = "say all members"};
+    if (auto all = CheckAllAreSaid(*field.type, *name->Next()); !all) return all;
+  }
+  return {};
+}
+
 /// An attribute with inputs only, as a parameter: each new value is a request of the attribute, with its validation and
 /// exclusion. It follows calls of the attribute's service, and goes back if the component refuses a value. A default of
 /// the description is only shown, as in the original; what a file says is set at the start.
 ///
 /// Threads: as Parameter; the module's cycle is never blocked by those who look.
-/// Errors: SetFrom() says why the component refuses a value, unless something that is under way has to end before it can
-/// tell: then the log does. Parse() wants all that calls of the service have to say.
+/// Errors: Outcome() says why the component refuses a value, and the log does. Parse() wants all members of a structure.
 template <typename T>
 class AttributeParameter final : public ParameterBase, public ModulePart {
  public:
   using Request = genom_execution::Request;
 
-  /// `service`: the port of the attribute's.
   AttributeParameter(ComponentModule& module, std::string name, const genom_execution::ServiceTable& attribute,
-                     const Port& service, std::string_view default_text, std::string description,
+                     std::string_view default_text, std::string description,
                      void (*fill)(Request& request, const T& value), void (*read)(Request& request, T& value))
       : ParameterBase(&module, std::move(name),
                       internal::DescriptionOf(ParameterOptions<T>{.default_value = ValueOf<T>(default_text),
@@ -34,7 +47,6 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
                       nullptr),
         module_(module),
         attribute_(attribute),
-        service_(service),
         fill_(fill),
         read_(read),
         accepted_(ValueOf<T>(default_text)),
@@ -43,27 +55,17 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
     module.AddPart(*this);
   }
 
-  /// What a structure leaves out stays as it is.
+  /// What a structure leaves out would be 0.
   [[nodiscard]] Result<std::shared_ptr<const void>> Parse(std::string_view text) const override {
     auto parsed = ParameterBase::Parse(text);
-    if (!parsed || type().kind() != TypeKind::kStructure) return parsed;
-    const auto* const callable = service_.FindAnnotation<Callable>();
-    if (callable->arguments()->fields().size() > 1) {  // else it is inside of the only one
-      if (auto good = CheckRequired(*callable, TokensOf(text)->root()); !good) return good.error();
-    }
-    const std::shared_ptr<void> value = Value();
-    (void)runnel::SetFromText(type(), text, value.get());
-    return std::shared_ptr<const void>(value);
+    if (!parsed) return parsed;
+    if (auto all = CheckAllAreSaid(type(), TokensOf(text)->root()); !all) return all.error();
+    return parsed;
   }
-  Result<void> SetFrom(const void* value) override {
-    if (auto set = ParameterBase::SetFrom(value); !set) return set;
-    std::string refusal;
-    module_.AskAtOnce(*this, [&] {
-      refusal = refusal_;
-      return is_under_way_ || !has_changed_.load(std::memory_order_relaxed);  // else somebody is just looking at it
-    });
-    if (refusal.empty()) return {};
-    return Error{.message = refusal, .path = path()};
+  [[nodiscard]] std::optional<Result<void>> Outcome() const override {
+    const Hold hold(is_held_, true);
+    if (!is_settled_) return {};
+    return refusal_.empty() ? Result<void>() : Error{.message = refusal_, .path = path()};
   }
   [[nodiscard]] std::shared_ptr<void> Value() const override {
     const Hold hold(is_held_, true);
@@ -78,13 +80,13 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
     if (is_due_) fill_(*request_, value_);
   }
   void BeforePasses(genom_execution::Engine& engine, Time /*now*/) override {
+    has_begun_.store(true, std::memory_order_relaxed);
     if (is_under_way_) return;
     if (has_changed_.load(std::memory_order_relaxed)) {
       const Hold hold(is_held_, false);
       if (!hold.has()) return;
       fill_(*request_, value_);
       has_changed_.store(false, std::memory_order_relaxed);
-      refusal_.clear();
       is_due_ = true;
     }
     if (!is_due_) return;
@@ -94,19 +96,23 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
   void AfterPasses() override {
     if (is_under_way_ && request_->state() == Request::State::kDone) {
       is_under_way_ = false;
-      is_behind_ = !request_->outcome().is_success();
-      if (is_behind_) {
-        refusal_ = "refuses the value: " + request_->outcome().Text(module_.table());
-        module_.log().Warn("{} {}", name(), refusal_);
-      } else {
+      is_behind_ = true;
+      said_.clear();
+      if (request_->outcome().is_success()) {
         read_(*request_, accepted_);
+      } else {
+        said_ = "refuses the value: " + request_->outcome().Text(module_.table());
+        module_.log().Warn("{} {}", name(), said_);
       }
     }
     if (!is_behind_) return;
     const Hold hold(is_held_, false);
     is_behind_ = !hold.has();
     // What somebody has set since counts.
-    if (hold.has() && !has_changed_.load(std::memory_order_relaxed)) value_ = accepted_;
+    if (!hold.has() || has_changed_.load(std::memory_order_relaxed)) return;
+    value_ = accepted_;
+    refusal_ = said_;
+    is_settled_ = !is_under_way_ && !is_due_;
   }
   void AfterCall(Request& request) override {
     if (&request.service() != &attribute_) return;
@@ -118,25 +124,32 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
   using Hold = runnel::internal::FlagHold;
 
   bool Assign(const void* value) override {
-    const Hold hold(is_held_, true);
     T copy = *static_cast<const T*>(value);
-    value_ = std::move(copy);  // whole or not at all, if memory ends
-    has_changed_.store(true, std::memory_order_relaxed);
+    {
+      const Hold hold(is_held_, true);
+      value_ = std::move(copy);  // whole or not at all, if memory ends
+      has_changed_.store(true, std::memory_order_relaxed);
+      refusal_.clear();
+      is_settled_ = !has_begun_.load(std::memory_order_relaxed);  // who has not begun asks nobody
+    }
+    module_.Wake();
     return true;
   }
 
   ComponentModule& module_;
   const genom_execution::ServiceTable& attribute_;
-  const Port& service_;
   void (*const fill_)(Request& request, const T& value);
   void (*const read_)(Request& request, T& value);
   T accepted_;  // by the component
   mutable std::atomic_flag is_held_ = ATOMIC_FLAG_INIT;
   T value_;                               // by who holds it
   std::atomic<bool> has_changed_{false};  // changed by who holds it
+  std::string refusal_;                   // likewise
+  bool is_settled_ = true;                // likewise
+  std::atomic<bool> has_begun_{false};
   const std::string default_text_;
   std::unique_ptr<Request> request_;
-  std::string refusal_;  // why the last one was refused
+  std::string said_;  // why the component has refused the last one; "" if it has not
   bool is_due_ = false;
   bool is_under_way_ = false;
   bool is_behind_ = false;  // the parameter, of accepted_

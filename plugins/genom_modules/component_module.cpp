@@ -138,24 +138,7 @@ void ComponentModule::CheckPeriods() const {
   }
 }
 
-void ComponentModule::AskAtOnce(ModulePart& part, const std::function<bool()>& has_asked) {
-  const runnel::internal::FlagHold hold(is_busy_, true);
-  if (!engine_ || !has_run_ || is_broken_ || is_settled_) return;
-  do {
-    part.BeforePasses(*engine_, now());
-    try {
-      (void)engine_->RunControl();
-    } catch (...) {
-      NoteFault("");
-    }
-    part.AfterPasses();
-  } while (!has_asked());
-  own_part_.target.Wake();
-}
-
 void ComponentModule::Update() {
-  const runnel::internal::FlagHold hold(is_busy_, false);
-  if (!hold.has()) return;
   if (is_broken_.load(std::memory_order_acquire)) {
     if (has_fault_.load(std::memory_order_acquire)) throw std::runtime_error(fault_);
     return;
@@ -217,18 +200,13 @@ void ComponentModule::RunOwnTask(std::size_t task, Time time) noexcept {
       if (pass == Pass::kWaiting || (pass == Pass::kIdle && engine_->changes() == changes)) return;
     }
   } catch (...) {
-    NoteFault(std::string("task '") + component_.tasks[task].name + "': ");
+    if (!is_fault_taken_.test_and_set(std::memory_order_relaxed)) {
+      fault_ = std::string("task '") + component_.tasks[task].name + "': " + DescribeException();
+      has_fault_.store(true, std::memory_order_release);
+    }
+    is_broken_.store(true, std::memory_order_release);
+    own_part_.target.Wake();
   }
-}
-
-// Of the exception that is being handled, for the next cycle.
-void ComponentModule::NoteFault(const std::string& where) noexcept {
-  if (!is_fault_taken_.test_and_set(std::memory_order_relaxed)) {
-    fault_ = where + DescribeException();
-    has_fault_.store(true, std::memory_order_release);
-  }
-  is_broken_.store(true, std::memory_order_release);
-  own_part_.target.Wake();
 }
 
 void ComponentModule::RunPasses(Time time, bool is_forced) {

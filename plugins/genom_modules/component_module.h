@@ -3,7 +3,6 @@
 #include <array>
 #include <atomic>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -158,9 +157,8 @@ class ComponentModule : public Module {
   void AfterCall(genom_execution::Request& request) {
     for (ModulePart* part : parts_) part->AfterCall(request);
   }
-  /// What the part asks for is done now, as far as the control task can, unless the component does not run. Between two
-  /// cycles: one that would begin does nothing. `has_asked()`: not again.
-  void AskAtOnce(ModulePart& part, const std::function<bool()>& has_asked);
+  /// A part wants a cycle, also of a thread that waits for data.
+  void Wake() noexcept { own_part_.target.Wake(); }
   /// One cycle of a task that another thread runs, by that thread.
   void RunOwnTask(std::size_t task, Time time) noexcept;
   using Module::log;
@@ -189,7 +187,6 @@ class ComponentModule : public Module {
   void MakeTasks();
   void CheckPeriods() const;
   void RunPasses(Time time, bool is_forced);
-  void NoteFault(const std::string& where) noexcept;
   void PublishState();
   /// Before another component takes its place: as End(), but it may be run again.
   void Settle();
@@ -212,7 +209,6 @@ class ComponentModule : public Module {
   std::atomic<bool> has_run_{false};
   // A codel has thrown, and no other may run.
   std::atomic<bool> is_broken_{false};
-  std::atomic_flag is_busy_ = ATOMIC_FLAG_INIT;         // by a cycle, or between two
   std::atomic_flag is_fault_taken_ = ATOMIC_FLAG_INIT;  // by the first of other threads, which writes it
   std::atomic<bool> has_fault_{false};                  // release, acquire: it is written
   std::string fault_;

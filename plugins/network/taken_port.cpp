@@ -45,12 +45,14 @@ TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const Va
   output_.Annotate(std::make_unique<WritersElsewhere>(matched_));
 }
 
-// Under mutex_. As much as all of them offer, so that none is left out and nothing that they keep is missed. What one keeps that
-// was not asked for when it came, beside others that keep nothing, is no command of now: as long as that has not been replaced by
-// what has been heard, nobody is asked for what is kept.
+// Under mutex_. As much as all of them offer, so that none is left out and nothing that they keep is missed. What is kept by one
+// that has been here beside others that keep nothing may be from before, and no command of now: as long as one of those is there,
+// nobody is asked for what is kept.
 WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) {
   WireQos qos = QosOf(options_.quality.value_or(ValueQuality::kNewest));
-  const auto fits = [&](const WireEndpoint& each) { return each.options.type == endpoint_.type; };
+  const auto fits = [&](const WireEndpoint& each) {
+    return each.options.type == endpoint_.type && Find(each.handle).fits;
+  };
   // Readers have writers with a strength, or those without, as ROS 2's are: who has said one counts more.
   qos.is_exclusive = options_.is_exclusive && std::ranges::any_of(writers, [&](const WireEndpoint& each) {
                        return fits(each) && each.options.qos.is_exclusive;
@@ -62,16 +64,13 @@ WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) {
   for (const WireEndpoint& each : writers) {
     if (!fits(each)) continue;
     qos.is_reliable = qos.is_reliable && each.options.qos.is_reliable;
-    is_latched = (is_first || is_latched) && each.options.qos.is_latched &&
-                 !(Find(each.handle).is_passed_over && Find(each.handle).keeps_unheard());
+    is_latched = (is_first || is_latched) && each.options.qos.is_latched && !Find(each.handle).is_passed_over;
     all_are_exclusive = all_are_exclusive && each.options.qos.is_exclusive;
     qos.depth = std::max(qos.depth, std::min(each.options.qos.depth, 128u));
     is_first = false;
   }
   qos.is_latched = is_latched;
-  for (const WireEndpoint& each : writers) {
-    Find(each.handle).is_passed_over = !is_latched && Find(each.handle).keeps_unheard();
-  }
+  for (const WireEndpoint& each : writers) Find(each.handle).is_passed_over = !is_latched && fits(each);
   qos.is_exclusive = qos.is_exclusive || (!is_first && all_are_exclusive);
   return qos;
 }
@@ -134,8 +133,11 @@ TakenPort::Writer& TakenPort::Find(std::uint64_t handle, bool looks_again) {
     writer.fits = TypeMisfit(endpoint->options.user_data, endpoint_.user_data).empty();
     writer.has_simulated_time = table_.HasSimulatedTime(endpoint->participant);
     writer.application = table_.ApplicationName(endpoint->participant);
+    // Not all engines say how many others keep.
     const WireQos& qos = endpoint->options.qos;
-    writer.kept = qos.is_latched ? std::min<std::size_t>(qos.depth, kMostKept) : 0;
+    writer.kept = !qos.is_latched              ? 0
+                  : writer.application.empty() ? kMostKept
+                                               : std::min<std::size_t>(qos.depth, kMostKept);
   }
   return writer;
 }
@@ -205,8 +207,7 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       const std::lock_guard lock(mutex_);
       Writer& writer = Find(sample.writer);
       if (!writer.fits) return;
-      const bool is_latched = writer.kept > 0;
-      const Delivered value{sample.source_time, HashOf(sample.octets, is_latched)};
+      const Delivered value{sample.source_time, HashOf(sample.octets, writer.kept > 0)};
       const bool is_the_last = !writer.delivered.empty() && writer.delivered.back() == value;
       // By the clocks of both machines, whatever time the application has.
       const Time machine = SteadyClock().Now();

@@ -97,11 +97,10 @@ class TakenPort {
     std::string application = {};     // of Runnel that has it; else ""
     WriterClock clock = {};
     Time came = {};                        // when its last value did, on the machine's clock
-    std::size_t kept = 0;                  // values that it delivers again; 0: it is not latched
+    std::size_t kept = 0;                  // values, at most, that it delivers again; 0: it is not latched
     std::deque<Delivered> delivered = {};  // the last of them, in their order; the last one of who is not latched
     bool is_passed_over = false;           // the reader has not asked for what it keeps
     std::deque<Delivered> before = {};     // of those, by the reader of before, or before the link was lost
-    [[nodiscard]] bool keeps_unheard() const { return delivered.size() < kept; }
   };
   [[nodiscard]] Writer& Find(std::uint64_t handle, bool looks_again = false);
   void Take(const WireSample& sample) noexcept;

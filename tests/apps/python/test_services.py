@@ -138,6 +138,9 @@ def test_who_is_outside_says_what_has_no_default(xml):
         with pytest.raises(TypeError, match="the service wants 'id', too"):
             app.call("/guide/abort_activity", {})
         app.run_for(0.1)
+        with pytest.raises(runnel.Error, match="'turn_rate' is not given"):
+            app.set("/guide/set_limits", {"speed": 0.3})
+        app.start()
         with pytest.raises(runnel.Error, match="refuses the value: guide::too_far"):
             app.set("/guide/set_limits", {"speed": 3, "turn_rate": 1})
         app.set("/guide/set_limits", {"speed": 0.3, "turn_rate": 1})

@@ -23,12 +23,16 @@ TEST_F(ComponentTest, OffersItsAttributesAsServicesAndParameters) {
 }
 
 TEST_F(ComponentTest, WhoSetsAParameterIsToldThatItsValueIsRefused) {
+  auto& parameter = dynamic_cast<Configurable&>(*rig.module.Find("parameter/set_gain").value());
   const auto set = [&](const std::string& text) -> std::string {
-    auto& parameter = dynamic_cast<Configurable&>(*rig.module.Find("parameter/set_gain").value());
-    const std::lock_guard lock(rig.runtime.structure_mutex());
-    const auto done = parameter.SetFromText(text);
-    return done ? "done" : done.error().ToString();
+    rig.Set("set_gain", text);
+    EXPECT_FALSE(parameter.Outcome()) << "it has not been asked";
+    rig.RunCycles(2);
+    const auto outcome = parameter.Outcome();
+    if (!outcome) return "not settled";
+    return *outcome ? "done" : outcome->error().ToString();
   };
+  EXPECT_TRUE(parameter.Outcome().value());
   rig.RunCycles(2);
   EXPECT_EQ(set("4"), "done");
   EXPECT_EQ(set("12"), "/module/parameter/set_gain: refuses the value: probe::wrong {which: right, limit: 10}");
@@ -38,18 +42,16 @@ TEST_F(ComponentTest, WhoSetsAParameterIsToldThatItsValueIsRefused) {
   EXPECT_THAT(Call("get"), HasSubstr("gain: 5"));
 }
 
-// As of calls: else it would fly with a mass of 0.
-TEST_F(ComponentTest, AParameterOfSeveralInputsWantsThoseThatHaveNoDefault) {
+// Else it would fly with a mass of 0.
+TEST_F(ComponentTest, AParameterOfSeveralInputsWantsAllOfThem) {
   const auto& parameter = dynamic_cast<const Configurable&>(*rig.module.Find("parameter/set_pose").value());
   const auto said = [&](const std::string& text) -> std::string {
     const auto value = parameter.Parse(text);
     return value ? ToText(parameter.type(), value->get()) : value.error().message;
   };
-  EXPECT_EQ(said("{turn: 2}"), "argument 'mass' is not given");
-  EXPECT_EQ(said("{mass: 3}"), "{mass: 3, turn: 0.5}");
-  rig.Set("set_pose", "{mass: 3, turn: 2}");
-  rig.RunCycles(2);
-  EXPECT_EQ(said("{mass: 4}"), "{mass: 4, turn: 2}") << "what is left out stays as it is";
+  EXPECT_EQ(said("{turn: 2}"), "'mass' is not given");
+  EXPECT_EQ(said("{mass: 3}"), "'turn' is not given");
+  EXPECT_EQ(said("{turn: 2, mass: 3}"), "{mass: 3, turn: 2}");
   EXPECT_EQ(said("{mass: a}"), "mass: 'a' is no number");
 }
 

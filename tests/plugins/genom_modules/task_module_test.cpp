@@ -121,8 +121,14 @@ TEST_F(TaskModuleTest, WorksInRealThreads) {
   EXPECT_EQ(answer("slow", ""), "true");
   for (int i = 0; i < 50; ++i) EXPECT_EQ(answer("set_gain", "{gain: " + std::to_string(i % 10) + "}"), "done");
   EXPECT_THAT(answer("get", ""), HasSubstr("gain: 9"));
-  for (int i = 0; i < 50; ++i) rig.Set("set_gain", std::to_string(i % 9));  // between two cycles of the module's thread
-  EXPECT_THROW(rig.Set("set_gain", "12"), ElementError);
+  const auto& parameter = dynamic_cast<const Configurable&>(*rig.module.Find("parameter/set_gain").value());
+  const auto is_settled = [&] { return parameter.Outcome().has_value(); };
+  for (int i = 0; i < 50; ++i) rig.Set("set_gain", std::to_string(i % 9));
+  WaitUntil("it is set", is_settled, kPatience);
+  EXPECT_TRUE(*parameter.Outcome());
+  rig.Set("set_gain", "12");
+  WaitUntil("it is refused", is_settled, kPatience);
+  EXPECT_FALSE(*parameter.Outcome());
   EXPECT_THAT(answer("get", ""), HasSubstr("gain: 4"));
   EXPECT_EQ(answer("wait", "{turns: 2}"), "2");
   scheduler.Stop();
