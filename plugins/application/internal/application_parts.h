@@ -48,10 +48,10 @@ struct Application::Parts final : ApplicationDescription {
   std::unique_ptr<StopFile> stop_file;
   std::unique_ptr<ControlServer> control;
 
-  Time start{};                         // of the run, on the application's clock
-  bool has_started = false;             // once, at least
-  bool has_warned = false;              // of what the scheduler finds doubtful
-  std::mutex attending;                 // one at a time; before all others
+  Time start{};              // of the run, on the application's clock
+  bool has_started = false;  // once, at least
+  bool has_warned = false;   // of what the scheduler finds doubtful
+  std::mutex attending;      // one at a time; before all others
   // What no look has found the memory to tell of yet; guarded by attending.
   std::vector<Fault> untold_faults;
   std::vector<Error> untold_failures;

@@ -72,8 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Cyclone, SharedGroupTest,
                          kNameOfReach);
 #ifdef RUNNEL_HAS_FAST
 INSTANTIATE_TEST_SUITE_P(Fast, SharedGroupTest,
-                         testing::Combine(testing::Values(&MakeFastWire), testing::ValuesIn(kReaches)),
-                         kNameOfReach);
+                         testing::Combine(testing::Values(&MakeFastWire), testing::ValuesIn(kReaches)), kNameOfReach);
 #endif
 
 }  // namespace
