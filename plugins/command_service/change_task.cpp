@@ -28,7 +28,6 @@ namespace {
 
 // A module whose thread runs no cycles never proves itself, and never says whether it takes a value.
 constexpr Duration kLongestProbation = std::chrono::seconds(3);
-constexpr Duration kLongestSetting = std::chrono::milliseconds(500);
 // How long after one look at the new modules the next one comes: each time twice as long, since a module
 // of a fast thread proves itself soon.
 constexpr Duration kFirstLook = std::chrono::milliseconds(1);
@@ -133,32 +132,24 @@ struct ChangeTask {
   const RobotStop::AsOf as_of;
   const std::string made_anew;
   std::vector<Swap> swaps = {};
-  std::vector<std::string> settings =
-      {};  // paths of parameters whose modules have not said what they make of the values
+  std::vector<std::string> settings = {};  // paths of parameters, until their modules have said what they make of it
   bool has_begun = false;
   bool is_on_probation = false;
   bool has_proved = false;
   std::chrono::steady_clock::time_point until{};  // when the wait for the proof is given up
-  Duration look_again{};
+  Duration look_again = kFirstLook;
 };
 
 std::optional<Duration> ChangeTask::Step() {
   if (!std::exchange(has_begun, true)) {
     if (!IsMeant()) return {};
     Apply();
-    try {
-      LookAtSettings();
-    } catch (const std::bad_alloc&) {  // as below
-    }
-    if (!is_on_probation && settings.empty()) return {};
     until = std::chrono::steady_clock::now() + (is_on_probation ? kLongestProbation : kLongestSetting);
-    look_again = kFirstLook;
-    return look_again;
   }
   // Once more after the end: a fault in the last cycle may just be being answered.
   has_proved = !is_on_probation;
   try {
-    LookAfterProbation();
+    if (!swaps.empty()) LookAfterProbation();
     LookAtSettings();
   } catch (const std::bad_alloc&) {  // it has been done all the same; there may be memory at the next look
     has_proved = false;
@@ -213,7 +204,7 @@ void ChangeTask::Apply() {
     *answer = CommandAnswer::Failed(CaughtError());
   }
   is_on_probation = *answer && !swaps.empty();
-  if (!*answer) settings.clear();
+  if (!*answer) settings.clear(), swaps.clear();
   if (*answer) answer->text = meaning.empty() ? DoneText(outcome.hold_time, std::move(text)) : std::move(meaning);
   application.log.Add(ApplicationLog::Kind::kChange, *answer ? std::move(entry) : "refused: " + entry);
 }
@@ -228,12 +219,8 @@ void ChangeTask::FindSwaps() {
 }
 
 void ChangeTask::LookAtSettings() {
-  if (settings.empty()) return;
-  const std::lock_guard lock(application.runtime.structure_mutex());
   EraseWhere(settings, [this](const std::string& path) {
-    const auto found = PathSearch(application.runtime).Find(path, PathKind::kParameter);
-    const auto* const parameter = found ? dynamic_cast<const Configurable*>(*found) : nullptr;
-    const auto said = parameter != nullptr ? parameter->Outcome() : Result<void>();
+    const auto said = OutcomeOf(application.runtime, path);
     if (said && !*said) answer->diagnostics.Add(said->error()), answer->outcome = CommandAnswer::Outcome::kFailed;
     return said.has_value();
   });
@@ -269,6 +256,13 @@ void ChangeTask::Conclude() {
 }
 
 }  // namespace
+
+std::optional<Result<void>> OutcomeOf(Runtime& runtime, std::string_view path) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = PathSearch(runtime).Find(path, PathKind::kParameter);
+  const auto* const parameter = found ? dynamic_cast<const Configurable*>(*found) : nullptr;
+  return parameter != nullptr ? parameter->Outcome() : Result<void>();
+}
 
 TaskStep ChangeSteps(ChangeRequest request, const ServedApplication& application, std::shared_ptr<CommandAnswer> answer,
                      const RobotStop::AsOf& as_of, std::string made_anew) {

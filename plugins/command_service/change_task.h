@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string_view>
 
 #include "plugins/command_service/command_service.h"
 
@@ -13,5 +15,10 @@ namespace runnel {
 [[nodiscard]] TaskStep ChangeSteps(ChangeRequest request, const ServedApplication& application,
                                    std::shared_ptr<CommandAnswer> answer, const RobotStop::AsOf& as_of,
                                    std::string made_anew = {});
+
+/// Configurable::Outcome() of a parameter that has been set. Locks the structure.
+[[nodiscard]] std::optional<Result<void>> OutcomeOf(Runtime& runtime, std::string_view path);
+/// How long who has set one waits for that at most.
+inline constexpr Duration kLongestSetting = std::chrono::milliseconds(500);
 
 }  // namespace runnel

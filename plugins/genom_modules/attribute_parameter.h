@@ -15,7 +15,7 @@ namespace runnel::genom_modules {
 
 /// Errors: a member of the structure, or of one inside of it, is not there.
 inline Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said) {
-  if (type.kind() != TypeKind::kStructure || said.kind != ValueToken::Kind::kStructure) return {};
+  if (type.kind() != TypeKind::kStructure) return {};
   for (const FieldInfo& field : type.fields()) {
     const ValueToken* name = said.First();
     std::size_t left = said.count;
@@ -58,9 +58,9 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
   /// What a structure leaves out would be 0.
   [[nodiscard]] Result<std::shared_ptr<const void>> Parse(std::string_view text) const override {
     auto parsed = ParameterBase::Parse(text);
-    if (!parsed) return parsed;
-    if (auto all = CheckAllAreSaid(type(), TokensOf(text)->root()); !all) return all.error();
-    return parsed;
+    if (!parsed || type().kind() != TypeKind::kStructure) return parsed;
+    const auto all = CheckAllAreSaid(type(), TokensOf(text)->root());
+    return all ? parsed : all.error();
   }
   [[nodiscard]] std::optional<Result<void>> Outcome() const override {
     const Hold hold(is_held_, true);
@@ -84,7 +84,7 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
     if (is_under_way_) return;
     if (has_changed_.load(std::memory_order_relaxed)) {
       const Hold hold(is_held_, false);
-      if (!hold.has()) return;
+      if (!hold.has()) return module_.Wake();
       fill_(*request_, value_);
       has_changed_.store(false, std::memory_order_relaxed);
       is_due_ = true;
@@ -108,6 +108,7 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
     if (!is_behind_) return;
     const Hold hold(is_held_, false);
     is_behind_ = !hold.has();
+    if (!hold.has()) module_.Wake();
     // What somebody has set since counts.
     if (!hold.has() || has_changed_.load(std::memory_order_relaxed)) return;
     value_ = accepted_;

@@ -289,12 +289,6 @@ std::vector<Supervisor::Silence> Supervisor::Silent() const {
   return silent;
 }
 
-std::vector<Notice> Supervisor::TakeNotices() {
-  std::vector<Notice> taken;
-  TakeNotices(taken);
-  return taken;
-}
-
 void Supervisor::TakeNotices(std::vector<Notice>& to) {
   const std::lock_guard lock(shared_->mutex);
   auto& notices = shared_->notices;

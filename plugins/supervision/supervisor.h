@@ -59,9 +59,7 @@ class Supervisor {
   /// Those that are so now, until they count as fresh again, whatever they are called now. Under the structure lock.
   [[nodiscard]] std::vector<Silence> Silent() const;
 
-  /// What has been done since the last call, oldest first.
-  [[nodiscard]] std::vector<Notice> TakeNotices();
-  /// The same, behind what is there. Errors: no memory; nothing is taken.
+  /// What has been done since the last call, oldest first, behind what is there. Errors: no memory; nothing is taken.
   void TakeNotices(std::vector<Notice>& to);
 
  private:

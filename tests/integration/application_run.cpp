@@ -14,6 +14,7 @@
 #include "plugins/application_tags/run_description.h"
 #include "plugins/parameters/configuration.h"
 #include "plugins/structure/structure_editor.h"
+#include "tests/plugins/supervision/notices.h"
 
 namespace runnel::test {
 
@@ -117,7 +118,7 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
       run.duration = running.runtime.clock().Now() - start;
     }
     run.faults = running.scheduler.TakeFaults();
-    run.notices = running.supervisor.TakeNotices();
+    run.notices = test::NoticesOf(running.supervisor);
     run.was_stopped = running.scheduler.stop_requested();
   });
   return run;

@@ -9,6 +9,7 @@
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/structure_editor.h"
 #include "tests/plugins/application_files/reading/test_application.h"
+#include "tests/plugins/supervision/notices.h"
 
 namespace runnel::testing {
 namespace {
@@ -207,7 +208,7 @@ TEST_F(SchedulingTags, AFaultRuleWhoseParameterIsGoneIsReported) {
   Supervision supervision(*this, *application);
   ASSERT_TRUE(runtime.Delete(Get<Source>("/demo/source")));
   supervision.scheduler.RunUntil(Time(std::chrono::seconds(1)));
-  const auto notices = supervision.supervisor.TakeNotices();
+  const auto notices = test::NoticesOf(supervision.supervisor);
   ASSERT_EQ(notices.size(), 1u);
   EXPECT_EQ(notices[0].path, "/demo/bomb");
   EXPECT_TRUE(notices[0].is_failure);

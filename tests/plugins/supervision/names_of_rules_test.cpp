@@ -6,6 +6,7 @@
 #include "plugins/structure/change_history.h"
 #include "plugins/structure/structure_editor.h"
 #include "tests/plugins/application_files/reading/test_application.h"
+#include "tests/plugins/supervision/notices.h"
 
 namespace runnel::testing {
 namespace {
@@ -92,7 +93,7 @@ class NamesOfRules : public ::testing::TestWithParam<Operation>, public Workshop
   double Seen() { return Get<Reader>(GetParam().sink).in.Get(); }
   std::vector<std::string> Messages() {
     std::vector<std::string> messages;
-    for (const Notice& each : supervisor->TakeNotices()) messages.push_back(each.path + " " + each.message);
+    for (const Notice& each : test::NoticesOf(*supervisor)) messages.push_back(each.path + " " + each.message);
     return messages;
   }
 

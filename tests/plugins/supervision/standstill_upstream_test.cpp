@@ -1,6 +1,7 @@
 // Ports that drive, while something farther up does not run that nobody on the way would notice.
 
 #include "tests/plugins/supervision/driven_over.h"
+#include "tests/plugins/supervision/notices.h"
 
 namespace runnel::supervised {
 namespace {
@@ -39,7 +40,7 @@ TEST_F(DrivenOver, SoHasWhatDrivesInAnotherApplication) {
   MustSucceed(robot.supervisor.SetPaused("/laser", true));
   RunOn();
   EXPECT_EQ(sent.Get(), -7);
-  const auto notices = robot.supervisor.TakeNotices();
+  const auto notices = test::NoticesOf(robot.supervisor);
   ASSERT_THAT(notices, SizeIs(1));
   EXPECT_EQ(notices[0].path, "/passing/output/out");
   MustSucceed(robot.supervisor.SetPaused("/laser", false));

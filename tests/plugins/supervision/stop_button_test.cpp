@@ -11,6 +11,7 @@
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/supervisor.h"
 #include "tests/plugins/application_files/reading/test_application.h"
+#include "tests/plugins/supervision/notices.h"
 #include "tests/plugins/supervision/stop_button_fixture.h"
 
 namespace runnel::testing {
@@ -21,7 +22,7 @@ TEST_F(StopButtonTest, TruePressesWhoeverHasTheStructureLock) {
   const std::lock_guard lock(runtime.structure_mutex());
   Press(1);
   WaitForStop("the button /app/panel/output/out");
-  WaitUntil("it is told", [&] { return !supervisor.TakeNotices().empty(); });
+  WaitUntil("it is told", [&] { return !test::NoticesOf(supervisor).empty(); });
 }
 
 TEST_F(StopButtonTest, FalseDoesNothingUnlessTheFileSaysSo) {

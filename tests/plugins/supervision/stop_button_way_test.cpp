@@ -5,6 +5,7 @@
 
 #include "core/port/proxy_port.h"
 #include "plugins/structure/value_by_hand.h"
+#include "tests/plugins/supervision/notices.h"
 #include "tests/plugins/supervision/stop_button_fixture.h"
 
 namespace runnel::testing {
@@ -120,7 +121,7 @@ TEST_F(WayToStopButton, WhatComesOfATimeOutIsNotLetGo) {
 
 /// Whether of what has been told since it was asked last something has these words in it.
 bool IsTold(Supervisor& supervisor, std::string_view words) {
-  return std::ranges::any_of(supervisor.TakeNotices(),
+  return std::ranges::any_of(test::NoticesOf(supervisor),
                              [&](const Notice& each) { return each.message.find(words) != std::string::npos; });
 }
 

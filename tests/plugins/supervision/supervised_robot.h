@@ -9,6 +9,7 @@
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/supervisor.h"
 #include "tests/plugins/scheduling/test_modules.h"
+#include "tests/plugins/supervision/notices.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::supervised {
@@ -41,7 +42,7 @@ struct Robot {
   }
   std::vector<std::string> Messages() {
     std::vector<std::string> messages;
-    for (const Notice& notice : supervisor.TakeNotices()) messages.push_back(notice.message);
+    for (const Notice& notice : test::NoticesOf(supervisor)) messages.push_back(notice.message);
     return messages;
   }
 

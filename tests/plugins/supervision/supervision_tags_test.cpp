@@ -2,6 +2,7 @@
 
 #include "plugins/application_tags/run_description.h"
 #include "tests/plugins/application_files/reading/test_application.h"
+#include "tests/plugins/supervision/notices.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::testing {
@@ -70,7 +71,7 @@ TEST_F(SupervisionTags, PublishValuesUntilAllIsWellAgain) {
   auto& input = dynamic_cast<Port&>(**found);
   scheduler.RunUntil(Time(std::chrono::milliseconds(100)));  // the source publishes nothing
   ASSERT_TRUE(input.is_set_by_hand(Port::Setter::kRule));
-  const auto stale = supervisor.TakeNotices();
+  const auto stale = test::NoticesOf(supervisor);
   ASSERT_EQ(stale.size(), 1u);
   EXPECT_FALSE(stale[0].is_failure);
   EXPECT_THAT(stale[0].message, HasSubstr("published -7 at /demo/sink/input/value"));
@@ -113,7 +114,7 @@ TEST_F(SupervisionTags, MakeRulesOfModulesThatDoNotReturn) {
   rules[0].on_return(Fault{"/demo/a", "is stuck"});
   std::size_t told = 0;
   test::WaitUntil("both have been carried out, in their order",
-                  [&] { return (told += supervisor.TakeNotices().size()) == 2; });
+                  [&] { return (told += test::NoticesOf(supervisor).size()) == 2; });
   ASSERT_EQ(done.size(), 2u);
   EXPECT_EQ(std::get<SetParameter>(done[0][0]).value, "2");
   EXPECT_EQ(std::get<SetParameter>(done[1][0]).value, "1");

@@ -1,5 +1,6 @@
 // Inputs that fall silent and modules that fail, on the simulated clock and on the real one.
 
+#include "tests/plugins/supervision/notices.h"
 #include "tests/plugins/supervision/supervised_robot.h"
 
 namespace runnel::supervised {
@@ -9,13 +10,13 @@ TEST_F(Supervised, InputsThatFallSilentAreFedByAnotherSourceAndGetTheirsBack) {
   MustSucceed(robot.supervisor.Add(robot.SwitchingRule()));
   robot.scheduler.RunUntil(At(100));
   EXPECT_EQ(robot.seen, 1);
-  EXPECT_THAT(robot.supervisor.TakeNotices(), IsEmpty());
+  EXPECT_THAT(test::NoticesOf(robot.supervisor), IsEmpty());
   robot.laser_works = false;  // last heard at 90 ms
   robot.scheduler.RunUntil(At(130));
-  EXPECT_THAT(robot.supervisor.TakeNotices(), IsEmpty());
+  EXPECT_THAT(test::NoticesOf(robot.supervisor), IsEmpty());
   robot.scheduler.RunUntil(At(150));
   EXPECT_EQ(robot.seen, 2);
-  const auto notices = robot.supervisor.TakeNotices();
+  const auto notices = test::NoticesOf(robot.supervisor);
   ASSERT_THAT(notices, SizeIs(1));
   EXPECT_EQ(notices[0].path, robot.reader.in.path());
   EXPECT_EQ(notices[0].time, At(130));
@@ -89,7 +90,7 @@ TEST_F(Supervised, WhatCannotBeDoneIsToldAndTheRestRunsOn) {
   MustSucceed(robot.supervisor.Add(rule));
   robot.laser_works = false;
   EXPECT_TRUE(robot.scheduler.RunUntil(At(200)));
-  const auto notices = robot.supervisor.TakeNotices();
+  const auto notices = test::NoticesOf(robot.supervisor);
   ASSERT_THAT(notices, SizeIs(1));
   EXPECT_TRUE(notices[0].is_failure);
   EXPECT_THAT(notices[0].message, HasSubstr("'nothing'"));
@@ -159,7 +160,7 @@ TEST_F(Supervised, AReactionThatThrowsKeepsNeitherOthersNorTheEndOfTheRunAway) {
   MustSucceed(throwing.Add(rule));
   robot.laser_works = false;
   EXPECT_FALSE(robot.scheduler.RunUntil(At(200)));
-  const auto notices = throwing.TakeNotices();
+  const auto notices = test::NoticesOf(throwing);
   ASSERT_THAT(notices, SizeIs(1));
   EXPECT_TRUE(notices[0].is_failure);
   EXPECT_THAT(notices[0].message, HasSubstr("no memory"));
@@ -233,7 +234,7 @@ TEST_F(Supervised, AThreadThatOverrunsIsToldOnceAndThatItKeepsItsPeriodAgain) {
   EXPECT_THAT(robot.Messages(), IsEmpty());
   robot.infrared.action = [&](Doing& of) { robot.scheduler.simulated_clock().Set(of.cycle_time() + 15ms); };
   robot.scheduler.RunUntil(At(5000));
-  const auto late = robot.supervisor.TakeNotices();
+  const auto late = test::NoticesOf(robot.supervisor);
   ASSERT_THAT(late, SizeIs(1));
   EXPECT_EQ(late[0].path, robot.thread.path());
   EXPECT_THAT(late[0].message, HasSubstr("overruns: "));
@@ -278,7 +279,7 @@ TEST_F(Supervised, TheSameHappensInEveryRun) {
     for (int step = 0; step < 40; ++step) {
       another.laser_works = step % 13 < 6;
       another.scheduler.RunUntil(At(10 * step));
-      for (const Notice& notice : another.supervisor.TakeNotices()) times.push_back(notice.time);
+      for (const Notice& notice : test::NoticesOf(another.supervisor)) times.push_back(notice.time);
     }
     return times;
   };
