@@ -82,8 +82,8 @@ class Request {
 
   Request(const ComponentTable& component, const ServiceTable& service)
       : service_(service),
-        data_(service.make != nullptr ? service.make() : nullptr),
-        outcome_(component.largest_detail) {}
+        outcome_(component.largest_detail),
+        data_(service.make != nullptr ? service.make() : nullptr) {}
   ~Request() {
     if (data_ != nullptr && service_.destroy != nullptr) service_.destroy(data_);
   }
@@ -116,8 +116,8 @@ class Request {
   }
 
   const ServiceTable& service_;
+  Outcome outcome_;  // first: what may find no memory once data_ is there would leave that behind
   void* data_;
-  Outcome outcome_;
   std::atomic<State> state_{State::kIdle};
   std::atomic<std::uint32_t> id_{0};
   std::atomic<const char*> doing_{""};
