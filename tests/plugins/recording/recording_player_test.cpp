@@ -146,15 +146,20 @@ TEST_F(RecordingPlayerTest, AModuleWhosePortsArePlayedMayBeDeletedMeanwhile) {
   }
 }
 
-// The player's own task goes on, and says where what cannot be read was to be played.
-TEST_F(RecordingPlayerTest, AnInputThatIsPlayedMayBeDeletedMeanwhile) {
-  auto writer = Must(McapWriter::Create(Path("input.mcap"), {}));
+// Of what came to the sink's input: times in ns, and what was said then.
+void WriteInputs(const std::string& file, const std::vector<std::pair<std::uint64_t, std::string>>& values) {
+  auto writer = Must(McapWriter::Create(file, {}));
   const auto schema = Must(writer->AddSchema("double", "jsonschema", kNumberSchema));
   const auto channel = Must(writer->AddChannel(schema, "/sink/input/number", "json", {}));
-  Must(writer->AddMessage({channel, 1, 0, 0, R"({"value":7})"}));
-  Must(writer->AddMessage({channel, 2, 60'000'000, 0, R"({"value":14})"}));
-  Must(writer->AddMessage({channel, 3, 70'000'000, 0, R"({"value":"oops"})"}));
+  std::uint32_t sequence = 0;
+  for (const auto& [time, said] : values) Must(writer->AddMessage({channel, ++sequence, time, 0, said}));
   Must(writer->Finish());
+}
+
+// The player's own task goes on, and says where what cannot be read was to be played.
+TEST_F(RecordingPlayerTest, AnInputThatIsPlayedMayBeDeletedMeanwhile) {
+  WriteInputs(Path("input.mcap"),
+              {{0, R"({"value":7})"}, {60'000'000, R"({"value":14})"}, {70'000'000, R"({"value":"oops"})"}});
   Application other;
   const auto player = Must(Play(other, Path("input.mcap")));
   player->Start(Time{});
@@ -185,12 +190,7 @@ TEST_F(RecordingPlayerTest, PlaysAStretchFromLaterOn) {
 }
 
 TEST_F(RecordingPlayerTest, PlaysIntoAnInputAsIfItsSourcesWereDisconnected) {
-  auto writer = Must(McapWriter::Create(Path("input.mcap"), {}));
-  const auto schema = Must(writer->AddSchema("double", "jsonschema", kNumberSchema));
-  const auto channel = Must(writer->AddChannel(schema, "/sink/input/number", "json", {}));
-  Must(writer->AddMessage({channel, 1, 0, 0, R"({"value":7})"}));
-  Must(writer->AddMessage({channel, 2, 50'000'000, 0, R"({"value":14})"}));
-  Must(writer->Finish());
+  WriteInputs(Path("input.mcap"), {{0, R"({"value":7})"}, {50'000'000, R"({"value":14})"}});
   Application other;
   auto player = Must(Play(other, Path("input.mcap")));
   player->Start(Time{});
