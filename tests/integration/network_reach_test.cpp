@@ -128,7 +128,8 @@ TEST_F(TwoRobots, ThatThereIsNoNetworkIsTold) {
       "to=\"gate/wanted\"/>\n";
   const auto log_with = [&](const std::string& name) {
     const Program lonely("run " + Write(name, "  <network reach=\"network\"/>\n" + gate));
-    WaitForText("log --app " + name, "wanted has never come");  // half a second later, and all that has been said before
+    WaitForText("log --app " + name,
+                "wanted has never come");  // half a second later, and all that has been said before
     return Runnel("log --app " + name).text;
   };
   const std::string told = "this machine is in no network";

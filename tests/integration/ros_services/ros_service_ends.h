@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -11,12 +12,17 @@
 /// Ends of services as those of nodes on Cyclone DDS, made by Cyclone's own means.
 inline constexpr std::uint64_t kClient = 0x0123456789abcdef;
 
-inline dds_qos_t* ServiceQos(const char* user_data, std::int32_t depth = 10) {
-  dds_qos_t* const qos = dds_create_qos();
-  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
-  dds_qset_durability(qos, DDS_DURABILITY_VOLATILE);
-  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, depth);
-  dds_qset_userdata(qos, user_data, std::string(user_data).size());
+struct QosDelete {
+  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+using Qos = std::unique_ptr<dds_qos_t, QosDelete>;
+
+inline Qos ServiceQos(const char* user_data, std::int32_t depth = 10) {
+  Qos qos(dds_create_qos());
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+  dds_qset_userdata(qos.get(), user_data, std::string(user_data).size());
   return qos;
 }
 
@@ -61,8 +67,8 @@ inline Ends MakeClient(dds_entity_t participant, const std::string& service, con
       dds_create_topic(participant, &request, ("rq/" + service + "Request").c_str(), nullptr, nullptr);
   const dds_entity_t in =
       dds_create_topic(participant, &response, ("rr/" + service + "Reply").c_str(), nullptr, nullptr);
-  return {dds_create_writer(participant, out, ServiceQos("clientid=1;"), nullptr),
-          dds_create_reader(participant, in, ServiceQos("clientid=1;"), nullptr)};
+  return {dds_create_writer(participant, out, ServiceQos("clientid=1;").get(), nullptr),
+          dds_create_reader(participant, in, ServiceQos("clientid=1;").get(), nullptr)};
 }
 
 /// Calls once there is a service, and shows its answer.

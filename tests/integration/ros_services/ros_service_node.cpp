@@ -48,7 +48,7 @@ void CallEarly(dds_entity_t participant) {
                                             "rq/lamp/switchRequest", nullptr, nullptr);
   const dds_entity_t in =
       dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Response__desc, "rr/lamp/switchReply", nullptr, nullptr);
-  const dds_entity_t writer = dds_create_writer(participant, out, ServiceQos("clientid=5.6;"), nullptr);
+  const dds_entity_t writer = dds_create_writer(participant, out, ServiceQos("clientid=5.6;").get(), nullptr);
   dds_publication_matched_status_t readers{};
   while (readers.current_count == 0) {
     Pause();
@@ -61,7 +61,7 @@ void CallEarly(dds_entity_t participant) {
   (void)dds_write(writer, &request);
   (void)dds_wait_for_acks(writer, DDS_SECS(10));
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  const dds_entity_t reader = dds_create_reader(participant, in, ServiceQos("clientid=5.6;"), nullptr);
+  const dds_entity_t reader = dds_create_reader(participant, in, ServiceQos("clientid=5.6;").get(), nullptr);
   TakeUntil<std_srvs_srv_dds__SetBool_Response_>(reader, [](const auto& response) {
     std::printf("early: %s '%s'\n", response.success ? "done" : "refused", response.message);
     return true;
@@ -85,8 +85,8 @@ void Serve(dds_entity_t participant) {
                                            "rq/house/switchRequest", nullptr, nullptr);
   const dds_entity_t out = dds_create_topic(participant, &std_srvs_srv_dds__SetBool_Response__desc,
                                             "rr/house/switchReply", nullptr, nullptr);
-  const Ends ends{dds_create_writer(participant, out, ServiceQos("serviceid=2;"), nullptr),
-                  dds_create_reader(participant, in, ServiceQos("serviceid=2;"), nullptr)};
+  const Ends ends{dds_create_writer(participant, out, ServiceQos("serviceid=2;").get(), nullptr),
+                  dds_create_reader(participant, in, ServiceQos("serviceid=2;").get(), nullptr)};
   int count = 0;
   TakeUntil<std_srvs_srv_dds__SetBool_Request_>(ends.reader, [&](const auto& request) {
     std::printf("asked %d: %s\n", ++count, request.data ? "on" : "off");
@@ -205,7 +205,7 @@ void Parameters(dds_entity_t participant) {
 
 dds_entity_t Reader(dds_entity_t participant, const char* topic, const dds_topic_descriptor_t& type) {
   return dds_create_reader(participant, dds_create_topic(participant, &type, topic, nullptr, nullptr),
-                           ServiceQos("", 1000), nullptr);
+                           ServiceQos("", 1000).get(), nullptr);
 }
 
 void Events(dds_entity_t participant) {
@@ -238,11 +238,11 @@ void Diagnostics(dds_entity_t participant) {
 }
 
 void TellTime(dds_entity_t participant) {
-  dds_qos_t* const qos = ServiceQos("", 1);
-  dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
+  const Qos qos = ServiceQos("", 1);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
   const dds_entity_t topic =
       dds_create_topic(participant, &rosgraph_msgs_msg_dds__Clock__desc, "rt/clock", nullptr, nullptr);
-  const dds_entity_t writer = dds_create_writer(participant, topic, qos, nullptr);
+  const dds_entity_t writer = dds_create_writer(participant, topic, qos.get(), nullptr);
   for (std::int64_t milliseconds = 100'000;; milliseconds += 50) {
     rosgraph_msgs_msg_dds__Clock_ clock{};
     clock.clock.sec = static_cast<std::int32_t>(milliseconds / 1000);
