@@ -14,7 +14,6 @@
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application/what_is_lost.h"
 #include "plugins/application_files/saving/application_saver.h"
-#include "plugins/command_service/change_task.h"
 #include "plugins/command_service/hand_settings.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/parameters/configuration_saver.h"
@@ -186,14 +185,7 @@ Result<void> Application::Set(std::string_view path, std::string_view value) {
       return set.error().WithPath((*found)->path());
     }
   }
-  auto set = Apply({SetParameter{std::string(path), std::string(value)}}).ToResult();
-  // Who runs cycles by himself would wait in vain.
-  const Time until = SteadyClock().Now() + kLongestSetting;
-  for (; set && is_running() && SteadyClock().Now() < until;
-       std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
-    if (const auto said = OutcomeOf(parts_->runtime(), path)) return *said;
-  }
-  return set;
+  return Apply({SetParameter{std::string(path), std::string(value)}}).ToResult();
 }
 
 Result<std::string> Application::Get(std::string_view path) {

@@ -28,10 +28,8 @@ namespace {
 
 // A module whose thread runs no cycles never proves itself, and never says whether it takes a value.
 constexpr Duration kLongestProbation = std::chrono::seconds(3);
-// How long after one look at the new modules the next one comes: each time twice as long, since a module
-// of a fast thread proves itself soon.
-constexpr Duration kFirstLook = std::chrono::milliseconds(1);
-constexpr Duration kLastLook = std::chrono::milliseconds(20);
+// How long after one look at the new modules the next one comes.
+constexpr Duration kLookAgain = std::chrono::milliseconds(5);
 
 std::uint64_t IdOf(Runtime& runtime, const std::string& path) {
   const std::lock_guard lock(runtime.structure_mutex());
@@ -137,7 +135,6 @@ struct ChangeTask {
   bool is_on_probation = false;
   bool has_proved = false;
   std::chrono::steady_clock::time_point until{};  // when the wait for the proof is given up
-  Duration look_again = kFirstLook;
 };
 
 std::optional<Duration> ChangeTask::Step() {
@@ -154,10 +151,7 @@ std::optional<Duration> ChangeTask::Step() {
   } catch (const std::bad_alloc&) {  // it has been done all the same; there may be memory at the next look
     has_proved = false;
   }
-  if (!IsOver()) {
-    look_again = std::min(2 * look_again, kLastLook);
-    return look_again;
-  }
+  if (!IsOver()) return kLookAgain;
   Conclude();
   return {};
 }

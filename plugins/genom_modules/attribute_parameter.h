@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,12 +10,18 @@
 #include "core/types/type_info.h"
 #include "core/types/value_tokens.h"
 #include "plugins/genom_modules/component_module.h"
+#include "plugins/genom_modules/cycle_lock.h"
 #include "plugins/parameters/parameter.h"
 
 namespace runnel::genom_modules {
 
-/// Errors: a member of the structure, or of one inside of it, is not there.
+/// Errors: a member of the structure, or of one inside of it, is not there. Precondition: `said` is a value of the type.
 inline Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said) {
+  const bool is_list = type.kind() == TypeKind::kSequence;
+  const ValueToken* element = said.First();
+  for (std::size_t i = 0; is_list && i < said.count; ++i, element = element->Next()) {
+    if (auto all = CheckAllAreSaid(*type.elements().type, *element); !all) return all;
+  }
   if (type.kind() != TypeKind::kStructure) return {};
   for (const FieldInfo& field : type.fields()) {
     const ValueToken* name = said.First();
@@ -58,23 +65,27 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
   /// What a structure leaves out would be 0.
   [[nodiscard]] Result<std::shared_ptr<const void>> Parse(std::string_view text) const override {
     auto parsed = ParameterBase::Parse(text);
-    if (!parsed || type().kind() != TypeKind::kStructure) return parsed;
+    if (!parsed || (type().kind() != TypeKind::kStructure && type().kind() != TypeKind::kSequence)) return parsed;
     const auto all = CheckAllAreSaid(type(), TokensOf(text)->root());
     return all ? parsed : all.error();
   }
   [[nodiscard]] std::optional<Result<void>> Outcome() const override {
-    const Hold hold(is_held_, true);
-    if (!is_settled_) return {};
-    return refusal_.empty() ? Result<void>() : Error{.message = refusal_, .path = path()};
+    std::string refusal;
+    {
+      const std::lock_guard lock(lock_);
+      if (!is_settled_) return {};
+      refusal = refusal_;
+    }
+    return refusal.empty() ? Result<void>() : Error{.message = std::move(refusal), .path = path()};
   }
   [[nodiscard]] std::shared_ptr<void> Value() const override {
-    const Hold hold(is_held_, true);
+    const std::lock_guard lock(lock_);
     return std::make_shared<T>(value_);
   }
 
   void Prepare(genom_execution::Engine& engine) override {
     if (request_ == nullptr) request_ = std::make_unique<Request>(engine.component(), attribute_);
-    const Hold hold(is_held_, true);
+    const std::lock_guard lock(lock_);
     has_changed_.store(false, std::memory_order_relaxed);
     is_due_ = TextOf(value_) != default_text_;
     if (is_due_) fill_(*request_, value_);
@@ -83,8 +94,8 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
     has_begun_.store(true, std::memory_order_relaxed);
     if (is_under_way_) return;
     if (has_changed_.load(std::memory_order_relaxed)) {
-      const Hold hold(is_held_, false);
-      if (!hold.has()) return module_.Wake();
+      const std::unique_lock lock(lock_, std::try_to_lock);
+      if (!lock) return;
       fill_(*request_, value_);
       has_changed_.store(false, std::memory_order_relaxed);
       is_due_ = true;
@@ -106,11 +117,11 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
       }
     }
     if (!is_behind_) return;
-    const Hold hold(is_held_, false);
-    is_behind_ = !hold.has();
-    if (!hold.has()) module_.Wake();
-    // What somebody has set since counts.
-    if (!hold.has() || has_changed_.load(std::memory_order_relaxed)) return;
+    const std::unique_lock lock(lock_, std::try_to_lock);
+    is_behind_ = !lock;
+    if (!lock) return;
+    // What somebody has set since counts, and is sent now that no other is under way.
+    if (has_changed_.load(std::memory_order_relaxed)) return module_.Wake();
     value_ = accepted_;
     refusal_ = said_;
     is_settled_ = !is_under_way_ && !is_due_;
@@ -122,12 +133,10 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
   }
 
  private:
-  using Hold = runnel::internal::FlagHold;
-
   bool Assign(const void* value) override {
     T copy = *static_cast<const T*>(value);
     {
-      const Hold hold(is_held_, true);
+      const std::lock_guard lock(lock_);
       value_ = std::move(copy);  // whole or not at all, if memory ends
       has_changed_.store(true, std::memory_order_relaxed);
       refusal_.clear();
@@ -142,9 +151,9 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
   void (*const fill_)(Request& request, const T& value);
   void (*const read_)(Request& request, T& value);
   T accepted_;  // by the component
-  mutable std::atomic_flag is_held_ = ATOMIC_FLAG_INIT;
-  T value_;                               // by who holds it
-  std::atomic<bool> has_changed_{false};  // changed by who holds it
+  mutable CycleLock lock_{[this]() noexcept { module_.Wake(); }};
+  T value_;                               // guarded by lock_
+  std::atomic<bool> has_changed_{false};  // changed under lock_
   std::string refusal_;                   // likewise
   bool is_settled_ = true;                // likewise
   std::atomic<bool> has_begun_{false};

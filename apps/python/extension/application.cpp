@@ -13,6 +13,7 @@
 #include "core/paths/path_search.h"
 #include "plugins/application/run_report.h"
 #include "plugins/command_service/application_log.h"
+#include "plugins/command_service/change_task.h"
 #include "plugins/command_service/command_service.h"
 
 namespace py = pybind11;
@@ -193,6 +194,21 @@ void Connect(const Open& open, const std::string& from, const std::string& to, s
   Apply(open, {ConnectPorts{from, to, options}});
 }
 
+// Of a component's attribute its next cycle says what it makes of the value, if something else than this thread runs cycles.
+void Set(const Open& open, const std::string& path, const std::string& value) {
+  Checked(WithoutGil(open, [&](Application& application) { return application.Set(path, value); }));
+  const Use use(*open);
+  const auto is_run = [&] {
+    const bool in_call = open->runs_in != std::thread::id() && open->runs_in != std::this_thread::get_id();
+    return (in_call || use->is_running()) && !use->scheduler().pace().is_paused();
+  };
+  const Time end = SteadyClock().Now() + kLongestSetting;
+  for (; is_run() && SteadyClock().Now() < end; LookAround(*open)) {
+    if (const auto said = WithoutGil([&] { return OutcomeOf(use->runtime(), path); })) return Checked(*said);
+    WithoutGil([] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
+  }
+}
+
 void AddThreadOf(const Open& open, const std::string& name, std::optional<double> period, int priority) {
   ThreadOptions options{.priority = priority};
   if (period) options.period = FromSeconds(*period);
@@ -241,10 +257,7 @@ void BindApplication(py::module_& module) {
            [](const Open& open, const std::string& plugin) {
              Checked(WithoutGil(open, [&](Application& it) { return it.LoadPlugin(plugin); }));
            })
-      .def("_set",
-           [](const Open& open, const std::string& path, const std::string& value) {
-             Checked(WithoutGil(open, [&](Application& it) { return it.Set(path, value); }));
-           })
+      .def("_set", Set)
       .def("_get", Get)
       .def("_save",
            [](const Open& open, const std::string& file, bool overwrite) {

@@ -1,4 +1,5 @@
 import subprocess
+import threading
 import time
 
 import pytest
@@ -144,6 +145,18 @@ def test_who_is_outside_says_what_has_no_default(xml):
         with pytest.raises(runnel.Error, match="refuses the value: guide::too_far"):
             app.set("/guide/set_limits", {"speed": 3, "turn_rate": 1})
         app.set("/guide/set_limits", {"speed": 0.3, "turn_rate": 1})
+
+
+def test_who_sets_an_attribute_while_another_call_runs_hears_of_its_refusal(xml):
+    with runnel.load(xml / "apps/genom_demo.xml", speed=1) as app:
+        runs = threading.Thread(target=app.run)
+        runs.start()
+        while app.time == 0:
+            time.sleep(0.001)
+        with pytest.raises(runnel.Error, match="refuses the value: guide::too_far"):
+            app.set("/guide/set_limits", {"speed": 3, "turn_rate": 1})
+        app.quit()
+        runs.join()
 
 
 def test_connections_are_checked_by_type(app):

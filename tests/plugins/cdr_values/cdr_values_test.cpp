@@ -303,7 +303,7 @@ TEST(Cdr, LargeListsReferToOctetsThatAreKept) {
 
 TEST(Cdr, OfKnownSizeAllocatesNothing) {
   Scan scan;
-  scan.ranges.resize(720, 1.0F);
+  scan.ranges.assign(720, 1.0F);
   scan.frame = "a frame of more than fifteen letters";
   Scan read = scan;
   Octets octets = CdrOf(scan);
