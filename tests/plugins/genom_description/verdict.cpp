@@ -1,5 +1,6 @@
 #include "tests/plugins/genom_description/verdict.h"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -32,7 +33,7 @@ void ExpectVerdictsInComponent(const std::vector<Case>& cases) {
 }
 
 std::string FileText(const std::string& name) {
-  std::ifstream stream(std::string(RUNNEL_GENOM_FOLDER) + "/" + name);
+  std::ifstream stream(std::filesystem::path(RUNNEL_GENOM_FOLDER) / name);
   return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
