@@ -46,13 +46,14 @@ void Exclusion::WakeOthers(std::size_t place, std::size_t unit) noexcept {
 }
 
 void AsyncWork::Run() noexcept {
+  Engine& engine = *engine_;  // once it is done, the task may give the next codel at once
   try {
     event_ = codel_->call(invocation_);
   } catch (...) {
     event_ = RaiseMiddlewareError(*invocation_.context, "a codel has thrown");
   }
   state_.store(State::kDone, std::memory_order_release);
-  engine_->Wake();
+  engine.Wake();
 }
 
 /// However the codel ends, others may run.

@@ -17,9 +17,8 @@ namespace runnel::genom_modules {
 
 /// Errors: a member of the structure, or of one inside of it, is not there. Precondition: `said` is a value of the type.
 inline Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said) {
-  const bool is_list = type.kind() == TypeKind::kSequence;
   const ValueToken* element = said.First();
-  for (std::size_t i = 0; is_list && i < said.count; ++i, element = element->Next()) {
+  for (std::size_t i = 0; type.kind() == TypeKind::kSequence && i < said.count; ++i, element = element->Next()) {
     if (auto all = CheckAllAreSaid(*type.elements().type, *element); !all) return all;
   }
   if (type.kind() != TypeKind::kStructure) return {};
@@ -86,8 +85,10 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
   void Prepare(genom_execution::Engine& engine) override {
     if (request_ == nullptr) request_ = std::make_unique<Request>(engine.component(), attribute_);
     const std::lock_guard lock(lock_);
+    // Where a swap has been taken back, what was set meanwhile is asked for, the default, too.
+    is_due_ = (has_begun_.load(std::memory_order_relaxed) && has_changed_.load(std::memory_order_relaxed)) ||
+              TextOf(value_) != default_text_;
     has_changed_.store(false, std::memory_order_relaxed);
-    is_due_ = TextOf(value_) != default_text_;
     if (is_due_) fill_(*request_, value_);
   }
   void BeforePasses(genom_execution::Engine& engine, Time /*now*/) override {

@@ -100,6 +100,7 @@ const std::vector<State>& States() {
        [](Trial& trial) {
          const InputLimits limits{.minimum = 0, .maximum = 9};
          Require(trial.In().SetLimits(limits));
+         const std::lock_guard lock(trial.application->runtime().structure_mutex());
          trial.In().Annotate(std::make_unique<GivenLimits>(limits));
        },
        [](Trial& trial) { return BoundsText(trial.In().limits()) == "0 .. 9"; }},

@@ -43,6 +43,16 @@ TEST_F(ComponentLifeTest, EndsActivitiesBeforeAnotherTakesItsPlaceAndBeginsAfres
   EXPECT_THAT(Outcome("wait", *again), testing::Not(testing::AnyOf("pending", HasSubstr("interrupted"))));
 }
 
+TEST_F(ComponentLifeTest, AsksForWhatIsSetBeforeItBeginsAfreshTheDefaultToo) {
+  rig.Set("set_gain", "7");
+  rig.RunCycles(2);
+  rig.module.FindAnnotation<BeforeHandOver>()->settle();
+  rig.Set("set_gain", "1.5");
+  rig.RunCycles(4);
+  EXPECT_EQ(Parameter("set_gain"), "1.5");
+  EXPECT_THAT(Call("get"), HasSubstr("gain: 1.5"));
+}
+
 // It runs in a thread that no hold of cycles keeps.
 TEST_F(ComponentLifeTest, WaitsForAnAsynchronousCodelBeforeAnotherTakesItsPlace) {
   static const SteadyClock clock;  // outlives the rig; on others a cycle waits for it anyway
