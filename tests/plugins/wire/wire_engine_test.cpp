@@ -24,15 +24,6 @@
 #include "plugins/wire_fast/fast_wire.h"
 #endif
 
-#ifdef __SANITIZE_THREAD__
-// The engine's library is not instrumented: what its threads hand to each other looks like races.
-extern "C" const char* __tsan_default_suppressions();
-extern "C" const char* __tsan_default_suppressions() {
-  return "race:libddsc.so\ncalled_from_lib:libddsc.so\n"
-         "race:libfastrtps.so\nmutex:libfastrtps.so\ncalled_from_lib:libfastrtps.so\n";
-}
-#endif
-
 namespace runnel::test {
 namespace {
 
