@@ -8,7 +8,7 @@
 #include <pthread.h>
 
 extern "C" const char* __tsan_default_suppressions() {
-  return "race:libddsc.so\nrace:libfastrtps.so\nrace:libfastcdr.so\nrace:OpenLibrary\n";
+  return "race:libddsc.so\nrace:libfastrtps.so\nrace:libfastcdr.so\ndeadlock:libfastrtps.so\nrace:OpenLibrary\n";
 }
 
 // That of GCC 12 does not know this call, by which Fast DDS takes its mutexes; it knows pthread_mutex_timedlock().
