@@ -110,7 +110,8 @@ TEST_F(AmongRosNodes, AnotherMessageOfTheSameNameIsToldOf) {
       "not RIHS01_9c45bf16)";
   WaitUntil("it is told",
             [&] { return Runnel("log --app robot").text.find("/cmd_vel of somebody " + told) != std::string::npos; });
-  EXPECT_THAT(Runnel("network --app robot").text, HasSubstr("), " + told));
+  WaitUntil("its network says so, too",  // from a moment later on
+            [&] { return Runnel("network --app robot").text.find("), " + told) != std::string::npos; });
   WaitUntil("they have come", [] { return Runnel("network --app robot").text.find(", 0 came") == std::string::npos; });
 }
 
