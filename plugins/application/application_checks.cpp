@@ -136,7 +136,7 @@ std::function<void()> ApplicationChecks::SetAside(std::string_view plugin) {
   };
   const auto of_it =
       std::ranges::stable_partition(checks_, [&](const PluginCheck& each) { return each.plugin != plugin; });
-  std::ranges::move(of_it, std::back_inserter(*aside));
+  std::move(of_it.begin(), of_it.end(), std::back_inserter(*aside));
   checks_.erase(of_it.begin(), of_it.end());
   return back;
 }

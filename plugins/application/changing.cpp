@@ -30,10 +30,8 @@ namespace {
 void AwaitProof(StructureEditor& editor, Pace& pace) {
   constexpr auto kLongest = std::chrono::seconds(3);
   const auto until = std::chrono::steady_clock::now() + kLongest;
-  for (auto look = std::chrono::milliseconds(1); editor.on_probation() > 0;
-       look = std::min(2 * look, std::chrono::milliseconds(50))) {
-    if (pace.is_paused() || std::chrono::steady_clock::now() > until) return;
-    std::this_thread::sleep_for(look);
+  while (editor.on_probation() > 0 && !pace.is_paused() && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
     editor.Tend();
   }
 }

@@ -167,7 +167,7 @@ std::function<void()> XmlTagRegistry::SetAside(std::string_view plugin) {
   }
   const auto of_it = std::ranges::stable_partition(added_attributes_,
                                                    [&](const AddedAttribute& each) { return each.plugin != plugin; });
-  std::ranges::move(of_it, std::back_inserter(aside->attributes));
+  std::move(of_it.begin(), of_it.end(), std::back_inserter(aside->attributes));
   added_attributes_.erase(of_it.begin(), of_it.end());
   return back;
 }

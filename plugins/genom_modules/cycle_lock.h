@@ -18,9 +18,10 @@ class CycleLock {
 
   void lock() noexcept {
     // acquire: pairs with the release in unlock(), as below.
-    for (State free = State::kFree; !state_.compare_exchange_weak(free, State::kTaken, std::memory_order_acquire);
-         free = State::kFree) {
+    State free = State::kFree;
+    while (!state_.compare_exchange_weak(free, State::kTaken, std::memory_order_acquire)) {
       std::this_thread::yield();
+      free = State::kFree;
     }
   }
   [[nodiscard]] bool try_lock() noexcept {

@@ -161,8 +161,8 @@ Result<Json> RequestServer::Begin(LineServer::Client client, const Said& line) {
 Result<void> RequestServer::Fill(const StandaloneService& service, void* data, const Said& with) {
   if (!with.is_object()) return Error{.message = "'with' is an object of parameters"};
   for (const auto& [name, value] : with.items()) {
-    const bool is_one =
-        std::ranges::any_of(service.parameters, [&](const auto& each) { return each.is_input && each.name == name; });
+    const auto is_it = [&name = name](const auto& each) { return each.is_input && each.name == name; };
+    const bool is_one = std::ranges::any_of(service.parameters, is_it);
     if (!is_one) {
       return Error{.message = "there is no input '" + name + "'",
                    .hint = NearestNameHint(name, NamesOf(service.parameters, &StandaloneParameter::name))};

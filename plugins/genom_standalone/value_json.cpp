@@ -124,7 +124,7 @@ Result<void> MembersFromJson(const ValueType& type, const Said& json, void* valu
   if (!json.is_object()) return Wrong(path, "is no object");
   if (type.kind == ValueKind::kUnion && json.size() != 1) return Wrong(path, "is a union: say one of its members");
   for (const auto& [name, part] : json.items()) {
-    const auto found = std::ranges::find_if(type.members, [&](const ValueMember& each) { return each.name == name; });
+    const auto found = std::ranges::find(type.members, name, &ValueMember::name);
     if (found == type.members.end()) {
       return Wrong(path, "there is no '" + name + "'",
                    NearestNameHint(name, NamesOf(type.members, &ValueMember::name)));

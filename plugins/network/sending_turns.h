@@ -47,8 +47,10 @@ class SendingTurns {
 
   /// From now on nothing is sent. Waits until who is at it is through.
   void Close() noexcept {
-    for (bool is_done = false; !is_done; std::this_thread::yield()) {
+    bool is_done = false;
+    while (!is_done) {
       turns_.Do([&]() noexcept { is_done = is_closed_ = true; });
+      std::this_thread::yield();
     }
   }
 

@@ -1,7 +1,6 @@
 #include "plugins/network_discovery/discovery_table.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "core/base/characters.h"
 #include "plugins/cdr_values/cdr_reader.h"
@@ -83,14 +82,16 @@ std::vector<std::string> DiscoveryTable::refusals() const {
 
 std::vector<WireMember> DiscoveryTable::members() const {
   const std::lock_guard lock(mutex_);
-  const auto all = std::views::values(members_);
-  return {all.begin(), all.end()};
+  std::vector<WireMember> all;
+  for (const auto& [id, member] : members_) all.push_back(member);
+  return all;
 }
 
 std::vector<WireEndpoint> DiscoveryTable::endpoints() const {
   const std::lock_guard lock(mutex_);
-  const auto all = std::views::values(endpoints_);
-  return {all.begin(), all.end()};
+  std::vector<WireEndpoint> all;
+  for (const auto& [id, endpoint] : endpoints_) all.push_back(endpoint);
+  return all;
 }
 
 std::vector<WireEndpoint> DiscoveryTable::Partners(const std::string& topic, bool writers) const {

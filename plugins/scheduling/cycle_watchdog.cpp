@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <ranges>
 #include <utility>
 
 #include "core/element/element_path.h"
@@ -133,7 +132,8 @@ void CycleWatchdog::Look(Time now) {
       TellStuck(each, now);
     } catch (...) {
       const auto ends = [](const auto& known) { return known->rule.ends_run; };
-      if (std::ranges::any_of(each.fired | std::views::drop(each.told), ends)) faults_.EndForFault();
+      const auto first = each.fired.begin() + static_cast<std::ptrdiff_t>(each.told);
+      if (std::any_of(first, each.fired.end(), ends)) faults_.EndForFault();
     }
   }
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <ranges>
 #include <utility>
 
 #include "core/paths/path_search.h"
@@ -144,7 +143,7 @@ Supervisor::Supervisor(Runtime& runtime, Scheduler& scheduler, Perform perform)
     std::vector<ChangeSet> back;
     const auto there = shared.lock();
     if (there == nullptr) return back;
-    for (const Shared::KnownRule* each : std::views::reverse(there->switched)) back.push_back(each->back.changes);
+    for (auto at = there->switched.rbegin(); at != there->switched.rend(); ++at) back.push_back((*at)->back.changes);
     return back;
   });
 }

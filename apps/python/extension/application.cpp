@@ -202,10 +202,10 @@ void Set(const Open& open, const std::string& path, const std::string& value) {
     const bool in_call = open->runs_in != std::thread::id() && open->runs_in != std::this_thread::get_id();
     return (in_call || use->is_running()) && !use->scheduler().pace().is_paused();
   };
-  const Time end = SteadyClock().Now() + kLongestSetting;
-  for (; is_run() && SteadyClock().Now() < end; LookAround(*open)) {
+  for (const Time end = SteadyClock().Now() + kLongestSetting; is_run() && SteadyClock().Now() < end;) {
     if (const auto said = WithoutGil([&] { return OutcomeOf(use->runtime(), path); })) return Checked(*said);
     WithoutGil([] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
+    LookAround(*open);
   }
 }
 

@@ -183,8 +183,8 @@ Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& applicat
     }
     if (!is_its_own) return std::move(saved->lost);
     ForgetNewNames(application);
-    for (const auto& [parameter, value] : saved->values) {
-      Retry([&] { parameter->Annotate(std::make_unique<LoadedValue>(value)); });
+    for (const auto& each : saved->values) {
+      Retry([&] { each.first->Annotate(std::make_unique<LoadedValue>(each.second)); });
     }
     if (source != nullptr) {
       *source = std::move(*now);

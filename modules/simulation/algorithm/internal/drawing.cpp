@@ -140,7 +140,7 @@ void DrawFloor(Canvas& canvas) {
     const double first = canvas.grid() * std::ceil(low / canvas.grid());
     for (int i = 0; i <= kMostGridLines && first + i * canvas.grid() <= high; ++i) draw(first + i * canvas.grid());
   };
-  const auto [low, high] = canvas.extent();
+  const auto &low = canvas.extent().low, &high = canvas.extent().high;
   each_line(low.x, high.x, [&](double x) {
     canvas.svg().Line(canvas.Pixel({x, low.y}), canvas.Pixel({x, high.y}), "");
   });
