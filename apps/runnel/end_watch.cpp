@@ -45,7 +45,7 @@ EndWatch::~EndWatch() {
   for (const auto& [signal, action] : before_) sigaction(signal, &action, nullptr);
 }
 
-void EndWatch::Begin(Application& application, std::function<void()> print, std::function<void()> rescue) {
+void EndWatch::BeginThreads(Application& application, std::function<void()> print, std::function<void()> rescue) {
   application_ = &application;
   print_ = std::move(print);
   rescue_ = std::move(rescue);

@@ -18,14 +18,14 @@ namespace runnel::program {
 
 /// How a run ends: by signals, by clients who ask for that or for another run, and what is said until the application has gone.
 ///
-/// From Begin() on, Ctrl-C, SIGTERM and SIGHUP ask the scheduler to stop, so that the run ends in order; a second one
+/// From BeginThreads() on, Ctrl-C, SIGTERM and SIGHUP ask the scheduler to stop, so that the run ends in order; a second one
 /// ends the program, a third at once. What the caller of the program has it ignore (nohup) stays ignored. It prints what
 /// happens although the thread that runs the application may be stuck in a module, says for what the end waits, and ends
 /// the program, too, when the run was to end because of a fault and a module does not return. After the run, a signal has
 /// it say for what it waits, and one after that ends the program.
 ///
 /// One at a time; it outlives the application.
-/// Threads: any; Begin() and EndThreads() by the one that runs the application. Both functions of Begin() are called by a
+/// Threads: any; BeginThreads() and EndThreads() by the one that runs the application. Both functions of BeginThreads() are called by a
 ///          thread of its own.
 class EndWatch final : public ApplicationExtension {
  public:
@@ -39,7 +39,7 @@ class EndWatch final : public ApplicationExtension {
   void Release() noexcept override { WaitFor("one of its modules or plugins"); }
 
   /// `print`: what has happened since the last call. `rescue`: finishes what is being written; the program ends then.
-  void Begin(Application& application, std::function<void()> print, std::function<void()> rescue);
+  void BeginThreads(Application& application, std::function<void()> print, std::function<void()> rescue);
   /// The run has ended, and neither function is called any more. Asks services whose calls take long to end them, and
   /// waits for that. A thread that does not end can be left, but what it uses cannot be destroyed: after 5 s, or where a
   /// module is stuck, the program ends without.
@@ -48,10 +48,10 @@ class EndWatch final : public ApplicationExtension {
   /// A client has asked for the end of the run, or for another one.
   [[nodiscard]] bool is_asked() const noexcept { return is_asked_.load(); }
   [[nodiscard]] bool shall_restart() const noexcept { return shall_restart_.load(); }
-  /// A signal has come since the newest Begin().
+  /// A signal has come since the newest BeginThreads().
   [[nodiscard]] static bool has_come() noexcept;
 
-  /// The run is over, and neither function of Begin() is called any more. `what`: what comes to its end now, in words.
+  /// The run is over, and neither function of BeginThreads() is called any more. `what`: what comes to its end now, in words.
   void WaitFor(std::string_view what) noexcept;
 
  private:

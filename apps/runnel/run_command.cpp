@@ -91,7 +91,7 @@ class Session {
   ~Session() { watch_.WaitFor("one of its connections or extensions"); }
 
   ExitCode Run() {
-    watch_.Begin(
+    watch_.BeginThreads(
         application_, [this] { PrintEvents(); }, [this] { FinishFiles(); });
     const auto failure = log_file_ ? log_file_->Failure() : std::nullopt;
     if (failure) return Fail(*failure, ExitCode::kBadInput);

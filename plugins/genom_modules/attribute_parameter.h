@@ -82,7 +82,7 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
     return std::make_shared<T>(value_);
   }
 
-  void Prepare(genom_execution::Engine& engine) override {
+  void PrepareFor(genom_execution::Engine& engine) override {
     if (request_ == nullptr) request_ = std::make_unique<Request>(engine.component(), attribute_);
     const std::lock_guard lock(lock_);
     // Where a swap has been taken back, what was set meanwhile is asked for, the default, too.

@@ -110,7 +110,7 @@ Result<void> ComponentModule::Prepare() {
   workers_.resize(has_async ? component_.tasks.size() + 1 : 0);
   for (auto& worker : workers_) worker = std::make_unique<AsyncWorker>();
   engine_.emplace(component_, Options());
-  for (ModulePart* part : parts_) part->Prepare(*engine_);
+  for (ModulePart* part : parts_) part->PrepareFor(*engine_);
   return {};
 }
 
@@ -239,7 +239,7 @@ void ComponentModule::BeginAfresh() {
     throw std::runtime_error("has ended for one that was to take its place; restart it");
   }
   engine_.emplace(component_, Options());
-  for (ModulePart* part : parts_) part->Prepare(*engine_);
+  for (ModulePart* part : parts_) part->PrepareFor(*engine_);
   is_settled_ = false;
 }
 

@@ -9,7 +9,7 @@ namespace runnel::genom_modules {
 using genom_execution::Engine;
 using genom_execution::Request;
 
-void ComponentServiceBase::Prepare(Engine& engine) {
+void ComponentServiceBase::PrepareFor(Engine& engine) {
   module_ = static_cast<ComponentModule*>(engine.options().glue);
   while (all_.size() < kMostUnderWay) all_.emplace_back(engine.component(), service_);
 }

@@ -24,7 +24,7 @@ namespace runnel::genom_modules {
 class ModulePart {
  public:
   /// Before the first cycle: makes room.
-  virtual void Prepare(genom_execution::Engine& engine) = 0;
+  virtual void PrepareFor(genom_execution::Engine& engine) = 0;
   /// In each cycle, before the passes of the tasks.
   virtual void BeforePasses(genom_execution::Engine& engine, Time now) = 0;
   /// And after them: what has been done is answered.
@@ -49,7 +49,7 @@ class ComponentServiceBase : public ServiceBase, public ModulePart {
   [[nodiscard]] ServiceState state() const override;
   bool Abort() override;
 
-  void Prepare(genom_execution::Engine& engine) override;
+  void PrepareFor(genom_execution::Engine& engine) override;
   void BeforePasses(genom_execution::Engine& engine, Time now) override;
   void AfterPasses() override;
 

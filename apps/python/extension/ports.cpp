@@ -26,16 +26,16 @@ struct OpenApplication::End {
   std::atomic<bool> is_done = false;
 
   void Work() {
-    auto& [application, recordings] = left;
+    auto& [ending, records] = left;
     try {
-      for (const auto& each : std::exchange(recordings, {})) (void)each->Finish();
-      application->Stop();
-      (void)application->report().Finish(problems);
-      for (const auto& each : application->extensions()) (void)each->Finish(problems);
+      for (const auto& each : std::exchange(records, {})) (void)each->Finish();
+      ending->Stop();
+      (void)ending->report().Finish(problems);
+      for (const auto& each : ending->extensions()) (void)each->Finish(problems);
     } catch (...) {
       thrown = std::current_exception();
     }
-    application.reset();
+    ending.reset();
     is_done = true;
   }
 };
