@@ -25,8 +25,8 @@ namespace runnel::program {
 /// it say for what it waits, and one after that ends the program.
 ///
 /// One at a time; it outlives the application.
-/// Threads: any; BeginThreads() and EndThreads() by the one that runs the application. Both functions of BeginThreads() are called by a
-///          thread of its own.
+/// Threads: any; BeginThreads() and EndThreads() by the one that runs the application. Both functions of BeginThreads() are
+///          called by a thread of its own.
 class EndWatch final : public ApplicationExtension {
  public:
   /// Whether the application could be built again from its file. Errors: why not.

@@ -1,5 +1,6 @@
 #include "tests/architecture/source_rules.h"
 
+#include <algorithm>
 #include <map>
 #include <regex>
 #include <set>

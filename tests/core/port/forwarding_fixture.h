@@ -48,7 +48,7 @@ class ForwardingTest : public PortTest {
     Connect(link.sender.out, link.receiver.in);
     return link;
   }
-  static constexpr OutputOptions kFixed{.pool = {.buffers = 2, .may_grow = false}};
+  static inline const OutputOptions kFixed{.pool = {.buffers = 2, .may_grow = false}};
 };
 
 /// For who lives longer than all ports.

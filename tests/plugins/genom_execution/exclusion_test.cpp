@@ -53,14 +53,14 @@ TEST(Exclusion, KeepsConflictingCodelsApartAndLetsEachRunAtLast) {
   std::array<std::atomic<int>, 3> runs{};
   int at = 0;
   for (const char* name : {"c_one", "c_two", "c_three"}) {
-    sketch.Do(name, [&data, &sketch, &count = runs.at(static_cast<std::size_t>(at++)),
-                     event = sketch.Of("start")](const Invocation&) {
-      if (data.inside.fetch_add(1) != 0) data.was_shared = true;
-      std::this_thread::yield();
-      data.inside.fetch_sub(1);
-      count.fetch_add(1);
-      return event;
-    });
+    sketch.Do(name,
+              [&data, &count = runs.at(static_cast<std::size_t>(at++)), event = sketch.Of("start")](const Invocation&) {
+                if (data.inside.fetch_add(1) != 0) data.was_shared = true;
+                std::this_thread::yield();
+                data.inside.fetch_sub(1);
+                count.fetch_add(1);
+                return event;
+              });
   }
   Engine& engine = sketch.Start({.patience = Duration::max()});
   std::atomic<bool> is_over{false};
