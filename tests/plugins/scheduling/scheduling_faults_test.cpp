@@ -11,6 +11,7 @@
 #include "plugins/scheduling/fault_dispatcher.h"
 #include "plugins/testing/fault_injection.h"
 #include "tests/plugins/scheduling/real_threads_fixture.h"
+#include "tests/plugins/scheduling/test_modules.h"
 
 namespace runnel {
 namespace {
