@@ -67,8 +67,8 @@ template <typename Part, int kVersion = 0>
 struct BoxOf final : Group {
   using Group::Group;
   Result<void> Construct() override {
-    auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
-    return Port::Connect(in, runtime().Create<Part>(*this, "part").in);
+    auto& in = runtime().template Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
+    return Port::Connect(in, runtime().template Create<Part>(*this, "part").in);
   }
 };
 

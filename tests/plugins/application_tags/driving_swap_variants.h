@@ -56,8 +56,8 @@ template <std::size_t kIndex>
 struct Box final : Group {
   using Group::Group;
   Result<void> Construct() override {
-    auto& in = runtime().Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
-    return Port::Connect(in, runtime().Create<Variant<kIndex>>(*this, "part").in);
+    auto& in = runtime().template Create<ProxyPort>(*this, "in", Port::Direction::kInput, TypeOf<double>());
+    return Port::Connect(in, runtime().template Create<Variant<kIndex>>(*this, "part").in);
   }
 };
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/log/log_level.h"
+#include "core/module/group.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 
 namespace runnel::testing {
