@@ -112,13 +112,12 @@ TEST(RunningNetworkTest, LiesBetweenThoseInIt) {
   std::mt19937 random(7);
   for (int round = 0; round < 40; ++round) {
     Network network(random);
-    double sum = 0, greatest = 0;
+    double greatest = 0;
     std::vector<double> values, ratings;
     for (Wanting* leaf : network.leaves) {
       leaf->active = network.Signal();
       leaf->content = network.Signal();
       leaf->wanted = 20 * network.Signal() - 10;
-      sum += leaf->active;
       greatest = std::max(greatest, leaf->active);
       values.push_back(leaf->wanted);
       ratings.push_back(leaf->content);

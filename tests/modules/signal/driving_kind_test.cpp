@@ -178,7 +178,7 @@ TEST_F(KindOfDriving, IsNotAnotherOneThanItsUnitSays) {
 template <typename M>
 struct Composite final : Group {
   using Group::Group;
-  Result<void> Construct() override { return runtime().Create<M>(*this, "motor"), Result<void>(); }
+  Result<void> Construct() override { return runtime().template Create<M>(*this, "motor"), Result<void>(); }
 };
 
 TEST(DrivingKindOfComposites, IsThatOfTheModulesInside) {

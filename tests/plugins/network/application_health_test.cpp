@@ -3,6 +3,8 @@
 
 #include <stdexcept>
 
+#include <gmock/gmock.h>
+
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/supervision/supervisor.h"

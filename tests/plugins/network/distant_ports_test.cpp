@@ -4,6 +4,8 @@
 #include <numbers>
 #include <optional>
 
+#include <gmock/gmock.h>
+
 #include "core/paths/late_connections.h"
 #include "core/types/signal.h"
 #include "tests/plugins/network/network_member.h"

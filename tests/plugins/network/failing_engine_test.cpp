@@ -2,6 +2,8 @@
 #include <atomic>
 #include <new>
 
+#include <gmock/gmock.h>
+
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {

@@ -1,4 +1,9 @@
 // Applications in a network of this process: what is offered and taken, without an engine that needs a network.
+
+#include <random>
+
+#include <gmock/gmock.h>
+
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/network_discovery/distant_type.h"
 #include "plugins/testing/allocation_guard.h"

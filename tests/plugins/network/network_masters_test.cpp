@@ -1,4 +1,7 @@
 // Several that write one topic: who is heard, and that it is told.
+
+#include <gmock/gmock.h>
+
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {

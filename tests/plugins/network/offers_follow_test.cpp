@@ -2,6 +2,8 @@
 #include <chrono>
 #include <thread>
 
+#include <gmock/gmock.h>
+
 #include "plugins/network/xml_network_words.h"
 #include "plugins/services/service.h"
 #include "plugins/structure/extension_changes.h"

@@ -1,6 +1,8 @@
 // A stop goes over the network: what drives, or is a velocity, sends its safe value, and everything else goes on.
 #include <algorithm>
 
+#include <gmock/gmock.h>
+
 #include "core/port/driving_ports.h"
 #include "tests/plugins/network/network_member.h"
 

@@ -4,6 +4,8 @@
 #include <optional>
 #include <regex>
 
+#include <gmock/gmock.h>
+
 #include "plugins/ros_services/ros_time.h"
 #include "plugins/wire/wire.h"
 #include "tests/plugins/network/network_member.h"

@@ -5,6 +5,8 @@
 #include <thread>
 #include <utility>
 
+#include <gmock/gmock.h>
+
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {
