@@ -192,7 +192,7 @@ std::vector<Load> Loads() {
 Burden::Burden(const Load& load, Robot& robot) {
   loads_end = false;
   for (int i = 0; load.begin && i < load.threads; ++i) {
-    threads_.emplace_back([&load, &robot, this] {
+    threads_.emplace_back([&load, &robot] {
       TaskGroup tasks(robot.service->worker());
       const Load::Step step = load.begin(robot, tasks);
       while (!loads_end) step();

@@ -261,7 +261,7 @@ TEST(FaultOfAModule, IsAnsweredOnceByEachRuleHoweverShortMemoryIs) {
     faults.Dispatch();
     EXPECT_EQ(first, 2);
     EXPECT_EQ(second, 2);
-    EXPECT_THAT(TakeAll(faults), ::testing::SizeIs(2));
+    EXPECT_THAT(testing::TakeAll(faults), ::testing::SizeIs(2));
     if (!injection.has_struck() || ::testing::Test::HasFailure()) break;
   }
 }
