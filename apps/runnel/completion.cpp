@@ -95,8 +95,7 @@ Candidates WithBeginning(const Candidates& candidates, const std::string& beginn
   const bool are_all_full = std::ranges::none_of(fitting, is_short);
   if (!are_all_full) std::erase_if(fitting, [&](const std::string& each) { return !is_short(each); });
   std::ranges::sort(fitting);
-  const auto [begin, end] = std::ranges::unique(fitting);
-  fitting.erase(begin, end);
+  fitting.erase(std::unique(fitting.begin(), fitting.end()), fitting.end());
   return fitting;
 }
 

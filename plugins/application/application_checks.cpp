@@ -134,10 +134,10 @@ std::function<void()> ApplicationChecks::SetAside(std::string_view plugin) {
     std::ranges::move(*aside, std::back_inserter(checks_));
     aside->clear();
   };
-  const auto of_it =
-      std::ranges::stable_partition(checks_, [&](const PluginCheck& each) { return each.plugin != plugin; });
-  std::move(of_it.begin(), of_it.end(), std::back_inserter(*aside));
-  checks_.erase(of_it.begin(), of_it.end());
+  const auto is_others = [&](const PluginCheck& each) { return each.plugin != plugin; };
+  const auto of_it = std::stable_partition(checks_.begin(), checks_.end(), is_others);
+  std::move(of_it, checks_.end(), std::back_inserter(*aside));
+  checks_.erase(of_it, checks_.end());
   return back;
 }
 

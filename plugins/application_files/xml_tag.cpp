@@ -165,10 +165,10 @@ std::function<void()> XmlTagRegistry::SetAside(std::string_view plugin) {
     const auto at = each++;
     if (at->second.plugin == plugin) aside->tags.insert(tags_.extract(at));
   }
-  const auto of_it = std::ranges::stable_partition(added_attributes_,
-                                                   [&](const AddedAttribute& each) { return each.plugin != plugin; });
-  std::move(of_it.begin(), of_it.end(), std::back_inserter(aside->attributes));
-  added_attributes_.erase(of_it.begin(), of_it.end());
+  const auto is_others = [&](const AddedAttribute& each) { return each.plugin != plugin; };
+  const auto of_it = std::stable_partition(added_attributes_.begin(), added_attributes_.end(), is_others);
+  std::move(of_it, added_attributes_.end(), std::back_inserter(aside->attributes));
+  added_attributes_.erase(of_it, added_attributes_.end());
   return back;
 }
 

@@ -114,7 +114,7 @@ Time Supervisor::Shared::LookForSilence(Time now) {
     }
   }
   // Reactions take the lock for as long as they need it. What becomes safe does before anything is taken back.
-  std::ranges::stable_partition(due, [](const Due& each) { return !each.is_recovery; });
+  std::stable_partition(due.begin(), due.end(), [](const Due& each) { return !each.is_recovery; });
   // What has not been done for lack of memory stays due.
   EachForItself reactions;
   for (const Due& each : due) {

@@ -68,7 +68,8 @@ void OpenApplication::Close() {
     return application.use_count() <= 1;
   });
   if (application) {
-    end_ = std::make_shared<End>(Left{std::move(application), std::move(recordings)});
+    end_ = std::make_shared<End>();
+    end_->left = {std::move(application), std::move(recordings)};
     EndInThread([end = end_] { end->Work(); });
   }
   AwaitWithGil([&] {
