@@ -13,6 +13,7 @@ namespace runnel {
 /// nanoseconds, numbers little-endian, texts UTF-8.
 
 inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
+inline constexpr std::uint64_t kFooterLength = 8 + 8 + 4;
 
 /// The first byte of each record; a length of 64 bits follows, then the content.
 enum class McapOpcode : std::uint8_t {

@@ -10,7 +10,6 @@ namespace {
 
 // Loose messages are read so many bytes at a time.
 constexpr std::uint64_t kStretch = 1 << 20;
-constexpr std::uint64_t kFooterLength = 8 + 8 + 4;
 
 // What anybody calls a compression is shorter.
 constexpr std::uint64_t kLongestName = 256;

@@ -259,7 +259,6 @@ Result<void> McapWriter::Finish() {
   AppendSummaryGroup(McapOpcode::kMetadataIndex, metadata_indexes_, summary);
   const std::uint64_t offsets_start = summary_start_ + summary.size();
   summary += summary_offsets_;
-  constexpr std::uint64_t kFooterLength = 8 + 8 + 4;
   McapBytesWriter(summary)
       .Number(static_cast<std::uint8_t>(McapOpcode::kFooter))
       .Number(kFooterLength)

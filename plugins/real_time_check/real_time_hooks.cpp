@@ -58,14 +58,14 @@ using runnel::Act;
 using runnel::counts;
 using runnel::RealTimeOffence;
 
-// glibc's own names for what is replaced below.
+// glibc's own names for what is replaced below. NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 void __libc_free(void* block);
-}
+}  // NOLINTEND(bugprone-reserved-identifier)
 
 RUNNEL_REPLACES void* malloc(std::size_t size) {
   const Act act(RealTimeOffence::kAllocation, counts.allocations, "malloc");
