@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/characters.h"
-#include "core/element/configurable.h"
 #include "core/element/source_place.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/application_builder.h"
@@ -99,12 +98,6 @@ struct FileTrial::World : Workshop {
     (void)CheckPortType("none that there is", plugins);  // makes all of them known
     neighbour = Build(kNeighbour);
     RUNNEL_CHECK(neighbour != nullptr, "the neighbour cannot be built: " + diagnostics.ToString());
-    // An input by which an output sets a parameter is made when somebody first asks for it, and stays.
-    std::vector<Configurable*> parameters;
-    neighbour->Visit([&](FrameworkElement& each) {
-      if (auto* const parameter = dynamic_cast<Configurable*>(&each)) parameters.push_back(parameter);
-    });
-    for (Configurable* each : parameters) (void)each->Feed();
     Diagnostics unread;
     outside.Load((folder / "config.xml").string(), unread);
     RUNNEL_CHECK(unread.ok(), "the configuration cannot be read");
