@@ -1,6 +1,7 @@
 #include "apps/arena/matrix.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include <fmt/format.h>
@@ -34,14 +35,8 @@ std::optional<Course> ReadCourse(const std::filesystem::path& file, double safe_
 
 namespace {
 
-// FNV-1a (Fowler, Noll, Vo): tells versions of files apart, no more.
-std::string HashOf(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char character : text) {
-    hash = (hash ^ static_cast<unsigned char>(character)) * 0x100000001b3U;
-  }
-  return fmt::format("{:x}", hash);
-}
+// Tells versions of files apart, no more.
+std::string HashOf(std::string_view text) { return fmt::format("{:x}", std::hash<std::string_view>()(text)); }
 
 template <typename Word>
 std::vector<Word> WithoutRepeats(const std::vector<Word>& words) {

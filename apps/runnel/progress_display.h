@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "core/base/clock.h"
@@ -43,12 +42,10 @@ class ProgressDisplay {
     shown_at_ = now;
     const bool stands_still = time == std::exchange(shown_time_, time) && is_paused;
     if (std::exchange(has_shown_pause_, is_paused) && stands_still && !is_terminal_) return;
-    if (is_terminal_) std::cout << "\r\x1b[K";
     const std::string pace = is_paused ? "paused" : "x" + NumberText(factor);
     const std::string line = fmt::format("{:8.2f} s  {:7}{}", ToSeconds(time), pace, text);
-    std::cout << (is_terminal_ ? CutTo(line, TerminalWidth()) : line);
-    if (!is_terminal_) std::cout << '\n';
-    std::cout << std::flush;
+    // The terminal cuts off what is too long for it, rather than begin another line.
+    std::cout << (is_terminal_ ? "\r\x1b[K\x1b[?7l" + line + "\x1b[?7h" : line + '\n') << std::flush;
     has_line_ = is_terminal_;
   }
   /// Makes room for other output.
@@ -60,22 +57,6 @@ class ProgressDisplay {
  private:
   static constexpr auto kOnTerminal = std::chrono::milliseconds(200);
   static constexpr auto kElsewhere = std::chrono::seconds(1);
-
-  // Of stdout. A line that is as long would wrap on some.
-  [[nodiscard]] static std::size_t TerminalWidth() {
-    winsize size{};
-    const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-    return is_known ? size.ws_col - 1U : std::string::npos;
-  }
-  // So many characters, where one may have several bytes.
-  [[nodiscard]] static std::string CutTo(const std::string& line, std::size_t width) {
-    std::size_t characters = 0;
-    for (std::size_t at = 0; at < line.size(); ++at) {
-      const bool begins = (static_cast<unsigned char>(line[at]) & 0xc0) != 0x80;
-      if (begins && ++characters > width) return line.substr(0, at);
-    }
-    return line;
-  }
 
   using WallTime = std::chrono::steady_clock::time_point;
 

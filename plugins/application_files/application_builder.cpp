@@ -9,6 +9,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/source_place.h"
 #include "core/paths/late_connections.h"
+#include "core/paths/unused_feeds.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/part_files.h"
@@ -105,6 +106,7 @@ Result<void> MakeReady(FrameworkElement& application, FrameworkElement& element)
 
 void FinishBuild(BuildOutcome& outcome, BuildMode mode) {
   if (outcome.application == nullptr) return;
+  const UnusedFeeds::Cleanup of_others(outcome.application->runtime());
   if (outcome.diagnostics.ok() && mode == BuildMode::kRun) {
     if (auto ready = MakeApplicationReady(*outcome.application); !ready) {
       outcome.diagnostics.Add(ready.error());

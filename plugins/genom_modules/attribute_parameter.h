@@ -10,7 +10,7 @@
 #include "core/types/type_info.h"
 #include "core/types/value_tokens.h"
 #include "plugins/genom_modules/component_module.h"
-#include "plugins/genom_modules/cycle_lock.h"
+#include "plugins/parameters/cycle_lock.h"
 #include "plugins/parameters/parameter.h"
 
 namespace runnel::genom_modules {

@@ -1,11 +1,12 @@
 #include "plugins/genom_templates/generated_files.h"
 
-#include <algorithm>
-#include <cstdint>
+#include <map>
 #include <string_view>
-#include <vector>
+#include <utility>
 
+#include "core/base/program_output.h"
 #include "core/base/replace_file.h"
+#include "core/base/temporary_folder.h"
 #include "plugins/genom_text/file_text.h"
 
 namespace runnel::genom {
@@ -51,10 +52,14 @@ Plan PlanFor(const fs::path& folder, const GeneratedFile& file, WhatIsThere what
     return plan;
   }
   if (*base == *before) return plan;  // its user has changed nothing
-  Merged merged = Merge(*base, *before, file.text);
-  plan.text = std::move(merged.text);
-  plan.written.conflicts = merged.conflicts;
-  plan.written.what = merged.conflicts > 0 ? What::kConflict : plan.text == *before ? What::kSame : What::kMerged;
+  auto merged = Merge(*base, *before, file.text);
+  if (!merged) {
+    diagnostics.Add(merged.error().WithPosition({(folder / file.path).string()}));
+    return plan;
+  }
+  plan.text = std::move(merged->text);
+  plan.written.conflicts = merged->conflicts;
+  plan.written.what = merged->conflicts > 0 ? What::kConflict : plan.text == *before ? What::kSame : What::kMerged;
   return plan;
 }
 
@@ -66,62 +71,10 @@ bool WriteOne(const fs::path& file, const std::string& text, Diagnostics& diagno
   return written.has_value();
 }
 
-using Lines = std::vector<std::string_view>;
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-Lines LinesOf(std::string_view text) {
-  Lines lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(end);
-  }
-  return lines;
-}
-
-// For each line of `base`, where it is in `other`, by a longest common subsequence; kNone where it is not.
-std::vector<std::size_t> Matches(const Lines& base, const Lines& other) {
-  const std::size_t width = other.size() + 1;
-  std::vector<std::uint32_t> longest((base.size() + 1) * width, 0);
-  for (std::size_t i = base.size(); i-- > 0;) {
-    for (std::size_t j = other.size(); j-- > 0;) {
-      longest[i * width + j] = base[i] == other[j] ? longest[(i + 1) * width + j + 1] + 1
-                                                   : std::max(longest[(i + 1) * width + j], longest[i * width + j + 1]);
-    }
-  }
-  std::vector<std::size_t> matches(base.size(), kNone);
-  for (std::size_t i = 0, j = 0; i < base.size() && j < other.size();) {
-    if (base[i] == other[j]) {
-      matches[i++] = j++;
-    } else if (longest[(i + 1) * width + j] >= longest[i * width + j + 1]) {
-      ++i;
-    } else {
-      ++j;
-    }
-  }
-  return matches;
-}
-
-Lines Part(const Lines& lines, std::size_t from, std::size_t to) {
-  return {lines.begin() + static_cast<std::ptrdiff_t>(from), lines.begin() + static_cast<std::ptrdiff_t>(to)};
-}
-
-void Append(std::string& text, const Lines& lines) {
-  for (const std::string_view each : lines) text += each;
-}
-
-void AppendWhole(std::string& text, const Lines& lines) {
-  Append(text, lines);
-  if (!lines.empty() && !text.ends_with('\n')) text += '\n';
-}
-
-void AppendConflict(Merged& merged, const Lines& mine, const Lines& made) {
-  ++merged.conflicts;
-  merged.text += "<<<<<<< yours\n";
-  AppendWhole(merged.text, mine);
-  merged.text += "=======\n";
-  AppendWhole(merged.text, made);
-  merged.text += ">>>>>>> template\n";
+int CountOf(std::string_view mark, std::string_view text) {
+  int count = 0;
+  for (auto at = text.find(mark); at != std::string_view::npos; at = text.find(mark, at + mark.size())) ++count;
+  return count;
 }
 
 }  // namespace
@@ -145,39 +98,26 @@ std::vector<WrittenFile> WriteFiles(const fs::path& folder, const std::vector<Ge
   return written;
 }
 
-Merged Merge(const std::string& base_text, const std::string& mine_text, const std::string& made_text) {
-  const Lines base = LinesOf(base_text);
-  const Lines mine = LinesOf(mine_text);
-  const Lines made = LinesOf(made_text);
-  const auto in_mine = Matches(base, mine);
-  const auto in_made = Matches(base, made);
-  Merged merged;
-  std::size_t i = 0, a = 0, b = 0;
-  while (i < base.size() || a < mine.size() || b < made.size()) {
-    if (i < base.size() && in_mine[i] == a && in_made[i] == b) {
-      merged.text += base[i];
-      ++i, ++a, ++b;
-      continue;
-    }
-    // Up to the next line that all three have.
-    std::size_t next = i;
-    while (next < base.size() && (in_mine[next] == kNone || in_made[next] == kNone)) ++next;
-    const bool is_end = next == base.size();
-    const std::size_t a_end = is_end ? mine.size() : in_mine[next];
-    const std::size_t b_end = is_end ? made.size() : in_made[next];
-    const Lines before = Part(base, i, next);
-    const Lines of_mine = Part(mine, a, a_end);
-    const Lines of_made = Part(made, b, b_end);
-    if (of_mine == before || of_mine == of_made) {
-      Append(merged.text, of_made);
-    } else if (of_made == before) {
-      Append(merged.text, of_mine);
-    } else {
-      AppendConflict(merged, of_mine, of_made);
-    }
-    i = next, a = a_end, b = b_end;
+Result<Merged> Merge(const std::string& base, const std::string& mine, const std::string& made) {
+  const auto folder = TemporaryFolder::Make("merge");
+  if (!folder) return folder.error();
+  const std::map<std::string, const std::string&> files{{"base", base}, {"mine", mine}, {"made", made}};
+  for (const auto& [name, text] : files) {
+    const bool is_whole = text.empty() || text.ends_with('\n');
+    if (auto written = ReplaceFile(folder->path() / name, is_whole ? text : text + '\n'); !written)
+      return written.error();
   }
-  return merged;
+  const auto merged = OutputOf({.words = {"diff3", "--text", "--merge", "--show-overlap", "--label=yours",
+                                          "--label=base", "--label=template", "mine", "base", "made"},
+                                .folder = folder->path()});
+  const bool is_done = merged && (merged->exit_code == 0 || merged->exit_code == 1);  // 1: there are conflicts
+  if (!is_done) {
+    return Error{
+        .message = "what you have changed could not be merged with what the template makes, by the program diff3",
+        .hint = "install the package diffutils"};
+  }
+  constexpr std::string_view kConflict = "<<<<<<< yours\n";
+  return Merged{merged->text, CountOf(kConflict, merged->text) - CountOf(kConflict, mine)};
 }
 
 }  // namespace runnel::genom

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/diagnostics.h"
+#include "core/base/result.h"
 
 namespace runnel::genom {
 
@@ -44,7 +45,7 @@ struct Merged {
 };
 
 /// What becomes of a text that was made as `base`, that its user changed to `mine`, and that is made anew as `made`: the
-/// changes of both, line by line. O(lines²) in time and memory.
-[[nodiscard]] Merged Merge(const std::string& base, const std::string& mine, const std::string& made);
+/// changes of both, line by line, the last with its end. By the program diff3, which each Debian has. Errors: it is not here.
+[[nodiscard]] Result<Merged> Merge(const std::string& base, const std::string& mine, const std::string& made);
 
 }  // namespace runnel::genom

@@ -12,6 +12,7 @@
 #include "core/module/executable.h"
 #include "core/module/module.h"
 #include "core/module/port_group.h"
+#include "core/paths/unused_feeds.h"
 #include "core/port/typed_ports.h"
 
 namespace runnel {
@@ -124,7 +125,7 @@ Result<void> ParameterBase::SetFrom(const void* value) {
 
 // A cycle in which an output feeds the parameter may be about to do the same: that tries, and this waits.
 void ParameterBase::TakeOver(const void* value) {
-  const internal::FlagHold hold(is_assigning_, true);
+  const std::lock_guard lock(assigning_);
   const bool has_changed = Assign(value);
   is_fed_.store(false, std::memory_order_relaxed);
   if (has_changed && module_ != nullptr) module_->NoteParameterChange();
@@ -146,10 +147,11 @@ class ParameterBase::Feeder final : public FrameworkElement {
   [[nodiscard]] Port& input() noexcept { return *input_; }
 
  private:
+  void Detach() noexcept override { parameter_.feeder_ = nullptr; }
   void Take() {
     if (!held_->Read(*input_, 0) && !is_left_) return;
-    const internal::FlagHold hold(parameter_.is_assigning_, false);
-    is_left_ = !hold.has();
+    const std::unique_lock lock(parameter_.assigning_, std::try_to_lock);
+    is_left_ = !lock;
     if (is_left_) return;  // somebody sets it just now: in the next cycle
     const void* const value = held_->Find(0);
     const auto& is_good = parameter_.description_.is_within_bounds;
@@ -171,6 +173,7 @@ Port* ParameterBase::Feed() {
   const TypedPorts* const ports = FindTypedPorts(type());
   if (ports == nullptr || info().is_static || life_cycle() == LifeCycle::kDeleted) return nullptr;
   feeder_ = &runtime().Create<Feeder>(*this, "feed", *this, *ports);
+  UnusedFeeds::NoteNew(feeder_->input());
   if (life_cycle() == LifeCycle::kReady) (void)runtime().MakeReady(*feeder_);
   return &feeder_->input();
 }

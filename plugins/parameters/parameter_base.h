@@ -6,13 +6,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <type_traits>
 
 #include "core/base/result.h"
 #include "core/element/configurable.h"
 #include "core/element/framework_element.h"
 #include "core/types/type_of.h"
+#include "plugins/parameters/cycle_lock.h"
 
 namespace runnel {
 
@@ -91,25 +91,6 @@ ParameterDescription DescriptionOf(const ParameterOptions<T>& options, bool is_s
   return description;
 }
 
-/// Holds the flag for as long as it lives, if nobody else does; `waits`: once nobody else does.
-class FlagHold {
- public:
-  // acquire and release: what belongs to the one who holds it is handed over.
-  FlagHold(std::atomic_flag& flag, bool waits) : flag_(flag), has_(!flag.test_and_set(std::memory_order_acquire)) {
-    for (; waits && !has_; has_ = !flag.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
-  }
-  ~FlagHold() {
-    if (has_) flag_.clear(std::memory_order_release);
-  }
-  FlagHold(const FlagHold&) = delete;
-  FlagHold& operator=(const FlagHold&) = delete;
-  [[nodiscard]] bool has() const noexcept { return has_; }
-
- private:
-  std::atomic_flag& flag_;
-  bool has_;
-};
-
 }  // namespace internal
 
 /// The part of a parameter that does not depend on its type: its place in the tree, the way from
@@ -140,7 +121,7 @@ class ParameterBase : public FrameworkElement, public Configurable {
 
   const internal::ParameterDescription description_;
   Module* const module_;  // nullptr: of something else
-  std::atomic_flag is_assigning_ = ATOMIC_FLAG_INIT;
+  CycleLock assigning_{[]() noexcept {}};
   std::atomic<bool> is_fed_{false};  // relaxed: it only informs
   Feeder* feeder_ = nullptr;         // once somebody has asked for it; a child
 };

@@ -13,6 +13,7 @@
 #include "core/base/retry.h"
 #include "core/element/own_thread.h"
 #include "core/lockfree/thread_epoch.h"
+#include "core/paths/unused_feeds.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"
 #include "plugins/structure/plan.h"
@@ -258,6 +259,7 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
                "the structure cannot be changed by an editor from within a cycle, nor under the "
                "structure lock");
   const std::lock_guard lock(shared_->applying);
+  const UnusedFeeds::Cleanup at_last(runtime_);
   ChangeOutcome outcome;
   internal::Workshop workshop;
   try {

@@ -185,6 +185,39 @@ TEST_F(ConstructedPorts, AnOutputMaySetAParameter) {
               ::testing::AllOf(HasSubstr("carries string, but"), HasSubstr("is a parameter that no output can set")));
 }
 
+TEST_F(ConstructedPorts, WhatHasBeenLookedForAndConnectedToNothingGoesAgain) {
+  ASSERT_TRUE(workshop_.Build(R"(<application name="demo">
+    <module name="source" type="test/source"/><module name="other" type="test/source"/>
+    <module name="third" type="test/source"/><module name="fourth" type="test/source"/>
+    <connect from="source/value" to="other/gain"/>
+    <connect from="absent/value" to="fourth/gain" when="present"/>
+  </application>)"))
+      << workshop_.diagnostics.ToString();
+  const auto is_fed = [&](const std::string& module) {
+    return bool(workshop_.runtime.root().Find("/demo/" + module + "/parameter/gain/feed/gain"));
+  };
+  workshop_.Errors(R"(<application name="more">
+    <module name="source" type="test/source"/>
+    <connect from="source/value" to="/demo/other/gain"/>
+    <connect from="source/value" to="/demo/third/gain"/>
+    <connect from="source/value" to="/demo/fourth/gain"/>
+    <connect from="source/value" to="/demo/nowhere/gain"/>
+  </application>)");
+  EXPECT_TRUE(is_fed("other"));
+  EXPECT_FALSE(is_fed("third")) << "a file that is refused";
+  EXPECT_TRUE(is_fed("fourth")) << "is waited for";
+  StructureEditor editor(workshop_.runtime, workshop_.plugins.modules(), nullptr);
+  const ConnectPorts wanted{"/demo/source/value", "/demo/third/gain"};
+  EXPECT_FALSE(editor.Apply({wanted, SetParameter{"/demo/nowhere/gain", "1"}}));
+  EXPECT_FALSE(is_fed("third")) << "a change set that is refused";
+  EXPECT_TRUE(editor.Apply({wanted}));
+  EXPECT_FALSE(editor.Apply({SetParameter{"/demo/nowhere/gain", "1"}}));
+  EXPECT_TRUE(is_fed("third")) << "which is used";
+  EXPECT_TRUE(editor.Apply({DisconnectPorts{"/demo/source/value", "/demo/third/gain"}}));
+  EXPECT_TRUE(editor.Apply({wanted}));
+  EXPECT_TRUE(is_fed("third"));
+}
+
 constexpr const char* kFedByOutput = R"(<application name="demo" thread="control">
   <thread name="control" period="10ms"/>
   <clock type="simulated" speed="0"/>

@@ -5,7 +5,7 @@
 #include <thread>
 #include <utility>
 
-namespace runnel::genom_modules {
+namespace runnel {
 
 /// What a module's cycle and others use in turn. Others wait; the cycle only tries, and is woken by who has kept it out: once
 /// he has left, not before, since a cycle that tried again at once would keep a holder of lower priority from leaving.
@@ -43,4 +43,4 @@ class CycleLock {
   const std::function<void()> wake_;
 };
 
-}  // namespace runnel::genom_modules
+}  // namespace runnel

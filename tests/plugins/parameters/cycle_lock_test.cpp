@@ -1,5 +1,6 @@
-#include "plugins/genom_modules/cycle_lock.h"
+#include "plugins/parameters/cycle_lock.h"
 
+#include <atomic>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -7,12 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/lockfree/wake_event.h"
-#include "plugins/genom_modules/attribute_parameter.h"
 
 namespace runnel::test {
 namespace {
-
-using genom_modules::CycleLock;
 
 TEST(CycleLockTest, TheCycleIsWokenByWhoHasKeptItOutAndNotBefore) {
   int wakes = 0;
@@ -57,24 +55,6 @@ TEST(CycleLockTest, ACycleThatWaitsToBeWokenAlwaysIs) {
   ends = true;
   holders.clear();
   EXPECT_EQ(guarded, kRounds + others);
-}
-
-struct Step {
-  double x = 0;
-  double y = 0;
-};
-void Describe(TypeBuilder<Step>& type) { type.Name("Step").Field("x", &Step::x).Field("y", &Step::y); }
-
-// Else what is left out would be 0.
-TEST(CheckAllAreSaidTest, LooksIntoListsToo) {
-  const auto said = [](const std::string& text) -> std::string {
-    const auto tokens = TokensOf(text);
-    const auto all = genom_modules::CheckAllAreSaid(TypeOf<std::vector<std::vector<Step>>>(), tokens->root());
-    return all ? "all" : all.error().message;
-  };
-  EXPECT_EQ(said("[[{x: 1, y: 2}], [], [{y: 3, x: 4}, {x: 5, y: 6}]]"), "all");
-  EXPECT_EQ(said("[[{x: 1, y: 2}], [], [{y: 3, x: 4}, {x: 5}]]"), "'y' is not given");
-  EXPECT_EQ(said("[]"), "all");
 }
 
 }  // namespace

@@ -1,0 +1,30 @@
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "plugins/genom_modules/attribute_parameter.h"
+
+namespace runnel::test {
+namespace {
+
+struct Step {
+  double x = 0;
+  double y = 0;
+};
+void Describe(TypeBuilder<Step>& type) { type.Name("Step").Field("x", &Step::x).Field("y", &Step::y); }
+
+// Else what is left out would be 0.
+TEST(CheckAllAreSaidTest, LooksIntoListsToo) {
+  const auto said = [](const std::string& text) -> std::string {
+    const auto tokens = TokensOf(text);
+    const auto all = genom_modules::CheckAllAreSaid(TypeOf<std::vector<std::vector<Step>>>(), tokens->root());
+    return all ? "all" : all.error().message;
+  };
+  EXPECT_EQ(said("[[{x: 1, y: 2}], [], [{y: 3, x: 4}, {x: 5, y: 6}]]"), "all");
+  EXPECT_EQ(said("[[{x: 1, y: 2}], [], [{y: 3, x: 4}, {x: 5}]]"), "'y' is not given");
+  EXPECT_EQ(said("[]"), "all");
+}
+
+}  // namespace
+}  // namespace runnel::test
