@@ -13,19 +13,16 @@ namespace runnel {
 
 namespace {
 
-// Without the group of ports, which may be left out: "/a/laser/output/scan" is "/a/laser/scan".
+// Without the group, which may be left out: "/a/laser/output/scan" is "/a/laser/scan".
 std::string ShortPath(std::string_view path) {
   std::vector<std::string_view> names = SplitPath(path);
-  const auto is_group = [](std::string_view name) { return name == "output" || name == "input"; };
+  const auto is_group = [](std::string_view name) {
+    return name == "output" || name == "input" || name == "parameter";
+  };
   if (names.size() > 2 && is_group(names[names.size() - 2])) names.erase(names.end() - 2);
   std::string text = IsDistantPath(path) ? "/" : "";
   for (const std::string_view name : names) text += "/" + std::string(name);
   return text;
-}
-
-const std::string& PathOfSource(const Port& port) {
-  const std::string& distant = DistantPathOf(port);
-  return distant.empty() ? port.path() : distant;
 }
 
 // Whether an input is missing that a connection has to go with.
@@ -96,7 +93,7 @@ LateConnection* LateConnections::FindOwn(std::string_view from, std::string_view
 bool LateConnections::Awaits(const Port& input) {
   const LateConnections* const late = FindIn(input.runtime());
   return late != nullptr && std::ranges::any_of(late->all_, [&](const LateConnection& each) {
-           return ShortPath(each.to) == ShortPath(input.path());
+           return ShortPath(each.to) == ShortPath(LastingPath(input));
          });
 }
 
@@ -119,7 +116,7 @@ Result<void> LateConnections::Note(const std::string& from, const std::string& t
     return Error{.message = "is to be connected to " + to + " already", .path = from};
   }
   const auto path_of = [this](const Port* there, const std::string& path) {
-    return there != nullptr ? there->path() : WholePath(PathSearch(runtime_), path);
+    return there != nullptr ? LastingPath(*there) : WholePath(PathSearch(runtime_), path);
   };
   all_.push_back(
       {IsDistantPath(from) ? from : path_of(ends.from, from), path_of(ends.to, to), std::move(options), ends.missing});
@@ -163,13 +160,14 @@ void LateConnections::OnDeleted(FrameworkElement& element) {
 
 void LateConnections::OnConnected(FrameworkElement& from, FrameworkElement& to) {
   const auto& output = dynamic_cast<const Port&>(from);
-  const std::string& path = PathOfSource(output);
-  std::erase_if(cuts_, [&](const Cut& cut) { return cut.from == path && cut.to == to.path(); });
-  const Connection* const edge = output.ConnectionTo(dynamic_cast<const Port&>(to));
-  LateConnection* const known = FindOwn(path, to.path());
+  const auto& input = dynamic_cast<const Port&>(to);
+  const std::string &path = LastingPath(output), &end = LastingPath(input);
+  std::erase_if(cuts_, [&](const Cut& cut) { return cut.from == path && cut.to == end; });
+  const Connection* const edge = output.ConnectionTo(input);
+  LateConnection* const known = FindOwn(path, end);
   if (edge == nullptr || (known == nullptr && !edge->options.when_present)) return;
   if (known == nullptr) {
-    all_.push_back({path, to.path(), edge->options, {}});
+    all_.push_back({path, end, edge->options, {}});
   } else {
     known->options = edge->options;
     known->waits_for.reset();
@@ -178,9 +176,10 @@ void LateConnections::OnConnected(FrameworkElement& from, FrameworkElement& to) 
 }
 
 void LateConnections::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
-  const std::string& path = PathOfSource(dynamic_cast<const Port&>(from));
-  if (FindOwn(path, to.path()) == nullptr) return;
-  cuts_.push_back({path, to.path(), from.id(), to.id()});
+  const std::string& path = LastingPath(dynamic_cast<const Port&>(from));
+  const std::string& end = LastingPath(dynamic_cast<const Port&>(to));
+  if (FindOwn(path, end) == nullptr) return;
+  cuts_.push_back({path, end, from.id(), to.id()});
   must_look_ = true;
   if (!runtime_.is_in_change_scope()) LookAgain();
 }
@@ -220,7 +219,7 @@ void LateConnections::Try(const std::string& from, const std::string& to) {
     return;
   }
   if (!IsDistantPath(late->from)) late->from = ends.from->path();
-  late->to = ends.to->path();
+  late->to = LastingPath(*ends.to);
   const ConnectOptions options = late->options;
   try {
     const auto connected = Port::Connect(*ends.from, *ends.to, options);
@@ -237,7 +236,7 @@ void LateConnections::Try(const std::string& from, const std::string& to) {
 }
 
 std::vector<const LateConnection*> AwaitedBy(const Port& port) {
-  const std::string path = ShortPath(PathOfSource(port));
+  const std::string path = ShortPath(LastingPath(port));
   return Waiting(port.runtime(), [&](const std::string& end) { return ShortPath(end) == path; });
 }
 
@@ -247,7 +246,7 @@ std::string WholePath(const PathSearch& search, std::string_view path) {
     const bool is_there = found && (*found)->parent() != nullptr;
     if (!is_there) continue;
     const auto* const port = dynamic_cast<const Port*>(*found);
-    return (port != nullptr ? PathOfSource(*port) : (*found)->path()) + std::string(path.substr(end));
+    return (port != nullptr ? LastingPath(*port) : (*found)->path()) + std::string(path.substr(end));
   }
   return (path.starts_with('/') ? "" : "/") + std::string(path);
 }
@@ -266,8 +265,8 @@ const LateConnection* FindLate(const std::vector<LateConnection>& all, const Pat
 std::vector<LateConnection> AwaitedWith(const std::vector<LateConnection>& all, const FrameworkElement& element) {
   std::vector<LateConnection> awaited;
   if (all.empty()) return awaited;
-  const std::string path = ShortPath(element.path());
   const auto* const port = dynamic_cast<const Port*>(&element);
+  const std::string path = ShortPath(port != nullptr ? LastingPath(*port) : element.path());
   const bool is_input = port != nullptr && port->direction() == Port::Direction::kInput;
   std::ranges::copy_if(all, std::back_inserter(awaited), [&](const LateConnection& each) {
     const bool goes_with_it = IsAtOrBelow(each.to, element.path()) || (is_input && ShortPath(each.to) == path);

@@ -10,8 +10,8 @@
 #include "core/element/try_structure_lock.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
+#include "core/paths/new_feeds.h"
 #include "core/paths/path_search.h"
-#include "core/paths/unused_feeds.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application/what_is_lost.h"
 #include "plugins/application_files/saving/application_saver.h"
@@ -104,7 +104,7 @@ Result<void> Application::Assign(std::string_view path, const std::string& threa
 }
 
 Result<void> Application::Connect(std::string_view from, std::string_view to, const ConnectOptions& options) {
-  const UnusedFeeds::Cleanup at_last(parts_->runtime());
+  const NewFeeds feeds(parts_->runtime());
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   const PathSearch structure(parts_->runtime());
   if (options.when_present) {

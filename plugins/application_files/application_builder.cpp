@@ -9,7 +9,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/source_place.h"
 #include "core/paths/late_connections.h"
-#include "core/paths/unused_feeds.h"
+#include "core/paths/new_feeds.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/part_files.h"
@@ -58,6 +58,7 @@ void KeepSource(FrameworkElement& application, const ApplicationFile& file, Buil
 BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path& folder, const ApplicationFile* file,
                        const BuildTools& tools, BuildMode mode) {
   BuildOutcome outcome;
+  NewFeeds of_others(tools.runtime);
   BuildContext context(tools, folder, outcome.diagnostics);
   {
     const std::lock_guard lock(tools.runtime.structure_mutex());
@@ -68,6 +69,7 @@ BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path&
     }
   }
   FinishBuild(outcome, mode);
+  if (outcome.application != nullptr) of_others.KeepAll();
   return outcome;
 }
 
@@ -106,7 +108,6 @@ Result<void> MakeReady(FrameworkElement& application, FrameworkElement& element)
 
 void FinishBuild(BuildOutcome& outcome, BuildMode mode) {
   if (outcome.application == nullptr) return;
-  const UnusedFeeds::Cleanup of_others(outcome.application->runtime());
   if (outcome.diagnostics.ok() && mode == BuildMode::kRun) {
     if (auto ready = MakeApplicationReady(*outcome.application); !ready) {
       outcome.diagnostics.Add(ready.error());

@@ -109,13 +109,12 @@ Result<Merged> Merge(const std::string& base, const std::string& mine, const std
   }
   const auto merged = OutputOf({.words = {"diff3", "--text", "--merge", "--show-overlap", "--label=yours",
                                           "--label=base", "--label=template", "mine", "base", "made"},
-                                .folder = folder->path()});
-  const bool is_done = merged && (merged->exit_code == 0 || merged->exit_code == 1);  // 1: there are conflicts
-  if (!is_done) {
-    return Error{
-        .message = "what you have changed could not be merged with what the template makes, by the program diff3",
-        .hint = "install the package diffutils"};
-  }
+                                .folder = folder->path(),
+                                .keeps_complaints = true});
+  const std::string failed = "what you have changed could not be merged with what the template makes";
+  if (!merged) return Error{.message = failed + ", by the program diff3", .hint = "install the package diffutils"};
+  const bool is_done = merged->exit_code == 0 || merged->exit_code == 1;  // 1: there are conflicts
+  if (!is_done) return Error{.message = failed + ": " + merged->text};
   constexpr std::string_view kConflict = "<<<<<<< yours\n";
   return Merged{merged->text, CountOf(kConflict, merged->text) - CountOf(kConflict, mine)};
 }

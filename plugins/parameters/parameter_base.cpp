@@ -12,7 +12,7 @@
 #include "core/module/executable.h"
 #include "core/module/module.h"
 #include "core/module/port_group.h"
-#include "core/paths/unused_feeds.h"
+#include "core/paths/new_feeds.h"
 #include "core/port/typed_ports.h"
 
 namespace runnel {
@@ -147,7 +147,6 @@ class ParameterBase::Feeder final : public FrameworkElement {
   [[nodiscard]] Port& input() noexcept { return *input_; }
 
  private:
-  void Detach() noexcept override { parameter_.feeder_ = nullptr; }
   void Take() {
     if (!held_->Read(*input_, 0) && !is_left_) return;
     const std::unique_lock lock(parameter_.assigning_, std::try_to_lock);
@@ -169,12 +168,13 @@ class ParameterBase::Feeder final : public FrameworkElement {
 };
 
 Port* ParameterBase::Feed() {
-  if (feeder_ != nullptr) return &feeder_->input();
+  // Or it has gone again.
+  if (feeder_ != nullptr && FindChild("feed") == feeder_) return &feeder_->input();
   const TypedPorts* const ports = FindTypedPorts(type());
   if (ports == nullptr || info().is_static || life_cycle() == LifeCycle::kDeleted) return nullptr;
   feeder_ = &runtime().Create<Feeder>(*this, "feed", *this, *ports);
-  UnusedFeeds::NoteNew(feeder_->input());
   if (life_cycle() == LifeCycle::kReady) (void)runtime().MakeReady(*feeder_);
+  NewFeeds::Note(feeder_->input());
   return &feeder_->input();
 }
 

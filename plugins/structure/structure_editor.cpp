@@ -13,7 +13,7 @@
 #include "core/base/retry.h"
 #include "core/element/own_thread.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/paths/unused_feeds.h"
+#include "core/paths/new_feeds.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"
 #include "plugins/structure/plan.h"
@@ -259,14 +259,17 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
                "the structure cannot be changed by an editor from within a cycle, nor under the "
                "structure lock");
   const std::lock_guard lock(shared_->applying);
-  const UnusedFeeds::Cleanup at_last(runtime_);
+  NewFeeds feeds(runtime_);
   ChangeOutcome outcome;
   internal::Workshop workshop;
   try {
     for (int idle = 0; idle < kAttempts;) {
       const std::size_t made = workshop.size();
       outcome = {};
-      if (Try(request, workshop, outcome) != Attempt::kOvertaken) return outcome;
+      if (Try(request, workshop, outcome) != Attempt::kOvertaken) {
+        if (outcome.is_done) feeds.KeepAll();
+        return outcome;
+      }
       if (workshop.size() == made) ++idle;
     }
     outcome.diagnostics.Add({.message = "others change the structure all the time; gave up after " +
