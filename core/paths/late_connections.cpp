@@ -13,16 +13,23 @@ namespace runnel {
 
 namespace {
 
-// Without the group, which may be left out: "/a/laser/output/scan" is "/a/laser/scan".
-std::string ShortPath(std::string_view path) {
+// Without the group, which may be left out, and the group: "/a/laser/output/scan" is "/a/laser/scan" and "output".
+std::pair<std::string, std::string> WithoutGroup(std::string_view path) {
   std::vector<std::string_view> names = SplitPath(path);
-  const auto is_group = [](std::string_view name) {
-    return name == "output" || name == "input" || name == "parameter";
-  };
-  if (names.size() > 2 && is_group(names[names.size() - 2])) names.erase(names.end() - 2);
+  std::string group;
+  for (const std::string_view each : {"output", "input", "parameter"}) {
+    if (names.size() > 2 && names[names.size() - 2] == each) group = each;
+  }
+  if (!group.empty()) names.erase(names.end() - 2);
   std::string text = IsDistantPath(path) ? "/" : "";
   for (const std::string_view name : names) text += "/" + std::string(name);
-  return text;
+  return {text, group};
+}
+
+bool IsSame(std::string_view path, std::string_view other) {
+  const auto [end, group] = WithoutGroup(path);
+  const auto [other_end, other_group] = WithoutGroup(other);
+  return end == other_end && (group == other_group || group.empty() || other_group.empty());
 }
 
 // Whether an input is missing that a connection has to go with.
@@ -93,7 +100,7 @@ LateConnection* LateConnections::FindOwn(std::string_view from, std::string_view
 bool LateConnections::Awaits(const Port& input) {
   const LateConnections* const late = FindIn(input.runtime());
   return late != nullptr && std::ranges::any_of(late->all_, [&](const LateConnection& each) {
-           return ShortPath(each.to) == ShortPath(LastingPath(input));
+           return IsSame(each.to, LastingPath(input));
          });
 }
 
@@ -214,12 +221,12 @@ void LateConnections::Try(const std::string& from, const std::string& to) {
   if (late == nullptr) return;
   const Ends ends = FindEnds(from, to);
   const std::optional<std::string> before = std::exchange(late->waits_for, ends.missing);
+  if (ends.from != nullptr && !IsDistantPath(late->from)) late->from = ends.from->path();
+  if (ends.to != nullptr) late->to = LastingPath(*ends.to);
   if (!ends.missing.empty()) {
     if (before != ends.missing) runtime_.ForEachListener([](ElementListener&) {});  // so that viewers look again
     return;
   }
-  if (!IsDistantPath(late->from)) late->from = ends.from->path();
-  late->to = LastingPath(*ends.to);
   const ConnectOptions options = late->options;
   try {
     const auto connected = Port::Connect(*ends.from, *ends.to, options);
@@ -236,8 +243,7 @@ void LateConnections::Try(const std::string& from, const std::string& to) {
 }
 
 std::vector<const LateConnection*> AwaitedBy(const Port& port) {
-  const std::string path = ShortPath(LastingPath(port));
-  return Waiting(port.runtime(), [&](const std::string& end) { return ShortPath(end) == path; });
+  return Waiting(port.runtime(), [&](const std::string& end) { return IsSame(end, LastingPath(port)); });
 }
 
 std::string WholePath(const PathSearch& search, std::string_view path) {
@@ -254,10 +260,10 @@ std::string WholePath(const PathSearch& search, std::string_view path) {
 const LateConnection* FindLate(const std::vector<LateConnection>& all, const PathSearch& search, std::string_view from,
                                std::string_view to) {
   if (all.empty()) return nullptr;
-  const std::string short_from = ShortPath(WholePath(search, from));
-  const std::string short_to = ShortPath(WholePath(search, to));
+  const std::string whole_from = WholePath(search, from), whole_to = WholePath(search, to);
   const auto found = std::ranges::find_if(all, [&](const LateConnection& each) {
-    return ShortPath(each.from) == short_from && ShortPath(each.to) == short_to;
+    const bool is_as_noted = each.from == from && each.to == to;
+    return is_as_noted || (IsSame(each.from, whole_from) && IsSame(each.to, whole_to));
   });
   return found == all.end() ? nullptr : &*found;
 }
@@ -266,10 +272,10 @@ std::vector<LateConnection> AwaitedWith(const std::vector<LateConnection>& all, 
   std::vector<LateConnection> awaited;
   if (all.empty()) return awaited;
   const auto* const port = dynamic_cast<const Port*>(&element);
-  const std::string path = ShortPath(port != nullptr ? LastingPath(*port) : element.path());
+  const std::string& path = port != nullptr ? LastingPath(*port) : element.path();
   const bool is_input = port != nullptr && port->direction() == Port::Direction::kInput;
   std::ranges::copy_if(all, std::back_inserter(awaited), [&](const LateConnection& each) {
-    const bool goes_with_it = IsAtOrBelow(each.to, element.path()) || (is_input && ShortPath(each.to) == path);
+    const bool goes_with_it = IsAtOrBelow(each.to, element.path()) || (is_input && IsSame(each.to, path));
     return goes_with_it && each.waits_for && each.is_of_its_input();
   });
   return awaited;

@@ -109,12 +109,11 @@ Result<Merged> Merge(const std::string& base, const std::string& mine, const std
   }
   const auto merged = OutputOf({.words = {"diff3", "--text", "--merge", "--show-overlap", "--label=yours",
                                           "--label=base", "--label=template", "mine", "base", "made"},
-                                .folder = folder->path(),
-                                .keeps_complaints = true});
-  const std::string failed = "what you have changed could not be merged with what the template makes";
-  if (!merged) return Error{.message = failed + ", by the program diff3", .hint = "install the package diffutils"};
+                                .folder = folder->path()});
+  const std::string failed = "the program diff3 cannot merge what you have changed with what the template makes";
+  if (!merged) return Error{.message = failed, .hint = "install the package diffutils"};
   const bool is_done = merged->exit_code == 0 || merged->exit_code == 1;  // 1: there are conflicts
-  if (!is_done) return Error{.message = failed + ": " + merged->text};
+  if (!is_done) return Error{.message = failed + " (exit code " + std::to_string(merged->exit_code) + ")"};
   constexpr std::string_view kConflict = "<<<<<<< yours\n";
   return Merged{merged->text, CountOf(kConflict, merged->text) - CountOf(kConflict, mine)};
 }

@@ -168,13 +168,16 @@ class ParameterBase::Feeder final : public FrameworkElement {
 };
 
 Port* ParameterBase::Feed() {
-  // Or it has gone again.
-  if (feeder_ != nullptr && FindChild("feed") == feeder_) return &feeder_->input();
   const TypedPorts* const ports = FindTypedPorts(type());
   if (ports == nullptr || info().is_static || life_cycle() == LifeCycle::kDeleted) return nullptr;
-  feeder_ = &runtime().Create<Feeder>(*this, "feed", *this, *ports);
-  if (life_cycle() == LifeCycle::kReady) (void)runtime().MakeReady(*feeder_);
-  NewFeeds::Note(feeder_->input());
+  const bool is_there = feeder_ != nullptr && FindChild("feed") == feeder_;  // or it has gone again
+  if (!is_there) {
+    feeder_ = &runtime().Create<Feeder>(*this, "feed", *this, *ports);
+    NewFeeds::Note(feeder_->input());
+  }
+  if (life_cycle() == LifeCycle::kReady && feeder_->life_cycle() != LifeCycle::kReady) {
+    (void)runtime().MakeReady(*feeder_);
+  }
   return &feeder_->input();
 }
 

@@ -71,7 +71,8 @@ Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkEle
   const FrameworkElement* const parameter = port.parent()->parent();
   if (parameter == nullptr || parameter->kind() != ElementKind::kParameter) return nullptr;
   const ConfigurableElement same = FindConfigurable(after, parameter->name());
-  return same && !port.incoming().empty() ? same.configurable->Feed() : nullptr;
+  const bool is_used = !port.incoming().empty() || LateConnections::Awaits(port);
+  return same && is_used ? same.configurable->Feed() : nullptr;
 }
 
 Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {

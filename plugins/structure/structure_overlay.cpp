@@ -172,7 +172,7 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
   }
   connected_.push_back({&from, &to, options});
   const bool was_noted = DisconnectLate(from.path(), to.path());
-  if (was_noted || options.when_present) Late().push_back({WholePath(*this, from.path()), to.path(), options, {}});
+  if (was_noted || options.when_present) Late().push_back({WholePath(*this, from.path()), LastingPath(to), options, {}});
   return {};
 }
 

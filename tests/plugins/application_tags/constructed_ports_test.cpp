@@ -185,63 +185,6 @@ TEST_F(ConstructedPorts, AnOutputMaySetAParameter) {
               ::testing::AllOf(HasSubstr("carries string, but"), HasSubstr("is a parameter that no output can set")));
 }
 
-TEST_F(ConstructedPorts, WhatIsRefusedLeavesNoInputAtAParameter) {
-  ASSERT_TRUE(workshop_.Build(R"(<application name="demo">
-    <module name="source" type="test/source"/><module name="other" type="test/source"/>
-    <module name="third" type="test/source"/><module name="fourth" type="test/source"/>
-    <module name="fifth" type="test/source"/>
-    <connect from="source/value" to="other/gain"/>
-    <connect from="absent/value" to="fourth/gain" when="present"/>
-    <driving port="fifth/gain" safe="0" command="velocity"/>
-  </application>)"))
-      << workshop_.diagnostics.ToString();
-  const auto is_fed = [&](const std::string& module) {
-    return bool(workshop_.runtime.root().Find("/demo/" + module + "/parameter/gain/feed/gain"));
-  };
-  EXPECT_TRUE(is_fed("fifth")) << "a file has said something of it";
-  workshop_.Errors(R"(<application name="more">
-    <module name="source" type="test/source"/>
-    <connect from="source/value" to="/demo/other/gain"/>
-    <connect from="source/value" to="/demo/third/gain"/>
-    <connect from="source/value" to="/demo/fourth/gain"/>
-    <connect from="source/value" to="/demo/nowhere/gain"/>
-  </application>)");
-  EXPECT_TRUE(is_fed("other"));
-  EXPECT_FALSE(is_fed("third"));
-  EXPECT_TRUE(is_fed("fourth")) << "is waited for";
-  EXPECT_TRUE(workshop_.Get<Port>("/demo/fifth/parameter/gain/feed/gain").is_driving());
-  StructureEditor editor(workshop_.runtime, workshop_.plugins.modules(), nullptr);
-  const ConnectPorts wanted{"/demo/source/value", "/demo/third/gain"};
-  EXPECT_FALSE(editor.Apply({wanted, SetParameter{"/demo/nowhere/gain", "1"}}));
-  EXPECT_FALSE(is_fed("third"));
-  const auto revision = workshop_.runtime.revision();
-  EXPECT_FALSE(editor.Apply({SetParameter{"/demo/nowhere/gain", "1"}}));
-  EXPECT_EQ(workshop_.runtime.revision(), revision);
-  for (int round = 0; round < 2; ++round) {
-    EXPECT_TRUE(editor.Apply({wanted}));
-    EXPECT_TRUE(is_fed("third"));
-    EXPECT_TRUE(editor.Apply({DisconnectPorts{"/demo/source/value", "/demo/third/gain"}}));
-  }
-}
-
-TEST_F(ConstructedPorts, AConnectionWaitsForAParameterThatComesOrIsMadeAnew) {
-  ASSERT_TRUE(workshop_.Build(R"(<application name="demo">
-    <module name="source" type="test/source"/>
-    <connect from="source/value" to="later/gain" when="present"/>
-  </application>)"))
-      << workshop_.diagnostics.ToString();
-  StructureEditor editor(workshop_.runtime, workshop_.plugins.modules(), nullptr);
-  const auto is_connected = [&] { return !workshop_.Get<Port>("/demo/source/output/value").outgoing().empty(); };
-  for (int round = 0; round < 2; ++round) {
-    EXPECT_FALSE(is_connected()) << round;
-    ASSERT_TRUE(editor.Apply({CreateModule{"/demo/later", "test/source"}}));
-    EXPECT_TRUE(is_connected()) << round;
-    ASSERT_TRUE(editor.Apply({ReplaceModule{"/demo/later", "test/source"}}));
-    EXPECT_TRUE(is_connected()) << round;
-    ASSERT_TRUE(editor.Apply({DeleteElement{"/demo/later"}}));
-  }
-}
-
 constexpr const char* kFedByOutput = R"(<application name="demo" thread="control">
   <thread name="control" period="10ms"/>
   <clock type="simulated" speed="0"/>

@@ -1,0 +1,217 @@
+// The inputs by which outputs set parameters: which are made, which stay, and connections that wait for them.
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/lockfree/thread_epoch.h"
+#include "core/paths/late_connections.h"
+#include "core/paths/new_feeds.h"
+#include "plugins/structure/structure_editor.h"
+#include "plugins/structure/value_by_hand.h"
+#include "tests/plugins/application_files/saving/saving_workshop.h"
+
+namespace runnel::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// An input and a parameter of one name.
+class Twin final : public Module {
+ public:
+  using Module::Module;
+  Input<double> input{this, "gain", {.required = true}};
+  Parameter<double> gain{this, "gain", {.default_value = 1.0}};
+
+ private:
+  void Update() override {}
+};
+
+class ParameterInputs : public ::testing::Test {
+ protected:
+  ParameterInputs() { workshop_.Add<Twin>("test/twin"); }
+
+  void Build(const std::string& inside) {
+    ASSERT_TRUE(workshop_.Build("<application name=\"demo\">" + inside + "</application>"))
+        << workshop_.diagnostics.ToString();
+  }
+  ChangeOutcome Apply(const ChangeSet& changes) { return editor_.Apply(changes); }
+  [[nodiscard]] bool IsFed(const std::string& module) {
+    return bool(workshop_.runtime.root().Find("/demo/" + module + "/parameter/gain/feed/gain"));
+  }
+  // "from -> to", with " waits" behind it.
+  [[nodiscard]] std::vector<std::string> Late() {
+    std::vector<std::string> all;
+    const auto* const late = LateConnections::FindIn(workshop_.runtime);
+    if (late == nullptr) return all;
+    for (const LateConnection& each : late->all()) {
+      all.push_back(each.from + " -> " + each.to + (each.waits_for ? " waits" : ""));
+    }
+    return all;
+  }
+
+  SavingWorkshop workshop_;
+  StructureEditor editor_{workshop_.runtime, workshop_.plugins.modules(), nullptr};
+};
+
+constexpr const char* kModules =
+    R"(<module name="source" type="test/source"/><module name="other" type="test/source"/>)";
+
+TEST_F(ParameterInputs, AreNotLeftByWhatIsRefused) {
+  Build(std::string(kModules) + R"(
+    <module name="third" type="test/source"/><module name="fourth" type="test/source"/>
+    <module name="fifth" type="test/source"/>
+    <connect from="source/value" to="other/gain"/>
+    <connect from="absent/value" to="fourth/gain" when="present"/>
+    <driving port="fifth/gain" safe="0" command="velocity"/>)");
+  EXPECT_TRUE(IsFed("fifth")) << "a file has said something of it";
+  workshop_.Errors(R"(<application name="more">
+    <module name="source" type="test/source"/>
+    <connect from="source/value" to="/demo/other/gain"/>
+    <connect from="source/value" to="/demo/third/gain"/>
+    <connect from="source/value" to="/demo/fourth/gain"/>
+    <connect from="source/value" to="/demo/nowhere/gain"/>
+  </application>)");
+  EXPECT_TRUE(IsFed("other"));
+  EXPECT_FALSE(IsFed("third"));
+  EXPECT_TRUE(IsFed("fourth")) << "is waited for";
+  EXPECT_TRUE(workshop_.Get<Port>("/demo/fifth/parameter/gain/feed/gain").is_driving());
+  const ConnectPorts wanted{"/demo/source/value", "/demo/third/gain"};
+  EXPECT_FALSE(Apply({wanted, SetParameter{"/demo/nowhere/gain", "1"}}));
+  EXPECT_FALSE(IsFed("third"));
+  const auto revision = workshop_.runtime.revision();
+  EXPECT_FALSE(Apply({SetParameter{"/demo/nowhere/gain", "1"}}));
+  EXPECT_EQ(workshop_.runtime.revision(), revision);
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_TRUE(Apply({wanted}));
+    EXPECT_TRUE(IsFed("third"));
+    EXPECT_TRUE(Apply({DisconnectPorts{"/demo/source/value", "/demo/third/gain"}}));
+  }
+}
+
+// Of what has been found, by whom it has been looked for.
+class Looked : public ParameterInputs {
+ protected:
+  Port& Find() {
+    const std::lock_guard lock(workshop_.runtime.structure_mutex());
+    return **PathSearch(workshop_.runtime).FindPort("/demo/other/gain", PathKind::kInput);
+  }
+};
+
+TEST_F(Looked, GoesUnlessItIsUsed) {
+  Build(kModules);
+  {
+    const NewFeeds feeds(workshop_.runtime);
+    Find();
+  }
+  EXPECT_FALSE(IsFed("other"));
+  {
+    const NewFeeds feeds(workshop_.runtime);
+    const double value = 2;
+    const std::lock_guard lock(workshop_.runtime.structure_mutex());
+    ASSERT_TRUE(PublishByHand(Find(), &value));
+  }
+  EXPECT_TRUE(IsFed("other")) << "a person has set a value";
+}
+
+TEST_F(Looked, StaysForAnInterfaceThatNothingFeedsYet) {
+  Build(std::string(kModules) + R"(<group name="group"><port name="out" direction="output" type="double"/></group>)");
+  {
+    const NewFeeds feeds(workshop_.runtime);
+    ASSERT_TRUE(Port::Connect(workshop_.Get<Port>("/demo/group/out"), Find()));
+  }
+  EXPECT_TRUE(IsFed("other"));
+}
+
+TEST_F(Looked, StaysWhereNothingCanBeDeleted) {
+  Build(kModules);
+  {
+    const EpochGuard cycle;
+    const NewFeeds feeds(workshop_.runtime);
+    Find();
+  }
+  EXPECT_TRUE(IsFed("other"));
+}
+
+TEST_F(Looked, AnotherRuntimesInputsAreNotIts) {
+  Build(R"(<module name="sink" type="test/sink"/>)");
+  SavingWorkshop other;
+  {
+    const NewFeeds feeds(workshop_.runtime);
+    for (int i = 0; i < 20; ++i) {
+      auto& source = other.runtime.Create<Source>(other.runtime.root(), "source" + std::to_string(i));
+      const std::lock_guard lock(other.runtime.structure_mutex());
+      ASSERT_TRUE(PathSearch(other.runtime).FindPort(source.path() + "/gain", PathKind::kInput));
+    }
+  }
+  EXPECT_TRUE(workshop_.runtime.root().Find("/demo/sink/input/value"));
+}
+
+TEST_F(ParameterInputs, AreWaitedForUntilTheyComeAndWhenTheyAreMadeAnew) {
+  Build(R"(<module name="source" type="test/source"/>
+    <connect from="source/value" to="later/boost" when="present"/>)");  // a former name
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(Apply({CreateModule{"/demo/later", "test/source"}}));
+    const auto connected = ElementsAre("/demo/source/output/value -> /demo/later/parameter/gain");
+    EXPECT_THAT(Late(), connected) << round;
+    ASSERT_TRUE(Apply({ReplaceModule{"/demo/later", "test/source"}}));
+    EXPECT_THAT(Late(), connected) << round;
+    ASSERT_TRUE(Apply({DeleteElement{"/demo/later"}}));
+    EXPECT_THAT(Late(), ElementsAre("/demo/source/output/value -> /demo/later/parameter/gain waits")) << round;
+  }
+  EXPECT_TRUE(Apply({DisconnectPorts{"/demo/source/value", "/demo/later/gain"}}));
+  EXPECT_THAT(Late(), IsEmpty());
+}
+
+TEST_F(ParameterInputs, AreWaitedForByPathsWithoutTheApplication) {
+  Build(R"(<module name="source" type="test/source"/>)");
+  ASSERT_TRUE(Apply({ConnectPorts{"source/value", "later/gain", {.when_present = true}}}));
+  ASSERT_TRUE(Apply({CreateModule{"/demo/later", "test/source"}}));
+  EXPECT_THAT(Late(), ElementsAre("/demo/source/output/value -> /demo/later/parameter/gain"));
+  EXPECT_TRUE(Apply({DisconnectPorts{"source/value", "later/gain"}}));
+  EXPECT_THAT(Late(), IsEmpty());
+}
+
+TEST_F(ParameterInputs, AreWaitedForUnderTheirNewNames) {
+  Build(kModules);
+  ASSERT_TRUE(Apply({ConnectPorts{"/demo/source/value", "/demo/other/gain", {.when_present = true}},
+                     RenameElement{"/demo/other", "a"}}));
+  ASSERT_TRUE(Apply({RenameElement{"/demo/a", "b"}, RenameElement{"/demo/b", "c"}}));
+  EXPECT_THAT(Late(), ElementsAre("/demo/source/output/value -> /demo/c/parameter/gain"));
+  EXPECT_TRUE(Apply({DisconnectPorts{"/demo/source/value", "/demo/c/gain"}}));
+  EXPECT_THAT(Late(), IsEmpty());
+}
+
+TEST_F(ParameterInputs, AreWaitedForByWhatTakesTheirPlace) {
+  Build(kModules);
+  {
+    const std::lock_guard lock(workshop_.runtime.structure_mutex());
+    ASSERT_TRUE(LateConnections::Of(workshop_.runtime).Add("//distant/port", "/demo/other/gain", {}));
+  }
+  ASSERT_TRUE(Apply({ReplaceModule{"/demo/other", "test/source"}}));
+  ASSERT_TRUE(Apply({SetParameter{"/demo/other/text", "static"}}));
+  EXPECT_THAT(Late(), ElementsAre("//distant/port -> /demo/other/parameter/gain waits"));
+}
+
+TEST_F(ParameterInputs, AreNotInputsOfTheSameName) {
+  EXPECT_THAT(workshop_.Errors(R"(<application name="demo">
+    <module name="twin" type="test/twin"/>
+    <connect from="absent/value" to="twin/parameter/gain" when="present"/>
+  </application>)"),
+              HasSubstr("/demo/twin/input/gain: nothing is connected"));
+  Build(R"(<module name="source" type="test/source"/><module name="twin" type="test/twin"/>
+    <connect from="source/value" to="twin/input/gain" when="present"/>
+    <connect from="absent/value" to="twin/parameter/gain" when="present"/>)");
+  ASSERT_TRUE(Apply({ConnectPorts{"/demo/source/value", "/demo/twin/parameter/gain"}}));
+  ASSERT_TRUE(Apply({DisconnectPorts{"/demo/source/value", "/demo/twin/parameter/gain"}}));
+  EXPECT_THAT(Late(), ElementsAre("/demo/source/output/value -> /demo/twin/input/gain",
+                                  "/demo/absent/value -> /demo/twin/parameter/gain waits"));
+}
+
+}  // namespace
+}  // namespace runnel::testing
