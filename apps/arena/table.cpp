@@ -22,8 +22,7 @@ std::string Aligned(const TextTable& table) {
   for (const auto& line : lines) {
     std::string out = " ";
     for (std::size_t i = 0; i < line.size(); ++i) {
-      const std::string padding(widths[i] - line[i].size(), ' ');
-      out += " " + (table.IsNumber(i) ? padding + line[i] : line[i] + padding);
+      out += fmt::format(fmt::runtime(table.IsNumber(i) ? " {:>{}}" : " {:<{}}"), line[i], widths[i]);
     }
     out.erase(out.find_last_not_of(' ') + 1);
     text += out + "\n";

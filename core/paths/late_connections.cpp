@@ -5,31 +5,41 @@
 #include <utility>
 
 #include "core/base/exception_text.h"
+#include "core/base/retry.h"
 #include "core/element/element_path.h"
 #include "core/paths/distant_ports.h"
-#include "core/paths/path_search.h"
 
 namespace runnel {
 
 namespace {
 
 // Without the group, which may be left out, and the group: "/a/laser/output/scan" is "/a/laser/scan" and "output".
-std::pair<std::string, std::string> WithoutGroup(std::string_view path) {
-  std::vector<std::string_view> names = SplitPath(path);
-  std::string group;
-  for (const std::string_view each : {"output", "input", "parameter"}) {
-    if (names.size() > 2 && names[names.size() - 2] == each) group = each;
-  }
-  if (!group.empty()) names.erase(names.end() - 2);
-  std::string text = IsDistantPath(path) ? "/" : "";
-  for (const std::string_view name : names) text += "/" + std::string(name);
-  return {text, group};
+std::pair<std::string, std::string> WithoutGroup(const std::string& path) {
+  const std::size_t name = path.rfind('/');
+  const std::size_t group = name == 0 || name == std::string::npos ? std::string::npos : path.rfind('/', name - 1);
+  if (group == std::string::npos) return {path, ""};
+  const std::string between = path.substr(group + 1, name - group - 1);
+  const bool is_group = between == "output" || between == "input" || between == "parameter";
+  if (!is_group) return {path, ""};
+  return {path.substr(0, group) + path.substr(name), between};
 }
 
-bool IsSame(std::string_view path, std::string_view other) {
+bool IsSame(const std::string& path, const std::string& other) {
   const auto [end, group] = WithoutGroup(path);
   const auto [other_end, other_group] = WithoutGroup(other);
   return end == other_end && (group == other_group || group.empty() || other_group.empty());
+}
+
+// As much of the path as `search` finds, by its whole path.
+std::string WholePath(const PathSearch& search, std::string_view path) {
+  for (std::size_t end = path.size(); end != std::string_view::npos && end > 0; end = path.rfind('/', end - 1)) {
+    const auto found = search.Find(path.substr(0, end));
+    const bool is_there = found && (*found)->parent() != nullptr;
+    if (!is_there) continue;
+    const auto* const port = dynamic_cast<const Port*>(*found);
+    return (port != nullptr ? LastingPath(*port) : (*found)->path()) + std::string(path.substr(end));
+  }
+  return (path.starts_with('/') ? "" : "/") + std::string(path);
 }
 
 // Whether an input is missing that a connection has to go with.
@@ -109,24 +119,16 @@ Result<void> LateConnections::Add(const std::string& from, const std::string& to
   const Ends ends = FindEnds(from, to);
   // Notes itself.
   if (ends.missing.empty()) return Port::Connect(*ends.from, *ends.to, options);
-  return Note(from, to, std::move(options), ends);
+  return Note(from, to, std::move(options));
 }
 
 Result<void> LateConnections::Note(const std::string& from, const std::string& to, ConnectOptions options) {
   options.when_present = options.when_present || !IsDistantPath(from);
-  return Note(from, to, std::move(options), FindEnds(from, to));
-}
-
-Result<void> LateConnections::Note(const std::string& from, const std::string& to, ConnectOptions options,
-                                   const Ends& ends) {
   if (Find(from, to) != nullptr) {
     return Error{.message = "is to be connected to " + to + " already", .path = from};
   }
-  const auto path_of = [this](const Port* there, const std::string& path) {
-    return there != nullptr ? LastingPath(*there) : WholePath(PathSearch(runtime_), path);
-  };
-  all_.push_back(
-      {IsDistantPath(from) ? from : path_of(ends.from, from), path_of(ends.to, to), std::move(options), ends.missing});
+  all_.push_back({IsDistantPath(from) ? from : EndPath(PathSearch(runtime_), from, PathKind::kOutput),
+                  EndPath(PathSearch(runtime_), to, PathKind::kInput), std::move(options), FindEnds(from, to).missing});
   must_look_ = true;
   // So that viewers look again.
   runtime_.ForEachListener([](ElementListener&) {});
@@ -176,6 +178,8 @@ void LateConnections::OnConnected(FrameworkElement& from, FrameworkElement& to) 
   if (known == nullptr) {
     all_.push_back({path, end, edge->options, {}});
   } else {
+    if (!IsDistantPath(path)) known->from = path;
+    known->to = end;
     known->options = edge->options;
     known->waits_for.reset();
     if (known->is_of_its_input()) all_.erase(all_.begin() + (known - all_.data()));
@@ -192,11 +196,12 @@ void LateConnections::OnDisconnected(FrameworkElement& from, FrameworkElement& t
 }
 
 void LateConnections::OnChangesEnd() {
-  if (must_look_) LookAgain();
+  if (must_look_) Retry([this] { LookAgain(); });
 }
 
 // A connection that has been cut while both its ends stay is one that somebody does not want any more.
 void LateConnections::LookAgain() {
+  const ChangeScope all_at_once(runtime_);  // what it makes itself is looked at at its end
   must_look_ = false;
   for (const Cut& cut : std::exchange(cuts_, {})) {
     const Ends ends = FindEnds(cut.from, cut.to);
@@ -221,8 +226,8 @@ void LateConnections::Try(const std::string& from, const std::string& to) {
   if (late == nullptr) return;
   const Ends ends = FindEnds(from, to);
   const std::optional<std::string> before = std::exchange(late->waits_for, ends.missing);
-  if (ends.from != nullptr && !IsDistantPath(late->from)) late->from = ends.from->path();
-  if (ends.to != nullptr) late->to = LastingPath(*ends.to);
+  if (!IsDistantPath(from)) late->from = EndPath(PathSearch(runtime_), from, PathKind::kOutput);
+  late->to = EndPath(PathSearch(runtime_), to, PathKind::kInput);
   if (!ends.missing.empty()) {
     if (before != ends.missing) runtime_.ForEachListener([](ElementListener&) {});  // so that viewers look again
     return;
@@ -246,24 +251,23 @@ std::vector<const LateConnection*> AwaitedBy(const Port& port) {
   return Waiting(port.runtime(), [&](const std::string& end) { return IsSame(end, LastingPath(port)); });
 }
 
-std::string WholePath(const PathSearch& search, std::string_view path) {
-  for (std::size_t end = path.size(); end != std::string_view::npos && end > 0; end = path.rfind('/', end - 1)) {
-    const auto found = search.Find(path.substr(0, end));
-    const bool is_there = found && (*found)->parent() != nullptr;
-    if (!is_there) continue;
-    const auto* const port = dynamic_cast<const Port*>(*found);
-    return (port != nullptr ? LastingPath(*port) : (*found)->path()) + std::string(path.substr(end));
-  }
-  return (path.starts_with('/') ? "" : "/") + std::string(path);
+std::string EndPath(const PathSearch& search, std::string_view path, PathKind kind) {
+  const auto found = search.Find(path, kind);
+  const auto* const port = found ? dynamic_cast<const Port*>(*found) : nullptr;
+  const bool is_output = port != nullptr && port->direction() == Port::Direction::kOutput;
+  if (port != nullptr && (port->is_proxy() || is_output == (kind == PathKind::kOutput))) return LastingPath(*port);
+  if (found && (*found)->kind() == ElementKind::kParameter) return (*found)->path();
+  const std::size_t name = std::min(path.rfind('/'), path.size());
+  return (name == 0 ? "" : WholePath(search, path.substr(0, name))) + std::string(path.substr(name));
 }
 
 const LateConnection* FindLate(const std::vector<LateConnection>& all, const PathSearch& search, std::string_view from,
                                std::string_view to) {
   if (all.empty()) return nullptr;
-  const std::string whole_from = WholePath(search, from), whole_to = WholePath(search, to);
+  const std::string end_from = EndPath(search, from, PathKind::kOutput);
+  const std::string end_to = EndPath(search, to, PathKind::kInput);
   const auto found = std::ranges::find_if(all, [&](const LateConnection& each) {
-    const bool is_as_noted = each.from == from && each.to == to;
-    return is_as_noted || (IsSame(each.from, whole_from) && IsSame(each.to, whole_to));
+    return (each.from == from && each.to == to) || (IsSame(each.from, end_from) && IsSame(each.to, end_to));
   });
   return found == all.end() ? nullptr : &*found;
 }

@@ -9,11 +9,10 @@
 #include "core/element/annotation.h"
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
+#include "core/paths/path_search.h"
 #include "core/port/port.h"
 
 namespace runnel {
-
-class PathSearch;
 
 /// A connection that is to be whenever both its ends are there.
 struct LateConnection {
@@ -88,7 +87,6 @@ class LateConnections final : public Annotation, private ElementListener {
   void OnChangesEnd() override;
 
   [[nodiscard]] Ends FindEnds(const std::string& from, const std::string& to) const;
-  Result<void> Note(const std::string& from, const std::string& to, ConnectOptions options, const Ends& ends);
   [[nodiscard]] LateConnection* FindOwn(std::string_view from, std::string_view to);
   void Try(const std::string& from, const std::string& to);
 
@@ -98,8 +96,9 @@ class LateConnections final : public Annotation, private ElementListener {
   bool must_look_ = false;
 };
 
-/// As much of the path as `search` finds, by its whole path. Under the structure lock, as all below.
-[[nodiscard]] std::string WholePath(const PathSearch& search, std::string_view path);
+/// The whole path of what `search` finds and can be such an end; else of as much as it finds, without what the end is not.
+/// Under the structure lock, as all below.
+[[nodiscard]] std::string EndPath(const PathSearch& search, std::string_view path, PathKind kind);
 /// One of `all`, by paths as `search` finds their ends: groups of ports may be left out. nullptr: there is none.
 [[nodiscard]] const LateConnection* FindLate(const std::vector<LateConnection>& all, const PathSearch& search,
                                              std::string_view from, std::string_view to);

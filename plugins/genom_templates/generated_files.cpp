@@ -110,10 +110,11 @@ Result<Merged> Merge(const std::string& base, const std::string& mine, const std
   const auto merged = OutputOf({.words = {"diff3", "--text", "--merge", "--show-overlap", "--label=yours",
                                           "--label=base", "--label=template", "mine", "base", "made"},
                                 .folder = folder->path()});
-  const std::string failed = "the program diff3 cannot merge what you have changed with what the template makes";
-  if (!merged) return Error{.message = failed, .hint = "install the package diffutils"};
-  const bool is_done = merged->exit_code == 0 || merged->exit_code == 1;  // 1: there are conflicts
-  if (!is_done) return Error{.message = failed + " (exit code " + std::to_string(merged->exit_code) + ")"};
+  const bool is_done = merged && (merged->exit_code == 0 || merged->exit_code == 1);  // 1: there are conflicts
+  if (!is_done) {
+    return Error{.message = "the program diff3 cannot merge what you have changed with what the template makes",
+                 .hint = "it is in the package diffutils"};
+  }
   constexpr std::string_view kConflict = "<<<<<<< yours\n";
   return Merged{merged->text, CountOf(kConflict, merged->text) - CountOf(kConflict, mine)};
 }

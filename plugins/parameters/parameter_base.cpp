@@ -170,12 +170,11 @@ class ParameterBase::Feeder final : public FrameworkElement {
 Port* ParameterBase::Feed() {
   const TypedPorts* const ports = FindTypedPorts(type());
   if (ports == nullptr || info().is_static || life_cycle() == LifeCycle::kDeleted) return nullptr;
-  const bool is_there = feeder_ != nullptr && FindChild("feed") == feeder_;  // or it has gone again
-  if (!is_there) {
+  if (feeder_ == nullptr || FindChild("feed") != feeder_) {  // or it has gone again
     feeder_ = &runtime().Create<Feeder>(*this, "feed", *this, *ports);
     NewFeeds::Note(feeder_->input());
   }
-  if (life_cycle() == LifeCycle::kReady && feeder_->life_cycle() != LifeCycle::kReady) {
+  if (life_cycle() == LifeCycle::kReady && feeder_->life_cycle() == LifeCycle::kConstructed) {
     (void)runtime().MakeReady(*feeder_);
   }
   return &feeder_->input();

@@ -172,7 +172,7 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
   }
   connected_.push_back({&from, &to, options});
   const bool was_noted = DisconnectLate(from.path(), to.path());
-  if (was_noted || options.when_present) Late().push_back({WholePath(*this, from.path()), LastingPath(to), options, {}});
+  if (was_noted || options.when_present) Late().push_back({LastingPath(from), LastingPath(to), options, {}});
   return {};
 }
 
@@ -198,7 +198,8 @@ const LateConnection* StructureOverlay::FindLate(std::string_view from, std::str
 }
 
 void StructureOverlay::ConnectLate(const std::string& from, const std::string& to, const ConnectOptions& options) {
-  Late().push_back({WholePath(*this, from), WholePath(*this, to), options, "its ends"});
+  Late().push_back(
+      {EndPath(*this, from, PathKind::kOutput), EndPath(*this, to, PathKind::kInput), options, "its ends"});
 }
 
 bool StructureOverlay::DisconnectLate(std::string_view from, std::string_view to) {

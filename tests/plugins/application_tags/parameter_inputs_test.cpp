@@ -213,5 +213,49 @@ TEST_F(ParameterInputs, AreNotInputsOfTheSameName) {
                                   "/demo/absent/value -> /demo/twin/parameter/gain waits"));
 }
 
+/// Has the parameter before the input of its name.
+class TwinTheOtherWay final : public Module {
+ public:
+  using Module::Module;
+  Parameter<double> gain{this, "gain", {.default_value = 1.0}};
+  Input<double> input{this, "gain"};
+
+ private:
+  void Update() override {}
+};
+
+// What is called so is an input, whatever else of that name there is, and before it.
+TEST_F(ParameterInputs, ThatWaitAreFoundByTheirKind) {
+  workshop_.Add<TwinTheOtherWay>("test/other_twin");
+  Build(R"(<module name="filter" type="test/filter"/><module name="twin" type="test/other_twin"/>
+    <connect from="absent/value" to="filter/value twin/gain" when="present"/>)");
+  EXPECT_THAT(Late(), ElementsAre("/demo/absent/value -> /demo/filter/input/value waits",
+                                  "/demo/absent/value -> /demo/twin/input/gain waits"));
+  for (const std::string to : {"/demo/filter/value", "/demo/twin/gain"}) {
+    const auto noted = Late();
+    const ConnectPorts connected{"/demo/absent/value", to, {.when_present = true}};
+    EXPECT_THAT(Apply({connected}).diagnostics.ToString(), HasSubstr("already"));
+    EXPECT_FALSE(Apply({DisconnectPorts{"/demo/absent/value", to}, SetParameter{"/demo/nowhere", "1"}}));
+    EXPECT_THAT(Late(), noted);
+    EXPECT_TRUE(
+        Apply({DisconnectPorts{"/demo/absent/value", to}, connected, DisconnectPorts{"/demo/absent/value", to}}));
+  }
+  EXPECT_THAT(Late(), IsEmpty());
+}
+
+TEST_F(ParameterInputs, AnEndThatCannotBeOneIsNotNoted) {
+  Build(R"(<connect from="absent/value" to="later/value" when="present"/>)");
+  ASSERT_TRUE(Apply({CreateModule{"/demo/later", "test/source"}}));  // which has an output of that name
+  ASSERT_TRUE(Apply({DeleteElement{"/demo/later"}}));
+  ASSERT_TRUE(Apply({CreateModule{"/demo/later", "test/sink"}, CreateModule{"/demo/absent", "test/source"}}));
+  EXPECT_THAT(Late(), ElementsAre("/demo/absent/output/value -> /demo/later/input/value"));
+}
+
+TEST_F(ParameterInputs, OfAnotherApplicationAreConnectedOnceWhenTheyAreReady) {
+  Build(std::string(kModules) + R"(<connect from="source/value" to="/more/other/gain" when="present"/>)");
+  ASSERT_TRUE(workshop_.Build("<application name=\"more\">" + std::string(kModules) + "</application>"));
+  EXPECT_THAT(Late(), ElementsAre("/demo/source/output/value -> /more/other/parameter/gain"));
+}
+
 }  // namespace
 }  // namespace runnel::testing

@@ -45,13 +45,13 @@ TEST(ThreeWayMergeTest, AConflictThatIsThereStillIsNotANewOne) {
   EXPECT_EQ(merged.text, left + "c\n");
 }
 
-TEST(ThreeWayMergeTest, WithoutTheProgramItSaysWhatToInstall) {
+TEST(ThreeWayMergeTest, WithoutTheProgramItSaysWhereThatIs) {
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
   const auto merged = Merge("a\n", "b\n", "c\n");
   setenv("PATH", path.c_str(), 1);
   ASSERT_FALSE(merged);
-  EXPECT_EQ(merged.error().hint, "install the package diffutils");
+  EXPECT_EQ(merged.error().hint, "it is in the package diffutils");
 }
 
 }  // namespace
