@@ -274,13 +274,7 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
   } catch (...) {
     // What has been done by then is done as a whole, and stays.
     const Error error{.message = DescribeException()};
-    Retry([&] {
-      if (outcome.is_done) {
-        outcome.diagnostics.AddWarning(error);
-      } else {
-        outcome.diagnostics.Add(error);
-      }
-    });
+    Retry([&] { outcome.is_done ? outcome.diagnostics.AddWarning(error) : outcome.diagnostics.Add(error); });
   }
   return outcome;
 }
