@@ -20,8 +20,7 @@ std::pair<std::string, std::string> WithoutGroup(const std::string& path) {
   if (group == std::string::npos) return {path, ""};
   const std::string between = path.substr(group + 1, name - group - 1);
   const bool is_group = between == "output" || between == "input" || between == "parameter";
-  if (!is_group) return {path, ""};
-  return {path.substr(0, group) + path.substr(name), between};
+  return is_group ? std::pair(path.substr(0, group) + path.substr(name), between) : std::pair(path, std::string());
 }
 
 bool IsSame(const std::string& path, const std::string& other) {
@@ -40,6 +39,15 @@ std::string WholePath(const PathSearch& search, std::string_view path) {
     return (port != nullptr ? LastingPath(*port) : (*found)->path()) + std::string(path.substr(end));
   }
   return (path.starts_with('/') ? "" : "/") + std::string(path);
+}
+
+// The whole path of what is there and can be such an end.
+std::optional<std::string> FindEnd(const PathSearch& search, std::string_view path, PathKind kind) {
+  const auto found = search.Find(path, kind);
+  const auto* const port = found ? dynamic_cast<const Port*>(*found) : nullptr;
+  const bool is_output = port != nullptr && port->direction() == Port::Direction::kOutput;
+  if (port != nullptr && (port->is_proxy() || is_output == (kind == PathKind::kOutput))) return LastingPath(*port);
+  return found && (*found)->kind() == ElementKind::kParameter ? std::optional((*found)->path()) : std::nullopt;
 }
 
 // Whether an input is missing that a connection has to go with.
@@ -117,8 +125,7 @@ bool LateConnections::Awaits(const Port& input) {
 Result<void> LateConnections::Add(const std::string& from, const std::string& to, ConnectOptions options) {
   options.when_present = options.when_present || !IsDistantPath(from);
   const Ends ends = FindEnds(from, to);
-  // Notes itself.
-  if (ends.missing.empty()) return Port::Connect(*ends.from, *ends.to, options);
+  if (ends.missing.empty()) return Port::Connect(*ends.from, *ends.to, options);  // notes itself
   return Note(from, to, std::move(options));
 }
 
@@ -201,9 +208,10 @@ void LateConnections::OnChangesEnd() {
 
 // A connection that has been cut while both its ends stay is one that somebody does not want any more.
 void LateConnections::LookAgain() {
-  const ChangeScope all_at_once(runtime_);  // what it makes itself is looked at at its end
+  const ChangeScope all_at_once(runtime_);  // else it would look again at each input that it makes
   must_look_ = false;
-  for (const Cut& cut : std::exchange(cuts_, {})) {
+  for (; !cuts_.empty(); cuts_.erase(cuts_.begin())) {
+    const Cut& cut = cuts_.front();
     const Ends ends = FindEnds(cut.from, cut.to);
     const bool are_the_same = ends.missing.empty() && ends.from->id() == cut.from_id && ends.to->id() == cut.to_id;
     if (are_the_same && ends.from->ConnectionTo(*ends.to) == nullptr) {
@@ -226,8 +234,8 @@ void LateConnections::Try(const std::string& from, const std::string& to) {
   if (late == nullptr) return;
   const Ends ends = FindEnds(from, to);
   const std::optional<std::string> before = std::exchange(late->waits_for, ends.missing);
-  if (!IsDistantPath(from)) late->from = EndPath(PathSearch(runtime_), from, PathKind::kOutput);
-  late->to = EndPath(PathSearch(runtime_), to, PathKind::kInput);
+  if (!IsDistantPath(from)) late->from = FindEnd(PathSearch(runtime_), from, PathKind::kOutput).value_or(from);
+  late->to = FindEnd(PathSearch(runtime_), to, PathKind::kInput).value_or(to);
   if (!ends.missing.empty()) {
     if (before != ends.missing) runtime_.ForEachListener([](ElementListener&) {});  // so that viewers look again
     return;
@@ -252,11 +260,7 @@ std::vector<const LateConnection*> AwaitedBy(const Port& port) {
 }
 
 std::string EndPath(const PathSearch& search, std::string_view path, PathKind kind) {
-  const auto found = search.Find(path, kind);
-  const auto* const port = found ? dynamic_cast<const Port*>(*found) : nullptr;
-  const bool is_output = port != nullptr && port->direction() == Port::Direction::kOutput;
-  if (port != nullptr && (port->is_proxy() || is_output == (kind == PathKind::kOutput))) return LastingPath(*port);
-  if (found && (*found)->kind() == ElementKind::kParameter) return (*found)->path();
+  if (auto found = FindEnd(search, path, kind)) return *found;
   const std::size_t name = std::min(path.rfind('/'), path.size());
   return (name == 0 ? "" : WholePath(search, path.substr(0, name))) + std::string(path.substr(name));
 }
@@ -264,11 +268,15 @@ std::string EndPath(const PathSearch& search, std::string_view path, PathKind ki
 const LateConnection* FindLate(const std::vector<LateConnection>& all, const PathSearch& search, std::string_view from,
                                std::string_view to) {
   if (all.empty()) return nullptr;
-  const std::string end_from = EndPath(search, from, PathKind::kOutput);
-  const std::string end_to = EndPath(search, to, PathKind::kInput);
-  const auto found = std::ranges::find_if(all, [&](const LateConnection& each) {
-    return (each.from == from && each.to == to) || (IsSame(each.from, end_from) && IsSame(each.to, end_to));
-  });
+  // Of what is not there the application may have been left out, or not.
+  const auto is_end = [&](std::string_view path, PathKind kind) {
+    return
+        [=, is_there = bool(FindEnd(search, path, kind)), end = EndPath(search, path, kind)](const std::string& noted) {
+          return noted == path || IsSame(noted, end) || (!is_there && IsSame(noted, std::string(path)));
+        };
+  };
+  const auto is_from = is_end(from, PathKind::kOutput), is_to = is_end(to, PathKind::kInput);
+  const auto found = std::ranges::find_if(all, [&](const auto& each) { return is_from(each.from) && is_to(each.to); });
   return found == all.end() ? nullptr : &*found;
 }
 

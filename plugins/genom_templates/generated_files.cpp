@@ -113,7 +113,7 @@ Result<Merged> Merge(const std::string& base, const std::string& mine, const std
   const bool is_done = merged && (merged->exit_code == 0 || merged->exit_code == 1);  // 1: there are conflicts
   if (!is_done) {
     return Error{.message = "the program diff3 cannot merge what you have changed with what the template makes",
-                 .hint = "it is in the package diffutils"};
+                 .hint = merged ? "" : "it is in the package diffutils"};
   }
   constexpr std::string_view kConflict = "<<<<<<< yours\n";
   return Merged{merged->text, CountOf(kConflict, merged->text) - CountOf(kConflict, mine)};

@@ -58,8 +58,7 @@ bool IsBarred(const Port& port) {
 }
 
 // The element below `after` that is called as `port` is below `before`.
-Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after,
-                  const StructureOverlay& overlay) {
+Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {
   const auto found = after.Find(port.path().substr(before.path().size() + 1));
   if (found) return dynamic_cast<Port*>(*found);
   // A module has its ports in groups, a composite has not.
@@ -72,8 +71,7 @@ Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkEle
   const FrameworkElement* const parameter = port.parent()->parent();
   if (parameter == nullptr || parameter->kind() != ElementKind::kParameter) return nullptr;
   const ConfigurableElement same = FindConfigurable(after, parameter->name());
-  const bool is_used = !port.incoming().empty() || !AwaitedWith(overlay.late(), port).empty();
-  return same && is_used ? same.configurable->Feed() : nullptr;
+  return same ? same.configurable->Feed() : nullptr;
 }
 
 Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {
@@ -171,7 +169,7 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const St
   PortMatch result;
   const auto composites = Composites(before, after);
   before.VisitAll<Port>([&](Port& port) {
-    Port* match = Counterpart(port, before, after, overlay);
+    Port* match = Counterpart(port, before, after);
     if (std::ranges::count(result.ports, match, &std::pair<Port*, Port*>::second) > 0) match = nullptr;
     auto possible = match != nullptr ? Port::CheckTakeOver(*match, port, composites ? &*composites : nullptr)
                                      : NoCounterpart(port, before, after);

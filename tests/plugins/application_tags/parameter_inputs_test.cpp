@@ -257,5 +257,49 @@ TEST_F(ParameterInputs, OfAnotherApplicationAreConnectedOnceWhenTheyAreReady) {
   EXPECT_THAT(Late(), ElementsAre("/demo/source/output/value -> /more/other/parameter/gain"));
 }
 
+TEST_F(ParameterInputs, KeepWhatIsSetAtThem) {
+  for (const std::string connect : {"", R"(<connect from="absent/value" to="other/gain" when="present"/>)"}) {
+    SavingWorkshop workshop;
+    ASSERT_TRUE(workshop.Build("<application name=\"demo\">" + std::string(kModules) + connect +
+                               R"(<driving port="other/gain" safe="0" command="velocity"/></application>)"))
+        << workshop.diagnostics.ToString();
+    const auto feed = [&](const std::string& module) -> Port& {
+      return workshop.Get<Port>("/demo/" + module + "/parameter/gain/feed/gain");
+    };
+    StructureEditor editor(workshop.runtime, workshop.plugins.modules(), nullptr);
+    ASSERT_TRUE(feed("other").Block());
+    ASSERT_TRUE(editor.Apply({ReplaceModule{"/demo/other", "test/source"}}));
+    ASSERT_TRUE(editor.Apply({RenameElement{"/demo/other", "another"}, SetParameter{"/demo/another/text", "static"}}));
+    EXPECT_TRUE(feed("another").is_driving());
+    EXPECT_TRUE(feed("another").is_blocked());
+  }
+}
+
+TEST_F(ParameterInputs, AreConnectedAndTakenOverInOneSet) {
+  Build(kModules);
+  EXPECT_TRUE(
+      Apply({ConnectPorts{"/demo/source/value", "/demo/other/gain"}, ReplaceModule{"/demo/other", "test/source"}}));
+  EXPECT_FALSE(workshop_.Get<Port>("/demo/source/output/value").outgoing().empty());
+}
+
+// While the one is not there, its name is that of a group in the only other one.
+TEST_F(ParameterInputs, AreWaitedForInTheirApplicationAlone) {
+  const auto load = [&](const std::string& name, const std::string& inside) {
+    return workshop_.Build("<application name=\"" + name + "\">" + inside + "</application>");
+  };
+  const std::string robot = R"(<module name="source" type="test/source"/>)";
+  ASSERT_TRUE(load("robot", robot));
+  ASSERT_TRUE(load("sim", R"(<group name="robot"><module name="other" type="test/source"/></group>)"));
+  const std::string to = "/sim/robot/other/gain";
+  ASSERT_TRUE(Apply({ConnectPorts{"/robot/source/value", to, {.when_present = true}}}));
+  ASSERT_TRUE(workshop_.runtime.Delete(**workshop_.runtime.root().Find("/robot")));
+  EXPECT_THAT(Late(), ElementsAre("/robot/source/output/value -> /sim/robot/other/parameter/gain waits"));
+  ASSERT_TRUE(load("robot", robot));
+  EXPECT_THAT(Late(), ElementsAre("/robot/source/output/value -> /sim/robot/other/parameter/gain"));
+  ASSERT_TRUE(workshop_.runtime.Delete(**workshop_.runtime.root().Find("/robot")));
+  EXPECT_TRUE(Apply({DisconnectPorts{"/robot/source/value", to}}));
+  EXPECT_THAT(Late(), IsEmpty());
+}
+
 }  // namespace
 }  // namespace runnel::testing
