@@ -35,9 +35,6 @@ std::optional<Course> ReadCourse(const std::filesystem::path& file, double safe_
 
 namespace {
 
-// Tells versions of files apart, no more.
-std::string HashOf(std::string_view text) { return fmt::format("{:x}", std::hash<std::string_view>()(text)); }
-
 template <typename Word>
 std::vector<Word> WithoutRepeats(const std::vector<Word>& words) {
   std::vector<Word> single;
@@ -100,13 +97,13 @@ void AddRuns(const ArenaArguments& arguments, const Applications& applications, 
     for (const Variant& variant : matrix.variants) {
       for (const std::string& sensor : sensors) {
         const std::string& application = applications.at({sensor, variant.name});
-        const std::string made_of = HashOf(matrix.courses[course].text + '\0' + application);
+        const std::size_t hash = std::hash<std::string>()(matrix.courses[course].text + '\0' + application);
         for (const std::string& direction : directions) {
           for (const std::uint64_t seed : seeds) {
             matrix.runs.push_back({.key = {matrix.courses[course].name, variant.name, sensor, direction, seed},
                                    .course = course,
                                    .application = application,
-                                   .made_of = made_of});
+                                   .made_of = fmt::format("{:x}", hash)});  // tells versions apart, no more
           }
         }
       }

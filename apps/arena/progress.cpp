@@ -9,25 +9,15 @@
 
 namespace runnel::arena {
 
-namespace {
-
-constexpr std::size_t kBar = 30;
-
-std::string DurationText(double seconds) {
-  const auto whole = static_cast<long>(std::ceil(seconds));
-  return fmt::format("{}:{:02}", whole / 60, whole % 60);
-}
-
-}  // namespace
-
 std::string ProgressLine(std::size_t done, std::size_t count, double elapsed) {
+  constexpr std::size_t kBar = 30;
   const std::size_t filled = count == 0 ? kBar : kBar * done / count;
   const std::size_t percent = count == 0 ? 100 : 100 * done / count;
   std::string line =
       fmt::format("[{:#<{}}{:-<{}}] {:3} %  {} of {}", "", filled, "", kBar - filled, percent, done, count);
   if (done > 0 && done < count) {
-    const double left = elapsed / static_cast<double>(done) * static_cast<double>(count - done);
-    line += "  " + DurationText(left) + " left";
+    const auto left = std::lround(std::ceil(elapsed / static_cast<double>(done) * static_cast<double>(count - done)));
+    line += fmt::format("  {}:{:02} left", left / 60, left % 60);
   }
   return line;
 }

@@ -139,8 +139,7 @@ std::string RealTimeBreach::ToString() const {
   std::string text = std::string(kVerbs[static_cast<std::size_t>(offence)]) + " in its cycle (" + what + ", " +
                      (times == 1 ? "once" : std::to_string(times) + " times") + "):";
   for (const std::string& call : stack.Texts()) {
-    // By Clang, through a function of its own; what is before it is the module's.
-    if (call.starts_with("runnel::BoundCall::To<")) break;
+    if (call.starts_with("runnel::BoundCall::To<")) break;  // between the two, by Clang
     text += "\n    " + call;
   }
   return text;

@@ -167,11 +167,8 @@ Change ReadTag(Arguments& arguments) {
 }
 
 Change ReadLog(Arguments& arguments) {
-  static const std::vector<std::string> levels = [] {
-    std::vector<std::string> names(LogLevelNames().begin(), LogLevelNames().end());
-    names.emplace_back("inherit");
-    return names;
-  }();
+  std::vector<std::string> levels(LogLevelNames().begin(), LogLevelNames().end());
+  levels.emplace_back("inherit");
   LogElement change{arguments.Take("a path")};
   const std::size_t level = arguments.TakeOneOf("a level", levels);
   if (level + 1 < levels.size()) change.level = static_cast<LogLevel>(level);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/element/configurable.h"
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"
 #include "core/element/tags.h"
@@ -106,6 +107,15 @@ Result<void> Give(const FrameworkElement& noted, FrameworkElement& made, const E
   return {};
 }
 
+// Inputs of parameters are there only once somebody has looked for them.
+void MakeFeeds(const FrameworkElement& noted, FrameworkElement& made) {
+  auto* const parameter = dynamic_cast<Configurable*>(&made);
+  if (parameter != nullptr && noted.FindChild("feed") != nullptr) (void)parameter->Feed();
+  for (const FrameworkElement* each : noted.children()) {
+    if (FrameworkElement* const counterpart = made.FindChild(each->name())) MakeFeeds(*each, *counterpart);
+  }
+}
+
 }  // namespace
 
 ElementState::ElementState(const FrameworkElement& element, Inherit how, Below below)
@@ -113,6 +123,11 @@ ElementState::ElementState(const FrameworkElement& element, Inherit how, Below b
       noted_(std::make_unique<FrameworkElement>(Placement{element.runtime().root(), element.name(), false})) {
   Note(*noted_, element, how, below);
   noted_->InheritAnnotations(element, how);
+}
+
+void ElementState::GiveAnnotations(FrameworkElement& made) const {
+  MakeFeeds(*noted_, made);
+  made.InheritAnnotations(*noted_, how_);
 }
 
 Result<void> ElementState::GivePorts(FrameworkElement& made, const TakenOver& taken_over) const {

@@ -25,7 +25,7 @@ class ElementState {
   ElementState(const FrameworkElement& element, Inherit how, Below below);
 
   /// Before `made` is prepared: that may go by what it is annotated with.
-  void GiveAnnotations(FrameworkElement& made) const { made.InheritAnnotations(*noted_, how_); }
+  void GiveAnnotations(FrameworkElement& made) const;
   /// The element as it was, with all below it, by their annotations alone.
   [[nodiscard]] const FrameworkElement& noted() const { return *noted_; }
   /// Ports, each with that which takes over from it.

@@ -67,9 +67,10 @@ Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkEle
     const auto same = PathSearch(after).FindPort(port.name(), is_output ? PathKind::kOutput : PathKind::kInput);
     if (same) return *same;
   }
-  // By which an output sets a parameter: it is made when it is asked for.
+  // By which an output sets a parameter of its own: it is made when it is asked for.
   const FrameworkElement* const parameter = port.parent()->parent();
-  if (parameter == nullptr || parameter->kind() != ElementKind::kParameter) return nullptr;
+  const bool is_feed = parameter != nullptr && parameter->kind() == ElementKind::kParameter;
+  if (!is_feed || parameter->parent()->parent() != &before) return nullptr;
   const ConfigurableElement same = FindConfigurable(after, parameter->name());
   return same ? same.configurable->Feed() : nullptr;
 }

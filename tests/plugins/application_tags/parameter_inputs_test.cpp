@@ -10,6 +10,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/new_feeds.h"
+#include "plugins/structure/change_history.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/structure/value_by_hand.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
@@ -280,6 +281,33 @@ TEST_F(ParameterInputs, AreConnectedAndTakenOverInOneSet) {
   EXPECT_TRUE(
       Apply({ConnectPorts{"/demo/source/value", "/demo/other/gain"}, ReplaceModule{"/demo/other", "test/source"}}));
   EXPECT_FALSE(workshop_.Get<Port>("/demo/source/output/value").outgoing().empty());
+}
+
+// Whatever makes the module again makes the input again, at which something was set.
+TEST_F(ParameterInputs, KeepWhatIsSetAtThemWhereAChangeIsTakenBack) {
+  Build(R"(<module name="source" type="test/source"/>
+    <module name="other" type="test/source"><input name="gain" maximum="1"/></module>
+    <driving port="other/gain" safe="0" command="velocity"/>)");
+  const auto feed = [&]() -> Port& { return workshop_.Get<Port>("/demo/other/parameter/gain/feed/gain"); };
+  ChangeHistory history(editor_);
+  for (const ChangeSet& changes :
+       {ChangeSet{DeleteElement{"/demo/other"}}, ChangeSet{ReplaceModule{"/demo/other", "test/source"}},
+        ChangeSet{DisconnectPorts{"/demo/source/value", "/demo/other/gain"}, DeleteElement{"/demo/other"}}}) {
+    if (changes.size() > 1) {
+      ASSERT_TRUE(Apply({ConnectPorts{"/demo/source/value", "/demo/other/gain"}}));
+    }
+    ASSERT_TRUE(history.Apply(changes));
+    ASSERT_TRUE(history.Undo());
+    EXPECT_TRUE(feed().is_driving());
+    EXPECT_TRUE(feed().limits().has_some());
+  }
+}
+
+TEST_F(ParameterInputs, OfAPartAreNotThoseOfTheModuleInThePlaceOfAll) {
+  Build(R"(<group name="box"><module name="part" type="test/source"/></group>
+    <driving port="box/part/gain" safe="0" command="velocity"/>)");
+  EXPECT_FALSE(Apply({ReplaceModule{"/demo/box", "test/source"}}));
+  EXPECT_TRUE(workshop_.Get<Port>("/demo/box/part/parameter/gain/feed/gain").is_driving());
 }
 
 // While the one is not there, its name is that of a group in the only other one.
