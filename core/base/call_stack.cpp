@@ -27,21 +27,16 @@ struct Place {
   std::string symbol;  // "" if it is not exported
 };
 
-std::string Hexadecimal(std::uintptr_t number) {
-  std::array<char, 20> text{};
-  (void)std::snprintf(text.data(), text.size(), "0x%lx", static_cast<unsigned long>(number));
-  return text.data();
-}
-
 Place PlaceOf(const void* frame) {
   // Within the call, not behind it, where another line or function may begin.
   const void* const call = static_cast<const char*>(frame) - 1;
   Dl_info info{};
   link_map* loaded = nullptr;
   if (dladdr1(call, &info, reinterpret_cast<void**>(&loaded), RTLD_DL_LINKMAP) == 0) return {};
-  const auto offset = reinterpret_cast<std::uintptr_t>(call) - loaded->l_addr;
+  std::array<char, 20> offset{};
+  (void)std::snprintf(offset.data(), offset.size(), "0x%lx", reinterpret_cast<std::uintptr_t>(call) - loaded->l_addr);
   const bool is_program = loaded->l_name[0] == '\0';
-  return {is_program ? "/proc/self/exe" : loaded->l_name, Hexadecimal(offset),
+  return {is_program ? "/proc/self/exe" : loaded->l_name, offset.data(),
           info.dli_sname != nullptr ? Demangled(info.dli_sname) : ""};
 }
 

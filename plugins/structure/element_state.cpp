@@ -107,10 +107,17 @@ Result<void> Give(const FrameworkElement& noted, FrameworkElement& made, const E
   return {};
 }
 
-// Inputs of parameters are there only once somebody has looked for them.
+// Inputs of parameters are there only once somebody has looked for them. Not those which would set the parameter at once,
+// whose value goes along, unless a stop may hold them.
 void MakeFeeds(const FrameworkElement& noted, FrameworkElement& made) {
   auto* const parameter = dynamic_cast<Configurable*>(&made);
-  if (parameter != nullptr && noted.FindChild("feed") != nullptr) (void)parameter->Feed();
+  const FrameworkElement* const feed = parameter != nullptr ? noted.FindChild("feed") : nullptr;
+  for (const FrameworkElement* each : feed != nullptr ? feed->children() : std::vector<FrameworkElement*>()) {
+    const auto* const state = each->FindAnnotation<PortState>();
+    if (state == nullptr || &state->type != &parameter->type()) continue;
+    const bool sets = state->limits.default_value || state->by_hand || state->by_rule;
+    if (!sets || state->stop) (void)parameter->Feed();
+  }
   for (const FrameworkElement* each : noted.children()) {
     if (FrameworkElement* const counterpart = made.FindChild(each->name())) MakeFeeds(*each, *counterpart);
   }
