@@ -28,7 +28,8 @@ NewFeeds::~NewFeeds() {
     runtime_.root().VisitAll<Port>([&](const Port& port) {
       if (std::ranges::count(made_, port.parent()->id()) == 0) return;
       const bool is_held = port.is_blocked() || port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule);
-      const bool is_said = port.FindMark() || port.FindAnnotation<GivenLimits>() != nullptr || !TagsOf(port).empty();
+      const auto* const given = port.FindAnnotation<GivenLimits>();
+      const bool is_said = port.FindMark() || (given != nullptr && given->limits.has_some()) || !TagsOf(port).empty();
       const bool is_used = !port.incoming().empty() || !port.outgoing().empty() || LateConnections::Awaits(port);
       if (!is_held && !is_said && !is_used) found.push_back(port.parent());
     });

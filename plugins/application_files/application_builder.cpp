@@ -58,7 +58,7 @@ void KeepSource(FrameworkElement& application, const ApplicationFile& file, Buil
 BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path& folder, const ApplicationFile* file,
                        const BuildTools& tools, BuildMode mode) {
   BuildOutcome outcome;
-  const NewFeeds feeds(tools.runtime);
+  NewFeeds feeds(tools.runtime);
   BuildContext context(tools, folder, outcome.diagnostics);
   {
     const std::lock_guard lock(tools.runtime.structure_mutex());
@@ -69,6 +69,7 @@ BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path&
     }
   }
   FinishBuild(outcome, mode);
+  if (outcome.application != nullptr) feeds.KeepAll();
   return outcome;
 }
 

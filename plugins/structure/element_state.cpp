@@ -9,6 +9,7 @@
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"
 #include "core/element/tags.h"
+#include "core/module/executable.h"
 #include "core/port/driving_ports.h"
 #include "core/port/given_limits.h"
 #include "core/port/port_stop.h"
@@ -107,16 +108,13 @@ Result<void> Give(const FrameworkElement& noted, FrameworkElement& made, const E
   return {};
 }
 
-// Inputs of parameters are there only once somebody has looked for them. Not those which would set the parameter at once,
-// whose value goes along, unless a stop may hold them.
+// Inputs of parameters are there only once somebody has looked for them.
 void MakeFeeds(const FrameworkElement& noted, FrameworkElement& made) {
   auto* const parameter = dynamic_cast<Configurable*>(&made);
   const FrameworkElement* const feed = parameter != nullptr ? noted.FindChild("feed") : nullptr;
   for (const FrameworkElement* each : feed != nullptr ? feed->children() : std::vector<FrameworkElement*>()) {
     const auto* const state = each->FindAnnotation<PortState>();
-    if (state == nullptr || &state->type != &parameter->type()) continue;
-    const bool sets = state->limits.default_value || state->by_hand || state->by_rule;
-    if (!sets || state->stop) (void)parameter->Feed();
+    if (state != nullptr && &state->type == &parameter->type()) (void)parameter->Feed();
   }
   for (const FrameworkElement* each : noted.children()) {
     if (FrameworkElement* const counterpart = made.FindChild(each->name())) MakeFeeds(*each, *counterpart);
@@ -124,6 +122,21 @@ void MakeFeeds(const FrameworkElement& noted, FrameworkElement& made) {
 }
 
 }  // namespace
+
+void SettleFeeds(FrameworkElement& made) {
+  made.Visit([](FrameworkElement& each) {
+    auto* const parameter = dynamic_cast<Configurable*>(&each);
+    const FrameworkElement* const feed = parameter != nullptr ? each.FindChild("feed") : nullptr;
+    const auto* const takes = feed != nullptr ? feed->FindAnnotation<Executable>() : nullptr;
+    const auto is_connected = [](const FrameworkElement* input) {
+      return !dynamic_cast<const Port&>(*input).incoming().empty();
+    };
+    if (takes == nullptr || std::ranges::any_of(feed->children(), is_connected)) return;
+    const auto value = parameter->Value();
+    for (const Task& task : takes->tasks()) task.run();
+    (void)parameter->SetFrom(value.get());
+  });
+}
 
 ElementState::ElementState(const FrameworkElement& element, Inherit how, Below below)
     : how_(how),
@@ -138,7 +151,9 @@ void ElementState::GiveAnnotations(FrameworkElement& made) const {
 }
 
 Result<void> ElementState::GivePorts(FrameworkElement& made, const TakenOver& taken_over) const {
-  return Give(*noted_, made, taken_over);
+  auto given = Give(*noted_, made, taken_over);
+  if (taken_over.empty()) SettleFeeds(made);
+  return given;
 }
 
 void ElementState::NoteWayBack(FrameworkElement& made) const {

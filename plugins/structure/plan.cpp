@@ -206,6 +206,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                         TakeOver(*to, *from, before, next);
                         ++done->moved;
                       }
+                      SettleFeeds(next);
                       const bool is_same_place = next.parent() == before.parent();
                       if (auto listed = runtime_.List(std::move(*done->after), is_same_place ? done->place : nullptr);
                           !listed) {

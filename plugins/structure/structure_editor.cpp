@@ -259,14 +259,16 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
                "the structure cannot be changed by an editor from within a cycle, nor under the "
                "structure lock");
   const std::lock_guard lock(shared_->applying);
-  const NewFeeds feeds(runtime_);
+  NewFeeds feeds(runtime_);
   ChangeOutcome outcome;
   internal::Workshop workshop;
   try {
     for (int idle = 0; idle < kAttempts;) {
       const std::size_t made = workshop.size();
       outcome = {};
-      if (Try(request, workshop, outcome) != Attempt::kOvertaken) return outcome;
+      const Attempt attempt = Try(request, workshop, outcome);
+      if (outcome.is_done) feeds.KeepAll();
+      if (attempt != Attempt::kOvertaken) return outcome;
       if (workshop.size() == made) ++idle;
     }
     outcome.diagnostics.Add({.message = "others change the structure all the time; gave up after " +

@@ -1,5 +1,6 @@
 // The inputs by which outputs set parameters: which are made, which stay, and connections that wait for them.
 
+#include <chrono>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/new_feeds.h"
+#include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/structure/value_by_hand.h"
@@ -301,6 +303,47 @@ TEST_F(ParameterInputs, KeepWhatIsSetAtThemWhereAChangeIsTakenBack) {
     EXPECT_TRUE(feed().is_driving());
     EXPECT_TRUE(feed().limits().has_some());
   }
+}
+
+// A person has set the parameter after what the input had by itself.
+TEST_F(ParameterInputs, OfWhatIsMadeAgainSetNothingByThemselves) {
+  Build(R"(<thread name="control" period="10ms"/><clock type="simulated" speed="0"/>
+    <module name="source" type="test/source"/>
+    <module name="other" type="test/source" thread="control"><input name="gain" default="0.5" maximum="1"/></module>)");
+  FrameworkElement& application = **workshop_.runtime.root().Find("/demo");
+  Scheduler scheduler(workshop_.runtime, SchedulerOptionsOf(application));
+  StructureEditor editor(workshop_.runtime, workshop_.plugins.modules(), &scheduler);
+  ChangeHistory history(editor);
+  auto run = [&, end = 0]() mutable {
+    EXPECT_TRUE(scheduler.RunUntil(Time(std::chrono::milliseconds(end += 20))));
+    return workshop_.Get<Source>("/demo/other").gain.Get();
+  };
+  const auto feed = [&]() -> Port& { return workshop_.Get<Port>("/demo/other/parameter/gain/feed/gain"); };
+  EXPECT_EQ(run(), 0.5);
+  for (const bool is_by_hand : {false, true}) {
+    if (is_by_hand) {
+      const double value = 0.8;
+      const std::lock_guard lock(workshop_.runtime.structure_mutex());
+      ASSERT_TRUE(PublishByHand(feed(), &value));
+    }
+    EXPECT_EQ(run(), is_by_hand ? 0.8 : 0.5);
+    ASSERT_TRUE(editor.Apply({SetParameter{"/demo/other/gain", "2"}}));
+    for (const ChangeSet& changes :
+         {ChangeSet{ReplaceModule{"/demo/other", "test/source"}}, ChangeSet{SetParameter{"/demo/other/text", "static"}},
+          ChangeSet{DeleteElement{"/demo/other"}}}) {
+      ASSERT_TRUE(history.Apply(changes));
+      if (std::holds_alternative<DeleteElement>(changes[0])) {
+        ASSERT_TRUE(history.Undo());
+      }
+      EXPECT_EQ(run(), 2) << is_by_hand;
+      EXPECT_TRUE(feed().limits().has_some());
+      EXPECT_EQ(feed().is_set_by_hand(), is_by_hand);
+    }
+  }
+  ASSERT_TRUE(feed().Release());
+  ASSERT_TRUE(editor.Apply({ConnectPorts{"/demo/source/value", "/demo/other/gain"}}));
+  workshop_.Get<Source>("/demo/source").value.Publish(9);
+  EXPECT_EQ(run(), 0.5) << "9 is too much";
 }
 
 TEST_F(ParameterInputs, OfAPartAreNotThoseOfTheModuleInThePlaceOfAll) {
