@@ -275,6 +275,7 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
                                         std::to_string(kAttempts) + " attempts"});
   } catch (...) {
     // What has been done by then is done as a whole, and stays.
+    if (outcome.is_done) feeds.KeepAll();
     const Error error{.message = DescribeException()};
     Retry([&] { outcome.is_done ? outcome.diagnostics.AddWarning(error) : outcome.diagnostics.Add(error); });
   }
