@@ -10,6 +10,7 @@
 #include "core/element/runtime.h"
 #include "core/element/tags.h"
 #include "core/module/executable.h"
+#include "core/paths/path_search.h"
 #include "core/port/driving_ports.h"
 #include "core/port/given_limits.h"
 #include "core/port/port_stop.h"
@@ -123,19 +124,19 @@ void MakeFeeds(const FrameworkElement& noted, FrameworkElement& made) {
 
 }  // namespace
 
-void SettleFeeds(FrameworkElement& made) {
-  made.Visit([](FrameworkElement& each) {
-    auto* const parameter = dynamic_cast<Configurable*>(&each);
-    const FrameworkElement* const feed = parameter != nullptr ? each.FindChild("feed") : nullptr;
+void SettleFeeds(const FrameworkElement& made) {
+  for (const auto& [element, parameter] : ConfigurablesOf(made)) {
+    const FrameworkElement* const feed = element->FindChild("feed");
     const auto* const takes = feed != nullptr ? feed->FindAnnotation<Executable>() : nullptr;
-    const auto is_connected = [](const FrameworkElement* input) {
-      return !dynamic_cast<const Port&>(*input).incoming().empty();
+    const auto goes_on = [](const FrameworkElement* input) {
+      const auto& port = dynamic_cast<const Port&>(*input);
+      return !port.incoming().empty() || port.is_driving() || port.is_blocked();
     };
-    if (takes == nullptr || std::ranges::any_of(feed->children(), is_connected)) return;
+    if (takes == nullptr || std::ranges::any_of(feed->children(), goes_on)) continue;
     const auto value = parameter->Value();
     for (const Task& task : takes->tasks()) task.run();
     (void)parameter->SetFrom(value.get());
-  });
+  }
 }
 
 ElementState::ElementState(const FrameworkElement& element, Inherit how, Below below)

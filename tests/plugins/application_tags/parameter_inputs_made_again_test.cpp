@@ -102,6 +102,29 @@ TEST_F(ParameterInputs, OfWhatIsMadeAgainSetNothingByThemselves) {
   EXPECT_EQ(run(), 0.5) << "9 is too much";
 }
 
+// Also if no cycle has found the safe value before the module is made again.
+TEST_F(ParameterInputs, OfWhatIsMadeAgainHaveTheirSafeValue) {
+  Build(R"(<thread name="control" period="10ms"/><clock type="simulated" speed="0"/>
+    <module name="other" type="test/source" thread="control"/>
+    <driving port="other/gain" safe="0" command="velocity"/>)");
+  Scheduler scheduler(workshop_.runtime, SchedulerOptionsOf(**workshop_.runtime.root().Find("/demo")));
+  StructureEditor editor(workshop_.runtime, workshop_.plugins.modules(), &scheduler);
+  ChangeHistory history(editor);
+  const auto feed = [&]() -> Port& { return workshop_.Get<Port>("/demo/other/parameter/gain/feed/gain"); };
+  for (int round = 1; round <= 2; ++round) {
+    ASSERT_TRUE(editor.Apply({SetParameter{"/demo/other/gain", "2"}}));
+    ASSERT_TRUE(feed().Block());
+    ASSERT_TRUE(history.Apply(round == 1 ? ChangeSet{ReplaceModule{"/demo/other", "test/source"}}
+                                         : ChangeSet{DeleteElement{"/demo/other"}}));
+    if (round == 2) {
+      ASSERT_TRUE(history.Undo());
+    }
+    EXPECT_TRUE(scheduler.RunUntil(Time(std::chrono::milliseconds(20 * round))));
+    EXPECT_EQ(workshop_.Get<Source>("/demo/other").gain.Get(), 0) << round;
+    feed().Unblock();
+  }
+}
+
 TEST_F(ParameterInputs, OfAPartAreNotThoseOfTheModuleInThePlaceOfAll) {
   Build(R"(<group name="box"><module name="part" type="test/source"/></group>
     <driving port="box/part/gain" safe="0" command="velocity"/>)");
