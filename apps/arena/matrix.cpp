@@ -97,13 +97,15 @@ void AddRuns(const ArenaArguments& arguments, const Applications& applications, 
     for (const Variant& variant : matrix.variants) {
       for (const std::string& sensor : sensors) {
         const std::string& application = applications.at({sensor, variant.name});
-        const std::size_t hash = std::hash<std::string>()(matrix.courses[course].text + '\0' + application);
+        // Tells versions apart, no more.
+        const std::string made_of =
+            fmt::format("{:x}", std::hash<std::string>()(matrix.courses[course].text + '\0' + application));
         for (const std::string& direction : directions) {
           for (const std::uint64_t seed : seeds) {
             matrix.runs.push_back({.key = {matrix.courses[course].name, variant.name, sensor, direction, seed},
                                    .course = course,
                                    .application = application,
-                                   .made_of = fmt::format("{:x}", hash)});  // tells versions apart, no more
+                                   .made_of = made_of});
           }
         }
       }

@@ -270,10 +270,11 @@ const LateConnection* FindLate(const std::vector<LateConnection>& all, const Pat
   if (all.empty()) return nullptr;
   // Of what is not there the application may have been left out, or not.
   const auto is_end = [&](std::string_view path, PathKind kind) {
-    return
-        [=, is_there = bool(FindEnd(search, path, kind)), end = EndPath(search, path, kind)](const std::string& noted) {
-          return noted == path || IsSame(noted, end) || (!is_there && IsSame(noted, std::string(path)));
-        };
+    const auto there = FindEnd(search, path, kind);
+    return [path, is_there = there.has_value(),
+            end = there ? *there : EndPath(search, path, kind)](const std::string& noted) {
+      return noted == path || IsSame(noted, end) || (!is_there && IsSame(noted, std::string(path)));
+    };
   };
   const auto is_from = is_end(from, PathKind::kOutput), is_to = is_end(to, PathKind::kInput);
   const auto found = std::ranges::find_if(all, [&](const auto& each) { return is_from(each.from) && is_to(each.to); });
