@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <thread>
 
-#include "core/base/exception_text.h"
 #include "core/base/retry.h"
+#include "core/element/attempt.h"
 #include "core/element/own_thread.h"
 #include "core/lockfree/thread_epoch.h"
 
@@ -79,13 +79,7 @@ Result<void> Runtime::Construct(FrameworkElement& element) {
   element.Visit([&](FrameworkElement& each) {
     if (!result || each.is_whole_ || each.life_cycle_ != LifeCycle::kConstructed) return;
     const std::uint64_t made_before = internal::made_by_this_thread;
-    try {
-      result = each.Construct();
-    } catch (const ElementError& error) {
-      result = error.error();
-    } catch (...) {
-      result = Error{.message = DescribeException()};
-    }
+    result = Attempt([&] { return each.Construct(); });
     each.is_whole_ = true;
     each.has_constructed_ = internal::made_by_this_thread != made_before;
     if (result) return;
@@ -110,11 +104,7 @@ Result<void> Runtime::PrepareAll(FrameworkElement& element) {
   if (!result) return result;
   element.Visit([&](FrameworkElement& each) {
     if (!result || each.life_cycle_ != LifeCycle::kConstructed) return;
-    try {
-      result = each.Prepare();
-    } catch (...) {
-      result = Error{.message = DescribeException()};
-    }
+    result = Attempt([&] { return each.Prepare(); });
     prepared.push_back(&each);
   });
   if (!result) return result.error().WithPath(prepared.back()->path());

@@ -3,8 +3,8 @@
 #include <mutex>
 #include <utility>
 
-#include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
+#include "core/element/attempt.h"
 #include "core/element/runtime.h"
 #include "core/plugin/module_type_name.h"
 
@@ -104,20 +104,15 @@ Result<UnlistedElement> ModuleRegistry::Make(std::string_view type, const Placem
     if (!found) return found.error();
     known = **found;
   }
-  const auto failed = [&](const std::string& why) {
-    return Error{.message = "a module of type '" + std::string(type) + "' could not be made: " + why,
-                 .path = placement.parent.path()};
-  };
   std::unique_lock lock(placement.parent.runtime().structure_mutex(), std::defer_lock);
   if (placement.is_listed) lock.lock();
   try {
     UnlistedElement element(known.make(placement));
     element->Annotate(std::make_unique<ModuleTypeName>(known.name));
     return element;
-  } catch (const ElementError& error) {
-    return error.error();
   } catch (...) {
-    return failed(DescribeException());
+    return CaughtError("a module of type '" + std::string(type) + "' could not be made: ")
+        .WithPath(placement.parent.path());
   }
 }
 

@@ -7,9 +7,9 @@
 #include <dlfcn.h>
 
 #include "core/base/characters.h"
-#include "core/base/exception_text.h"
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
+#include "core/element/attempt.h"
 #include "core/plugin/abi_difference.h"
 #include "core/plugin/plugin_entry.h"
 
@@ -79,11 +79,7 @@ PluginManager::PluginManager() {
 void PluginManager::AddSearchFolder(fs::path folder) { search_path_.insert(search_path_.begin(), std::move(folder)); }
 
 Result<void> PluginManager::Load(std::string_view name) {
-  try {
-    return LoadUnlessKnown(name);
-  } catch (...) {
-    return Error{.message = "the plugin '" + std::string(name) + "' cannot be loaded: " + DescribeException()};
-  }
+  return Attempt([&] { return LoadUnlessKnown(name); }, "the plugin '" + std::string(name) + "' cannot be loaded: ");
 }
 
 Result<void> PluginManager::LoadUnlessKnown(std::string_view name) {
@@ -126,10 +122,8 @@ Result<void> PluginManager::Register(const std::string& name, const fs::path& fi
   };
   try {
     (*entry)->register_plugin(registry_);
-  } catch (const ElementError& error) {
-    return refused(error.error().message);
   } catch (...) {
-    return refused("its registration failed: " + DescribeException());
+    return refused(CaughtError("its registration failed: ").message);
   }
   return {};
 }
@@ -156,11 +150,8 @@ Result<PluginReload> PluginManager::Reload(std::string_view name) {
 }
 
 Result<PluginReload> PluginManager::Reload(std::string_view name, const TemporaryCopy& copy) {
-  try {
-    return ReloadKnown(name, copy);
-  } catch (...) {
-    return Error{.message = "the plugin '" + std::string(name) + "' cannot be loaded anew: " + DescribeException()};
-  }
+  return Attempt([&] { return ReloadKnown(name, copy); },
+                 "the plugin '" + std::string(name) + "' cannot be loaded anew: ");
 }
 
 Result<fs::path> PluginManager::FindKnown(std::string_view name) const {

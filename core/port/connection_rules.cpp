@@ -5,7 +5,7 @@
 #include <mutex>
 #include <utility>
 
-#include "core/base/exception_text.h"
+#include "core/element/attempt.h"
 #include "core/port/port.h"
 
 namespace runnel {
@@ -46,12 +46,7 @@ std::vector<ConnectionRule> ConnectionRules() {
 Result<void> CheckConnectionRules(const Port& from, const Port& to) {
   if (!Rules().has_some.load(std::memory_order_relaxed)) return {};
   for (const ConnectionRule& rule : ConnectionRules()) {
-    Result<void> allowed;
-    try {
-      allowed = rule.check(from, to);
-    } catch (...) {
-      allowed = Error{.message = DescribeException()};
-    }
+    const Result<void> allowed = Attempt([&] { return rule.check(from, to); });
     if (allowed) continue;
     Error error = allowed.error().WithContext("must not be connected to " + to.path()).WithPath(from.path());
     error.message += " (rule '" + rule.name + "')";

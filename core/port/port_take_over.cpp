@@ -11,7 +11,6 @@
 #include "core/base/check.h"
 #include "core/base/retry.h"
 #include "core/element/runtime.h"
-#include "core/port/converted_flow.h"
 #include "core/port/driving_ports.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"

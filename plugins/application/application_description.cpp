@@ -5,8 +5,8 @@
 #include <mutex>
 #include <utility>
 
-#include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
+#include "core/element/attempt.h"
 #include "core/module/group.h"
 #include "plugins/application_tags/application_tags.h"
 #include "plugins/application_tags/run_description.h"
@@ -54,11 +54,7 @@ Result<Extensions> ExtensionRegistry::Make(const std::string& plugin, const Exte
   if (found == factories_.end()) {
     return Error{.message = "the plugin '" + plugin + "' is no extension of applications"};
   }
-  try {
-    return found->second(arguments);
-  } catch (...) {
-    return Error{.message = "the extension '" + plugin + "' cannot be made: " + DescribeException()};
-  }
+  return Attempt([&] { return found->second(arguments); }, "the extension '" + plugin + "' cannot be made: ");
 }
 
 ApplicationDescription::ApplicationDescription(ApplicationOptions options)

@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/element/attempt.h"
 #include "core/element/try_structure_lock.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
@@ -91,12 +92,10 @@ Result<FrameworkElement*> Application::CreateModule(std::string_view type, Frame
 }
 
 Result<void> Application::AddThread(const std::string& name, const ThreadOptions& options) {
-  try {
+  return Attempt([&]() -> Result<void> {
     CreateThread(parts_->runtime(), name, options);
     return {};
-  } catch (const ElementError& error) {
-    return error.error();
-  }
+  });
 }
 
 Result<void> Application::Assign(std::string_view path, const std::string& thread) {

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <utility>
 
-#include "core/base/exception_text.h"
+#include "core/element/attempt.h"
 #include "core/element/source_place.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application_tags/run_description.h"
@@ -32,18 +32,6 @@ Result<void> Choose(const ApplicationOptions& chosen, SchedulerOptions& options)
   if (chosen.speed) options.speed = *chosen.speed;
   if (chosen.is_paused) options.is_paused = true;
   return {};
-}
-
-// The error of whatever `step` throws.
-template <typename Step>
-Result<void> Attempt(const Step& step) {
-  try {
-    return step();
-  } catch (const ElementError& error) {
-    return error.error();
-  } catch (...) {
-    return Error{.message = "preparing the run failed: " + DescribeException()};
-  }
 }
 
 }  // namespace
@@ -158,7 +146,7 @@ LoadedApplication Application::Make(const std::function<bool(Parts&)>& describe,
     const bool is_right = describe(parts);
     diagnostics = parts.diagnostics();
     if (!is_right) return loaded;
-    auto prepared = Attempt([&] { return parts.Schedule(); });
+    auto prepared = Attempt([&] { return parts.Schedule(); }, "preparing the run failed: ");
     if (prepared && !parts.is_composed) prepared = MakeApplicationReady(*parts.element());
     if (!prepared) {
       diagnostics.Add(parts.Placed(prepared.error()));
@@ -169,10 +157,8 @@ LoadedApplication Application::Make(const std::function<bool(Parts&)>& describe,
       return loaded;
     }
     loaded.application_ = std::move(application);
-  } catch (const ElementError& error) {
-    diagnostics.Add(error.error());
   } catch (...) {
-    diagnostics.Add({.message = "loading failed: " + DescribeException()});
+    diagnostics.Add(CaughtError("loading failed: "));
   }
   return loaded;
 }

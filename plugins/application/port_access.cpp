@@ -4,6 +4,7 @@
 #include <mutex>
 #include <string>
 
+#include "core/element/attempt.h"
 #include "core/paths/path_search.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/values/watched_port.h"
@@ -73,22 +74,17 @@ Result<void> Application::Tie(std::string_view path, PathKind kind, const Connec
                               const std::function<std::unique_ptr<Port>(FrameworkElement& group)>& make) {
   Runtime& runtime = parts_->runtime();
   OutsidePort* place = nullptr;
-  Result<void> tied;
-  try {
+  const auto tied = Attempt([&]() -> Result<void> {
     const std::lock_guard lock(runtime.structure_mutex());
     const auto found = FindAs(runtime, path, kind);
     if (!found) return found.error();
     auto& port = dynamic_cast<Port&>(**found);
     place = &runtime.Create<OutsidePort>(runtime.root(), "outside_" + std::to_string(++parts_->ties));
     place->port = make(*place);
-    tied = runtime.MakeReady(*place);
-    const bool reads = kind == PathKind::kOutput;
-    if (tied) {
-      tied = reads ? Port::Connect(port, *place->port, options) : Port::Connect(*place->port, port, options);
-    }
-  } catch (const ElementError& error) {
-    tied = error.error();
-  }
+    if (auto ready = runtime.MakeReady(*place); !ready) return ready;
+    if (kind == PathKind::kOutput) return Port::Connect(port, *place->port, options);
+    return Port::Connect(*place->port, port, options);
+  });
   // Outside of the lock, for deleting waits for cycles.
   if (!tied && place != nullptr) (void)runtime.Delete(*place);
   return tied;

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/base/check.h"
-#include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
+#include "core/element/attempt.h"
 #include "core/element/element_path.h"
 #include "plugins/structure/type_names.h"
 
@@ -42,13 +42,10 @@ void BuildContext::Warn(Error warning, const SourcePosition& position, const Fra
 
 void BuildContext::Attempt(const Cause& cause, const std::function<void()>& action) {
   const Cause outer = std::exchange(cause_, cause);
-  const auto report = [&](Error error) { Report(std::move(error), cause.position, *cause.element); };
   try {
     action();
-  } catch (const ElementError& error) {
-    report(error.error());
   } catch (...) {
-    report({.message = cause.what + " failed: " + DescribeException()});
+    Report(CaughtError(cause.what + " failed: "), cause.position, *cause.element);
   }
   cause_ = outer;
 }

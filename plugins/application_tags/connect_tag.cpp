@@ -8,7 +8,6 @@
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
-#include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_tags/tag_list.h"
 
 namespace runnel {

@@ -13,10 +13,10 @@
 #include <fmt/format.h>
 
 #include "core/base/erase_where.h"
+#include "core/element/attempt.h"
 #include "core/element/configurable.h"
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
-#include "plugins/command_service/caught_error.h"
 #include "plugins/scheduling/pace.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "plugins/command_service/caught_error.h"
+#include "core/element/attempt.h"
 
 namespace runnel {
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "core/element/attempt.h"
 #include "core/paths/path_search.h"
 #include "core/port/port_extras.h"
 #include "core/port/stand_in.h"
 #include "core/types/duration_text.h"
-#include "plugins/command_service/caught_error.h"
 #include "plugins/structure/value_by_hand.h"
 
 namespace runnel {

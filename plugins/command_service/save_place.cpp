@@ -1,6 +1,5 @@
 #include "plugins/command_service/save_place.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <system_error>
 

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "core/base/number_text.h"
-#include "plugins/command_service/caught_error.h"
+#include "core/element/attempt.h"
 
 namespace runnel {
 

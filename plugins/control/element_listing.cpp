@@ -17,7 +17,7 @@
 #include "core/port/port.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/caught_error.h"
+#include "plugins/command_service/parameter_text.h"
 #include "plugins/control/application_state.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"

@@ -1,9 +1,9 @@
 #include <chrono>
 #include <utility>
 
+#include "core/element/attempt.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/path_search.h"
-#include "plugins/command_service/caught_error.h"
 #include "plugins/control/command.h"
 
 namespace runnel {
@@ -65,11 +65,7 @@ class RecordCommand {
   struct Shared {
     template <typename Work>
     void Do(const Work& work) {
-      try {
-        outcome = work();
-      } catch (...) {
-        outcome = CaughtError();
-      }
+      outcome = Attempt(work);
     }
     Result<std::string> outcome = std::string();
     std::unique_ptr<ClientRecording> recording;

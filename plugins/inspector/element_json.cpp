@@ -10,7 +10,7 @@
 #include "core/port/port_stop.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/caught_error.h"
+#include "plugins/command_service/parameter_text.h"
 #include "plugins/inspector/structure_mirror.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/services/callable.h"

@@ -7,6 +7,7 @@
 #include <Python.h>
 #include <dlfcn.h>
 
+#include "core/element/attempt.h"
 #include "core/element/framework_element.h"
 #include "core/plugin/module_registry.h"
 #include "core/plugin/plugin_entry.h"
@@ -91,15 +92,13 @@ const ModuleTypes& Start() {
 runnel::Result<ModuleType> Find(std::string_view name) {
   static std::mutex mutex;
   static const ModuleTypes* types = nullptr;
-  try {
+  return runnel::Attempt([&]() -> runnel::Result<ModuleType> {
     {
       const std::lock_guard lock(mutex);
       if (types == nullptr) types = &Start();
     }
     return types->find(name);
-  } catch (const ElementError& error) {
-    return error.error();
-  }
+  });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/diagnostics.h"
+#include "core/element/attempt.h"
 #include "core/module/executable.h"
 #include "core/module/group.h"
 #include "core/module/port_group.h"
@@ -124,13 +125,8 @@ inline BuildOutcome BuildRecordedPorts(const std::string& file, const BuildTools
     if (IsView(channel)) continue;
     const auto schema = contents.schemas.find(channel.schema);
     const std::string type = schema != contents.schemas.end() ? schema->second.name : "";
-    try {
-      if (auto made = tree.Add(PortOf(channel), type); !made) {
-        failures.push_back(made.error());
-        continue;
-      }
-    } catch (const ElementError& error) {
-      failures.push_back(error.error());
+    if (auto made = Attempt([&] { return tree.Add(PortOf(channel), type); }); !made) {
+      failures.push_back(made.error());
       continue;
     }
     outcome.application = runtime.root().FindChild(PartsOf(PortOf(channel)).front());

@@ -8,8 +8,8 @@
 
 #include <fmt/chrono.h>
 
-#include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
+#include "core/element/attempt.h"
 #include "core/element/not_saved.h"
 #include "core/types/type_info.h"
 #include "plugins/mcap/compression.h"
@@ -60,10 +60,8 @@ Result<std::unique_ptr<Recorder>> Recorder::Start(Runtime& runtime, Scheduler* s
   if (!compression) return compression.error();
   options.compression = *compression;
   std::unique_ptr<Recorder> recorder(new Recorder(runtime, scheduler, std::move(options), std::move(*patterns)));
-  try {
-    if (auto begun = recorder->Begin(); !begun) return begun.error();
-  } catch (...) {
-    return Error{.message = "the recording could not begin: " + DescribeException()};
+  if (auto begun = Attempt([&] { return recorder->Begin(); }, "the recording could not begin: "); !begun) {
+    return begun.error();
   }
   return recorder;
 }

@@ -6,6 +6,7 @@
 
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
+#include "core/element/attempt.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/late_connections.h"
 #include "plugins/structure/element_state.h"
@@ -62,12 +63,7 @@ Result<void> Plan::Commit(UndoRecord* back) {
   const ChangeScope all_at_once(runtime_);
   has_failed_ = true;  // until it has not
   std::size_t begun = 0;
-  Result<void> result;
-  try {
-    result = Apply(back, begun);
-  } catch (...) {
-    result = Error{.message = DescribeException()};
-  }
+  const Result<void> result = Attempt([&] { return Apply(back, begun); });
   has_failed_ = !result;
   bool is_undone = true;
   while (has_failed_ && begun > 0) is_undone = Retry(steps_[--begun].undo) && is_undone;

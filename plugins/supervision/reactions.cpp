@@ -4,8 +4,8 @@
 #include <iterator>
 #include <thread>
 
-#include "core/base/exception_text.h"
 #include "core/base/retry.h"
+#include "core/element/attempt.h"
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
@@ -18,16 +18,6 @@ namespace runnel {
 
 namespace {
 
-// Neither the end of the run nor other reactions hang on what is thrown.
-template <typename Act>
-Result<void> Attempt(const Act& act) {
-  try {
-    return act();
-  } catch (...) {
-    return Error{.message = DescribeException()};
-  }
-}
-
 // What is to be safe and finds no memory has not been done, and is due until it is.
 template <typename Act>
 Result<void> AttemptOrThrow(const Act& act) {
@@ -36,7 +26,7 @@ Result<void> AttemptOrThrow(const Act& act) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (...) {
-    return Error{.message = DescribeException()};
+    return CaughtError();
   }
 }
 

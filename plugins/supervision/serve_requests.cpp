@@ -4,7 +4,7 @@
 #include <mutex>
 #include <vector>
 
-#include "core/base/exception_text.h"
+#include "core/element/attempt.h"
 #include "plugins/structure/change_text.h"
 #include "plugins/structure/structure_request.h"
 #include "plugins/supervision/supervisor_shared.h"
@@ -36,18 +36,14 @@ void Supervisor::Shared::ServeRequests(Time now) {
     }
   }
   for (const Asked& each : all) {
-    Result<void> done;
-    try {
+    const auto done = Attempt([&] {
       Diagnostics diagnostics;
       const PlacedChanges placed = ParseChanges(each.text, {each.path}, diagnostics);
-      const auto made = diagnostics.ok() ? perform(placed.changes) : Result<ChangeSet>(diagnostics.errors().front());
-      if (!made) done = made.error();
-    } catch (...) {
-      done = Error{.message = DescribeException()};
-    }
+      return diagnostics.ok() ? perform(placed.changes) : Result<ChangeSet>(diagnostics.errors().front());
+    });
     {
       const std::lock_guard lock(runtime.structure_mutex());
-      if (StructureRequest* const request = find(each.id)) request->Answer(done);
+      if (StructureRequest* const request = find(each.id)) request->Answer(done ? Result<void>() : done.error());
     }
     // It has been answered, whether there is memory to tell of it or not.
     EachForItself().Do([&] {

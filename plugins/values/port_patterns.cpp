@@ -1,7 +1,6 @@
 #include "plugins/values/port_patterns.h"
 
 #include <algorithm>
-#include <functional>
 #include <span>
 
 #include "core/element/element_path.h"

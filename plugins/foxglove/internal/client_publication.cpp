@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "core/base/retry.h"
+#include "core/element/attempt.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/caught_error.h"
 #include "plugins/foxglove/internal/foxglove_session.h"
 #include "plugins/values/foxglove_channel.h"
 #include "plugins/values/json_values.h"
@@ -124,14 +124,12 @@ Result<void> ClientPublication::Drive(std::string_view json, Time received) {
   heard_ = received;
   const std::shared_ptr<void> value = type_.Make();
   if (!value) return Error{.message = "only a module can make a " + type_.name()};
-  try {
+  return Attempt([&]() -> Result<void> {  // a type may throw when it is read
     if (auto read = Read(json, value.get()); !read) return read;
     PublishRequest publish{input_.path, ToText(type_, value.get()), kRate, deadline, lease_, received};
     driving_ = shared_.application.service.Begin(std::move(publish), *shared_.tasks, wake_);
-  } catch (...) {  // of a type that throws when it is read
-    return CaughtError();
-  }
-  return {};
+    return {};
+  });
 }
 
 Result<void> ClientPublication::Read(std::string_view json, void* value) const {
@@ -157,13 +155,9 @@ Result<void> ClientPublication::PublishWaiting() {
     }
   }
   const auto fill = [&](void* value) { return Read(json, value); };
-  try {
-    const auto published = place->output->PublishFilled(fill);
-    if (!published) return published.error();
-  } catch (...) {  // of a type that throws when it is read
-    return CaughtError();
-  }
-  return {};
+  // A type may throw when it is read.
+  const auto published = Attempt([&] { return place->output->PublishFilled(fill); });
+  return published ? Result<void>() : published.error();
 }
 
 bool DeletePlace(Runtime& runtime, const std::string& name) noexcept {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/element/attempt.h"
 #include "core/element/runtime.h"
-#include "plugins/command_service/caught_error.h"
 #include "plugins/foxglove/internal/client_message.h"
 #include "plugins/foxglove/internal/foxglove_session.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"

@@ -2,8 +2,8 @@
 #include <chrono>
 #include <mutex>
 
+#include "core/element/attempt.h"
 #include "core/lockfree/thread_epoch.h"
-#include "plugins/command_service/caught_error.h"
 #include "plugins/foxglove/internal/foxglove_session.h"
 #include "plugins/foxglove/internal/robot_stop_access.h"
 #include "plugins/foxglove/internal/server_messages.h"

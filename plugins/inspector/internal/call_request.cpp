@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "core/conversion/conversion.h"
+#include "core/element/attempt.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/text_format.h"
-#include "plugins/command_service/caught_error.h"
 #include "plugins/inspector/internal/requests.h"
 #include "plugins/services/callable.h"
 #include "plugins/values/json_writer.h"
@@ -62,11 +62,7 @@ class ViewerCall {
 
   bool IsDone() {
     if (outcome_) return true;
-    try {
-      outcome_ = Continue();
-    } catch (...) {  // of a type that throws when it is read or shown
-      outcome_ = CaughtError();
-    }
+    outcome_ = Attempt([&] { return Continue(); });  // a type may throw when it is read or shown
     return outcome_.has_value();
   }
   /// Precondition: it is done.

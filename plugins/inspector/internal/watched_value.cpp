@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/element/attempt.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/caught_error.h"
 #include "plugins/inspector/internal/viewer_session.h"
 #include "plugins/services/callable.h"
 #include "plugins/values/json_values.h"

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "core/base/number_text.h"
 #include "core/types/value_tokens.h"
