@@ -4,10 +4,8 @@
 #include <new>
 #include <utility>
 
-#include "core/element/tags.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/late_connections.h"
-#include "core/port/given_limits.h"
 
 namespace runnel {
 
@@ -27,11 +25,8 @@ NewFeeds::~NewFeeds() {
     std::vector<FrameworkElement*> found;
     runtime_.root().VisitAll<Port>([&](const Port& port) {
       if (std::ranges::count(made_, port.parent()->id()) == 0) return;
-      const bool is_held = port.is_blocked() || port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule);
-      const auto* const given = port.FindAnnotation<GivenLimits>();
-      const bool is_said = port.FindMark() || (given != nullptr && given->limits.has_some()) || !TagsOf(port).empty();
       const bool is_used = !port.incoming().empty() || !port.outgoing().empty() || LateConnections::Awaits(port);
-      if (!is_held && !is_said && !is_used) found.push_back(port.parent());
+      if (!is_used) found.push_back(port.parent());
     });
     unused.reserve(found.size());
     for (FrameworkElement* const each : found) {

@@ -10,7 +10,7 @@ namespace runnel {
 
 /// Inputs by which outputs set parameters (Configurable::Feed()) are made as soon as somebody looks for them. Whoever looks,
 /// and may be refused in the end, has one of these: at its end those go again that its thread has made meanwhile, unless
-/// something is connected there, waits for it, or is set there.
+/// something is connected there, or waits for it.
 ///
 /// Threads: by the one that has made it, the latest first; its end, if not all are kept, as Runtime::Delete().
 class NewFeeds {

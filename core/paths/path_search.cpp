@@ -8,6 +8,7 @@
 #include "core/element/element_path.h"
 #include "core/element/former_name.h"
 #include "core/paths/distant_ports.h"
+#include "core/port/parameter_input.h"
 
 namespace runnel {
 
@@ -234,9 +235,8 @@ std::vector<Port*> PortsOf(const FrameworkElement& module) {
 
 const std::string& LastingPath(const Port& port) {
   if (const std::string& distant = DistantPathOf(port); !distant.empty()) return distant;
-  const FrameworkElement* const parameter = port.parent()->parent();
-  const bool is_feed = parameter != nullptr && parameter->kind() == ElementKind::kParameter;
-  return is_feed ? parameter->path() : port.path();
+  const FrameworkElement* const parameter = ParameterSetBy(port);
+  return parameter != nullptr ? parameter->path() : port.path();
 }
 
 std::string FreeName(const FrameworkElement& parent, const std::string& name) {

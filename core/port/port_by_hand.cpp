@@ -11,6 +11,7 @@
 #include "core/base/retry.h"
 #include "core/element/runtime.h"
 #include "core/port/driving_ports.h"
+#include "core/port/parameter_input.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/types/type_info.h"
@@ -86,6 +87,7 @@ internal::PortExtras& Port::Extras() {
 
 Result<void> Port::PublishByHand(const Fill& fill, Setter setter, std::optional<Time> timestamp) {
   const std::lock_guard lock(runtime().structure_mutex());
+  if (auto may = CheckMayBeSet(*this); !may) return may;
   if (auto read = internal::CheckHasItsPlace(*this); !read) return read;
   const Fill fill_within = [&](void* value) -> Result<void> {
     if (auto filled = fill(value); !filled) return filled;

@@ -8,6 +8,7 @@
 #include "core/base/retry.h"
 #include "core/conversion/number_conversion.h"
 #include "core/element/runtime.h"
+#include "core/port/parameter_input.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/types/type_info.h"
@@ -65,6 +66,7 @@ Result<void> Port::SetLimits(InputLimits limits) {
     if (extras_ && extras_->limits) ExchangeLimits(nullptr);
     return {};
   }
+  if (auto may = CheckMayBeSet(*this); !may) return may;
   if (auto good = CheckLimits(*this, limits); !good) return good;
   auto held = std::make_unique<internal::HeldToLimits>();
   held->limits = std::move(limits);

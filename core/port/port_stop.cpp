@@ -11,6 +11,7 @@
 #include "core/conversion/number_conversion.h"
 #include "core/element/runtime.h"
 #include "core/port/driving_ports.h"
+#include "core/port/parameter_input.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/port/stop_link.h"
@@ -71,6 +72,7 @@ Result<void> Port::SetDriving(bool drives, AnyValue safe_value, std::optional<Du
     return Error{.message = "its module says that something moves by it", .path = path()};
   }
   if (!drives && !is_driving()) return {};
+  if (auto may = CheckMayBeSet(*this); !may) return may;
   auto& state = internal::DrivingState::Of(*this);  // before anything is changed
   std::shared_ptr<const DrivingMark> mark;
   Result<void> set;
@@ -125,6 +127,7 @@ std::optional<DrivingMark> Port::FindMark() const {
 
 Result<void> Port::Block() {
   const std::lock_guard lock(runtime().structure_mutex());
+  if (auto may = CheckMayBeSet(*this); !may) return may;
   if (auto read = internal::CheckHasItsPlace(*this); !read) return read;
   if (!extras_ || !extras_->stop) {
     auto safe = FindSafeValue({}, DrivingKind::kUnspecified);

@@ -31,6 +31,12 @@ bool IsSame(const PortStop& a, const PortStop& b) {
   return TextOf(a.safe_value()) == TextOf(b.safe_value()) && a.command() == b.command() && a.brake() == b.brake();
 }
 
+bool IsSame(const InputLimits& a, const InputLimits& b) {
+  const auto text = [](const AnyValue& value) { return value ? TextOf(value) : std::string(); };
+  return a.minimum == b.minimum && a.maximum == b.maximum && a.out_of_bounds == b.out_of_bounds &&
+         bool(a.default_value) == bool(b.default_value) && text(a.default_value) == text(b.default_value);
+}
+
 bool RestsAt(const Port& port, const AnyValue& rest) {
   const auto held = port.ValueByHand(Port::Setter::kRule), driven = port.ValueByHand();
   return (held && TextOf(held->value) == TextOf(rest)) ||
@@ -158,7 +164,7 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   // What holds values to the limits of the one goes over with its flow; each has limits of its own.
   const InputLimits own_limits = limits(), its_limits = from.limits();
   const auto limit = [&] {
-    if (!own_limits.has_some() && !its_limits.has_some()) return;
+    if (IsSame(own_limits, its_limits)) return;
     (void)SetLimits(own_limits);
     (void)from.SetLimits(its_limits);
   };

@@ -10,6 +10,7 @@
 #include "core/element/element_path.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
+#include "core/port/parameter_input.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_tags/tag_list.h"
 
@@ -44,13 +45,12 @@ std::string PathFrom(FrameworkElement& home, const Port& port, PathKind kind) {
   if (const std::string& distant = DistantPathOf(port); !distant.empty()) return distant;
   const std::string full = LastingPath(port).substr(home.path().size() + 1);
   const FrameworkElement* group = port.parent();
-  const FrameworkElement* const fed = group->parent();
-  const bool is_feed = fed != nullptr && fed->kind() == ElementKind::kParameter;
-  if (is_feed) group = fed->parent();
+  const FrameworkElement* const fed = ParameterSetBy(port);
+  if (fed != nullptr) group = fed->parent();
   if (group->kind() != ElementKind::kPortGroup) return full;
   std::string module = group->parent()->path().substr(home.path().size());
   if (!module.empty()) module.erase(0, 1);
-  const std::string shorter = module + "/" + (is_feed ? *fed : port).name();
+  const std::string shorter = module + "/" + (fed != nullptr ? fed : &port)->name();
   return FindPort({home, shorter, {}}, kind) == &port ? shorter : full;
 }
 

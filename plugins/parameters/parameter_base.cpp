@@ -10,6 +10,7 @@
 #include "core/base/unit.h"
 #include "core/element/runtime.h"
 #include "core/module/executable.h"
+#include "core/module/kept_state.h"
 #include "core/module/module.h"
 #include "core/module/port_group.h"
 #include "core/paths/new_feeds.h"
@@ -39,6 +40,18 @@ Result<void> CheckCharacters(std::string_view text) {
   const std::string fault = UnwritableCharacter(text);
   if (fault.empty()) return {};
   return Error{.message = "the value contains " + fault};
+}
+
+// Of what an output publishes, in a cycle. Only texts are looked at: all else would have to be written for it.
+bool IsWritable(const TypeInfo& type, const void* value) {
+  if (&type != &TypeOf<std::string>()) return true;
+  std::string_view text = *static_cast<const std::string*>(value);
+  while (!text.empty()) {
+    const std::size_t length = FileCharacterLength(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
 }
 
 }  // namespace
@@ -142,29 +155,55 @@ class ParameterBase::Feeder final : public FrameworkElement {
     Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
       return {{this, Phase::kSense, BoundCall::To<&Feeder::Take>(*this), {this}, {}}};
     }));
+    auto kept = std::make_unique<KeptState>();
+    kept->Add(fed_);
+    Annotate(std::move(kept));
   }
 
   [[nodiscard]] Port& input() noexcept { return *input_; }
 
  private:
+  // What an output has set goes over to the parameter of the module that takes the place.
+  struct Fed {
+    Feeder& feeder;
+    Fed& operator=(const Fed& from) {
+      from.feeder.HandOver(feeder);
+      return *this;
+    }
+  };
+
   void Take() {
     if (!held_->Read(*input_, 0) && !is_left_) return;
     const std::unique_lock lock(parameter_.assigning_, std::try_to_lock);
     is_left_ = !lock;
     if (is_left_) return;  // somebody sets it just now: in the next cycle
-    const void* const value = held_->Find(0);
-    const auto& is_good = parameter_.description_.is_within_bounds;
-    const bool is_taken = value != nullptr && (!is_good || is_good(value));
-    const bool has_changed = is_taken && parameter_.Assign(value);
-    if (is_taken) parameter_.is_fed_.store(true, std::memory_order_relaxed);
+    if (const void* const value = held_->Find(0)) Set(value);
     held_->Drop(0);
+  }
+
+  // Under `assigning_`.
+  void Set(const void* value) {
+    const auto& is_good = parameter_.description_.is_within_bounds;
+    if ((is_good && !is_good(value)) || !IsWritable(parameter_.type(), value)) return;
+    const bool has_changed = parameter_.Assign(value);
+    parameter_.is_fed_.store(true, std::memory_order_relaxed);
     if (has_changed && parameter_.module_ != nullptr) parameter_.module_->NoteParameterChange();
+  }
+
+  // Neither module runs.
+  void HandOver(Feeder& after) {
+    if (is_left_) Take();
+    if (!parameter_.is_fed()) return;
+    const auto value = parameter_.Value();
+    const std::lock_guard lock(after.parameter_.assigning_);
+    after.Set(value.get());
   }
 
   ParameterBase& parameter_;
   const std::unique_ptr<HeldValues> held_;
   const std::unique_ptr<Port> input_;
   bool is_left_ = false;  // a value that has not been taken over yet
+  Fed fed_{*this};
 };
 
 Port* ParameterBase::Feed() {

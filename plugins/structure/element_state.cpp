@@ -5,12 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "core/element/configurable.h"
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"
 #include "core/element/tags.h"
-#include "core/module/executable.h"
-#include "core/paths/path_search.h"
 #include "core/port/driving_ports.h"
 #include "core/port/given_limits.h"
 #include "core/port/port_stop.h"
@@ -109,35 +106,7 @@ Result<void> Give(const FrameworkElement& noted, FrameworkElement& made, const E
   return {};
 }
 
-// Inputs of parameters are there only once somebody has looked for them.
-void MakeFeeds(const FrameworkElement& noted, FrameworkElement& made) {
-  auto* const parameter = dynamic_cast<Configurable*>(&made);
-  const FrameworkElement* const feed = parameter != nullptr ? noted.FindChild("feed") : nullptr;
-  for (const FrameworkElement* each : feed != nullptr ? feed->children() : std::vector<FrameworkElement*>()) {
-    const auto* const state = each->FindAnnotation<PortState>();
-    if (state != nullptr && &state->type == &parameter->type()) (void)parameter->Feed();
-  }
-  for (const FrameworkElement* each : noted.children()) {
-    if (FrameworkElement* const counterpart = made.FindChild(each->name())) MakeFeeds(*each, *counterpart);
-  }
-}
-
 }  // namespace
-
-void SettleFeeds(const FrameworkElement& made) {
-  for (const auto& [element, parameter] : ConfigurablesOf(made)) {
-    const FrameworkElement* const feed = element->FindChild("feed");
-    const auto* const takes = feed != nullptr ? feed->FindAnnotation<Executable>() : nullptr;
-    const auto goes_on = [](const FrameworkElement* input) {
-      const auto& port = dynamic_cast<const Port&>(*input);
-      return !port.incoming().empty() || port.is_driving() || port.is_blocked();
-    };
-    if (takes == nullptr || std::ranges::any_of(feed->children(), goes_on)) continue;
-    const auto value = parameter->Value();
-    for (const Task& task : takes->tasks()) task.run();
-    (void)parameter->SetFrom(value.get());
-  }
-}
 
 ElementState::ElementState(const FrameworkElement& element, Inherit how, Below below)
     : how_(how),
@@ -146,15 +115,10 @@ ElementState::ElementState(const FrameworkElement& element, Inherit how, Below b
   noted_->InheritAnnotations(element, how);
 }
 
-void ElementState::GiveAnnotations(FrameworkElement& made) const {
-  MakeFeeds(*noted_, made);
-  made.InheritAnnotations(*noted_, how_);
-}
+void ElementState::GiveAnnotations(FrameworkElement& made) const { made.InheritAnnotations(*noted_, how_); }
 
 Result<void> ElementState::GivePorts(FrameworkElement& made, const TakenOver& taken_over) const {
-  auto given = Give(*noted_, made, taken_over);
-  if (taken_over.empty()) SettleFeeds(made);
-  return given;
+  return Give(*noted_, made, taken_over);
 }
 
 void ElementState::NoteWayBack(FrameworkElement& made) const {

@@ -42,9 +42,6 @@ class ElementState {
   UnlistedElement noted_;
 };
 
-/// What inputs of the module's own parameters find while nothing is connected, a default or a value by hand, has been taken
-/// over before: in the first cycle it sets nothing. What a stop may hold is read anew. While nobody else can see `made`.
-void SettleFeeds(const FrameworkElement& made);
 /// What would get lost with `port`, as nothing stands for it any more: "its value by hand, its limits"; "" for nothing.
 [[nodiscard]] std::string WhatIsSetAt(const Port& port);
 /// Whether a recorder takes its values.

@@ -156,6 +156,10 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
   }
   std::vector<Setting> settings = SettingsOf(before);
   AddDefaults(before, after, settings);
+  // What an output has set is handed on, as it is by then.
+  std::erase_if(settings, [&](const Setting& each) {
+    return FindConfigurable(after, each.parameter) && FindConfigurable(before, each.parameter).configurable->is_fed();
+  });
   return {ReplaceModule{before.path(), type, std::move(settings), probation_cycles,
                         std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,
                                                              ElementState::Below::kIncluded)}};

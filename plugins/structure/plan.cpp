@@ -192,6 +192,10 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                         if (auto settled = Settle(*each, held_); !settled) return settled;
                       }
                       if (auto copied = CopyState(before, next); !copied) return copied;
+                      // What is taken back sets nothing that an output has set meanwhile.
+                      if (auto fed = CopyFed(ports, change.state ? std::vector<Setting>() : change.settings); !fed) {
+                        return fed;
+                      }
                       Replaced replaced{{}, next.path(), next.id(), change.probation_cycles};
                       replaced_.reserve(replaced_.size() + 1);
                       done->place = NextSibling(before);
@@ -202,7 +206,6 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                         TakeOver(*to, *from, before, next);
                         ++done->moved;
                       }
-                      SettleFeeds(next);
                       const bool is_same_place = next.parent() == before.parent();
                       if (auto listed = runtime_.List(std::move(*done->after), is_same_place ? done->place : nullptr);
                           !listed) {

@@ -15,6 +15,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"
 #include "core/port/given_limits.h"
+#include "core/port/parameter_input.h"
 #include "core/port/proxy_port.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
@@ -290,6 +291,9 @@ Result<void> Plan::Check(const TagElement& change) {
   const auto found = overlay_.Find(change.path);
   if (!found) return found.error();
   FrameworkElement& element = **found;
+  if (const auto* const port = dynamic_cast<const Port*>(&element)) {
+    if (auto may = CheckMayBeSet(*port); !may) return may;
+  }
   if (const auto good = CheckTags(change.tags); !good) return good.error().WithPath(element.path());
   Concern(element);
   const auto get = [&element] { return TagsOf(element); };

@@ -14,6 +14,7 @@
 #include "core/paths/path_search.h"
 #include "core/port/converted_flow.h"
 #include "core/port/given_limits.h"
+#include "core/port/parameter_input.h"
 #include "core/port/port_stop.h"
 
 namespace runnel::internal {
@@ -67,12 +68,15 @@ Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkEle
     const auto same = PathSearch(after).FindPort(port.name(), is_output ? PathKind::kOutput : PathKind::kInput);
     if (same) return *same;
   }
-  // By which an output sets a parameter of its own: it is made when it is asked for.
-  const FrameworkElement* const parameter = port.parent()->parent();
-  const bool is_feed = parameter != nullptr && parameter->kind() == ElementKind::kParameter;
-  if (!is_feed || parameter->parent()->parent() != &before) return nullptr;
-  const ConfigurableElement same = FindConfigurable(after, parameter->name());
-  return same ? same.configurable->Feed() : nullptr;
+  // By which an output sets a parameter: it is made when it is asked for.
+  const FrameworkElement* const parameter = ParameterSetBy(port);
+  if (parameter == nullptr) return nullptr;
+  const auto there = after.Find(parameter->path().substr(before.path().size() + 1));
+  const bool is_own = parameter->parent()->parent() == &before;
+  auto* const same = is_own  ? FindConfigurable(after, parameter->name()).configurable
+                     : there ? dynamic_cast<Configurable*>(*there)
+                             : nullptr;
+  return same != nullptr ? same->Feed() : nullptr;
 }
 
 Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {
@@ -278,6 +282,24 @@ Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after) 
   } catch (...) {
     return Error{.message = "its state could not be handed over: " + DescribeException(), .path = after.path()};
   }
+  return {};
+}
+
+Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports, const std::vector<Setting>& settings) {
+  for (const auto& [from, to] : ports) {
+    const FrameworkElement* const parameter = ParameterSetBy(*to);
+    if (parameter == nullptr || std::ranges::count(settings, parameter->name(), &Setting::parameter) > 0) continue;
+    if (auto copied = CopyState(*from->parent(), *to->parent()); !copied) return copied;
+  }
+  return {};
+}
+
+Result<void> TakeOverFed(Port& port, const FrameworkElement& before, FrameworkElement& after) {
+  Port* const input = ParameterSetBy(port) != nullptr ? Counterpart(port, before, after) : nullptr;
+  if (input == nullptr) return NoCounterpart(port, before, after);
+  if (auto possible = Port::CheckTakeOver(*input, port); !possible) return possible;
+  if (auto copied = CopyFed({{&port, input}}, {}); !copied) return copied;
+  TakeOver(*input, port, before, after);
   return {};
 }
 

@@ -63,4 +63,11 @@ Result<void> Settle(const FrameworkElement& module, std::vector<BeforeHandOver::
 /// Hands over the kept states that can be. Neither module runs. Errors: what copying throws.
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after);
 
+/// Hands over what outputs have set of parameters, by the ports through which they do, but for parameters that `settings`
+/// name. Before the ports take over. Errors: what copying throws.
+[[nodiscard]] Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports,
+                                   const std::vector<Setting>& settings);
+/// The same and taking over, of one port whose counterpart could not be made as long as `after` was beside the tree.
+[[nodiscard]] Result<void> TakeOverFed(Port& port, const FrameworkElement& before, FrameworkElement& after);
+
 }  // namespace runnel::internal

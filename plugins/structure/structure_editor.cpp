@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -14,163 +13,10 @@
 #include "core/element/own_thread.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/new_feeds.h"
-#include "core/plugin/module_type_name.h"
-#include "core/port/driving_ports.h"
 #include "plugins/structure/plan.h"
-#include "plugins/structure/replacement.h"
+#include "plugins/structure/probation.h"
 
 namespace runnel {
-
-namespace internal {
-
-/// The trial period of new modules, and the rollback: keeps replaced modules until their successors have run
-/// some cycles without throwing, and puts them back if they do throw.
-///
-/// Threads:  all under the editor's mutex, but for PutBack(), which may take long; not under the structure lock.
-class Probation {
- public:
-  Probation(Runtime& runtime, Scheduler& scheduler, Duration timeout)
-      : runtime_(runtime), scheduler_(scheduler), timeout_(timeout) {}
-
-  /// Takes those that are to be kept; the rest stays in `replaced`. Throws for lack of memory, and has taken
-  /// nothing then.
-  void Add(std::vector<Replaced>& replaced);
-  /// Takes out all, or those whose successors have proved themselves, or are gone.
-  [[nodiscard]] std::vector<UnlistedElement> Take(bool all);
-  /// Whether the module of the fault, which has thrown, is on probation.
-  [[nodiscard]] bool Concerns(const Fault& fault);
-  /// The predecessor of that module is back when this returns. What has been done, in words. Throws if it could not be.
-  [[nodiscard]] std::string PutBack(const Fault& fault, OrderedMutex& mutex);
-  [[nodiscard]] std::size_t size() const noexcept { return waiting_.size(); }
-
- private:
-  struct Waiting {
-    Replaced replaced;
-    std::uint64_t until_cycle = 0;  // 0: it has proved itself
-  };
-
-  [[nodiscard]] FrameworkElement* Successor(const Waiting& waiting);
-  [[nodiscard]] bool HasProved(const Waiting& waiting);
-  [[nodiscard]] std::vector<Waiting>::iterator Find(const std::string& path);
-  Result<UnlistedElement> PutBack(Waiting& waiting, std::string& done);
-
-  Runtime& runtime_;
-  Scheduler& scheduler_;
-  const Duration timeout_;
-  std::vector<Waiting> waiting_;
-  std::vector<UnlistedElement> proved_;  // that nobody has taken yet
-};
-
-void Probation::Add(std::vector<Replaced>& replaced) {
-  std::vector<std::uint64_t> until(replaced.size(), 0);
-  for (std::size_t i = 0; i < replaced.size(); ++i) {
-    const auto progress = scheduler_.ProgressOf(replaced[i].path);
-    if (progress && replaced[i].probation_cycles > 0) until[i] = progress->cycles + replaced[i].probation_cycles;
-  }
-  waiting_.reserve(waiting_.size() + replaced.size());
-  for (std::size_t i = 0; i < replaced.size(); ++i) {
-    if (until[i] > 0) waiting_.push_back({std::move(replaced[i]), until[i]});
-  }
-  std::erase_if(replaced, [](const Replaced& each) { return !each.before; });
-}
-
-FrameworkElement* Probation::Successor(const Waiting& waiting) {
-  const std::lock_guard lock(runtime_.structure_mutex());
-  const auto found = runtime_.root().Find(waiting.replaced.path);
-  const bool is_it = found && (*found)->id() == waiting.replaced.id;
-  return is_it ? *found : nullptr;
-}
-
-// Who has thrown waits for the answer, however long that takes.
-bool Probation::HasProved(const Waiting& waiting) {
-  if (waiting.until_cycle == 0 || Successor(waiting) == nullptr) return true;
-  const auto progress = scheduler_.ProgressOf(waiting.replaced.path);
-  return !progress || (!progress->has_failed && progress->cycles > waiting.until_cycle);
-}
-
-// Memory comes before anything is taken out: what is lost on the way would be destroyed while others look at it.
-std::vector<UnlistedElement> Probation::Take(bool all) {
-  proved_.reserve(proved_.size() + waiting_.size());
-  for (Waiting& each : waiting_) {
-    if (all || HasProved(each)) each.until_cycle = 0;
-  }
-  for (Waiting& each : waiting_) {
-    if (each.until_cycle == 0) proved_.push_back(std::move(each.replaced.before));
-  }
-  std::erase_if(waiting_, [](const Waiting& each) { return !each.replaced.before; });
-  return std::exchange(proved_, {});
-}
-
-std::vector<Probation::Waiting>::iterator Probation::Find(const std::string& path) {
-  return std::ranges::find_if(
-      waiting_, [&](const Waiting& each) { return each.replaced.path == path && Successor(each) != nullptr; });
-}
-
-bool Probation::Concerns(const Fault& fault) {
-  const auto found = Find(fault.path);
-  if (found == waiting_.end()) return false;
-  if (fault.cycle > found->until_cycle) found->until_cycle = 0;
-  return found->until_cycle > 0;
-}
-
-std::string Probation::PutBack(const Fault& fault, OrderedMutex& mutex) {
-  auto hold = scheduler_.HoldCycles({fault.path}, timeout_);
-  std::unique_lock lock(mutex);
-  const auto found = Find(fault.path);
-  const auto progress = scheduler_.ProgressOf(fault.path);
-  const bool is_there = found != waiting_.end() && progress && progress->has_failed;
-  if (!is_there) return "others have removed it meanwhile";
-  const std::string before = FindModuleType(*found->replaced.before);
-  std::string done = "the module before (" + (before.empty() ? "made by code" : before) + ") is back in its place";
-  auto gone = hold ? PutBack(*found, done) : hold.error();
-  if (!gone) throw std::runtime_error("the module before could not be put back: " + gone.error().ToString());
-  waiting_.erase(found);
-  lock.unlock();
-  hold->Release();
-  runtime_.Destroy(std::move(*gone));
-  return done;
-}
-
-// Between two cycles. Leaves `waiting` as it is if it fails. `done` gets what is lost.
-Result<UnlistedElement> Probation::PutBack(Waiting& waiting, std::string& done) {
-  const ChangeScope all_at_once(runtime_);
-  FrameworkElement* const after = Successor(waiting);
-  if (after == nullptr) return std::move(waiting.replaced.before);
-  const FrameworkElement* const place = NextSibling(*after);
-  std::vector<BeforeHandOver::Held> held;  // by one that has failed and goes anyway, too
-  for (const auto* each : {after, &*waiting.replaced.before}) (void)Settle(*each, held);
-  FrameworkElement& before = *waiting.replaced.before;
-  before.VisitAll<Port>([](Port& port) { DrivingState::Of(port).is_later = true; });
-  // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
-  StructureOverlay overlay(runtime_);
-  const PortMatch match = MatchPorts(*after, before, overlay);
-  if (match.errors.size() > match.misfits.size()) return match.errors.front();  // it would move, or is held
-  for (const Error& each : match.errors) done += "; not taken over: " + each.path + ": " + each.message;
-  if (auto possible = overlay.Replace(*after, before, match.ports); !possible) return possible.error();
-  InheritAnnotations(before, *after, match.ports);
-  auto gone = runtime_.Unlist(*after);
-  if (!gone) return gone.error();
-  std::size_t moved = 0;
-  try {
-    for (const auto& [from, to] : match.ports) {
-      TakeOver(*to, *from, *after, before);
-      ++moved;
-    }
-    Must(runtime_.List(std::move(waiting.replaced.before), place));
-    return gone;
-  } catch (...) {
-    Retry([&] {
-      for (; moved > 0; --moved) {
-        const auto& [from, to] = match.ports[moved - 1];
-        TakeOver(*from, *to, before, *after);
-      }
-      (void)runtime_.List(std::move(*gone), place);
-    });
-    throw;
-  }
-}
-
-}  // namespace internal
 
 namespace {
 

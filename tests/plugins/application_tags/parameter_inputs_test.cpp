@@ -9,6 +9,7 @@
 
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/new_feeds.h"
+#include "plugins/structure/element_state.h"
 #include "plugins/structure/value_by_hand.h"
 #include "tests/plugins/application_tags/parameter_inputs_fixture.h"
 
@@ -22,11 +23,8 @@ using ::testing::IsEmpty;
 TEST_F(ParameterInputs, AreNotLeftByWhatIsRefused) {
   Build(std::string(kModules) + R"(
     <module name="third" type="test/source"/><module name="fourth" type="test/source"/>
-    <module name="fifth" type="test/source"/>
     <connect from="source/value" to="other/gain"/>
-    <connect from="absent/value" to="fourth/gain" when="present"/>
-    <driving port="fifth/gain" safe="0" command="velocity"/>)");
-  EXPECT_TRUE(IsFed("fifth")) << "a file has said something of it";
+    <connect from="absent/value" to="fourth/gain" when="present"/>)");
   workshop_.Errors(R"(<application name="more">
     <module name="source" type="test/source"/>
     <connect from="source/value" to="/demo/other/gain"/>
@@ -37,7 +35,6 @@ TEST_F(ParameterInputs, AreNotLeftByWhatIsRefused) {
   EXPECT_TRUE(IsFed("other"));
   EXPECT_FALSE(IsFed("third"));
   EXPECT_TRUE(IsFed("fourth")) << "is waited for";
-  EXPECT_TRUE(workshop_.Get<Port>("/demo/fifth/parameter/gain/feed/gain").is_driving());
   const ConnectPorts wanted{"/demo/source/value", "/demo/third/gain"};
   EXPECT_FALSE(Apply({wanted, SetParameter{"/demo/nowhere/gain", "1"}}));
   EXPECT_FALSE(IsFed("third"));
@@ -60,20 +57,40 @@ class Looked : public ParameterInputs {
   }
 };
 
-TEST_F(Looked, GoesUnlessItIsUsed) {
+TEST_F(Looked, GoesAgain) {
   Build(kModules);
   {
     const NewFeeds feeds(workshop_.runtime);
     Find();
   }
   EXPECT_FALSE(IsFed("other"));
+}
+
+// Whatever asks for it: it goes with its connections, and would take that along.
+TEST_F(Looked, HasNothingOfItsOwn) {
+  Build(kModules);
+  ASSERT_TRUE(Apply({ConnectPorts{"/demo/source/value", "/demo/other/gain"}}));
+  const std::string why =
+      "/demo/other/parameter/gain/feed/gain: only passes on what is connected to the parameter "
+      "/demo/other/parameter/gain";
+  const double value = 2;
+  InputLimits limits;
+  limits.maximum = 1;
   {
-    const NewFeeds feeds(workshop_.runtime);
-    const double value = 2;
     const std::lock_guard lock(workshop_.runtime.structure_mutex());
-    ASSERT_TRUE(PublishByHand(Find(), &value));
+    for (const Result<void>& done :
+         {PublishByHand(Find(), &value), PublishByHand(Find(), &value, Port::Setter::kRule), Find().Block(),
+          Find().SetLimits(limits), Find().SetDriving(true, AnyValue(0.0), {}, DrivingKind::kVelocity)}) {
+      ASSERT_FALSE(done);
+      EXPECT_THAT(done.error().ToString(), HasSubstr(why));
+    }
+    EXPECT_EQ(internal::WhatIsSetAt(Find()), "");
   }
-  EXPECT_TRUE(IsFed("other")) << "a person has set a value";
+  EXPECT_THAT(Apply({TagElement{Find().path(), {"fast"}}}).diagnostics.ToString(), HasSubstr(why));
+  EXPECT_THAT(workshop_.Errors(R"(<application name="more"><module name="other" type="test/source">
+    <input name="gain" maximum="1"/></module><driving port="other/gain" safe="0" command="velocity"/></application>)"),
+              ::testing::AllOf(HasSubstr("2:5: error: /more/other/parameter/gain/feed/gain: only passes on"),
+                               HasSubstr("say it of the output that is connected to it")));
 }
 
 TEST_F(Looked, StaysForAnInterfaceThatNothingFeedsYet) {
