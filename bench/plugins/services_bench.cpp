@@ -8,9 +8,9 @@
 
 #include "core/element/runtime.h"
 #include "core/module/module.h"
+#include "core/module/own_cycle.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "core/port/own_cycle.h"
 #include "plugins/services/client.h"
 #include "plugins/services/service.h"
 

@@ -111,8 +111,7 @@ Result<UnlistedElement> ModuleRegistry::Make(std::string_view type, const Placem
     element->Annotate(std::make_unique<ModuleTypeName>(known.name));
     return element;
   } catch (...) {
-    return CaughtError("a module of type '" + std::string(type) + "' could not be made: ")
-        .WithPath(placement.parent.path());
+    return CaughtError("a module of type '", type, "' could not be made: ").WithPath(placement.parent.path());
   }
 }
 

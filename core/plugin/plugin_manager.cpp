@@ -79,7 +79,7 @@ PluginManager::PluginManager() {
 void PluginManager::AddSearchFolder(fs::path folder) { search_path_.insert(search_path_.begin(), std::move(folder)); }
 
 Result<void> PluginManager::Load(std::string_view name) {
-  return Attempt([&] { return LoadUnlessKnown(name); }, "the plugin '" + std::string(name) + "' cannot be loaded: ");
+  return Attempt([&] { return LoadUnlessKnown(name); }, "the plugin '", name, "' cannot be loaded: ");
 }
 
 Result<void> PluginManager::LoadUnlessKnown(std::string_view name) {
@@ -150,8 +150,7 @@ Result<PluginReload> PluginManager::Reload(std::string_view name) {
 }
 
 Result<PluginReload> PluginManager::Reload(std::string_view name, const TemporaryCopy& copy) {
-  return Attempt([&] { return ReloadKnown(name, copy); },
-                 "the plugin '" + std::string(name) + "' cannot be loaded anew: ");
+  return Attempt([&] { return ReloadKnown(name, copy); }, "the plugin '", name, "' cannot be loaded anew: ");
 }
 
 Result<fs::path> PluginManager::FindKnown(std::string_view name) const {

@@ -6,6 +6,7 @@
 
 #include "core/element/annotation.h"
 #include "core/element/try_structure_lock.h"
+#include "core/port/parameter_input.h"
 
 namespace runnel {
 
@@ -30,7 +31,7 @@ void VisitSiblings(const Port& port, Port::Direction direction, const std::funct
   module->Visit([&](FrameworkElement& each) {
     auto* const other = dynamic_cast<Port*>(&each);
     if (other == nullptr || other->direction() != direction) return;
-    if (other->parent()->parent()->kind() != ElementKind::kParameter) visit(*other);
+    if (ParameterSetBy(*other) == nullptr) visit(*other);
   });
 }
 

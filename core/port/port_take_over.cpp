@@ -32,9 +32,9 @@ bool IsSame(const PortStop& a, const PortStop& b) {
 }
 
 bool IsSame(const InputLimits& a, const InputLimits& b) {
-  const auto text = [](const AnyValue& value) { return value ? TextOf(value) : std::string(); };
+  const auto text = [](const AnyValue& value) { return value ? "=" + TextOf(value) : ""; };
   return a.minimum == b.minimum && a.maximum == b.maximum && a.out_of_bounds == b.out_of_bounds &&
-         bool(a.default_value) == bool(b.default_value) && text(a.default_value) == text(b.default_value);
+         text(a.default_value) == text(b.default_value);
 }
 
 bool RestsAt(const Port& port, const AnyValue& rest) {

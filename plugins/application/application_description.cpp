@@ -54,7 +54,7 @@ Result<Extensions> ExtensionRegistry::Make(const std::string& plugin, const Exte
   if (found == factories_.end()) {
     return Error{.message = "the plugin '" + plugin + "' is no extension of applications"};
   }
-  return Attempt([&] { return found->second(arguments); }, "the extension '" + plugin + "' cannot be made: ");
+  return Attempt([&] { return found->second(arguments); }, "the extension '", plugin, "' cannot be made: ");
 }
 
 ApplicationDescription::ApplicationDescription(ApplicationOptions options)
@@ -195,11 +195,9 @@ void ApplicationDescription::RunChecks(const std::string& model_file) {
 
 bool ApplicationDescription::MakeEmpty(const std::string& name) {
   return ReadFrom([&](const BuildTools& tools) {
-    try {
-      return BuildOutcome{&tools.runtime.Create<Group>(tools.runtime.root(), name)};
-    } catch (const ElementError& error) {
-      return Failed(error.error());
-    }
+    const auto made =
+        Attempt([&]() -> Result<Group*> { return &tools.runtime.Create<Group>(tools.runtime.root(), name); });
+    return made ? BuildOutcome{*made} : Failed(made.error());
   });
 }
 

@@ -45,7 +45,7 @@ void BuildContext::Attempt(const Cause& cause, const std::function<void()>& acti
   try {
     action();
   } catch (...) {
-    Report(CaughtError(cause.what + " failed: "), cause.position, *cause.element);
+    Report(CaughtError(cause.what, " failed: "), cause.position, *cause.element);
   }
   cause_ = outer;
 }

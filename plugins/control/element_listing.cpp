@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/characters.h"
+#include "core/element/attempt.h"
 #include "core/element/configurable.h"
 #include "core/element/element_path.h"
 #include "core/element/runtime.h"
@@ -17,7 +18,6 @@
 #include "core/port/port.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/parameter_text.h"
 #include "plugins/control/application_state.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"

@@ -20,7 +20,7 @@ class RecordCommand {
                 TaskGroup& tasks)
       : tasks_(tasks), seconds_(seconds), shared_(std::make_shared<Shared>()) {
     task_ = tasks_.Post([hook, recording = std::move(recording), shared = shared_] {
-      shared->Do([&]() -> Result<std::string> {
+      shared->outcome = Attempt([&]() -> Result<std::string> {
         auto started = hook(recording);
         if (!started) return started.error();
         shared->recording = std::move(*started);
@@ -63,10 +63,6 @@ class RecordCommand {
 
  private:
   struct Shared {
-    template <typename Work>
-    void Do(const Work& work) {
-      outcome = Attempt(work);
-    }
     Result<std::string> outcome = std::string();
     std::unique_ptr<ClientRecording> recording;
   };
@@ -74,7 +70,7 @@ class RecordCommand {
   void End() {
     is_ending_ = true;
     task_ = tasks_.Post([shared = shared_] {
-      shared->Do([&] { return shared->recording->Finish(); });
+      shared->outcome = Attempt([&] { return shared->recording->Finish(); });
       shared->recording.reset();
     });
   }

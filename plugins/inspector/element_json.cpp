@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/element/attempt.h"
 #include "core/element/configurable.h"
 #include "core/element/element_path.h"
 #include "core/element/tags.h"
@@ -10,7 +11,6 @@
 #include "core/port/port_stop.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/parameter_text.h"
 #include "plugins/inspector/structure_mirror.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/services/callable.h"

@@ -42,16 +42,9 @@ Result<void> CheckCharacters(std::string_view text) {
   return Error{.message = "the value contains " + fault};
 }
 
-// Of what an output publishes, in a cycle. Only texts are looked at: all else would have to be written for it.
+// Of what an output publishes. Only texts are looked at: all else would have to be written for it.
 bool IsWritable(const TypeInfo& type, const void* value) {
-  if (&type != &TypeOf<std::string>()) return true;
-  std::string_view text = *static_cast<const std::string*>(value);
-  while (!text.empty()) {
-    const std::size_t length = FileCharacterLength(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
-  }
-  return true;
+  return &type != &TypeOf<std::string>() || CheckCharacters(*static_cast<const std::string*>(value)).has_value();
 }
 
 }  // namespace

@@ -192,10 +192,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                         if (auto settled = Settle(*each, held_); !settled) return settled;
                       }
                       if (auto copied = CopyState(before, next); !copied) return copied;
-                      // What is taken back sets nothing that an output has set meanwhile.
-                      if (auto fed = CopyFed(ports, change.state ? std::vector<Setting>() : change.settings); !fed) {
-                        return fed;
-                      }
+                      if (auto copied = CopyFed(ports, change); !copied) return copied;
                       Replaced replaced{{}, next.path(), next.id(), change.probation_cycles};
                       replaced_.reserve(replaced_.size() + 1);
                       done->place = NextSibling(before);

@@ -291,9 +291,7 @@ Result<void> Plan::Check(const TagElement& change) {
   const auto found = overlay_.Find(change.path);
   if (!found) return found.error();
   FrameworkElement& element = **found;
-  if (const auto* const port = dynamic_cast<const Port*>(&element)) {
-    if (auto may = CheckMayBeSet(*port); !may) return may;
-  }
+  if (auto may = CheckMayBeSet(element); !may) return may;
   if (const auto good = CheckTags(change.tags); !good) return good.error().WithPath(element.path());
   Concern(element);
   const auto get = [&element] { return TagsOf(element); };

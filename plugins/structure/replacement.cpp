@@ -285,10 +285,12 @@ Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after) 
   return {};
 }
 
-Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports, const std::vector<Setting>& settings) {
+Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports, const ReplaceModule& change) {
   for (const auto& [from, to] : ports) {
     const FrameworkElement* const parameter = ParameterSetBy(*to);
-    if (parameter == nullptr || std::ranges::count(settings, parameter->name(), &Setting::parameter) > 0) continue;
+    const bool is_said = parameter != nullptr && !change.state &&
+                         std::ranges::count(change.settings, parameter->name(), &Setting::parameter) > 0;
+    if (parameter == nullptr || is_said) continue;
     if (auto copied = CopyState(*from->parent(), *to->parent()); !copied) return copied;
   }
   return {};
@@ -296,8 +298,8 @@ Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports, const st
 
 Result<void> TakeOverFed(Port& port, const FrameworkElement& before, FrameworkElement& after) {
   Port* const input = ParameterSetBy(port) != nullptr ? Counterpart(port, before, after) : nullptr;
-  if (input == nullptr) return NoCounterpart(port, before, after);
-  if (auto possible = Port::CheckTakeOver(*input, port); !possible) return possible;
+  Result<void> possible = input != nullptr ? Port::CheckTakeOver(*input, port) : NoCounterpart(port, before, after);
+  if (!possible) return possible;
   if (auto copied = CopyFed({{&port, input}}, {}); !copied) return copied;
   TakeOver(*input, port, before, after);
   return {};

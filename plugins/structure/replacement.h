@@ -63,10 +63,9 @@ Result<void> Settle(const FrameworkElement& module, std::vector<BeforeHandOver::
 /// Hands over the kept states that can be. Neither module runs. Errors: what copying throws.
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after);
 
-/// Hands over what outputs have set of parameters, by the ports through which they do, but for parameters that `settings`
-/// name. Before the ports take over. Errors: what copying throws.
-[[nodiscard]] Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports,
-                                   const std::vector<Setting>& settings);
+/// Hands over what outputs have set of parameters, by the ports through which they do, but for what a person sets by the
+/// change: what is taken back (`change.state`) sets nothing of that. Before the ports take over. Errors: what copying throws.
+[[nodiscard]] Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports, const ReplaceModule& change);
 /// The same and taking over, of one port whose counterpart could not be made as long as `after` was beside the tree.
 [[nodiscard]] Result<void> TakeOverFed(Port& port, const FrameworkElement& before, FrameworkElement& after);
 

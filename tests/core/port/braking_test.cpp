@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/port/own_cycle.h"
+#include "core/module/own_cycle.h"
 #include "plugins/testing/allocation_guard.h"
 #include "plugins/testing/lock_probe.h"
 #include "tests/core/port/stop_fixture.h"

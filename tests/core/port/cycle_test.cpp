@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "core/port/own_cycle.h"
+#include "core/module/own_cycle.h"
 #include "tests/core/port/port_fixture.h"
 
 namespace runnel::test {
