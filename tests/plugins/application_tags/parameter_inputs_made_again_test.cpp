@@ -211,10 +211,22 @@ TEST_F(MadeAgain, HasWhatAPersonHasSetSince) {
   Do({SetParameter{"/demo/other/gain", "5"}});
   ASSERT_TRUE(history_->Undo());
   EXPECT_EQ(Run(), 5);
-  Do({ReplaceModule{"/demo/other", "test/source", {{"gain", "3"}}}});
-  EXPECT_EQ(Run(), 3) << "until the next one comes";
-  Say(4);
-  EXPECT_EQ(Run(), 4);
+  for (int round = 0; round < 2; ++round) {  // set by a person before, and by the output
+    Do({ReplaceModule{"/demo/other", "test/source", {{"gain", "3"}}}});
+    EXPECT_EQ(Run(), 3) << "until the next one comes";
+    Say(4);
+    EXPECT_EQ(Run(), 4);
+  }
+}
+
+TEST_F(MadeAgain, HasWhatAnOutputHasSetSince) {
+  Start(kConnected);
+  Do({SetParameter{"/demo/other/gain", "5"}});
+  ASSERT_TRUE(history_->Apply({ReplaceModule{"/demo/other", "test/source"}}));
+  Say(2);
+  EXPECT_EQ(Run(), 2);
+  ASSERT_TRUE(history_->Undo());
+  EXPECT_EQ(Run(), 2);
 }
 
 TEST_F(MadeAgain, IsSavedWithoutWhatAnOutputHasSet) {
