@@ -147,7 +147,7 @@ ChangeSet MakeLike(FrameworkElement& element, const std::string& path, std::opti
   return changes;
 }
 
-ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& after, std::uint64_t probation_cycles,
+ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& after, const ReplaceModule& change,
                       std::optional<Error>& why_not) {
   const std::string type = FindModuleType(before);
   if (type.empty()) {
@@ -156,11 +156,12 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
   }
   std::vector<Setting> settings = SettingsOf(before);
   AddDefaults(before, after, settings);
-  // What an output has set is handed on, as it is by then.
+  // What an output has set is handed on, as it is by then, unless the change itself sets it.
   std::erase_if(settings, [&](const Setting& each) {
-    return FindConfigurable(after, each.parameter) && FindConfigurable(before, each.parameter).configurable->is_fed();
+    return FindConfigurable(after, each.parameter) && !Names(change.settings, after, each.parameter) &&
+           FindConfigurable(before, each.parameter).configurable->is_fed();
   });
-  return {ReplaceModule{before.path(), type, std::move(settings), probation_cycles,
+  return {ReplaceModule{before.path(), type, std::move(settings), change.probation_cycles,
                         std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,
                                                              ElementState::Below::kIncluded)}};
 }

@@ -32,7 +32,7 @@ void AddThreadAgain(const ThreadContainer& thread, ChangeSet& changes);
 
 /// Puts a module like `before` in the place of `after`, with the values that it has now.
 [[nodiscard]] ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& after,
-                                    std::uint64_t probation_cycles, std::optional<Error>& why_not);
+                                    const ReplaceModule& change, std::optional<Error>& why_not);
 
 /// The path of the thread container that the element itself is assigned to, or "".
 [[nodiscard]] std::string OwnThreadPath(const FrameworkElement& element);

@@ -193,7 +193,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       }
                       if (auto copied = CopyState(before, next); !copied) return copied;
                       if (auto copied = CopyFed(ports, change); !copied) return copied;
-                      Replaced replaced{{}, next.path(), next.id(), change.probation_cycles};
+                      Replaced replaced{{}, next.path(), next.id(), change.probation_cycles, ValuesOf(next)};
                       replaced_.reserve(replaced_.size() + 1);
                       done->place = NextSibling(before);
                       auto taken = runtime_.Unlist(before);
@@ -230,9 +230,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       }
                       Must(runtime_.List(std::move(done->before), done->place));
                     },
-                    [&before, &next, cycles = change.probation_cycles](auto& why_not) {
-                      return ReplaceBack(before, next, cycles, why_not);
-                    }});
+                    [&before, &next, change](auto& why_not) { return ReplaceBack(before, next, change, why_not); }});
 }
 
 }  // namespace runnel::internal

@@ -35,6 +35,7 @@ struct Replaced {
   std::string path;
   std::uint64_t id = 0;  // of the new module
   std::uint64_t probation_cycles = 0;
+  Values values = {};  // of the new module, as it began
 };
 
 /// What one change set makes beside the tree, by what it is and where it goes: kept from one attempt to the next, as

@@ -168,7 +168,11 @@ Result<void> Plan::Check(const SetParameter& change) {
   if (is_settled) return CheckStatic(**found, *parameter, value->get());
   Concern(**found);
   AddSetting([parameter]() -> std::shared_ptr<const void> { return parameter->Value(); },
-             [parameter](const std::shared_ptr<const void>& each) { return parameter->SetFrom(each.get()); }, *value,
+             [parameter, is_back = is_way_back_](const std::shared_ptr<const void>& each) {
+               // What an output has set since is not taken back.
+               return is_back && parameter->is_fed() ? Result<void>() : parameter->SetFrom(each.get());
+             },
+             *value,
              [parameter, path = (*found)->path()](auto&) -> ChangeSet {
                // The module has been made by this change set, and goes as a whole.
                if (parameter->info().is_static) return {};

@@ -99,6 +99,8 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting, std::string& done) 
   if (match.errors.size() > match.misfits.size()) return match.errors.front();  // it would move, or is held
   if (auto possible = overlay.Replace(*after, before, match.ports); !possible) return possible.error();
   InheritAnnotations(before, *after, match.ports);
+  const auto late = Attempt([&] { return CopyLateSettings(*after, waiting.replaced.values, {}, before); });
+  if (!late) done += "; not taken over: " + late.error().ToString();
   if (auto fed = CopyFed(match.ports, {}); !fed) return fed.error();
   auto gone = runtime_.Unlist(*after);
   if (!gone) return gone.error();
@@ -120,8 +122,10 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting, std::string& done) 
     throw;
   }
   for (std::size_t i = 0; i < match.misfits.size(); ++i) {
-    const auto taken = Attempt([&] { return TakeOverFed(*match.misfits[i].first, *after, before); });
-    if (!taken) done += "; not taken over: " + match.errors[i].path + ": " + match.errors[i].message;
+    Result<void> taken = Error{};
+    Retry([&] { taken = TakeOverFed(*match.misfits[i].first, *after, before); });
+    const Error& each = match.errors[i];
+    if (!taken) Retry([&] { done += "; not taken over: " + each.path + ": " + each.message; });
   }
   return gone;
 }

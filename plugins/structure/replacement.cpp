@@ -285,12 +285,20 @@ Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after) 
   return {};
 }
 
+bool Names(const std::vector<Setting>& settings, const FrameworkElement& module, const std::string& parameter) {
+  const auto is_it = [&](const Setting& each) {
+    const ConfigurableElement found = FindConfigurable(module, each.parameter);
+    return found && found.element->name() == parameter;
+  };
+  return std::ranges::any_of(settings, is_it);
+}
+
 Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports, const ReplaceModule& change) {
   for (const auto& [from, to] : ports) {
     const FrameworkElement* const parameter = ParameterSetBy(*to);
-    const bool is_said = parameter != nullptr && !change.state &&
-                         std::ranges::count(change.settings, parameter->name(), &Setting::parameter) > 0;
-    if (parameter == nullptr || is_said) continue;
+    if (parameter == nullptr) continue;
+    const FrameworkElement& module = *parameter->parent()->parent();
+    if (!change.state && Names(change.settings, module, parameter->name())) continue;
     if (auto copied = CopyState(*from->parent(), *to->parent()); !copied) return copied;
   }
   return {};

@@ -63,6 +63,10 @@ Result<void> Settle(const FrameworkElement& module, std::vector<BeforeHandOver::
 /// Hands over the kept states that can be. Neither module runs. Errors: what copying throws.
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after);
 
+/// Whether one of the settings is of the module's parameter, also by a former name.
+[[nodiscard]] bool Names(const std::vector<Setting>& settings, const FrameworkElement& module,
+                         const std::string& parameter);
+
 /// Hands over what outputs have set of parameters, by the ports through which they do, but for what a person sets by the
 /// change: what is taken back (`change.state`) sets nothing of that. Before the ports take over. Errors: what copying throws.
 [[nodiscard]] Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports, const ReplaceModule& change);
