@@ -110,6 +110,8 @@ Result<UnlistedElement> ModuleRegistry::Make(std::string_view type, const Placem
     UnlistedElement element(known.make(placement));
     element->Annotate(std::make_unique<ModuleTypeName>(known.name));
     return element;
+  } catch (const ElementError& error) {
+    return error.error();
   } catch (...) {
     return CaughtError("a module of type '", type, "' could not be made: ").WithPath(placement.parent.path());
   }

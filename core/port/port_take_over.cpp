@@ -163,8 +163,8 @@ void Port::TakeOver(Port& from, const ExchangedModules* modules) {
   from.ReserveFor(*this);
   // What holds values to the limits of the one goes over with its flow; each has limits of its own.
   const InputLimits own_limits = limits(), its_limits = from.limits();
-  const auto limit = [&] {
-    if (IsSame(own_limits, its_limits)) return;
+  const auto limit = [&, are_same = IsSame(own_limits, its_limits)] {
+    if (are_same) return;
     (void)SetLimits(own_limits);
     (void)from.SetLimits(its_limits);
   };

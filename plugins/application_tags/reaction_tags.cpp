@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/port/parameter_input.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_tags/tag_list.h"
@@ -82,6 +83,7 @@ void ReadReplace(const ReactionUse& use) {
 void ReadPublish(const ReactionUse& use) {
   const Port* const port = use.FindPortAt(use.Get("port"), PathKind::kElement);
   if (port == nullptr) return;
+  if (auto may = CheckMayBeSet(*port); !may) return use.Report(may.error(), use.Get("port").value_position);
   const XmlAttribute* const value = use.Find("value");
   const auto made = value ? ValueOf(*port, value->value) : SafeValueOf(*port);
   if (!made) return use.Report(made.error(), value ? value->value_position : use.xml.position());

@@ -88,8 +88,10 @@ TEST_F(Looked, HasNothingOfItsOwn) {
   }
   EXPECT_THAT(Apply({TagElement{Find().path(), {"fast"}}}).diagnostics.ToString(), HasSubstr(why));
   EXPECT_THAT(workshop_.Errors(R"(<application name="more"><module name="other" type="test/source">
-    <input name="gain" maximum="1"/></module><driving port="other/gain" safe="0" command="velocity"/></application>)"),
+    <input name="gain" maximum="1"/></module><driving port="other/gain" safe="0" command="velocity"/>
+    <on_fault of="other"><publish port="other/parameter/gain/feed/gain" value="0"/></on_fault></application>)"),
               ::testing::AllOf(HasSubstr("2:5: error: /more/other/parameter/gain/feed/gain: only passes on"),
+                               HasSubstr("3:41: error: /more/other/parameter/gain/feed/gain: only passes on"),
                                HasSubstr("say it of the output that is connected to it")));
 }
 
