@@ -1,5 +1,7 @@
 #include "core/base/signal_stack.h"
 
+#include <csignal>
+
 #include <sys/mman.h>
 
 namespace runnel {
