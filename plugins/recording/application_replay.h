@@ -125,7 +125,7 @@ inline BuildOutcome BuildRecordedPorts(const std::string& file, const BuildTools
     if (IsView(channel)) continue;
     const auto schema = contents.schemas.find(channel.schema);
     const std::string type = schema != contents.schemas.end() ? schema->second.name : "";
-    if (auto made = Attempt([&] { return tree.Add(PortOf(channel), type); }); !made) {
+    if (auto made = Attempt([&, &each = channel] { return tree.Add(PortOf(each), type); }); !made) {
       failures.push_back(made.error());
       continue;
     }
