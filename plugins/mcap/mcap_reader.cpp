@@ -171,4 +171,15 @@ Result<void> McapReader::ReadMessages(const Use& use) {
   return {};
 }
 
+Result<std::string> McapReader::ReadAttachment(const McapAttachmentPlace& place) {
+  if (place.data_size > kLargest) {
+    return file_->ErrorAt(place.data_offset, "this attachment is larger than can be read");
+  }
+  std::string data;
+  if (auto read = file_->Read(place.data_offset, place.data_size, data); !read) {
+    return read.error();
+  }
+  return data;
+}
+
 }  // namespace runnel

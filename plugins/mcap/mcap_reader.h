@@ -61,14 +61,21 @@ struct McapChunk {
   bool is_loose = false;
 };
 
+/// Where a file has an attachment.
+struct McapAttachmentPlace {
+  McapAttachment attachment;  ///< without its data
+  std::uint64_t data_offset = 0;
+  std::uint64_t data_size = 0;
+};
+
 /// What a file has, but for the messages themselves.
 struct McapContents {
   McapHeader header;
   std::map<std::uint16_t, McapSchema> schemas;
   std::map<std::uint16_t, McapChannel> channels;
   std::vector<McapMetadata> metadata;
-  std::vector<McapAttachment> attachments;  ///< without their data
-  std::vector<McapChunk> chunks;            ///< by `start`
+  std::vector<McapAttachmentPlace> attachments;
+  std::vector<McapChunk> chunks;  ///< by `start`
   /// As its writer has it or, where it has not come to write it, counted.
   McapStatistics statistics;
   /// It has all that its writer wanted to write.
@@ -101,6 +108,7 @@ class McapReader {
   Result<void> ReadMessages(const McapChunk& chunk, const Use& use);
   /// The same for all chunks.
   Result<void> ReadMessages(const Use& use);
+  [[nodiscard]] Result<std::string> ReadAttachment(const McapAttachmentPlace& place);
 
   static constexpr std::uint64_t kLargest = 256u << 20;
 

@@ -191,17 +191,20 @@ Result<void> McapReader::TakeChunk(const Head& head) {
 Result<void> McapReader::TakeAttachment(const Head& head) {
   const auto start = file_->Look(head.offset, std::min(McapFile::kWindow, head.length));
   if (!start) return start.error();
-  McapAttachment attachment;
-  std::uint64_t size = 0;
+  McapAttachmentPlace place;
   McapBytesReader bytes(*start);
-  bytes.Number(attachment.log_time).Number(attachment.create_time).Text(attachment.name);
-  bytes.Text(attachment.media_type).Number(size);
+  bytes.Number(place.attachment.log_time)
+      .Number(place.attachment.create_time)
+      .Text(place.attachment.name)
+      .Text(place.attachment.media_type)
+      .Number(place.data_size);
   const std::uint64_t before = start->size() - bytes.rest().size();
-  if (bytes.has_failed() || size > head.length - before) {
+  if (bytes.has_failed() || place.data_size > head.length - before) {
     return file_->ErrorAt(head.offset - kMcapRecordHead,
                           "expected an attachment, but what is in this record is longer than the record");
   }
-  contents_.attachments.push_back(std::move(attachment));
+  place.data_offset = head.offset + before;
+  contents_.attachments.push_back(std::move(place));
   return {};
 }
 

@@ -55,7 +55,7 @@ RecordingInfo InfoOf(const McapReader& reader) {
   info.damage = contents.damage;
   info.library = contents.header.library;
   if (const auto* about = reader.FindMetadata(kAboutMetadata)) info.about = about->texts;
-  for (const auto& each : contents.attachments) info.attachments.push_back(each.name);
+  for (const auto& each : contents.attachments) info.attachments.push_back(each.attachment.name);
   info.start = Seconds(all.start);
   info.end = Seconds(all.end);
   std::set<std::string> compressions;

@@ -72,7 +72,7 @@ TEST_F(McapOracleTest, WritesFilesThatWeRead) {
   EXPECT_EQ(contents.statistics.messages, 50u);
   EXPECT_GT(contents.chunks.size(), 2u);
   EXPECT_EQ(reader->FindMetadata("about")->texts, (McapTexts{{"who", "the oracle"}}));
-  EXPECT_EQ(contents.attachments.size(), 1u);
+  EXPECT_EQ(Must(reader->ReadAttachment(contents.attachments.at(0))), "a note");
   const auto messages = ReadAll(*reader);
   ASSERT_THAT(messages, SizeIs(50));
   EXPECT_EQ(messages[14], (ReadMessage{1, 14, 14'000, "{\"x\":14}"}));

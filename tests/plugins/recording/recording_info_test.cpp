@@ -32,7 +32,7 @@ TEST_F(RecordingInfoTest, SaysWhatWasRecordedOfWhat) {
   EXPECT_EQ(AboutText(*reader, "settings"), "seed=3");
   EXPECT_EQ(AboutText(*reader, "clock"), "simulated");
   EXPECT_EQ(AboutText(*reader, "version"), "9.9");
-  EXPECT_EQ(reader->contents().attachments.at(0).name, "application.xml");
+  EXPECT_EQ(Must(reader->ReadAttachment(reader->contents().attachments.at(0))), "<application/>");
   const std::string json = RecordingInfoJson(info);
   EXPECT_THAT(json, HasSubstr(R"("duration":1,"ports":1,"values":101,"dropped":0)"));
   EXPECT_THAT(json, HasSubstr(R"({"path":"/sink/output/sum","type":"double")"));
