@@ -158,8 +158,8 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
   AddDefaults(before, after, settings);
   // What an output has set is handed on, as it is by then, unless the change itself sets it.
   std::erase_if(settings, [&](const Setting& each) {
-    return FindConfigurable(after, each.parameter) && !Names(change.settings, after, each.parameter) &&
-           FindConfigurable(before, each.parameter).configurable->is_fed();
+    return FindConfigurable(before, each.parameter).configurable->is_fed() && FindConfigurable(after, each.parameter) &&
+           !Names(change.settings, after, each.parameter);
   });
   return {ReplaceModule{before.path(), type, std::move(settings), change.probation_cycles,
                         std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,

@@ -30,6 +30,15 @@ class Halted : public MadeAgain, public ::testing::WithParamInterface<std::strin
       Say(0);
     }
   }
+  // They find 2 again.
+  void Resume() {
+    (void)workshop_.runtime.robot_stop().Release("a test");
+    Output().Unblock();
+    Output().Release();
+    Run();
+    Say(2);
+    EXPECT_EQ(Run(), 2);
+  }
   // A module that has taken the place throws, after `meanwhile`.
   void Fail(const std::function<void()>& meanwhile) {
     Do({ReplaceModule{"/demo/other", "test/fragile", {}, 1000}});
@@ -59,12 +68,7 @@ TEST_P(Halted, IsNotTakenBackWithAChange) {
        "other"}};
   Start(kConnected);
   for (const auto& [changes, name] : all) {
-    (void)workshop_.runtime.robot_stop().Release("a test");
-    Output().Unblock();
-    Output().Release();
-    Run();
-    Say(2);
-    EXPECT_EQ(Run(), 2);
+    Resume();
     const std::string renamed = "/demo/" + name + "/parameter/gain";
     ASSERT_TRUE(history_->Apply(changes));
     EXPECT_EQ(Run(renamed), 2);
@@ -85,12 +89,7 @@ TEST_P(Halted, IsNotTakenBackWithASetting) {
   const std::vector<ChangeSet> all{{SetParameter{"/demo/other/gain", "5"}},
                                    {ReplaceModule{"/demo/other", "test/source", {{"gain", "5"}}}}};
   for (const ChangeSet& changes : all) {
-    (void)workshop_.runtime.robot_stop().Release("a test");
-    Output().Unblock();
-    Output().Release();
-    Run();
-    Say(2);
-    EXPECT_EQ(Run(), 2);
+    Resume();
     ASSERT_TRUE(history_->Apply(changes));
     EXPECT_EQ(Run(), 5);
     ASSERT_TRUE(history_->Undo());
