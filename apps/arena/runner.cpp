@@ -22,6 +22,7 @@
 #include "apps/arena/application_text.h"
 #include "apps/arena/bounds.h"
 #include "apps/arena/matrix.h"
+#include "core/base/file_descriptor.h"
 #include "core/base/temporary_folder.h"
 
 namespace runnel::arena {
@@ -82,29 +83,27 @@ Result<ProgramEnding> RunProgram(const std::vector<std::string>& words, const st
   std::vector<char*> pointers;
   for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
   pointers.push_back(nullptr);
-  const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (file < 0) return SystemError(output.string());
+  const FileDescriptor file(open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
+  if (!file.is_open()) return SystemError(output.string());
   const auto began = Clock::now();
   const pid_t parent = getpid();
   const pid_t process = fork();
-  if (process == 0) BecomeTheProgram(pointers, file, parent);
-  close(file);
+  if (process == 0) BecomeTheProgram(pointers, file.number(), parent);
   if (process < 0) return SystemError("no process can be started");
   // By its number: the header of glibc 2.36 is not for C++.
-  const int descriptor = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+  const FileDescriptor watched(static_cast<int>(syscall(SYS_pidfd_open, process, 0)));
   const Error unwatched = SystemError("a process cannot be watched");
   ProgramEnding ending;
-  if (descriptor >= 0) {
+  if (watched.is_open()) {
     const auto end = began + std::chrono::duration_cast<Clock::duration>(limit);
-    ending.has_hung = !WaitForEnd(descriptor, end, is_to_stop);
-    close(descriptor);
+    ending.has_hung = !WaitForEnd(watched.number(), end, is_to_stop);
   }
   kill(process, SIGKILL);  // if it still runs; its number is its own until it has been waited for
   int status = 0;
   rusage usage{};
   while (wait4(process, &status, 0, &usage) < 0 && errno == EINTR) {
   }
-  if (descriptor < 0) return unwatched;
+  if (!watched.is_open()) return unwatched;
   ending.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   ending.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   ending.wall_time = std::chrono::duration<double>(Clock::now() - began).count();

@@ -9,6 +9,7 @@
 
 #include "apps/new/new_files.h"
 #include "apps/program.h"
+#include "core/base/identifier.h"
 #include "core/base/nearest_name.h"
 #include "core/base/result.h"
 #include "core/plugin/plugin_manager.h"
@@ -17,69 +18,23 @@ namespace runnel::new_program {
 
 namespace {
 
-// All lower-case words that C++20 keeps for itself.
-const std::set<std::string> kKeywords{
-    "alignas",       "alignof",     "and",        "and_eq",    "asm",       "auto",
-    "bitand",        "bitor",       "bool",       "break",     "case",      "catch",
-    "char",          "class",       "co_await",   "co_return", "co_yield",  "compl",
-    "concept",       "const",       "const_cast", "consteval", "constexpr", "constinit",
-    "continue",      "decltype",    "default",    "delete",    "do",        "double",
-    "dynamic_cast",  "else",        "enum",       "explicit",  "export",    "extern",
-    "false",         "float",       "for",        "friend",    "goto",      "if",
-    "inline",        "int",         "long",       "mutable",   "namespace", "new",
-    "noexcept",      "not",         "not_eq",     "nullptr",   "operator",  "or",
-    "or_eq",         "private",     "protected",  "public",    "register",  "reinterpret_cast",
-    "requires",      "return",      "short",      "signed",    "sizeof",    "static",
-    "static_assert", "static_cast", "struct",     "switch",    "template",  "this",
-    "thread_local",  "throw",       "true",       "try",       "typedef",   "typeid",
-    "typename",      "union",       "unsigned",   "using",     "virtual",   "void",
-    "volatile",      "while",       "xor",        "xor_eq"};
 // Names that the project's files or targets have already.
 const std::set<std::string> kTaken{"all", "build", "clean", "install", "main", "plugin", "runnel", "test", "world"};
-
-bool IsLetter(char c) { return c >= 'a' && c <= 'z'; }
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
-// "WallFollower-2" could be "wall_follower_2".
-std::string Proposal(const std::string& name) {
-  std::string proposal;
-  for (const char c : name) {
-    const bool is_capital = c >= 'A' && c <= 'Z';
-    const bool begins_word = is_capital || !(IsLetter(c) || IsDigit(c));
-    if (begins_word && !proposal.empty() && proposal.back() != '_') proposal += '_';
-    if (is_capital) proposal += static_cast<char>(c - 'A' + 'a');
-    if (IsLetter(c) || (IsDigit(c) && !proposal.empty())) proposal += c;
-  }
-  while (proposal.ends_with('_')) proposal.pop_back();
-  return proposal;
-}
 
 /// Whether something can be called so, in files, in C++ and in paths: "wall_follower". Errors: why not, and a name
 /// that would do.
 Result<void> CheckName(const std::string& name) {
-  const bool is_well_formed = !name.empty() && IsLetter(name.front()) && !name.ends_with('_') &&
-                              name.find("__") == std::string::npos &&
-                              std::ranges::all_of(name, [](char c) { return IsLetter(c) || IsDigit(c) || c == '_'; });
+  const bool is_well_formed = IsSnakeCase(name);
   const char* const why = !is_well_formed
                               ? "': names are lower-case letters, digits and single '_', and begin with a letter"
-                          : kKeywords.contains(name) ? "', which is a word of C++"
-                          : kTaken.contains(name)    ? "', which is the name of something else in each project"
-                                                     : nullptr;
+                          : IsCppKeyword(name)    ? "', which is a word of C++"
+                          : kTaken.contains(name) ? "', which is the name of something else in each project"
+                                                  : nullptr;
   if (why == nullptr) return {};
-  const std::string proposal = is_well_formed ? "" : Proposal(name);
+  std::string proposal = is_well_formed ? "" : SnakeCase(name);
+  proposal.erase(0, proposal.find_first_not_of("0123456789_"));
   return Error{.message = "nothing can be called '" + name + why,
                .hint = proposal.empty() ? "" : "how about '" + proposal + "'?"};
-}
-
-/// "WallFollower" of "wall_follower". Precondition: CheckName() has no objection.
-std::string ClassName(const std::string& name) {
-  std::string class_name;
-  bool begins_word = true;
-  for (const char c : name) {
-    if (c != '_') class_name += begins_word && IsLetter(c) ? static_cast<char>(c - 'a' + 'A') : c;
-    begins_word = c == '_';
-  }
-  return class_name;
 }
 
 namespace fs = std::filesystem;
@@ -139,7 +94,7 @@ Result<std::string> MakeFiles(const Kind& kind, const Wanted& wanted) {
   }
   const fs::path folder = kind.is_of_plugin ? wanted.folder : wanted.folder / wanted.name;
   const Marks marks{{"name", wanted.name},
-                    {"Class", ClassName(wanted.name)},
+                    {"Class", CamelCase(wanted.name)},
                     {"plugin", kind.is_of_plugin ? plugin->name() : wanted.name},
                     {"folder", folder.string()}};
   std::vector<NewFile> files;

@@ -23,13 +23,16 @@ struct WordForm {
   Need need = kNeeded;
 };
 struct OptionForm {
-  const char* name;
+  std::string name;
   const char* key;  // what the request calls it
   const char* description;
   const char* type = nullptr;  // of its value; nullptr: a flag
   const char* said = "yes";    // by a flag, in the request
   bool is_required = false;
 };
+OptionForm InOffer(const char* key) { return {"--" + std::string(key), key, "as in <offer>", "TEXT"}; }
+OptionForm InTake(const char* key) { return {"--" + std::string(key), key, "as in <take>", "TEXT"}; }
+const OptionForm kRemove{"--remove", "remove", "ends it", nullptr, "true"};
 struct CommandForm {
   const char* group;
   const char* name;
@@ -74,17 +77,11 @@ const std::vector<CommandForm> kCommands{
     {kLooking, "network", "network", "shows who is in the network, what is offered and taken, and what does not fit"},
     {kChanging, "offer", "offer /laser/scan --topic /scan", "lets others in the network read a port; --remove ends it",
      {{"port", "output or interface port", kPort}},
-     {{"--topic", "topic", "as in <offer>", "TEXT"}, {"--as", "as", "as in <offer>", "TEXT"},
-      {"--frame", "frame", "as in <offer>", "TEXT"}, {"--child_frame", "child_frame", "as in <offer>", "TEXT"},
-      {"--qos", "qos", "as in <offer>", "TEXT"}, {"--sending", "sending", "as in <offer>", "TEXT"},
-      {"--rate", "rate", "as in <offer>", "TEXT"}, {"--strength", "strength", "as in <offer>", "TEXT"},
-      {"--remove", "remove", "ends it", nullptr, "true"}}},
+     {InOffer("topic"), InOffer("as"), InOffer("frame"), InOffer("child_frame"), InOffer("qos"), InOffer("sending"),
+      InOffer("rate"), InOffer("strength"), kRemove}},
     {kChanging, "take", "take /cmd_vel /drive/twist", "feeds a topic of the network into an input; --remove ends it",
      {{"topic", "its name: /cmd_vel", "TOPIC"}, {"port", "input", kPort}},
-     {{"--as", "as", "as in <take>", "TEXT"}, {"--field", "field", "as in <take>", "TEXT"},
-      {"--qos", "qos", "as in <take>", "TEXT"}, {"--stamp", "stamp", "as in <take>", "TEXT"},
-      {"--exclusive", "exclusive", "as in <take>", "TEXT"}, {"--live", "live", "as in <take>", "TEXT"},
-      {"--remove", "remove", "ends it", nullptr, "true"}}},
+     {InTake("as"), InTake("field"), InTake("qos"), InTake("stamp"), InTake("exclusive"), InTake("live"), kRemove}},
     {kChanging, "connect", "connect /laser/scan /robot/planner/scan --queue 10", "connects two ports",
      {{"from", "output; PORT.x, PORT[0]: that part of its values", kPort}, {"to", "input", kPort}},
      {{"--queue", "queue", "so many values may wait", "N"},

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/base/file_descriptor.h"
 #include "core/base/folder_names.h"
 
 namespace runnel {
@@ -28,21 +29,6 @@ Error Failure(const fs::path& file, const std::string& what, int number) {
   return {.message = what + ": " + std::strerror(number), .position = {file.string()}};
 }
 
-/// A file descriptor that is closed.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return number_; }
-
- private:
-  int number_;
-};
-
 /// The new file, until it has taken the name of the old.
 class NewFile {
  public:
@@ -56,15 +42,15 @@ class NewFile {
   // 0, or what went wrong.
   int Write(std::string_view text) {
     while (!text.empty()) {
-      const ssize_t written = write(descriptor_.get(), text.data(), text.size());
+      const ssize_t written = write(descriptor_.number(), text.data(), text.size());
       if (written < 0 && errno == EINTR) continue;
       if (written < 0) return errno;
       text.remove_prefix(static_cast<std::size_t>(written));
     }
     return 0;
   }
-  int SetMode(mode_t mode) { return fchmod(descriptor_.get(), mode) == 0 ? 0 : errno; }
-  int BringToDisk() { return fsync(descriptor_.get()) == 0 ? 0 : errno; }
+  int SetMode(mode_t mode) { return fchmod(descriptor_.number(), mode) == 0 ? 0 : errno; }
+  int BringToDisk() { return fsync(descriptor_.number()) == 0 ? 0 : errno; }
   int TakeNameOf(const fs::path& file) {
     if (rename(path_.c_str(), file.c_str()) != 0) return errno;
     is_there_ = false;
@@ -73,7 +59,7 @@ class NewFile {
 
  private:
   fs::path path_;
-  Descriptor descriptor_;
+  FileDescriptor descriptor_;
   bool is_there_ = true;
 };
 
@@ -101,9 +87,9 @@ void RemoveRemains(const fs::path& file) {
 
 // The new name is on the disk only when the folder is.
 int BringFolderToDisk(const fs::path& folder) {
-  const Descriptor descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (descriptor.get() < 0) return errno;
-  if (fsync(descriptor.get()) == 0 || errno == EINVAL) return 0;  // some file systems have no such
+  const FileDescriptor descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!descriptor.is_open()) return errno;
+  if (fsync(descriptor.number()) == 0 || errno == EINVAL) return 0;  // some file systems have no such
   return errno;
 }
 

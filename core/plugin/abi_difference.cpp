@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "core/base/characters.h"
+#include "core/base/file_descriptor.h"
 
 namespace runnel {
 
@@ -88,15 +89,13 @@ class LibraryFile {
  public:
   // Mapped, since most of a file may be what debuggers read.
   explicit LibraryFile(const fs::path& file) {
-    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return;
+    const FileDescriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat status {};
-    if (fstat(descriptor, &status) == 0 && status.st_size > 0) {
+    if (opened.is_open() && fstat(opened.number(), &status) == 0 && status.st_size > 0) {
       const auto size = static_cast<std::size_t>(status.st_size);
-      void* const bytes = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+      void* const bytes = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, opened.number(), 0);
       if (bytes != MAP_FAILED) bytes_ = {static_cast<const char*>(bytes), size};
     }
-    close(descriptor);
   }
   ~LibraryFile() {
     if (!bytes_.empty()) munmap(const_cast<char*>(bytes_.data()), bytes_.size());

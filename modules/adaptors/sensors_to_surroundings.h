@@ -42,16 +42,6 @@ class SensorToSurroundings : public Module, public PreparesAnywhere {
   InputTimeout measurement_timeout{this, measurement, {.log = &log()}};
   InputTimeout pose_timeout{this, pose, {.log = &log()}};
 
- protected:
-  /// Of sensors that know where the body is.
-  [[nodiscard]] Result<void> CheckIsOutside(const StaticParameter<double>& body_radius) const {
-    if (safe_distance.Get() > body_radius.Get()) return {};
-    return Error{.message = "the safe distance, " + safe_distance.ToText() + " m, is not above the body's radius, " +
-                            body_radius.ToText() + " m",
-                 .path = path(),
-                 .hint = "a planner keeps off by a few centimetres what it has seen or touched"};
-  }
-
  private:
   [[nodiscard]] virtual Result<Configuration> Configure() const {
     return Configuration{.safe_distance = safe_distance.Get()};
@@ -73,6 +63,34 @@ class SensorToSurroundings : public Module, public PreparesAnywhere {
   std::optional<Adaptor> adaptor_;
 };
 
+/// Of sensors that know where the body is.
+template <typename Measurement, typename Adaptor, typename Configuration>
+class BodySensorToSurroundings : public SensorToSurroundings<Measurement, Adaptor, Configuration> {
+ public:
+  /// `radius`: what the radius of the body is for.
+  BodySensorToSurroundings(const Placement& placement, std::string port, std::string description, std::string radius)
+      : SensorToSurroundings<Measurement, Adaptor, Configuration>(placement, std::move(port), std::move(description)),
+        body_radius(this, "body_radius",
+                    {.default_value = Configuration{}.body_radius,
+                     .bounds = {0.01, 10.0},
+                     .unit = "m",
+                     .description = std::move(radius)}) {}
+
+  StaticParameter<double> body_radius;
+
+ private:
+  [[nodiscard]] Result<Configuration> Configure() const override {
+    const StaticParameter<double>& distance = this->safe_distance;
+    if (distance.Get() > body_radius.Get()) {
+      return Configuration{.body_radius = body_radius.Get(), .safe_distance = distance.Get()};
+    }
+    return Error{.message = "the safe distance, " + distance.ToText() + " m, is not above the body's radius, " +
+                            body_radius.ToText() + " m",
+                 .path = this->path(),
+                 .hint = "a planner keeps off by a few centimetres what it has seen or touched"};
+  }
+};
+
 class LaserToSurroundings final : public SensorToSurroundings<RangeScan, LaserAdaptor, LaserAdaptorConfiguration> {
  public:
   explicit LaserToSurroundings(const Placement& placement)
@@ -80,46 +98,21 @@ class LaserToSurroundings final : public SensorToSurroundings<RangeScan, LaserAd
 };
 
 class InfraredToSurroundings final
-    : public SensorToSurroundings<InfraredRanges, InfraredAdaptor, InfraredAdaptorConfiguration> {
+    : public BodySensorToSurroundings<InfraredRanges, InfraredAdaptor, InfraredAdaptorConfiguration> {
  public:
   explicit InfraredToSurroundings(const Placement& placement)
-      : SensorToSurroundings(placement, "ranges", "from the robot's centre") {}
-
-  StaticParameter<double> body_radius{
-      this,
-      "body_radius",
-      {.default_value = InfraredAdaptorConfiguration{}.body_radius,
-       .bounds = {0.01, 10.0},
-       .unit = "m",
-       .description = "of the body, not more: nothing else is where it stands, and what it "
-                      "drives through must be seen"}};
-
- private:
-  [[nodiscard]] Result<InfraredAdaptorConfiguration> Configure() const override {
-    if (auto good = CheckIsOutside(body_radius); !good) return good.error();
-    return InfraredAdaptorConfiguration{.body_radius = body_radius.Get(), .safe_distance = safe_distance.Get()};
-  }
+      : BodySensorToSurroundings(placement, "ranges", "from the robot's centre",
+                                 "of the body, not more: nothing else is where it stands, and what it drives through "
+                                 "must be seen") {}
 };
 
 /// One view for each message of the bumper, touched or not. Source: also the tactile sensor of the first
 /// Bug algorithms.
-class BumperToSurroundings final : public SensorToSurroundings<Contact, BumperAdaptor, BumperAdaptorConfiguration> {
+class BumperToSurroundings final : public BodySensorToSurroundings<Contact, BumperAdaptor, BumperAdaptorConfiguration> {
  public:
   explicit BumperToSurroundings(const Placement& placement)
-      : SensorToSurroundings(placement, "contact", "what the bumper says") {}
-
-  StaticParameter<double> body_radius{this,
-                                      "body_radius",
-                                      {.default_value = BumperAdaptorConfiguration{}.body_radius,
-                                       .bounds = {0.01, 10.0},
-                                       .unit = "m",
-                                       .description = "how far from the robot's centre is what it touches"}};
-
- private:
-  [[nodiscard]] Result<BumperAdaptorConfiguration> Configure() const override {
-    if (auto good = CheckIsOutside(body_radius); !good) return good.error();
-    return BumperAdaptorConfiguration{.body_radius = body_radius.Get(), .safe_distance = safe_distance.Get()};
-  }
+      : BodySensorToSurroundings(placement, "contact", "what the bumper says",
+                                 "how far from the robot's centre is what it touches") {}
 };
 
 }  // namespace runnel

@@ -32,16 +32,23 @@ inline ParameterOptions<double> SinceStart(const char* zero) {
   return {.bounds = {0.0, 1e9}, .unit = "s", .description = std::string("from the start; 0: ") + zero};
 }
 
-}  // namespace internal
-
-/// A simulated laser on the robot's centre, looking ahead: a scan for each new pose. Can be made to
-/// fail, for applications that are to cope with it.
-class Laser final : public Module, public PreparesAnywhere {
+/// Looks at the scene from where the robot is.
+class SceneSensor : public Module {
  public:
   using Module::Module;
 
   Input<Scene> scene{this, "scene", {.description = "what it looks at", .required = true}};
   Input<Pose2> pose{this, "pose", {.description = "where the robot really is", .required = true}};
+};
+
+}  // namespace internal
+
+/// A simulated laser on the robot's centre, looking ahead: a scan for each new pose. Can be made to
+/// fail, for applications that are to cope with it.
+class Laser final : public internal::SceneSensor, public PreparesAnywhere {
+ public:
+  using SceneSensor::SceneSensor;
+
   Output<RangeScan> scan{this, "scan", {.description = "in the robot's frame"}};
 
   StaticParameter<std::uint32_t> rays{
@@ -105,12 +112,10 @@ class Laser final : public Module, public PreparesAnywhere {
 
 /// Three simulated infrared rangers on the robot's centre, looking ahead, to the left and to the
 /// right: a measurement for each new pose.
-class Infrared final : public Module {
+class Infrared final : public internal::SceneSensor {
  public:
-  using Module::Module;
+  using SceneSensor::SceneSensor;
 
-  Input<Scene> scene{this, "scene", {.description = "what it looks at", .required = true}};
-  Input<Pose2> pose{this, "pose", {.description = "where the robot really is", .required = true}};
   Output<InfraredRanges> ranges{this, "ranges", {.description = "from the robot's centre"}};
 
   StaticParameter<double> field_of_view{this,
@@ -144,12 +149,10 @@ class Infrared final : public Module {
 
 /// A simulated camera on the robot's centre, looking ahead: a picture for each new pose, while somebody looks at
 /// `image` or it is connected.
-class Camera final : public Module {
+class Camera final : public internal::SceneSensor {
  public:
-  using Module::Module;
+  using SceneSensor::SceneSensor;
 
-  Input<Scene> scene{this, "scene", {.description = "what it looks at", .required = true}};
-  Input<Pose2> pose{this, "pose", {.description = "where the robot really is", .required = true}};
   Output<Image> image{this, "image", {.description = "rgb8, while somebody looks"}};
 
   StaticParameter<std::uint32_t> width{

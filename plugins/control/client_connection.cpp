@@ -27,10 +27,8 @@ constexpr auto kAwaitsTask = std::chrono::milliseconds(500);  // at the end
 
 }  // namespace
 
-ClientConnection::ClientConnection(int descriptor, std::size_t longest_request)
-    : descriptor_(descriptor), reader_(longest_request) {}
-
-ClientConnection::~ClientConnection() { close(descriptor_); }
+ClientConnection::ClientConnection(FileDescriptor socket, std::size_t longest_request)
+    : socket_(std::move(socket)), reader_(longest_request) {}
 
 short ClientConnection::events() const noexcept {
   // Requests are taken one by one: what comes meanwhile stays where it is.
@@ -78,7 +76,7 @@ void ClientConnection::OnEvents(short events) {
 
 void ClientConnection::Read() {
   std::array<char, kReadAtOnce> bytes;
-  const ssize_t count = recv(descriptor_, bytes.data(), bytes.size(), 0);
+  const ssize_t count = recv(descriptor(), bytes.data(), bytes.size(), 0);
   if (count < 0 && errno != EAGAIN && errno != EINTR) is_broken_ = true;
   if (count == 0) has_ended_ = true;
   if (count <= 0) return;
@@ -89,7 +87,7 @@ void ClientConnection::Read() {
 
 void ClientConnection::Flush() {
   while (backlog() > 0) {
-    const ssize_t count = send(descriptor_, out_.data() + sent_, backlog(), MSG_NOSIGNAL);
+    const ssize_t count = send(descriptor(), out_.data() + sent_, backlog(), MSG_NOSIGNAL);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
       is_broken_ = errno != EAGAIN && errno != EWOULDBLOCK;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/file_descriptor.h"
 #include "plugins/control/command.h"
 #include "plugins/control/protocol.h"
 
@@ -19,12 +20,12 @@ class ClientConnection final : private Answer {
   using SteadyTime = Command::SteadyTime;
 
   /// Takes the socket. `longest_request`: in bytes.
-  ClientConnection(int descriptor, std::size_t longest_request);
-  ~ClientConnection();
+  ClientConnection(FileDescriptor socket, std::size_t longest_request);
+  ~ClientConnection() = default;
   ClientConnection(const ClientConnection&) = delete;
   ClientConnection& operator=(const ClientConnection&) = delete;
 
-  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+  [[nodiscard]] int descriptor() const noexcept { return socket_.number(); }
   /// What poll() shall look for.
   [[nodiscard]] short events() const noexcept;
   /// Gone, or there is nothing left to do for it.
@@ -59,7 +60,7 @@ class ClientConnection final : private Answer {
   void Begin(CommandService& service, TaskGroup& tasks);
   [[nodiscard]] std::size_t backlog() const noexcept { return out_.size() - sent_; }
 
-  const int descriptor_;
+  const FileDescriptor socket_;
   FrameReader reader_;
   std::optional<Command> command_;
   std::string out_;

@@ -28,21 +28,12 @@ std::string Described(const RunningApplication& application) {
 
 }  // namespace
 
-ControlClient::ControlClient(int descriptor) : descriptor_(descriptor), reader_(kLongestAnswer) {}
-
-ControlClient::ControlClient(ControlClient&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)),
-      reader_(std::move(other.reader_)),
-      hello_(std::move(other.hello_)) {}
-
-ControlClient::~ControlClient() {
-  if (descriptor_ >= 0) close(descriptor_);
-}
+ControlClient::ControlClient(FileDescriptor socket) : socket_(std::move(socket)), reader_(kLongestAnswer) {}
 
 Result<ControlClient> ControlClient::Connect(const std::filesystem::path& socket, Duration timeout) {
-  const auto descriptor = ConnectToSocket(socket);
-  if (!descriptor) return descriptor.error();
-  ControlClient client(*descriptor);
+  auto connected = ConnectToSocket(socket);
+  if (!connected) return connected.error();
+  ControlClient client(std::move(*connected));
   client.SetPatience(timeout);
   const auto frame = client.Receive();
   client.SetPatience({});
@@ -56,7 +47,7 @@ Result<ControlClient> ControlClient::Connect(const std::filesystem::path& socket
 
 Result<void> ControlClient::Send(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t count = send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const ssize_t count = send(socket_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (count >= 0) {
       bytes.remove_prefix(static_cast<std::size_t>(count));
     } else if (errno != EINTR) {
@@ -72,7 +63,7 @@ Result<Frame> ControlClient::Receive() {
     auto frame = reader_.Take();
     if (!frame) return Lost(frame.error().message);
     if (*frame) return std::move(**frame);
-    const ssize_t count = recv(descriptor_, bytes.data(), bytes.size(), 0);
+    const ssize_t count = recv(socket_.number(), bytes.data(), bytes.size(), 0);
     if (count > 0) {
       reader_.Add({bytes.data(), static_cast<std::size_t>(count)});
     } else if (count == 0) {
@@ -110,10 +101,10 @@ void ControlClient::SetPatience(Duration timeout) noexcept {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
   const auto rest = std::chrono::ceil<std::chrono::microseconds>(timeout - seconds);
   const timeval wait{.tv_sec = seconds.count(), .tv_usec = rest.count()};
-  setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
+  setsockopt(socket_.number(), SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
 }
 
-void ControlClient::EndRequests() noexcept { shutdown(descriptor_, SHUT_WR); }
+void ControlClient::EndRequests() noexcept { shutdown(socket_.number(), SHUT_WR); }
 
 Result<std::vector<RunningApplication>> FindRunningApplications(const std::filesystem::path& folder,
                                                                 std::vector<Error>* silent) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/file_descriptor.h"
 #include "core/base/result.h"
 #include "plugins/control/protocol.h"
 
@@ -19,9 +20,7 @@ class ControlClient {
  public:
   /// Errors: nobody there, no answer within `timeout`, another protocol.
   static Result<ControlClient> Connect(const std::filesystem::path& socket, Duration timeout = std::chrono::seconds(5));
-  ~ControlClient();
-  ControlClient(ControlClient&& other) noexcept;
-  ControlClient& operator=(ControlClient&&) = delete;
+  ControlClient(ControlClient&&) = default;
 
   /// How long each answer is waited for from now on; 0: for ever.
   void SetPatience(Duration timeout) noexcept;
@@ -40,12 +39,12 @@ class ControlClient {
   void WaitForEnd();
 
  private:
-  explicit ControlClient(int descriptor);
+  explicit ControlClient(FileDescriptor socket);
   Result<void> Send(std::string_view bytes);
   /// Waits for the next frame.
   Result<Frame> Receive();
 
-  int descriptor_;
+  FileDescriptor socket_;
   FrameReader reader_;
   Hello hello_;
   std::optional<Time> asked_;

@@ -71,11 +71,8 @@ int Connect(int descriptor, const sockaddr_un& address) {
 // Whether nobody will ever listen there any more.
 bool IsStale(const fs::path& path) {
   const auto address = AddressOf(path);
-  const int descriptor = address ? OpenSocket() : -1;
-  if (descriptor < 0) return false;
-  const bool is_refused = Connect(descriptor, *address) != 0 && errno == ECONNREFUSED;
-  close(descriptor);
-  return is_refused;
+  const FileDescriptor socket(address ? OpenSocket() : -1);
+  return socket.is_open() && Connect(socket.number(), *address) != 0 && errno == ECONNREFUSED;
 }
 
 std::pair<long, std::string> OrderOf(const fs::path& path) {
@@ -157,21 +154,18 @@ Result<std::vector<fs::path>> FindControlSockets(const fs::path& folder) {
   return sockets;
 }
 
-Result<int> ConnectToSocket(const fs::path& path) {
+Result<FileDescriptor> ConnectToSocket(const fs::path& path) {
   const auto address = AddressOf(path);
   if (!address) return address.error();
-  const int descriptor = OpenSocket(0);
-  if (descriptor < 0) return SystemError("no socket can be made", path);
-  SetPatience(descriptor, kPatience);  // many may be waiting there already
-  if (Connect(descriptor, *address) != 0) {
-    Error error = errno == EAGAIN
-                      ? Error{.message = "it does not answer: too many wait there already", .position = {path.string()}}
-                      : SystemError("cannot be reached", path);
-    close(descriptor);
-    return error;
+  FileDescriptor socket(OpenSocket(0));
+  if (!socket.is_open()) return SystemError("no socket can be made", path);
+  SetPatience(socket.number(), kPatience);  // many may be waiting there already
+  if (Connect(socket.number(), *address) != 0) {
+    if (errno != EAGAIN) return SystemError("cannot be reached", path);
+    return Error{.message = "it does not answer: too many wait there already", .position = {path.string()}};
   }
-  SetPatience(descriptor, 0);
-  return descriptor;
+  SetPatience(socket.number(), 0);
+  return socket;
 }
 
 Result<ListeningSocket> ListenInFolder(const fs::path& folder) {
@@ -183,21 +177,17 @@ Result<ListeningSocket> ListenInFolder(const fs::path& folder) {
     struct stat status {};
     // A process that had the same number may have left one.
     if (lstat(path.c_str(), &status) == 0 && (!IsStale(path) || unlink(path.c_str()) != 0)) continue;
-    const int descriptor = OpenSocket();
-    if (descriptor < 0) return SystemError("no socket can be made", path);
+    FileDescriptor socket(OpenSocket());
+    if (!socket.is_open()) return SystemError("no socket can be made", path);
     const fs::path starting = StartingPath(folder);
-    if (auto bound = BindForOwner(descriptor, starting); !bound) {
-      close(descriptor);
-      return bound.error();
-    }
+    if (auto bound = BindForOwner(socket.number(), starting); !bound) return bound.error();
     // Under its own name it listens from the first moment on: who looks there never takes it for dead.
     // Another thread of this process may have taken the name meanwhile, and keeps it.
     const bool is_named = link(starting.c_str(), path.c_str()) == 0;
     const bool is_taken = errno == EEXIST;
     const Error error = SystemError("the socket cannot be named", path);
     unlink(starting.c_str());
-    if (is_named) return ListeningSocket{descriptor, path};
-    close(descriptor);
+    if (is_named) return ListeningSocket{std::move(socket), path};
     if (!is_taken) return error;
   }
   return Error{.message = "this process has too many sockets there already", .position = {folder.string()}};

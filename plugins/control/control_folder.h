@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include "core/base/file_descriptor.h"
 #include "core/base/result.h"
 
 namespace runnel {
@@ -25,11 +26,11 @@ Result<void> CheckControlFolder(const std::filesystem::path& folder);
 [[nodiscard]] Result<std::vector<std::filesystem::path>> FindControlSockets(const std::filesystem::path& folder);
 
 /// A socket connected to `path`, whose reading and writing waits. Errors: nobody listens there, or the path is too long.
-[[nodiscard]] Result<int> ConnectToSocket(const std::filesystem::path& path);
+[[nodiscard]] Result<FileDescriptor> ConnectToSocket(const std::filesystem::path& path);
 
 /// A socket that listens at a name of its own in the folder, for its owner only, and its path.
 struct ListeningSocket {
-  int descriptor = -1;
+  FileDescriptor socket;
   std::filesystem::path path;
 };
 [[nodiscard]] Result<ListeningSocket> ListenInFolder(const std::filesystem::path& folder);

@@ -43,11 +43,11 @@ bool IsOwner(int descriptor) {
 
 class ControlServer::Loop {
  public:
-  Loop(CommandService& service, ControlOptions options, ListeningSocket listening, int wake)
+  Loop(CommandService& service, ControlOptions options, ListeningSocket listening, FileDescriptor wake)
       : service_(service),
         options_(std::move(options)),
         listening_(std::move(listening)),
-        wake_(wake),
+        wake_(std::move(wake)),
         tasks_(std::in_place, service_.worker(), [this] { Wake(); }),
         thread_([this] { Run(); }) {}
 
@@ -56,10 +56,8 @@ class ControlServer::Loop {
     Wake();
     thread_.join();
     unlink(listening_.path.c_str());
-    close(listening_.descriptor);
     clients_.clear();  // their commands use the tasks
     tasks_.reset();    // they wake this
-    close(wake_);
   }
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return listening_.path; }
@@ -69,7 +67,7 @@ class ControlServer::Loop {
   void Wake() const {
     const std::uint64_t one = 1;
     // Full means that it has not seen the last ones yet.
-    (void)!write(wake_, &one, sizeof one);
+    (void)!write(wake_.number(), &one, sizeof one);
   }
 
   void Run() {
@@ -86,14 +84,14 @@ class ControlServer::Loop {
   }
 
   void WaitForEvents() {
-    polled_.assign({{wake_, POLLIN, 0}, {listening_.descriptor, POLLIN, 0}});
+    polled_.assign({{wake_.number(), POLLIN, 0}, {listening_.socket.number(), POLLIN, 0}});
     if (must_pause_) polled_[1].fd = -1;
     for (const auto& client : clients_) polled_.push_back({client->descriptor(), client->events(), 0});
     const std::size_t count = clients_.size();
     if (poll(polled_.data(), polled_.size(), Timeout()) < 0) return;
     if (polled_[0].revents != 0) {
       std::uint64_t ignored = 0;
-      (void)!read(wake_, &ignored, sizeof ignored);
+      (void)!read(wake_.number(), &ignored, sizeof ignored);
     }
     for (std::size_t i = 0; i < count; ++i) {
       if (polled_[i + 2].revents != 0) clients_[i]->OnEvents(polled_[i + 2].revents);
@@ -120,19 +118,14 @@ class ControlServer::Loop {
   }
 
   void Accept() {
-    const int descriptor = accept4(listening_.descriptor, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-    if (descriptor < 0) {
+    FileDescriptor socket(accept4(listening_.socket.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    if (!socket.is_open()) {
       must_pause_ = errno != EAGAIN && errno != EINTR && errno != ECONNABORTED;
       return;
     }
-    std::unique_ptr<ClientConnection> client;
-    try {
-      client = std::make_unique<ClientConnection>(descriptor, options_.longest_request);
-    } catch (const std::bad_alloc&) {  // who has called finds the line closed
-      close(descriptor);
-      throw;
-    }
-    if (!IsOwner(descriptor)) return;
+    // Without memory, who has called finds the line closed.
+    auto client = std::make_unique<ClientConnection>(std::move(socket), options_.longest_request);
+    if (!IsOwner(client->descriptor())) return;
     if (clients_.size() >= options_.most_clients && !EvictQuietClient()) {
       const Error full{.message =
                            "there are " + std::to_string(options_.most_clients) + " clients already, and all are busy"};
@@ -171,7 +164,7 @@ class ControlServer::Loop {
   CommandService& service_;
   const ControlOptions options_;
   const ListeningSocket listening_;
-  const int wake_;
+  const FileDescriptor wake_;
   const Time start_ = service_.application().runtime.clock().Now();
   const Time started_ = SteadyClock().Now();
   std::vector<std::unique_ptr<ClientConnection>> clients_;
@@ -186,14 +179,13 @@ Result<std::unique_ptr<ControlServer>> ControlServer::Start(CommandService& serv
   if (options.folder.empty()) options.folder = ControlFolder();
   auto listening = ListenInFolder(options.folder);
   if (!listening) return listening.error();
-  const int wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (wake < 0) {
-    close(listening->descriptor);
+  FileDescriptor wake(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  if (!wake.is_open()) {
     unlink(listening->path.c_str());
     return SystemError("no event can be made");
   }
   return std::unique_ptr<ControlServer>(
-      new ControlServer(std::make_unique<Loop>(service, std::move(options), std::move(*listening), wake)));
+      new ControlServer(std::make_unique<Loop>(service, std::move(options), std::move(*listening), std::move(wake))));
 }
 
 ControlServer::ControlServer(std::unique_ptr<Loop> loop) : loop_(std::move(loop)) {}

@@ -26,7 +26,7 @@ FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, cons
   FrameworkElement* application = nullptr;
   const FrameworkElement& top = tools.runtime.root();
   context.Attempt({"reading the file", root.position(), &top}, [&] {
-    const std::string name = SnakeCase(root.TextOr("defaultname", file.stem().string()));
+    const std::string name = RunnelName(root.TextOr("defaultname", file.stem().string()));
     application = &tools.runtime.Create<Group>(tools.runtime.root(), name);
     application->Annotate(std::make_unique<SourcePlace>(root.position()));
     internal::FinrocReader(*application, context).Read(root, file);

@@ -3,14 +3,11 @@
 #include <array>
 #include <charconv>
 
+#include "core/base/identifier.h"
+
 namespace runnel {
 
 namespace {
-
-bool IsUpper(char character) { return character >= 'A' && character <= 'Z'; }
-bool IsLowerOrDigit(char character) {
-  return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9');
-}
 
 // "%3C" → "<".
 std::string Decoded(std::string_view text) {
@@ -30,33 +27,18 @@ std::string Decoded(std::string_view text) {
 
 }  // namespace
 
-std::string SnakeCase(std::string_view name) {
-  std::string snake;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const char character = name[i];
-    if (IsUpper(character)) {
-      const bool follows_small = i > 0 && IsLowerOrDigit(name[i - 1]);
-      const bool ends_capitals =
-          i > 0 && IsUpper(name[i - 1]) && i + 1 < name.size() && name[i + 1] >= 'a' && name[i + 1] <= 'z';
-      if (follows_small || ends_capitals) snake += '_';
-      snake += static_cast<char>(character - 'A' + 'a');
-    } else if (IsLowerOrDigit(character)) {
-      snake += character;
-    } else if (!snake.empty() && snake.back() != '_') {
-      snake += '_';
-    }
-  }
-  while (!snake.empty() && snake.back() == '_') snake.pop_back();
+std::string RunnelName(std::string_view name) {
+  const std::string snake = SnakeCase(name);
   return snake.empty() ? "_" : snake;
 }
 
-std::string SnakeCasePath(std::string_view path) {
+std::string RunnelPath(std::string_view path) {
   std::string result;
   while (!path.empty()) {
     const std::size_t end = path.find('/');
     const std::string_view name = path.substr(0, end);
     path.remove_prefix(end == std::string_view::npos ? path.size() : end + 1);
-    if (!name.empty()) result += (result.empty() ? "" : "/") + SnakeCase(Decoded(name));
+    if (!name.empty()) result += (result.empty() ? "" : "/") + RunnelName(Decoded(name));
   }
   return result;
 }
@@ -76,9 +58,9 @@ std::string LibraryName(std::string_view library) {
   constexpr std::array<std::string_view, 5> kPrefixes{"finroc_projects_", "finroc_plugins_", "finroc_libraries_",
                                                       "finroc_", "rrlib_"};
   for (const std::string_view prefix : kPrefixes) {
-    if (library.starts_with(prefix)) return SnakeCase(library.substr(prefix.size()));
+    if (library.starts_with(prefix)) return RunnelName(library.substr(prefix.size()));
   }
-  return SnakeCase(library);
+  return RunnelName(library);
 }
 
 }  // namespace runnel

@@ -7,10 +7,10 @@ namespace runnel {
 
 /// "AddNoise Front" → "add_noise_front": how Runnel would call what FINROC calls so. Letters, digits
 /// and '_' only, never empty.
-[[nodiscard]] std::string SnakeCase(std::string_view name);
+[[nodiscard]] std::string RunnelName(std::string_view name);
 
 /// "/Control/Sensor%20Input/Pose" → "control/sensor_input/pose", without '/' at either end.
-[[nodiscard]] std::string SnakeCasePath(std::string_view path);
+[[nodiscard]] std::string RunnelPath(std::string_view path);
 
 /// "a/b/c" without the last two names: "a".
 [[nodiscard]] std::string WithoutLast(const std::string& path, int count);

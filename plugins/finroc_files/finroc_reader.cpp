@@ -31,7 +31,7 @@ std::string StaticParameter(XmlElement element, std::string_view name) {
   for (const XmlElement list : element.children()) {
     if (list.name() != "parameters") continue;
     for (const XmlElement each : list.children()) {
-      if (SnakeCase(each.TextOr("name")) == name) return each.text();
+      if (RunnelName(each.TextOr("name")) == name) return each.text();
     }
   }
   return "";
@@ -80,7 +80,7 @@ void FinrocReader::ReadContents(XmlElement root, FrameworkElement& group, const 
     if (child.name() == "edge") {
       ReadEdge(child, group);
     } else if (child.name() == "parameter") {
-      const std::string link = SnakeCasePath(child.TextOr("link"));
+      const std::string link = RunnelPath(child.TextOr("link"));
       ReadParameter(child, WithoutLast(link, 2), LastName(link), group);
     } else if (child.name() == "parameter_links") {
       ReadParameterLinks(child, "", group);
@@ -112,8 +112,8 @@ bool FinrocReader::LoadLibrary(const std::string& plugin) {
 }
 
 void FinrocReader::ReadElement(XmlElement element, FrameworkElement& parent, const fs::path& file) {
-  const std::string name = SnakeCase(element.TextOr("name"));
-  const std::string type = SnakeCase(element.TextOr("type"));
+  const std::string name = RunnelName(element.TextOr("name"));
+  const std::string type = RunnelName(element.TextOr("type"));
   if (parent.FindChild(name) != nullptr) {
     return Warn("there is already an element called '" + name + "'",
                 "names differ by more than blanks and capitals here", element.position(), parent);
@@ -170,9 +170,9 @@ void FinrocReader::MakeThread(XmlElement element, FrameworkElement& group) {
 }
 
 void FinrocReader::ReadModule(XmlElement element, FrameworkElement& parent) {
-  const std::string name = SnakeCase(element.TextOr("name"));
+  const std::string name = RunnelName(element.TextOr("name"));
   const std::string library = LibraryName(element.TextOr("group"));
-  const std::string type = library + "/" + SnakeCase(element.TextOr("type"));
+  const std::string type = library + "/" + RunnelName(element.TextOr("type"));
   const ModuleRegistry& modules = context_.plugins().modules();
   LoadLibrary(library);
   if (modules.Find(type) == nullptr) {
@@ -195,16 +195,16 @@ void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) 
   if (&group == &application_) {
     return Warn("an application has no interface", "put what is in it into a group", interface.position(), group);
   }
-  const bool is_output = SnakeCase(interface.TextOr("name")).ends_with("output");
+  const bool is_output = RunnelName(interface.TextOr("name")).ends_with("output");
   for (const XmlElement port : interface.children()) {
-    const std::string name = SnakeCase(port.TextOr("name"));
+    const std::string name = RunnelName(port.TextOr("name"));
     const TypeInfo* type = FindType(port.TextOr("type"));
     // The first connection tells the type where its name is FINROC's.
     for (const XmlElement edge : interface.parent()->children()) {
       if (type != nullptr || edge.name() != "edge") continue;
       const XmlAttribute* const inner = edge.Attribute(is_output ? "src" : "dest");
       const XmlAttribute* const own = edge.Attribute(is_output ? "dest" : "src");
-      if (inner == nullptr || own == nullptr || LastName(SnakeCasePath(own->value)) != name) continue;
+      if (inner == nullptr || own == nullptr || LastName(RunnelPath(own->value)) != name) continue;
       const Port* const end = FindEnd(*inner, group, is_output ? PathKind::kOutput : PathKind::kInput);
       if (end != nullptr) type = &end->type();
     }
@@ -221,7 +221,7 @@ void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) 
 
 // With the groups of ports as FINROC has them, or as Runnel may leave them out.
 Port* FinrocReader::FindEnd(const XmlAttribute& path, FrameworkElement& group, PathKind end) {
-  const auto whole = SnakeCasePath(path.value);
+  const auto whole = RunnelPath(path.value);
   if (auto* port = FindPort({group, whole, path.value_position}, end)) return port;
   const std::string module = WithoutLast(whole, 2);
   const std::string shorter = (module.empty() ? "" : module + "/") + LastName(whole);
@@ -246,13 +246,13 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
   if ((from == nullptr || to == nullptr) && options.when_present) {
     const std::string base = group.path() + "/";
     (void)LateConnections::Of(context_.runtime())
-        .Add(from != nullptr ? from->path() : base + SnakeCasePath(source->value),
-             to != nullptr ? to->path() : base + SnakeCasePath(target->value), options);
+        .Add(from != nullptr ? from->path() : base + RunnelPath(source->value),
+             to != nullptr ? to->path() : base + RunnelPath(target->value), options);
     return;
   }
   if (from == nullptr || to == nullptr) {
     const XmlAttribute& lost = from == nullptr ? *source : *target;
-    const std::string path = SnakeCasePath(lost.value);
+    const std::string path = RunnelPath(lost.value);
     return Warn("there is no port '" + path + "'", "", lost.value_position, group);
   }
   if (!IsRightWay(*from, PathKind::kOutput, *to) || !IsRightWay(*to, PathKind::kInput, *from)) {
@@ -300,7 +300,7 @@ ConnectOptions FinrocReader::ReadFlags(XmlElement edge, FrameworkElement& group)
   ConnectOptions options;
   for (const XmlAttribute& each : edge.attributes()) {
     if (each.name == "src" || each.name == "dest") continue;
-    const std::string flags = SnakeCase(each.value);
+    const std::string flags = RunnelName(each.value);
     const auto has = [&](const char* flag) { return flags.find(flag) != std::string::npos; };
     const bool is_flags = each.name == "flags";
     const bool is_present = is_flags && (has("optional") || has("reconnect"));

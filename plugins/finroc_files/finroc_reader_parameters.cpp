@@ -31,7 +31,7 @@ void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& mo
     }
     if (list.name() != "parameters") continue;
     for (const XmlElement each : list.children()) {
-      const std::string name = SnakeCase(each.TextOr("name"));
+      const std::string name = RunnelName(each.TextOr("name"));
       const ConfigurableElement parameter = FindConfigurable(module, name);
       const auto set = parameter ? parameter.configurable->SetFromText(
                                        TextFor(*parameter.configurable, each.text(), open_.back().parent_path()))
@@ -45,7 +45,7 @@ void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& mo
 // As newer versions write them: nested like the elements, without the group "Parameters".
 void FinrocReader::ReadParameterLinks(XmlElement links, const std::string& path, FrameworkElement& group) {
   for (const XmlElement child : links.children()) {
-    const std::string name = SnakeCase(child.TextOr("name"));
+    const std::string name = RunnelName(child.TextOr("name"));
     if (child.name() == "element") {
       ReadParameterLinks(child, path.empty() ? name : path + "/" + name, group);
     } else if (child.name() == "parameter") {

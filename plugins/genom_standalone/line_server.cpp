@@ -22,15 +22,9 @@ constexpr std::size_t kLongestLine = 4U << 20;  // JSON takes 20 times as much m
 constexpr std::size_t kMostUnsent = 64U << 20;  // of a client that does not read
 constexpr int kFlushMilliseconds = 1000;
 
-Error Failed(const std::string& path, const char* what) {
-  return Error{.message = std::string(what) + ": " + std::strerror(errno), .path = path};
-}
-
 bool SomebodyListens(const sockaddr_un& address) {
-  const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const bool is_taken = connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-  close(probe);
-  return is_taken;
+  const FileDescriptor probe(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  return connect(probe.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
 }
 
 }  // namespace
@@ -38,12 +32,7 @@ bool SomebodyListens(const sockaddr_un& address) {
 LineServer::LineServer() : woken_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
 
 LineServer::~LineServer() {
-  for (const auto& [client, session] : sessions_) close(client);
-  if (listening_ >= 0) {
-    close(listening_);
-    unlink(path_.c_str());
-  }
-  close(woken_);
+  if (listening_.is_open()) unlink(path_.c_str());
 }
 
 Result<void> LineServer::Listen(const std::string& path) {
@@ -51,35 +40,33 @@ Result<void> LineServer::Listen(const std::string& path) {
   address.sun_family = AF_UNIX;
   if (path.size() >= sizeof(address.sun_path)) return Error{.message = "is too long for a socket", .path = path};
   std::memcpy(address.sun_path, path.data(), path.size());
-  const int listening = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+  FileDescriptor listening(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (bind(listening.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
     std::error_code ignored;
     const bool is_left = errno == EADDRINUSE && std::filesystem::is_socket(path, ignored) && !SomebodyListens(address);
     // Of one that was killed.
     if (is_left) unlink(path.c_str());
-    if (!is_left || bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    if (!is_left || bind(listening.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
       if (!is_left && errno == ECONNREFUSED) errno = EADDRINUSE;
-      close(listening);
-      return Failed(path, "cannot be listened at");
+      return SystemError("cannot be listened at", path);
     }
   }
-  if (chmod(path.c_str(), 0600) != 0 || listen(listening, 16) != 0) {
-    close(listening);
-    return Failed(path, "cannot be listened at");
+  if (chmod(path.c_str(), 0600) != 0 || listen(listening.number(), 16) != 0) {
+    return SystemError("cannot be listened at", path);
   }
   path_ = path;
-  listening_ = listening;
+  listening_ = std::move(listening);
   return {};
 }
 
 void LineServer::Wake() noexcept {
   const std::uint64_t one = 1;
-  [[maybe_unused]] const ssize_t written = write(woken_, &one, sizeof(one));
+  [[maybe_unused]] const ssize_t written = write(woken_.number(), &one, sizeof(one));
 }
 
 void LineServer::Accept() {
-  const int client = accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  if (client >= 0) sessions_[client];
+  FileDescriptor socket(accept4(listening_.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  if (socket.is_open()) sessions_[socket.number()].socket = std::move(socket);
 }
 
 // False: it is gone.
@@ -105,11 +92,9 @@ bool LineServer::SendMore(Client client, Session& session) {
 void LineServer::Serve(const std::function<void(Client, const std::string&)>& take,
                        const std::function<void(Client)>& gone, const std::function<bool(Client)>& waits) {
   std::erase_if(sessions_, [&](const auto& each) {
-    const bool has_all = each.second.has_said_all && each.second.unsent.empty() && !waits(each.first);
-    if (has_all) close(each.first);
-    return has_all;
+    return each.second.has_said_all && each.second.unsent.empty() && !waits(each.first);
   });
-  std::vector<pollfd> waiting{{listening_, POLLIN, 0}, {woken_, POLLIN, 0}};
+  std::vector<pollfd> waiting{{listening_.number(), POLLIN, 0}, {woken_.number(), POLLIN, 0}};
   for (const auto& [client, session] : sessions_) {
     const int events = (session.has_said_all ? 0 : POLLIN) | (session.unsent.empty() ? 0 : POLLOUT);
     waiting.push_back({client, static_cast<short>(events), 0});
@@ -117,7 +102,7 @@ void LineServer::Serve(const std::function<void(Client, const std::string&)>& ta
   if (poll(waiting.data(), waiting.size(), -1) < 0) return;
   if ((waiting[1].revents & POLLIN) != 0) {
     std::uint64_t times = 0;
-    [[maybe_unused]] const ssize_t got = read(woken_, &times, sizeof(times));
+    [[maybe_unused]] const ssize_t got = read(woken_.number(), &times, sizeof(times));
   }
   for (std::size_t i = 2; i < waiting.size(); ++i) {
     const Client client = waiting[i].fd;
@@ -135,7 +120,6 @@ void LineServer::Serve(const std::function<void(Client, const std::string&)>& ta
     if (stays && session.unsent.size() <= kMostUnsent) continue;
     gone(client);
     sessions_.erase(client);
-    close(client);
   }
   if ((waiting[0].revents & POLLIN) != 0) Accept();
 }

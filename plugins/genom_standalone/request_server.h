@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/clock.h"
+#include "core/base/file_descriptor.h"
 #include "core/base/result.h"
 #include "plugins/genom_execution/engine.h"
 #include "plugins/genom_standalone/standalone_component.h"
@@ -55,6 +56,7 @@ class LineServer {
 
  private:
   struct Session {
+    FileDescriptor socket;
     std::string received = {}, unsent = {};
     bool has_said_all = false;
   };
@@ -63,8 +65,7 @@ class LineServer {
   [[nodiscard]] bool SendMore(Client client, Session& session);
 
   std::string path_;
-  int listening_ = -1;
-  int woken_ = -1;
+  FileDescriptor listening_, woken_;
   std::map<Client, Session> sessions_;
 };
 

@@ -20,21 +20,19 @@ Result<std::unique_ptr<McapFile>> McapFile::Open(const std::string& file) {
   const auto failure = [&](const std::string& why) {
     return Error{.message = "cannot be read: " + why, .position = {file}};
   };
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return failure(std::strerror(errno));
+  FileDescriptor found(open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!found.is_open()) return failure(std::strerror(errno));
   struct stat state {};
-  const int seen = fstat(descriptor, &state);
+  const int seen = fstat(found.number(), &state);
   const int number = errno;
-  std::unique_ptr<McapFile> opened(new McapFile(file, descriptor, static_cast<std::uint64_t>(state.st_size)));
+  std::unique_ptr<McapFile> opened(new McapFile(file, std::move(found), static_cast<std::uint64_t>(state.st_size)));
   if (seen != 0) return failure(std::strerror(number));
   if (!S_ISREG(state.st_mode)) return failure("it is no file");
   return opened;
 }
 
-McapFile::McapFile(std::string name, int descriptor, std::uint64_t size)
-    : name_(std::move(name)), descriptor_(descriptor), size_(size) {}
-
-McapFile::~McapFile() { close(descriptor_); }
+McapFile::McapFile(std::string name, FileDescriptor file, std::uint64_t size)
+    : name_(std::move(name)), file_(std::move(file)), size_(size) {}
 
 Error McapFile::ErrorAt(std::uint64_t offset, const std::string& message) const {
   return {.message = "at byte " + std::to_string(offset) + ": " + message, .position = {name_}};
@@ -47,7 +45,7 @@ Result<void> McapFile::Read(std::uint64_t offset, std::uint64_t count, std::stri
   }
   bytes.resize(count);
   for (std::uint64_t done = 0; done < count;) {
-    const ssize_t read = pread(descriptor_, bytes.data() + done, count - done, static_cast<off_t>(offset + done));
+    const ssize_t read = pread(file_.number(), bytes.data() + done, count - done, static_cast<off_t>(offset + done));
     if (read < 0 && errno == EINTR) continue;
     if (read < 0) return ErrorAt(offset + done, std::strerror(errno));
     if (read == 0) return ErrorAt(offset + done, "the file has become shorter");

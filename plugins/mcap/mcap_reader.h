@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/file_descriptor.h"
 #include "core/base/result.h"
 #include "plugins/mcap/mcap_records.h"
 
@@ -21,7 +22,7 @@ class McapFile {
  public:
   /// Errors: it is not there, may not be read, or is no file.
   static Result<std::unique_ptr<McapFile>> Open(const std::string& file);
-  ~McapFile();
+  ~McapFile() = default;
   McapFile(const McapFile&) = delete;
   McapFile& operator=(const McapFile&) = delete;
 
@@ -39,10 +40,10 @@ class McapFile {
   [[nodiscard]] Error ErrorAt(std::uint64_t offset, const std::string& message) const;
 
  private:
-  McapFile(std::string name, int descriptor, std::uint64_t size);
+  McapFile(std::string name, FileDescriptor file, std::uint64_t size);
 
   const std::string name_;
-  const int descriptor_;
+  const FileDescriptor file_;
   const std::uint64_t size_;
   std::string window_;
   std::uint64_t window_offset_ = 0;

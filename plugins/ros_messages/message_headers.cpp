@@ -2,6 +2,7 @@
 #include <set>
 
 #include "core/base/characters.h"
+#include "core/base/identifier.h"
 #include "core/types/type_of.h"
 #include "plugins/ros_messages/internal/message_leaf.h"
 #include "plugins/ros_messages/message_export.h"
@@ -11,24 +12,11 @@ namespace runnel {
 
 namespace {
 
-constexpr std::string_view kKeywords[] = {
-    "alignas",  "alignof",   "and",      "asm",     "auto",     "bool",     "break",   "case",
-    "catch",    "char",      "class",    "concept", "const",    "continue", "default", "delete",
-    "do",       "double",    "else",     "enum",    "explicit", "export",   "extern",  "false",
-    "float",    "for",       "friend",   "goto",    "if",       "inline",   "int",     "long",
-    "mutable",  "namespace", "new",      "not",     "operator", "or",       "private", "protected",
-    "public",   "register",  "requires", "return",  "short",    "signed",   "sizeof",  "static",
-    "struct",   "switch",    "template", "this",    "throw",    "true",     "try",     "typedef",
-    "typename", "union",     "unsigned", "using",   "virtual",  "void",     "while",   "xor"};
-
 std::string PathOf(const std::string& name) {
   return PackageOf(name) + "/" + NearestFieldName(LastNameOf(name)) + ".h";
 }
 
-std::string MemberOf(const std::string& field) {
-  const bool is_taken = std::ranges::find(kKeywords, field) != std::end(kKeywords);
-  return is_taken ? field + "_" : field;
-}
+std::string MemberOf(const std::string& field) { return IsCppKeyword(field) ? field + "_" : field; }
 
 // What Runnel has a type of its own for; "" for others.
 std::string_view KnownType(const MessageDefinition& nested) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/characters.h"
+#include "core/base/identifier.h"
 
 namespace runnel {
 
@@ -16,14 +17,6 @@ bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 bool IsLetter(char c) { return IsLower(c) || IsUpper(c); }
 bool IsWord(char c) { return IsLetter(c) || IsDigit(c) || c == '_'; }
-char Lower(char c) { return IsUpper(c) ? static_cast<char>(c - 'A' + 'a') : c; }
-char Upper(char c) { return IsLower(c) ? static_cast<char>(c - 'a' + 'A') : c; }
-
-// What packages and fields have in common.
-bool IsLowerName(std::string_view name) {
-  return !name.empty() && IsLower(name.front()) && name.back() != '_' && name.find("__") == std::string_view::npos &&
-         std::ranges::all_of(name, [](char c) { return IsLower(c) || IsDigit(c) || c == '_'; });
-}
 
 std::string WhyNoRosName(std::string_view name) {
   if (name.size() < 2 || name.front() != '/') return "begins with '/' and a word";
@@ -94,40 +87,23 @@ std::string RosType(std::string_view dds_type) {
 std::string PackageOf(std::string_view ros_type) { return std::string(ros_type.substr(0, ros_type.find('/'))); }
 std::string LastNameOf(std::string_view ros_type) { return std::string(ros_type.substr(ros_type.rfind('/') + 1)); }
 
-bool IsRosPackageName(std::string_view name) { return name.size() > 1 && IsLowerName(name); }
-bool IsRosFieldName(std::string_view name) { return IsLowerName(name); }
+bool IsRosPackageName(std::string_view name) { return name.size() > 1 && IsSnakeCase(name); }
+bool IsRosFieldName(std::string_view name) { return IsSnakeCase(name); }
 bool IsRosMessageName(std::string_view name) {
   return !name.empty() && IsUpper(name.front()) &&
          std::ranges::all_of(name, [](char c) { return IsLetter(c) || IsDigit(c); });
 }
 
 std::string NearestMessageName(std::string_view name) {
-  std::string nearest;
-  bool begins = true;
-  for (const char c : name) {
-    const bool is_good = IsLetter(c) || IsDigit(c);
-    if (is_good && nearest.empty() && IsDigit(c)) nearest += 'T';
-    if (is_good) nearest += begins ? Upper(c) : c;
-    begins = !is_good;
-  }
-  return nearest.empty() ? "Value" : nearest;
+  const std::string nearest = CamelCase(name);
+  if (nearest.empty()) return "Value";
+  return (IsDigit(nearest.front()) ? "T" : "") + nearest;
 }
 
 std::string NearestFieldName(std::string_view name) {
-  std::string nearest;
-  char before = '_';
-  for (const char c : name) {
-    if (IsUpper(c) && !IsUpper(before) && !nearest.empty() && nearest.back() != '_') nearest += '_';
-    if (nearest.empty() && IsDigit(c)) nearest = "f";
-    if (IsLetter(c) || IsDigit(c)) {
-      nearest += Lower(c);
-    } else if (!nearest.empty() && nearest.back() != '_') {
-      nearest += '_';
-    }
-    before = c;
-  }
-  while (nearest.ends_with('_')) nearest.pop_back();
-  return nearest.empty() ? "value" : nearest;
+  const std::string nearest = SnakeCase(name);
+  if (nearest.empty()) return "value";
+  return (IsDigit(nearest.front()) ? "f" : "") + nearest;
 }
 
 }  // namespace runnel

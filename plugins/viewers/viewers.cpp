@@ -15,6 +15,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "core/base/file_descriptor.h"
 #include "core/base/result.h"
 #include "core/plugin/plugin_entry.h"
 #include "plugins/application/application.h"
@@ -51,12 +52,11 @@ Result<std::unique_ptr<KeptToken>> KeepToken(const std::string& token, std::uint
   if (const auto made = MakeControlFolder(folder); !made) return made.error();
   const std::filesystem::path file = folder / ("inspector-" + std::to_string(port) + ".token");
   unlink(file.c_str());  // of a process that has not ended in order
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  const FileDescriptor made(open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
   const std::string text = token + "\n";
   const bool is_written =
-      descriptor >= 0 && write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+      made.is_open() && write(made.number(), text.data(), text.size()) == static_cast<ssize_t>(text.size());
   const int reason = errno;
-  if (descriptor >= 0) close(descriptor);
   if (is_written) return std::make_unique<KeptToken>(file);
   return Error{.message = std::string("the token cannot be written: ") + std::strerror(reason),
                .position = {file.string()},

@@ -49,12 +49,8 @@ std::size_t BeginOf(std::uint32_t slot, std::size_t slot_size) { return kHead + 
 
 }  // namespace
 
-Descriptor::~Descriptor() {
-  if (is_open()) close(number_);
-}
-
 Result<std::shared_ptr<HoldTable>> HoldTable::Make() {
-  Descriptor file(memfd_create("runnel holds", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  FileDescriptor file(memfd_create("runnel holds", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (!file.is_open() || ftruncate(file.number(), kSize) != 0 || fcntl(file.number(), F_ADD_SEALS, kSeals) != 0) {
     return SystemError("there is no shared memory");
   }
@@ -63,7 +59,7 @@ Result<std::shared_ptr<HoldTable>> HoldTable::Make() {
   return std::shared_ptr<HoldTable>(std::move(*mapped));
 }
 
-Result<std::unique_ptr<HoldTable>> HoldTable::Map(Descriptor file) {
+Result<std::unique_ptr<HoldTable>> HoldTable::Map(FileDescriptor file) {
   struct stat about {};
   const int seals = fcntl(file.number(), F_GET_SEALS);
   if (seals < 0 || (seals & F_SEAL_SHRINK) == 0 || fstat(file.number(), &about) != 0 || about.st_size != kSize) {
@@ -121,7 +117,7 @@ std::optional<SegmentPlace> SegmentPlace::In(std::span<const std::byte> octets) 
   return place;
 }
 
-WrittenSegment::WrittenSegment(Descriptor file, std::byte* memory, std::size_t slot_size)
+WrittenSegment::WrittenSegment(FileDescriptor file, std::byte* memory, std::size_t slot_size)
     : file_(std::move(file)), memory_(memory), slot_size_(slot_size) {
   (new (memory_) Head)->slot_size = slot_size;
 }
@@ -129,7 +125,7 @@ WrittenSegment::WrittenSegment(Descriptor file, std::byte* memory, std::size_t s
 Result<std::unique_ptr<WrittenSegment>> WrittenSegment::Make(std::size_t room) {
   const std::size_t slot_size = (kLead + room + kPage - 1) / kPage * kPage;
   const std::size_t size = kHead + kSlots * slot_size;
-  Descriptor file(memfd_create("runnel values", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  FileDescriptor file(memfd_create("runnel values", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (!file.is_open() || ftruncate(file.number(), static_cast<off_t>(size)) != 0)
     return SystemError("there is no shared memory");
   void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file.number(), 0);
@@ -180,11 +176,12 @@ std::optional<SegmentPlace> WrittenSegment::Put(std::span<const std::byte> octet
   return SegmentPlace{.segment = id_, .use = use, .size = octets.size(), .slot = *slot};
 }
 
-ReadSegment::ReadSegment(const std::byte* memory, std::size_t size, std::unique_ptr<HoldTable> holds, Descriptor link)
+ReadSegment::ReadSegment(const std::byte* memory, std::size_t size, std::unique_ptr<HoldTable> holds,
+                         FileDescriptor link)
     : memory_(memory), size_(size), holds_(std::move(holds)), link_(std::move(link)) {}
 
-Result<std::shared_ptr<ReadSegment>> ReadSegment::Map(const Descriptor& file, std::unique_ptr<HoldTable> holds,
-                                                      Descriptor link) {
+Result<std::shared_ptr<ReadSegment>> ReadSegment::Map(const FileDescriptor& file, std::unique_ptr<HoldTable> holds,
+                                                      FileDescriptor link) {
   const Error none{.message = "what was offered is no memory for values"};
   struct stat about {};
   const int seals = fcntl(file.number(), F_GET_SEALS);

@@ -14,6 +14,7 @@
 
 #include <fcntl.h>
 
+#include "core/base/file_descriptor.h"
 #include "core/base/result.h"
 #include "plugins/wire/wire.h"
 #include "plugins/wire_shared_memory/slot_hold.h"
@@ -25,36 +26,22 @@ inline constexpr std::uint32_t kSlots = 64;
 /// Of memory that others have open as well: nobody makes it shorter, which would end whoever looks.
 inline constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
 
-/// An open file of this process, closed with it.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) noexcept : number_(number) {}
-  Descriptor(Descriptor&& from) noexcept : number_(from.number_) { from.number_ = -1; }
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor();
-  [[nodiscard]] int number() const noexcept { return number_; }
-  [[nodiscard]] bool is_open() const noexcept { return number_ >= 0; }
-
- private:
-  int number_;
-};
-
 /// Which slots of a segment one reader holds: a page of memory of its own, which the writer made and looks at.
 class HoldTable {
  public:
   /// By the writer. Errors: of the system.
   static Result<std::shared_ptr<HoldTable>> Make();
   /// By the reader. Errors: it is no such memory, whoever has made it.
-  static Result<std::unique_ptr<HoldTable>> Map(Descriptor file);
+  static Result<std::unique_ptr<HoldTable>> Map(FileDescriptor file);
   ~HoldTable();
 
   [[nodiscard]] int descriptor() const noexcept { return file_.number(); }
   [[nodiscard]] SlotHold<>& operator[](std::uint32_t slot) const noexcept { return holds_[slot]; }
 
  private:
-  HoldTable(Descriptor file, SlotHold<>* holds) : file_(std::move(file)), holds_(holds) {}
+  HoldTable(FileDescriptor file, SlotHold<>* holds) : file_(std::move(file)), holds_(holds) {}
 
-  const Descriptor file_;
+  const FileDescriptor file_;
   SlotHold<>* const holds_;
 };
 
@@ -127,11 +114,11 @@ class WrittenSegment {
   [[nodiscard]] std::optional<SegmentPlace> Put(std::span<const std::byte> octets) noexcept;
 
  private:
-  WrittenSegment(Descriptor file, std::byte* memory, std::size_t slot_size);
+  WrittenSegment(FileDescriptor file, std::byte* memory, std::size_t slot_size);
   // One that nobody holds, marked as being written.
   [[nodiscard]] std::optional<std::uint32_t> FindSlot(std::uint64_t use) noexcept;
 
-  const Descriptor file_;
+  const FileDescriptor file_;
   std::byte* const memory_;
   const std::size_t slot_size_;
   const SegmentId id_ = NewSegmentId();
@@ -146,8 +133,8 @@ class WrittenSegment {
 class ReadSegment : public std::enable_shared_from_this<ReadSegment> {
  public:
   /// `holds`: where the writer looks what is held; as long as `link` is open. Errors: it is no such memory, whoever has made it.
-  static Result<std::shared_ptr<ReadSegment>> Map(const Descriptor& file, std::unique_ptr<HoldTable> holds,
-                                                  Descriptor link);
+  static Result<std::shared_ptr<ReadSegment>> Map(const FileDescriptor& file, std::unique_ptr<HoldTable> holds,
+                                                  FileDescriptor link);
   ~ReadSegment();
 
   /// The octets of the value, which stay as they are as long as anybody has what is returned; nullptr if the value has gone,
@@ -157,14 +144,14 @@ class ReadSegment : public std::enable_shared_from_this<ReadSegment> {
   [[nodiscard]] std::uint32_t held() const noexcept { return held_.load(std::memory_order_relaxed); }
 
  private:
-  ReadSegment(const std::byte* memory, std::size_t size, std::unique_ptr<HoldTable> holds, Descriptor link);
+  ReadSegment(const std::byte* memory, std::size_t size, std::unique_ptr<HoldTable> holds, FileDescriptor link);
   void GiveBack(std::uint32_t slot) noexcept;
 
   const std::byte* const memory_;
   const std::size_t size_;
   std::size_t slot_size_ = 0;
   const std::unique_ptr<HoldTable> holds_;
-  const Descriptor link_;
+  const FileDescriptor link_;
   std::atomic<std::uint32_t> held_{0};
 };
 

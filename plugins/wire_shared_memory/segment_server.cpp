@@ -57,8 +57,8 @@ struct Passing {
 };
 
 // All that have come with it, and are to be closed, however many another program has sent.
-std::vector<Descriptor> FilesIn(const msghdr& message) {
-  std::vector<Descriptor> files;
+std::vector<FileDescriptor> FilesIn(const msghdr& message) {
+  std::vector<FileDescriptor> files;
   const cmsghdr* const head = CMSG_FIRSTHDR(&message);
   if (head == nullptr || head->cmsg_level != SOL_SOCKET || head->cmsg_type != SCM_RIGHTS) return files;
   const unsigned char* at = CMSG_DATA(head);
@@ -74,7 +74,7 @@ std::vector<Descriptor> FilesIn(const msghdr& message) {
 
 Result<std::unique_ptr<SegmentServer>> SegmentServer::Start() {
   const SegmentId id = NewSegmentId();
-  Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  FileDescriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   socklen_t size = 0;
   const sockaddr_un address = AddressOf(id, size);
   if (!socket.is_open() || bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
@@ -84,7 +84,7 @@ Result<std::unique_ptr<SegmentServer>> SegmentServer::Start() {
   return std::unique_ptr<SegmentServer>(new SegmentServer(std::move(socket), id));
 }
 
-SegmentServer::SegmentServer(Descriptor socket, const SegmentId& id)
+SegmentServer::SegmentServer(FileDescriptor socket, const SegmentId& id)
     : socket_(std::move(socket)), id_(id), thread_([this] { Run(); }) {}
 
 SegmentServer::~SegmentServer() {
@@ -121,7 +121,7 @@ bool SegmentServer::Serve() {
   }
   LookAtReaders(seen);
   if (seen[0].revents == 0) return true;
-  Descriptor asking(accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC));
+  FileDescriptor asking(accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC));
   if (asking.is_open()) {
     Answer(std::move(asking));
   } else if (errno == EINVAL || errno == EBADF) {
@@ -141,7 +141,7 @@ void SegmentServer::LookAtReaders(const std::vector<pollfd>& seen) {
   });
 }
 
-void SegmentServer::Answer(Descriptor asking) {
+void SegmentServer::Answer(FileDescriptor asking) {
   if (!IsOfThisUser(asking.number())) return;
   LimitWaiting(asking.number());
   SegmentId wanted{};
@@ -159,7 +159,7 @@ void SegmentServer::Answer(Descriptor asking) {
   head->cmsg_len = CMSG_LEN(Passing::kFiles);
   std::memcpy(CMSG_DATA(head), files.data(), Passing::kFiles);
   readers_.reserve(readers_.size() + 1);
-  auto link = std::make_unique<Descriptor>(std::move(asking));
+  auto link = std::make_unique<FileDescriptor>(std::move(asking));
   // It counts before the reader has it.
   found->second.holders->Add(*table);
   readers_.push_back({std::move(link), found->second.holders, *table});
@@ -169,7 +169,7 @@ void SegmentServer::Answer(Descriptor asking) {
 
 Result<std::shared_ptr<ReadSegment>> FetchSegment(const SegmentPlace& place) {
   const Error gone{.message = "the memory that a value lies in has gone with its writer, or belongs to another user"};
-  Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  FileDescriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   if (!socket.is_open()) return SystemError("shared memory cannot be asked for");
   LimitWaiting(socket.number());
   socklen_t size = 0;
@@ -179,7 +179,7 @@ Result<std::shared_ptr<ReadSegment>> FetchSegment(const SegmentPlace& place) {
   if (send(socket.number(), place.segment.data(), place.segment.size(), MSG_NOSIGNAL) < 0) return gone;
   Passing passing;
   if (recvmsg(socket.number(), &passing.message, MSG_CMSG_CLOEXEC) <= 0) return gone;
-  std::vector<Descriptor> files = FilesIn(passing.message);
+  std::vector<FileDescriptor> files = FilesIn(passing.message);
   if (files.size() != 2) return gone;
   auto holds = HoldTable::Map(std::move(files[1]));
   if (!holds) return holds.error();

@@ -29,13 +29,13 @@ class SegmentServer {
   void Withdraw(const WrittenSegment& segment);
 
  private:
-  SegmentServer(Descriptor socket, const SegmentId& id);
+  SegmentServer(FileDescriptor socket, const SegmentId& id);
   struct Offered {
     int descriptor;
     std::shared_ptr<SegmentHolders> holders;
   };
   struct Reader {
-    std::unique_ptr<Descriptor> link;
+    std::unique_ptr<FileDescriptor> link;
     std::shared_ptr<SegmentHolders> holders;
     std::shared_ptr<const HoldTable> table;
   };
@@ -44,9 +44,9 @@ class SegmentServer {
   bool Serve();
   // Of those whose link is closed what they held is free.
   void LookAtReaders(const std::vector<pollfd>& seen);
-  void Answer(Descriptor asking);
+  void Answer(FileDescriptor asking);
 
-  const Descriptor socket_;
+  const FileDescriptor socket_;
   const SegmentId id_;
   std::mutex mutex_;
   std::map<SegmentId, Offered> segments_;  // guarded by mutex_

@@ -85,6 +85,16 @@ Open Load(const std::string& kind, const std::string& text, const std::string& f
   return open;
 }
 
+// A method: what the application refuses is raised.
+template <typename Told, typename... Words>
+auto Calling(Told (Application::*act)(Words...)) {
+  return [act](const Open& open, Words... words) {
+    auto told = WithoutGil(open, [&](Application& it) { return (it.*act)(words...); });
+    if constexpr (std::is_same_v<Told, ChangeOutcome>) return Check(told);
+    if constexpr (!std::is_same_v<Told, ChangeOutcome>) return Checked(std::move(told));
+  };
+}
+
 void Apply(const Open& open, const ChangeSet& changes) {
   Check(WithoutGil(open, [&](Application& application) { return application.Apply(changes); }));
 }
@@ -247,16 +257,10 @@ void BindApplication(py::module_& module) {
            [](const Open& open, const std::string& path, const std::string& type, const Words& settings) {
              Check(WithoutGil(open, [&](Application& it) { return it.Swap(path, type, SettingsOf(settings)); }));
            })
-      .def("_undo", [](const Open& open) { Check(WithoutGil(open, [&](Application& it) { return it.Undo(); })); })
-      .def("_redo", [](const Open& open) { Check(WithoutGil(open, [&](Application& it) { return it.Redo(); })); })
-      .def("_reload",
-           [](const Open& open, const std::string& plugin) {
-             Check(WithoutGil(open, [&](Application& it) { return it.Reload(plugin); }));
-           })
-      .def("_load_plugin",
-           [](const Open& open, const std::string& plugin) {
-             Checked(WithoutGil(open, [&](Application& it) { return it.LoadPlugin(plugin); }));
-           })
+      .def("_undo", Calling(&Application::Undo))
+      .def("_redo", Calling(&Application::Redo))
+      .def("_reload", Calling(&Application::Reload))
+      .def("_load_plugin", Calling(&Application::LoadPlugin))
       .def("_set", Set)
       .def("_get", Get)
       .def("_save",
@@ -271,10 +275,7 @@ void BindApplication(py::module_& module) {
              return std::make_shared<TiedPort>(open, path, PathKind::kInput, ConnectOptions{});
            })
       .def("_publish", PublishByHand)
-      .def("_release",
-           [](const Open& open, const std::string& path) {
-             Checked(WithoutGil(open, [&](Application& it) { return it.Release(path); }));
-           })
+      .def("_release", Calling(&Application::Release))
       .def("_block",
            [](const Open& open, const std::string& path) {
              Checked(WithoutGil(open, [&](Application& it) { return Block(it, path); }));
@@ -303,10 +304,7 @@ void BindApplication(py::module_& module) {
            [](const Open& open, const std::optional<std::string>& path) {
              Checked(WithoutGil(open, [&](Application& it) { return path ? it.Resume(*path) : it.Resume(); }));
            })
-      .def("_set_speed",
-           [](const Open& open, double speed) {
-             Checked(WithoutGil(open, [&](Application& it) { return it.SetSpeed(speed); }));
-           })
+      .def("_set_speed", Calling(&Application::SetSpeed))
       .def("_close", [](const Open& open) { open->Close(); })
       .def("_leave", [](const Open& open) { open->Leave(); })
       .def("_paths", Paths)

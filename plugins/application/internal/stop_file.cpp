@@ -38,18 +38,20 @@ std::uint64_t HashOf(std::string_view text) {
 Error LastError(const fs::path& file) { return {.message = std::strerror(errno), .position = {file.string()}}; }
 
 // Right after it was opened: what is there and cannot be opened may be held.
-bool IsHeld(int descriptor) { return descriptor < 0 ? errno != ENOENT : flock(descriptor, LOCK_EX | LOCK_NB) != 0; }
+bool IsHeld(const FileDescriptor& file) {
+  return file.is_open() ? flock(file.number(), LOCK_EX | LOCK_NB) != 0 : errno != ENOENT;
+}
 
-int Open(const fs::path& file, int how = O_RDONLY) { return open(file.c_str(), how | O_NOFOLLOW | O_CLOEXEC, 0600); }
+FileDescriptor Open(const fs::path& file, int how = O_RDONLY) {
+  return FileDescriptor(open(file.c_str(), how | O_NOFOLLOW | O_CLOEXEC, 0600));
+}
 
 // Who pressed STOP there, however many processes ago.
 std::string PressedBy(const fs::path& file) {
   std::string by;
   std::ifstream stream(file);
   std::getline(stream, by);
-  const int descriptor = Open(file);
-  const bool is_held = IsHeld(descriptor);
-  if (descriptor >= 0) close(descriptor);
+  const bool is_held = IsHeld(Open(file));
   by = by.substr(0, std::min({by.find(kElsewhere), by.find(kBefore), kLongestBy}));
   return (by.empty() ? "somebody" : by) + (is_held ? kElsewhere : kBefore);
 }
@@ -67,9 +69,8 @@ std::vector<fs::path> FilesOf(const fs::path& folder, const std::string& name) {
 Result<void> RemoveLeft(const std::vector<fs::path>& files) {
   Result<void> done;
   for (const fs::path& each : files) {
-    const int descriptor = Open(each);
-    if (!IsHeld(descriptor) && unlink(each.c_str()) != 0 && errno != ENOENT) done = LastError(each);
-    if (descriptor >= 0) close(descriptor);
+    const FileDescriptor file = Open(each);
+    if (!IsHeld(file) && unlink(each.c_str()) != 0 && errno != ENOENT) done = LastError(each);
   }
   return done;
 }
@@ -140,7 +141,6 @@ StopFile::StopFile(RobotStop& stop, ApplicationLog& log, fs::path folder, const 
 StopFile::~StopFile() {
   changes_ = {};
   lookout_.reset();
-  if (held_ >= 0) close(held_);
 }
 
 bool StopFile::IsKept() {
@@ -172,12 +172,12 @@ void StopFile::Write() noexcept {
 }
 
 Result<void> StopFile::Follow(const RobotStop::State& state) {
-  if (state.in_force && held_ < 0) {
+  if (state.in_force && !held_.is_open()) {
     if (auto made = MakeControlFolder(folder_); !made) return made;
     if (auto held = Hold(state.by + "\n"); !held) return held;
-  } else if (!state.in_force && held_ >= 0) {
+  } else if (!state.in_force && held_.is_open()) {
     if (unlink(file_.c_str()) != 0 && errno != ENOENT) return LastError(file_);
-    close(std::exchange(held_, -1));
+    held_ = FileDescriptor();
   }
   auto removed = RemoveLeft(left_);
   if (removed) left_.clear();  // what is left from now on was not taken over here
@@ -187,16 +187,14 @@ Result<void> StopFile::Follow(const RobotStop::State& state) {
 // It gets its name when it is held and says who pressed: whoever looks meanwhile finds nothing, or all of it.
 Result<void> StopFile::Hold(const std::string& text) {
   const fs::path unnamed = folder_ / ("." + file_.filename().string());
-  const int descriptor = Open(unnamed, O_WRONLY | O_CREAT | O_TRUNC);
-  if (descriptor >= 0 && flock(descriptor, LOCK_EX) == 0 &&
-      write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-      rename(unnamed.c_str(), file_.c_str()) == 0) {
-    held_ = descriptor;
-    return {};
+  FileDescriptor file = Open(unnamed, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!file.is_open() || flock(file.number(), LOCK_EX) != 0 ||
+      write(file.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) ||
+      rename(unnamed.c_str(), file_.c_str()) != 0) {
+    return LastError(file_);
   }
-  Error error = LastError(file_);
-  if (descriptor >= 0) close(descriptor);
-  return error;
+  held_ = std::move(file);
+  return {};
 }
 
 }  // namespace runnel

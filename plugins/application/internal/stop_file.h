@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/diagnostics.h"
+#include "core/base/file_descriptor.h"
 #include "core/base/lookout.h"
 #include "core/base/result.h"
 #include "core/element/robot_stop.h"
@@ -53,7 +54,7 @@ class StopFile {
   const std::filesystem::path folder_;
   const std::filesystem::path file_;         // of this process
   std::vector<std::filesystem::path> left_;  // taken over, and there perhaps; of the thread that writes
-  int held_ = -1;                            // the file, while STOP is in force; of the thread that writes
+  FileDescriptor held_;                      // the file, while STOP is in force; of the thread that writes
   std::mutex mutex_;
   std::condition_variable has_written_;
   std::uint64_t written_ = 0;  // guarded by mutex_: which change of the STOP

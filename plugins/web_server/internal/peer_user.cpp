@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "core/base/file_descriptor.h"
 #include "plugins/web_server/internal/beast_connections.h"
 
 namespace runnel::internal {
@@ -44,13 +45,6 @@ Question QuestionFor(const Endpoint& peer, const Endpoint& own) {
   return question;
 }
 
-struct Descriptor {
-  ~Descriptor() {
-    if (number >= 0) close(number);
-  }
-  const int number;
-};
-
 }  // namespace
 
 std::optional<std::uint32_t> UserOfPeer(const boost::asio::ip::tcp::socket& socket) {
@@ -59,13 +53,13 @@ std::optional<std::uint32_t> UserOfPeer(const boost::asio::ip::tcp::socket& sock
   if (error || !peer.address().is_loopback()) return {};
   const Endpoint own = socket.local_endpoint(error);
   if (error) return {};
-  const Descriptor netlink{::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_SOCK_DIAG)};
-  if (netlink.number < 0) return {};
+  const FileDescriptor netlink(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_SOCK_DIAG));
+  if (!netlink.is_open()) return {};
   const Question question = QuestionFor(peer, own);
-  if (send(netlink.number, &question, sizeof question, 0) < 0) return {};
+  if (send(netlink.number(), &question, sizeof question, 0) < 0) return {};
   alignas(nlmsghdr) char answer[4096];
   // The answer is there when send() returns: the kernel has made it meanwhile.
-  const ssize_t size = recv(netlink.number, answer, sizeof answer, MSG_DONTWAIT);
+  const ssize_t size = recv(netlink.number(), answer, sizeof answer, MSG_DONTWAIT);
   nlmsghdr head{};
   inet_diag_msg found{};
   if (size < static_cast<ssize_t>(NLMSG_LENGTH(sizeof found))) return {};

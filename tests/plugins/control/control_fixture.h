@@ -167,11 +167,11 @@ class ControlTest : public ::testing::Test {
 
   /// A connected socket of which the test has full use; the hello has not been read.
   int RawClient() {
-    const auto descriptor = ConnectToSocket(server->socket());
-    EXPECT_TRUE(descriptor);
-    if (!descriptor) return -1;
-    fcntl(*descriptor, F_SETFL, O_NONBLOCK);
-    return *descriptor;
+    const auto connected = ConnectToSocket(server->socket());
+    EXPECT_TRUE(connected);
+    if (!connected) return -1;
+    fcntl(connected->number(), F_SETFL, O_NONBLOCK);
+    return dup(connected->number());
   }
   /// What comes until the server closes the connection, or says `until`, or
   /// nothing for too long.

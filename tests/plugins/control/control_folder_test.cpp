@@ -49,7 +49,6 @@ TEST(ControlFolder, IsMadeForItsOwnerOnlyAndSoIsTheSocket) {
   ASSERT_TRUE(listening) << listening.error().ToString();
   EXPECT_EQ(ModeOf(folder.path() / "runnel"), 0700U);
   EXPECT_EQ(ModeOf(listening->path), 0600U);
-  close(listening->descriptor);
 }
 
 TEST(ControlFolder, IsRefusedIfOthersCouldGetIn) {
@@ -90,7 +89,6 @@ TEST(ControlFolder, LosesTheSocketsOfTheDead) {
       << "who has that number lives, and may begin to listen";
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "999999999.sock"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "2.sock"));
-  close(listening->descriptor);
 }
 
 TEST(ControlFolder, LetsAProcessHaveSeveralSocketsAndTakeOverAStaleOne) {
@@ -103,8 +101,6 @@ TEST(ControlFolder, LetsAProcessHaveSeveralSocketsAndTakeOverAStaleOne) {
   EXPECT_EQ(first->path, name);
   EXPECT_NE(second->path, name);
   EXPECT_THAT(*FindControlSockets(folder.path()), SizeIs(2));
-  close(first->descriptor);
-  close(second->descriptor);
 }
 
 TEST(ControlFolder, KeepsTheSocketOfAnApplicationThatIsJustStarting) {
@@ -120,7 +116,6 @@ TEST(ControlFolder, KeepsTheSocketOfAnApplicationThatIsJustStarting) {
     ASSERT_TRUE(socket) << socket.error().ToString();
     if (!std::filesystem::exists(socket->path)) ++lost;
     unlink(socket->path.c_str());
-    close(socket->descriptor);
   }
   is_over = true;
   client.join();

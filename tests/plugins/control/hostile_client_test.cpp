@@ -27,7 +27,7 @@ std::string HeardByAnotherUser(const std::filesystem::path& socket) {
     if (setgid(kNobody) != 0 || setuid(kNobody) != 0) _exit(1);
     const auto connected = ConnectToSocket(socket);
     char heard[4096];
-    const ssize_t count = connected ? recv(*connected, heard, sizeof heard, 0) : 0;
+    const ssize_t count = connected ? recv(connected->number(), heard, sizeof heard, 0) : 0;
     if (count > 0) (void)!write(ends[1], heard, static_cast<std::size_t>(count));
     _exit(0);
   }

@@ -51,8 +51,8 @@ std::string SocketOf(const SegmentId& server) {
   return {};
 }
 
-Descriptor ConnectedTo(const std::string& name) {
-  Descriptor connected(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+FileDescriptor ConnectedTo(const std::string& name) {
+  FileDescriptor connected(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   socklen_t size = 0;
   const sockaddr_un address = AddressOf(name, size);
   EXPECT_EQ(connect(connected.number(), reinterpret_cast<const sockaddr*>(&address), size), 0);
@@ -71,12 +71,12 @@ TEST(HostileSocketTest, WhoAsksForNonsenseKeepsNobodyFromTheMemory) {
   ASSERT_FALSE(name.empty());
   std::mt19937 random(3);
   for (int i = 0; i < 500; ++i) {
-    const Descriptor connected = ConnectedTo(name);
+    const FileDescriptor connected = ConnectedTo(name);
     std::string octets(random() % (i % 10 == 0 ? 60'000 : 40), '\0');
     for (char& each : octets) each = static_cast<char>(random());
     if (i % 3 != 0) (void)send(connected.number(), octets.data(), octets.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   }
-  const Descriptor silent = ConnectedTo(name);  // and stays
+  const FileDescriptor silent = ConnectedTo(name);  // and stays
   WaitUntil("the memory is handed out", [&] {
     const auto fetched = FetchSegment(place);
     return fetched && (*fetched)->Hold(place) != nullptr;
@@ -86,7 +86,7 @@ TEST(HostileSocketTest, WhoAsksForNonsenseKeepsNobodyFromTheMemory) {
 TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
   SegmentPlace place{.server = NewSegmentId(), .segment = NewSegmentId(), .use = 2, .size = 1000, .slot = 0};
   // As a server of another's making.
-  const Descriptor listening(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  const FileDescriptor listening(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   socklen_t size = 0;
   const sockaddr_un address = AddressOf("runnel-segments-" + HexOf(place.server), size);
   ASSERT_EQ(bind(listening.number(), reinterpret_cast<const sockaddr*>(&address), size), 0);
@@ -94,18 +94,18 @@ TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
 
   std::array<int, 2> pipe_ends{};
   ASSERT_EQ(pipe2(pipe_ends.data(), O_CLOEXEC), 0);
-  const Descriptor reading(pipe_ends[0]);
-  const Descriptor writing(pipe_ends[1]);
-  const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  const Descriptor zero(open("/dev/zero", O_RDWR | O_CLOEXEC));
-  const Descriptor can_shrink(memfd_create("other", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  const Descriptor empty(memfd_create("other", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  const Descriptor nonsense(memfd_create("other", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  const FileDescriptor reading(pipe_ends[0]);
+  const FileDescriptor writing(pipe_ends[1]);
+  const FileDescriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const FileDescriptor zero(open("/dev/zero", O_RDWR | O_CLOEXEC));
+  const FileDescriptor can_shrink(memfd_create("other", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  const FileDescriptor empty(memfd_create("other", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  const FileDescriptor nonsense(memfd_create("other", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   ASSERT_EQ(ftruncate(can_shrink.number(), 100'000), 0);
   ASSERT_EQ(ftruncate(nonsense.number(), 100'000), 0);
   const std::string ones(100'000, '\xff');
   ASSERT_EQ(pwrite(nonsense.number(), ones.data(), ones.size(), 0), 100'000);
-  for (const Descriptor* const each : {&empty, &nonsense})
+  for (const FileDescriptor* const each : {&empty, &nonsense})
     ASSERT_EQ(fcntl(each->number(), F_ADD_SEALS, F_SEAL_SHRINK), 0);
 
   const auto table = HoldTable::Make();
@@ -113,7 +113,7 @@ TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
   ASSERT_TRUE(table && segment);
   const auto fetch = [&](const std::vector<int>& files) {
     std::thread answering([&] {
-      const Descriptor asking(accept4(listening.number(), nullptr, nullptr, SOCK_CLOEXEC));
+      const FileDescriptor asking(accept4(listening.number(), nullptr, nullptr, SOCK_CLOEXEC));
       SegmentId wanted{};  // who has gone before it is asked is not listened to
       EXPECT_EQ(recv(asking.number(), wanted.data(), wanted.size(), 0), static_cast<ssize_t>(wanted.size()));
       char octet = 0;
@@ -138,7 +138,7 @@ TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
     answering.join();
     return fetched && (*fetched)->Hold(place) != nullptr;
   };
-  for (const Descriptor* const given : {&reading, &folder, &zero, &can_shrink, &empty, &nonsense}) {
+  for (const FileDescriptor* const given : {&reading, &folder, &zero, &can_shrink, &empty, &nonsense}) {
     EXPECT_FALSE(fetch({given->number(), (*table)->descriptor()}));
     if (given != &nonsense) {
       EXPECT_FALSE(fetch({(*segment)->descriptor(), given->number()}));

@@ -41,7 +41,7 @@ std::size_t FilesFrom(const SegmentPlace& place) {
     name += "0123456789abcdef"[std::to_integer<unsigned>(each) & 15];
   }
   std::memcpy(address.sun_path + 1, name.data(), name.size());
-  const Descriptor link(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  const FileDescriptor link(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
   if (connect(link.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0) return 0;
   (void)send(link.number(), place.segment.data(), place.segment.size(), MSG_NOSIGNAL);

@@ -30,10 +30,10 @@ TEST(SegmentServerTest, NamesThatNobodyHasAreAnErrorAndSoIsOtherMemory) {
   EXPECT_TRUE((*fetched)->Hold(place));
   (*server)->Withdraw(**segment);
   EXPECT_FALSE(FetchSegment(place));
-  const Descriptor file(memfd_create("other", MFD_CLOEXEC));
+  const FileDescriptor file(memfd_create("other", MFD_CLOEXEC));
   EXPECT_EQ(ftruncate(file.number(), 100'000), 0);
-  EXPECT_FALSE(ReadSegment::Map(file, nullptr, Descriptor()));
-  EXPECT_FALSE(HoldTable::Map(Descriptor(dup(file.number()))));
+  EXPECT_FALSE(ReadSegment::Map(file, nullptr, FileDescriptor()));
+  EXPECT_FALSE(HoldTable::Map(FileDescriptor(dup(file.number()))));
 }
 
 TEST(SegmentTest, PlacesThatSomebodyHasMadeUpAreNowhere) {
@@ -42,8 +42,8 @@ TEST(SegmentTest, PlacesThatSomebodyHasMadeUpAreNowhere) {
   const SegmentPlace place = *(*segment)->Put(kOctets);
   auto table = HoldTable::Make();
   ASSERT_TRUE(table);
-  const auto read = ReadSegment::Map(Descriptor(dup((*segment)->descriptor())),
-                                     *HoldTable::Map(Descriptor(dup((*table)->descriptor()))), Descriptor());
+  const auto read = ReadSegment::Map(FileDescriptor(dup((*segment)->descriptor())),
+                                     *HoldTable::Map(FileDescriptor(dup((*table)->descriptor()))), FileDescriptor());
   ASSERT_TRUE(read);
   const auto held = (*read)->Hold(place);
   EXPECT_TRUE(held);
