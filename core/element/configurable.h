@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,6 +50,16 @@ class Configurable {
 
   /// An output has given it its value, and nobody has set it since.
   [[nodiscard]] virtual bool is_fed() const noexcept { return false; }
+  /// One more with each time that it is set, by outputs and others; no two elements of a run have the same.
+  [[nodiscard]] virtual std::uint64_t settings() const noexcept { return 0; }
+  /// What an output has given, and has not been taken over yet, is. Its module does not run.
+  virtual void TakeRest() {}
+  /// Takes over a value that has been had before, there or at another one: is_fed() is as it was. Errors: those of
+  /// SetFrom(); an output's value has only to be within the bounds.
+  virtual Result<void> PutBack(const void* value, bool was_fed) {
+    (void)was_fed;
+    return SetFrom(value);
+  }
 
   /// What its module has made of the value that was set last: nothing as long as it has not said; an error if it has
   /// refused it, and the value is that of before.

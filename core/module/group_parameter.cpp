@@ -89,14 +89,19 @@ Result<void> GroupParameter::SetFrom(const void* value) {
   if (found.empty()) {
     return Error{.message = "nothing is there any more that could be set by it", .path = path()};
   }
-  std::vector<std::pair<Configurable*, std::shared_ptr<void>>> before;
+  struct Before {
+    Configurable* parameter;
+    std::shared_ptr<void> value;
+    bool was_fed;
+  };
+  std::vector<Before> before;
   for (const ConfigurableElement& each : found) {
     const auto wanted = ValueFor(*each.configurable, type(), value);
-    before.emplace_back(each.configurable, each.configurable->Value());
+    before.push_back({each.configurable, each.configurable->Value(), each.configurable->is_fed()});
     auto set = wanted ? each.configurable->SetFrom(wanted->get()) : Result<void>(wanted.error());
     if (set) continue;
     before.pop_back();
-    for (const auto& [parameter, old] : before) (void)parameter->SetFrom(old.get());
+    for (const auto& [parameter, old, was_fed] : before) (void)parameter->PutBack(old.get(), was_fed);
     return set;
   }
   return {};

@@ -10,7 +10,6 @@
 #include "core/base/unit.h"
 #include "core/element/runtime.h"
 #include "core/module/executable.h"
-#include "core/module/kept_state.h"
 #include "core/module/module.h"
 #include "core/module/port_group.h"
 #include "core/paths/new_feeds.h"
@@ -40,11 +39,6 @@ Result<void> CheckCharacters(std::string_view text) {
   const std::string fault = UnwritableCharacter(text);
   if (fault.empty()) return {};
   return Error{.message = "the value contains " + fault};
-}
-
-// Of what an output publishes. Only texts are looked at: all else would have to be written for it.
-bool IsWritable(const TypeInfo& type, const void* value) {
-  return &type != &TypeOf<std::string>() || CheckCharacters(*static_cast<const std::string*>(value)).has_value();
 }
 
 }  // namespace
@@ -112,7 +106,7 @@ Result<void> ParameterBase::Check(const void* value) const {
   return {};
 }
 
-Result<void> ParameterBase::SetFrom(const void* value) {
+Result<void> ParameterBase::PutBack(const void* value, bool was_fed) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (info().is_static && life_cycle() == LifeCycle::kReady) {
     return Error{.message = "the parameter is static: it can be set only before its module is ready",
@@ -124,17 +118,27 @@ Result<void> ParameterBase::SetFrom(const void* value) {
                  .path = path(),
                  .hint = "set it before anything is connected"};
   }
-  if (auto good = Check(value); !good) return good.error().WithPath(path());
-  TakeOver(value);
+  if (!was_fed || !MayBeFed(value)) {
+    if (auto good = Check(value); !good) return good.error().WithPath(path());
+  }
+  // A cycle in which an output feeds the parameter may be about to do the same: that tries, and this waits.
+  const std::lock_guard assigning(assigning_);
+  TakeOver(value, was_fed);
   return {};
 }
 
-// A cycle in which an output feeds the parameter may be about to do the same: that tries, and this waits.
-void ParameterBase::TakeOver(const void* value) {
-  const std::lock_guard lock(assigning_);
+// Under `assigning_`.
+void ParameterBase::TakeOver(const void* value, bool is_fed) {
   const bool has_changed = Assign(value);
-  is_fed_.store(false, std::memory_order_relaxed);
+  is_fed_.store(is_fed, std::memory_order_relaxed);
+  settings_.store(settings_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   if (has_changed && module_ != nullptr) module_->NoteParameterChange();
+}
+
+// Of what an output publishes, only texts are looked at: all else would have to be written for it.
+bool ParameterBase::MayBeFed(const void* value) const {
+  if (description_.is_within_bounds && !description_.is_within_bounds(value)) return false;
+  return &type() != &TypeOf<std::string>() || CheckCharacters(*static_cast<const std::string*>(value)).has_value();
 }
 
 // A task of its own, run where the module is, so that parameters that nothing feeds cost no cycle anything.
@@ -148,61 +152,41 @@ class ParameterBase::Feeder final : public FrameworkElement {
     Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
       return {{this, Phase::kSense, BoundCall::To<&Feeder::Take>(*this), {this}, {}}};
     }));
-    auto kept = std::make_unique<KeptState>();
-    kept->Add(fed_);
-    Annotate(std::move(kept));
   }
 
   [[nodiscard]] Port& input() noexcept { return *input_; }
+  void TakeRest() {
+    if (is_left_) Take();
+  }
 
  private:
-  // What an output has set goes over to the parameter of the module that takes the place.
-  struct Fed {
-    Feeder& feeder;
-    Fed& operator=(const Fed& from) {
-      from.feeder.HandOver(feeder);
-      return *this;
-    }
-  };
-
   void Take() {
     if (!held_->Read(*input_, 0) && !is_left_) return;
     const std::unique_lock lock(parameter_.assigning_, std::try_to_lock);
     is_left_ = !lock;
     if (is_left_) return;  // somebody sets it just now: in the next cycle
-    if (const void* const value = held_->Find(0)) Set(value);
+    const void* const value = held_->Find(0);
+    if (value != nullptr && parameter_.MayBeFed(value)) parameter_.TakeOver(value, true);
     held_->Drop(0);
-  }
-
-  // Under `assigning_`.
-  void Set(const void* value) {
-    const auto& is_good = parameter_.description_.is_within_bounds;
-    if ((is_good && !is_good(value)) || !IsWritable(parameter_.type(), value)) return;
-    const bool has_changed = parameter_.Assign(value);
-    parameter_.is_fed_.store(true, std::memory_order_relaxed);
-    if (has_changed && parameter_.module_ != nullptr) parameter_.module_->NoteParameterChange();
-  }
-
-  // Neither module runs.
-  void HandOver(Feeder& after) {
-    if (is_left_) Take();
-    if (!parameter_.is_fed()) return;
-    const auto value = parameter_.Value();
-    const std::lock_guard lock(after.parameter_.assigning_);
-    after.Set(value.get());
   }
 
   ParameterBase& parameter_;
   const std::unique_ptr<HeldValues> held_;
   const std::unique_ptr<Port> input_;
   bool is_left_ = false;  // a value that has not been taken over yet
-  Fed fed_{*this};
 };
+
+// It may have gone again.
+bool ParameterBase::HasFeeder() const { return feeder_ != nullptr && FindChild("feed") == feeder_; }
+
+void ParameterBase::TakeRest() {
+  if (HasFeeder()) feeder_->TakeRest();
+}
 
 Port* ParameterBase::Feed() {
   const TypedPorts* const ports = FindTypedPorts(type());
   if (ports == nullptr || info().is_static || life_cycle() == LifeCycle::kDeleted) return nullptr;
-  if (feeder_ == nullptr || FindChild("feed") != feeder_) {  // or it has gone again
+  if (!HasFeeder()) {
     feeder_ = &runtime().Create<Feeder>(*this, "feed", *this, *ports);
     NewFeeds::Note(feeder_->input());
   }

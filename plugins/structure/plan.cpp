@@ -82,6 +82,10 @@ Result<void> Plan::Apply(UndoRecord* back, std::size_t& begun) {
     ++begun;
     if (auto applied = step.apply(); !applied) return applied;
   }
+  for (Replaced& each : replaced_) {
+    const auto after = runtime_.root().Find(each.path);
+    if (after && (*after)->id() == each.id) *each.counts = SettingCountsOf(**after);
+  }
   if (back != nullptr) *back = UndoRecordOf(inverses, std::move(why_not), runtime_.root());
   return {};
 }
@@ -181,9 +185,11 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
   FrameworkElement& next = **work.element;
   auto done = std::make_shared<Done>();
   done->after = work.element;
-  steps_.push_back({[=, this, &before, &next, values = work.values]() -> Result<void> {
+  const auto begins = std::make_shared<SettingCounts>();  // once all steps are done
+  steps_.push_back({[=, this, &before, &next, counts = work.counts]() -> Result<void> {
                       // What has been set or assigned since the new module was made, by this change set or others.
-                      if (auto set = CopyLateSettings(before, values, change.settings, next); !set) return set;
+                      if (auto refused = CopyValues(before, counts, change, next); !refused.empty())
+                        return refused.front();
                       InheritAnnotations(next, before, ports);
                       if (change.state) {
                         if (auto given = change.state->GivePorts(next, ports); !given) return given;
@@ -192,8 +198,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                         if (auto settled = Settle(*each, held_); !settled) return settled;
                       }
                       if (auto copied = CopyState(before, next); !copied) return copied;
-                      if (auto copied = CopyFed(ports, change); !copied) return copied;
-                      Replaced replaced{{}, next.path(), next.id(), change.probation_cycles, ValuesOf(next)};
+                      Replaced replaced{{}, next.path(), next.id(), change.probation_cycles, begins};
                       replaced_.reserve(replaced_.size() + 1);
                       done->place = NextSibling(before);
                       auto taken = runtime_.Unlist(before);
@@ -230,7 +235,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       }
                       Must(runtime_.List(std::move(done->before), done->place));
                     },
-                    [&before, &next, change](auto& why_not) { return ReplaceBack(before, next, change, why_not); }});
+                    [=, &before, &next](auto& why_not) { return ReplaceBack(before, next, change, begins, why_not); }});
 }
 
 }  // namespace runnel::internal

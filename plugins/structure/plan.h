@@ -35,7 +35,7 @@ struct Replaced {
   std::string path;
   std::uint64_t id = 0;  // of the new module
   std::uint64_t probation_cycles = 0;
-  Values values = {};  // of the new module, as it began
+  std::shared_ptr<SettingCounts> counts = {};  // of the new module, as it began
 };
 
 /// What one change set makes beside the tree, by what it is and where it goes: kept from one attempt to the next, as
@@ -46,7 +46,7 @@ class Workshop {
  public:
   struct Work {
     std::shared_ptr<UnlistedElement> element;
-    Values values = {};  // of the module whose place it takes, when it was made
+    SettingCounts counts = {};  // of the module whose place it takes, when it was made
   };
   /// Thrown when others have changed the structure meanwhile: the attempt is to begin anew.
   struct Overtaken {};

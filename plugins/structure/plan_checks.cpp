@@ -167,17 +167,26 @@ Result<void> Plan::Check(const SetParameter& change) {
   if (!value) return value.error().WithPath((*found)->path());
   if (is_settled) return CheckStatic(**found, *parameter, value->get());
   Concern(**found);
-  AddSetting([parameter]() -> std::shared_ptr<const void> { return parameter->Value(); },
-             [parameter, is_back = is_way_back_](const std::shared_ptr<const void>& each) {
-               // What an output has set since is not taken back.
-               return is_back && parameter->is_fed() ? Result<void>() : parameter->SetFrom(each.get());
-             },
-             *value,
-             [parameter, path = (*found)->path()](auto&) -> ChangeSet {
-               // The module has been made by this change set, and goes as a whole.
-               if (parameter->info().is_static) return {};
-               return {SetParameter{path, parameter->ToText()}};
-             });
+  if (is_way_back_ && parameter->is_fed() && parameter->settings() != change.settings) {
+    warnings_.push_back({.message = "an output has set it since: that is not taken back", .path = (*found)->path()});
+  }
+  const auto stays = std::make_shared<bool>(false);
+  using Given = std::pair<std::shared_ptr<const void>, bool>;
+  AddSetting(
+      [parameter, stays, is_back = is_way_back_, settings = change.settings]() -> Given {
+        parameter->TakeRest();
+        *stays = is_back && parameter->is_fed() && parameter->settings() != settings;
+        return {parameter->Value(), parameter->is_fed()};
+      },
+      [parameter, stays](const Given& each) {
+        return *stays ? Result<void>() : parameter->PutBack(each.first.get(), each.second);
+      },
+      Given{*value, change.was_fed},
+      [parameter, path = (*found)->path()](auto&) -> ChangeSet {
+        // The module has been made by this change set, and goes as a whole.
+        if (parameter->info().is_static) return {};
+        return {SetParameter{path, parameter->ToText(), {}, nullptr, parameter->is_fed(), parameter->settings() + 1}};
+      });
   return {};
 }
 

@@ -26,12 +26,12 @@ Result<Workshop::Work> Plan::MakeModule(const Placement& place, const ReplaceMod
   const std::uint64_t revision = runtime_.revision_by_others();
   const auto& work = workshop_.Get(KeyOf(place, std::move(key), before), [&]() -> Result<Workshop::Work> {
     std::vector<Setting> inherited;
-    Values values;
+    SettingCounts counts;
     std::optional<ElementState> state;
     std::string name = place.name;
     if (before != nullptr) {
       inherited = SettingsOf(*before);
-      values = ValuesOf(*before);
+      counts = SettingCountsOf(*before);
       state.emplace(*before, FrameworkElement::Inherit::kAsReplacement, ElementState::Below::kIncluded);
       name = NameInFile::Of(*before);
     }
@@ -43,7 +43,7 @@ Result<Workshop::Work> Plan::MakeModule(const Placement& place, const ReplaceMod
     if (state) state->GiveAnnotations(**made);
     if (name != place.name) (*made)->Annotate(std::make_unique<NameInFile>(name));
     if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared.error();
-    return Workshop::Work{std::make_shared<UnlistedElement>(std::move(*made)), std::move(values)};
+    return Workshop::Work{std::make_shared<UnlistedElement>(std::move(*made)), std::move(counts)};
   });
   if (runtime_.revision_by_others() != revision) throw Workshop::Overtaken();
   return work;

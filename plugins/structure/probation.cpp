@@ -58,6 +58,11 @@ std::vector<Probation::Waiting>::iterator Probation::Find(const std::string& pat
       waiting_, [&](const Waiting& each) { return each.replaced.path == path && Successor(each) != nullptr; });
 }
 
+bool Probation::WasWaitedFor(const FrameworkElement& module) const {
+  return std::ranges::any_of(
+      waiting_, [&](const Waiting& each) { return each.until_cycle > 0 && each.replaced.id == module.id(); });
+}
+
 bool Probation::Concerns(const Fault& fault) {
   const auto found = Find(fault.path);
   if (found == waiting_.end()) return false;
@@ -99,9 +104,9 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting, std::string& done) 
   if (match.errors.size() > match.misfits.size()) return match.errors.front();  // it would move, or is held
   if (auto possible = overlay.Replace(*after, before, match.ports); !possible) return possible.error();
   InheritAnnotations(before, *after, match.ports);
-  const auto late = Attempt([&] { return CopyLateSettings(*after, waiting.replaced.values, {}, before); });
-  if (!late) done += "; not taken over: " + late.error().ToString();
-  if (auto fed = CopyFed(match.ports, {}); !fed) return fed.error();
+  for (const Error& each : CopyValues(*after, *waiting.replaced.counts, {}, before)) {
+    done += "; not taken over: " + each.ToString();
+  }
   auto gone = runtime_.Unlist(*after);
   if (!gone) return gone.error();
   std::size_t moved = 0;
@@ -123,7 +128,7 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting, std::string& done) 
   }
   for (std::size_t i = 0; i < match.misfits.size(); ++i) {
     Result<void> taken = Error{};
-    Retry([&] { taken = TakeOverFed(*match.misfits[i].first, *after, before); });
+    Retry([&] { taken = TakeOverFeed(*match.misfits[i].first, *after, before); });
     const Error& each = match.errors[i];
     if (!taken) Retry([&] { done += "; not taken over: " + each.path + ": " + each.message; });
   }

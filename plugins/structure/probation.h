@@ -25,6 +25,8 @@ class Probation {
   void Add(std::vector<Replaced>& replaced);
   /// Takes out all, or those whose successors have proved themselves, or are gone.
   [[nodiscard]] std::vector<UnlistedElement> Take(bool all);
+  /// Whether the module, which has just been replaced, was on probation.
+  [[nodiscard]] bool WasWaitedFor(const FrameworkElement& module) const;
   /// Whether the module of the fault, which has thrown, is on probation.
   [[nodiscard]] bool Concerns(const Fault& fault);
   /// The predecessor of that module is back when this returns. What has been done, in words. Throws if it could not be.

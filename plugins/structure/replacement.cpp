@@ -7,6 +7,9 @@
 
 #include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
+#include "core/base/unit.h"
+#include "core/conversion/number_conversion.h"
+#include "core/element/former_name.h"
 #include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
 #include "core/module/kept_state.h"
@@ -70,13 +73,8 @@ Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkEle
   }
   // By which an output sets a parameter: it is made when it is asked for.
   const FrameworkElement* const parameter = ParameterSetBy(port);
-  if (parameter == nullptr) return nullptr;
-  const auto there = after.Find(parameter->path().substr(before.path().size() + 1));
-  const bool is_own = parameter->parent()->parent() == &before;
-  auto* const same = is_own  ? FindConfigurable(after, parameter->name()).configurable
-                     : there ? dynamic_cast<Configurable*>(*there)
-                             : nullptr;
-  return same != nullptr ? same->Feed() : nullptr;
+  const auto same = parameter != nullptr ? ParameterLike(*parameter, before, after) : ConfigurableElement();
+  return same ? same.configurable->Feed() : nullptr;
 }
 
 Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {
@@ -86,6 +84,21 @@ Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkE
           .path = port.path(),
           .hint = group ? NearestNameHint(port.name(), NamesOf((*group)->children(), &FrameworkElement::name))
                         : "disconnect it first"};
+}
+
+// A number in another unit becomes one in that of the parameter.
+std::string TextIn(const std::string& unit, const std::string& value, const Configurable& parameter) {
+  const std::string& own = parameter.info().unit;
+  return unit != own && RatioOfUnits(unit, own) ? value + " " + unit : value;
+}
+std::string UnitOfNumber(const Configurable& parameter) {
+  return IsNumber(parameter.type()) ? parameter.info().unit : "";
+}
+
+// Errors: it refuses the value.
+Result<void> Give(const Setting& setting, Configurable& parameter) {
+  const auto value = parameter.Parse(TextIn(setting.unit, setting.value, parameter));
+  return value ? parameter.PutBack(value->get(), setting.was_fed) : value.error();
 }
 
 using IsTheirTurn = std::function<bool(const FrameworkElement& parameter)>;
@@ -102,19 +115,41 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting, bool ma
                  .hint = NearestNameHint(setting.parameter, NamesOf(ConfigurablesOf(module), name_of))};
   }
   if (!is_its_turn(*parameter.element)) return {};
-  const auto set = parameter.configurable->SetFromText(setting.value);
+  const auto set = Give(setting, *parameter.configurable);
   return set ? set : set.error().WithPath(parameter.element->path());
 }
 
+// What an output had given is left out where it is refused.
 Result<void> CopySettings(const std::vector<Setting>& inherited, FrameworkElement& after,
                           const IsTheirTurn& is_its_turn) {
-  for (const auto& [element, target] : ConfigurablesOf(after)) {
-    if (!is_its_turn(*element)) continue;
-    const auto source = std::ranges::find(inherited, element->name(), &Setting::parameter);
-    if (source == inherited.end()) continue;
-    if (const auto set = target->SetFromText(source->value); !set) return set.error().WithPath(element->path());
+  for (const Setting& each : inherited) {
+    const auto [element, target] = FindConfigurable(after, each.parameter);
+    if (element == nullptr || !is_its_turn(*element)) continue;
+    const bool has_other =
+        element->name() != each.parameter && std::ranges::count(inherited, element->name(), &Setting::parameter) > 0;
+    if (has_other) continue;
+    if (const auto set = Give(each, *target); !set && !each.was_fed) return set.error().WithPath(element->path());
   }
   return {};
+}
+
+Result<void> CopyValue(const Configurable& from, Configurable& to) {
+  const std::shared_ptr<const void> value = from.Value();
+  const bool is_alike = &from.type() == &to.type() && from.info().unit == to.info().unit;
+  const auto own = is_alike ? Result(value) : to.Parse(TextIn(UnitOfNumber(from), from.ToText(), to));
+  return own ? to.PutBack(own->get(), from.is_fed()) : own.error();
+}
+
+std::string PathIn(const FrameworkElement& module, const FrameworkElement& element) {
+  return element.path().substr(module.path().size() + 1);
+}
+
+template <typename Use>
+void ForEachParameter(const FrameworkElement& module, const Use& use) {
+  const_cast<FrameworkElement&>(module).VisitAll<FrameworkElement>([&](FrameworkElement& each) {
+    auto* const parameter = dynamic_cast<Configurable*>(&each);
+    if (parameter != nullptr && dynamic_cast<const GroupParameter*>(&each) == nullptr) use(each, *parameter);
+  });
 }
 
 }  // namespace
@@ -123,7 +158,8 @@ std::vector<Setting> SettingsOf(const FrameworkElement& module) {
   std::vector<Setting> settings;
   for (const auto& [element, parameter] : ConfigurablesOf(module)) {
     std::string value = parameter->ToText();
-    if (value != parameter->info().default_value) settings.push_back({element->name(), std::move(value)});
+    if (value == parameter->info().default_value) continue;
+    settings.push_back({element->name(), std::move(value), UnitOfNumber(*parameter), parameter->is_fed()});
   }
   return settings;
 }
@@ -148,26 +184,73 @@ Result<void> ConfigureNew(FrameworkElement& made, const std::vector<Setting>& in
   return {};
 }
 
-Values ValuesOf(const FrameworkElement& module) {
-  Values values;
-  for (const auto& [element, value] : ConfigurablesOf(module)) {
-    values[element->name()] = value->ToText();
+ConfigurableElement ParameterLike(const FrameworkElement& parameter, const FrameworkElement& before,
+                                  const FrameworkElement& after) {
+  if (parameter.parent() != &before && parameter.parent()->parent() != &before) {
+    const auto there = after.Find(PathIn(before, parameter));
+    auto* const same = there ? dynamic_cast<Configurable*>(*there) : nullptr;
+    return same != nullptr ? ConfigurableElement{*there, same} : ConfigurableElement();
   }
-  return values;
+  const auto* const former = parameter.FindAnnotation<FormerName>();
+  ConfigurableElement found = FindConfigurable(after, parameter.name());
+  if (!found && former != nullptr) found = FindConfigurable(after, former->name);
+  if (!found || found.element->name() == parameter.name()) return found;
+  // There may be one that has more right to it.
+  const auto other = FindConfigurable(before, found.element->name());
+  return !other || other.element == &parameter ? found : ConfigurableElement();
 }
 
-Result<void> CopyLateSettings(const FrameworkElement& before, const Values& values,
-                              const std::vector<Setting>& settings, FrameworkElement& after) {
-  for (const auto& [name, value] : ValuesOf(before)) {
-    const auto known = values.find(name);
-    const bool is_set_anyway = std::ranges::find(settings, name, &Setting::parameter) != settings.end();
-    if (is_set_anyway || (known != values.end() && known->second == value)) continue;
-    const ConfigurableElement target = FindConfigurable(after, name);
-    if (!target || target.configurable->info().is_static) continue;
-    const auto set = target.configurable->SetFromText(value);
-    if (!set) return set.error().WithPath(target.element->path());
+std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings, const FrameworkElement& module) {
+  std::set<const Configurable*> named;
+  for (const Setting& each : settings) {
+    const ConfigurableElement found = FindConfigurable(module, each.parameter);
+    named.insert(found.configurable);
+    const auto* const group = dynamic_cast<const GroupParameter*>(found.element);
+    if (group == nullptr) continue;
+    for (const ConfigurableElement& target : group->Find()) named.insert(target.configurable);
   }
-  return {};
+  return named;
+}
+
+SettingCounts SettingCountsOf(const FrameworkElement& module) {
+  SettingCounts counts;
+  ForEachParameter(module, [&](const FrameworkElement& element, const Configurable& each) {
+    counts[PathIn(module, element)] = each.settings();
+  });
+  return counts;
+}
+
+// Whether it has been set since it had been set so often.
+static bool IsLate(const SettingCounts& counts, const FrameworkElement& module, const FrameworkElement& element,
+                   const Configurable& parameter) {
+  const auto known = counts.find(PathIn(module, element));
+  return known == counts.end() || known->second != parameter.settings();
+}
+
+std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts, const ReplaceModule& change,
+                              const FrameworkElement& after) {
+  const std::set<const Configurable*> named = NamedBy(change.settings, after);
+  std::vector<Error> refused;
+  const auto copy = [&](const FrameworkElement& element, const Configurable& each) {
+    const auto [place, target] = ParameterLike(element, before, after);
+    if (place == nullptr || target->info().is_static) return;
+    if (named.contains(target) && !(change.counts && each.is_fed() && IsLate(*change.counts, before, element, each)))
+      return;
+    if (auto set = CopyValue(each, *target); !set && !each.is_fed())
+      refused.push_back(set.error().WithPath(place->path()));
+  };
+  ForEachParameter(before, [](const FrameworkElement&, Configurable& each) { each.TakeRest(); });
+  for (const auto& [element, group] : ConfigurablesOf(before)) {
+    const auto* const stands = dynamic_cast<const GroupParameter*>(element);
+    const auto is_set = [&](const ConfigurableElement& each) {
+      return !each.configurable->is_fed() && IsLate(counts, before, *each.element, *each.configurable);
+    };
+    if (stands != nullptr && std::ranges::any_of(stands->Find(), is_set)) copy(*element, *group);
+  }
+  ForEachParameter(before, [&](const FrameworkElement& element, const Configurable& each) {
+    if (each.is_fed() || IsLate(counts, before, element, each)) copy(element, each);
+  });
+  return refused;
 }
 
 PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after, const StructureOverlay& overlay) {
@@ -285,32 +368,11 @@ Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after) 
   return {};
 }
 
-bool Names(const std::vector<Setting>& settings, const FrameworkElement& module, const std::string& parameter) {
-  const auto is_it = [&](const Setting& each) {
-    const ConfigurableElement found = FindConfigurable(module, each.parameter);
-    return found && found.element->name() == parameter;
-  };
-  return std::ranges::any_of(settings, is_it);
-}
-
-Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports, const ReplaceModule& change) {
-  for (const auto& [from, to] : ports) {
-    const FrameworkElement* const parameter = ParameterSetBy(*to);
-    if (parameter == nullptr) continue;
-    const FrameworkElement& module = *parameter->parent()->parent();
-    if (!change.state && Names(change.settings, module, parameter->name())) continue;
-    if (auto copied = CopyState(*from->parent(), *to->parent()); !copied) return copied;
-  }
-  return {};
-}
-
-Result<void> TakeOverFed(Port& port, const FrameworkElement& before, FrameworkElement& after) {
+Result<void> TakeOverFeed(Port& port, const FrameworkElement& before, FrameworkElement& after) {
   Port* const input = ParameterSetBy(port) != nullptr ? Counterpart(port, before, after) : nullptr;
   Result<void> possible = input != nullptr ? Port::CheckTakeOver(*input, port) : NoCounterpart(port, before, after);
-  if (!possible) return possible;
-  if (auto copied = CopyFed({{&port, input}}, {}); !copied) return copied;
-  TakeOver(*input, port, before, after);
-  return {};
+  if (possible) TakeOver(*input, port, before, after);
+  return possible;
 }
 
 }  // namespace runnel::internal

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "core/base/result.h"
 #include "core/element/framework_element.h"
 #include "core/module/hand_over.h"
+#include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "plugins/structure/change.h"
 #include "plugins/structure/structure_overlay.h"
@@ -23,15 +26,20 @@ namespace runnel::internal {
 Result<void> ConfigureNew(FrameworkElement& made, const std::vector<Setting>& inherited,
                           const std::vector<Setting>& settings);
 
-/// The values of a module's parameters as they are now, for CopyLateSettings().
-using Values = std::map<std::string, std::string>;
-[[nodiscard]] Values ValuesOf(const FrameworkElement& module);
+/// The parameter of `after` that is what `parameter` is at or below `before`: of its name, or of a former one of either.
+[[nodiscard]] ConfigurableElement ParameterLike(const FrameworkElement& parameter, const FrameworkElement& before,
+                                                const FrameworkElement& after);
+/// The parameters of the module and its parts that settings set.
+[[nodiscard]] std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings,
+                                                    const FrameworkElement& module);
 
-/// Gives `after`, which is prepared, the values that parameters of the same name have got in `before`
-/// since it had `values`, but for those that `settings` name and those that cannot be set any more.
-/// Errors: a value that is refused.
-Result<void> CopyLateSettings(const FrameworkElement& before, const Values& values,
-                              const std::vector<Setting>& settings, FrameworkElement& after);
+[[nodiscard]] SettingCounts SettingCountsOf(const FrameworkElement& module);
+
+/// Gives `after`, which is prepared, the values that parameters of `before` have been set to since `counts`, and all that
+/// outputs have given, but for what `change` sets, unless it takes something back, and what cannot be set any more. Neither
+/// runs. What is refused: what others than outputs have set.
+[[nodiscard]] std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts,
+                                            const ReplaceModule& change, const FrameworkElement& after);
 
 /// The ports of a module, each with that which takes over from it.
 struct PortMatch {
@@ -63,14 +71,7 @@ Result<void> Settle(const FrameworkElement& module, std::vector<BeforeHandOver::
 /// Hands over the kept states that can be. Neither module runs. Errors: what copying throws.
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after);
 
-/// Whether one of the settings is of the module's parameter, also by a former name.
-[[nodiscard]] bool Names(const std::vector<Setting>& settings, const FrameworkElement& module,
-                         const std::string& parameter);
-
-/// Hands over what outputs have set of parameters, by the ports through which they do, but for what a person sets by the
-/// change: what is taken back (`change.state`) sets nothing of that. Before the ports take over. Errors: what copying throws.
-[[nodiscard]] Result<void> CopyFed(const std::vector<std::pair<Port*, Port*>>& ports, const ReplaceModule& change);
-/// The same and taking over, of one port whose counterpart could not be made as long as `after` was beside the tree.
-[[nodiscard]] Result<void> TakeOverFed(Port& port, const FrameworkElement& before, FrameworkElement& after);
+/// Has the input by which an output sets a parameter take over, which could not be made while `after` was beside the tree.
+[[nodiscard]] Result<void> TakeOverFeed(Port& port, const FrameworkElement& before, FrameworkElement& after);
 
 }  // namespace runnel::internal

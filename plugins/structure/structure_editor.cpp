@@ -181,6 +181,11 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request, inte
     outcome.hold_time = SteadyClock().Now() - hold->began();
     hold->Release();
   }
+  for (const internal::Replaced& each : plan.replaced()) {
+    if (each.probation_cycles > 0 || !shared_->probation || !shared_->probation->WasWaitedFor(*each.before)) continue;
+    outcome.diagnostics.AddWarning(
+        {.message = "its probation ends by this: the module before does not come back", .path = each.path});
+  }
   if (shared_->probation) shared_->probation->Add(plan.replaced());
   lock.unlock();
   std::vector<std::string> removed;

@@ -1,60 +1,16 @@
 // Parameters that an output has set, a STOP included, where changes are taken back and modules fail.
 
-#include <functional>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
-#include "plugins/structure/value_by_hand.h"
 #include "tests/plugins/application_tags/made_again_fixture.h"
 
 namespace runnel::testing {
 namespace {
 
-/// By which readers of the source find 0 from then on, and nothing comes that is new.
-class Halted : public MadeAgain, public ::testing::WithParamInterface<std::string> {
- protected:
-  void Halt() {
-    if (GetParam() == "stop") {
-      ASSERT_TRUE(workshop_.runtime.robot_stop().Press("a test"));
-    } else if (GetParam() == "block") {
-      ASSERT_TRUE(Output().Block());
-    } else if (GetParam() == "hand") {
-      const double value = 0;
-      const std::lock_guard lock(workshop_.runtime.structure_mutex());
-      ASSERT_TRUE(PublishByHand(Output(), &value));
-    } else {
-      Say(0);
-    }
-  }
-  // They find 2 again.
-  void Resume() {
-    (void)workshop_.runtime.robot_stop().Release("a test");
-    Output().Unblock();
-    Output().Release();
-    Run();
-    Say(2);
-    EXPECT_EQ(Run(), 2);
-  }
-  // A module that has taken the place throws, after `meanwhile`.
-  void Fail(const std::function<void()>& meanwhile) {
-    Do({ReplaceModule{"/demo/other", "test/fragile", {}, 1000}});
-    meanwhile();
-    EXPECT_EQ(Run(), 2);
-    Halt();
-    EXPECT_EQ(Run(), 0);
-    Fragile::throws = true;
-    Run();
-    const auto faults = scheduler_->TakeFaults();
-    ASSERT_NE(dynamic_cast<Source*>(*workshop_.runtime.root().Find("/demo/other")), nullptr)
-        << (faults.empty() ? "" : faults.front().message);
-    EXPECT_EQ(Run(), 0);
-    EXPECT_FALSE(Output().outgoing().empty());
-  }
-};
 INSTANTIATE_TEST_SUITE_P(, Halted, ::testing::Values("stop", "block", "hand", "published"),
                          [](const auto& given) { return given.param; });
 
@@ -116,6 +72,100 @@ TEST_P(Halted, IsNotTakenBackThoughConnectedToTheModuleThatHasFailed) {
   Say(2);
   EXPECT_EQ(Run(), 5);
   Fail([this] { Do({ConnectPorts{"/demo/source/value", "/demo/other/gain"}}); });
+}
+
+TEST_P(Halted, IsNotTakenBackWithTheSettingsBefore) {
+  const SetParameter set_5{"/demo/other/gain", "5"}, set_6{"/demo/other/gain", "6"};
+  const ReplaceModule swap_5{"/demo/other", "test/source", {{"gain", "5"}}};
+  const ReplaceModule swap_6{"/demo/other", "test/source", {{"gain", "6"}}};
+  Start(kConnected);
+  for (const auto& [first, second] :
+       std::vector<std::pair<Change, Change>>{{set_5, set_6}, {set_5, swap_6}, {swap_5, set_6}, {swap_5, swap_6}}) {
+    Resume();
+    ASSERT_TRUE(history_->Apply({first}));
+    Halt();
+    EXPECT_EQ(Run(), 0);
+    ASSERT_TRUE(history_->Apply({second}));
+    EXPECT_EQ(Run(), 6);
+    ASSERT_TRUE(history_->Undo());
+    EXPECT_EQ(Run(), 0) << "of the output, again";
+    ASSERT_TRUE(history_->Undo());
+    EXPECT_EQ(Run(), 0);
+  }
+}
+
+TEST_P(Halted, IsNotTakenBackAfterARefusedChange) {
+  Start(std::string(kConnected) + R"(<module name="stubborn" type="test/stubborn" thread="control"/>
+    <module name="box" type="test/pair" thread="control"/><connect from="source/value" to="box/b/gain"/>)");
+  Resume();
+  ASSERT_TRUE(history_->Apply({SetParameter{"/demo/other/gain", "5"}, SetParameter{"/demo/box/b/gain", "5"}}));
+  Halt();
+  EXPECT_EQ(Run(), 0);
+  for (const char* const path : {"/demo/other/gain", "/demo/box/both"})
+    EXPECT_FALSE(changes_->Apply({SetParameter{path, "7"}, ReplaceModule{"/demo/stubborn", "test/stubborn"}}));
+  EXPECT_EQ(Run(), 0);
+  EXPECT_EQ(SavedValue("/demo/other/parameter/gain"), "1") << "what a person has set";
+  ASSERT_TRUE(history_->Undo());
+  EXPECT_EQ(Run(), 0);
+  EXPECT_EQ(Run("/demo/box/b/parameter/gain"), 0);
+}
+
+TEST_P(Halted, IsNotTakenBackThoughItWasConnectedDuringTheTrialAlone) {
+  Start(kOther);
+  for (const char* const value : {"5", "6"}) ASSERT_TRUE(history_->Apply({SetParameter{"/demo/other/gain", value}}));
+  Fail([this] {
+    Do({ConnectPorts{"/demo/source/value", "/demo/other/gain"}});
+    Say(2);
+  });
+  Do({DisconnectPorts{"/demo/source/value", "/demo/other/gain"}});
+  const ChangeOutcome undone = history_->Undo();
+  EXPECT_THAT(undone.diagnostics.ToString(), ::testing::HasSubstr("an output has set it since"));
+  EXPECT_EQ(Run(), 0);
+}
+
+TEST_P(Halted, StaysAsAPersonHasSetItThoughTheModuleOnTrialBeganSo) {
+  Start(kConnected);
+  Resume();
+  Do({ReplaceModule{"/demo/other", "test/fragile", {{"gain", "0"}}, 1000}});
+  Halt();
+  Run();
+  for (const char* const value : {"3", "0"}) Do({SetParameter{"/demo/other/gain", value}});
+  Fragile::throws = true;
+  Run();
+  ASSERT_NE(dynamic_cast<Source*>(*workshop_.runtime.root().Find("/demo/other")), nullptr);
+  EXPECT_EQ(Run(), 0);
+}
+
+TEST_P(Halted, GoesToAParameterThatWasCalledOtherwiseAndBack) {
+  Start(R"(<module name="other" type="test/old" thread="control"/><connect from="source/value" to="other/boost"/>)");
+  for (const std::uint64_t probation : {0, 1000}) {
+    Resume("/demo/other/parameter/boost");
+    ASSERT_TRUE(history_->Apply({ReplaceModule{"/demo/other", "test/new", {}, probation}}));
+    EXPECT_EQ(Run(), 2);
+    Halt();
+    EXPECT_EQ(Run(), 0);
+    NewName::throws = true;
+    if (probation == 0) {
+      ASSERT_TRUE(history_->Undo());
+    }
+    EXPECT_EQ(Run("/demo/other/parameter/boost"), 0);
+    EXPECT_FALSE(Output().outgoing().empty());
+    NewName::throws = false;
+  }
+}
+
+TEST_P(Halted, IsKeptByAPartOfWhichNothingIsSet) {
+  const std::string part = "/demo/box/b/parameter/gain";
+  Start(R"(<module name="box" type="test/pair" thread="control"/><connect from="source/value" to="box/b/gain"/>)");
+  Resume(part);
+  Halt();
+  EXPECT_EQ(Run(part), 0);
+  for (const bool is_connected : {true, false}) {
+    if (!is_connected) Do({DisconnectPorts{"/demo/source/value", "/demo/box/b/gain"}});
+    Do({ReplaceModule{"/demo/box", "test/pair", {{"gain", "3"}}}});
+    EXPECT_EQ(Run(part), 0);
+    EXPECT_EQ(Run("/demo/box/a/parameter/gain"), 3);
+  }
 }
 
 }  // namespace

@@ -1,19 +1,24 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/element/former_name.h"
 #include "core/module/group.h"
+#include "core/module/group_parameter.h"
 #include "core/module/hand_over.h"
 #include "plugins/parameters/value_to_save.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"
+#include "plugins/structure/value_by_hand.h"
 #include "tests/plugins/application_tags/parameter_inputs_fixture.h"
 
 namespace runnel::testing {
@@ -68,6 +73,35 @@ struct Named final : Module {
   void Update() override {}
 };
 
+/// One parameter, by its former name and by the one of now.
+struct OldName final : Module {
+  using Module::Module;
+  Parameter<double> boost{this, "boost", {.default_value = 1.0}};
+  void Update() override {}
+};
+struct NewName final : Module {
+  explicit NewName(const Placement& placement) : Module(placement) {
+    gain.Annotate(std::make_unique<FormerName>("boost"));
+  }
+  Parameter<double> gain{this, "gain", {.default_value = 1.0}};
+  static inline bool throws = false;
+  void Update() override {
+    if (throws) throw std::runtime_error("no");
+  }
+};
+
+/// Two parts, each with a gain: "gain" is that of a, "speed" that of b.
+struct Pair final : Group {
+  using Group::Group;
+  Result<void> Construct() override {
+    for (const char* const part : {"a", "b"}) runtime().Create<Source>(*this, part);
+    runtime().Create<GroupParameter>(*this, "gain", std::vector<std::string>{"a/gain"});
+    runtime().Create<GroupParameter>(*this, "speed", std::vector<std::string>{"b/gain"});
+    runtime().Create<GroupParameter>(*this, "both", std::vector<std::string>{"b/gain", "a/gain"});
+    return {};
+  }
+};
+
 // The source says 2, and is at rest at 0.
 class MadeAgain : public ParameterInputs {
  protected:
@@ -77,7 +111,10 @@ class MadeAgain : public ParameterInputs {
     workshop_.Add<Goals>("test/goals");
     workshop_.Add<Box>("test/box");
     workshop_.Add<Named>("test/named");
-    Fragile::throws = false;
+    workshop_.Add<OldName>("test/old");
+    workshop_.Add<NewName>("test/new");
+    workshop_.Add<Pair>("test/pair");
+    Fragile::throws = NewName::throws = false;
   }
 
   void Start(const std::string& inside) {
@@ -113,6 +150,47 @@ class MadeAgain : public ParameterInputs {
   int end_ = 0;
 };
 
+/// By which readers of the source find 0 from then on, and nothing comes that is new.
+class Halted : public MadeAgain, public ::testing::WithParamInterface<std::string> {
+ protected:
+  void Halt() {
+    if (GetParam() == "stop") {
+      ASSERT_TRUE(workshop_.runtime.robot_stop().Press("a test"));
+    } else if (GetParam() == "block") {
+      ASSERT_TRUE(Output().Block());
+    } else if (GetParam() == "hand") {
+      const double value = 0;
+      const std::lock_guard lock(workshop_.runtime.structure_mutex());
+      ASSERT_TRUE(PublishByHand(Output(), &value));
+    } else {
+      Say(0);
+    }
+  }
+  // They find 2 again.
+  void Resume(const std::string& parameter = "/demo/other/parameter/gain") {
+    (void)workshop_.runtime.robot_stop().Release("a test");
+    Output().Unblock();
+    Output().Release();
+    Run();
+    Say(2);
+    EXPECT_EQ(Run(parameter), 2);
+  }
+  // A module that has taken the place throws, after `meanwhile`.
+  void Fail(const std::function<void()>& meanwhile) {
+    Do({ReplaceModule{"/demo/other", "test/fragile", {}, 1000}});
+    meanwhile();
+    EXPECT_EQ(Run(), 2);
+    Halt();
+    EXPECT_EQ(Run(), 0);
+    Fragile::throws = true;
+    Run();
+    const auto faults = scheduler_->TakeFaults();
+    ASSERT_NE(dynamic_cast<Source*>(*workshop_.runtime.root().Find("/demo/other")), nullptr)
+        << (faults.empty() ? "" : faults.front().message);
+    EXPECT_EQ(Run(), 0);
+    EXPECT_FALSE(Output().outgoing().empty());
+  }
+};
 inline constexpr const char* kOther = R"(<module name="other" type="test/source" thread="control"/>)";
 inline constexpr const char* kConnected = R"(<module name="other" type="test/source" thread="control"/>
   <connect from="source/value" to="other/gain"/>)";
