@@ -6,7 +6,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/attempt.h"
 #include "core/element/element_path.h"
-#include "plugins/structure/type_names.h"
+#include "plugins/application_files/type_names.h"
 
 namespace runnel {
 

@@ -14,7 +14,7 @@
 #include "plugins/network/xml_network_words.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
-#include "plugins/structure/type_names.h"
+#include "plugins/application_files/type_names.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {

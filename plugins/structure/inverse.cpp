@@ -14,6 +14,7 @@
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/element_state.h"
+#include "plugins/structure/module_values.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/replacement.h"
 

@@ -10,6 +10,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/late_connections.h"
 #include "plugins/structure/element_state.h"
+#include "plugins/structure/module_values.h"
 #include "plugins/structure/replacement.h"
 
 namespace runnel::internal {

@@ -6,6 +6,7 @@
 
 #include "core/module/group.h"
 #include "plugins/structure/element_state.h"
+#include "plugins/structure/module_values.h"
 #include "plugins/structure/name_in_file.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/replacement.h"

@@ -9,6 +9,7 @@
 #include "core/element/attempt.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"
+#include "plugins/structure/module_values.h"
 #include "plugins/structure/replacement.h"
 
 namespace runnel::internal {

@@ -12,7 +12,7 @@
 #include "plugins/application_files/application_builder.h"
 #include "plugins/application_tags/run_description.h"
 #include "plugins/finroc_files/finroc_application.h"
-#include "plugins/structure/type_names.h"
+#include "plugins/application_files/type_names.h"
 #include "tests/plugins/application_files/saving/application_text.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 

@@ -1,4 +1,4 @@
-#include "plugins/structure/type_names.h"
+#include "plugins/application_files/type_names.h"
 
 #include <algorithm>
 #include <thread>

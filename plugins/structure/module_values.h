@@ -1,0 +1,37 @@
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/element/framework_element.h"
+#include "core/paths/path_search.h"
+#include "plugins/structure/change.h"
+
+namespace runnel::internal {
+
+/// The values that a module of the same type would not have by itself.
+[[nodiscard]] std::vector<Setting> SettingsOf(const FrameworkElement& module);
+
+/// Sets the parameters of a module that has just been made: to `inherited`, as far as it has parameters of these names,
+/// then to `settings`; and has it make the ports that
+/// follow from them. What stands for parameters within (GroupParameter) is set when these are there.
+Result<void> ConfigureNew(FrameworkElement& made, const std::vector<Setting>& inherited,
+                          const std::vector<Setting>& settings);
+
+/// The parameter of `after` that is what `parameter` is at or below `before`: of its name, or of a former one of either.
+[[nodiscard]] ConfigurableElement ParameterLike(const FrameworkElement& parameter, const FrameworkElement& before,
+                                                const FrameworkElement& after);
+/// The parameters of the module and its parts that settings set.
+[[nodiscard]] std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings,
+                                                    const FrameworkElement& module);
+
+[[nodiscard]] SettingCounts SettingCountsOf(const FrameworkElement& module);
+
+/// Gives `after`, which is prepared, the values that parameters of `before` have been set to since `counts`, and all that
+/// outputs have given, but for what `change` sets, unless it takes something back, and what cannot be set any more. Neither
+/// runs. What is refused: what others than outputs have set.
+[[nodiscard]] std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts,
+                                            const ReplaceModule& change, const FrameworkElement& after);
+
+}  // namespace runnel::internal
