@@ -83,9 +83,6 @@ Command RefuseParsing(const CLI::App& program, const CLI::ParseError& error) {
   if (parsed.empty()) return Refuse(error.what(), help);
   const std::vector<std::string> left = parsed.front()->remaining();
   const auto unknown = std::ranges::find_if(left, [](const std::string& each) { return each.starts_with('-'); });
-  if (const std::string now = WordsOfNow(name, left); !now.empty()) {
-    return Refuse("'" + name + " " + left.front() + "' is of a version before", now);
-  }
   if (unknown != left.end()) {
     const std::string option = unknown->substr(0, unknown->find('='));
     if (name == "run" && option == "--inspect") {

@@ -225,15 +225,6 @@ std::optional<ControlArguments> ControlCommandLine::Parsed() const {
   return {};
 }
 
-std::string WordsOfNow(const std::string& command, const std::vector<std::string>& left) {
-  if (command == "stop" && !left.empty()) {
-    return "'runnel stop' is the STOP of the robot, 'runnel pause PATH' leaves modules out of cycles, "
-           "'runnel block PORT' stops one port";
-  }
-  if (std::ranges::find(left, "--stop") == left.end()) return "";
-  return command == "publish" ? "'runnel block PORT'" : "'runnel " + command + " … --remove'";
-}
-
 std::vector<const char*> WithNegativeValues(int count, const char* const* words) {
   std::vector<const char*> all(words, words + count);
   const std::string_view last = all.back();

@@ -28,9 +28,6 @@ class ControlCommandLine {
   std::deque<Entry> entries_;  // whose addresses the parser keeps
 };
 
-/// What to say instead of words that a version before took for this; "" if they are none. `left`: those that nobody knows.
-[[nodiscard]] std::string WordsOfNow(const std::string& command, const std::vector<std::string>& left);
-
 /// Lets numbers below 0 stand where a value is asked for: `runnel set /a/b -1`, which would be taken
 /// for an option.
 [[nodiscard]] std::vector<const char*> WithNegativeValues(int count, const char* const* words);

@@ -59,25 +59,24 @@ double ProcessorMicroseconds() {
 class Watcher {
  public:
   Watcher(const std::filesystem::path& socket, const std::string& request, bool reads) {
-    descriptor_ = *ConnectToSocket(socket);
+    socket_ = std::move(*ConnectToSocket(socket));
     const std::string bytes = FrameBytes("request", request);
-    if (send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL) < 0) std::abort();
+    if (send(socket_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL) < 0) std::abort();
     if (reads) thread_ = std::thread([this] { Read(); });
   }
   ~Watcher() {
     ends_.store(true);
     if (thread_.joinable()) thread_.join();
-    close(descriptor_);
   }
 
  private:
   void Read() {
     std::vector<char> bytes(1 << 20);
     while (!ends_.load()) {
-      if (recv(descriptor_, bytes.data(), bytes.size(), 0) <= 0) std::this_thread::sleep_for(1ms);
+      if (recv(socket_.number(), bytes.data(), bytes.size(), 0) <= 0) std::this_thread::sleep_for(1ms);
     }
   }
-  int descriptor_ = -1;
+  FileDescriptor socket_;
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

@@ -56,7 +56,8 @@ std::string CamelCase(std::string_view name) {
 }
 
 bool IsCppKeyword(std::string_view word) {
-  return kKeywords.find(" " + std::string(word) + " ") != std::string_view::npos;
+  return word.find(' ') == std::string_view::npos &&
+         kKeywords.find(" " + std::string(word) + " ") != std::string_view::npos;
 }
 
 }  // namespace runnel

@@ -38,7 +38,7 @@ class Configurable {
   /// Whether `value`, an object of type(), is one that this may have.
   [[nodiscard]] virtual Result<void> Check(const void* value) const = 0;
   /// Takes over the value, an object of type(), or leaves everything as it was and says why not.
-  virtual Result<void> SetFrom(const void* value) = 0;
+  Result<void> SetFrom(const void* value) { return PutBack(value, {}); }
   /// A copy of the value, an object of type(). Allocates.
   [[nodiscard]] virtual std::shared_ptr<void> Value() const = 0;
   [[nodiscard]] virtual const TypeInfo& type() const = 0;
@@ -48,18 +48,21 @@ class Configurable {
   /// lock.
   [[nodiscard]] virtual Port* Feed() { return nullptr; }
 
-  /// An output has given it its value, and nobody has set it since.
-  [[nodiscard]] virtual bool is_fed() const noexcept { return false; }
-  /// One more with each time that it is set, by outputs and others; no two elements of a run have the same.
-  [[nodiscard]] virtual std::uint64_t settings() const noexcept { return 0; }
+  /// Where its value has come from. What is passed on to another element, or put back, has that as well.
+  struct Origin {
+    bool is_fed = false;        ///< an output has given it, and nobody has set another since
+    bool has_been_fed = false;  ///< an output has given one at some time: no value from before is used again
+    /// Another one after each setting, by whomever, and in each element of a run. What is put back gets its own again.
+    std::uint64_t settings = 0;
+  };
+  [[nodiscard]] virtual Origin origin() const = 0;
+  /// Takes over a value of that origin, as SetFrom() does one that is set. Errors: the same; an output's need only be within the
+  /// bounds.
+  virtual Result<void> PutBack(const void* value, const Origin& origin) = 0;
+  /// In the module's next cycle it takes the newest value of the output that is connected, though it has had that before.
+  virtual void AskFeed() noexcept {}
   /// What an output has given, and has not been taken over yet, is. Its module does not run.
   virtual void TakeRest() {}
-  /// Takes over a value that has been had before, there or at another one: is_fed() is as it was. Errors: those of
-  /// SetFrom(); an output's value has only to be within the bounds.
-  virtual Result<void> PutBack(const void* value, bool was_fed) {
-    (void)was_fed;
-    return SetFrom(value);
-  }
 
   /// What its module has made of the value that was set last: nothing as long as it has not said; an error if it has
   /// refused it, and the value is that of before.

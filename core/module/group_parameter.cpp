@@ -82,7 +82,18 @@ Result<void> GroupParameter::Check(const void* value) const {
   return {};
 }
 
-Result<void> GroupParameter::SetFrom(const void* value) {
+Configurable::Origin GroupParameter::origin() const {
+  Origin origin;
+  for (const ConfigurableElement& each : Find()) {
+    const Origin own = each.configurable->origin();
+    if (origin.settings == 0) origin.is_fed = own.is_fed;
+    origin.has_been_fed |= own.has_been_fed;
+    origin.settings += own.settings;
+  }
+  return origin;
+}
+
+Result<void> GroupParameter::PutBack(const void* value, const Origin& origin) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (auto good = Check(value); !good) return good;
   const auto found = Find();
@@ -92,16 +103,17 @@ Result<void> GroupParameter::SetFrom(const void* value) {
   struct Before {
     Configurable* parameter;
     std::shared_ptr<void> value;
-    bool was_fed;
+    Origin origin;
   };
   std::vector<Before> before;
   for (const ConfigurableElement& each : found) {
     const auto wanted = ValueFor(*each.configurable, type(), value);
-    before.push_back({each.configurable, each.configurable->Value(), each.configurable->is_fed()});
-    auto set = wanted ? each.configurable->SetFrom(wanted->get()) : Result<void>(wanted.error());
+    before.push_back({each.configurable, each.configurable->Value(), each.configurable->origin()});
+    auto set = wanted ? each.configurable->PutBack(wanted->get(), {origin.is_fed, origin.has_been_fed})
+                      : Result<void>(wanted.error());
     if (set) continue;
     before.pop_back();
-    for (const auto& [parameter, old, was_fed] : before) (void)parameter->PutBack(old.get(), was_fed);
+    for (const auto& [parameter, old, own] : before) (void)parameter->PutBack(old.get(), own);
     return set;
   }
   return {};

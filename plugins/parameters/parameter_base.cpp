@@ -106,7 +106,12 @@ Result<void> ParameterBase::Check(const void* value) const {
   return {};
 }
 
-Result<void> ParameterBase::PutBack(const void* value, bool was_fed) {
+Configurable::Origin ParameterBase::origin() const noexcept {
+  return {is_fed_.load(std::memory_order_relaxed), has_been_fed_.load(std::memory_order_relaxed),
+          settings_.load(std::memory_order_relaxed)};
+}
+
+Result<void> ParameterBase::PutBack(const void* value, const Origin& origin) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (info().is_static && life_cycle() == LifeCycle::kReady) {
     return Error{.message = "the parameter is static: it can be set only before its module is ready",
@@ -118,20 +123,22 @@ Result<void> ParameterBase::PutBack(const void* value, bool was_fed) {
                  .path = path(),
                  .hint = "set it before anything is connected"};
   }
-  if (!was_fed || !MayBeFed(value)) {
+  if (!origin.is_fed || !MayBeFed(value)) {
     if (auto good = Check(value); !good) return good.error().WithPath(path());
   }
   // A cycle in which an output feeds the parameter may be about to do the same: that tries, and this waits.
   const std::lock_guard assigning(assigning_);
-  TakeOver(value, was_fed);
+  TakeOver(value, origin);
   return {};
 }
 
 // Under `assigning_`.
-void ParameterBase::TakeOver(const void* value, bool is_fed) {
+void ParameterBase::TakeOver(const void* value, const Origin& origin) {
   const bool has_changed = Assign(value);
-  is_fed_.store(is_fed, std::memory_order_relaxed);
-  settings_.store(settings_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  is_fed_.store(origin.is_fed, std::memory_order_relaxed);
+  if (origin.has_been_fed) has_been_fed_.store(true, std::memory_order_relaxed);
+  const bool is_own = origin.settings >> kSettingBits == id();
+  settings_.store(is_own ? origin.settings : settings_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   if (has_changed && module_ != nullptr) module_->NoteParameterChange();
 }
 
@@ -155,29 +162,37 @@ class ParameterBase::Feeder final : public FrameworkElement {
   }
 
   [[nodiscard]] Port& input() noexcept { return *input_; }
+  void Ask() noexcept { is_asked_.store(true, std::memory_order_relaxed); }
   void TakeRest() {
     if (is_left_) Take();
   }
 
  private:
   void Take() {
-    if (!held_->Read(*input_, 0) && !is_left_) return;
+    const bool is_new = held_->Read(*input_, 0);
+    if (!is_new && !is_left_ && !is_asked_.load(std::memory_order_relaxed)) return;
     const std::unique_lock lock(parameter_.assigning_, std::try_to_lock);
     is_left_ = !lock;
     if (is_left_) return;  // somebody sets it just now: in the next cycle
+    is_asked_.store(false, std::memory_order_relaxed);
     const void* const value = held_->Find(0);
-    if (value != nullptr && parameter_.MayBeFed(value)) parameter_.TakeOver(value, true);
+    if (value != nullptr && parameter_.MayBeFed(value)) parameter_.TakeOver(value, {true, true});
     held_->Drop(0);
   }
 
   ParameterBase& parameter_;
   const std::unique_ptr<HeldValues> held_;
   const std::unique_ptr<Port> input_;
-  bool is_left_ = false;  // a value that has not been taken over yet
+  bool is_left_ = false;               // a value that has not been taken over yet
+  std::atomic<bool> is_asked_{false};  // relaxed: it is seen in one of the next cycles
 };
 
 // It may have gone again.
 bool ParameterBase::HasFeeder() const { return feeder_ != nullptr && FindChild("feed") == feeder_; }
+
+void ParameterBase::AskFeed() noexcept {
+  if (HasFeeder()) feeder_->Ask();
+}
 
 void ParameterBase::TakeRest() {
   if (HasFeeder()) feeder_->TakeRest();

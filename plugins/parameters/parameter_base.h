@@ -100,17 +100,13 @@ class ParameterBase : public FrameworkElement, public Configurable {
  public:
   [[nodiscard]] Result<std::shared_ptr<const void>> Parse(std::string_view text) const override;
   [[nodiscard]] Result<void> Check(const void* value) const final;
-  Result<void> SetFrom(const void* value) final { return PutBack(value, false); }
   /// In the group "feed" below: a task of its own, run where the module is, takes over what comes there, unless
   /// it is out of bounds. None of static parameters, and of types that no port has.
   [[nodiscard]] Port* Feed() final;
-  [[nodiscard]] bool is_fed() const noexcept final { return is_fed_.load(std::memory_order_relaxed); }
-  [[nodiscard]] std::uint64_t settings() const noexcept final {
-    constexpr int kMost = 40;  // bits: those of a thousand a second for thirty years
-    return (id() << kMost) + settings_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] Origin origin() const noexcept final;
+  Result<void> PutBack(const void* value, const Origin& origin) final;
+  void AskFeed() noexcept final;
   void TakeRest() final;
-  Result<void> PutBack(const void* value, bool was_fed) final;
   [[nodiscard]] const TypeInfo& type() const final { return description_.type; }
   [[nodiscard]] const ConfigurableInfo& info() const final { return description_.info; }
 
@@ -124,15 +120,18 @@ class ParameterBase : public FrameworkElement, public Configurable {
 
  private:
   class Feeder;
-  void TakeOver(const void* value, bool is_fed);
+  void TakeOver(const void* value, const Origin& origin);
   [[nodiscard]] bool MayBeFed(const void* value) const;
   [[nodiscard]] bool HasFeeder() const;
 
   const internal::ParameterDescription description_;
   Module* const module_;  // nullptr: of something else
   CycleLock assigning_{[]() noexcept {}};
-  std::atomic<bool> is_fed_{false};  // relaxed, as below: they only inform
-  std::atomic<std::uint64_t> settings_{0};
+  // Of the value, all relaxed: they only inform.
+  std::atomic<bool> is_fed_{false};
+  std::atomic<bool> has_been_fed_{false};
+  static constexpr int kSettingBits = 40;  // below the number of the element: a thousand a second for thirty years
+  std::atomic<std::uint64_t> settings_{id() << kSettingBits};
   Feeder* feeder_ = nullptr;  // once somebody has asked for it; a child
 };
 

@@ -42,7 +42,7 @@ struct MadeByRule final : Annotation {
 /// Whether its value is that of an output which is connected to it: a file says the connection, by which the value comes
 /// anew. Under the structure lock.
 [[nodiscard]] inline bool HasValueOfOutput(const FrameworkElement& element, const Configurable& parameter) {
-  if (!parameter.is_fed()) return false;
+  if (!parameter.origin().is_fed) return false;
   return std::ranges::any_of(element.children(), [](FrameworkElement* below) {
     bool is_connected = false;
     below->VisitAll<const Port>([&](const Port& feed) { is_connected = is_connected || !feed.Sources().empty(); });

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "core/element/configurable.h"
 #include "core/log/log_level.h"
 #include "core/port/port.h"
 #include "core/port/port_options.h"
@@ -18,16 +18,12 @@ namespace runnel {
 class TypeInfo;
 namespace internal {
 class ElementState;
-/// Configurable::settings() of the parameters of a module and its parts, by their paths in it.
-using SettingCounts = std::map<std::string, std::uint64_t>;
-}  // namespace internal
+}
 
 /// The value of a parameter in its text format, by the parameter's name: {"stop_distance", "0.3"}.
 struct Setting {
   std::string parameter;
   std::string value;
-  std::string unit = {};  ///< of a number that another parameter had; "": that of the parameter
-  bool was_fed = false;   ///< an output had given it (Configurable::PutBack())
 };
 
 using GivenState = std::shared_ptr<const internal::ElementState>;
@@ -88,9 +84,7 @@ struct SetParameter {
   /// Instead of the text, an object of `type`, which must be the parameter's.
   std::shared_ptr<const void> object = {};
   const TypeInfo* type = nullptr;
-  bool was_fed = false;  ///< an output had given it (Configurable::PutBack())
-  /// Of what takes a setting back: Configurable::settings() right after that.
-  std::optional<std::uint64_t> settings = {};
+  Configurable::Origin origin = {};  ///< of what is put back
 };
 
 /// Puts a module of `type` in the place of another one. It takes over the connections (what waits in
@@ -105,8 +99,6 @@ struct ReplaceModule {
   std::uint64_t probation_cycles = 10;
   /// Of a change that takes another one back: what had been set at ports that the module has not, and gets again.
   GivenState state = {};
-  /// And as all is right after that.
-  std::shared_ptr<const internal::SettingCounts> counts = {};
 };
 
 /// Gives a module or group another name, at the same place. Connections (with what waits in queues), values, kept states

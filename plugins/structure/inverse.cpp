@@ -32,7 +32,7 @@ void AddDefaults(const FrameworkElement& before, const FrameworkElement& after, 
     const ConfigurableElement other = ParameterLike(*element, before, after);
     if (!other || std::ranges::count(settings, element->name(), &Setting::parameter) > 0) continue;
     const std::string value = parameter->ToText();
-    if (other.configurable->ToText() != value) settings.push_back({element->name(), value, {}, parameter->is_fed()});
+    if (other.configurable->ToText() != value) settings.push_back({element->name(), value});
   }
 }
 
@@ -149,7 +149,7 @@ ChangeSet MakeLike(FrameworkElement& element, const std::string& path, std::opti
 }
 
 ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& after, const ReplaceModule& change,
-                      std::shared_ptr<const SettingCounts> begins, std::optional<Error>& why_not) {
+                      std::optional<Error>& why_not) {
   const std::string type = FindModuleType(before);
   if (type.empty()) {
     if (!why_not) why_not = CannotBeMade(before);
@@ -157,18 +157,9 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
   }
   std::vector<Setting> settings = SettingsOf(before);
   AddDefaults(before, after, settings);
-  // What an output has set is handed on, as it is by then, unless the change itself sets it.
-  const std::set<const Configurable*> named = NamedBy(change.settings, after);
-  std::erase_if(settings, [&](const Setting& each) {
-    const auto [element, parameter] = FindConfigurable(before, each.parameter);
-    if (!parameter->is_fed()) return false;
-    const ConfigurableElement like = ParameterLike(*element, before, after);
-    return like && !named.contains(like.configurable);
-  });
   return {ReplaceModule{before.path(), type, std::move(settings), change.probation_cycles,
                         std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,
-                                                             ElementState::Below::kIncluded),
-                        std::move(begins)}};
+                                                             ElementState::Below::kIncluded)}};
 }
 
 UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses, std::optional<Error> why_not, FrameworkElement& root) {

@@ -30,11 +30,9 @@ namespace runnel::internal {
 /// The same for a thread, with what is assigned to it.
 void AddThreadAgain(const ThreadContainer& thread, ChangeSet& changes);
 
-/// Puts a module like `before` in the place of `after`, with the values that it has now. `begins`: those of `after`, once
-/// all is done.
+/// Puts a module like `before` in the place of `after`, with the values that it has now.
 [[nodiscard]] ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& after,
-                                    const ReplaceModule& change, std::shared_ptr<const SettingCounts> begins,
-                                    std::optional<Error>& why_not);
+                                    const ReplaceModule& change, std::optional<Error>& why_not);
 
 /// The path of the thread container that the element itself is assigned to, or "".
 [[nodiscard]] std::string OwnThreadPath(const FrameworkElement& element);

@@ -8,6 +8,7 @@
 #include "core/base/nearest_name.h"
 #include "core/base/unit.h"
 #include "core/conversion/number_conversion.h"
+#include "core/element/attempt.h"
 #include "core/element/former_name.h"
 #include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
@@ -25,12 +26,6 @@ std::string UnitOfNumber(const Configurable& parameter) {
   return IsNumber(parameter.type()) ? parameter.info().unit : "";
 }
 
-// Errors: it refuses the value.
-Result<void> Give(const Setting& setting, Configurable& parameter) {
-  const auto value = parameter.Parse(TextIn(setting.unit, setting.value, parameter));
-  return value ? parameter.PutBack(value->get(), setting.was_fed) : value.error();
-}
-
 using IsTheirTurn = std::function<bool(const FrameworkElement& parameter)>;
 
 // Errors: no such parameter, with the nearest name; a value it refuses.
@@ -45,29 +40,28 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting, bool ma
                  .hint = NearestNameHint(setting.parameter, NamesOf(ConfigurablesOf(module), name_of))};
   }
   if (!is_its_turn(*parameter.element)) return {};
-  const auto set = Give(setting, *parameter.configurable);
+  const auto set = parameter.configurable->SetFromText(setting.value);
   return set ? set : set.error().WithPath(parameter.element->path());
 }
 
-// What an output had given is left out where it is refused.
-Result<void> CopySettings(const std::vector<Setting>& inherited, FrameworkElement& after,
-                          const IsTheirTurn& is_its_turn) {
-  for (const Setting& each : inherited) {
-    const auto [element, target] = FindConfigurable(after, each.parameter);
+Result<void> CopySettings(const Inherited& inherited, FrameworkElement& after, const IsTheirTurn& is_its_turn) {
+  for (const auto& [setting, unit] : inherited) {
+    const auto [element, target] = FindConfigurable(after, setting.parameter);
     if (element == nullptr || !is_its_turn(*element)) continue;
-    const bool has_other =
-        element->name() != each.parameter && std::ranges::count(inherited, element->name(), &Setting::parameter) > 0;
-    if (has_other) continue;
-    if (const auto set = Give(each, *target); !set && !each.was_fed) return set.error().WithPath(element->path());
+    const auto has_its_name = [name = element->name()](const auto& each) { return each.first.parameter == name; };
+    if (element->name() != setting.parameter && std::ranges::any_of(inherited, has_its_name)) continue;
+    const auto set = target->SetFromText(TextIn(unit, setting.value, *target));
+    if (!set) return set.error().WithPath(element->path());
   }
   return {};
 }
 
 Result<void> CopyValue(const Configurable& from, Configurable& to) {
+  const auto [is_fed, has_been_fed, settings] = from.origin();
   const std::shared_ptr<const void> value = from.Value();
   const bool is_alike = &from.type() == &to.type() && from.info().unit == to.info().unit;
   const auto own = is_alike ? Result(value) : to.Parse(TextIn(UnitOfNumber(from), from.ToText(), to));
-  return own ? to.PutBack(own->get(), from.is_fed()) : own.error();
+  return own ? to.PutBack(own->get(), {is_fed, has_been_fed}) : own.error();
 }
 
 std::string PathIn(const FrameworkElement& module, const FrameworkElement& element) {
@@ -82,11 +76,25 @@ void ForEachParameter(const FrameworkElement& module, const Use& use) {
   });
 }
 
+// By the parameter of the composite that stands for it, where there is no part like that.
+ConfigurableElement CounterpartOf(const FrameworkElement& parameter, const FrameworkElement& before,
+                                  const FrameworkElement& after) {
+  ConfigurableElement found = ParameterLike(parameter, before, after);
+  for (const auto& [element, each] : ConfigurablesOf(before)) {
+    const auto* const group = dynamic_cast<const GroupParameter*>(element);
+    if (found || group == nullptr) continue;
+    const auto targets = group->Find();
+    if (std::ranges::count(targets, &parameter, &ConfigurableElement::element) > 0)
+      found = ParameterLike(*element, before, after);
+  }
+  return found;
+}
+
 // Whether it has been set since it had been set so often.
 bool IsLate(const SettingCounts& counts, const FrameworkElement& module, const FrameworkElement& element,
             const Configurable& parameter) {
   const auto known = counts.find(PathIn(module, element));
-  return known == counts.end() || known->second != parameter.settings();
+  return known == counts.end() || known->second != parameter.origin().settings;
 }
 
 }  // namespace
@@ -95,14 +103,21 @@ std::vector<Setting> SettingsOf(const FrameworkElement& module) {
   std::vector<Setting> settings;
   for (const auto& [element, parameter] : ConfigurablesOf(module)) {
     std::string value = parameter->ToText();
-    if (value == parameter->info().default_value) continue;
-    settings.push_back({element->name(), std::move(value), UnitOfNumber(*parameter), parameter->is_fed()});
+    if (value != parameter->info().default_value) settings.push_back({element->name(), std::move(value)});
   }
   return settings;
 }
 
-Result<void> ConfigureNew(FrameworkElement& made, const std::vector<Setting>& inherited,
-                          const std::vector<Setting>& settings) {
+Inherited InheritedFrom(const FrameworkElement& module) {
+  Inherited inherited;
+  for (const Setting& each : SettingsOf(module)) {
+    const Configurable& parameter = *FindConfigurable(module, each.parameter).configurable;
+    if (!parameter.origin().has_been_fed) inherited.emplace_back(each, UnitOfNumber(parameter));
+  }
+  return inherited;
+}
+
+Result<void> ConfigureNew(FrameworkElement& made, const Inherited& inherited, const std::vector<Setting>& settings) {
   // Construct() goes by these, and may make more.
   std::set<const FrameworkElement*> early;
   for (const auto& [element, parameter] : ConfigurablesOf(made)) {
@@ -152,7 +167,7 @@ std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings, cons
 SettingCounts SettingCountsOf(const FrameworkElement& module) {
   SettingCounts counts;
   ForEachParameter(module, [&](const FrameworkElement& element, const Configurable& each) {
-    counts[PathIn(module, element)] = each.settings();
+    counts[PathIn(module, element)] = each.origin().settings;
   });
   return counts;
 }
@@ -160,25 +175,20 @@ SettingCounts SettingCountsOf(const FrameworkElement& module) {
 std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts, const ReplaceModule& change,
                               const FrameworkElement& after) {
   const std::set<const Configurable*> named = NamedBy(change.settings, after);
+  const bool is_way_back = change.state != nullptr;
   std::vector<Error> refused;
-  const auto copy = [&](const FrameworkElement& element, const Configurable& each) {
-    const auto [place, target] = ParameterLike(element, before, after);
+  ForEachParameter(before, [&](const FrameworkElement& element, Configurable& each) {
+    each.TakeRest();
+    const bool has_been_fed = each.origin().has_been_fed;
+    if (!has_been_fed && !IsLate(counts, before, element, each)) return;
+    const auto [place, target] = CounterpartOf(element, before, after);
     if (place == nullptr || target->info().is_static) return;
-    if (named.contains(target) && !(change.counts && each.is_fed() && IsLate(*change.counts, before, element, each)))
-      return;
-    if (auto set = CopyValue(each, *target); !set && !each.is_fed())
-      refused.push_back(set.error().WithPath(place->path()));
-  };
-  ForEachParameter(before, [](const FrameworkElement&, Configurable& each) { each.TakeRest(); });
-  for (const auto& [element, group] : ConfigurablesOf(before)) {
-    const auto* const stands = dynamic_cast<const GroupParameter*>(element);
-    const auto is_set = [&](const ConfigurableElement& each) {
-      return !each.configurable->is_fed() && IsLate(counts, before, *each.element, *each.configurable);
-    };
-    if (stands != nullptr && std::ranges::any_of(stands->Find(), is_set)) copy(*element, *group);
-  }
-  ForEachParameter(before, [&](const FrameworkElement& element, const Configurable& each) {
-    if (each.is_fed() || IsLate(counts, before, element, each)) copy(element, each);
+    const bool is_named = named.contains(target) && !(is_way_back && has_been_fed);
+    const Result<void> set = is_named ? Result<void>() : Attempt([&] { return CopyValue(each, *target); });
+    if (!set && !each.origin().is_fed) refused.push_back(set.error().WithPath(place->path()));
+    // What is known of earlier values is not used at the other one either.
+    const bool is_to_be_marked = has_been_fed && !target->origin().has_been_fed;
+    if (is_to_be_marked) (void)target->PutBack(target->Value().get(), {false, true});
   });
   return refused;
 }

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -12,12 +16,14 @@ namespace runnel::internal {
 
 /// The values that a module of the same type would not have by itself.
 [[nodiscard]] std::vector<Setting> SettingsOf(const FrameworkElement& module);
+/// Those of them that another module begins with, each with its unit if it is a number: not what outputs have given.
+using Inherited = std::vector<std::pair<Setting, std::string>>;
+[[nodiscard]] Inherited InheritedFrom(const FrameworkElement& module);
 
 /// Sets the parameters of a module that has just been made: to `inherited`, as far as it has parameters of these names,
 /// then to `settings`; and has it make the ports that
 /// follow from them. What stands for parameters within (GroupParameter) is set when these are there.
-Result<void> ConfigureNew(FrameworkElement& made, const std::vector<Setting>& inherited,
-                          const std::vector<Setting>& settings);
+Result<void> ConfigureNew(FrameworkElement& made, const Inherited& inherited, const std::vector<Setting>& settings);
 
 /// The parameter of `after` that is what `parameter` is at or below `before`: of its name, or of a former one of either.
 [[nodiscard]] ConfigurableElement ParameterLike(const FrameworkElement& parameter, const FrameworkElement& before,
@@ -26,11 +32,14 @@ Result<void> ConfigureNew(FrameworkElement& made, const std::vector<Setting>& in
 [[nodiscard]] std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings,
                                                     const FrameworkElement& module);
 
+/// Configurable::Origin::settings of the parameters of a module and its parts, by their paths in it.
+using SettingCounts = std::map<std::string, std::uint64_t>;
 [[nodiscard]] SettingCounts SettingCountsOf(const FrameworkElement& module);
 
-/// Gives `after`, which is prepared, the values that parameters of `before` have been set to since `counts`, and all that
-/// outputs have given, but for what `change` sets, unless it takes something back, and what cannot be set any more. Neither
-/// runs. What is refused: what others than outputs have set.
+/// Gives `after`, which is prepared, the values that parameters of `before` have been set to since `counts`, and all to which
+/// outputs have ever given one, as they are now: but for what `change` sets, unless it takes something back, and what cannot be
+/// set any more. Of a part that `after` has not, by the parameter of the composite that stands for it. Neither runs. What is
+/// refused: what others than outputs have set.
 [[nodiscard]] std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts,
                                             const ReplaceModule& change, const FrameworkElement& after);
 

@@ -83,10 +83,7 @@ Result<void> Plan::Apply(UndoRecord* back, std::size_t& begun) {
     ++begun;
     if (auto applied = step.apply(); !applied) return applied;
   }
-  for (Replaced& each : replaced_) {
-    const auto after = runtime_.root().Find(each.path);
-    if (after && (*after)->id() == each.id) *each.counts = SettingCountsOf(**after);
-  }
+  for (Replaced& each : replaced_) each.counts = SettingCountsOf(*each.after);
   if (back != nullptr) *back = UndoRecordOf(inverses, std::move(why_not), runtime_.root());
   return {};
 }
@@ -186,7 +183,6 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
   FrameworkElement& next = **work.element;
   auto done = std::make_shared<Done>();
   done->after = work.element;
-  const auto begins = std::make_shared<SettingCounts>();  // once all steps are done
   steps_.push_back({[=, this, &before, &next, counts = work.counts]() -> Result<void> {
                       // What has been set or assigned since the new module was made, by this change set or others.
                       if (auto refused = CopyValues(before, counts, change, next); !refused.empty())
@@ -199,7 +195,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                         if (auto settled = Settle(*each, held_); !settled) return settled;
                       }
                       if (auto copied = CopyState(before, next); !copied) return copied;
-                      Replaced replaced{{}, next.path(), next.id(), change.probation_cycles, begins};
+                      Replaced replaced{{}, next.path(), next.id(), change.probation_cycles, &next};
                       replaced_.reserve(replaced_.size() + 1);
                       done->place = NextSibling(before);
                       auto taken = runtime_.Unlist(before);
@@ -236,7 +232,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       }
                       Must(runtime_.List(std::move(done->before), done->place));
                     },
-                    [=, &before, &next](auto& why_not) { return ReplaceBack(before, next, change, begins, why_not); }});
+                    [&before, &next, change](auto& why_not) { return ReplaceBack(before, next, change, why_not); }});
 }
 
 }  // namespace runnel::internal

@@ -17,6 +17,7 @@
 #include "core/plugin/module_registry.h"
 #include "plugins/structure/change.h"
 #include "plugins/structure/inverse.h"
+#include "plugins/structure/module_values.h"
 #include "plugins/structure/replacement.h"
 #include "plugins/structure/structure_overlay.h"
 
@@ -35,7 +36,8 @@ struct Replaced {
   std::string path;
   std::uint64_t id = 0;  // of the new module
   std::uint64_t probation_cycles = 0;
-  std::shared_ptr<SettingCounts> counts = {};  // of the new module, as it began
+  const FrameworkElement* after = nullptr;
+  SettingCounts counts = {};  // of that, as it began
 };
 
 /// What one change set makes beside the tree, by what it is and where it goes: kept from one attempt to the next, as

@@ -31,7 +31,9 @@ namespace {
 
 // What the parameter is to be set to; one that it accepts.
 Result<std::shared_ptr<const void>> ValueIn(const SetParameter& change, const Configurable& parameter) {
-  if (!change.object) return parameter.Parse(change.value);
+  // What is put back may be so at another module.
+  const bool has_text = !change.value.empty() && change.type != &parameter.type();
+  if (!change.object || has_text) return parameter.Parse(change.value);
   if (change.type != &parameter.type()) {
     return Error{.message = "a " + parameter.type().name() + " cannot be set to a " + change.type->name()};
   }
@@ -164,29 +166,34 @@ Result<void> Plan::Check(const SetParameter& change) {
     return CheckAll(*group, change);
   }
   const bool is_settled = parameter->info().is_static && (*found)->life_cycle() == LifeCycle::kReady;
-  const auto value = ValueIn(change, *parameter);
+  const bool is_of_output = is_way_back_ && parameter->origin().has_been_fed;
+  const auto value =
+      is_of_output ? Result<std::shared_ptr<const void>>(parameter->Value()) : ValueIn(change, *parameter);
   if (!value) return value.error().WithPath((*found)->path());
   if (is_settled) return CheckStatic(**found, *parameter, value->get());
   Concern(**found);
-  if (is_way_back_ && parameter->is_fed() && parameter->settings() != change.settings) {
-    warnings_.push_back({.message = "an output has set it since: that is not taken back", .path = (*found)->path()});
+  if (is_of_output) {
+    warnings_.push_back(
+        {.message = "an output has set it: that is not taken back, and what the output gives counts again",
+         .path = (*found)->path()});
   }
+  using Given = std::pair<std::shared_ptr<const void>, Configurable::Origin>;
   const auto stays = std::make_shared<bool>(false);
-  using Given = std::pair<std::shared_ptr<const void>, bool>;
   AddSetting(
-      [parameter, stays, is_back = is_way_back_, settings = change.settings]() -> Given {
-        parameter->TakeRest();
-        *stays = is_back && parameter->is_fed() && parameter->settings() != settings;
-        return {parameter->Value(), parameter->is_fed()};
+      [parameter, stays, is_back = is_way_back_]() -> Given {
+        *stays = is_back && parameter->origin().has_been_fed;
+        return {parameter->Value(), parameter->origin()};
       },
       [parameter, stays](const Given& each) {
-        return *stays ? Result<void>() : parameter->PutBack(each.first.get(), each.second);
+        if (!*stays) return parameter->PutBack(each.first.get(), each.second);
+        parameter->AskFeed();
+        return Result<void>();
       },
-      Given{*value, change.was_fed},
+      Given{*value, change.origin},
       [parameter, path = (*found)->path()](auto&) -> ChangeSet {
         // The module has been made by this change set, and goes as a whole.
         if (parameter->info().is_static) return {};
-        return {SetParameter{path, parameter->ToText(), {}, nullptr, parameter->is_fed(), parameter->settings() + 1}};
+        return {SetParameter{path, parameter->ToText(), parameter->Value(), &parameter->type(), parameter->origin()}};
       });
   return {};
 }

@@ -26,12 +26,12 @@ Result<Workshop::Work> Plan::MakeModule(const Placement& place, const ReplaceMod
   // Whatever is to be known of others is looked at first: they may go while it is made.
   const std::uint64_t revision = runtime_.revision_by_others();
   const auto& work = workshop_.Get(KeyOf(place, std::move(key), before), [&]() -> Result<Workshop::Work> {
-    std::vector<Setting> inherited;
+    Inherited inherited;
     SettingCounts counts;
     std::optional<ElementState> state;
     std::string name = place.name;
     if (before != nullptr) {
-      inherited = SettingsOf(*before);
+      inherited = InheritedFrom(*before);
       counts = SettingCountsOf(*before);
       state.emplace(*before, FrameworkElement::Inherit::kAsReplacement, ElementState::Below::kIncluded);
       name = NameInFile::Of(*before);

@@ -12,6 +12,21 @@ namespace runnel::test {
 /// the system. Run a few before, in which pools of buffers find their size. Under a sanitizer nothing is noticed.
 ///
 /// The program that uses this has its malloc and its locks replaced, see plugins/real_time_check.
-[[nodiscard]] std::vector<RealTimeBreach> RunWatched(ModuleRigBase& rig, std::uint64_t cycles);
+template <typename Rig>
+[[nodiscard]] std::vector<RealTimeBreach> RunWatched(Rig& rig, std::uint64_t cycles) {
+  struct Watching {
+    ~Watching() { rig.SetWatch(nullptr); }
+    Rig& rig;
+  };
+  RealTimeWatch watch(*RunnelRealTimeHooks());
+  const Watching until_the_end{rig};
+  rig.SetWatch(&watch);
+  rig.RunCycles(cycles);
+  std::vector<RealTimeBreach> all;
+  for (const RealTimeBreaches& of_task : watch.Breaches()) {
+    all.insert(all.end(), of_task.breaches.begin(), of_task.breaches.end());
+  }
+  return all;
+}
 
 }  // namespace runnel::test

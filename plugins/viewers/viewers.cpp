@@ -56,9 +56,8 @@ Result<std::unique_ptr<KeptToken>> KeepToken(const std::string& token, std::uint
   const std::string text = token + "\n";
   const bool is_written =
       made.is_open() && write(made.number(), text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  const int reason = errno;
   if (is_written) return std::make_unique<KeptToken>(file);
-  return Error{.message = std::string("the token cannot be written: ") + std::strerror(reason),
+  return Error{.message = std::string("the token cannot be written: ") + std::strerror(errno),
                .position = {file.string()},
                .hint = "give one, in a file: --inspect-token-file=FILE"};
 }

@@ -114,7 +114,7 @@ void SegmentServer::Run() noexcept {
 
 bool SegmentServer::Serve() {
   std::vector<pollfd> seen = {{socket_.number(), POLLIN, 0}};
-  for (const Reader& each : readers_) seen.push_back({each.link->number(), POLLIN, 0});
+  for (const Reader& each : readers_) seen.push_back({each.link.number(), POLLIN, 0});
   if (poll(seen.data(), seen.size(), -1) < 0 && errno != EINTR) {
     std::this_thread::sleep_for(kAgain);  // out of memory, for now
     return true;
@@ -159,12 +159,11 @@ void SegmentServer::Answer(FileDescriptor asking) {
   head->cmsg_len = CMSG_LEN(Passing::kFiles);
   std::memcpy(CMSG_DATA(head), files.data(), Passing::kFiles);
   readers_.reserve(readers_.size() + 1);
-  auto link = std::make_unique<FileDescriptor>(std::move(asking));
   // It counts before the reader has it.
   found->second.holders->Add(*table);
-  readers_.push_back({std::move(link), found->second.holders, *table});
+  readers_.push_back({std::move(asking), found->second.holders, *table});
   // If it cannot be sent, the link is closed at the other end.
-  (void)sendmsg(readers_.back().link->number(), &passing.message, MSG_NOSIGNAL);
+  (void)sendmsg(readers_.back().link.number(), &passing.message, MSG_NOSIGNAL);
 }
 
 Result<std::shared_ptr<ReadSegment>> FetchSegment(const SegmentPlace& place) {

@@ -35,7 +35,7 @@ class SegmentServer {
     std::shared_ptr<SegmentHolders> holders;
   };
   struct Reader {
-    std::unique_ptr<FileDescriptor> link;
+    FileDescriptor link;
     std::shared_ptr<SegmentHolders> holders;
     std::shared_ptr<const HoldTable> table;
   };

@@ -109,21 +109,18 @@ Load::Step HoldStructure(Robot& robot, TaskGroup& /*tasks*/) {
 Load::Step Flood(Robot& robot, TaskGroup& tasks) {
   const auto viewer = std::make_shared<RawClient>(robot.web->port());
   (void)viewer->Upgrade("runnel.inspector.v1");
-  const auto terminal = ConnectToSocket(robot.control->socket());
-  if (!terminal) Fail(terminal.error().ToString());
-  const std::shared_ptr<const int> closing(new int(*terminal), [](const int* each) {
-    close(*each);
-    delete each;
-  });
-  return [&, viewer, closing] {
+  auto connected = ConnectToSocket(robot.control->socket());
+  if (!connected) Fail(connected.error().ToString());
+  const auto terminal = std::make_shared<const FileDescriptor>(std::move(*connected));
+  return [&, viewer, terminal] {
     const std::string asked = RawClient::Frame(1, R"({"op":"undo","request":1})");
     const std::string frame = FrameBytes("request", "undo");
     for (int i = 0; i < 1000; ++i) {
       (void)send(viewer->descriptor(), asked.data(), asked.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-      (void)send(*closing, frame.data(), frame.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      (void)send(terminal->number(), frame.data(), frame.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     }
     char answer[1 << 14];
-    for (const int each : {viewer->descriptor(), *closing}) {
+    for (const int each : {viewer->descriptor(), terminal->number()}) {
       while (recv(each, answer, sizeof answer, MSG_DONTWAIT) > 0) {
       }
     }

@@ -115,6 +115,26 @@ TEST_F(ValuesPutBack, AreNotThoseOfTheChangeThatHasFailed) {
   EXPECT_EQ(Run(), 5);
 }
 
+TEST_F(ValuesPutBack, AreNotWhatHasBeenTakenBackDuringTheTrial) {
+  Start(std::string(kOther) + R"(<module name="stubborn" type="test/stubborn" thread="control"/>)");
+  Do({SetParameter{"/demo/other/gain", "0"}});
+  Do({ReplaceModule{"/demo/other", "test/fragile", {{"gain", "9"}}, 1000}});
+  const SetParameter set{"/demo/other/gain", "7"};
+  EXPECT_FALSE(changes_->Apply({set, ReplaceModule{"/demo/stubborn", "test/stubborn"}}));
+  ASSERT_TRUE(history_->Apply({set}));
+  ASSERT_TRUE(history_->Undo());
+  EXPECT_EQ(Run(), 9);
+  LetFail(Fragile::throws);
+  EXPECT_EQ(Run(), 0);
+}
+
+TEST_F(ValuesPutBack, OfPartsAreNotThoseOfOtherParts) {
+  Start(R"(<module name="box" type="test/pair" thread="control"/>)");
+  Do({SetParameter{"/demo/box/b/gain", "4"}, ReplaceModule{"/demo/box", "test/pair", {{"gain", "3"}}}});
+  EXPECT_EQ(Run("/demo/box/a/parameter/gain"), 3);
+  EXPECT_EQ(Run("/demo/box/b/parameter/gain"), 4);
+}
+
 TEST_F(ValuesPutBack, OfAnOutputAreSavedAsBeforeWhenASettingIsTakenBack) {
   Start(R"(<module name="other" type="test/source" thread="control"><parameter name="gain" value="1.5"/></module>
     <connect from="source/value" to="other/gain"/>)");
