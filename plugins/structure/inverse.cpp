@@ -157,6 +157,13 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
   }
   std::vector<Setting> settings = SettingsOf(before);
   AddDefaults(before, after, settings);
+  // An output is asked only for what the change itself sets.
+  const std::set<const Configurable*> named = NamedBy(change.settings, after);
+  std::erase_if(settings, [&](const Setting& each) {
+    const auto [element, parameter] = FindConfigurable(before, each.parameter);
+    const ConfigurableElement like = ParameterLike(*element, before, after);
+    return parameter->origin().has_been_fed && like && !named.contains(like.configurable);
+  });
   return {ReplaceModule{before.path(), type, std::move(settings), change.probation_cycles,
                         std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,
                                                              ElementState::Below::kIncluded)}};

@@ -183,8 +183,9 @@ std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& cou
     if (!has_been_fed && !IsLate(counts, before, element, each)) return;
     const auto [place, target] = CounterpartOf(element, before, after);
     if (place == nullptr || target->info().is_static) return;
-    const bool is_named = named.contains(target) && !(is_way_back && has_been_fed);
-    const Result<void> set = is_named ? Result<void>() : Attempt([&] { return CopyValue(each, *target); });
+    const bool is_named = named.contains(target), is_asked = is_way_back && has_been_fed;
+    const Result<void> set = is_named && !is_asked ? Result<void>() : Attempt([&] { return CopyValue(each, *target); });
+    if (is_named && is_asked) target->AskFeed();
     if (!set && !each.origin().is_fed) refused.push_back(set.error().WithPath(place->path()));
     // What is known of earlier values is not used at the other one either.
     const bool is_to_be_marked = has_been_fed && !target->origin().has_been_fed;
