@@ -82,6 +82,10 @@ Command RefuseParsing(const CLI::App& program, const CLI::ParseError& error) {
   const std::string help = name.empty() ? "see 'runnel help'" : "see 'runnel help " + name + "'";
   if (parsed.empty()) return Refuse(error.what(), help);
   const std::vector<std::string> left = parsed.front()->remaining();
+  if (name == "stop" && !left.empty() && !left.front().starts_with('-')) {
+    return Refuse("'runnel stop' is the STOP of the robot, and takes no path",
+                  "'runnel pause PATH' leaves modules out of cycles, 'runnel block PORT' stops one port");
+  }
   const auto unknown = std::ranges::find_if(left, [](const std::string& each) { return each.starts_with('-'); });
   if (unknown != left.end()) {
     const std::string option = unknown->substr(0, unknown->find('='));

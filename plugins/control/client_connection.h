@@ -21,9 +21,6 @@ class ClientConnection final : private Answer {
 
   /// Takes the socket. `longest_request`: in bytes.
   ClientConnection(FileDescriptor socket, std::size_t longest_request);
-  ~ClientConnection() = default;
-  ClientConnection(const ClientConnection&) = delete;
-  ClientConnection& operator=(const ClientConnection&) = delete;
 
   [[nodiscard]] int descriptor() const noexcept { return socket_.number(); }
   /// What poll() shall look for.

@@ -20,7 +20,6 @@ class ControlClient {
  public:
   /// Errors: nobody there, no answer within `timeout`, another protocol.
   static Result<ControlClient> Connect(const std::filesystem::path& socket, Duration timeout = std::chrono::seconds(5));
-  ControlClient(ControlClient&&) = default;
 
   /// How long each answer is waited for from now on; 0: for ever.
   void SetPatience(Duration timeout) noexcept;

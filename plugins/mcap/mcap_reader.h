@@ -22,9 +22,6 @@ class McapFile {
  public:
   /// Errors: it is not there, may not be read, or is no file.
   static Result<std::unique_ptr<McapFile>> Open(const std::string& file);
-  ~McapFile() = default;
-  McapFile(const McapFile&) = delete;
-  McapFile& operator=(const McapFile&) = delete;
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] std::uint64_t size() const noexcept { return size_; }

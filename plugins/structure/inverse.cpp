@@ -26,16 +26,6 @@ Error CannotBeMade(const FrameworkElement& element) {
   return {.message = "could not be made again by a change: it is of no registered type", .path = element.path()};
 }
 
-// Those that `after` would otherwise hand over.
-void AddDefaults(const FrameworkElement& before, const FrameworkElement& after, std::vector<Setting>& settings) {
-  for (const auto& [element, parameter] : ConfigurablesOf(before)) {
-    const ConfigurableElement other = ParameterLike(*element, before, after);
-    if (!other || std::ranges::count(settings, element->name(), &Setting::parameter) > 0) continue;
-    const std::string value = parameter->ToText();
-    if (other.configurable->ToText() != value) settings.push_back({element->name(), value});
-  }
-}
-
 // Nothing for what comes with a module.
 void AddCreation(const FrameworkElement& element, FrameworkElement::Inherit how, ChangeSet& changes,
                  std::optional<Error>& why_not) {
@@ -155,15 +145,17 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
     if (!why_not) why_not = CannotBeMade(before);
     return {};
   }
-  std::vector<Setting> settings = SettingsOf(before);
-  AddDefaults(before, after, settings);
-  // An output is asked only for what the change itself sets.
+  std::vector<Setting> settings;
   const std::set<const Configurable*> named = NamedBy(change.settings, after);
-  std::erase_if(settings, [&](const Setting& each) {
-    const auto [element, parameter] = FindConfigurable(before, each.parameter);
+  for (const auto& [element, parameter] : ConfigurablesOf(before)) {
     const ConfigurableElement like = ParameterLike(*element, before, after);
-    return parameter->origin().has_been_fed && like && !named.contains(like.configurable);
-  });
+    // An output is asked only for what the change itself sets.
+    if (like && parameter->origin().has_been_fed && !named.contains(like.configurable)) continue;
+    std::string value = parameter->ToText();
+    const bool would_be_other = like && like.configurable->ToText() != value;
+    if (!would_be_other && value == parameter->info().default_value) continue;
+    settings.push_back({element->name(), std::move(value)});
+  }
   return {ReplaceModule{before.path(), type, std::move(settings), change.probation_cycles,
                         std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,
                                                              ElementState::Below::kIncluded)}};

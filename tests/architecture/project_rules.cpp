@@ -101,8 +101,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    "plugins/testing",
                    {"core", "plugins/real_time_check", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/crash_report", "plugins/crash_report", {"core", "plugins/scheduling", "plugins/timing"}});
-  rules.push_back(
-      {"plugins/structure", "plugins/structure", {"core", "plugins/manifest", "plugins/scheduling", "plugins/timing"}});
+  rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling", "plugins/timing"}});
   rules.push_back(
       {"plugins/tracing", "plugins/tracing", {"core", "plugins/values", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/command_service",
