@@ -32,12 +32,11 @@ void PrintChannels(const RecordingInfo& info) {
     path_width = std::max(path_width, each.path.size());
     type_width = std::max(type_width, each.type.size());
   }
-  std::printf("\n%-*s  %-*s  %10s  %10s  %10s\n", static_cast<int>(path_width), "port", static_cast<int>(type_width),
-              "type", "values", "rate", "dropped");
+  fmt::print("\n{:<{}}  {:<{}}  {:>10}  {:>10}  {:>10}\n", "port", path_width, "type", type_width, "values", "rate",
+             "dropped");
   for (const auto& each : info.channels) {
-    std::printf("%-*s  %-*s  %10llu  %7.2f Hz  %10llu\n", static_cast<int>(path_width), each.path.c_str(),
-                static_cast<int>(type_width), each.type.c_str(), static_cast<unsigned long long>(each.values),
-                each.rate, static_cast<unsigned long long>(each.dropped));
+    fmt::print("{:<{}}  {:<{}}  {:>10}  {:7.2f} Hz  {:>10}\n", each.path, path_width, each.type, type_width,
+               each.values, each.rate, each.dropped);
   }
 }
 

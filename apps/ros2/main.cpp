@@ -23,11 +23,7 @@ constexpr std::string_view kOwnPackage = "runnel_msgs/";
 
 int WriteFiles(const FileTexts& files, const std::filesystem::path& folder) {
   for (const auto& [name, text] : files) {
-    std::error_code problem;
-    std::filesystem::create_directories((folder / name).parent_path(), problem);
-    if (problem) {
-      return Fail({.message = problem.message(), .position = {(folder / name).string()}}, exit_code::kRunFailed);
-    }
+    std::filesystem::create_directories((folder / name).parent_path());
     if (auto written = ReplaceFile(folder / name, text); !written) return Fail(written.error(), exit_code::kRunFailed);
     std::cout << (folder / name).string() << '\n';
   }

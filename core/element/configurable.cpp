@@ -7,7 +7,7 @@ namespace runnel {
 
 Result<void> Configurable::SetFromText(std::string_view text) {
   const auto value = Parse(text);
-  if (value) return SetFrom(value->get());
+  if (value) return Put({*value});
   const auto* const element = dynamic_cast<const FrameworkElement*>(this);
   return element != nullptr ? value.error().WithPath(element->path()) : value.error();
 }
@@ -18,5 +18,6 @@ Result<void> Configurable::CheckText(std::string_view text) const {
 }
 
 std::string Configurable::ToText() const { return runnel::ToText(type(), Value().get()); }
+std::string Configurable::OwnText() const { return runnel::ToText(type(), own().value.get()); }
 
 }  // namespace runnel

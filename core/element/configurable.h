@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,7 +29,7 @@ struct ConfigurableInfo {
 /// readers, command lines and viewers need of a parameter, so that none of them needs the plugin that makes
 /// parameters. An element that can be set derives from FrameworkElement and from this.
 ///
-/// Threads:  SetFrom() and SetFromText() under the structure lock; the rest from any thread.
+/// Threads:  Put() and SetFromText() under the structure lock; the rest from any thread.
 class Configurable {
  public:
   virtual ~Configurable() = default;
@@ -37,8 +38,17 @@ class Configurable {
   [[nodiscard]] virtual Result<std::shared_ptr<const void>> Parse(std::string_view text) const = 0;
   /// Whether `value`, an object of type(), is one that this may have.
   [[nodiscard]] virtual Result<void> Check(const void* value) const = 0;
-  /// Takes over the value, an object of type(), or leaves everything as it was and says why not.
-  Result<void> SetFrom(const void* value) { return PutBack(value, {}); }
+  /// What has been set: the value, unless an output has given one since.
+  struct Own {
+    std::shared_ptr<const void> value;  ///< an object of type(), which does not change
+    /// The number of the last value that an output had given by then: later ones count instead. Without, it is set now.
+    std::uint64_t given = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t settings = 0;  ///< another one after each setting, in all elements of a run; 0: it is set now
+  };
+  /// Takes it over, or leaves everything as it was and says why not. What is put back is as it was before.
+  virtual Result<void> Put(const Own& own) = 0;
+  /// Under the structure lock.
+  [[nodiscard]] virtual Own own() const = 0;
   /// A copy of the value, an object of type(). Allocates.
   [[nodiscard]] virtual std::shared_ptr<void> Value() const = 0;
   [[nodiscard]] virtual const TypeInfo& type() const = 0;
@@ -48,21 +58,10 @@ class Configurable {
   /// lock.
   [[nodiscard]] virtual Port* Feed() { return nullptr; }
 
-  /// Where its value has come from. What is passed on to another element, or put back, has that as well.
-  struct Origin {
-    bool is_fed = false;        ///< an output has given it, and nobody has set another since
-    bool has_been_fed = false;  ///< an output has given one at some time: no value from before is used again
-    /// Another one after each setting, by whomever, and in each element of a run. What is put back gets its own again.
-    std::uint64_t settings = 0;
-  };
-  [[nodiscard]] virtual Origin origin() const = 0;
-  /// Takes over a value of that origin, as SetFrom() does one that is set. Errors: the same; an output's need only be within the
-  /// bounds.
-  virtual Result<void> PutBack(const void* value, const Origin& origin) = 0;
-  /// In the module's next cycle it takes the newest value of the output that is connected, though it has had that before.
-  virtual void AskFeed() noexcept {}
-  /// What an output has given, and has not been taken over yet, is. Its module does not run.
-  virtual void TakeRest() {}
+  /// The value is one that an output has given.
+  [[nodiscard]] virtual bool is_fed() const noexcept { return false; }
+  /// Has, from now on, what outputs have given at `before`, besides what has been set. Neither module runs. Errors: it is refused.
+  virtual Result<void> TakeGiven(Configurable& before) = 0;
 
   /// What its module has made of the value that was set last: nothing as long as it has not said; an error if it has
   /// refused it, and the value is that of before.
@@ -72,6 +71,7 @@ class Configurable {
   Result<void> SetFromText(std::string_view text);
   [[nodiscard]] Result<void> CheckText(std::string_view text) const;
   [[nodiscard]] std::string ToText() const;
+  [[nodiscard]] std::string OwnText() const;
 };
 
 }  // namespace runnel

@@ -11,11 +11,13 @@ namespace runnel {
 
 namespace {
 
+using SharedValue = std::shared_ptr<const void>;
+
 // The value, of one type, for a parameter that may be of another.
-Result<std::shared_ptr<const void>> ValueFor(const Configurable& target, const TypeInfo& type, const void* value) {
-  if (&target.type() != &type) return target.Parse(ToText(type, value));
-  if (auto good = target.Check(value); !good) return good.error();
-  return std::shared_ptr<const void>(std::shared_ptr<void>(), value);
+Result<SharedValue> ValueFor(const Configurable& target, const TypeInfo& type, const SharedValue& value) {
+  if (&target.type() != &type) return target.Parse(ToText(type, value.get()));
+  if (auto good = target.Check(value.get()); !good) return good.error();
+  return value;
 }
 
 }  // namespace
@@ -77,43 +79,40 @@ Result<std::shared_ptr<const void>> GroupParameter::Parse(std::string_view text)
 
 Result<void> GroupParameter::Check(const void* value) const {
   for (const ConfigurableElement& each : Find()) {
-    if (auto good = ValueFor(*each.configurable, type(), value); !good) return good.error();
+    if (auto good = ValueFor(*each.configurable, type(), SharedValue(SharedValue(), value)); !good) return good.error();
   }
   return {};
 }
 
-Configurable::Origin GroupParameter::origin() const {
-  Origin origin;
-  for (const ConfigurableElement& each : Find()) {
-    const Origin own = each.configurable->origin();
-    if (origin.settings == 0) origin.is_fed = own.is_fed;
-    origin.has_been_fed |= own.has_been_fed;
-    origin.settings += own.settings;
-  }
-  return origin;
+Configurable::Own GroupParameter::own() const {
+  const auto found = Find();
+  if (found.empty() || &found.front().configurable->type() != &type()) return {Value()};
+  return found.front().configurable->own();
 }
 
-Result<void> GroupParameter::PutBack(const void* value, const Origin& origin) {
+Result<void> GroupParameter::TakeGiven(Configurable& before) {
+  Result<void> taken;
+  for (const ConfigurableElement& each : Find()) {
+    if (taken) taken = each.configurable->TakeGiven(before);
+  }
+  return taken;
+}
+
+Result<void> GroupParameter::Put(const Own& own) {
   const std::lock_guard lock(runtime().structure_mutex());
-  if (auto good = Check(value); !good) return good;
+  if (auto good = Check(own.value.get()); !good) return good;
   const auto found = Find();
   if (found.empty()) {
     return Error{.message = "nothing is there any more that could be set by it", .path = path()};
   }
-  struct Before {
-    Configurable* parameter;
-    std::shared_ptr<void> value;
-    Origin origin;
-  };
-  std::vector<Before> before;
+  std::vector<std::pair<Configurable*, Own>> before;
   for (const ConfigurableElement& each : found) {
-    const auto wanted = ValueFor(*each.configurable, type(), value);
-    before.push_back({each.configurable, each.configurable->Value(), each.configurable->origin()});
-    auto set = wanted ? each.configurable->PutBack(wanted->get(), {origin.is_fed, origin.has_been_fed})
-                      : Result<void>(wanted.error());
+    const auto wanted = ValueFor(*each.configurable, type(), own.value);
+    before.emplace_back(each.configurable, each.configurable->own());
+    auto set = wanted ? each.configurable->Put({*wanted, own.given}) : Result<void>(wanted.error());
     if (set) continue;
     before.pop_back();
-    for (const auto& [parameter, old, own] : before) (void)parameter->PutBack(old.get(), own);
+    for (const auto& [parameter, old] : before) (void)parameter->Put(old);
     return set;
   }
   return {};

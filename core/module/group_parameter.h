@@ -36,9 +36,10 @@ class GroupParameter final : public FrameworkElement, public Configurable {
   [[nodiscard]] Result<std::shared_ptr<const void>> Parse(std::string_view text) const override;
   [[nodiscard]] Result<void> Check(const void* value) const override;
   /// All or none. Errors: besides, that nothing is there that could be set.
-  Result<void> PutBack(const void* value, const Origin& origin) override;
-  /// Of the first; an output may have given one to any of them.
-  [[nodiscard]] Origin origin() const override;
+  Result<void> Put(const Own& own) override;
+  /// Of the first.
+  [[nodiscard]] Own own() const override;
+  Result<void> TakeGiven(Configurable& before) override;
   [[nodiscard]] std::shared_ptr<void> Value() const override;
   /// Of the first target that was there when somebody asked.
   [[nodiscard]] const TypeInfo& type() const override {

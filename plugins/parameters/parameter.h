@@ -74,7 +74,7 @@ class Parameter final : public ParameterBase {
     return std::exchange(seen_, published) != published;
   }
   /// Errors: out of bounds.
-  Result<void> Set(const T& value) { return SetFrom(&value); }
+  Result<void> Set(const T& value) { return Put({std::make_shared<const T>(value)}); }
 
   [[nodiscard]] std::shared_ptr<void> Value() const override {
     if constexpr (kIsCopiedParameter<T>) {

@@ -1,5 +1,6 @@
 #include "plugins/parameters/parameter_base.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -106,12 +107,11 @@ Result<void> ParameterBase::Check(const void* value) const {
   return {};
 }
 
-Configurable::Origin ParameterBase::origin() const noexcept {
-  return {is_fed_.load(std::memory_order_relaxed), has_been_fed_.load(std::memory_order_relaxed),
-          settings_.load(std::memory_order_relaxed)};
+Configurable::Own ParameterBase::own() const {
+  return {own_ ? own_ : Value(), own_given_.load(std::memory_order_relaxed), settings_};
 }
 
-Result<void> ParameterBase::PutBack(const void* value, const Origin& origin) {
+Result<void> ParameterBase::Put(const Own& own) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (info().is_static && life_cycle() == LifeCycle::kReady) {
     return Error{.message = "the parameter is static: it can be set only before its module is ready",
@@ -123,23 +123,25 @@ Result<void> ParameterBase::PutBack(const void* value, const Origin& origin) {
                  .path = path(),
                  .hint = "set it before anything is connected"};
   }
-  if (!origin.is_fed || !MayBeFed(value)) {
-    if (auto good = Check(value); !good) return good.error().WithPath(path());
-  }
+  if (auto good = Check(own.value.get()); !good) return good.error().WithPath(path());
   // A cycle in which an output feeds the parameter may be about to do the same: that tries, and this waits.
   const std::lock_guard assigning(assigning_);
-  TakeOver(value, origin);
+  const std::uint64_t given = std::min(own.given, given_.load(std::memory_order_relaxed));
+  const bool was_fed = is_fed(), is_to_be_fed = given < given_.load(std::memory_order_relaxed);
+  if (was_fed != is_to_be_fed || !was_fed) {
+    auto last_given = was_fed ? Value() : last_given_;
+    Assume(is_to_be_fed ? last_given_.get() : own.value.get());
+    last_given_ = std::move(last_given);
+  }
+  if (own_) own_ = own.value;
+  own_given_.store(given, std::memory_order_relaxed);
+  settings_ = own.settings >> kNumberBits == id() ? own.settings : settings_ + 1;
   return {};
 }
 
 // Under `assigning_`.
-void ParameterBase::TakeOver(const void* value, const Origin& origin) {
-  const bool has_changed = Assign(value);
-  is_fed_.store(origin.is_fed, std::memory_order_relaxed);
-  if (origin.has_been_fed) has_been_fed_.store(true, std::memory_order_relaxed);
-  const bool is_own = origin.settings >> kSettingBits == id();
-  settings_.store(is_own ? origin.settings : settings_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  if (has_changed && module_ != nullptr) module_->NoteParameterChange();
+void ParameterBase::Assume(const void* value) {
+  if (Assign(value) && module_ != nullptr) module_->NoteParameterChange();
 }
 
 // Of what an output publishes, only texts are looked at: all else would have to be written for it.
@@ -162,45 +164,58 @@ class ParameterBase::Feeder final : public FrameworkElement {
   }
 
   [[nodiscard]] Port& input() noexcept { return *input_; }
-  void Ask() noexcept { is_asked_.store(true, std::memory_order_relaxed); }
-  void TakeRest() {
-    if (is_left_) Take();
-  }
-
- private:
   void Take() {
-    const bool is_new = held_->Read(*input_, 0);
-    if (!is_new && !is_left_ && !is_asked_.load(std::memory_order_relaxed)) return;
+    if (!held_->Read(*input_, 0) && !is_left_) return;
     const std::unique_lock lock(parameter_.assigning_, std::try_to_lock);
     is_left_ = !lock;
     if (is_left_) return;  // somebody sets it just now: in the next cycle
-    is_asked_.store(false, std::memory_order_relaxed);
     const void* const value = held_->Find(0);
-    if (value != nullptr && parameter_.MayBeFed(value)) parameter_.TakeOver(value, {true, true});
+    if (value != nullptr && parameter_.MayBeFed(value)) {
+      parameter_.Assume(value);
+      // What an input that is made later gives is newer, wherever the module has been made again.
+      const std::uint64_t known = parameter_.given_.load(std::memory_order_relaxed);
+      parameter_.given_.store(std::max(known, id() << kNumberBits) + 1, std::memory_order_relaxed);
+    }
     held_->Drop(0);
   }
 
+ private:
   ParameterBase& parameter_;
   const std::unique_ptr<HeldValues> held_;
   const std::unique_ptr<Port> input_;
-  bool is_left_ = false;               // a value that has not been taken over yet
-  std::atomic<bool> is_asked_{false};  // relaxed: it is seen in one of the next cycles
+  bool is_left_ = false;  // a value that has not been taken over yet
 };
 
 // It may have gone again.
 bool ParameterBase::HasFeeder() const { return feeder_ != nullptr && FindChild("feed") == feeder_; }
 
-void ParameterBase::AskFeed() noexcept {
-  if (HasFeeder()) feeder_->Ask();
-}
-
-void ParameterBase::TakeRest() {
-  if (HasFeeder()) feeder_->TakeRest();
+Result<void> ParameterBase::TakeGiven(Configurable& before) {
+  auto* const from = dynamic_cast<ParameterBase*>(&before);
+  if (from == nullptr) return {};
+  if (from->HasFeeder()) from->feeder_->Take();
+  const std::uint64_t given = from->given_.load(std::memory_order_relaxed);
+  if (given == 0 || info().is_static) return {};
+  std::shared_ptr<const void> value = from->is_fed() ? from->Value() : from->last_given_;
+  if (&type() != &from->type() || info().unit != from->info().unit) {
+    auto own =
+        Parse(runnel::ToText(from->type(), value.get()) + (description_.is_number ? " " + from->info().unit : ""));
+    if (!own) return own.error().WithPath(path());
+    value = std::move(*own);
+  } else if (!MayBeFed(value.get())) {
+    return Check(value.get());
+  }
+  const std::lock_guard assigning(assigning_);
+  if (!own_) own_ = Value();
+  given_.store(given, std::memory_order_relaxed);
+  if (is_fed()) Assume(value.get());
+  last_given_ = std::move(value);
+  return {};
 }
 
 Port* ParameterBase::Feed() {
   const TypedPorts* const ports = FindTypedPorts(type());
   if (ports == nullptr || info().is_static || life_cycle() == LifeCycle::kDeleted) return nullptr;
+  if (!own_) own_ = Value();
   if (!HasFeeder()) {
     feeder_ = &runtime().Create<Feeder>(*this, "feed", *this, *ports);
     NewFeeds::Note(feeder_->input());

@@ -100,13 +100,15 @@ class ParameterBase : public FrameworkElement, public Configurable {
  public:
   [[nodiscard]] Result<std::shared_ptr<const void>> Parse(std::string_view text) const override;
   [[nodiscard]] Result<void> Check(const void* value) const final;
+  Result<void> Put(const Own& own) final;
+  [[nodiscard]] Own own() const final;
   /// In the group "feed" below: a task of its own, run where the module is, takes over what comes there, unless
   /// it is out of bounds. None of static parameters, and of types that no port has.
   [[nodiscard]] Port* Feed() final;
-  [[nodiscard]] Origin origin() const noexcept final;
-  Result<void> PutBack(const void* value, const Origin& origin) final;
-  void AskFeed() noexcept final;
-  void TakeRest() final;
+  [[nodiscard]] bool is_fed() const noexcept final {
+    return given_.load(std::memory_order_relaxed) > own_given_.load(std::memory_order_relaxed);
+  }
+  Result<void> TakeGiven(Configurable& before) final;
   [[nodiscard]] const TypeInfo& type() const final { return description_.type; }
   [[nodiscard]] const ConfigurableInfo& info() const final { return description_.info; }
 
@@ -120,18 +122,22 @@ class ParameterBase : public FrameworkElement, public Configurable {
 
  private:
   class Feeder;
-  void TakeOver(const void* value, const Origin& origin);
+  void Assume(const void* value);
   [[nodiscard]] bool MayBeFed(const void* value) const;
   [[nodiscard]] bool HasFeeder() const;
 
   const internal::ParameterDescription description_;
   Module* const module_;  // nullptr: of something else
   CycleLock assigning_{[]() noexcept {}};
-  // Of the value, all relaxed: they only inform.
-  std::atomic<bool> is_fed_{false};
-  std::atomic<bool> has_been_fed_{false};
-  static constexpr int kSettingBits = 40;  // below the number of the element: a thousand a second for thirty years
-  std::atomic<std::uint64_t> settings_{id() << kSettingBits};
+  // Numbers of the last value that an output has given, and of that when the own one was set; relaxed: they only inform others.
+  std::atomic<std::uint64_t> given_{0};
+  std::atomic<std::uint64_t> own_given_{0};
+  // Under the structure lock. The own value, and the last given one while that is not the value; both once an output may
+  // give any, since there is no memory to be had then.
+  std::shared_ptr<const void> own_;
+  std::shared_ptr<const void> last_given_;
+  static constexpr int kNumberBits = 40;  // below the number of the element: a thousand a second for thirty years
+  std::uint64_t settings_ = id() << kNumberBits;
   Feeder* feeder_ = nullptr;  // once somebody has asked for it; a child
 };
 

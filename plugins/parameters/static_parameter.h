@@ -22,7 +22,7 @@ class StaticParameter final : public ParameterBase {
 
   [[nodiscard]] const T& Get() const noexcept { return value_; }
   /// Errors: out of bounds; the module is ready, or its ports have been made by the value before.
-  Result<void> Set(const T& value) { return SetFrom(&value); }
+  Result<void> Set(const T& value) { return Put({std::make_shared<const T>(value)}); }
 
   [[nodiscard]] std::shared_ptr<void> Value() const override { return std::make_shared<T>(value_); }
 

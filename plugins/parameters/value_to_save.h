@@ -42,7 +42,7 @@ struct MadeByRule final : Annotation {
 /// Whether its value is that of an output which is connected to it: a file says the connection, by which the value comes
 /// anew. Under the structure lock.
 [[nodiscard]] inline bool HasValueOfOutput(const FrameworkElement& element, const Configurable& parameter) {
-  if (!parameter.origin().is_fed) return false;
+  if (!parameter.is_fed()) return false;
   return std::ranges::any_of(element.children(), [](FrameworkElement* below) {
     bool is_connected = false;
     below->VisitAll<const Port>([&](const Port& feed) { is_connected = is_connected || !feed.Sources().empty(); });
@@ -56,13 +56,11 @@ struct MadeByRule final : Annotation {
   const auto* const group = dynamic_cast<const GroupParameter*>(&element);
   const auto targets = group != nullptr ? group->Find() : std::vector<ConfigurableElement>();
   const std::string* const loaded = LoadedValue::Of(element);
-  const bool is_of_output = targets.empty() ? HasValueOfOutput(element, parameter)
-                                            : HasValueOfOutput(*targets.front().element, *targets.front().configurable);
-  if (is_of_output) return loaded != nullptr ? *loaded : parameter.info().default_value;
   if (!targets.empty()) return TextToSave(*targets.front().element, *targets.front().configurable);
   // Until what it stands for is there again.
   if (group != nullptr && loaded != nullptr) return *loaded;
-  return MadeByRule::Before(element, parameter.ToText());
+  const bool is_of_output = HasValueOfOutput(element, parameter);
+  return MadeByRule::Before(element, is_of_output ? parameter.OwnText() : parameter.ToText());
 }
 
 }  // namespace runnel

@@ -94,16 +94,11 @@ bool IsRosMessageName(std::string_view name) {
          std::ranges::all_of(name, [](char c) { return IsLetter(c) || IsDigit(c); });
 }
 
-std::string NearestMessageName(std::string_view name) {
-  const std::string nearest = CamelCase(name);
-  if (nearest.empty()) return "Value";
-  return (IsDigit(nearest.front()) ? "T" : "") + nearest;
+static std::string Nearest(const std::string& name, const char* instead, const char* before_digit) {
+  if (name.empty()) return instead;
+  return (IsDigit(name.front()) ? before_digit : "") + name;
 }
-
-std::string NearestFieldName(std::string_view name) {
-  const std::string nearest = SnakeCase(name);
-  if (nearest.empty()) return "value";
-  return (IsDigit(nearest.front()) ? "f" : "") + nearest;
-}
+std::string NearestMessageName(std::string_view name) { return Nearest(CamelCase(name), "Value", "T"); }
+std::string NearestFieldName(std::string_view name) { return Nearest(SnakeCase(name), "value", "f"); }
 
 }  // namespace runnel

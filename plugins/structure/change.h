@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -84,7 +85,7 @@ struct SetParameter {
   /// Instead of the text, an object of `type`, which must be the parameter's.
   std::shared_ptr<const void> object = {};
   const TypeInfo* type = nullptr;
-  Configurable::Origin origin = {};  ///< of what is put back
+  Configurable::Own own = {};  ///< of what is put back
 };
 
 /// Puts a module of `type` in the place of another one. It takes over the connections (what waits in
@@ -99,6 +100,8 @@ struct ReplaceModule {
   std::uint64_t probation_cycles = 10;
   /// Of a change that takes another one back: what had been set at ports that the module has not, and gets again.
   GivenState state = {};
+  /// And Configurable::Own::given of the settings, by their names.
+  std::map<std::string, std::uint64_t> given = {};
 };
 
 /// Gives a module or group another name, at the same place. Connections (with what waits in queues), values, kept states

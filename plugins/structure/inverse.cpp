@@ -146,19 +146,19 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
     return {};
   }
   std::vector<Setting> settings;
-  const std::set<const Configurable*> named = NamedBy(change.settings, after);
+  std::map<std::string, std::uint64_t> given;
   for (const auto& [element, parameter] : ConfigurablesOf(before)) {
+    std::string own = parameter->OwnText();
     const ConfigurableElement like = ParameterLike(*element, before, after);
-    // An output is asked only for what the change itself sets.
-    if (like && parameter->origin().has_been_fed && !named.contains(like.configurable)) continue;
-    std::string value = parameter->ToText();
-    const bool would_be_other = like && like.configurable->ToText() != value;
-    if (!would_be_other && value == parameter->info().default_value) continue;
-    settings.push_back({element->name(), std::move(value)});
+    const bool would_be_other = like && like.configurable->OwnText() != own;
+    if (!would_be_other && own == parameter->info().default_value) continue;
+    settings.push_back({element->name(), std::move(own)});
+    given[element->name()] = parameter->own().given;
   }
   return {ReplaceModule{before.path(), type, std::move(settings), change.probation_cycles,
                         std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,
-                                                             ElementState::Below::kIncluded)}};
+                                                             ElementState::Below::kIncluded),
+                        std::move(given)}};
 }
 
 UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses, std::optional<Error> why_not, FrameworkElement& root) {

@@ -45,23 +45,27 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting, bool ma
 }
 
 Result<void> CopySettings(const Inherited& inherited, FrameworkElement& after, const IsTheirTurn& is_its_turn) {
-  for (const auto& [setting, unit] : inherited) {
-    const auto [element, target] = FindConfigurable(after, setting.parameter);
+  for (const InheritedValue& each : inherited) {
+    const auto [element, target] = FindConfigurable(after, each.parameter);
     if (element == nullptr || !is_its_turn(*element)) continue;
-    const auto has_its_name = [name = element->name()](const auto& each) { return each.first.parameter == name; };
-    if (element->name() != setting.parameter && std::ranges::any_of(inherited, has_its_name)) continue;
-    const auto set = target->SetFromText(TextIn(unit, setting.value, *target));
-    if (!set) return set.error().WithPath(element->path());
+    if (element->name() != each.parameter &&
+        std::ranges::count(inherited, element->name(), &InheritedValue::parameter) > 0)
+      continue;
+    // What an output has given goes over later, but to what cannot be set any more then.
+    const std::string& text = target->info().is_static ? each.value : each.own;
+    if (text == each.default_value) continue;
+    if (const auto set = target->SetFromText(TextIn(each.unit, text, *target)); !set) {
+      return set.error().WithPath(element->path());
+    }
   }
   return {};
 }
 
-Result<void> CopyValue(const Configurable& from, Configurable& to) {
-  const auto [is_fed, has_been_fed, settings] = from.origin();
-  const std::shared_ptr<const void> value = from.Value();
+Result<void> CopyOwn(const Configurable& from, Configurable& to) {
+  const Configurable::Own own = from.own();
   const bool is_alike = &from.type() == &to.type() && from.info().unit == to.info().unit;
-  const auto own = is_alike ? Result(value) : to.Parse(TextIn(UnitOfNumber(from), from.ToText(), to));
-  return own ? to.PutBack(own->get(), {is_fed, has_been_fed}) : own.error();
+  const auto value = is_alike ? Result(own.value) : to.Parse(TextIn(UnitOfNumber(from), from.OwnText(), to));
+  return value ? to.Put({*value, own.given}) : value.error();
 }
 
 std::string PathIn(const FrameworkElement& module, const FrameworkElement& element) {
@@ -94,7 +98,7 @@ ConfigurableElement CounterpartOf(const FrameworkElement& parameter, const Frame
 bool IsLate(const SettingCounts& counts, const FrameworkElement& module, const FrameworkElement& element,
             const Configurable& parameter) {
   const auto known = counts.find(PathIn(module, element));
-  return known == counts.end() || known->second != parameter.origin().settings;
+  return known == counts.end() || known->second != parameter.own().settings;
 }
 
 }  // namespace
@@ -110,9 +114,9 @@ std::vector<Setting> SettingsOf(const FrameworkElement& module) {
 
 Inherited InheritedFrom(const FrameworkElement& module) {
   Inherited inherited;
-  for (const Setting& each : SettingsOf(module)) {
-    const Configurable& parameter = *FindConfigurable(module, each.parameter).configurable;
-    if (!parameter.origin().has_been_fed) inherited.emplace_back(each, UnitOfNumber(parameter));
+  for (const auto& [element, each] : ConfigurablesOf(module)) {
+    inherited.push_back(
+        {element->name(), each->OwnText(), each->ToText(), each->info().default_value, UnitOfNumber(*each)});
   }
   return inherited;
 }
@@ -167,7 +171,7 @@ std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings, cons
 SettingCounts SettingCountsOf(const FrameworkElement& module) {
   SettingCounts counts;
   ForEachParameter(module, [&](const FrameworkElement& element, const Configurable& each) {
-    counts[PathIn(module, element)] = each.origin().settings;
+    counts[PathIn(module, element)] = each.own().settings;
   });
   return counts;
 }
@@ -175,21 +179,21 @@ SettingCounts SettingCountsOf(const FrameworkElement& module) {
 std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts, const ReplaceModule& change,
                               const FrameworkElement& after) {
   const std::set<const Configurable*> named = NamedBy(change.settings, after);
-  const bool is_way_back = change.state != nullptr;
   std::vector<Error> refused;
   ForEachParameter(before, [&](const FrameworkElement& element, Configurable& each) {
-    each.TakeRest();
-    const bool has_been_fed = each.origin().has_been_fed;
-    if (!has_been_fed && !IsLate(counts, before, element, each)) return;
     const auto [place, target] = CounterpartOf(element, before, after);
     if (place == nullptr || target->info().is_static) return;
-    const bool is_named = named.contains(target), is_asked = is_way_back && has_been_fed;
-    const Result<void> set = is_named && !is_asked ? Result<void>() : Attempt([&] { return CopyValue(each, *target); });
-    if (is_named && is_asked) target->AskFeed();
-    if (!set && !each.origin().is_fed) refused.push_back(set.error().WithPath(place->path()));
-    // What is known of earlier values is not used at the other one either.
-    const bool is_to_be_marked = has_been_fed && !target->origin().has_been_fed;
-    if (is_to_be_marked) (void)target->PutBack(target->Value().get(), {false, true});
+    (void)target->TakeGiven(each);
+    const bool has_given = each.is_fed() || each.own().given > 0;
+    if (named.contains(target)) {
+      Configurable::Own own{target->own().value};
+      const auto known = change.given.find(place->name());
+      if (change.state) own.given = known != change.given.end() ? known->second : 0;
+      if (has_given) (void)target->Put(own);
+    } else if (has_given || IsLate(counts, before, element, each)) {
+      const auto set = Attempt([&] { return CopyOwn(each, *target); });
+      if (!set) refused.push_back(set.error().WithPath(place->path()));
+    }
   });
   return refused;
 }

@@ -16,8 +16,11 @@ namespace runnel::internal {
 
 /// The values that a module of the same type would not have by itself.
 [[nodiscard]] std::vector<Setting> SettingsOf(const FrameworkElement& module);
-/// Those of them that another module begins with, each with its unit if it is a number: not what outputs have given.
-using Inherited = std::vector<std::pair<Setting, std::string>>;
+/// What another module begins with, if it has a parameter of the name: what has been set, the value that it has, and the unit.
+struct InheritedValue {
+  std::string parameter, own, value, default_value, unit;
+};
+using Inherited = std::vector<InheritedValue>;
 [[nodiscard]] Inherited InheritedFrom(const FrameworkElement& module);
 
 /// Sets the parameters of a module that has just been made: to `inherited`, as far as it has parameters of these names,
@@ -32,14 +35,13 @@ Result<void> ConfigureNew(FrameworkElement& made, const Inherited& inherited, co
 [[nodiscard]] std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings,
                                                     const FrameworkElement& module);
 
-/// Configurable::Origin::settings of the parameters of a module and its parts, by their paths in it.
+/// Configurable::Own::settings of the parameters of a module and its parts, by their paths in it.
 using SettingCounts = std::map<std::string, std::uint64_t>;
 [[nodiscard]] SettingCounts SettingCountsOf(const FrameworkElement& module);
 
-/// Gives `after`, which is prepared, the values that parameters of `before` have been set to since `counts`, and all to which
-/// outputs have ever given one, as they are now: but for what `change` sets, unless it takes something back, and what cannot be
-/// set any more. Of a part that `after` has not, by the parameter of the composite that stands for it. Neither runs. What is
-/// refused: what others than outputs have set.
+/// Gives `after`, which is prepared, what parameters of `before` have been set to since `counts`, but for what `change` sets and what
+/// cannot be set any more, and all that outputs have given. Of a part that `after` has not, by the parameter of the composite
+/// that stands for it. Neither runs. What is refused of what has been set.
 [[nodiscard]] std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts,
                                             const ReplaceModule& change, const FrameworkElement& after);
 

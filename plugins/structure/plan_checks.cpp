@@ -166,35 +166,23 @@ Result<void> Plan::Check(const SetParameter& change) {
     return CheckAll(*group, change);
   }
   const bool is_settled = parameter->info().is_static && (*found)->life_cycle() == LifeCycle::kReady;
-  const bool is_of_output = is_way_back_ && parameter->origin().has_been_fed;
-  const auto value =
-      is_of_output ? Result<std::shared_ptr<const void>>(parameter->Value()) : ValueIn(change, *parameter);
+  const auto value = ValueIn(change, *parameter);
   if (!value) return value.error().WithPath((*found)->path());
   if (is_settled) return CheckStatic(**found, *parameter, value->get());
   Concern(**found);
-  if (is_of_output) {
+  if (is_way_back_ && parameter->is_fed()) {
     warnings_.push_back(
-        {.message = "an output has set it: that is not taken back, and what the output gives counts again",
-         .path = (*found)->path()});
+        {.message = "an output has set it since, and what that gives counts", .path = (*found)->path()});
   }
-  using Given = std::pair<std::shared_ptr<const void>, Configurable::Origin>;
-  const auto stays = std::make_shared<bool>(false);
-  AddSetting(
-      [parameter, stays, is_back = is_way_back_]() -> Given {
-        *stays = is_back && parameter->origin().has_been_fed;
-        return {parameter->Value(), parameter->origin()};
-      },
-      [parameter, stays](const Given& each) {
-        if (!*stays) return parameter->PutBack(each.first.get(), each.second);
-        parameter->AskFeed();
-        return Result<void>();
-      },
-      Given{*value, change.origin},
-      [parameter, path = (*found)->path()](auto&) -> ChangeSet {
-        // The module has been made by this change set, and goes as a whole.
-        if (parameter->info().is_static) return {};
-        return {SetParameter{path, parameter->ToText(), parameter->Value(), &parameter->type(), parameter->origin()}};
-      });
+  AddSetting([parameter] { return parameter->own(); },
+             [parameter](const Configurable::Own& each) { return parameter->Put(each); },
+             Configurable::Own{*value, change.own.given, change.own.settings},
+             [parameter, path = (*found)->path()](auto&) -> ChangeSet {
+               // The module has been made by this change set, and goes as a whole.
+               if (parameter->info().is_static) return {};
+               const Configurable::Own own = parameter->own();
+               return {SetParameter{path, parameter->OwnText(), own.value, &parameter->type(), own}};
+             });
   return {};
 }
 

@@ -14,11 +14,15 @@
 
 namespace runnel::internal {
 
-void Probation::Add(std::vector<Replaced>& replaced) {
+void Probation::Add(std::vector<Replaced>& replaced, Diagnostics& diagnostics) {
   std::vector<std::uint64_t> until(replaced.size(), 0);
   for (std::size_t i = 0; i < replaced.size(); ++i) {
     const auto progress = scheduler_.ProgressOf(replaced[i].path);
     if (progress && replaced[i].probation_cycles > 0) until[i] = progress->cycles + replaced[i].probation_cycles;
+    const auto is_it = [id = replaced[i].before->id()](const Waiting& each) { return each.replaced.id == id; };
+    if (until[i] > 0 || std::ranges::none_of(waiting_, is_it)) continue;
+    diagnostics.AddWarning(
+        {.message = "its probation ends by this: the module before does not come back", .path = replaced[i].path});
   }
   waiting_.reserve(waiting_.size() + replaced.size());
   for (std::size_t i = 0; i < replaced.size(); ++i) {
@@ -57,11 +61,6 @@ std::vector<UnlistedElement> Probation::Take(bool all) {
 std::vector<Probation::Waiting>::iterator Probation::Find(const std::string& path) {
   return std::ranges::find_if(
       waiting_, [&](const Waiting& each) { return each.replaced.path == path && Successor(each) != nullptr; });
-}
-
-bool Probation::WasWaitedFor(const FrameworkElement& module) const {
-  return std::ranges::any_of(
-      waiting_, [&](const Waiting& each) { return each.until_cycle > 0 && each.replaced.id == module.id(); });
 }
 
 bool Probation::Concerns(const Fault& fault) {

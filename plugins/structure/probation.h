@@ -20,13 +20,11 @@ class Probation {
   Probation(Runtime& runtime, Scheduler& scheduler, Duration timeout)
       : runtime_(runtime), scheduler_(scheduler), timeout_(timeout) {}
 
-  /// Takes those that are to be kept; the rest stays in `replaced`. Throws for lack of memory, and has taken
-  /// nothing then.
-  void Add(std::vector<Replaced>& replaced);
+  /// Takes those that are to be kept; the rest stays in `replaced`, with a warning where that ends a probation. Throws for lack of
+  /// memory, and has taken nothing then.
+  void Add(std::vector<Replaced>& replaced, Diagnostics& diagnostics);
   /// Takes out all, or those whose successors have proved themselves, or are gone.
   [[nodiscard]] std::vector<UnlistedElement> Take(bool all);
-  /// Whether the module, which has just been replaced, was on probation.
-  [[nodiscard]] bool WasWaitedFor(const FrameworkElement& module) const;
   /// Whether the module of the fault, which has thrown, is on probation.
   [[nodiscard]] bool Concerns(const Fault& fault);
   /// The predecessor of that module is back when this returns. What has been done, in words. Throws if it could not be.

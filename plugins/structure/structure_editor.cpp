@@ -105,6 +105,7 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
                "the structure cannot be changed by an editor from within a cycle, nor under the "
                "structure lock");
   const std::lock_guard lock(shared_->applying);
+  Tend();
   NewFeeds feeds(runtime_);
   ChangeOutcome outcome;
   internal::Workshop workshop;
@@ -181,12 +182,7 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request, inte
     outcome.hold_time = SteadyClock().Now() - hold->began();
     hold->Release();
   }
-  for (const internal::Replaced& each : plan.replaced()) {
-    if (each.probation_cycles > 0 || !shared_->probation || !shared_->probation->WasWaitedFor(*each.before)) continue;
-    outcome.diagnostics.AddWarning(
-        {.message = "its probation ends by this: the module before does not come back", .path = each.path});
-  }
-  if (shared_->probation) shared_->probation->Add(plan.replaced());
+  if (shared_->probation) shared_->probation->Add(plan.replaced(), outcome.diagnostics);
   lock.unlock();
   std::vector<std::string> removed;
   for (const UnlistedElement& each : plan.removed()) removed.push_back(each->path());

@@ -91,7 +91,7 @@ bool IsStillCut(const FrameworkElement& parameter) {
   const auto* const configurable = dynamic_cast<const Configurable*>(&parameter);
   const auto* const mark = parameter.FindAnnotation<FedMark>();
   if (configurable == nullptr || mark == nullptr) return false;
-  return configurable->origin().is_fed || (mark->has_moved && configurable->ToText() == mark->text);
+  return configurable->is_fed() || (mark->has_moved && configurable->ToText() == mark->text);
 }
 
 }  // namespace

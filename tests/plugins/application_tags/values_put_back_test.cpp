@@ -128,6 +128,31 @@ TEST_F(ValuesPutBack, AreNotWhatHasBeenTakenBackDuringTheTrial) {
   EXPECT_EQ(Run(), 0);
 }
 
+TEST_F(ValuesPutBack, AreThoseOfAPersonWhoHasSetThemLast) {
+  Start(std::string(kConnected) + R"(<module name="stubborn" type="test/stubborn" thread="control"/>)");
+  Say(2);
+  EXPECT_EQ(Run(), 2);
+  ASSERT_TRUE(history_->Apply({SetParameter{"/demo/other/gain", "5"}}));
+  ASSERT_TRUE(history_->Undo());
+  Do({SetParameter{"/demo/other/gain", "0"}});
+  EXPECT_EQ(Run(), 0);
+  ASSERT_TRUE(history_->Apply({SetParameter{"/demo/other/gain", "0"}, SetParameter{"/demo/other/text", "x"}}));
+  Do({ReplaceModule{"/demo/other", "test/source"}});
+  EXPECT_EQ(Run(), 0);
+  EXPECT_FALSE(
+      changes_->Apply({SetParameter{"/demo/other/gain", "7"}, ReplaceModule{"/demo/stubborn", "test/stubborn"}}));
+  EXPECT_EQ(Run(), 0);
+}
+
+TEST_F(ValuesPutBack, OfACompositeAreThoseThatAnOutputDoesNotGive) {
+  Start(R"(<module name="box" type="test/pair" thread="control"/><connect from="source/value" to="box/a/gain"/>)");
+  Say(2);
+  EXPECT_EQ(Run("/demo/box/a/parameter/gain"), 2);
+  Do({SetParameter{"/demo/box/both", "0"}});
+  Do({ReplaceModule{"/demo/box", "test/pair"}});
+  EXPECT_EQ(Run("/demo/box/b/parameter/gain"), 0);
+}
+
 TEST_F(ValuesPutBack, OfPartsAreNotThoseOfOtherParts) {
   Start(R"(<module name="box" type="test/pair" thread="control"/>)");
   Do({SetParameter{"/demo/box/b/gain", "4"}, ReplaceModule{"/demo/box", "test/pair", {{"gain", "3"}}}});

@@ -148,15 +148,16 @@ TEST_F(ParameterTest, CannotBeSetAnyMoreIfStatic) {
 TEST_F(ParameterTest, TakesValuesOfItsTypeAsTheyAre) {
   // No text of so few digits is this number.
   const double third = 1.0 / 3;
-  ASSERT_TRUE(guard_.stop_distance.SetFrom(&third));
+  ASSERT_TRUE(guard_.stop_distance.Put({std::make_shared<const double>(third)}));
   EXPECT_EQ(guard_.stop_distance.Get(), third);
   EXPECT_EQ(*std::static_pointer_cast<double>(guard_.stop_distance.Value()), third);
   const double far = 7;
-  const auto set = guard_.stop_distance.SetFrom(&far);
+  const auto set = guard_.stop_distance.Put({std::make_shared<const double>(far)});
   ASSERT_FALSE(set);
   EXPECT_EQ(set.error().ToString(), "/guard/parameter/stop_distance: 7 m is out of bounds; allowed is 0.05 .. 5 m");
   const std::string label = "a\x01";
-  EXPECT_EQ(guard_.label.SetFrom(&label).error().message, "the value contains control character 0x01");
+  EXPECT_EQ(guard_.label.Put({std::make_shared<const std::string>(label)}).error().message,
+            "the value contains control character 0x01");
 }
 
 template <typename P>
