@@ -176,9 +176,9 @@ SettingCounts SettingCountsOf(const FrameworkElement& module) {
   return counts;
 }
 
-std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts, const ReplaceModule& change,
+std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts, const ReplaceModule* change,
                               const FrameworkElement& after) {
-  const std::set<const Configurable*> named = NamedBy(change.settings, after);
+  const auto named = change != nullptr ? NamedBy(change->settings, after) : std::set<const Configurable*>();
   std::vector<Error> refused;
   ForEachParameter(before, [&](const FrameworkElement& element, Configurable& each) {
     const auto [place, target] = CounterpartOf(element, before, after);
@@ -187,10 +187,10 @@ std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& cou
     const bool has_given = each.is_fed() || each.own().given > 0;
     if (named.contains(target)) {
       Configurable::Own own{target->own().value};
-      const auto known = change.given.find(place->name());
-      if (change.state) own.given = known != change.given.end() ? known->second : 0;
+      const auto known = change->given.find(place->name());
+      if (change->state) own.given = known != change->given.end() ? known->second : 0;
       if (has_given) (void)target->Put(own);
-    } else if (has_given || IsLate(counts, before, element, each)) {
+    } else if ((has_given && change != nullptr) || IsLate(counts, before, element, each)) {
       const auto set = Attempt([&] { return CopyOwn(each, *target); });
       if (!set) refused.push_back(set.error().WithPath(place->path()));
     }

@@ -41,8 +41,9 @@ using SettingCounts = std::map<std::string, std::uint64_t>;
 
 /// Gives `after`, which is prepared, what parameters of `before` have been set to since `counts`, but for what `change` sets and what
 /// cannot be set any more, and all that outputs have given. Of a part that `after` has not, by the parameter of the composite
-/// that stands for it. Neither runs. What is refused of what has been set.
+/// that stands for it. `change`: that has it made; nullptr: it comes back, with what had been set there. Neither runs. What is
+/// refused of what has been set.
 [[nodiscard]] std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts,
-                                            const ReplaceModule& change, const FrameworkElement& after);
+                                            const ReplaceModule* change, const FrameworkElement& after);
 
 }  // namespace runnel::internal

@@ -185,7 +185,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
   done->after = work.element;
   steps_.push_back({[=, this, &before, &next, counts = work.counts]() -> Result<void> {
                       // What has been set or assigned since the new module was made, by this change set or others.
-                      if (auto refused = CopyValues(before, counts, change, next); !refused.empty())
+                      if (auto refused = CopyValues(before, counts, &change, next); !refused.empty())
                         return refused.front();
                       InheritAnnotations(next, before, ports);
                       if (change.state) {
