@@ -82,8 +82,9 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    "plugins/foxglove",
                    {"core", "plugins/command_service", "plugins/services/callable.h", "plugins/structure",
                     "plugins/values", "plugins/web_server"}});
-  rules.push_back(
-      {"plugins/application_files", "plugins/application_files", {"core", "plugins/parameters", "plugins/structure"}});
+  rules.push_back({"plugins/application_files",
+                   "plugins/application_files",
+                   {"core", "plugins/manifest", "plugins/parameters", "plugins/structure"}});
   rules.push_back({"plugins/application_tags",
                    "plugins/application_tags",
                    {"core", "plugins/application_files", "plugins/parameters", "plugins/scheduling", "plugins/timing",
