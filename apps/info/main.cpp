@@ -26,8 +26,7 @@ std::string PackingText(const RecordingInfo& info) {
 }
 
 void PrintChannels(const RecordingInfo& info) {
-  std::size_t path_width = 4;
-  std::size_t type_width = 4;
+  std::size_t path_width = 4, type_width = 4;
   for (const auto& each : info.channels) {
     path_width = std::max(path_width, each.path.size());
     type_width = std::max(type_width, each.type.size());

@@ -86,8 +86,8 @@ Result<void> GroupParameter::Check(const void* value) const {
 
 Configurable::Own GroupParameter::own() const {
   const auto found = Find();
-  if (found.empty() || &found.front().configurable->type() != &type()) return {Value()};
-  return found.front().configurable->own();
+  const bool is_alike = !found.empty() && &found.front().configurable->type() == &type();
+  return is_alike ? found.front().configurable->own() : Own{Value()};
 }
 
 Result<void> GroupParameter::TakeGiven(Configurable& before) {

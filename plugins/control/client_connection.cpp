@@ -9,7 +9,6 @@
 
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include "core/base/number_text.h"
 #include "core/element/attempt.h"

@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 #include <sys/socket.h>
 #include <sys/time.h>
-#include <unistd.h>
 
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"

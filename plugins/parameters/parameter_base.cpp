@@ -196,17 +196,23 @@ Result<void> ParameterBase::TakeGiven(Configurable& before) {
   const std::uint64_t given = from->given_.load(std::memory_order_relaxed);
   if (given == 0 || info().is_static) return {};
   std::shared_ptr<const void> value = from->is_fed() ? from->Value() : from->last_given_;
+  Result<void> good;
   if (&type() != &from->type() || info().unit != from->info().unit) {
-    auto own =
-        Parse(runnel::ToText(from->type(), value.get()) + (description_.is_number ? " " + from->info().unit : ""));
-    if (!own) return own.error().WithPath(path());
-    value = std::move(*own);
+    const bool has_ratio = description_.is_number && RatioOfUnits(from->info().unit, info().unit);
+    auto own = Parse(runnel::ToText(from->type(), value.get()) + (has_ratio ? " " + from->info().unit : ""));
+    if (!own) good = own.error();
+    if (own) value = std::move(*own);
   } else if (!MayBeFed(value.get())) {
-    return Check(value.get());
+    good = Check(value.get());
   }
   const std::lock_guard assigning(assigning_);
+  const bool was_fed = is_fed();
   if (!own_) own_ = Value();
-  given_.store(given, std::memory_order_relaxed);
+  if (!good && !last_given_) last_given_ = own_;
+  // The number goes over even if the value does not: what has been given later is newer.
+  given_.store(std::max(given, given_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
+  if (!good && !was_fed) own_given_.store(given_.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  if (!good) return good.error().WithPath(path());
   if (is_fed()) Assume(value.get());
   last_given_ = std::move(value);
   return {};

@@ -59,8 +59,7 @@ struct MadeByRule final : Annotation {
   if (!targets.empty()) return TextToSave(*targets.front().element, *targets.front().configurable);
   // Until what it stands for is there again.
   if (group != nullptr && loaded != nullptr) return *loaded;
-  const bool is_of_output = HasValueOfOutput(element, parameter);
-  return MadeByRule::Before(element, is_of_output ? parameter.OwnText() : parameter.ToText());
+  return MadeByRule::Before(element, HasValueOfOutput(element, parameter) ? parameter.OwnText() : parameter.ToText());
 }
 
 }  // namespace runnel

@@ -146,19 +146,19 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
     return {};
   }
   std::vector<Setting> settings;
-  std::map<std::string, std::uint64_t> given;
+  const std::set<const Configurable*> named = NamedBy(change.settings, after);
+  // All else goes on as it is by then.
   for (const auto& [element, parameter] : ConfigurablesOf(before)) {
     std::string own = parameter->OwnText();
-    const ConfigurableElement like = ParameterLike(*element, before, after);
-    const bool would_be_other = like && like.configurable->OwnText() != own;
-    if (!would_be_other && own == parameter->info().default_value) continue;
-    settings.push_back({element->name(), std::move(own)});
-    given[element->name()] = parameter->own().given;
+    const auto [place, like] = ParameterLike(*element, before, after);
+    const bool is_other =
+        place != nullptr ? named.contains(like) || like->OwnText() != own : own != parameter->info().default_value;
+    if (is_other) settings.push_back({element->name(), std::move(own)});
   }
   return {ReplaceModule{before.path(), type, std::move(settings), change.probation_cycles,
                         std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,
                                                              ElementState::Below::kIncluded),
-                        std::move(given)}};
+                        NumbersOf(before, &Configurable::Own::given)}};
 }
 
 UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses, std::optional<Error> why_not, FrameworkElement& root) {

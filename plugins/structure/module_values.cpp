@@ -86,10 +86,9 @@ ConfigurableElement CounterpartOf(const FrameworkElement& parameter, const Frame
   ConfigurableElement found = ParameterLike(parameter, before, after);
   for (const auto& [element, each] : ConfigurablesOf(before)) {
     const auto* const group = dynamic_cast<const GroupParameter*>(element);
-    if (found || group == nullptr) continue;
-    const auto targets = group->Find();
-    if (std::ranges::count(targets, &parameter, &ConfigurableElement::element) > 0)
-      found = ParameterLike(*element, before, after);
+    const auto targets = !found && group != nullptr ? group->Find() : std::vector<ConfigurableElement>();
+    const bool stands_for_it = std::ranges::count(targets, &parameter, &ConfigurableElement::element) > 0;
+    if (stands_for_it) found = ParameterLike(*element, before, after);
   }
   return found;
 }
@@ -168,32 +167,35 @@ std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings, cons
   return named;
 }
 
-SettingCounts SettingCountsOf(const FrameworkElement& module) {
-  SettingCounts counts;
+SettingCounts NumbersOf(const FrameworkElement& module, std::uint64_t Configurable::Own::*number) {
+  SettingCounts numbers;
   ForEachParameter(module, [&](const FrameworkElement& element, const Configurable& each) {
-    counts[PathIn(module, element)] = each.own().settings;
+    numbers[PathIn(module, element)] = each.own().*number;
   });
-  return counts;
+  return numbers;
 }
 
 std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts, const ReplaceModule* change,
                               const FrameworkElement& after) {
   const auto named = change != nullptr ? NamedBy(change->settings, after) : std::set<const Configurable*>();
+  const bool is_way_back = change != nullptr && !change->given.empty();
   std::vector<Error> refused;
   ForEachParameter(before, [&](const FrameworkElement& element, Configurable& each) {
     const auto [place, target] = CounterpartOf(element, before, after);
     if (place == nullptr || target->info().is_static) return;
-    (void)target->TakeGiven(each);
+    auto set = target->TakeGiven(each);
+    // What takes it back, or comes back, has to do without.
+    if (is_way_back || change == nullptr || !each.is_fed()) set = {};
     const bool has_given = each.is_fed() || each.own().given > 0;
-    if (named.contains(target)) {
+    const auto known = change != nullptr ? change->given.find(PathIn(after, *place)) : SettingCounts::const_iterator();
+    if (named.contains(target) && (!is_way_back || known != change->given.end())) {
       Configurable::Own own{target->own().value};
-      const auto known = change->given.find(place->name());
-      if (change->state) own.given = known != change->given.end() ? known->second : 0;
+      if (is_way_back) own.given = known->second;
       if (has_given) (void)target->Put(own);
-    } else if ((has_given && change != nullptr) || IsLate(counts, before, element, each)) {
-      const auto set = Attempt([&] { return CopyOwn(each, *target); });
-      if (!set) refused.push_back(set.error().WithPath(place->path()));
+    } else if (set && ((has_given && change != nullptr) || IsLate(counts, before, element, each))) {
+      set = Attempt([&] { return CopyOwn(each, *target); });
     }
+    if (!set) refused.push_back(set.error().WithPath(place->path()));
   });
   return refused;
 }

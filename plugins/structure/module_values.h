@@ -35,9 +35,9 @@ Result<void> ConfigureNew(FrameworkElement& made, const Inherited& inherited, co
 [[nodiscard]] std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings,
                                                     const FrameworkElement& module);
 
-/// Configurable::Own::settings of the parameters of a module and its parts, by their paths in it.
+/// A number of Configurable::Own of the parameters of a module and its parts, by their paths in it.
 using SettingCounts = std::map<std::string, std::uint64_t>;
-[[nodiscard]] SettingCounts SettingCountsOf(const FrameworkElement& module);
+[[nodiscard]] SettingCounts NumbersOf(const FrameworkElement& module, std::uint64_t Configurable::Own::*number);
 
 /// Gives `after`, which is prepared, what parameters of `before` have been set to since `counts`, but for what `change` sets and what
 /// cannot be set any more, and all that outputs have given. Of a part that `after` has not, by the parameter of the composite

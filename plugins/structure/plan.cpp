@@ -83,7 +83,7 @@ Result<void> Plan::Apply(UndoRecord* back, std::size_t& begun) {
     ++begun;
     if (auto applied = step.apply(); !applied) return applied;
   }
-  for (Replaced& each : replaced_) each.counts = SettingCountsOf(*each.after);
+  for (Replaced& each : replaced_) each.counts = NumbersOf(*each.after, &Configurable::Own::settings);
   if (back != nullptr) *back = UndoRecordOf(inverses, std::move(why_not), runtime_.root());
   return {};
 }

@@ -32,7 +32,7 @@ Result<Workshop::Work> Plan::MakeModule(const Placement& place, const ReplaceMod
     std::string name = place.name;
     if (before != nullptr) {
       inherited = InheritedFrom(*before);
-      counts = SettingCountsOf(*before);
+      counts = NumbersOf(*before, &Configurable::Own::settings);
       state.emplace(*before, FrameworkElement::Inherit::kAsReplacement, ElementState::Below::kIncluded);
       name = NameInFile::Of(*before);
     }

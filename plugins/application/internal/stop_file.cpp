@@ -51,9 +51,8 @@ std::string PressedBy(const fs::path& file) {
   std::string by;
   std::ifstream stream(file);
   std::getline(stream, by);
-  const bool is_held = IsHeld(Open(file));
   by = by.substr(0, std::min({by.find(kElsewhere), by.find(kBefore), kLongestBy}));
-  return (by.empty() ? "somebody" : by) + (is_held ? kElsewhere : kBefore);
+  return (by.empty() ? "somebody" : by) + (IsHeld(Open(file)) ? kElsewhere : kBefore);
 }
 
 // `name`: how the names of all files of one application begin.

@@ -5,7 +5,6 @@
 #include <linux/sock_diag.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include "core/base/file_descriptor.h"
 #include "plugins/web_server/internal/beast_connections.h"

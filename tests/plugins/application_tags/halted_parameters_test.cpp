@@ -237,5 +237,42 @@ TEST_P(Halted, IsNewerThanWhatIsTakenBackAtAModuleThatIsMadeAgain) {
   }
 }
 
+// With a unit, and without.
+TEST_P(Halted, GoesToWhatHasAnotherUnitAndBack) {
+  for (const auto& [first, second] : {std::pair("test/fragile", "test/new"), std::pair("test/new", "test/fragile")}) {
+    const std::string type = first;
+    if (!scheduler_)
+      Start("<module name=\"other\" type=\"" + type +
+            R"(" thread="control"/><connect from="source/value" to="other/gain"/>)");
+    Do({ReplaceModule{"/demo/other", first}, SetParameter{"/demo/other/gain", "5"}});
+    Resume();
+    Halt();
+    EXPECT_EQ(Run(), 0);
+    ASSERT_TRUE(history_->Apply({ReplaceModule{"/demo/other", second}}));
+    EXPECT_EQ(Run(), 0);
+    ASSERT_TRUE(history_->Undo());
+    EXPECT_EQ(Run(), 0);
+    Do({ReplaceModule{"/demo/other", second, {}, 1000}});
+    Fragile::throws = NewName::throws = true;
+    EXPECT_EQ(Run(), 0);
+    Fragile::throws = NewName::throws = false;
+  }
+}
+
+TEST_P(Halted, IsNotTakenBackWithPartsThatWereConnectedOneAfterTheOther) {
+  Start(R"(<module name="box" type="test/pair" thread="control"/>)");
+  for (const std::string part : {"b", "a"}) {
+    Do({ConnectPorts{"/demo/source/value", "/demo/box/" + part + "/gain"}});
+    Resume("/demo/box/" + part + "/parameter/gain");
+  }
+  Do({SetParameter{"/demo/box/both", "5"}});
+  Halt();
+  EXPECT_EQ(Run("/demo/box/b/parameter/gain"), 0);
+  Do({DisconnectPorts{"/demo/source/value", "/demo/box/b/gain"}});
+  ASSERT_TRUE(history_->Apply({ReplaceModule{"/demo/box", "test/pair", {{"speed", "5"}}}}));
+  ASSERT_TRUE(history_->Undo());
+  EXPECT_EQ(Run("/demo/box/b/parameter/gain"), 0);
+}
+
 }  // namespace
 }  // namespace runnel::testing

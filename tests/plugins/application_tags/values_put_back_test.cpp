@@ -144,6 +144,26 @@ TEST_F(ValuesPutBack, AreThoseOfAPersonWhoHasSetThemLast) {
   EXPECT_EQ(Run(), 0);
 }
 
+TEST_F(ValuesPutBack, AreThoseThatAnotherHasSetSinceThatChange) {
+  Start(kConnected);
+  Do({SetParameter{"/demo/other/gain", "5"}});
+  Say(2);
+  EXPECT_EQ(Run(), 2);
+  ASSERT_TRUE(history_->Apply({ReplaceModule{"/demo/other", "test/source"}}));
+  Do({SetParameter{"/demo/other/gain", "0"}});
+  ASSERT_TRUE(history_->Undo());
+  EXPECT_EQ(Run(), 0);
+}
+
+TEST_F(ValuesPutBack, OfAnOutputThatTheNewOneCannotHaveKeepItOut) {
+  Start(R"(<module name="other" type="test/wide" thread="control"/><connect from="source/value" to="other/gain"/>)");
+  Say(8);
+  EXPECT_EQ(Run(), 8);
+  const ChangeOutcome swapped = changes_->Apply({ReplaceModule{"/demo/other", "test/narrow"}});
+  EXPECT_FALSE(swapped);
+  EXPECT_THAT(swapped.diagnostics.ToString(), HasSubstr("8 m is out of bounds"));
+}
+
 TEST_F(ValuesPutBack, OfACompositeAreThoseThatAnOutputDoesNotGive) {
   Start(R"(<module name="box" type="test/pair" thread="control"/><connect from="source/value" to="box/a/gain"/>)");
   Say(2);
