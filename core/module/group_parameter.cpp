@@ -93,7 +93,8 @@ Configurable::Own GroupParameter::own() const {
 Result<void> GroupParameter::TakeGiven(Configurable& before) {
   Result<void> taken;
   for (const ConfigurableElement& each : Find()) {
-    if (taken) taken = each.configurable->TakeGiven(before);
+    const auto each_taken = each.configurable->TakeGiven(before);
+    if (taken) taken = each_taken;
   }
   return taken;
 }

@@ -127,14 +127,16 @@ Result<void> ParameterBase::Put(const Own& own) {
   // A cycle in which an output feeds the parameter may be about to do the same: that tries, and this waits.
   const std::lock_guard assigning(assigning_);
   const std::uint64_t given = std::min(own.given, given_.load(std::memory_order_relaxed));
-  const bool was_fed = is_fed(), is_to_be_fed = given < given_.load(std::memory_order_relaxed);
+  // What was refused has left its number alone.
+  const bool was_fed = is_fed(), has_given = was_fed || last_given_ != nullptr;
+  const bool is_to_be_fed = has_given && given < given_.load(std::memory_order_relaxed);
   if (was_fed != is_to_be_fed || !was_fed) {
     auto last_given = was_fed ? Value() : last_given_;
     Assume(is_to_be_fed ? last_given_.get() : own.value.get());
     last_given_ = std::move(last_given);
   }
   if (own_) own_ = own.value;
-  own_given_.store(given, std::memory_order_relaxed);
+  own_given_.store(is_to_be_fed ? given : given_.load(std::memory_order_relaxed), std::memory_order_relaxed);
   settings_ = own.settings >> kNumberBits == id() ? own.settings : settings_ + 1;
   return {};
 }
@@ -197,25 +199,25 @@ Result<void> ParameterBase::TakeGiven(Configurable& before) {
   if (given == 0 || info().is_static) return {};
   std::shared_ptr<const void> value = from->is_fed() ? from->Value() : from->last_given_;
   Result<void> good;
-  if (&type() != &from->type() || info().unit != from->info().unit) {
+  if (value != nullptr && (&type() != &from->type() || info().unit != from->info().unit)) {
     const bool has_ratio = description_.is_number && RatioOfUnits(from->info().unit, info().unit);
     auto own = Parse(runnel::ToText(from->type(), value.get()) + (has_ratio ? " " + from->info().unit : ""));
     if (!own) good = own.error();
     if (own) value = std::move(*own);
-  } else if (!MayBeFed(value.get())) {
+  } else if (value != nullptr && !MayBeFed(value.get())) {
     good = Check(value.get());
   }
   const std::lock_guard assigning(assigning_);
-  const bool was_fed = is_fed();
   if (!own_) own_ = Value();
-  if (!good && !last_given_) last_given_ = own_;
-  // The number goes over even if the value does not: what has been given later is newer.
+  // The number goes over even if the value does not: what has been given later is newer, and until then the own one counts.
   given_.store(std::max(given, given_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
-  if (!good && !was_fed) own_given_.store(given_.load(std::memory_order_relaxed), std::memory_order_relaxed);
-  if (!good) return good.error().WithPath(path());
-  if (is_fed()) Assume(value.get());
+  if (!good || value == nullptr) {
+    value.reset();
+    own_given_.store(given_.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  }
+  Assume(is_fed() ? value.get() : own_.get());
   last_given_ = std::move(value);
-  return {};
+  return good ? good : good.error().WithPath(path());
 }
 
 Port* ParameterBase::Feed() {

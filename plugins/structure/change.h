@@ -100,6 +100,8 @@ struct ReplaceModule {
   std::uint64_t probation_cycles = 10;
   /// Of a change that takes another one back: what had been set at ports that the module has not, and gets again.
   GivenState state = {};
+  /// And what the change has left as it was, which goes on as it is by then.
+  std::vector<Setting> carried = {};
   /// And Configurable::Own::given of all parameters, by their paths in the module.
   std::map<std::string, std::uint64_t> given = {};
 };

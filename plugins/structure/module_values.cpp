@@ -44,10 +44,13 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting, bool ma
   return set ? set : set.error().WithPath(parameter.element->path());
 }
 
-Result<void> CopySettings(const Inherited& inherited, FrameworkElement& after, const IsTheirTurn& is_its_turn) {
+// But for what `settings` set.
+Result<void> CopySettings(const Inherited& inherited, const std::vector<Setting>& settings, FrameworkElement& after,
+                          const IsTheirTurn& is_its_turn) {
+  const std::set<const Configurable*> named = NamedBy(settings, after);
   for (const InheritedValue& each : inherited) {
     const auto [element, target] = FindConfigurable(after, each.parameter);
-    if (element == nullptr || !is_its_turn(*element)) continue;
+    if (element == nullptr || !is_its_turn(*element) || named.contains(target)) continue;
     if (element->name() != each.parameter &&
         std::ranges::count(inherited, element->name(), &InheritedValue::parameter) > 0)
       continue;
@@ -80,15 +83,14 @@ void ForEachParameter(const FrameworkElement& module, const Use& use) {
   });
 }
 
-// By the parameter of the composite that stands for it, where there is no part like that.
+// By the parameter of the composite that stands for it, and for others if this is the first, where there is no part like that.
 ConfigurableElement CounterpartOf(const FrameworkElement& parameter, const FrameworkElement& before,
                                   const FrameworkElement& after) {
   ConfigurableElement found = ParameterLike(parameter, before, after);
   for (const auto& [element, each] : ConfigurablesOf(before)) {
     const auto* const group = dynamic_cast<const GroupParameter*>(element);
     const auto targets = !found && group != nullptr ? group->Find() : std::vector<ConfigurableElement>();
-    const bool stands_for_it = std::ranges::count(targets, &parameter, &ConfigurableElement::element) > 0;
-    if (stands_for_it) found = ParameterLike(*element, before, after);
+    if (!targets.empty() && targets.front().element == &parameter) found = ParameterLike(*element, before, after);
   }
   return found;
 }
@@ -131,12 +133,17 @@ Result<void> ConfigureNew(FrameworkElement& made, const Inherited& inherited, co
       if (auto constructed = Runtime::Construct(made); !constructed) return constructed;
     }
     const auto is_its_turn = [&](const FrameworkElement& each) { return early.contains(&each) == is_early; };
-    if (auto copied = CopySettings(inherited, made, is_its_turn); !copied) return copied;
+    if (auto copied = CopySettings(inherited, settings, made, is_its_turn); !copied) return copied;
     for (const Setting& each : settings) {
       if (auto set = Configure(made, each, is_early, is_its_turn); !set) return set;
     }
   }
   return {};
+}
+
+bool IsAlike(const Configurable& from, const Configurable& to) {
+  const auto own = to.Parse(TextIn(UnitOfNumber(from), from.OwnText(), to));
+  return own && runnel::ToText(to.type(), own->get()) == to.OwnText();
 }
 
 ConfigurableElement ParameterLike(const FrameworkElement& parameter, const FrameworkElement& before,
@@ -184,13 +191,15 @@ std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& cou
     const auto [place, target] = CounterpartOf(element, before, after);
     if (place == nullptr || target->info().is_static) return;
     auto set = target->TakeGiven(each);
-    // What takes it back, or comes back, has to do without.
-    if (is_way_back || change == nullptr || !each.is_fed()) set = {};
+    // What is set anyway needs it not; what takes it back, or comes back, has to do without.
+    if (named.contains(target) || is_way_back || change == nullptr || !each.is_fed()) set = {};
     const bool has_given = each.is_fed() || each.own().given > 0;
-    const auto known = change != nullptr ? change->given.find(PathIn(after, *place)) : SettingCounts::const_iterator();
-    if (named.contains(target) && (!is_way_back || known != change->given.end())) {
+    if (named.contains(target)) {
       Configurable::Own own{target->own().value};
-      if (is_way_back) own.given = known->second;
+      if (is_way_back) {
+        const auto known = change->given.find(PathIn(after, *place));
+        own.given = known != change->given.end() ? known->second : each.own().given;
+      }
       if (has_given) (void)target->Put(own);
     } else if (set && ((has_given && change != nullptr) || IsLate(counts, before, element, each))) {
       set = Attempt([&] { return CopyOwn(each, *target); });

@@ -31,6 +31,8 @@ Result<void> ConfigureNew(FrameworkElement& made, const Inherited& inherited, co
 /// The parameter of `after` that is what `parameter` is at or below `before`: of its name, or of a former one of either.
 [[nodiscard]] ConfigurableElement ParameterLike(const FrameworkElement& parameter, const FrameworkElement& before,
                                                 const FrameworkElement& after);
+/// Whether the same has been set at both.
+[[nodiscard]] bool IsAlike(const Configurable& from, const Configurable& to);
 /// The parameters of the module and its parts that settings set.
 [[nodiscard]] std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings,
                                                     const FrameworkElement& module);

@@ -148,7 +148,9 @@ void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet bac
     const auto module = PathSearch(runtime).Find(replace->path);
     const auto* const made = module ? (*module)->FindAnnotation<MadeByRule>() : nullptr;
     auto lacking = made != nullptr && made->now == replace->type ? made->lacking : MadeByRule::Lacking();
-    for (const Setting& one : replace->settings) {
+    std::vector<Setting> all = replace->settings;
+    all.insert(all.end(), replace->carried.begin(), replace->carried.end());
+    for (const Setting& one : all) {
       const bool is_there = note(replace->path + "/" + one.parameter, one.value, PathKind::kParameter) != nullptr;
       const auto before = replace->state->noted().Find("parameter/" + one.parameter);
       if (is_there || !before) continue;

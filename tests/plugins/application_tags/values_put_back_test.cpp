@@ -155,6 +155,47 @@ TEST_F(ValuesPutBack, AreThoseThatAnotherHasSetSinceThatChange) {
   EXPECT_EQ(Run(), 0);
 }
 
+// What the one that comes back refuses is newer than what it had of the output, and stands for nothing itself.
+TEST_F(ValuesPutBack, AreAPersonsWhereThatOfTheOutputIsRefused) {
+  Start(kNarrowConnected);
+  Say(2);
+  EXPECT_EQ(Run(), 2);
+  for (const char* const value : {"0.5", "3"}) ASSERT_TRUE(history_->Apply({SetParameter{"/demo/other/gain", value}}));
+  Do({ReplaceModule{"/demo/other", "test/wide", {}, 1000}});
+  Say(8);
+  EXPECT_EQ(Run(), 8);
+  LetFail(Wide::throws);
+  EXPECT_EQ(Run(), 3);
+  ASSERT_TRUE(history_->Undo());
+  EXPECT_EQ(Run(), 0.5);
+  Wide::throws = false;
+  Do({ReplaceModule{"/demo/other", "test/wide", {}, 1000}});
+  Say(9);
+  EXPECT_EQ(Run(), 9);
+  Do({SetParameter{"/demo/other/gain", "0"}});
+  LetFail(Wide::throws);
+  EXPECT_EQ(Run(), 0);
+}
+
+TEST_F(ValuesPutBack, AreThoseSetSinceInWhateverUnit) {
+  Start(kNarrow);
+  Do({SetParameter{"/demo/other/gain", "3"}});
+  ASSERT_TRUE(history_->Apply({ReplaceModule{"/demo/other", "test/centimetres"}}));
+  EXPECT_EQ(Run(), 300);
+  Do({SetParameter{"/demo/other/gain", "50"}});
+  ASSERT_TRUE(history_->Undo());
+  EXPECT_EQ(Run(), 0.5);
+}
+
+TEST_F(ValuesPutBack, AreNotRefusedForThoseInTheirPlace) {
+  Start(kNarrow);
+  Do({SetParameter{"/demo/other/gain", "2"}});
+  ASSERT_TRUE(history_->Apply({ReplaceModule{"/demo/other", "test/wide", {{"gain", "9"}}}}));
+  const ChangeOutcome undone = history_->Undo();
+  EXPECT_TRUE(undone) << undone.diagnostics.ToString();
+  EXPECT_EQ(Run(), 2);
+}
+
 TEST_F(ValuesPutBack, OfAnOutputThatTheNewOneCannotHaveKeepItOut) {
   Start(R"(<module name="other" type="test/wide" thread="control"/><connect from="source/value" to="other/gain"/>)");
   Say(8);
