@@ -1,5 +1,6 @@
 #include "core/element/configurable.h"
 
+#include "core/base/unit.h"
 #include "core/element/framework_element.h"
 #include "core/types/text_format.h"
 
@@ -18,6 +19,21 @@ Result<void> Configurable::CheckText(std::string_view text) const {
 }
 
 std::string Configurable::ToText() const { return runnel::ToText(type(), Value().get()); }
+bool Configurable::IsLike(const Values& other) const {
+  return &type() == other.type && (other.unit.empty() || other.unit == info().unit);
+}
+
+Result<std::shared_ptr<const void>> Configurable::ValueOf(const Values& other,
+                                                          const std::shared_ptr<const void>& value) const {
+  if (IsLike(other)) {
+    const auto good = Check(value.get());
+    return good ? Result(value) : good.error();
+  }
+  const std::string text = runnel::ToText(*other.type, value.get());
+  const std::string& unit = info().unit;
+  return Parse(other.unit != unit && RatioOfUnits(other.unit, unit) ? text + " " + other.unit : text);
+}
+
 std::string Configurable::OwnText() const { return runnel::ToText(type(), own().value.get()); }
 
 }  // namespace runnel

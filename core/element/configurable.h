@@ -44,6 +44,18 @@ class Configurable {
     /// The number of the last value that an output had given by then: later ones count instead. Without, it is set now.
     std::uint64_t given = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t settings = 0;  ///< another one after each setting, in all elements of a run; 0: it is set now
+    static constexpr int kSettingsBits = 40;  ///< below the number of the element: a thousand a second for thirty years
+    /// It is no default.
+    [[nodiscard]] bool is_set() const noexcept { return settings << (64 - kSettingsBits) != 0; }
+  };
+  /// That, and what outputs have given.
+  struct Values {
+    const TypeInfo* type = nullptr;
+    std::string unit = {};  ///< of numbers
+    Own own = {};
+    std::shared_ptr<const void> given = {};  ///< the last one, as `own.value`; nullptr: none, or it has been refused since
+    std::uint64_t number = 0;                ///< of the last one; 0: none
+    [[nodiscard]] bool is_fed() const noexcept { return given != nullptr && number > own.given; }
   };
   /// Takes it over, or leaves everything as it was and says why not. What is put back is as it was before.
   virtual Result<void> Put(const Own& own) = 0;
@@ -60,8 +72,16 @@ class Configurable {
 
   /// The value is one that an output has given.
   [[nodiscard]] virtual bool is_fed() const noexcept { return false; }
-  /// Has, from now on, what outputs have given at `before`, besides what has been set. Neither module runs. Errors: it is refused.
-  virtual Result<void> TakeGiven(Configurable& before) = 0;
+  /// Under the structure lock.
+  [[nodiscard]] virtual Values values() const = 0;
+  /// Takes over what an output has given and waits. The module does not run.
+  virtual void TakeFeed() {}
+  /// Has, from now on, what outputs have given at another one, if that is newer. The module does not run. Errors: it is refused.
+  virtual Result<void> TakeGiven(const Values& /*other*/) { return {}; }
+  /// A value of another one, if this may have it, too: numbers in the unit here.
+  [[nodiscard]] Result<std::shared_ptr<const void>> ValueOf(const Values& other,
+                                                            const std::shared_ptr<const void>& value) const;
+  [[nodiscard]] bool IsLike(const Values& other) const;  ///< nothing is to be converted
 
   /// What its module has made of the value that was set last: nothing as long as it has not said; an error if it has
   /// refused it, and the value is that of before.

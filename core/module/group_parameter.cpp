@@ -9,19 +9,6 @@
 
 namespace runnel {
 
-namespace {
-
-using SharedValue = std::shared_ptr<const void>;
-
-// The value, of one type, for a parameter that may be of another.
-Result<SharedValue> ValueFor(const Configurable& target, const TypeInfo& type, const SharedValue& value) {
-  if (&target.type() != &type) return target.Parse(ToText(type, value.get()));
-  if (auto good = target.Check(value.get()); !good) return good.error();
-  return value;
-}
-
-}  // namespace
-
 GroupParameter::GroupParameter(const Placement& placement, std::vector<std::string> targets, std::string description)
     : FrameworkElement(placement, ElementKind::kParameter),
       targets_(std::move(targets)),
@@ -79,24 +66,24 @@ Result<std::shared_ptr<const void>> GroupParameter::Parse(std::string_view text)
 
 Result<void> GroupParameter::Check(const void* value) const {
   for (const ConfigurableElement& each : Find()) {
-    if (auto good = ValueFor(*each.configurable, type(), SharedValue(SharedValue(), value)); !good) return good.error();
+    // Nobody keeps it.
+    const auto good = each.configurable->ValueOf({&type()}, {std::shared_ptr<const void>(), value});
+    if (!good) return good.error();
   }
   return {};
 }
 
-Configurable::Own GroupParameter::own() const {
-  const auto found = Find();
-  const bool is_alike = !found.empty() && &found.front().configurable->type() == &type();
-  return is_alike ? found.front().configurable->own() : Own{Value()};
-}
+Configurable::Own GroupParameter::own() const { return values().own; }
 
-Result<void> GroupParameter::TakeGiven(Configurable& before) {
-  Result<void> taken;
-  for (const ConfigurableElement& each : Find()) {
-    const auto each_taken = each.configurable->TakeGiven(before);
-    if (taken) taken = each_taken;
-  }
-  return taken;
+Configurable::Values GroupParameter::values() const {
+  const auto found = Find();
+  if (found.empty()) return {type_, "", {Value()}};
+  Values first = found.front().configurable->values();
+  if (first.type == &type()) return first;
+  // It has been replaced by one of another type.
+  const std::shared_ptr<void> own = type().Make();
+  (void)runnel::SetFromText(*type_, runnel::ToText(*first.type, first.own.value.get()), own.get());
+  return {type_, first.unit, {own, first.own.given, first.own.settings}};
 }
 
 Result<void> GroupParameter::Put(const Own& own) {
@@ -108,7 +95,7 @@ Result<void> GroupParameter::Put(const Own& own) {
   }
   std::vector<std::pair<Configurable*, Own>> before;
   for (const ConfigurableElement& each : found) {
-    const auto wanted = ValueFor(*each.configurable, type(), own.value);
+    const auto wanted = each.configurable->ValueOf({&type()}, own.value);
     before.emplace_back(each.configurable, each.configurable->own());
     auto set = wanted ? each.configurable->Put({*wanted, own.given}) : Result<void>(wanted.error());
     if (set) continue;

@@ -39,7 +39,7 @@ class GroupParameter final : public FrameworkElement, public Configurable {
   Result<void> Put(const Own& own) override;
   /// Of the first.
   [[nodiscard]] Own own() const override;
-  Result<void> TakeGiven(Configurable& before) override;
+  [[nodiscard]] Values values() const override;
   [[nodiscard]] std::shared_ptr<void> Value() const override;
   /// Of the first target that was there when somebody asked.
   [[nodiscard]] const TypeInfo& type() const override {

@@ -137,7 +137,7 @@ Result<void> ParameterBase::Put(const Own& own) {
   }
   if (own_) own_ = own.value;
   own_given_.store(is_to_be_fed ? given : given_.load(std::memory_order_relaxed), std::memory_order_relaxed);
-  settings_ = own.settings >> kNumberBits == id() ? own.settings : settings_ + 1;
+  settings_ = own.settings >> Own::kSettingsBits == id() ? own.settings : settings_ + 1;
   return {};
 }
 
@@ -176,7 +176,7 @@ class ParameterBase::Feeder final : public FrameworkElement {
       parameter_.Assume(value);
       // What an input that is made later gives is newer, wherever the module has been made again.
       const std::uint64_t known = parameter_.given_.load(std::memory_order_relaxed);
-      parameter_.given_.store(std::max(known, id() << kNumberBits) + 1, std::memory_order_relaxed);
+      parameter_.given_.store(std::max(known, id() << Own::kSettingsBits) + 1, std::memory_order_relaxed);
     }
     held_->Drop(0);
   }
@@ -191,33 +191,28 @@ class ParameterBase::Feeder final : public FrameworkElement {
 // It may have gone again.
 bool ParameterBase::HasFeeder() const { return feeder_ != nullptr && FindChild("feed") == feeder_; }
 
-Result<void> ParameterBase::TakeGiven(Configurable& before) {
-  auto* const from = dynamic_cast<ParameterBase*>(&before);
-  if (from == nullptr) return {};
-  if (from->HasFeeder()) from->feeder_->Take();
-  const std::uint64_t given = from->given_.load(std::memory_order_relaxed);
-  if (given == 0 || info().is_static) return {};
-  std::shared_ptr<const void> value = from->is_fed() ? from->Value() : from->last_given_;
-  Result<void> good;
-  if (value != nullptr && (&type() != &from->type() || info().unit != from->info().unit)) {
-    const bool has_ratio = description_.is_number && RatioOfUnits(from->info().unit, info().unit);
-    auto own = Parse(runnel::ToText(from->type(), value.get()) + (has_ratio ? " " + from->info().unit : ""));
-    if (!own) good = own.error();
-    if (own) value = std::move(*own);
-  } else if (value != nullptr && !MayBeFed(value.get())) {
-    good = Check(value.get());
-  }
+Configurable::Values ParameterBase::values() const {
+  const std::string unit = description_.is_number ? info().unit : "";
+  return {&type(), unit, own(), is_fed() ? Value() : last_given_, given_.load(std::memory_order_relaxed)};
+}
+
+void ParameterBase::TakeFeed() {
+  if (HasFeeder()) feeder_->Take();
+}
+
+Result<void> ParameterBase::TakeGiven(const Values& other) {
+  if (other.number <= given_.load(std::memory_order_relaxed) || info().is_static) return {};
+  const bool is_there = other.given != nullptr, is_good = is_there && IsLike(other) && MayBeFed(other.given.get());
+  const auto found = is_there && !is_good ? ValueOf(other, other.given) : Result(other.given);
+  std::shared_ptr<const void> value = found ? *found : nullptr;
   const std::lock_guard assigning(assigning_);
   if (!own_) own_ = Value();
   // The number goes over even if the value does not: what has been given later is newer, and until then the own one counts.
-  given_.store(std::max(given, given_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
-  if (!good || value == nullptr) {
-    value.reset();
-    own_given_.store(given_.load(std::memory_order_relaxed), std::memory_order_relaxed);
-  }
+  given_.store(other.number, std::memory_order_relaxed);
+  if (value == nullptr) own_given_.store(other.number, std::memory_order_relaxed);
   Assume(is_fed() ? value.get() : own_.get());
   last_given_ = std::move(value);
-  return good ? good : good.error().WithPath(path());
+  return found ? Result<void>() : found.error().WithPath(path());
 }
 
 Port* ParameterBase::Feed() {

@@ -108,7 +108,9 @@ class ParameterBase : public FrameworkElement, public Configurable {
   [[nodiscard]] bool is_fed() const noexcept final {
     return given_.load(std::memory_order_relaxed) > own_given_.load(std::memory_order_relaxed);
   }
-  Result<void> TakeGiven(Configurable& before) final;
+  [[nodiscard]] Values values() const final;
+  void TakeFeed() final;
+  Result<void> TakeGiven(const Values& other) final;
   [[nodiscard]] const TypeInfo& type() const final { return description_.type; }
   [[nodiscard]] const ConfigurableInfo& info() const final { return description_.info; }
 
@@ -136,8 +138,7 @@ class ParameterBase : public FrameworkElement, public Configurable {
   // give any, since there is no memory to be had then.
   std::shared_ptr<const void> own_;
   std::shared_ptr<const void> last_given_;
-  static constexpr int kNumberBits = 40;  // below the number of the element: a thousand a second for thirty years
-  std::uint64_t settings_ = id() << kNumberBits;
+  std::uint64_t settings_ = id() << Own::kSettingsBits;
   Feeder* feeder_ = nullptr;  // once somebody has asked for it; a child
 };
 

@@ -19,6 +19,7 @@ namespace runnel {
 class TypeInfo;
 namespace internal {
 class ElementState;
+struct ParameterRecord;
 }
 
 /// The value of a parameter in its text format, by the parameter's name: {"stop_distance", "0.3"}.
@@ -28,6 +29,7 @@ struct Setting {
 };
 
 using GivenState = std::shared_ptr<const internal::ElementState>;
+using GivenParameters = std::shared_ptr<const std::vector<internal::ParameterRecord>>;
 
 // Paths are absolute: "/application/robot/planner". The name of the only application may be left out:
 // "/robot/planner". Those of ports and parameters may leave out the group: "/robot/planner/pose".
@@ -89,7 +91,7 @@ struct SetParameter {
 };
 
 /// Puts a module of `type` in the place of another one. It takes over the connections (what waits in
-/// queues, what has been read), values of parameters of the same name that are not the default ones,
+/// queues, what has been read), values of parameters of the same name that have been set or given,
 /// and kept states of the same type (KeepState). `settings` come last. The same type makes the module
 /// anew, as after a fault.
 struct ReplaceModule {
@@ -100,10 +102,8 @@ struct ReplaceModule {
   std::uint64_t probation_cycles = 10;
   /// Of a change that takes another one back: what had been set at ports that the module has not, and gets again.
   GivenState state = {};
-  /// And what the change has left as it was, which goes on as it is by then.
-  std::vector<Setting> carried = {};
-  /// And Configurable::Own::given of all parameters, by their paths in the module.
-  std::map<std::string, std::uint64_t> given = {};
+  /// And its parameters, which are as they were then, but for what has been set or given since.
+  GivenParameters parameters = {};
 };
 
 /// Gives a module or group another name, at the same place. Connections (with what waits in queues), values, kept states

@@ -145,20 +145,13 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
     if (!why_not) why_not = CannotBeMade(before);
     return {};
   }
-  std::vector<Setting> settings, carried;
-  const std::set<const Configurable*> named = NamedBy(change.settings, after);
-  for (const auto& [element, parameter] : ConfigurablesOf(before)) {
-    std::string own = parameter->OwnText();
-    const auto [place, like] = ParameterLike(*element, before, after);
-    const bool is_default = own == parameter->info().default_value;
-    const bool is_named = place != nullptr && named.contains(like);
-    const bool is_other = is_named || place == nullptr || !IsAlike(*parameter, *like);
-    if (is_named || !is_default) (is_other ? settings : carried).push_back({element->name(), std::move(own)});
-  }
-  return {ReplaceModule{before.path(), type, std::move(settings), change.probation_cycles,
+  return {ReplaceModule{before.path(),
+                        type,
+                        {},
+                        change.probation_cycles,
                         std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,
                                                              ElementState::Below::kIncluded),
-                        std::move(carried), NumbersOf(before, &Configurable::Own::given)}};
+                        RecordsToComeBack(before, after, change)}};
 }
 
 UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses, std::optional<Error> why_not, FrameworkElement& root) {

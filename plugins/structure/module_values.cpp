@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "core/base/nearest_name.h"
-#include "core/base/unit.h"
-#include "core/conversion/number_conversion.h"
 #include "core/element/attempt.h"
 #include "core/element/former_name.h"
 #include "core/element/runtime.h"
@@ -16,15 +15,6 @@
 namespace runnel::internal {
 
 namespace {
-
-// A number in another unit becomes one in that of the parameter.
-std::string TextIn(const std::string& unit, const std::string& value, const Configurable& parameter) {
-  const std::string& own = parameter.info().unit;
-  return unit != own && RatioOfUnits(unit, own) ? value + " " + unit : value;
-}
-std::string UnitOfNumber(const Configurable& parameter) {
-  return IsNumber(parameter.type()) ? parameter.info().unit : "";
-}
 
 using IsTheirTurn = std::function<bool(const FrameworkElement& parameter)>;
 
@@ -44,62 +34,102 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting, bool ma
   return set ? set : set.error().WithPath(parameter.element->path());
 }
 
-// But for what `settings` set.
-Result<void> CopySettings(const Inherited& inherited, const std::vector<Setting>& settings, FrameworkElement& after,
-                          const IsTheirTurn& is_its_turn) {
-  const std::set<const Configurable*> named = NamedBy(settings, after);
-  for (const InheritedValue& each : inherited) {
-    const auto [element, target] = FindConfigurable(after, each.parameter);
-    if (element == nullptr || !is_its_turn(*element) || named.contains(target)) continue;
-    if (element->name() != each.parameter &&
-        std::ranges::count(inherited, element->name(), &InheritedValue::parameter) > 0)
-      continue;
-    // What an output has given goes over later, but to what cannot be set any more then.
-    const std::string& text = target->info().is_static ? each.value : each.own;
-    if (text == each.default_value) continue;
-    if (const auto set = target->SetFromText(TextIn(each.unit, text, *target)); !set) {
-      return set.error().WithPath(element->path());
-    }
-  }
-  return {};
-}
-
-Result<void> CopyOwn(const Configurable& from, Configurable& to) {
-  const Configurable::Own own = from.own();
-  const bool is_alike = &from.type() == &to.type() && from.info().unit == to.info().unit;
-  const auto value = is_alike ? Result(own.value) : to.Parse(TextIn(UnitOfNumber(from), from.OwnText(), to));
-  return value ? to.Put({*value, own.given}) : value.error();
-}
-
 std::string PathIn(const FrameworkElement& module, const FrameworkElement& element) {
   return element.path().substr(module.path().size() + 1);
 }
 
-template <typename Use>
-void ForEachParameter(const FrameworkElement& module, const Use& use) {
-  const_cast<FrameworkElement&>(module).VisitAll<FrameworkElement>([&](FrameworkElement& each) {
-    auto* const parameter = dynamic_cast<Configurable*>(&each);
-    if (parameter != nullptr && dynamic_cast<const GroupParameter*>(&each) == nullptr) use(each, *parameter);
+ConfigurableElement LikeIn(const FrameworkElement& module, const ParameterRecord& record, const ParameterRecords& all) {
+  if (record.is_of_part) {
+    const auto there = module.Find(record.path);
+    auto* const same = there ? dynamic_cast<Configurable*>(*there) : nullptr;
+    return same != nullptr ? ConfigurableElement{*there, same} : ConfigurableElement();
+  }
+  ConfigurableElement found = FindConfigurable(module, record.name);
+  if (!found && !record.former_name.empty()) found = FindConfigurable(module, record.former_name);
+  if (!found || found.element->name() == record.name) return found;
+  // There may be one that has more right to it.
+  const bool has_other = std::ranges::any_of(all, [&](const ParameterRecord& each) {
+    const bool is_of_name = each.name == found.element->name() || each.former_name == found.element->name();
+    return &each != &record && !each.is_of_part && is_of_name;
   });
+  return has_other ? ConfigurableElement() : found;
 }
 
-// By the parameter of the composite that stands for it, and for others if this is the first, where there is no part like that.
-ConfigurableElement CounterpartOf(const FrameworkElement& parameter, const FrameworkElement& before,
-                                  const FrameworkElement& after) {
-  ConfigurableElement found = ParameterLike(parameter, before, after);
-  for (const auto& [element, each] : ConfigurablesOf(before)) {
-    const auto* const group = dynamic_cast<const GroupParameter*>(element);
-    const auto targets = !found && group != nullptr ? group->Find() : std::vector<ConfigurableElement>();
-    if (!targets.empty() && targets.front().element == &parameter) found = ParameterLike(*element, before, after);
+// And where there is no part like that, by the parameter of the composite that stands for it: that which stands for fewest.
+std::pair<ConfigurableElement, const ParameterRecord*> CounterpartIn(const FrameworkElement& module,
+                                                                     const ParameterRecord& record,
+                                                                     const ParameterRecords& all) {
+  std::pair<ConfigurableElement, const ParameterRecord*> found{LikeIn(module, record, all), &record};
+  for (const ParameterRecord& each : all) {
+    if (std::ranges::count(each.targets, record.path) == 0) continue;
+    if (found.first && (found.second == &record || found.second->targets.size() <= each.targets.size())) continue;
+    if (const auto like = LikeIn(module, each, all)) found = {like, &each};
   }
   return found;
 }
 
-// Whether it has been set since it had been set so often.
-bool IsLate(const SettingCounts& counts, const FrameworkElement& module, const FrameworkElement& element,
-            const Configurable& parameter) {
-  const auto known = counts.find(PathIn(module, element));
-  return known == counts.end() || known->second != parameter.own().settings;
+// The parameters of the module and its parts that settings set.
+std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings, const FrameworkElement& module) {
+  std::set<const Configurable*> named;
+  for (const Setting& each : settings) {
+    const ConfigurableElement found = FindConfigurable(module, each.parameter);
+    named.insert(found.configurable);
+    const auto* const group = dynamic_cast<const GroupParameter*>(found.element);
+    if (group == nullptr) continue;
+    for (const ConfigurableElement& target : group->Find()) named.insert(target.configurable);
+  }
+  return named;
+}
+
+// But for what `settings` set.
+Result<void> CopySettings(const ParameterRecords& records, const std::vector<Setting>& settings, FrameworkElement& after,
+                          const IsTheirTurn& is_its_turn) {
+  const std::set<const Configurable*> named = NamedBy(settings, after);
+  for (const ParameterRecord& each : records) {
+    const auto [element, target] = each.is_of_part ? ConfigurableElement() : LikeIn(after, each, records);
+    if (element == nullptr || !is_its_turn(*element) || named.contains(target)) continue;
+    Configurable::Values values = each.set();
+    // What an output has given goes over later, but to what cannot be set any more then.
+    const bool is_given = target->info().is_static && values.is_fed();
+    if (is_given) values.own.value = values.given;
+    if (!is_given && !values.own.is_set()) continue;
+    const auto value = target->ValueOf(values, values.own.value);
+    const auto set = value ? target->Put({*value}) : Result<void>(value.error());
+    if (!set) return set.error().WithPath(element->path());
+  }
+  return {};
+}
+
+Result<void> CopyOwn(const Configurable::Values& from, Configurable& to) {
+  const Configurable::Own own = to.own();
+  if (!from.own.is_set()) return to.Put({own.value, from.own.given, own.settings});  // each has its default
+  const auto value = to.ValueOf(from, from.own.value);
+  return value ? to.Put({*value, from.own.given}) : value.error();
+}
+
+// Those of `module` that stand for themselves, each with what it is a counterpart of: of several, what stands for fewest.
+struct Counterpart {
+  FrameworkElement* element;
+  Configurable* parameter;
+  const ParameterRecord* record;
+  std::size_t width;
+};
+std::vector<Counterpart> CounterpartsIn(const FrameworkElement& module, const ParameterRecords& records) {
+  std::vector<Counterpart> all;
+  for (const ParameterRecord& each : records) {
+    const auto [found, via] = CounterpartIn(module, each, records);
+    const auto* const group = dynamic_cast<const GroupParameter*>(found.element);
+    const bool is_first = via == &each || via->targets.front() == each.path;
+    if (!found || !each.targets.empty() || !is_first) continue;
+    const auto targets = group != nullptr ? group->Find() : std::vector{found};
+    for (const ConfigurableElement& target : targets) {
+      const auto known = std::ranges::find(all, target.configurable, &Counterpart::parameter);
+      if (known != all.end() && known->width <= targets.size()) continue;
+      if (known != all.end()) all.erase(known);
+      all.push_back({target.element, target.configurable, &each, targets.size()});
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -113,16 +143,63 @@ std::vector<Setting> SettingsOf(const FrameworkElement& module) {
   return settings;
 }
 
-Inherited InheritedFrom(const FrameworkElement& module) {
-  Inherited inherited;
-  for (const auto& [element, each] : ConfigurablesOf(module)) {
-    inherited.push_back(
-        {element->name(), each->OwnText(), each->ToText(), each->info().default_value, UnitOfNumber(*each)});
+ParameterRecords RecordsOf(const FrameworkElement& before, const GivenParameters& again) {
+  if (again != nullptr) {
+    ParameterRecords records = *again;
+    for (ParameterRecord& each : records) {
+      const auto [found, via] = CounterpartIn(before, each, *again);
+      if (!found) continue;
+      each.present = found.configurable->values();
+      if (each.present->number <= via->values.number) each.present->number = 0;
+      const auto value = found.configurable->ValueOf(via->values, via->values.own.value);
+      const bool is_alike = value && runnel::ToText(found.configurable->type(), value->get()) == found.configurable->OwnText();
+      each.is_set_since = !each.is_named && each.present->own.is_set() && !is_alike;
+    }
+    return records;
   }
-  return inherited;
+  ParameterRecords records;
+  const auto parameters = ConfigurablesOf(before);
+  const_cast<FrameworkElement&>(before).VisitAll<FrameworkElement>([&](FrameworkElement& element) {
+    const auto* const parameter = dynamic_cast<Configurable*>(&element);
+    if (parameter == nullptr) return;
+    const auto* const former = element.FindAnnotation<FormerName>();
+    const bool is_of_part = std::ranges::count(parameters, &element, &ConfigurableElement::element) == 0;
+    records.push_back({.path = PathIn(before, element),
+                       .name = element.name(),
+                       .former_name = former != nullptr ? former->name : "",
+                       .is_of_part = is_of_part,
+                       .targets = {},
+                       .values = parameter->values()});
+    const auto* const group = dynamic_cast<const GroupParameter*>(&element);
+    if (group == nullptr) return;
+    for (const ConfigurableElement& target : group->Find()) {
+      if (target.element->IsAtOrBelow(before)) records.back().targets.push_back(PathIn(before, *target.element));
+    }
+  });
+  return records;
 }
 
-Result<void> ConfigureNew(FrameworkElement& made, const Inherited& inherited, const std::vector<Setting>& settings) {
+ConfigurableElement ParameterLike(const FrameworkElement& parameter, const FrameworkElement& before,
+                                  const FrameworkElement& after) {
+  const ParameterRecords records = RecordsOf(before);
+  const auto found = std::ranges::find(records, PathIn(before, parameter), &ParameterRecord::path);
+  return found != records.end() ? LikeIn(after, *found, records) : ConfigurableElement();
+}
+
+GivenParameters RecordsToComeBack(const FrameworkElement& before, const FrameworkElement& after,
+                                  const ReplaceModule& change) {
+  auto records = std::make_shared<ParameterRecords>(RecordsOf(before));
+  std::set<const Configurable*> named = NamedBy(change.settings, after);
+  for (const ParameterRecord& each : change.parameters != nullptr ? *change.parameters : ParameterRecords()) {
+    if (each.is_named) named.insert(LikeIn(after, each, *change.parameters).configurable);
+  }
+  for (ParameterRecord& each : *records) {
+    each.is_named = named.contains(CounterpartIn(after, each, *records).first.configurable);
+  }
+  return records;
+}
+
+Result<void> ConfigureNew(FrameworkElement& made, const ParameterRecords& records, const std::vector<Setting>& settings) {
   // Construct() goes by these, and may make more.
   std::set<const FrameworkElement*> early;
   for (const auto& [element, parameter] : ConfigurablesOf(made)) {
@@ -133,7 +210,7 @@ Result<void> ConfigureNew(FrameworkElement& made, const Inherited& inherited, co
       if (auto constructed = Runtime::Construct(made); !constructed) return constructed;
     }
     const auto is_its_turn = [&](const FrameworkElement& each) { return early.contains(&each) == is_early; };
-    if (auto copied = CopySettings(inherited, settings, made, is_its_turn); !copied) return copied;
+    if (auto copied = CopySettings(records, settings, made, is_its_turn); !copied) return copied;
     for (const Setting& each : settings) {
       if (auto set = Configure(made, each, is_early, is_its_turn); !set) return set;
     }
@@ -141,71 +218,34 @@ Result<void> ConfigureNew(FrameworkElement& made, const Inherited& inherited, co
   return {};
 }
 
-bool IsAlike(const Configurable& from, const Configurable& to) {
-  const auto own = to.Parse(TextIn(UnitOfNumber(from), from.OwnText(), to));
-  return own && runnel::ToText(to.type(), own->get()) == to.OwnText();
-}
-
-ConfigurableElement ParameterLike(const FrameworkElement& parameter, const FrameworkElement& before,
-                                  const FrameworkElement& after) {
-  if (parameter.parent() != &before && parameter.parent()->parent() != &before) {
-    const auto there = after.Find(PathIn(before, parameter));
-    auto* const same = there ? dynamic_cast<Configurable*>(*there) : nullptr;
-    return same != nullptr ? ConfigurableElement{*there, same} : ConfigurableElement();
-  }
-  const auto* const former = parameter.FindAnnotation<FormerName>();
-  ConfigurableElement found = FindConfigurable(after, parameter.name());
-  if (!found && former != nullptr) found = FindConfigurable(after, former->name);
-  if (!found || found.element->name() == parameter.name()) return found;
-  // There may be one that has more right to it.
-  const auto other = FindConfigurable(before, found.element->name());
-  return !other || other.element == &parameter ? found : ConfigurableElement();
-}
-
-std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings, const FrameworkElement& module) {
-  std::set<const Configurable*> named;
-  for (const Setting& each : settings) {
-    const ConfigurableElement found = FindConfigurable(module, each.parameter);
-    named.insert(found.configurable);
-    const auto* const group = dynamic_cast<const GroupParameter*>(found.element);
-    if (group == nullptr) continue;
-    for (const ConfigurableElement& target : group->Find()) named.insert(target.configurable);
-  }
-  return named;
-}
-
-SettingCounts NumbersOf(const FrameworkElement& module, std::uint64_t Configurable::Own::*number) {
-  SettingCounts numbers;
-  ForEachParameter(module, [&](const FrameworkElement& element, const Configurable& each) {
-    numbers[PathIn(module, element)] = each.own().*number;
-  });
-  return numbers;
-}
-
-std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts, const ReplaceModule* change,
+std::vector<Error> CopyValues(FrameworkElement& before, const ParameterRecords& began, const ReplaceModule* change,
                               const FrameworkElement& after) {
-  const auto named = change != nullptr ? NamedBy(change->settings, after) : std::set<const Configurable*>();
-  const bool is_way_back = change != nullptr && !change->given.empty();
-  std::vector<Error> refused;
-  ForEachParameter(before, [&](const FrameworkElement& element, Configurable& each) {
-    const auto [place, target] = CounterpartOf(element, before, after);
-    if (place == nullptr || target->info().is_static) return;
-    auto set = target->TakeGiven(each);
-    // What is set anyway needs it not; what takes it back, or comes back, has to do without.
-    if (named.contains(target) || is_way_back || change == nullptr || !each.is_fed()) set = {};
-    const bool has_given = each.is_fed() || each.own().given > 0;
-    if (named.contains(target)) {
-      Configurable::Own own{target->own().value};
-      if (is_way_back) {
-        const auto known = change->given.find(PathIn(after, *place));
-        own.given = known != change->given.end() ? known->second : each.own().given;
-      }
-      if (has_given) (void)target->Put(own);
-    } else if (set && ((has_given && change != nullptr) || IsLate(counts, before, element, each))) {
-      set = Attempt([&] { return CopyOwn(each, *target); });
-    }
-    if (!set) refused.push_back(set.error().WithPath(place->path()));
+  before.VisitAll<FrameworkElement>([](FrameworkElement& each) {
+    if (auto* const parameter = dynamic_cast<Configurable*>(&each)) parameter->TakeFeed();
   });
+  const auto named = change != nullptr ? NamedBy(change->settings, after) : std::set<const Configurable*>();
+  const bool is_way_back = change != nullptr && change->parameters != nullptr;
+  const ParameterRecords records = RecordsOf(before, change != nullptr ? change->parameters : nullptr);
+  std::vector<Error> refused;
+  for (const Counterpart& each : CounterpartsIn(after, records)) {
+    Configurable& target = *each.parameter;
+    if (target.info().is_static) continue;
+    const Configurable::Values &values = each.record->values, &set = each.record->set();
+    const Configurable::Values& given = each.record->present ? *each.record->present : values;
+    auto taken = target.TakeGiven(values);
+    if (&given != &values) taken = target.TakeGiven(given);
+    // What is set anyway needs it not.
+    if (named.contains(&target) || !given.is_fed()) taken = {};
+    const auto known = std::ranges::find(began, each.record->path, &ParameterRecord::path);
+    const bool is_late = known == began.end() || known->values.own.settings != values.own.settings;
+    const bool has_given = values.number > 0;
+    if (named.contains(&target)) {
+      if (has_given) (void)target.Put({target.own().value});
+    } else if (taken && (is_late || (change != nullptr && (is_way_back || has_given)))) {
+      taken = Attempt([&] { return CopyOwn(set, target); });
+    }
+    if (!taken) refused.push_back(taken.error().WithPath(each.element->path()));
+  }
   return refused;
 }
 

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <set>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/element/configurable.h"
 #include "core/element/framework_element.h"
 #include "core/paths/path_search.h"
 #include "plugins/structure/change.h"
@@ -16,36 +14,45 @@ namespace runnel::internal {
 
 /// The values that a module of the same type would not have by itself.
 [[nodiscard]] std::vector<Setting> SettingsOf(const FrameworkElement& module);
-/// What another module begins with, if it has a parameter of the name: what has been set, the value that it has, and the unit.
-struct InheritedValue {
-  std::string parameter, own, value, default_value, unit;
+
+/// A parameter of a module, or of a part of one, as it is when the module goes.
+struct ParameterRecord {
+  std::string path;  ///< in the module: "parameter/gain", "motor/parameter/gain"
+  std::string name;
+  std::string former_name;           ///< "": none
+  bool is_of_part = false;           ///< it is none of the module itself
+  std::vector<std::string> targets;  ///< paths of what it stands for (GroupParameter)
+  Configurable::Values values;
+  bool is_named = false;  ///< it has been set by the change that is taken back
+  /// Where this comes back: that of the module in its place, in which only what has been given since counts, and whether
+  /// what has been set there does, since it has been set since.
+  std::optional<Configurable::Values> present = {};
+  bool is_set_since = false;
+
+  [[nodiscard]] const Configurable::Values& set() const noexcept { return is_set_since ? *present : values; }
 };
-using Inherited = std::vector<InheritedValue>;
-[[nodiscard]] Inherited InheritedFrom(const FrameworkElement& module);
+using ParameterRecords = std::vector<ParameterRecord>;
 
-/// Sets the parameters of a module that has just been made: to `inherited`, as far as it has parameters of these names,
-/// then to `settings`; and has it make the ports that
-/// follow from them. What stands for parameters within (GroupParameter) is set when these are there.
-Result<void> ConfigureNew(FrameworkElement& made, const Inherited& inherited, const std::vector<Setting>& settings);
-
-/// The parameter of `after` that is what `parameter` is at or below `before`: of its name, or of a former one of either.
+/// What a module in the place of `before` begins with. `again`: what comes back by that; nullptr: another one. Under the
+/// structure lock.
+[[nodiscard]] ParameterRecords RecordsOf(const FrameworkElement& before, const GivenParameters& again = nullptr);
+/// What `parameter`, at or below `before`, is in `after`: of its name, or of a former one of either; of a part, of its path.
 [[nodiscard]] ConfigurableElement ParameterLike(const FrameworkElement& parameter, const FrameworkElement& before,
                                                 const FrameworkElement& after);
-/// Whether the same has been set at both.
-[[nodiscard]] bool IsAlike(const Configurable& from, const Configurable& to);
-/// The parameters of the module and its parts that settings set.
-[[nodiscard]] std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings,
-                                                    const FrameworkElement& module);
+/// What is to come back where `change`, which has put `after` in the place of `before`, is taken back.
+[[nodiscard]] GivenParameters RecordsToComeBack(const FrameworkElement& before, const FrameworkElement& after,
+                                                const ReplaceModule& change);
 
-/// A number of Configurable::Own of the parameters of a module and its parts, by their paths in it.
-using SettingCounts = std::map<std::string, std::uint64_t>;
-[[nodiscard]] SettingCounts NumbersOf(const FrameworkElement& module, std::uint64_t Configurable::Own::*number);
+/// Sets the parameters of a module that has just been made: as the records have been, as far as it has parameters like these,
+/// then to `settings`; and has it make the ports that follow from them. What stands for parameters within (GroupParameter)
+/// is set when these are there.
+Result<void> ConfigureNew(FrameworkElement& made, const ParameterRecords& records, const std::vector<Setting>& settings);
 
-/// Gives `after`, which is prepared, what parameters of `before` have been set to since `counts`, but for what `change` sets and what
-/// cannot be set any more, and all that outputs have given. Of a part that `after` has not, by the parameter of the composite
-/// that stands for it. `change`: that has it made; nullptr: it comes back, with what had been set there. Neither runs. What is
-/// refused of what has been set.
-[[nodiscard]] std::vector<Error> CopyValues(FrameworkElement& before, const SettingCounts& counts,
+/// Gives `after`, which is prepared, the values of `before`: what outputs have given, and what has been set, of parts only
+/// what has been since they were as in `began`; but for what `change` sets, and what cannot be set any more. Of a part that
+/// `after` has not, by the parameter of the composite that stands for it. `change`: that has it made; nullptr: it comes back,
+/// and of the module itself, too, only what has been set since goes over. Neither runs. What is refused.
+[[nodiscard]] std::vector<Error> CopyValues(FrameworkElement& before, const ParameterRecords& began,
                                             const ReplaceModule* change, const FrameworkElement& after);
 
 }  // namespace runnel::internal

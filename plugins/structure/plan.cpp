@@ -83,7 +83,7 @@ Result<void> Plan::Apply(UndoRecord* back, std::size_t& begun) {
     ++begun;
     if (auto applied = step.apply(); !applied) return applied;
   }
-  for (Replaced& each : replaced_) each.counts = NumbersOf(*each.after, &Configurable::Own::settings);
+  for (Replaced& each : replaced_) each.began = RecordsOf(*each.after);
   if (back != nullptr) *back = UndoRecordOf(inverses, std::move(why_not), runtime_.root());
   return {};
 }
@@ -183,10 +183,14 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
   FrameworkElement& next = **work.element;
   auto done = std::make_shared<Done>();
   done->after = work.element;
-  steps_.push_back({[=, this, &before, &next, counts = work.counts]() -> Result<void> {
+  steps_.push_back({[=, this, &before, &next, began = work.began]() -> Result<void> {
                       // What has been set or assigned since the new module was made, by this change set or others.
-                      if (auto refused = CopyValues(before, counts, &change, next); !refused.empty())
-                        return refused.front();
+                      auto refused = CopyValues(before, began, &change, next);
+                      if (change.parameters == nullptr && !refused.empty()) return refused.front();
+                      for (Error& each : refused) {
+                        each.message = "its value is not taken over: " + each.message;
+                        refused_.push_back(std::move(each));
+                      }
                       InheritAnnotations(next, before, ports);
                       if (change.state) {
                         if (auto given = change.state->GivePorts(next, ports); !given) return given;

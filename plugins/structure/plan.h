@@ -37,7 +37,7 @@ struct Replaced {
   std::uint64_t id = 0;  // of the new module
   std::uint64_t probation_cycles = 0;
   const FrameworkElement* after = nullptr;
-  SettingCounts counts = {};  // of that, as it began
+  ParameterRecords began = {};  // of that
 };
 
 /// What one change set makes beside the tree, by what it is and where it goes: kept from one attempt to the next, as
@@ -48,7 +48,7 @@ class Workshop {
  public:
   struct Work {
     std::shared_ptr<UnlistedElement> element;
-    SettingCounts counts = {};  // of the module whose place it takes, when it was made
+    ParameterRecords began = {};  // of the module whose place it takes, when it was made
   };
   /// Thrown when others have changed the structure meanwhile: the attempt is to begin anew.
   struct Overtaken {};
@@ -127,6 +127,8 @@ class Plan {
   /// After Commit(): what is out of the tree now, and is to be destroyed.
   [[nodiscard]] std::vector<UnlistedElement>& removed() noexcept { return removed_; }
   [[nodiscard]] std::vector<Replaced>& replaced() noexcept { return replaced_; }
+  /// And which values what comes back has to do without.
+  [[nodiscard]] const std::vector<Error>& refused() const noexcept { return refused_; }
 
  private:
   // Undo is called if this step or a later one has failed, and again if it throws itself; it finds out how far
@@ -231,6 +233,7 @@ class Plan {
   std::vector<FrameworkElement*> made_;
   std::vector<Error> further_errors_;  // of a change that has more than one
   std::vector<Error> warnings_;
+  std::vector<Error> refused_;
   std::vector<UnlistedElement> removed_;
   std::vector<Replaced> replaced_;
   std::vector<BeforeHandOver::Held> held_;  // during Commit()

@@ -26,25 +26,24 @@ Result<Workshop::Work> Plan::MakeModule(const Placement& place, const ReplaceMod
   // Whatever is to be known of others is looked at first: they may go while it is made.
   const std::uint64_t revision = runtime_.revision_by_others();
   const auto& work = workshop_.Get(KeyOf(place, std::move(key), before), [&]() -> Result<Workshop::Work> {
-    Inherited inherited;
-    SettingCounts counts;
+    ParameterRecords began, records;
     std::optional<ElementState> state;
     std::string name = place.name;
     if (before != nullptr) {
-      inherited = InheritedFrom(*before);
-      counts = NumbersOf(*before, &Configurable::Own::settings);
+      began = RecordsOf(*before);
+      records = change.parameters != nullptr ? RecordsOf(*before, change.parameters) : began;
       state.emplace(*before, FrameworkElement::Inherit::kAsReplacement, ElementState::Below::kIncluded);
       name = NameInFile::Of(*before);
     }
     const Unlocked unlocked(runtime_);
     auto made = modules_.Make(change.type, place);
     if (!made) return made.error().WithPath(place.parent.path() + "/" + place.name);
-    if (auto set = ConfigureNew(**made, inherited, change.settings); !set) return set.error();
+    if (auto set = ConfigureNew(**made, records, change.settings); !set) return set.error();
     if (change.state) change.state->GiveAnnotations(**made);
     if (state) state->GiveAnnotations(**made);
     if (name != place.name) (*made)->Annotate(std::make_unique<NameInFile>(name));
     if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared.error();
-    return Workshop::Work{std::make_shared<UnlistedElement>(std::move(*made)), std::move(counts)};
+    return Workshop::Work{std::make_shared<UnlistedElement>(std::move(*made)), std::move(began)};
   });
   if (runtime_.revision_by_others() != revision) throw Workshop::Overtaken();
   return work;

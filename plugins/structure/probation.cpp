@@ -104,7 +104,7 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting, std::string& done) 
   if (match.errors.size() > match.misfits.size()) return match.errors.front();  // it would move, or is held
   if (auto possible = overlay.Replace(*after, before, match.ports); !possible) return possible.error();
   InheritAnnotations(before, *after, match.ports);
-  for (const Error& each : CopyValues(*after, waiting.replaced.counts, nullptr, before)) {
+  for (const Error& each : CopyValues(*after, waiting.replaced.began, nullptr, before)) {
     done += "; not taken over: " + each.ToString();
   }
   auto gone = runtime_.Unlist(*after);

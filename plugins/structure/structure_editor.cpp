@@ -177,6 +177,7 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request, inte
     }
   }
   outcome.is_done = true;
+  for (const Error& each : plan.refused()) outcome.diagnostics.AddWarning(each);
   if (scheduler_ != nullptr) WarnOfIdleModules(request.changes, *scheduler_, outcome.diagnostics);
   if (hold) {
     outcome.hold_time = SteadyClock().Now() - hold->began();

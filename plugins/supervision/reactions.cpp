@@ -9,8 +9,10 @@
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
+#include "core/types/text_format.h"
 #include "plugins/parameters/value_to_save.h"
 #include "plugins/structure/element_state.h"
+#include "plugins/structure/module_values.h"
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/supervisor_shared.h"
 
@@ -148,15 +150,15 @@ void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet bac
     const auto module = PathSearch(runtime).Find(replace->path);
     const auto* const made = module ? (*module)->FindAnnotation<MadeByRule>() : nullptr;
     auto lacking = made != nullptr && made->now == replace->type ? made->lacking : MadeByRule::Lacking();
-    std::vector<Setting> all = replace->settings;
-    all.insert(all.end(), replace->carried.begin(), replace->carried.end());
-    for (const Setting& one : all) {
-      const bool is_there = note(replace->path + "/" + one.parameter, one.value, PathKind::kParameter) != nullptr;
-      const auto before = replace->state->noted().Find("parameter/" + one.parameter);
+    for (const internal::ParameterRecord& one : *replace->parameters) {
+      if (one.is_of_part || !one.values.own.is_set()) continue;
+      const std::string value = runnel::ToText(*one.values.type, one.values.own.value.get());
+      const bool is_there = note(replace->path + "/" + one.name, value, PathKind::kParameter) != nullptr;
+      const auto before = replace->state->noted().Find(one.path);
       if (is_there || !before) continue;
       const std::string* const loaded = LoadedValue::Of(**before);
-      lacking[one.parameter] = {MadeByRule::Before(**before, one.value),
-                                loaded != nullptr ? std::optional(*loaded) : std::nullopt};
+      lacking[one.name] = {MadeByRule::Before(**before, value),
+                           loaded != nullptr ? std::optional(*loaded) : std::nullopt};
     }
     for (const auto& [name, value] : lacking) {
       FrameworkElement* const again = note(replace->path + "/" + name, value.first, PathKind::kParameter);

@@ -313,5 +313,23 @@ TEST_F(RulesInForce, KeepTheConnectionToAnotherApplication) {
   EXPECT_EQ(Text(), file) << "also when the other application has ended";
 }
 
+// What a file or a person has set, though one of the two modules has it by itself.
+class RulesInForceAndDefaults : public RulesInForce, public ::testing::WithParamInterface<std::string> {};
+INSTANTIATE_TEST_SUITE_P(, RulesInForceAndDefaults, ::testing::Values("1", "3", "7"));
+
+TEST_P(RulesInForceAndDefaults, AreSaved) {
+  const std::string file = FileWith(R"(  <module name="b" type="test/source">
+    <parameter name="gain" value=")" + GetParam() + R"("/>
+  </module>
+)", R"(<replace module="b" by="test/spare"/>)", R"(<replace module="b" by="test/source"/>)");
+  const bool is_of_person = GetParam() == "3";
+  Run(file, is_of_person ? ChangeSet{SetParameter{"/demo/b/gain", "1"}} : ChangeSet());
+  const std::string saved = is_of_person ? "1" : GetParam();
+  EXPECT_THAT(Text(), HasSubstr(R"(<parameter name="gain" value=")" + saved + R"("/>)"));
+  RunOn();
+  EXPECT_EQ(shop.Get<Source>("/demo/b").gain.Get(), std::stod(saved));
+  EXPECT_THAT(Text(), HasSubstr(R"(<parameter name="gain" value=")" + saved + R"("/>)"));
+}
+
 }  // namespace
 }  // namespace runnel::testing
