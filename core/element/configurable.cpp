@@ -19,12 +19,14 @@ Result<void> Configurable::CheckText(std::string_view text) const {
 }
 
 std::string Configurable::ToText() const { return runnel::ToText(type(), Value().get()); }
+std::string Configurable::OwnText() const { return runnel::ToText(type(), own().value.get()); }
+
 bool Configurable::IsLike(const Values& other) const {
   return &type() == other.type && (other.unit.empty() || other.unit == info().unit);
 }
 
-Result<std::shared_ptr<const void>> Configurable::ValueOf(const Values& other,
-                                                          const std::shared_ptr<const void>& value) const {
+Result<std::shared_ptr<const void>> Configurable::ConvertedFrom(const Values& other,
+                                                                const std::shared_ptr<const void>& value) const {
   if (IsLike(other)) {
     const auto good = Check(value.get());
     return good ? Result(value) : good.error();
@@ -33,7 +35,5 @@ Result<std::shared_ptr<const void>> Configurable::ValueOf(const Values& other,
   const std::string& unit = info().unit;
   return Parse(other.unit != unit && RatioOfUnits(other.unit, unit) ? text + " " + other.unit : text);
 }
-
-std::string Configurable::OwnText() const { return runnel::ToText(type(), own().value.get()); }
 
 }  // namespace runnel

@@ -53,14 +53,13 @@ class Configurable {
     const TypeInfo* type = nullptr;
     std::string unit = {};  ///< of numbers
     Own own = {};
-    std::shared_ptr<const void> given = {};  ///< the last one, as `own.value`; nullptr: none, or it has been refused since
-    std::uint64_t number = 0;                ///< of the last one; 0: none
+    std::shared_ptr<const void> given =
+        {};                    ///< the last one, as `own.value`; nullptr: none, or it has been refused since
+    std::uint64_t number = 0;  ///< of the last one; 0: none
     [[nodiscard]] bool is_fed() const noexcept { return given != nullptr && number > own.given; }
   };
   /// Takes it over, or leaves everything as it was and says why not. What is put back is as it was before.
   virtual Result<void> Put(const Own& own) = 0;
-  /// Under the structure lock.
-  [[nodiscard]] virtual Own own() const = 0;
   /// A copy of the value, an object of type(). Allocates.
   [[nodiscard]] virtual std::shared_ptr<void> Value() const = 0;
   [[nodiscard]] virtual const TypeInfo& type() const = 0;
@@ -72,15 +71,16 @@ class Configurable {
 
   /// The value is one that an output has given.
   [[nodiscard]] virtual bool is_fed() const noexcept { return false; }
-  /// Under the structure lock.
+  /// Both under the structure lock.
   [[nodiscard]] virtual Values values() const = 0;
+  [[nodiscard]] Own own() const { return values().own; }
   /// Takes over what an output has given and waits. The module does not run.
   virtual void TakeFeed() {}
   /// Has, from now on, what outputs have given at another one, if that is newer. The module does not run. Errors: it is refused.
   virtual Result<void> TakeGiven(const Values& /*other*/) { return {}; }
   /// A value of another one, if this may have it, too: numbers in the unit here.
-  [[nodiscard]] Result<std::shared_ptr<const void>> ValueOf(const Values& other,
-                                                            const std::shared_ptr<const void>& value) const;
+  [[nodiscard]] Result<std::shared_ptr<const void>> ConvertedFrom(const Values& other,
+                                                                  const std::shared_ptr<const void>& value) const;
   [[nodiscard]] bool IsLike(const Values& other) const;  ///< nothing is to be converted
 
   /// What its module has made of the value that was set last: nothing as long as it has not said; an error if it has

@@ -67,13 +67,11 @@ Result<std::shared_ptr<const void>> GroupParameter::Parse(std::string_view text)
 Result<void> GroupParameter::Check(const void* value) const {
   for (const ConfigurableElement& each : Find()) {
     // Nobody keeps it.
-    const auto good = each.configurable->ValueOf({&type()}, {std::shared_ptr<const void>(), value});
+    const auto good = each.configurable->ConvertedFrom({&type()}, {std::shared_ptr<const void>(), value});
     if (!good) return good.error();
   }
   return {};
 }
-
-Configurable::Own GroupParameter::own() const { return values().own; }
 
 Configurable::Values GroupParameter::values() const {
   const auto found = Find();
@@ -95,7 +93,7 @@ Result<void> GroupParameter::Put(const Own& own) {
   }
   std::vector<std::pair<Configurable*, Own>> before;
   for (const ConfigurableElement& each : found) {
-    const auto wanted = each.configurable->ValueOf({&type()}, own.value);
+    const auto wanted = each.configurable->ConvertedFrom({&type()}, own.value);
     before.emplace_back(each.configurable, each.configurable->own());
     auto set = wanted ? each.configurable->Put({*wanted, own.given}) : Result<void>(wanted.error());
     if (set) continue;

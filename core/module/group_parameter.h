@@ -38,7 +38,6 @@ class GroupParameter final : public FrameworkElement, public Configurable {
   /// All or none. Errors: besides, that nothing is there that could be set.
   Result<void> Put(const Own& own) override;
   /// Of the first.
-  [[nodiscard]] Own own() const override;
   [[nodiscard]] Values values() const override;
   [[nodiscard]] std::shared_ptr<void> Value() const override;
   /// Of the first target that was there when somebody asked.

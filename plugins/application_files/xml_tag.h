@@ -49,6 +49,11 @@ struct AttributeRule {
   return {name, AttributeKind::kChoice, required, summary, std::move(words)};
 }
 
+[[nodiscard]] inline AttributeRule KindRule(const char* name, AttributeKind kind, const char* summary,
+                                            bool required = false) {
+  return {.name = name, .kind = kind, .required = required, .summary = summary};
+}
+
 /// Whether `value` may stand in the attribute, as far as its form goes; the error says what may.
 Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view value);
 

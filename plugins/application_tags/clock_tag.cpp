@@ -20,9 +20,8 @@ struct ClockChoice final : Annotation {
 void RefuseInRealTime(const XmlAttribute& attribute, std::string message, const TagUse& use,
                       const ClockChoice& choice) {
   if (choice.options.clock != SchedulerOptions::ClockKind::kReal) return;
-  use.context.Report(
-      {.message = std::move(message), .hint = "leave out " + attribute.name + ", or write type=\"simulated\""},
-      attribute.position, use.parent);
+  use.Report({.message = std::move(message), .hint = "leave out " + attribute.name + ", or write type=\"simulated\""},
+             attribute.position);
 }
 
 void ReadSpeed(const TagUse& use, ClockChoice& choice) {
@@ -30,12 +29,12 @@ void ReadSpeed(const TagUse& use, ClockChoice& choice) {
   if (speed == nullptr) return;
   choice.options.speed = ParseNumber(speed->value).value();
   if (choice.options.speed < 0) {
-    use.context.Report({.message = "time cannot run backwards", .hint = "1 is real time, 0 as fast as it can"},
-                       speed->value_position, use.parent);
+    use.Report({.message = "time cannot run backwards", .hint = "1 is real time, 0 as fast as it can"},
+               speed->value_position);
   } else if (!Pacing::Takes(choice.options.speed)) {
-    use.context.Report({.message = "speed " + speed->value + " is out of bounds",
-                        .hint = "allowed is 0 (as fast as it can), or 1e-6 .. 1e6"},
-                       speed->value_position, use.parent);
+    use.Report({.message = "speed " + speed->value + " is out of bounds",
+                .hint = "allowed is 0 (as fast as it can), or 1e-6 .. 1e6"},
+               speed->value_position);
   }
   RefuseInRealTime(*speed, "the speed of real time cannot be chosen", use, choice);
 }
@@ -60,9 +59,9 @@ void ReadPort(const TagUse& use, ClockChoice& choice) {
     if (port == nullptr) return;
     use.context.Defer(BuildStage::kChecks, [use, &choice] { CheckPort(use, choice); });
   } else if (port != nullptr) {
-    use.context.Report(
+    use.Report(
         {.message = "only a clock from outside is said by a port", .hint = "leave out port, or write type=\"outside\""},
-        port->position, use.parent);
+        port->position);
   }
 }
 
@@ -75,9 +74,8 @@ void ReadPaused(const TagUse& use, ClockChoice& choice) {
 
 FrameworkElement* ChooseClock(const TagUse& use) {
   if (const auto* first = use.parent.FindAnnotation<ClockChoice>()) {
-    use.context.Report(
-        {.message = "the clock is chosen twice", .hint = "the first is in line " + std::to_string(first->line)},
-        use.xml.position(), use.parent);
+    use.Report({.message = "the clock is chosen twice", .hint = "the first is in line " + std::to_string(first->line)},
+               use.xml.position());
     return &use.parent;
   }
   auto& choice = use.parent.Annotate(std::make_unique<ClockChoice>());
@@ -124,23 +122,23 @@ bool LivesInSimulatedTime(XmlElement application) {
 }
 
 XmlTag ClockTag() {
-  return {.name = "clock",
-          .summary = "which time the application lives in; without it, real time",
-          .parents = {"application"},
-          .attributes = {WordRule("type", {"real", "simulated", "outside"},
-                                  "outside: simulated time that another simulator's or ROS's clock says", true),
-                         PathRule("port", false,
-                                  "of a clock from outside: the output that says it, in seconds "
-                                  "(double) or nanoseconds (int64); without, the program does"),
-                         {.name = "speed",
-                          .kind = AttributeKind::kNumber,
-                          .summary = "of simulated time, at most; 1 (which it is by default) is "
-                                     "real time, 0 as fast as it can"},
-                         YesNoRule("paused",
-                                   "whether simulated time stands still until somebody lets it go on; "
-                                   "false by default")},
-          .handle = ChooseClock,
-          .saved = SavedClock};
+  return {
+      .name = "clock",
+      .summary = "which time the application lives in; without it, real time",
+      .parents = {"application"},
+      .attributes = {WordRule("type", {"real", "simulated", "outside"},
+                              "outside: simulated time that another simulator's or ROS's clock says", true),
+                     PathRule("port", false,
+                              "of a clock from outside: the output that says it, in seconds "
+                              "(double) or nanoseconds (int64); without, the program does"),
+                     KindRule(
+                         "speed", AttributeKind::kNumber,
+                         "of simulated time, at most; 1 (which it is by default) is real time, 0 as fast as it can"),
+                     YesNoRule("paused",
+                               "whether simulated time stands still until somebody lets it go on; "
+                               "false by default")},
+      .handle = ChooseClock,
+      .saved = SavedClock};
 }
 
 }  // namespace runnel

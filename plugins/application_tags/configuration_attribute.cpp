@@ -49,10 +49,9 @@ void TakeEntries(FrameworkElement& top, BuildContext& context) {
 
 AddedAttribute ConfigurationAttribute(std::string tag) {
   return {.tag = std::move(tag),
-          .rule = {.name = "config",
-                   .kind = AttributeKind::kPath,
-                   .summary = "the section of the configuration that has values for the parameters within, by "
-                              "their paths; one without a '/' in front lies in that of the group around"},
+          .rule = KindRule("config", AttributeKind::kPath,
+                           "the section of the configuration that has values for the parameters within, by their "
+                           "paths; one without a '/' in front lies in that of the group around"),
           .handle =
               [](const XmlAttribute& attribute, FrameworkElement& element, BuildContext& context) {
                 std::string path = attribute.value;

@@ -103,9 +103,8 @@ XmlTag DrivingTag() {
           {PathRule("port", true, "an input of a module, or a port of a group; an output: all that read from it"),
            {.name = "safe",
             .summary = "the value at which it stands still; if left out, zero of a velocity, or the input's default"},
-           {.name = "brake",
-            .kind = AttributeKind::kDuration,
-            .summary = "how long the way there takes from the value read last, 10 s at most; if left out, no time"},
+           KindRule("brake", AttributeKind::kDuration,
+                    "how long the way there takes from the value read last, 10 s at most; if left out, no time"),
            WordRule(
                "command", DrivingKindNames(),
                "what the value says; if left out, what its module or its unit says: m, rad a position; m/s, rad/s a "

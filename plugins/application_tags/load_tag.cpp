@@ -48,10 +48,7 @@ XmlTag LoadTag() {
   return {.name = "load",
           .summary = "makes the module types and tags of a plugin known",
           .parents = {"application", "group_type"},
-          .attributes = {{.name = "plugin",
-                          .kind = AttributeKind::kPath,
-                          .required = true,
-                          .summary = "its name, or its file if it contains a '/'"}},
+          .attributes = {KindRule("plugin", AttributeKind::kPath, "its name, or its file if it contains a '/'", true)},
           .comes_first = true,
           .handle = Load,
           .update = UpdateLoad};

@@ -277,31 +277,24 @@ std::vector<NewElement> MissingParameters(const XmlElement* tag, FrameworkElemen
 }  // namespace
 
 XmlTag ParameterTag() {
-  return {.name = "parameter",
-          .summary = "sets a parameter of its module or group",
-          .parents = {"module", "group", "group_type"},
-          .attributes = {{.name = "name", .kind = AttributeKind::kName, .required = true},
-                         {.name = "of",
-                          .kind = AttributeKind::kPath,
-                          .summary = "in a group whose type is a file: the module in it"},
-                         {.name = "to",
-                          .kind = AttributeKind::kPathList,
-                          .summary = "in a group without a type: the parameters within that it stands for"},
-                         {.name = "from",
-                          .kind = AttributeKind::kName,
-                          .summary = "the parameter of the <group_type> whose value it takes"},
-                         {.name = "value",
-                          .summary = "in text format; a number may have another unit of the same "
-                                     "kind, as in 15 cm"},
-                         {.name = "config",
-                          .kind = AttributeKind::kPath,
-                          .summary = "the entry of the configuration file that beats the value"},
-                         {.name = "command_line",
-                          .kind = AttributeKind::kName,
-                          .summary = "the name on the command line that beats both"}},
-          .handle = HandleParameter,
-          .update = UpdateParameter,
-          .missing = MissingParameters};
+  return {
+      .name = "parameter",
+      .summary = "sets a parameter of its module or group",
+      .parents = {"module", "group", "group_type"},
+      .attributes = {{.name = "name", .kind = AttributeKind::kName, .required = true},
+                     KindRule("of", AttributeKind::kPath, "in a group whose type is a file: the module in it"),
+                     KindRule("to", AttributeKind::kPathList,
+                              "in a group without a type: the parameters within that it stands for"),
+                     KindRule("from", AttributeKind::kName, "the parameter of the <group_type> whose value it takes"),
+                     {.name = "value",
+                      .summary = "in text format; a number may have another unit of the same "
+                                 "kind, as in 15 cm"},
+                     KindRule("config", AttributeKind::kPath,
+                              "the entry of the configuration file that beats the value"),
+                     KindRule("command_line", AttributeKind::kName, "the name on the command line that beats both")},
+      .handle = HandleParameter,
+      .update = UpdateParameter,
+      .missing = MissingParameters};
 }
 
 }  // namespace runnel

@@ -98,20 +98,21 @@ std::vector<SavedTag> SavedPorts(FrameworkElement& group) {
 }  // namespace
 
 XmlTag PortTag() {
-  return {.name = "port",
-          .summary = "a port in the interface of its group; costs nothing at run time",
-          .parents = {"group"},
-          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
-                         WordRule("direction", {"input", "output"}, "as seen from outside of the group", true),
-                         {.name = "type",
-                          .kind = AttributeKind::kPortType,
-                          .summary = "of its values; if left out, that of what it is first "
-                                     "connected to, inside the group or else outside"},
-                         {.name = "description", .kind = AttributeKind::kText}},
-          .is_structure = true,
-          .handle = internal::ReadAt<BuildStage::kInterfaces, MakePort>,
-          .saved = SavedPorts,
-          .place = 1};
+  return {
+      .name = "port",
+      .summary = "a port in the interface of its group; costs nothing at run time",
+      .parents = {"group"},
+      .attributes =
+          {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
+           WordRule("direction", {"input", "output"}, "as seen from outside of the group", true),
+           KindRule(
+               "type", AttributeKind::kPortType,
+               "of its values; if left out, that of what it is first connected to, inside the group or else outside"),
+           {.name = "description", .kind = AttributeKind::kText}},
+      .is_structure = true,
+      .handle = internal::ReadAt<BuildStage::kInterfaces, MakePort>,
+      .saved = SavedPorts,
+      .place = 1};
 }
 
 }  // namespace runnel

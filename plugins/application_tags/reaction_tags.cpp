@@ -114,10 +114,7 @@ std::vector<XmlTag> ReactionTags() {
        .summary = "puts a new module in the place of another",
        .parents = parents,
        .attributes = {PathRule("module", true),
-                      {.name = "by",
-                       .kind = AttributeKind::kModuleType,
-                       .required = true,
-                       .summary = "a type, as `runnel modules` lists them"}}},
+                      KindRule("by", AttributeKind::kModuleType, "a type, as `runnel modules` lists them", true)}},
       {.name = "quit", .summary = "ends the run", .parents = parents}};
 }
 

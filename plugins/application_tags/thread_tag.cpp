@@ -143,37 +143,32 @@ std::string SavedAssignment(FrameworkElement& element) {
 }  // namespace
 
 XmlTag ThreadTag() {
-  return {.name = "thread",
-          .summary = "a thread that runs modules, in the order of the data flow",
-          .parents = {"application"},
-          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
-                         {.name = "period",
-                          .kind = AttributeKind::kDuration,
-                          .summary = "from cycle to cycle; of a free-running thread, what a cycle takes in "
-                                     "simulated time"},
-                         WordRule("activation", ActivationNames(),
-                                  "when a cycle begins: every period, at the end of the last one, or when data comes"),
-                         {.name = "priority",
-                          .kind = AttributeKind::kCount,
-                          .summary = "0: ordinary; 1 .. 99: real-time, SCHED_FIFO"},
-                         WordRule("on_overrun", OverrunNames(),
-                                  "what happens to cycles that were missed: left out (by default), or run at once")},
-          .is_structure = true,
-          .handle = MakeThread,
-          .saved = SavedThreads};
+  return {
+      .name = "thread",
+      .summary = "a thread that runs modules, in the order of the data flow",
+      .parents = {"application"},
+      .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
+                     KindRule("period", AttributeKind::kDuration,
+                              "from cycle to cycle; of a free-running thread, what a cycle takes in simulated time"),
+                     WordRule("activation", ActivationNames(),
+                              "when a cycle begins: every period, at the end of the last one, or when data comes"),
+                     KindRule("priority", AttributeKind::kCount, "0: ordinary; 1 .. 99: real-time, SCHED_FIFO"),
+                     WordRule("on_overrun", OverrunNames(),
+                              "what happens to cycles that were missed: left out (by default), or run at once")},
+      .is_structure = true,
+      .handle = MakeThread,
+      .saved = SavedThreads};
 }
 
 AddedAttribute ThreadAttribute(std::string tag) {
-  return {.tag = std::move(tag),
-          .rule = {.name = "thread",
-                   .kind = AttributeKind::kName,
-                   .summary = "the thread that runs it and all within that names no other"},
-          .handle =
-              [](const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {
-                context.Defer(BuildStage::kConnections,
-                              [&name, &element, &context] { Assign(name, element, context); });
-              },
-          .saved = SavedAssignment};
+  return {
+      .tag = std::move(tag),
+      .rule = KindRule("thread", AttributeKind::kName, "the thread that runs it and all within that names no other"),
+      .handle =
+          [](const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {
+            context.Defer(BuildStage::kConnections, [&name, &element, &context] { Assign(name, element, context); });
+          },
+      .saved = SavedAssignment};
 }
 
 }  // namespace runnel

@@ -168,11 +168,9 @@ RunRules& internal::RunRulesAround(FrameworkElement& element) {
 
 AddedAttribute StuckAfterAttribute(std::string tag) {
   return {.tag = std::move(tag),
-          .rule = {.name = "stuck_after",
-                   .kind = AttributeKind::kDuration,
-                   .summary = "a module that does not return from its cycle for so long is told as "
-                              "stuck, by the machine's "
-                              "clock; without it, 1s"},
+          .rule = KindRule("stuck_after", AttributeKind::kDuration,
+                           "a module that does not return from its cycle for so long is told as stuck, by the "
+                           "machine's clock; without it, 1s"),
           .handle = LimitStuck};
 }
 
@@ -190,24 +188,18 @@ std::vector<XmlTag> internal::WatchingTags() {
        .summary = "what happens when an input brings nothing new for too long",
        .parents = {"application", "group"},
        .attributes = {PathRule("input", true, "what feeds it when the run begins is watched"),
-                      {.name = "after",
-                       .kind = AttributeKind::kDuration,
-                       .required = true,
-                       .summary = "the longest time without anything new, by the application's "
-                                  "clock"},
-                      {.name = "fresh_after",
-                       .kind = AttributeKind::kDuration,
-                       .summary = "how long values must come again before <otherwise> is done; "
-                                  "twice 'after' if left out"}},
+                      KindRule("after", AttributeKind::kDuration,
+                               "the longest time without anything new, by the application's clock", true),
+                      KindRule(
+                          "fresh_after", AttributeKind::kDuration,
+                          "how long values must come again before <otherwise> is done; twice 'after' if left out")},
        .handle = HandleOnStale},
       {.name = "on_stuck",
        .summary = "what happens when a module does not return from its cycle; it is told of in any case",
        .parents = {"application", "group"},
        .attributes = {PathRule("of", true, "a module, or a group of which any module may be stuck"),
-                      {.name = "after",
-                       .kind = AttributeKind::kDuration,
-                       .required = true,
-                       .summary = "the longest time in one cycle, by the machine's clock"}},
+                      KindRule("after", AttributeKind::kDuration,
+                               "the longest time in one cycle, by the machine's clock", true)},
        .handle = InTheEnd<AddRule<When::kStuck>>},
       {.name = "on_pause",
        .summary = "what happens when somebody pauses modules, once they stand still",
@@ -226,10 +218,8 @@ std::vector<XmlTag> internal::WatchingTags() {
        .summary = "an operator must be heard: else the STOP of the robot is pressed; operators are pages, terminals "
                   "and Python that may drive",
        .parents = {"application"},
-       .attributes = {{.name = "timeout",
-                       .kind = AttributeKind::kDuration,
-                       .required = true,
-                       .summary = "so long all of them may be silent, from the start on; by the machine's clock"}},
+       .attributes = {KindRule("timeout", AttributeKind::kDuration,
+                               "so long all of them may be silent, from the start on; by the machine's clock", true)},
        .handle = WatchOperators},
       {.name = "latency",
        .summary = "measures how old what a command goes back to is, along the modules in between",

@@ -82,9 +82,8 @@ void AddTags(XmlTagRegistry& tags) {
                                .names_element = true}},
                .handle = NoteProperty<NetworkProperty::Kind::kEventually>});
   tags.AddAttribute({.tag = "group",
-                     .rule = {.name = "characteristic",
-                              .kind = AttributeKind::kName,
-                              .summary = "the behaviour within that speaks for the group: to others the group is one"},
+                     .rule = KindRule("characteristic", AttributeKind::kName,
+                                      "the behaviour within that speaks for the group: to others the group is one"),
                      .handle =
                          [](const XmlAttribute& attribute, FrameworkElement& element, BuildContext& context) {
                            element.Annotate(std::make_unique<CharacteristicBehaviour>(attribute.value));

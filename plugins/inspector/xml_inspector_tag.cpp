@@ -57,8 +57,7 @@ struct InspectorChoice final : Annotation {
 template <typename T>
 void Check(const Result<T>& read, const TagUse& use, const XmlAttribute& attribute) {
   if (read) return;
-  use.context.Report({.message = read.error().message, .hint = read.error().hint}, attribute.value_position,
-                     use.parent);
+  use.Report({.message = read.error().message, .hint = read.error().hint}, attribute.value_position);
 }
 
 void ReadPlace(const TagUse& use, InspectorPlace& place) {
@@ -85,9 +84,9 @@ void ReadPlace(const TagUse& use, InspectorPlace& place) {
 
 FrameworkElement* ChooseInspector(const TagUse& use) {
   if (const auto* first = use.parent.FindAnnotation<InspectorChoice>()) {
-    use.context.Report(
+    use.Report(
         {.message = "there is an inspector already", .hint = "the first is in line " + std::to_string(first->line)},
-        use.xml.position(), use.parent);
+        use.xml.position());
     return &use.parent;
   }
   auto& choice = use.parent.Annotate(std::make_unique<InspectorChoice>());
@@ -123,9 +122,7 @@ void AddInspectorTag(XmlTagRegistry& tags) {
   tags.AddTag({.name = "inspector",
                .summary = "shows the running application in a browser",
                .parents = {"application"},
-               .attributes = {{.name = "port",
-                               .kind = AttributeKind::kCount,
-                               .summary = "8765 by default; 0 for any that is free"},
+               .attributes = {KindRule("port", AttributeKind::kCount, "8765 by default; 0 for any that is free"),
                               {.name = "address",
                                .summary = "of this machine; 127.0.0.1 by default, which only it "
                                           "reaches; others need a certificate and a token"},

@@ -9,12 +9,12 @@
 #include "core/types/duration_text.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
+#include "plugins/application_files/type_names.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/network_engines.h"
 #include "plugins/network/xml_network_words.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
-#include "plugins/application_files/type_names.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {
@@ -260,12 +260,9 @@ void AddNetworkTags(XmlTagRegistry& tags) {
        .summary = "connects the application with other processes, machines and nodes of ROS 2",
        .parents = {"application"},
        .attributes =
-           {{.name = "domain",
-             .kind = AttributeKind::kCount,
-             .summary = "only members of one domain see each other; 0 to 101; ROS_DOMAIN_ID, or else 0"},
-            {.name = "name",
-             .kind = AttributeKind::kName,
-             .summary = "of the application in the network; its own by default"},
+           {KindRule("domain", AttributeKind::kCount,
+                     "only members of one domain see each other; 0 to 101; ROS_DOMAIN_ID, or else 0"),
+            KindRule("name", AttributeKind::kName, "of the application in the network; its own by default"),
             WordRule("reach", kReaches,
                      "loopback: only processes of this machine that say so, too (the default); machine: "
                      "also nodes of ROS 2 on it; network: whoever is there"),
@@ -273,13 +270,11 @@ void AddNetworkTags(XmlTagRegistry& tags) {
              .summary = "addresses of others, where not all can be asked at once; separated by blanks"},
             {.name = "interface", .summary = "the only one that is used, by its name or address"},
             WordRule("multicast", {"true", "false"}, "false: only peers, and this machine, are asked"),
-            {.name = "datagram",
-             .kind = AttributeKind::kCount,
-             .summary = "octets of the largest one: 1400 where the reach is the network, so that it fits into a frame; "
-                        "else 65500"},
-            {.name = "lease",
-             .kind = AttributeKind::kDuration,
-             .summary = "so long after its last sign of life the application counts as gone, as after kill -9; 10 s"},
+            KindRule("datagram", AttributeKind::kCount,
+                     "octets of the largest one: 1400 where the reach is the network, so that it fits into a frame; "
+                     "else 65500"),
+            KindRule("lease", AttributeKind::kDuration,
+                     "so long after its last sign of life the application counts as gone, as after kill -9; 10 s"),
             {.name = "commands",
              .summary = "what applications that can reach this one may have it do: set, swap; nothing if left out"},
             WordRule("live", {"true", "false"},
@@ -288,7 +283,7 @@ void AddNetworkTags(XmlTagRegistry& tags) {
             {.name = "messages",
              .summary = ".msg and .srv files, and folders with <package>/msg/*.msg and <package>/srv/*.srv, beside ROS "
                         "2's own; separated by blanks"},
-            {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone (the default), or fast: Fast DDS"}},
+            KindRule("engine", AttributeKind::kName, "cyclone (the default), or fast: Fast DDS")},
        .handle = HandleNetwork,
        .update = UpdateNetworkTag});
   tags.AddTag({.name = "offer",

@@ -59,17 +59,16 @@ std::vector<AttributeRule> OfferRules() {
       {.name = "topic", .summary = "its name in the network: /scan; without, /<name of the application>/<path>"},
       {.name = "service", .summary = "likewise, of a port that is a service: /save_map"},
       MessageTypeRule(),
-      {.name = "frame", .kind = AttributeKind::kName, .summary = "of coordinates, for headers of messages"},
-      {.name = "child_frame", .kind = AttributeKind::kName, .summary = "what moves, for transforms and odometry"},
+      KindRule("frame", AttributeKind::kName, "of coordinates, for headers of messages"),
+      KindRule("child_frame", AttributeKind::kName, "what moves, for transforms and odometry"),
       Quality("newest (default): reliable; each: every value, in a queue; sensor: best effort; latched: "
               "who comes late gets the newest"),
       WordRule("sending", kSendings,
                "which thread sends: network (default), the network's; after_cycle: for small values, the one that has "
                "published them, when its cycle has ended"),
-      {.name = "rate", .kind = AttributeKind::kNumber, .summary = "most values a second; the newest wins"},
-      {.name = "strength",
-       .kind = AttributeKind::kCount,
-       .summary = "for who takes exclusively: of several that offer the topic the strongest counts"},
+      KindRule("rate", AttributeKind::kNumber, "most values a second; the newest wins"),
+      KindRule("strength", AttributeKind::kCount,
+               "for who takes exclusively: of several that offer the topic the strongest counts"),
       WordRule("measured", {"true", "false"},
                "true: a velocity that is measured, and no command: it is sent on in STOP")};
 }

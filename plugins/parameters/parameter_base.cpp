@@ -107,10 +107,6 @@ Result<void> ParameterBase::Check(const void* value) const {
   return {};
 }
 
-Configurable::Own ParameterBase::own() const {
-  return {own_ ? own_ : Value(), own_given_.load(std::memory_order_relaxed), settings_};
-}
-
 Result<void> ParameterBase::Put(const Own& own) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (info().is_static && life_cycle() == LifeCycle::kReady) {
@@ -193,7 +189,8 @@ bool ParameterBase::HasFeeder() const { return feeder_ != nullptr && FindChild("
 
 Configurable::Values ParameterBase::values() const {
   const std::string unit = description_.is_number ? info().unit : "";
-  return {&type(), unit, own(), is_fed() ? Value() : last_given_, given_.load(std::memory_order_relaxed)};
+  const Own own{own_ ? own_ : Value(), own_given_.load(std::memory_order_relaxed), settings_};
+  return {&type(), unit, own, is_fed() ? Value() : last_given_, given_.load(std::memory_order_relaxed)};
 }
 
 void ParameterBase::TakeFeed() {
@@ -203,7 +200,7 @@ void ParameterBase::TakeFeed() {
 Result<void> ParameterBase::TakeGiven(const Values& other) {
   if (other.number <= given_.load(std::memory_order_relaxed) || info().is_static) return {};
   const bool is_there = other.given != nullptr, is_good = is_there && IsLike(other) && MayBeFed(other.given.get());
-  const auto found = is_there && !is_good ? ValueOf(other, other.given) : Result(other.given);
+  const auto found = is_there && !is_good ? ConvertedFrom(other, other.given) : Result(other.given);
   std::shared_ptr<const void> value = found ? *found : nullptr;
   const std::lock_guard assigning(assigning_);
   if (!own_) own_ = Value();

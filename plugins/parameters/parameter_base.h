@@ -101,7 +101,6 @@ class ParameterBase : public FrameworkElement, public Configurable {
   [[nodiscard]] Result<std::shared_ptr<const void>> Parse(std::string_view text) const override;
   [[nodiscard]] Result<void> Check(const void* value) const final;
   Result<void> Put(const Own& own) final;
-  [[nodiscard]] Own own() const final;
   /// In the group "feed" below: a task of its own, run where the module is, takes over what comes there, unless
   /// it is out of bounds. None of static parameters, and of types that no port has.
   [[nodiscard]] Port* Feed() final;

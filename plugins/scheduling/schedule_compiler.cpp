@@ -163,19 +163,11 @@ void ScheduleCompiler::FollowActivation(const CycleRunner& runner) noexcept {
 }
 
 void ScheduleCompiler::Connect(const Port& from, const Port& to) noexcept {
-  Follow([&] { ForEachPair(from, to, [&](const Port& output, const Port& input) { ConnectPair(output, input); }); });
+  Follow([&] { ForEachPair(from, to, [&](auto& output, auto& input) { OrderPair(output, input); }); });
 }
 
 void ScheduleCompiler::Disconnect(const Port& from, const Port& to) noexcept {
-  Follow([&] {
-    ForEachPair(from, to, [&](const Port& output, const Port& input) {
-      if (FeedsInTime(output, input)) return;
-      tasks_of_groups_.ForEachPair(output, input, [&](PlannedTask& writer, PlannedTask& reader) {
-        writer.element->thread->order.Disconnect(writer, reader, {&output, &input});
-        Touch(*writer.element->thread);
-      });
-    });
-  });
+  Follow([&] { ForEachPair(from, to, [&](auto& output, auto& input) { OrderPair(output, input, false); }); });
 }
 
 void ScheduleCompiler::Plan(FrameworkElement& element) {
@@ -233,23 +225,25 @@ void ScheduleCompiler::ConnectTasks(PlannedElement& planned) {
     for (const FrameworkElement* group : task->task.writes) {
       internal::VisitPorts(group, [&](const Port& port) {
         if (port.is_proxy() || port.direction() != Port::Direction::kOutput) return;
-        for (const Port* input : port.Sinks()) ConnectPair(port, *input);
+        for (const Port* input : port.Sinks()) OrderPair(port, *input);
       });
     }
     for (const FrameworkElement* group : task->task.reads) {
       internal::VisitPorts(group, [&](const Port& port) {
         if (port.is_proxy() || port.direction() != Port::Direction::kInput) return;
-        for (const Port* output : port.Sources()) ConnectPair(*output, port);
+        for (const Port* output : port.Sources()) OrderPair(*output, port);
       });
     }
   }
 }
 
-void ScheduleCompiler::ConnectPair(const Port& output, const Port& input) {
+void ScheduleCompiler::OrderPair(const Port& output, const Port& input, bool is_connected) {
   // One that is late says nothing of who runs first.
-  if (!FeedsInTime(output, input)) return;
+  if (FeedsInTime(output, input) != is_connected) return;
   tasks_of_groups_.ForEachPair(output, input, [&](PlannedTask& writer, PlannedTask& reader) {
-    writer.element->thread->order.Connect(writer, reader, {&output, &input});
+    auto& order = writer.element->thread->order;
+    is_connected ? order.Connect(writer, reader, {&output, &input})
+                 : order.Disconnect(writer, reader, {&output, &input});
     Touch(*writer.element->thread);
   });
 }

@@ -97,7 +97,7 @@ class ScheduleCompiler {
   void RemoveTasks(internal::PlannedElement& planned);
   void Refresh(FrameworkElement& element);
   void ConnectTasks(internal::PlannedElement& planned);
-  void ConnectPair(const Port& output, const Port& input);
+  void OrderPair(const Port& output, const Port& input, bool is_connected = true);
   void HandOver(internal::PlannedElement& planned, internal::ThreadSchedule& thread);
   void Touch(internal::ThreadSchedule& thread);
   void NoteChange(internal::ThreadSchedule& thread);

@@ -20,7 +20,7 @@ class TypeInfo;
 namespace internal {
 class ElementState;
 struct ParameterRecord;
-}
+}  // namespace internal
 
 /// The value of a parameter in its text format, by the parameter's name: {"stop_distance", "0.3"}.
 struct Setting {

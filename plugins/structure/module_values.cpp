@@ -82,8 +82,8 @@ std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings, cons
 }
 
 // But for what `settings` set.
-Result<void> CopySettings(const ParameterRecords& records, const std::vector<Setting>& settings, FrameworkElement& after,
-                          const IsTheirTurn& is_its_turn) {
+Result<void> CopySettings(const ParameterRecords& records, const std::vector<Setting>& settings,
+                          FrameworkElement& after, const IsTheirTurn& is_its_turn) {
   const std::set<const Configurable*> named = NamedBy(settings, after);
   for (const ParameterRecord& each : records) {
     const auto [element, target] = each.is_of_part ? ConfigurableElement() : LikeIn(after, each, records);
@@ -93,7 +93,7 @@ Result<void> CopySettings(const ParameterRecords& records, const std::vector<Set
     const bool is_given = target->info().is_static && values.is_fed();
     if (is_given) values.own.value = values.given;
     if (!is_given && !values.own.is_set()) continue;
-    const auto value = target->ValueOf(values, values.own.value);
+    const auto value = target->ConvertedFrom(values, values.own.value);
     const auto set = value ? target->Put({*value}) : Result<void>(value.error());
     if (!set) return set.error().WithPath(element->path());
   }
@@ -103,7 +103,7 @@ Result<void> CopySettings(const ParameterRecords& records, const std::vector<Set
 Result<void> CopyOwn(const Configurable::Values& from, Configurable& to) {
   const Configurable::Own own = to.own();
   if (!from.own.is_set()) return to.Put({own.value, from.own.given, own.settings});  // each has its default
-  const auto value = to.ValueOf(from, from.own.value);
+  const auto value = to.ConvertedFrom(from, from.own.value);
   return value ? to.Put({*value, from.own.given}) : value.error();
 }
 
@@ -151,8 +151,9 @@ ParameterRecords RecordsOf(const FrameworkElement& before, const GivenParameters
       if (!found) continue;
       each.present = found.configurable->values();
       if (each.present->number <= via->values.number) each.present->number = 0;
-      const auto value = found.configurable->ValueOf(via->values, via->values.own.value);
-      const bool is_alike = value && runnel::ToText(found.configurable->type(), value->get()) == found.configurable->OwnText();
+      const auto value = found.configurable->ConvertedFrom(via->values, via->values.own.value);
+      const bool is_alike =
+          value && runnel::ToText(found.configurable->type(), value->get()) == found.configurable->OwnText();
       each.is_set_since = !each.is_named && each.present->own.is_set() && !is_alike;
     }
     return records;
@@ -199,7 +200,8 @@ GivenParameters RecordsToComeBack(const FrameworkElement& before, const Framewor
   return records;
 }
 
-Result<void> ConfigureNew(FrameworkElement& made, const ParameterRecords& records, const std::vector<Setting>& settings) {
+Result<void> ConfigureNew(FrameworkElement& made, const ParameterRecords& records,
+                          const std::vector<Setting>& settings) {
   // Construct() goes by these, and may make more.
   std::set<const FrameworkElement*> early;
   for (const auto& [element, parameter] : ConfigurablesOf(made)) {

@@ -46,7 +46,8 @@ using ParameterRecords = std::vector<ParameterRecord>;
 /// Sets the parameters of a module that has just been made: as the records have been, as far as it has parameters like these,
 /// then to `settings`; and has it make the ports that follow from them. What stands for parameters within (GroupParameter)
 /// is set when these are there.
-Result<void> ConfigureNew(FrameworkElement& made, const ParameterRecords& records, const std::vector<Setting>& settings);
+Result<void> ConfigureNew(FrameworkElement& made, const ParameterRecords& records,
+                          const std::vector<Setting>& settings);
 
 /// Gives `after`, which is prepared, the values of `before`: what outputs have given, and what has been set, of parts only
 /// what has been since they were as in `began`; but for what `change` sets, and what cannot be set any more. Of a part that
