@@ -56,6 +56,7 @@ class Configurable {
     std::shared_ptr<const void> given =
         {};                    ///< the last one, as `own.value`; nullptr: none, or it has been refused since
     std::uint64_t number = 0;  ///< of the last one; 0: none
+    bool has_refused = false;  ///< what an output has given since
     [[nodiscard]] bool is_fed() const noexcept { return given != nullptr && number > own.given; }
   };
   /// Takes it over, or leaves everything as it was and says why not. What is put back is as it was before.

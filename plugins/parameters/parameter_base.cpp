@@ -133,7 +133,9 @@ Result<void> ParameterBase::Put(const Own& own) {
   }
   if (own_) own_ = own.value;
   own_given_.store(is_to_be_fed ? given : given_.load(std::memory_order_relaxed), std::memory_order_relaxed);
-  settings_ = own.settings >> Own::kSettingsBits == id() ? own.settings : settings_ + 1;
+  const bool is_of_this = own.settings >> Own::kSettingsBits == id(), is_default = own.settings != 0 && !own.is_set();
+  settings_ = is_of_this ? own.settings : is_default ? id() << Own::kSettingsBits : settings_ + 1;
+  if (own.given > given_.load(std::memory_order_relaxed)) has_refused_.store(false, std::memory_order_relaxed);
   return {};
 }
 
@@ -163,12 +165,15 @@ class ParameterBase::Feeder final : public FrameworkElement {
 
   [[nodiscard]] Port& input() noexcept { return *input_; }
   void Take() {
-    if (!held_->Read(*input_, 0) && !is_left_) return;
+    const bool is_new = held_->Read(*input_, 0);
+    if (!is_new && !is_left_ && !parameter_.has_refused_.load(std::memory_order_relaxed)) return;
     const std::unique_lock lock(parameter_.assigning_, std::try_to_lock);
     is_left_ = !lock;
     if (is_left_) return;  // somebody sets it just now: in the next cycle
     const void* const value = held_->Find(0);
-    if (value != nullptr && parameter_.MayBeFed(value)) {
+    const bool is_good = value != nullptr && parameter_.MayBeFed(value);
+    parameter_.has_refused_.store(value != nullptr && !is_good, std::memory_order_relaxed);
+    if (is_good) {
       parameter_.Assume(value);
       // What an input that is made later gives is newer, wherever the module has been made again.
       const std::uint64_t known = parameter_.given_.load(std::memory_order_relaxed);
@@ -190,7 +195,10 @@ bool ParameterBase::HasFeeder() const { return feeder_ != nullptr && FindChild("
 Configurable::Values ParameterBase::values() const {
   const std::string unit = description_.is_number ? info().unit : "";
   const Own own{own_ ? own_ : Value(), own_given_.load(std::memory_order_relaxed), settings_};
-  return {&type(), unit, own, is_fed() ? Value() : last_given_, given_.load(std::memory_order_relaxed)};
+  // The module may run: a value that is newer than its number is none the less the last.
+  const std::uint64_t number = given_.load(std::memory_order_relaxed);
+  const auto given = number > own.given ? Value() : last_given_;
+  return {&type(), unit, own, given, number, has_refused_.load(std::memory_order_relaxed)};
 }
 
 void ParameterBase::TakeFeed() {
@@ -198,6 +206,7 @@ void ParameterBase::TakeFeed() {
 }
 
 Result<void> ParameterBase::TakeGiven(const Values& other) {
+  if (other.has_refused) has_refused_.store(true, std::memory_order_relaxed);
   if (other.number <= given_.load(std::memory_order_relaxed) || info().is_static) return {};
   const bool is_there = other.given != nullptr, is_good = is_there && IsLike(other) && MayBeFed(other.given.get());
   const auto found = is_there && !is_good ? ConvertedFrom(other, other.given) : Result(other.given);

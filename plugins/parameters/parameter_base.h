@@ -133,6 +133,7 @@ class ParameterBase : public FrameworkElement, public Configurable {
   // Numbers of the last value that an output has given, and of that when the own one was set; relaxed: they only inform others.
   std::atomic<std::uint64_t> given_{0};
   std::atomic<std::uint64_t> own_given_{0};
+  std::atomic<bool> has_refused_{false};  // what has come last: whoever takes the place reads that again
   // Under the structure lock. The own value, and the last given one while that is not the value; both once an output may
   // give any, since there is no memory to be had then.
   std::shared_ptr<const void> own_;

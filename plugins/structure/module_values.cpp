@@ -16,6 +16,13 @@ namespace runnel::internal {
 
 namespace {
 
+// What waits is taken over. It does not run.
+void TakeFeeds(const FrameworkElement& module) {
+  const_cast<FrameworkElement&>(module).VisitAll<FrameworkElement>([](FrameworkElement& each) {
+    if (auto* const parameter = dynamic_cast<Configurable*>(&each)) parameter->TakeFeed();
+  });
+}
+
 using IsTheirTurn = std::function<bool(const FrameworkElement& parameter)>;
 
 // Errors: no such parameter, with the nearest name; a value it refuses.
@@ -68,40 +75,70 @@ std::pair<ConfigurableElement, const ParameterRecord*> CounterpartIn(const Frame
   return found;
 }
 
-// The parameters of the module and its parts that settings set.
-std::set<const Configurable*> NamedBy(const std::vector<Setting>& settings, const FrameworkElement& module) {
-  std::set<const Configurable*> named;
-  for (const Setting& each : settings) {
-    const ConfigurableElement found = FindConfigurable(module, each.parameter);
-    named.insert(found.configurable);
-    const auto* const group = dynamic_cast<const GroupParameter*>(found.element);
-    if (group == nullptr) continue;
-    for (const ConfigurableElement& target : group->Find()) named.insert(target.configurable);
+// What a parameter stands for in the end, as far as that is in `module`: itself, but for one of a composite.
+std::vector<ConfigurableElement> LeavesOf(const ConfigurableElement& parameter, const FrameworkElement& module) {
+  const auto* const group = dynamic_cast<const GroupParameter*>(parameter.element);
+  if (group == nullptr) {
+    const bool is_within = parameter && parameter.element->IsAtOrBelow(module);
+    return is_within ? std::vector{parameter} : std::vector<ConfigurableElement>();
   }
+  std::vector<ConfigurableElement> leaves;
+  for (const ConfigurableElement& target : group->Find()) {
+    for (const ConfigurableElement& each : LeavesOf(target, module)) leaves.push_back(each);
+  }
+  return leaves;
+}
+
+// What is set in the module and its parts.
+using Named = std::set<const Configurable*>;
+bool Contains(const Named& named, const ConfigurableElement& parameter, const FrameworkElement& module) {
+  return std::ranges::any_of(LeavesOf(parameter, module),
+                             [&](const auto& each) { return named.contains(each.configurable); });
+}
+void AddTo(Named& named, const ConfigurableElement& parameter, const FrameworkElement& module) {
+  for (const ConfigurableElement& each : LeavesOf(parameter, module)) named.insert(each.configurable);
+}
+Named NamedBy(const std::vector<Setting>& settings, const FrameworkElement& module) {
+  Named named;
+  for (const Setting& each : settings) AddTo(named, FindConfigurable(module, each.parameter), module);
   return named;
 }
 
 // But for what `settings` set.
 Result<void> CopySettings(const ParameterRecords& records, const std::vector<Setting>& settings,
                           FrameworkElement& after, const IsTheirTurn& is_its_turn) {
-  const std::set<const Configurable*> named = NamedBy(settings, after);
+  const Named named = NamedBy(settings, after);
   for (const ParameterRecord& each : records) {
-    const auto [element, target] = each.is_of_part ? ConfigurableElement() : LikeIn(after, each, records);
-    if (element == nullptr || !is_its_turn(*element) || named.contains(target)) continue;
-    Configurable::Values values = each.set();
+    const ConfigurableElement target = each.is_of_part ? ConfigurableElement() : LikeIn(after, each, records);
+    if (!target || !is_its_turn(*target.element) || Contains(named, target, after)) continue;
+    // What stands for others alone is theirs.
+    if (dynamic_cast<const GroupParameter*>(target.element) != nullptr && LeavesOf(target, after).empty()) continue;
+    const Configurable::Values &own = each.set(),
+                               &newest = each.present && each.present->is_fed() ? *each.present : own;
     // What an output has given goes over later, but to what cannot be set any more then.
-    const bool is_given = target->info().is_static && values.is_fed();
-    if (is_given) values.own.value = values.given;
-    if (!is_given && !values.own.is_set()) continue;
-    const auto value = target->ConvertedFrom(values, values.own.value);
-    const auto set = value ? target->Put({*value}) : Result<void>(value.error());
-    if (!set) return set.error().WithPath(element->path());
+    const bool is_given = target.configurable->info().is_static && newest.is_fed();
+    if (!is_given && !own.own.is_set()) continue;
+    const auto put = [&](const Configurable::Values& from, const std::shared_ptr<const void>& value) -> Result<void> {
+      const auto good = target.configurable->ConvertedFrom(from, value);
+      return good ? target.configurable->Put({*good}) : good.error();
+    };
+    auto set = is_given ? put(newest, newest.given) : put(own, own.own.value);
+    // What has been set since and is refused is told when the module has come back.
+    const bool is_as_before = !set && !is_given && each.is_set_since;
+    if (is_as_before) set = each.values.own.is_set() ? put(each.values, each.values.own.value) : Result<void>();
+    if (!set) return set.error().WithPath(target.element->path());
   }
   return {};
 }
 
-Result<void> CopyOwn(const Configurable::Values& from, Configurable& to) {
-  const Configurable::Own own = to.own();
+// `is_as_before`: where it has not been set, nothing is.
+Result<void> CopyOwn(const Configurable::Values& from, Configurable& to, bool is_as_before) {
+  Configurable::Own own = to.own();
+  if (is_as_before && !from.own.is_set() && own.is_set()) {
+    const auto value = to.Parse(to.info().default_value);
+    if (!value) return value.error();
+    own = {*value, 0, own.settings >> Configurable::Own::kSettingsBits << Configurable::Own::kSettingsBits};
+  }
   if (!from.own.is_set()) return to.Put({own.value, from.own.given, own.settings});  // each has its default
   const auto value = to.ConvertedFrom(from, from.own.value);
   return value ? to.Put({*value, from.own.given}) : value.error();
@@ -118,10 +155,8 @@ std::vector<Counterpart> CounterpartsIn(const FrameworkElement& module, const Pa
   std::vector<Counterpart> all;
   for (const ParameterRecord& each : records) {
     const auto [found, via] = CounterpartIn(module, each, records);
-    const auto* const group = dynamic_cast<const GroupParameter*>(found.element);
     const bool is_first = via == &each || via->targets.front() == each.path;
-    if (!found || !each.targets.empty() || !is_first) continue;
-    const auto targets = group != nullptr ? group->Find() : std::vector{found};
+    const auto targets = each.is_group || !is_first ? std::vector<ConfigurableElement>() : LeavesOf(found, module);
     for (const ConfigurableElement& target : targets) {
       const auto known = std::ranges::find(all, target.configurable, &Counterpart::parameter);
       if (known != all.end() && known->width <= targets.size()) continue;
@@ -154,14 +189,16 @@ ParameterRecords RecordsOf(const FrameworkElement& before, const GivenParameters
       const auto value = found.configurable->ConvertedFrom(via->values, via->values.own.value);
       const bool is_alike =
           value && runnel::ToText(found.configurable->type(), value->get()) == found.configurable->OwnText();
-      each.is_set_since = !each.is_named && each.present->own.is_set() && !is_alike;
+      // Or it has been set to just that since an output has given something.
+      const bool is_later = each.present->given != nullptr && each.present->own.given > via->values.own.given;
+      each.is_set_since = !each.is_named && each.present->own.is_set() && (!is_alike || is_later);
     }
     return records;
   }
   ParameterRecords records;
   const auto parameters = ConfigurablesOf(before);
   const_cast<FrameworkElement&>(before).VisitAll<FrameworkElement>([&](FrameworkElement& element) {
-    const auto* const parameter = dynamic_cast<Configurable*>(&element);
+    auto* const parameter = dynamic_cast<Configurable*>(&element);
     if (parameter == nullptr) return;
     const auto* const former = element.FindAnnotation<FormerName>();
     const bool is_of_part = std::ranges::count(parameters, &element, &ConfigurableElement::element) == 0;
@@ -169,12 +206,12 @@ ParameterRecords RecordsOf(const FrameworkElement& before, const GivenParameters
                        .name = element.name(),
                        .former_name = former != nullptr ? former->name : "",
                        .is_of_part = is_of_part,
+                       .is_group = dynamic_cast<const GroupParameter*>(&element) != nullptr,
                        .targets = {},
                        .values = parameter->values()});
-    const auto* const group = dynamic_cast<const GroupParameter*>(&element);
-    if (group == nullptr) return;
-    for (const ConfigurableElement& target : group->Find()) {
-      if (target.element->IsAtOrBelow(before)) records.back().targets.push_back(PathIn(before, *target.element));
+    if (!records.back().is_group) return;
+    for (const ConfigurableElement& each : LeavesOf({&element, parameter}, before)) {
+      records.back().targets.push_back(PathIn(before, *each.element));
     }
   });
   return records;
@@ -189,13 +226,14 @@ ConfigurableElement ParameterLike(const FrameworkElement& parameter, const Frame
 
 GivenParameters RecordsToComeBack(const FrameworkElement& before, const FrameworkElement& after,
                                   const ReplaceModule& change) {
+  TakeFeeds(before);
   auto records = std::make_shared<ParameterRecords>(RecordsOf(before));
-  std::set<const Configurable*> named = NamedBy(change.settings, after);
+  Named named = NamedBy(change.settings, after);
   for (const ParameterRecord& each : change.parameters != nullptr ? *change.parameters : ParameterRecords()) {
-    if (each.is_named) named.insert(LikeIn(after, each, *change.parameters).configurable);
+    if (each.is_named) AddTo(named, LikeIn(after, each, *change.parameters), after);
   }
   for (ParameterRecord& each : *records) {
-    each.is_named = named.contains(CounterpartIn(after, each, *records).first.configurable);
+    each.is_named = Contains(named, CounterpartIn(after, each, *records).first, after);
   }
   return records;
 }
@@ -220,12 +258,10 @@ Result<void> ConfigureNew(FrameworkElement& made, const ParameterRecords& record
   return {};
 }
 
-std::vector<Error> CopyValues(FrameworkElement& before, const ParameterRecords& began, const ReplaceModule* change,
-                              const FrameworkElement& after) {
-  before.VisitAll<FrameworkElement>([](FrameworkElement& each) {
-    if (auto* const parameter = dynamic_cast<Configurable*>(&each)) parameter->TakeFeed();
-  });
-  const auto named = change != nullptr ? NamedBy(change->settings, after) : std::set<const Configurable*>();
+std::vector<Error> CopyValues(const FrameworkElement& before, const ParameterRecords& began,
+                              const ReplaceModule* change, const FrameworkElement& after) {
+  TakeFeeds(before);
+  const Named named = change != nullptr ? NamedBy(change->settings, after) : Named();
   const bool is_way_back = change != nullptr && change->parameters != nullptr;
   const ParameterRecords records = RecordsOf(before, change != nullptr ? change->parameters : nullptr);
   std::vector<Error> refused;
@@ -235,7 +271,7 @@ std::vector<Error> CopyValues(FrameworkElement& before, const ParameterRecords& 
     const Configurable::Values &values = each.record->values, &set = each.record->set();
     const Configurable::Values& given = each.record->present ? *each.record->present : values;
     auto taken = target.TakeGiven(values);
-    if (&given != &values) taken = target.TakeGiven(given);
+    if (auto again = target.TakeGiven(given); taken) taken = std::move(again);
     // What is set anyway needs it not.
     if (named.contains(&target) || !given.is_fed()) taken = {};
     const auto known = std::ranges::find(began, each.record->path, &ParameterRecord::path);
@@ -244,7 +280,7 @@ std::vector<Error> CopyValues(FrameworkElement& before, const ParameterRecords& 
     if (named.contains(&target)) {
       if (has_given) (void)target.Put({target.own().value});
     } else if (taken && (is_late || (change != nullptr && (is_way_back || has_given)))) {
-      taken = Attempt([&] { return CopyOwn(set, target); });
+      taken = Attempt([&] { return CopyOwn(set, target, is_way_back); });
     }
     if (!taken) refused.push_back(taken.error().WithPath(each.element->path()));
   }

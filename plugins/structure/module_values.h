@@ -19,9 +19,10 @@ namespace runnel::internal {
 struct ParameterRecord {
   std::string path;  ///< in the module: "parameter/gain", "motor/parameter/gain"
   std::string name;
-  std::string former_name;           ///< "": none
-  bool is_of_part = false;           ///< it is none of the module itself
-  std::vector<std::string> targets;  ///< paths of what it stands for (GroupParameter)
+  std::string former_name;  ///< "": none
+  bool is_of_part = false;  ///< it is none of the module itself
+  bool is_group = false;
+  std::vector<std::string> targets;  ///< of a group, paths of what it stands for in the end
   Configurable::Values values;
   bool is_named = false;  ///< it has been set by the change that is taken back
   /// Where this comes back: that of the module in its place, in which only what has been given since counts, and whether
@@ -53,7 +54,7 @@ Result<void> ConfigureNew(FrameworkElement& made, const ParameterRecords& record
 /// what has been since they were as in `began`; but for what `change` sets, and what cannot be set any more. Of a part that
 /// `after` has not, by the parameter of the composite that stands for it. `change`: that has it made; nullptr: it comes back,
 /// and of the module itself, too, only what has been set since goes over. Neither runs. What is refused.
-[[nodiscard]] std::vector<Error> CopyValues(FrameworkElement& before, const ParameterRecords& began,
+[[nodiscard]] std::vector<Error> CopyValues(const FrameworkElement& before, const ParameterRecords& began,
                                             const ReplaceModule* change, const FrameworkElement& after);
 
 }  // namespace runnel::internal
