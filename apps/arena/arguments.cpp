@@ -25,8 +25,7 @@ void AddChoices(CLI::App& program, ArenaArguments& arguments) {
         ->capture_default_str();
   };
   add_list("--variant", arguments.variants,
-           "planners: all, bug1 (planning/bug1), any module type with a '/', or an .xml file with a "
-           "<module> tag");
+           "planners: all, bug1 (planning/bug1), any module type with a '/', or an .xml file with a <module> tag");
   add_list("--sensor", arguments.sensors, "laser, infrared, bumper: what the applications there are for");
   add_list("--direction", arguments.directions, "first turn at an obstacle: left, right");
   add_list("--seed", arguments.seeds, "of the noise, and so of the run")
@@ -108,8 +107,7 @@ Result<ArenaArguments> ParseArguments(int count, const char* const* words) {
   program.footer(
       "Each run is a process of its own: one that crashes or hangs is a row of the table.\n"
       "'runnel arena merge INTO.json PART.json ...' puts the runs of several arenas (--shard) together.\n"
-      "Exit codes: 0 all runs are finished, 1 interrupted, or a file could not be written, 2 bad "
-      "input.");
+      "Exit codes: 0 all runs are finished, 1 interrupted, or a file could not be written, 2 bad input.");
   ArenaArguments arguments;
   arguments.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   AddChoices(program, arguments);

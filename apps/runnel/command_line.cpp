@@ -133,8 +133,7 @@ void AddApplicationArguments(CLI::App& command, ApplicationArguments& arguments)
       ->transform(ApplicationFile);
   command
       .add_option("settings", arguments.settings,
-                  "values for parameters, by the names that the application gives them in "
-                  "command_line=\"…\"")
+                  "values for parameters, by the names that the application gives them in command_line=\"…\"")
       ->type_name("NAME=VALUE");
   // One file each time, since the application and settings come after it.
   command.add_option("--config", arguments.configurations, "configuration file (XML), may be given several times")

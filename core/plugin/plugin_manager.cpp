@@ -194,8 +194,7 @@ Result<fs::path> PluginManager::FindFile(std::string_view name) const {
   const std::string nearest = NearestNameHint(name, Available());
   return Error{.message = "no plugin '" + std::string(name) + "' in " + folders,
                .hint = nearest + (nearest.empty() ? "" : "; ") +
-                       "one of your own is found by RUNNEL_PLUGIN_PATH=FOLDER, or installed "
-                       "beside these"};
+                       "one of your own is found by RUNNEL_PLUGIN_PATH=FOLDER, or installed beside these"};
 }
 
 std::vector<std::string> PluginManager::Available() const {

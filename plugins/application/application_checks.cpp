@@ -89,8 +89,7 @@ void WarnOfRampsBefore(const Port& driving, const ApplicationCheckUse& use) {
         return;
       use.diagnostics.AddWarning(
           {.message = "is passed on to " + driving.path() +
-                      ", whose safe value is not zero: what is ramped before it does not "
-                      "begin anew after a STOP",
+                      ", whose safe value is not zero: what is ramped before it does not begin anew after a STOP",
            .path = each.path(),
            .position = FindSourcePlace(driving),
            .hint = "mark it, with the value at which that stands still: <driving port=\"" + each.path() + "\"/>"});

@@ -87,8 +87,7 @@ std::vector<NewElement> SimpleTypes(const Known& known) {
       Named("path", Pattern("\\S(.*\\S)?")),
       Named("path_list", Pattern("[^,]*[^,\\s][^,]*")),
       Named("number", Pattern("\\s*[+\\-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+\\-]?[0-9]+)?\\s*")),
-      Named("duration", Pattern("\\s*[+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+\\-]?[0-9]+)?\\s*"
-                                "(ns|us|ms|s|min)\\s*")),
+      Named("duration", Pattern("\\s*[+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+\\-]?[0-9]+)?\\s*(ns|us|ms|s|min)\\s*")),
       Named("module_type", Enumeration(known.types)),
       Named("parameter_name", Enumeration(known.parameters)),
       Named("port_type", Enumeration(known.port_types)),

@@ -110,10 +110,8 @@ void CheckInterfaceDirection(const Port& port, const PathUse& use, PathKind end,
   if (IsRightWay(port, end, other)) return;
   if (!context.IsFirstFaultOf(port)) return;
   const bool is_input = port.direction() == Port::Direction::kInput;
-  const std::string ways = is_input ? "an input of its group: it sends inside of the group and "
-                                      "receives outside"
-                                    : "an output of its group: it receives inside of the group and "
-                                      "sends outside";
+  const std::string ways = is_input ? "an input of its group: it sends inside of the group and receives outside"
+                                    : "an output of its group: it receives inside of the group and sends outside";
   context.Report({.message = "is " + ways,
                   .path = port.path(),
                   .hint = std::string("write direction=\"") + (is_input ? "output" : "input") +

@@ -135,8 +135,7 @@ XmlTag ClockTag() {
                          "speed", AttributeKind::kNumber,
                          "of simulated time, at most; 1 (which it is by default) is real time, 0 as fast as it can"),
                      YesNoRule("paused",
-                               "whether simulated time stands still until somebody lets it go on; "
-                               "false by default")},
+                               "whether simulated time stands still until somebody lets it go on; false by default")},
       .handle = ChooseClock,
       .saved = SavedClock};
 }

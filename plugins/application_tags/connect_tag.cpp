@@ -135,33 +135,30 @@ void ConnectAll(const TagUse& use) {
 }  // namespace
 
 XmlTag ConnectTag() {
-  return {
-      .name = "connect",
-      .summary = "lets data flow from one port to others",
-      .parents = {"application", "group"},
-      .attributes = {KindRule("from", AttributeKind::kPath, "an output, or an interface port", true),
-                     KindRule("to", AttributeKind::kPathList, "inputs or interface ports, separated by blanks", true),
-                     KindRule("queue", AttributeKind::kCount,
-                              "how many values may wait at the input; 0: the latest counts"),
-                     WordRule("on_full", OnFullNames(), "what a full queue does with one more value"),
-                     YesNoRule("pull",
-                               "whether reading the input first has its sources make a value; "
-                               "false by default, and not with a queue"),
-                     {.name = "convert",
-                      .summary = "by which conversion values become those of the input: round, "
-                                 "truncate, parse, or what a plugin has registered; needed only "
-                                 "where something is lost, or several lead there"},
-                     WordRule("when", {"present"},
-                              "present: made as soon as both ends are there, and again after "
-                              "one went; without, they must be there from the start"),
-                     YesNoRule("late",
-                               "true: in a loop of modules, the connection by which values come "
-                               "one cycle late")},
-      .is_structure = true,
-      .handle = internal::ReadAt<BuildStage::kConnections, ConnectAll>,
-      .update = internal::UpdateConnect,
-      .missing = internal::MissingConnections,
-      .place = 4};
+  return {.name = "connect",
+          .summary = "lets data flow from one port to others",
+          .parents = {"application", "group"},
+          .attributes =
+              {KindRule("from", AttributeKind::kPath, "an output, or an interface port", true),
+               KindRule("to", AttributeKind::kPathList, "inputs or interface ports, separated by blanks", true),
+               KindRule("queue", AttributeKind::kCount, "how many values may wait at the input; 0: the latest counts"),
+               WordRule("on_full", OnFullNames(), "what a full queue does with one more value"),
+               YesNoRule("pull",
+                         "whether reading the input first has its sources make a value; "
+                         "false by default, and not with a queue"),
+               {.name = "convert",
+                .summary = "by which conversion values become those of the input: round, "
+                           "truncate, parse, or what a plugin has registered; needed only "
+                           "where something is lost, or several lead there"},
+               WordRule("when", {"present"},
+                        "present: made as soon as both ends are there, and again after "
+                        "one went; without, they must be there from the start"),
+               YesNoRule("late", "true: in a loop of modules, the connection by which values come one cycle late")},
+          .is_structure = true,
+          .handle = internal::ReadAt<BuildStage::kConnections, ConnectAll>,
+          .update = internal::UpdateConnect,
+          .missing = internal::MissingConnections,
+          .place = 4};
 }
 
 }  // namespace runnel

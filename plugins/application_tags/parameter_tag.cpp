@@ -287,8 +287,7 @@ XmlTag ParameterTag() {
                               "in a group without a type: the parameters within that it stands for"),
                      KindRule("from", AttributeKind::kName, "the parameter of the <group_type> whose value it takes"),
                      {.name = "value",
-                      .summary = "in text format; a number may have another unit of the same "
-                                 "kind, as in 15 cm"},
+                      .summary = "in text format; a number may have another unit of the same kind, as in 15 cm"},
                      KindRule("config", AttributeKind::kPath,
                               "the entry of the configuration file that beats the value"),
                      KindRule("command_line", AttributeKind::kName, "the name on the command line that beats both")},

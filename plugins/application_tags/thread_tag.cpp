@@ -27,8 +27,7 @@ void ReadPeriod(const TagUse& use, ThreadOptions& options) {
   if (period != nullptr) options.period = ParseDuration(period->value).value();
   if (options.activation == Activation::kPeriod && period == nullptr) {
     use.Report({.message = "<thread> has no 'period'",
-                .hint = "add period=\"50ms\", or activation=\"trigger\" or "
-                        "activation=\"free_running\""},
+                .hint = "add period=\"50ms\", or activation=\"trigger\" or activation=\"free_running\""},
                use.xml.position());
   }
   if (options.activation == Activation::kTrigger && period != nullptr) {

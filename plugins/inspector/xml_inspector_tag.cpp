@@ -128,9 +128,8 @@ void AddInspectorTag(XmlTagRegistry& tags) {
                                           "reaches; others need a certificate and a token"},
                               WordRule("read_only", {"true", "false"}, "true: viewers look, and change nothing"),
                               {.name = "token",
-                               .summary = "what viewers must show; without, one is made if the "
-                                          "address is reached by others; ROLE:TOKEN for more than "
-                                          "one: look, drive (publish, pause), change"},
+                               .summary = "what viewers must show; without, one is made if the address is reached by "
+                                          "others; ROLE:TOKEN for more than one: look, drive (publish, pause), change"},
                               {.name = "token_file", .summary = "with more of them, which not everybody may read"},
                               WordRule("all_users", {"true", "false"},
                                        "true: every user of this machine may, without a token, and "

@@ -278,8 +278,7 @@ void AddNetworkTags(XmlTagRegistry& tags) {
             {.name = "commands",
              .summary = "what applications that can reach this one may have it do: set, swap; nothing if left out"},
             WordRule("live", {"true", "false"},
-                     "true: what is taken may come although time is simulated, of which runs are not "
-                     "repeatable then"),
+                     "true: what is taken may come although time is simulated, of which runs are not repeatable then"),
             {.name = "messages",
              .summary = ".msg and .srv files, and folders with <package>/msg/*.msg and <package>/srv/*.srv, beside ROS "
                         "2's own; separated by blanks"},

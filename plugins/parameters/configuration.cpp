@@ -84,12 +84,10 @@ class FileReader {
     const std::string* const name = ReadText(element, "name", diagnostics_);
     if (name == nullptr) return nullptr;
     if (!name->empty() && name->find('/') == std::string::npos) return name;
-    diagnostics_.Add({.message = name->empty() ? "a name must not be empty" : "the name '" + *name + "' contains a '/'",
-                      .position = element.Attribute("name")->value_position,
-                      .hint = name->empty() ? ""
-                                            : "a <" + contents_.front() +
-                                                  "> stands for each name "
-                                                  "before the last"});
+    diagnostics_.Add(
+        {.message = name->empty() ? "a name must not be empty" : "the name '" + *name + "' contains a '/'",
+         .position = element.Attribute("name")->value_position,
+         .hint = name->empty() ? "" : "a <" + contents_.front() + "> stands for each name before the last"});
     return nullptr;
   }
 

@@ -233,8 +233,7 @@ void Scheduler::TakeFaults(std::vector<Fault>& to) {
 Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, Duration timeout,
                                         const std::vector<std::string>& at_rest) {
   RUNNEL_CHECK(!runtime_.structure_mutex().HeldByThisThread(),
-               "threads cannot be kept between cycles under the structure lock, which a cycle might "
-               "be waiting for");
+               "threads cannot be kept between cycles under the structure lock, which a cycle might be waiting for");
   Runners runners = RunnersOf(paths);
   const auto stuck = [this](const auto& runner) { return cycle_watchdog_.IsStuck(*runner); };
   for (const auto& runner : RunnersOf(at_rest)) {

@@ -225,8 +225,7 @@ constexpr std::array<Verb, 14> kVerbs{{
     {"offer", "offer PORT [NAME=VALUE ...] [remove=true]", ReadExtension<1>},
     {"take", "take TOPIC PORT [NAME=VALUE ...] [remove=true]", ReadExtension<2>},
     {"schedule",
-     "schedule THREAD [period=TIME] [activation=period|free_running|trigger] [priority=N] "
-     "[on_overrun=skip|catch_up]",
+     "schedule THREAD [period=TIME] [activation=period|free_running|trigger] [priority=N] [on_overrun=skip|catch_up]",
      ReadSchedule},
 }};
 

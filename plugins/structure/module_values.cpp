@@ -57,7 +57,7 @@ ConfigurableElement LikeIn(const FrameworkElement& module, const ParameterRecord
   // There may be one that has more right to it.
   const bool has_other = std::ranges::any_of(all, [&](const ParameterRecord& each) {
     const bool is_of_name = each.name == found.element->name() || each.former_name == found.element->name();
-    return &each != &record && !each.is_of_part && is_of_name;
+    return each.path != record.path && !each.is_of_part && is_of_name;
   });
   return has_other ? ConfigurableElement() : found;
 }

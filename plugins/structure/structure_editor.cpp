@@ -102,8 +102,7 @@ ChangeOutcome StructureEditor::Apply(const ChangeSet& changes, const std::vector
 
 ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
   RUNNEL_CHECK(!EpochGuard::HeldByThisThread() && !runtime_.structure_mutex().HeldByThisThread(),
-               "the structure cannot be changed by an editor from within a cycle, nor under the "
-               "structure lock");
+               "the structure cannot be changed by an editor from within a cycle, nor under the structure lock");
   const std::lock_guard lock(shared_->applying);
   Tend();
   NewFeeds feeds(runtime_);

@@ -151,8 +151,7 @@ std::variant<WebRole, AccessRules::Refusal> AccessRules::Admit(const WebRequest&
   if (!tokens_.empty()) {
     if (const auto role = RoleOf(TokenIn(request))) return *role;
     return Refusal{401, TokenIn(request).empty()
-                            ? "a token is needed: it stands behind #token= in the address that the "
-                              "program has printed"
+                            ? "a token is needed: it stands behind #token= in the address that the program has printed"
                             : "this token is not known here"};
   }
   if (request.origin.empty()) return WebRole::kChange;

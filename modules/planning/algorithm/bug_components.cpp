@@ -185,8 +185,7 @@ std::optional<Misfit> FindMisfit(const BugComponents& components, const Surround
     return std::nullopt;
   }
   return Misfit{"the leave condition " + Quoted(components.leave->name()) +
-                    " needs a sensor that sees how far the way is free; this one only feels "
-                    "(sensor_range 0)",
+                    " needs a sensor that sees how far the way is free; this one only feels (sensor_range 0)",
                 "take a laser or infrared rangers, or one of the leave conditions " + NamesWithoutRange()};
 }
 

@@ -47,25 +47,20 @@ constexpr std::array<Entry, 23> kMessages{{
     {"PosesInFrame", "timestamp time frame_id string poses Pose[]"},
     {"Log", "timestamp time level LogLevel message string name string file string line count"},
     {"FrameTransform",
-     "timestamp time parent_frame_id string child_frame_id string translation Vector3 "
-     "rotation Quaternion"},
+     "timestamp time parent_frame_id string child_frame_id string translation Vector3 rotation Quaternion"},
     {"LaserScan",
      "timestamp time frame_id string pose Pose start_angle number end_angle number "
      "ranges number[] intensities number[]"},
-    {"RawImage",
-     "timestamp time frame_id string width count height count encoding string step count "
-     "data bytes"},
+    {"RawImage", "timestamp time frame_id string width count height count encoding string step count data bytes"},
     {"SceneUpdate", "deletions SceneEntityDeletion[] entities SceneEntity[]"},
     {"SceneEntityDeletion", "timestamp time type SceneEntityDeletionType id string"},
     {"SceneEntity",
-     "timestamp time frame_id string id string lifetime duration frame_locked boolean "
-     "metadata KeyValuePair[] arrows ArrowPrimitive[] cubes CubePrimitive[] "
-     "spheres SpherePrimitive[] cylinders CylinderPrimitive[] lines LinePrimitive[] "
-     "triangles TriangleListPrimitive[] texts TextPrimitive[] models ModelPrimitive[]"},
+     "timestamp time frame_id string id string lifetime duration frame_locked boolean metadata KeyValuePair[] arrows "
+     "ArrowPrimitive[] cubes CubePrimitive[] spheres SpherePrimitive[] cylinders CylinderPrimitive[] lines "
+     "LinePrimitive[] triangles TriangleListPrimitive[] texts TextPrimitive[] models ModelPrimitive[]"},
     {"KeyValuePair", "key string value string"},
     {"ArrowPrimitive",
-     "pose Pose shaft_length number shaft_diameter number head_length number "
-     "head_diameter number color Color"},
+     "pose Pose shaft_length number shaft_diameter number head_length number head_diameter number color Color"},
     {"CubePrimitive", "pose Pose size Vector3 color Color"},
     {"SpherePrimitive", "pose Pose size Vector3 color Color"},
     {"CylinderPrimitive", "pose Pose size Vector3 bottom_scale number top_scale number color Color"},
@@ -73,12 +68,9 @@ constexpr std::array<Entry, 23> kMessages{{
      "type LineType pose Pose thickness number scale_invariant boolean points Point3[] "
      "color Color colors Color[] indices count[]"},
     {"TriangleListPrimitive", "pose Pose points Point3[] color Color colors Color[] indices count[]"},
-    {"TextPrimitive",
-     "pose Pose billboard boolean font_size number scale_invariant boolean color Color "
-     "text string"},
+    {"TextPrimitive", "pose Pose billboard boolean font_size number scale_invariant boolean color Color text string"},
     {"ModelPrimitive",
-     "pose Pose scale Vector3 color Color override_color boolean url string "
-     "media_type string data bytes"},
+     "pose Pose scale Vector3 color Color override_color boolean url string media_type string data bytes"},
 }};
 
 // "" if there is none.

@@ -42,9 +42,8 @@ constexpr std::string_view kAccessPath = "/access";
 /// What browsers are to allow the page: its own files and this server, and no frame round it.
 std::string ContentPolicy(const HttpRequest& request) {
   const std::string host(View(request[http::field::host]));
-  return "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
-         "img-src 'self' data: blob:; font-src 'self'; worker-src 'self' blob:; "
-         "connect-src 'self' ws://" +
+  return "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+         "font-src 'self'; worker-src 'self' blob:; connect-src 'self' ws://" +
          host + " wss://" + host + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 }
 

@@ -249,6 +249,11 @@ TEST_F(ValuesPutBack, AreInheritedByAFormerNameUnlessThereIsOneOfThatName) {
   EXPECT_EQ(Run(), 7);
   Do({ReplaceModule{"/demo/other", "test/old"}});
   EXPECT_EQ(Run("/demo/other/parameter/boost"), 7);
+  Do({ReplaceModule{"/demo/other", "test/new"}});
+  ASSERT_TRUE(history_->Apply({ReplaceModule{"/demo/other", "test/old"}}));
+  Do({SetParameter{"/demo/other/boost", "8"}});
+  ASSERT_TRUE(history_->Undo());
+  EXPECT_EQ(Run(), 8);
 }
 
 }  // namespace
