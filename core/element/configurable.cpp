@@ -21,10 +21,6 @@ Result<void> Configurable::CheckText(std::string_view text) const {
 std::string Configurable::ToText() const { return runnel::ToText(type(), Value().get()); }
 std::string Configurable::OwnText() const { return runnel::ToText(type(), own().value.get()); }
 
-bool Configurable::IsLike(const Values& other) const {
-  return &type() == other.type && (other.unit.empty() || other.unit == info().unit);
-}
-
 Result<std::shared_ptr<const void>> Configurable::ConvertedFrom(const Values& other,
                                                                 const std::shared_ptr<const void>& value) const {
   if (IsLike(other)) {

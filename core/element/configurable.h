@@ -53,10 +53,9 @@ class Configurable {
     const TypeInfo* type = nullptr;
     std::string unit = {};  ///< of numbers
     Own own = {};
-    std::shared_ptr<const void> given =
-        {};                    ///< the last one, as `own.value`; nullptr: none, or it has been refused since
-    std::uint64_t number = 0;  ///< of the last one; 0: none
-    bool has_refused = false;  ///< what an output has given since
+    std::shared_ptr<const void> given = {};  ///< the last one, as `own.value`; nullptr: none
+    std::uint64_t number = 0;                ///< of the last one; 0: none
+    std::uint64_t refused = 0;               ///< of the last one that has been refused, likewise
     [[nodiscard]] bool is_fed() const noexcept { return given != nullptr && number > own.given; }
   };
   /// Takes it over, or leaves everything as it was and says why not. What is put back is as it was before.
@@ -82,7 +81,10 @@ class Configurable {
   /// A value of another one, if this may have it, too: numbers in the unit here.
   [[nodiscard]] Result<std::shared_ptr<const void>> ConvertedFrom(const Values& other,
                                                                   const std::shared_ptr<const void>& value) const;
-  [[nodiscard]] bool IsLike(const Values& other) const;  ///< nothing is to be converted
+  /// Whether nothing is to be converted.
+  [[nodiscard]] bool IsLike(const Values& other) const {
+    return &type() == other.type && (other.unit.empty() || other.unit == info().unit);
+  }
 
   /// What its module has made of the value that was set last: nothing as long as it has not said; an error if it has
   /// refused it, and the value is that of before.

@@ -36,9 +36,8 @@ const TypeInfo& GetType(std::type_index cpp_type, const TypeLayout& layout, void
 template <typename T>
 [[gnu::visibility("hidden")]] const TypeInfo& TypeOf() {
   static_assert(internal::Described<T>,
-                "this type has no description here: include the header that has it, or write "
-                "`inline void Describe(runnel::TypeBuilder<T>& type) { type.Name(\"T\"); }` "
-                "beside the type");
+                "this type has no description here: include the header that has it, or write `inline void "
+                "Describe(runnel::TypeBuilder<T>& type) { type.Name(\"T\"); }` beside the type");
   // Not a static reference: its initialisation would wait for itself in a type that contains lists
   // of itself. release/acquire: who sees the pointer sees the description.
   static constinit std::atomic<const TypeInfo*> known{nullptr};

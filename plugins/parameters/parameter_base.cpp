@@ -122,21 +122,29 @@ Result<void> ParameterBase::Put(const Own& own) {
   if (auto good = Check(own.value.get()); !good) return good.error().WithPath(path());
   // A cycle in which an output feeds the parameter may be about to do the same: that tries, and this waits.
   const std::lock_guard assigning(assigning_);
-  const std::uint64_t given = std::min(own.given, given_.load(std::memory_order_relaxed));
-  // What was refused has left its number alone.
-  const bool was_fed = is_fed(), has_given = was_fed || last_given_ != nullptr;
-  const bool is_to_be_fed = has_given && given < given_.load(std::memory_order_relaxed);
+  const std::uint64_t given = std::min(own.given, LastNumber());
+  const bool was_fed = is_fed(), is_to_be_fed = given < given_.load(std::memory_order_relaxed);
   if (was_fed != is_to_be_fed || !was_fed) {
     auto last_given = was_fed ? Value() : last_given_;
     Assume(is_to_be_fed ? last_given_.get() : own.value.get());
     last_given_ = std::move(last_given);
   }
   if (own_) own_ = own.value;
-  own_given_.store(is_to_be_fed ? given : given_.load(std::memory_order_relaxed), std::memory_order_relaxed);
-  const bool is_of_this = own.settings >> Own::kSettingsBits == id(), is_default = own.settings != 0 && !own.is_set();
+  own_given_.store(given, std::memory_order_relaxed);
+  const bool is_default = own.settings != 0 && !own.is_set() && OwnText() == info().default_value;
+  const bool is_of_this = own.settings >> Own::kSettingsBits == id();
   settings_ = is_of_this ? own.settings : is_default ? id() << Own::kSettingsBits : settings_ + 1;
-  if (own.given > given_.load(std::memory_order_relaxed)) has_refused_.store(false, std::memory_order_relaxed);
   return {};
+}
+
+std::uint64_t ParameterBase::LastNumber() const noexcept {
+  return std::max(given_.load(std::memory_order_relaxed), refused_.load(std::memory_order_relaxed));
+}
+
+// What another module has refused, and nothing has come since.
+bool ParameterBase::IsToReadAgain() const noexcept {
+  const std::uint64_t refused = refused_.load(std::memory_order_relaxed);
+  return refused > std::max(given_.load(std::memory_order_relaxed), own_given_.load(std::memory_order_relaxed));
 }
 
 // Under `assigning_`.
@@ -165,19 +173,19 @@ class ParameterBase::Feeder final : public FrameworkElement {
 
   [[nodiscard]] Port& input() noexcept { return *input_; }
   void Take() {
-    const bool is_new = held_->Read(*input_, 0);
-    if (!is_new && !is_left_ && !parameter_.has_refused_.load(std::memory_order_relaxed)) return;
+    const bool is_new = held_->Read(*input_, 0) || is_left_;
+    if (!is_new && !parameter_.IsToReadAgain()) return;
     const std::unique_lock lock(parameter_.assigning_, std::try_to_lock);
-    is_left_ = !lock;
-    if (is_left_) return;  // somebody sets it just now: in the next cycle
+    is_left_ = is_new && !lock;
+    if (!lock || (!is_new && !parameter_.IsToReadAgain())) return;  // somebody sets it just now: in the next cycle
     const void* const value = held_->Find(0);
-    const bool is_good = value != nullptr && parameter_.MayBeFed(value);
-    parameter_.has_refused_.store(value != nullptr && !is_good, std::memory_order_relaxed);
-    if (is_good) {
+    // What an input that is made later gives is newer, wherever the module has been made again.
+    const std::uint64_t number = std::max(parameter_.LastNumber(), id() << Own::kSettingsBits) + 1;
+    if (value != nullptr && parameter_.MayBeFed(value)) {
       parameter_.Assume(value);
-      // What an input that is made later gives is newer, wherever the module has been made again.
-      const std::uint64_t known = parameter_.given_.load(std::memory_order_relaxed);
-      parameter_.given_.store(std::max(known, id() << Own::kSettingsBits) + 1, std::memory_order_relaxed);
+      parameter_.given_.store(number, std::memory_order_relaxed);
+    } else if (value != nullptr && is_new) {
+      parameter_.refused_.store(number, std::memory_order_relaxed);
     }
     held_->Drop(0);
   }
@@ -193,12 +201,12 @@ class ParameterBase::Feeder final : public FrameworkElement {
 bool ParameterBase::HasFeeder() const { return feeder_ != nullptr && FindChild("feed") == feeder_; }
 
 Configurable::Values ParameterBase::values() const {
-  const std::string unit = description_.is_number ? info().unit : "";
   const Own own{own_ ? own_ : Value(), own_given_.load(std::memory_order_relaxed), settings_};
   // The module may run: a value that is newer than its number is none the less the last.
   const std::uint64_t number = given_.load(std::memory_order_relaxed);
   const auto given = number > own.given ? Value() : last_given_;
-  return {&type(), unit, own, given, number, has_refused_.load(std::memory_order_relaxed)};
+  const std::uint64_t refused = refused_.load(std::memory_order_relaxed);
+  return {&type(), description_.is_number ? info().unit : "", own, given, number, refused};
 }
 
 void ParameterBase::TakeFeed() {
@@ -206,19 +214,20 @@ void ParameterBase::TakeFeed() {
 }
 
 Result<void> ParameterBase::TakeGiven(const Values& other) {
-  if (other.has_refused) has_refused_.store(true, std::memory_order_relaxed);
-  if (other.number <= given_.load(std::memory_order_relaxed) || info().is_static) return {};
-  const bool is_there = other.given != nullptr, is_good = is_there && IsLike(other) && MayBeFed(other.given.get());
-  const auto found = is_there && !is_good ? ConvertedFrom(other, other.given) : Result(other.given);
-  std::shared_ptr<const void> value = found ? *found : nullptr;
+  if (info().is_static) return {};
+  const bool is_there = other.number > given_.load(std::memory_order_relaxed);
+  const bool is_good = is_there && IsLike(other) && MayBeFed(other.given.get());
+  const auto value = is_there && !is_good ? ConvertedFrom(other, other.given) : Result(other.given);
   const std::lock_guard assigning(assigning_);
+  // What is refused is newer than what was given before, which does not count any more.
+  const std::uint64_t refused = std::max(other.refused, value ? 0 : other.number);
+  refused_.store(std::max(refused, refused_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
+  if (value && !is_there) return {};
   if (!own_) own_ = Value();
-  // The number goes over even if the value does not: what has been given later is newer, and until then the own one counts.
-  given_.store(other.number, std::memory_order_relaxed);
-  if (value == nullptr) own_given_.store(other.number, std::memory_order_relaxed);
-  Assume(is_fed() ? value.get() : own_.get());
-  last_given_ = std::move(value);
-  return found ? Result<void>() : found.error().WithPath(path());
+  given_.store(value ? other.number : 0, std::memory_order_relaxed);
+  Assume(is_fed() ? value->get() : own_.get());
+  last_given_ = value ? *value : nullptr;
+  return value ? Result<void>() : value.error().WithPath(path());
 }
 
 Port* ParameterBase::Feed() {

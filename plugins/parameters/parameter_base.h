@@ -126,14 +126,17 @@ class ParameterBase : public FrameworkElement, public Configurable {
   void Assume(const void* value);
   [[nodiscard]] bool MayBeFed(const void* value) const;
   [[nodiscard]] bool HasFeeder() const;
+  [[nodiscard]] std::uint64_t LastNumber() const noexcept;
+  [[nodiscard]] bool IsToReadAgain() const noexcept;
 
   const internal::ParameterDescription description_;
   Module* const module_;  // nullptr: of something else
   CycleLock assigning_{[]() noexcept {}};
-  // Numbers of the last value that an output has given, and of that when the own one was set; relaxed: they only inform others.
+  // Numbers of the last value that an output has given, of the last one that has been refused, and of what had come when the
+  // own one was set; relaxed: they only inform others.
   std::atomic<std::uint64_t> given_{0};
+  std::atomic<std::uint64_t> refused_{0};
   std::atomic<std::uint64_t> own_given_{0};
-  std::atomic<bool> has_refused_{false};  // what has come last: whoever takes the place reads that again
   // Under the structure lock. The own value, and the last given one while that is not the value; both once an output may
   // give any, since there is no memory to be had then.
   std::shared_ptr<const void> own_;

@@ -22,7 +22,7 @@ class ElementState {
   using Inherit = FrameworkElement::Inherit;
   enum class Below { kIncluded, kLeftOut };
 
-  ElementState(const FrameworkElement& element, Inherit how, Below below);
+  ElementState(const FrameworkElement& element, Inherit how, Below below = Below::kIncluded);
 
   /// Before `made` is prepared: that may go by what it is annotated with.
   void GiveAnnotations(FrameworkElement& made) const;

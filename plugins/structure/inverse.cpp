@@ -145,13 +145,9 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
     if (!why_not) why_not = CannotBeMade(before);
     return {};
   }
-  return {ReplaceModule{before.path(),
-                        type,
-                        {},
-                        change.probation_cycles,
-                        std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,
-                                                             ElementState::Below::kIncluded),
-                        RecordsToComeBack(before, after, change)}};
+  auto state = std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement);
+  auto records = RecordsToComeBack(before, after, change);
+  return {ReplaceModule{before.path(), type, {}, change.probation_cycles, std::move(state), std::move(records)}};
 }
 
 UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses, std::optional<Error> why_not, FrameworkElement& root) {

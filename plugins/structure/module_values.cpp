@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -112,7 +113,7 @@ Result<void> CopySettings(const ParameterRecords& records, const std::vector<Set
     const ConfigurableElement target = each.is_of_part ? ConfigurableElement() : LikeIn(after, each, records);
     if (!target || !is_its_turn(*target.element) || Contains(named, target, after)) continue;
     // What stands for others alone is theirs.
-    if (dynamic_cast<const GroupParameter*>(target.element) != nullptr && LeavesOf(target, after).empty()) continue;
+    if (each.is_group && LeavesOf(target, after).empty()) continue;
     const Configurable::Values &own = each.set(),
                                &newest = each.present && each.present->is_fed() ? *each.present : own;
     // What an output has given goes over later, but to what cannot be set any more then.
@@ -123,8 +124,8 @@ Result<void> CopySettings(const ParameterRecords& records, const std::vector<Set
       return good ? target.configurable->Put({*good}) : good.error();
     };
     auto set = is_given ? put(newest, newest.given) : put(own, own.own.value);
-    // What has been set since and is refused is told when the module has come back.
-    const bool is_as_before = !set && !is_given && each.is_set_since;
+    // What has been set or given since and is refused is told when the module has come back.
+    const bool is_as_before = !set && each.present;
     if (is_as_before) set = each.values.own.is_set() ? put(each.values, each.values.own.value) : Result<void>();
     if (!set) return set.error().WithPath(target.element->path());
   }
@@ -146,22 +147,20 @@ Result<void> CopyOwn(const Configurable::Values& from, Configurable& to, bool is
 
 // Those of `module` that stand for themselves, each with what it is a counterpart of: of several, what stands for fewest.
 struct Counterpart {
-  FrameworkElement* element;
-  Configurable* parameter;
+  ConfigurableElement target;
   const ParameterRecord* record;
   std::size_t width;
 };
-std::vector<Counterpart> CounterpartsIn(const FrameworkElement& module, const ParameterRecords& records) {
-  std::vector<Counterpart> all;
+std::map<std::uint64_t, Counterpart> CounterpartsIn(const FrameworkElement& module, const ParameterRecords& records) {
+  std::map<std::uint64_t, Counterpart> all;
   for (const ParameterRecord& each : records) {
     const auto [found, via] = CounterpartIn(module, each, records);
     const bool is_first = via == &each || via->targets.front() == each.path;
     const auto targets = each.is_group || !is_first ? std::vector<ConfigurableElement>() : LeavesOf(found, module);
     for (const ConfigurableElement& target : targets) {
-      const auto known = std::ranges::find(all, target.configurable, &Counterpart::parameter);
-      if (known != all.end() && known->width <= targets.size()) continue;
-      if (known != all.end()) all.erase(known);
-      all.push_back({target.element, target.configurable, &each, targets.size()});
+      const Counterpart it{target, &each, targets.size()};
+      Counterpart& known = all.try_emplace(target.element->id(), it).first->second;
+      if (it.width < known.width) known = it;
     }
   }
   return all;
@@ -190,7 +189,7 @@ ParameterRecords RecordsOf(const FrameworkElement& before, const GivenParameters
       const bool is_alike =
           value && runnel::ToText(found.configurable->type(), value->get()) == found.configurable->OwnText();
       // Or it has been set to just that since an output has given something.
-      const bool is_later = each.present->given != nullptr && each.present->own.given > via->values.own.given;
+      const bool is_later = each.present->own.given > via->values.own.given;
       each.is_set_since = !each.is_named && each.present->own.is_set() && (!is_alike || is_later);
     }
     return records;
@@ -265,24 +264,28 @@ std::vector<Error> CopyValues(const FrameworkElement& before, const ParameterRec
   const bool is_way_back = change != nullptr && change->parameters != nullptr;
   const ParameterRecords records = RecordsOf(before, change != nullptr ? change->parameters : nullptr);
   std::vector<Error> refused;
-  for (const Counterpart& each : CounterpartsIn(after, records)) {
-    Configurable& target = *each.parameter;
-    if (target.info().is_static) continue;
+  for (const auto& [id, each] : CounterpartsIn(after, records)) {
+    Configurable& target = *each.target.configurable;
     const Configurable::Values &values = each.record->values, &set = each.record->set();
     const Configurable::Values& given = each.record->present ? *each.record->present : values;
+    if (target.info().is_static) {
+      const Configurable::Values& newest = given.is_fed() ? given : set;
+      const auto good = target.ConvertedFrom(newest, newest.is_fed() ? newest.given : newest.own.value);
+      if (is_way_back && !good) refused.push_back(good.error().WithPath(each.target.element->path()));
+      continue;
+    }
     auto taken = target.TakeGiven(values);
     if (auto again = target.TakeGiven(given); taken) taken = std::move(again);
     // What is set anyway needs it not.
     if (named.contains(&target) || !given.is_fed()) taken = {};
     const auto known = std::ranges::find(began, each.record->path, &ParameterRecord::path);
     const bool is_late = known == began.end() || known->values.own.settings != values.own.settings;
-    const bool has_given = values.number > 0;
     if (named.contains(&target)) {
-      if (has_given) (void)target.Put({target.own().value});
-    } else if (taken && (is_late || (change != nullptr && (is_way_back || has_given)))) {
+      (void)target.Put({target.own().value});
+    } else if (taken && (is_late || (change != nullptr && (is_way_back || values.number + values.refused > 0)))) {
       taken = Attempt([&] { return CopyOwn(set, target, is_way_back); });
     }
-    if (!taken) refused.push_back(taken.error().WithPath(each.element->path()));
+    if (!taken) refused.push_back(taken.error().WithPath(each.target.element->path()));
   }
   return refused;
 }

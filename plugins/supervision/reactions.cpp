@@ -151,7 +151,7 @@ void Supervisor::Shared::NotePassing(KnownRule& rule, Which which, ChangeSet bac
     const auto* const made = module ? (*module)->FindAnnotation<MadeByRule>() : nullptr;
     auto lacking = made != nullptr && made->now == replace->type ? made->lacking : MadeByRule::Lacking();
     for (const internal::ParameterRecord& one : *replace->parameters) {
-      if (one.is_of_part || !one.values.own.is_set()) continue;
+      if (one.is_of_part || !(one.values.own.is_set() || one.is_named)) continue;
       const std::string value = runnel::ToText(*one.values.type, one.values.own.value.get());
       const bool is_there = note(replace->path + "/" + one.name, value, PathKind::kParameter) != nullptr;
       const auto before = replace->state->noted().Find(one.path);

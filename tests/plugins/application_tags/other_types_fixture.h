@@ -65,6 +65,11 @@ struct Fixed final : Module {
   StaticParameter<double> gain{this, "gain", {.default_value = 1.0}};
   void Update() override {}
 };
+struct FixedHigh final : Module {
+  using Module::Module;
+  StaticParameter<double> gain{this, "gain", {.default_value = 1.0, .bounds = {0.5, 10.0}}};
+  void Update() override {}
+};
 /// Its gain stands for one that stands for one.
 struct Inner final : Group {
   using Group::Group;
@@ -104,6 +109,7 @@ class ValuesOfOtherTypes : public MadeAgain {
     workshop_.Add<LeftAndRight>("test/left_and_right");
     workshop_.Add<FrontAndRear>("test/front_and_rear");
     workshop_.Add<Fixed>("test/fixed");
+    workshop_.Add<FixedHigh>("test/fixed_high");
     workshop_.Add<Nested>("test/nested");
     workshop_.Add<Beside>("test/beside");
     High::throws = false;

@@ -197,5 +197,73 @@ TEST_F(ValuesOfOtherTypes, SetSinceAndRefusedAreToldAndThoseOfBeforeAreBack) {
   EXPECT_EQ(Run(), 3);
 }
 
+TEST_F(ValuesOfOtherTypes, ThatAPersonHasSetAreNewerThanWhatWasRefusedBefore) {
+  StartWith("high", "gain");
+  Say(0);
+  EXPECT_EQ(Run(), 1);
+  Swap("one");
+  EXPECT_EQ(Run(), 0) << "it takes what the other one has refused";
+  Say(2);
+  EXPECT_EQ(Run(), 2);
+  Set("3");
+  Undo();
+  EXPECT_EQ(Run(), 3);
+  ASSERT_TRUE(history_->Redo());
+  EXPECT_EQ(Run(), 3);
+  Swap("high", {}, 1000);
+  Set("4");
+  High::throws = true;
+  Run();
+  EXPECT_EQ(Run(), 4);
+}
+
+TEST_F(ValuesOfOtherTypes, ThatASwapSetsAreNewerThanTheOnlyOneThatWasRefused) {
+  StartWith("high", "gain");
+  Say(0);
+  EXPECT_EQ(Run(), 1);
+  Swap("one", {{"gain", "7"}});
+  EXPECT_EQ(Run(), 7);
+  Undo();
+  ASSERT_TRUE(history_->Redo());
+  EXPECT_EQ(Run(), 7);
+}
+
+TEST_F(ValuesOfOtherTypes, RefusedInBetweenAreReadAlsoWhereASettingWasTakenBack) {
+  StartWith("one", "gain");
+  Set("5");
+  Say(2);
+  EXPECT_EQ(Run(), 2);
+  Swap("high", {{"gain", "7"}});
+  ASSERT_TRUE(workshop_.runtime.robot_stop().Press("a test"));
+  EXPECT_EQ(Run(), 7);
+  ASSERT_TRUE(history_->Apply({SetParameter{"/demo/other/gain", "8"}}));
+  Undo();
+  Undo();
+  EXPECT_EQ(Run(), 0);
+}
+
+TEST_F(ValuesOfOtherTypes, RefusedWhereTheyCannotBeSetAnyMoreAreTold) {
+  StartWith("fixed_high");
+  for (const bool is_given : {false, true}) {
+    Swap("one");
+    if (is_given) Do({ConnectPorts{"/demo/source/value", "/demo/other/gain"}});
+    is_given ? Say(0) : Set("0");
+    EXPECT_EQ(Run(), 0);
+    if (is_given) Do({DisconnectPorts{"/demo/source/value", "/demo/other/gain"}});
+    EXPECT_THAT(Undo(), HasSubstr("its value is not taken over: 0 is out of bounds"));
+    EXPECT_EQ(Run(), 1);
+  }
+}
+
+TEST_F(ValuesOfOtherTypes, ThatAreTheDefaultsOfOthersCountAsSet) {
+  StartWith("one");
+  ASSERT_TRUE(history_->Apply({SetParameter{"/demo/other/gain", "3"}}));
+  Do({ReplaceModule{"/demo/other", "test/five"}});
+  Undo();
+  EXPECT_EQ(Run(), 1);
+  Do({RenameElement{"/demo/other", "another"}});
+  EXPECT_EQ(Run("/demo/another/parameter/gain"), 1);
+}
+
 }  // namespace
 }  // namespace runnel::testing
