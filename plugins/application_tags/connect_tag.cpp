@@ -147,9 +147,8 @@ XmlTag ConnectTag() {
                          "whether reading the input first has its sources make a value; "
                          "false by default, and not with a queue"),
                {.name = "convert",
-                .summary = "by which conversion values become those of the input: round, "
-                           "truncate, parse, or what a plugin has registered; needed only "
-                           "where something is lost, or several lead there"},
+                .summary = "by which conversion values become those of the input: round, truncate, parse, or what a "
+                           "plugin has registered; needed only where something is lost, or several lead there"},
                WordRule("when", {"present"},
                         "present: made as soon as both ends are there, and again after "
                         "one went; without, they must be there from the start"),

@@ -122,6 +122,8 @@ Result<void> ParameterBase::Put(const Own& own) {
   if (auto good = Check(own.value.get()); !good) return good.error().WithPath(path());
   // A cycle in which an output feeds the parameter may be about to do the same: that tries, and this waits.
   const std::lock_guard assigning(assigning_);
+  const bool is_unset = own.settings != 0 && !own.is_set();
+  const bool is_default = is_unset && runnel::ToText(type(), own.value.get()) == info().default_value;
   const std::uint64_t given = std::min(own.given, LastNumber());
   const bool was_fed = is_fed(), is_to_be_fed = given < given_.load(std::memory_order_relaxed);
   if (was_fed != is_to_be_fed || !was_fed) {
@@ -131,7 +133,6 @@ Result<void> ParameterBase::Put(const Own& own) {
   }
   if (own_) own_ = own.value;
   own_given_.store(given, std::memory_order_relaxed);
-  const bool is_default = own.settings != 0 && !own.is_set() && OwnText() == info().default_value;
   const bool is_of_this = own.settings >> Own::kSettingsBits == id();
   settings_ = is_of_this ? own.settings : is_default ? id() << Own::kSettingsBits : settings_ + 1;
   return {};

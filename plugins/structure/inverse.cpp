@@ -1,17 +1,14 @@
 #include "plugins/structure/inverse.h"
 
-#include <algorithm>
 #include <set>
 #include <utility>
 
 #include "core/element/element_path.h"
 #include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
-#include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"
 #include "core/port/port.h"
-#include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/element_state.h"
 #include "plugins/structure/module_values.h"

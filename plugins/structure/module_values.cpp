@@ -111,9 +111,8 @@ Result<void> CopySettings(const ParameterRecords& records, const std::vector<Set
   const Named named = NamedBy(settings, after);
   for (const ParameterRecord& each : records) {
     const ConfigurableElement target = each.is_of_part ? ConfigurableElement() : LikeIn(after, each, records);
-    if (!target || !is_its_turn(*target.element) || Contains(named, target, after)) continue;
     // What stands for others alone is theirs.
-    if (each.is_group && LeavesOf(target, after).empty()) continue;
+    if (LeavesOf(target, after).empty() || !is_its_turn(*target.element) || Contains(named, target, after)) continue;
     const Configurable::Values &own = each.set(),
                                &newest = each.present && each.present->is_fed() ? *each.present : own;
     // What an output has given goes over later, but to what cannot be set any more then.
@@ -182,15 +181,13 @@ ParameterRecords RecordsOf(const FrameworkElement& before, const GivenParameters
     ParameterRecords records = *again;
     for (ParameterRecord& each : records) {
       const auto [found, via] = CounterpartIn(before, each, *again);
-      if (!found) continue;
+      if (LeavesOf(found, before).empty()) continue;
       each.present = found.configurable->values();
       if (each.present->number <= via->values.number) each.present->number = 0;
-      const auto value = found.configurable->ConvertedFrom(via->values, via->values.own.value);
-      const bool is_alike =
-          value && runnel::ToText(found.configurable->type(), value->get()) == found.configurable->OwnText();
+      const bool is_as_left = each.left == found.configurable->OwnText();
       // Or it has been set to just that since an output has given something.
       const bool is_later = each.present->own.given > via->values.own.given;
-      each.is_set_since = !each.is_named && each.present->own.is_set() && (!is_alike || is_later);
+      each.is_set_since = !each.is_named && each.present->own.is_set() && (!is_as_left || is_later);
     }
     return records;
   }
@@ -232,7 +229,9 @@ GivenParameters RecordsToComeBack(const FrameworkElement& before, const Framewor
     if (each.is_named) AddTo(named, LikeIn(after, each, *change.parameters), after);
   }
   for (ParameterRecord& each : *records) {
-    each.is_named = Contains(named, CounterpartIn(after, each, *records).first, after);
+    const ConfigurableElement found = CounterpartIn(after, each, *records).first;
+    each.is_named = Contains(named, found, after);
+    if (found) each.left = found.configurable->OwnText();
   }
   return records;
 }
@@ -277,13 +276,14 @@ std::vector<Error> CopyValues(const FrameworkElement& before, const ParameterRec
     auto taken = target.TakeGiven(values);
     if (auto again = target.TakeGiven(given); taken) taken = std::move(again);
     // What is set anyway needs it not.
-    if (named.contains(&target) || !given.is_fed()) taken = {};
+    const bool is_needed = given.is_fed() || (is_way_back && !each.record->is_set_since);
+    if (named.contains(&target) || !is_needed) taken = {};
     const auto known = std::ranges::find(began, each.record->path, &ParameterRecord::path);
     const bool is_late = known == began.end() || known->values.own.settings != values.own.settings;
     if (named.contains(&target)) {
       (void)target.Put({target.own().value});
-    } else if (taken && (is_late || (change != nullptr && (is_way_back || values.number + values.refused > 0)))) {
-      taken = Attempt([&] { return CopyOwn(set, target, is_way_back); });
+    } else if (is_late || (change != nullptr && (is_way_back || values.number + values.refused > 0))) {
+      if (auto own = Attempt([&] { return CopyOwn(set, target, is_way_back); }); taken) taken = std::move(own);
     }
     if (!taken) refused.push_back(taken.error().WithPath(each.target.element->path()));
   }

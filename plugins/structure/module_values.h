@@ -25,6 +25,7 @@ struct ParameterRecord {
   std::vector<std::string> targets;  ///< of a group, paths of what it stands for in the end
   Configurable::Values values;
   bool is_named = false;  ///< it has been set by the change that is taken back
+  std::string left = {};  ///< what that has left as set at the module in its place
   /// Where this comes back: that of the module in its place, in which only what has been given since counts, and whether
   /// what has been set there does, since it has been set since.
   std::optional<Configurable::Values> present = {};

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/base/retry.h"
-#include "core/element/attempt.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"
 #include "plugins/structure/module_values.h"

@@ -107,5 +107,19 @@ TEST_F(ValuesOfComposites, OfWhatIsBesideTheCompositeAreLeftAlone) {
   EXPECT_EQ(Run("/demo/third/parameter/gain"), 0);
 }
 
+TEST_F(ValuesOfComposites, OfWhatIsBesideAreNotSetByAChangeThatFails) {
+  Start(R"(<module name="third" type="test/one" thread="control"/><module name="other" type="test/one"/>
+    <module name="stubborn" type="test/stubborn" thread="control"/>)");
+  Set("5");
+  Do({SetParameter{"/demo/third/gain", "8"}});
+  EXPECT_FALSE(
+      changes_->Apply({ReplaceModule{"/demo/other", "test/beside"}, ReplaceModule{"/demo/stubborn", "test/stubborn"}}));
+  EXPECT_EQ(Run("/demo/third/parameter/gain"), 8);
+  Swap("beside");
+  Undo();
+  EXPECT_EQ(Run(), 5);
+  EXPECT_EQ(Run("/demo/third/parameter/gain"), 8);
+}
+
 }  // namespace
 }  // namespace runnel::testing

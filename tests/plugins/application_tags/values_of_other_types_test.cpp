@@ -265,5 +265,31 @@ TEST_F(ValuesOfOtherTypes, ThatAreTheDefaultsOfOthersCountAsSet) {
   EXPECT_EQ(Run("/demo/another/parameter/gain"), 1);
 }
 
+TEST_F(ValuesOfOtherTypes, OfAPersonAreThereThoughThatOfAnOutputIsRefused) {
+  StartWith("high", "gain");
+  Set("10");
+  Say(2);
+  EXPECT_EQ(Run(), 2);
+  Swap("new", {}, 1000);
+  Set("3");
+  EXPECT_EQ(Run(), 3);
+  ASSERT_TRUE(workshop_.runtime.robot_stop().Press("a test"));
+  EXPECT_EQ(Run(), 0);
+  NewName::throws = true;
+  Run();
+  EXPECT_EQ(Run(), 3);
+}
+
+TEST_F(ValuesOfOtherTypes, RefusedByAnUndoAreThereAgainByARedo) {
+  StartWith("high");
+  Set("4");
+  Swap("one");
+  Set("0");
+  EXPECT_THAT(Undo(), HasSubstr("0 is out of bounds"));
+  EXPECT_EQ(Run(), 4);
+  ASSERT_TRUE(history_->Redo());
+  EXPECT_EQ(Run(), 0);
+}
+
 }  // namespace
 }  // namespace runnel::testing
