@@ -229,11 +229,16 @@ GivenParameters RecordsToComeBack(const FrameworkElement& before, const Framewor
     if (each.is_named) AddTo(named, LikeIn(after, each, *change.parameters), after);
   }
   for (ParameterRecord& each : *records) {
-    const ConfigurableElement found = CounterpartIn(after, each, *records).first;
-    each.is_named = Contains(named, found, after);
-    if (found) each.left = found.configurable->OwnText();
+    each.is_named = Contains(named, CounterpartIn(after, each, *records).first, after);
   }
   return records;
+}
+
+void NoteLeft(const GivenParameters& records, const FrameworkElement& after) {
+  for (ParameterRecord& each : *std::const_pointer_cast<ParameterRecords>(records)) {
+    const ConfigurableElement found = CounterpartIn(after, each, *records).first;
+    if (found && found.configurable->own().is_set()) each.left = found.configurable->OwnText();
+  }
 }
 
 Result<void> ConfigureNew(FrameworkElement& made, const ParameterRecords& records,
@@ -283,7 +288,10 @@ std::vector<Error> CopyValues(const FrameworkElement& before, const ParameterRec
     if (named.contains(&target)) {
       (void)target.Put({target.own().value});
     } else if (is_late || (change != nullptr && (is_way_back || values.number + values.refused > 0))) {
-      if (auto own = Attempt([&] { return CopyOwn(set, target, is_way_back); }); taken) taken = std::move(own);
+      auto own = Attempt([&] { return CopyOwn(set, target, is_way_back); });
+      // What had been set before is there, with its number.
+      if (!own && each.record->is_set_since) (void)Attempt([&] { return CopyOwn(values, target, true); });
+      if (taken) taken = std::move(own);
     }
     if (!taken) refused.push_back(taken.error().WithPath(each.target.element->path()));
   }

@@ -24,8 +24,8 @@ struct ParameterRecord {
   bool is_group = false;
   std::vector<std::string> targets;  ///< of a group, paths of what it stands for in the end
   Configurable::Values values;
-  bool is_named = false;  ///< it has been set by the change that is taken back
-  std::string left = {};  ///< what that has left as set at the module in its place
+  bool is_named = false;                 ///< it has been set by the change that is taken back
+  std::optional<std::string> left = {};  ///< what that has left as set at the module in its place (NoteLeft())
   /// Where this comes back: that of the module in its place, in which only what has been given since counts, and whether
   /// what has been set there does, since it has been set since.
   std::optional<Configurable::Values> present = {};
@@ -44,6 +44,9 @@ using ParameterRecords = std::vector<ParameterRecord>;
 /// What is to come back where `change`, which has put `after` in the place of `before`, is taken back.
 [[nodiscard]] GivenParameters RecordsToComeBack(const FrameworkElement& before, const FrameworkElement& after,
                                                 const ReplaceModule& change);
+
+/// Right after that change has given `after` its values.
+void NoteLeft(const GivenParameters& records, const FrameworkElement& after);
 
 /// Sets the parameters of a module that has just been made: as the records have been, as far as it has parameters like these,
 /// then to `settings`; and has it make the ports that follow from them. What stands for parameters within (GroupParameter)

@@ -177,6 +177,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
     const FrameworkElement* place = nullptr;  // of `before`
     std::size_t moved = 0;                    // of the ports
     bool is_noted = false;
+    GivenParameters records;  // that take it back, if anything will
   };
   Concern(before);
   going_.push_back(before.path());
@@ -191,6 +192,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                         each.message = "its value is not taken over: " + each.message;
                         refused_.push_back(std::move(each));
                       }
+                      if (done->records != nullptr) NoteLeft(done->records, next);
                       InheritAnnotations(next, before, ports);
                       if (change.state) {
                         if (auto given = change.state->GivePorts(next, ports); !given) return given;
@@ -236,7 +238,11 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       }
                       Must(runtime_.List(std::move(done->before), done->place));
                     },
-                    [&before, &next, change](auto& why_not) { return ReplaceBack(before, next, change, why_not); }});
+                    [=, &before, &next](auto& why_not) {
+                      ChangeSet back = ReplaceBack(before, next, change, why_not);
+                      if (!back.empty()) done->records = std::get<ReplaceModule>(back.front()).parameters;
+                      return back;
+                    }});
 }
 
 }  // namespace runnel::internal

@@ -121,5 +121,19 @@ TEST_F(ValuesOfComposites, OfWhatIsBesideAreNotSetByAChangeThatFails) {
   EXPECT_EQ(Run("/demo/third/parameter/gain"), 8);
 }
 
+TEST_F(ValuesOfComposites, OfPartsAreThereAgainByUndosAndRedos) {
+  StartWith("left_and_right");
+  Do({SetParameter{"/demo/other/right/gain", "3"}});
+  Swap("left_and_right");
+  const double swapped = Run("/demo/other/right/parameter/gain");
+  Undo();
+  EXPECT_EQ(Run("/demo/other/right/parameter/gain"), 3);
+  ASSERT_TRUE(history_->Redo());
+  EXPECT_EQ(Run("/demo/other/right/parameter/gain"), swapped);
+  Do({SetParameter{"/demo/other/right/gain", "1"}});
+  Undo();
+  EXPECT_EQ(Run("/demo/other/right/parameter/gain"), 1);
+}
+
 }  // namespace
 }  // namespace runnel::testing

@@ -291,5 +291,24 @@ TEST_F(ValuesOfOtherTypes, RefusedByAnUndoAreThereAgainByARedo) {
   EXPECT_EQ(Run(), 0);
 }
 
+TEST_F(ValuesOfOtherTypes, RefusedByAnUndoLetThoseOfBeforeCountWithTheirNumbers) {
+  StartWith("high", "gain");
+  Say(2);
+  EXPECT_EQ(Run(), 2);
+  Set("5");
+  Swap("one");
+  Set("20");
+  EXPECT_THAT(Undo(), HasSubstr("20 is out of bounds"));
+  EXPECT_EQ(Run(), 5);
+}
+
+TEST_F(ValuesOfOtherTypes, SetToTheDefaultInBetweenAreSet) {
+  StartWith("one");
+  Swap("five");
+  Set("5");
+  Undo();
+  EXPECT_EQ(Run(), 5);
+}
+
 }  // namespace
 }  // namespace runnel::testing
