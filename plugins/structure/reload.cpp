@@ -1,6 +1,5 @@
 #include "plugins/structure/reload.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <mutex>
 #include <optional>
