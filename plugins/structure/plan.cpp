@@ -83,7 +83,9 @@ Result<void> Plan::Apply(UndoRecord* back, std::size_t& begun) {
     ++begun;
     if (auto applied = step.apply(); !applied) return applied;
   }
-  for (Replaced& each : replaced_) each.began = RecordsOf(*each.after);
+  for (Replaced& each : replaced_) {
+    if (each.probation_cycles > 0) each.began = RecordsOf(*each.after);
+  }
   if (back != nullptr) *back = UndoRecordOf(inverses, std::move(why_not), runtime_.root());
   return {};
 }
