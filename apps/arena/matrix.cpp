@@ -1,7 +1,6 @@
 #include "apps/arena/matrix.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 
 #include <fmt/format.h>

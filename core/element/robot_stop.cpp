@@ -1,7 +1,6 @@
 #include "core/element/robot_stop.h"
 
 #include <new>
-#include <utility>
 
 #include "core/element/runtime.h"
 

@@ -1,7 +1,6 @@
 #include "core/module/group_parameter.h"
 
 #include <mutex>
-#include <utility>
 
 #include "core/element/runtime.h"
 #include "core/types/text_format.h"

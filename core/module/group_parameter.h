@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/element/configurable.h"
@@ -30,6 +31,8 @@ class GroupParameter final : public FrameworkElement, public Configurable {
   /// One more. Under the structure lock.
   void Add(std::string target);
   [[nodiscard]] const std::vector<std::string>& targets() const noexcept { return targets_; }
+  /// The same parameters by their paths of now: some have got other names. Under the structure lock.
+  void SetPaths(std::vector<std::string> targets) noexcept { targets_ = std::move(targets); }
   /// Those that are there now.
   [[nodiscard]] std::vector<ConfigurableElement> Find() const;
 

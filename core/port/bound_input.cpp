@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/element/runtime.h"
-#include "core/lockfree/thread_epoch.h"
 #include "core/port/stand_in.h"
 #include "core/port/stop_link.h"
 

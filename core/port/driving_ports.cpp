@@ -1,10 +1,7 @@
 #include "core/port/driving_ports.h"
 
 #include <chrono>
-#include <utility>
-#include <vector>
 
-#include "core/element/annotation.h"
 #include "core/element/try_structure_lock.h"
 #include "core/port/parameter_input.h"
 

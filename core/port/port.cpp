@@ -1,7 +1,6 @@
 #include "core/port/port.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <thread>
@@ -10,7 +9,6 @@
 #include "core/base/retry.h"
 #include "core/channel/channel_base.h"
 #include "core/conversion/conversion.h"
-#include "core/element/runtime.h"
 #include "core/port/connection_rules.h"
 #include "core/port/converted_flow.h"
 #include "core/port/port_extras.h"

@@ -2,10 +2,8 @@
 
 #include "core/port/port_stop.h"
 
-#include <algorithm>
 #include <chrono>
 #include <mutex>
-#include <utility>
 
 #include "core/base/retry.h"
 #include "core/conversion/number_conversion.h"

@@ -1,10 +1,8 @@
 #include "plugins/command_service/command_service.h"
 
 #include <algorithm>
-#include <mutex>
 #include <new>
 #include <type_traits>
-#include <utility>
 #include <variant>
 
 #include "core/element/try_structure_lock.h"

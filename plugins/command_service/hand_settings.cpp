@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <utility>
 
 #include "core/element/attempt.h"
 #include "core/paths/path_search.h"

@@ -1,6 +1,5 @@
 #include "plugins/genom_description/component.h"
 
-#include <algorithm>
 #include <array>
 
 namespace runnel::genom {

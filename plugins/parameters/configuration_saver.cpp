@@ -1,10 +1,8 @@
 #include "plugins/parameters/configuration_saver.h"
 
 #include <algorithm>
-#include <memory>
 #include <mutex>
 #include <optional>
-#include <utility>
 
 #include "core/base/characters.h"
 #include "core/base/replace_file.h"

@@ -5,8 +5,6 @@
 #include <fstream>
 #include <iterator>
 #include <set>
-#include <string>
-#include <string_view>
 
 #include <fmt/ranges.h>
 #include <openssl/sha.h>

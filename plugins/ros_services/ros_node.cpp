@@ -12,7 +12,6 @@
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/network_discovery/discovery_table.h"
 #include "plugins/network_discovery/value_form.h"
-#include "plugins/ros_services/ros_time.h"
 
 namespace runnel {
 

@@ -1,7 +1,6 @@
 #include "plugins/scheduling/cycle_watchdog.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "core/element/element_path.h"

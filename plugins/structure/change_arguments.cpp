@@ -1,7 +1,5 @@
 #include "plugins/structure/change_arguments.h"
 
-#include <algorithm>
-
 #include "core/base/characters.h"
 #include "core/base/result.h"
 

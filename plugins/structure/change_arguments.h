@@ -49,7 +49,7 @@ class Arguments {
   }
   [[nodiscard]] const std::string& verb() const { return line_.front().text; }
   [[nodiscard]] bool IsAtEnd() const { return at_ == line_.size(); }
-  [[nodiscard]] bool IsNext(std::string_view text) const { return at_ < line_.size() && line_[at_].text == text; }
+  bool TakeIf(std::string_view text) { return at_ < line_.size() && line_[at_].text == text && ++at_ > 0; }
   void Expect(const std::string& text) {
     const ChangeArgument* argument = at_ < line_.size() ? &line_[at_] : nullptr;
     const std::string found = Take(("'" + text + "'").c_str());

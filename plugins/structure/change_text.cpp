@@ -65,18 +65,15 @@ std::vector<Setting> TakeSettings(Arguments& arguments) {
 }
 
 Change ReadCreate(Arguments& arguments) {
-  if (arguments.IsNext("group")) {
-    arguments.Take("group");
+  if (arguments.TakeIf("group")) {
     return CreateGroup{arguments.Take("a path")};
   }
-  if (arguments.IsNext("thread")) {
-    arguments.Take("thread");
+  if (arguments.TakeIf("thread")) {
     AddThread change{.name = arguments.Take("a name")};
     ReadThreadOptions(arguments, change.options);
     return change;
   }
-  if (arguments.IsNext("port")) {
-    arguments.Take("port");
+  if (arguments.TakeIf("port")) {
     CreatePort change{.path = arguments.Take("a path"), .type = {}};
     change.direction = arguments.TakeOneOf("'input' or 'output'", kDirections) == 0 ? Port::Direction::kInput
                                                                                     : Port::Direction::kOutput;
@@ -84,8 +81,7 @@ Change ReadCreate(Arguments& arguments) {
     change.description = TakeDescription(arguments);
     return change;
   }
-  if (arguments.IsNext("parameter")) {
-    arguments.Take("parameter");
+  if (arguments.TakeIf("parameter")) {
     CreateParameter change{arguments.Take("a path"), {}};
     change.targets = arguments.TakeWords("a parameter that it stands for");
     change.description = TakeDescription(arguments);

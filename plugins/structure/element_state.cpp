@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"

@@ -13,7 +13,6 @@
 #include "plugins/structure/element_state.h"
 #include "plugins/structure/module_values.h"
 #include "plugins/structure/plan.h"
-#include "plugins/structure/replacement.h"
 
 namespace runnel::internal {
 

@@ -1,8 +1,6 @@
 #include "plugins/structure/plan.h"
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
@@ -10,8 +8,6 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/late_connections.h"
 #include "plugins/structure/element_state.h"
-#include "plugins/structure/module_values.h"
-#include "plugins/structure/replacement.h"
 
 namespace runnel::internal {
 
@@ -53,6 +49,13 @@ void Plan::Make(const ChangeSet& changes, const std::vector<SourcePosition>& pla
   }
   for (Error& each : warnings_) diagnostics.AddWarning(std::move(each));
   if (diagnostics.ok()) WarnOfMissingSources(diagnostics);
+}
+
+Result<void> Plan::CheckEach(const ChangeSet& changes) {
+  for (const Change& each : changes) {
+    if (auto good = std::visit([this](const auto& change) { return Check(change); }, each); !good) return good;
+  }
+  return {};
 }
 
 Plan::~Plan() {

@@ -140,6 +140,7 @@ class Plan {
     std::function<ChangeSet(std::optional<Error>& why_not)> inverse = [](auto&) { return ChangeSet(); };
   };
 
+  Result<void> CheckEach(const ChangeSet& changes);
   Result<void> Check(const CreateModule& change);
   Result<void> Check(const CreateGroup& change);
   Result<void> Check(const CreatePort& change);
@@ -171,9 +172,8 @@ class Plan {
   Result<void> MoveGroup(const Placement& place, FrameworkElement& group);
   Result<void> MovePort(const Placement& place, Port& port);
   // What else names it by its path.
-  Result<void> MoveTargets(const FrameworkElement& renamed, const std::string& path);
+  void MoveTargets(const FrameworkElement& renamed, const std::string& name);
   void MoveExtensions(const FrameworkElement& renamed, const std::string& name);
-  void AddExchange(FrameworkElement& before, UnlistedElement after);
   Result<void> CheckAll(const GroupParameter& group, const SetParameter& change);
   Result<void> CheckStatic(const FrameworkElement& element, const Configurable& parameter, const void* value);
   Result<void> Cut(const std::vector<std::pair<Port*, Port*>>& misfits, const FrameworkElement& module);

@@ -19,7 +19,6 @@
 #include "core/port/proxy_port.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
-#include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/element_state.h"
 #include "plugins/structure/module_values.h"
 #include "plugins/structure/plan.h"
@@ -39,6 +38,12 @@ Result<std::shared_ptr<const void>> ValueIn(const SetParameter& change, const Co
   }
   if (auto good = parameter.Check(change.object.get()); !good) return good.error();
   return change.object;
+}
+
+Result<void> CheckDescription(const auto& change) {
+  const std::string fault = UnwritableCharacter(change.description);
+  if (fault.empty()) return {};
+  return Error{.message = "the description contains " + fault, .path = change.path};
 }
 
 }  // namespace
@@ -71,9 +76,7 @@ Result<void> Plan::Check(const CreatePort& change) {
                  .path = change.path,
                  .hint = NearestNameHint(change.type, NamesOf(RegisteredTypes(), &TypeInfo::name))};
   }
-  if (const std::string fault = UnwritableCharacter(change.description); !fault.empty()) {
-    return Error{.message = "the description contains " + fault, .path = change.path};
-  }
+  if (auto good = CheckDescription(change); !good) return good;
   UnlistedElement made(std::make_unique<ProxyPort>(*place, change.direction, *type, change.description));
   return AddNew(std::move(made), change.state);
 }
@@ -94,9 +97,7 @@ Result<void> Plan::Check(const CreateParameter& change) {
     target = FindOwner(**found)->path() + "/" + (*found)->name();
     if (target.starts_with(around)) target.erase(0, around.size());
   }
-  if (const std::string fault = UnwritableCharacter(change.description); !fault.empty()) {
-    return Error{.message = "the description contains " + fault, .path = change.path};
-  }
+  if (auto good = CheckDescription(change); !good) return good;
   UnlistedElement made(std::make_unique<GroupParameter>(*place, std::move(targets), change.description));
   return AddNew(std::move(made), change.state);
 }

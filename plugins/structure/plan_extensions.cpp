@@ -68,10 +68,7 @@ Result<void> Plan::Check(const ExtensionChange& change) {
   auto step =
       found->second(change, [this](const std::string& path, PathKind kind) { return overlay_.FindPort(path, kind); });
   if (!step) return step.error();
-  for (const runnel::Change& each : step->changes) {
-    const auto checked = std::visit([this](const auto& one) { return Check(one); }, each);
-    if (!checked) return checked;
-  }
+  if (auto checked = CheckEach(step->changes); !checked) return checked;
   if (!step->apply) return {};
   steps_.push_back({step->apply, step->undo, [inverse = step->inverse](auto&) { return inverse(); }});
   return {};

@@ -76,11 +76,7 @@ Result<void> Plan::Check(const CopyElement& change) {
     if (!IsOffered(port)) return;
     warnings_.push_back({.message = "is not offered, as " + port.path() + " is", .path = Sibling(element, name)});
   });
-  for (const Change& each : changes) {
-    const auto check = [this](const auto& one) { return Check(one); };
-    if (auto possible = std::visit(check, each); !possible) return possible;
-  }
-  return {};
+  return CheckEach(changes);
 }
 
 Result<void> Plan::Check(const RenameElement& change) {
@@ -104,8 +100,9 @@ Result<void> Plan::Check(const RenameElement& change) {
   for (const LateConnection& each : late) {
     if (auto cut = Check(DisconnectPorts{each.from, each.to}); !cut) return cut;
   }
-  if (auto targets = MoveTargets(element, change.name); !targets) return targets;
+  MoveExtensions(element, change.name);
   if (auto moved = MoveTo(*place, element); !moved) return moved;
+  MoveTargets(element, change.name);
   for (const LateConnection& each : late) {
     ConnectPorts tie{each.from, each.to, each.options};
     MovePath(tie.from, before, after);
@@ -135,9 +132,15 @@ Result<void> Plan::MoveTo(const Placement& place, FrameworkElement& element) {
   }
   if (auto* const port = dynamic_cast<Port*>(&element)) return MovePort(place, *port);
   if (const auto* const parameter = dynamic_cast<const GroupParameter*>(&element)) {
-    UnlistedElement made(std::make_unique<GroupParameter>(place, parameter->targets(), parameter->info().description));
+    auto made = std::make_unique<GroupParameter>(place, parameter->targets(), parameter->info().description);
     made->InheritAnnotations(element);
-    return AddNew(std::move(made));
+    // What this change set has renamed before has its name by then.
+    steps_.push_back({[to = made.get(), parameter]() -> Result<void> {
+                        to->SetPaths(parameter->targets());
+                        return {};
+                      },
+                      [] {}});
+    return AddNew(UnlistedElement(std::move(made)));
   }
   if (element.kind() == ElementKind::kGroup) return MoveGroup(place, element);
   return Error{.message = "cannot be moved with its group", .path = element.path()};
@@ -150,7 +153,7 @@ Result<void> Plan::MoveGroup(const Placement& place, FrameworkElement& group) {
   FrameworkElement& after = **work->element;
   KeepPlace(after, group);
   AddCreation(work->element, &place.parent == group.parent() ? &group : nullptr);
-  for (FrameworkElement* child : std::vector(group.children())) {
+  for (FrameworkElement* child : overlay_.Children(group)) {
     if (auto moved = MoveTo({after, child->name(), false}, *child); !moved) return moved;
   }
   going_.push_back(group.path());
@@ -184,59 +187,23 @@ Result<void> Plan::MovePort(const Placement& place, Port& port) {
   return {};
 }
 
-// Parameters of groups around it, which stand for some within.
-Result<void> Plan::MoveTargets(const FrameworkElement& renamed, const std::string& name) {
-  std::vector<GroupParameter*> all;
-  runtime_.root().VisitAll<GroupParameter>([&](GroupParameter& each) {
-    // Those within go with it, and look no further.
-    if (!each.IsAtOrBelow(renamed)) all.push_back(&each);
-  });
-  for (GroupParameter* before : all) {
-    std::vector<std::string> targets;
-    for (const std::string& each : before->targets()) {
-      targets.push_back(RenamedPath(each, before->parent()->path(), {{renamed.path(), name}}));
-    }
-    if (targets == before->targets()) continue;
-    UnlistedElement made(std::make_unique<GroupParameter>(Placement{*before->parent(), before->name(), false}, targets,
-                                                          before->info().description));
-    made->InheritAnnotations(*before);
-    if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
-    AddExchange(*before, std::move(made));
-  }
-  MoveExtensions(renamed, name);
-  return {};
-}
-
-// One takes the other's place, under the same name.
-void Plan::AddExchange(FrameworkElement& before, UnlistedElement after) {
-  struct Done {
-    UnlistedElement after;
-    UnlistedElement before;
-    const FrameworkElement* place = nullptr;
-    bool is_removed = false;
+// Parameters of groups that stand for some within it, those that have come with it, too.
+void Plan::MoveTargets(const FrameworkElement& renamed, const std::string& name) {
+  const auto move = [&](GroupParameter& each) {
+    auto before = std::make_shared<std::vector<std::string>>();
+    steps_.push_back({[=, &each, names = NewNames{{renamed.path(), name}}]() -> Result<void> {
+                        std::vector<std::string> paths = each.targets();
+                        for (std::string& path : paths) path = RenamedPath(path, each.parent()->path(), names);
+                        *before = each.targets();
+                        each.SetPaths(std::move(paths));
+                        return {};
+                      },
+                      [=, &each] {
+                        if (!before->empty()) each.SetPaths(*before);
+                      }});
   };
-  FrameworkElement& next = *after;
-  overlay_.Remove(before);
-  overlay_.Add(next);
-  auto done = std::make_shared<Done>();
-  done->after = std::move(after);
-  steps_.push_back({[=, this, &before]() -> Result<void> {
-                      removed_.reserve(removed_.size() + 1);
-                      done->place = NextSibling(before);
-                      auto taken = runtime_.Unlist(before);
-                      if (!taken) return taken.error();
-                      removed_.push_back(std::move(*taken));
-                      done->is_removed = true;
-                      auto listed = runtime_.List(std::move(done->after), done->place);
-                      return listed ? Result<void>() : listed.error();
-                    },
-                    [=, this, &next] {
-                      if (!done->is_removed) return;
-                      if (!done->after) done->after = runtime_.Unlist(next).value();
-                      Must(runtime_.List(std::move(removed_.back()), done->place));
-                      removed_.pop_back();
-                      done->is_removed = false;
-                    }});
+  runtime_.root().VisitAll<GroupParameter>(move);
+  for (FrameworkElement* made : made_) made->VisitAll<GroupParameter>(move);
 }
 
 }  // namespace runnel::internal

@@ -51,9 +51,10 @@ class StructureOverlay final : public PathSearch {
   /// Likewise. Who only probes the port does not count: a recorder can do without.
   [[nodiscard]] bool IsConnected(const Port& port, const FrameworkElement* module) const;
 
+  [[nodiscard]] std::vector<FrameworkElement*> Children(const FrameworkElement& parent) const override;
+
  private:
   [[nodiscard]] FrameworkElement* Child(const FrameworkElement& parent, std::string_view name) const override;
-  [[nodiscard]] std::vector<FrameworkElement*> Children(const FrameworkElement& parent) const override;
   [[nodiscard]] bool IsGone(const FrameworkElement& element) const;
   [[nodiscard]] std::vector<Connection> Targets(Port& from) const;
   [[nodiscard]] Port& NowFor(Port& port) const;

@@ -1,7 +1,6 @@
 #include "plugins/supervision/watches.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/base/clock.h"
 #include "core/element/configurable.h"

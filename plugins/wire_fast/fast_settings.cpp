@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <memory>
 #include <utility>
 
 #include <fastdds/rtps/network/SenderResource.h>

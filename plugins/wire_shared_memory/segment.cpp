@@ -3,7 +3,6 @@
 #include <bit>
 #include <cstring>
 #include <new>
-#include <utility>
 
 #include <sys/mman.h>
 #include <sys/random.h>

@@ -1,7 +1,5 @@
 #include "modules/worlds/algorithm/world_generator.h"
 
-#include <array>
-
 #include <fmt/format.h>
 
 #include "modules/worlds/algorithm/internal/generated_worlds.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 #include "core/element/source_place.h"
 #include "core/paths/distant_ports.h"

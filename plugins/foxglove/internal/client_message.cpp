@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
-#include "plugins/values/json_reader.h"
 
 namespace runnel::internal {
 

@@ -5,12 +5,10 @@
 
 #include "core/lockfree/thread_epoch.h"
 #include "core/plugin/module_type_name.h"
-#include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/foxglove/internal/robot_stop_access.h"
 #include "plugins/services/callable.h"
 #include "plugins/structure/value_by_hand.h"
-#include "plugins/values/foxglove_channel.h"
 
 namespace runnel::internal {
 

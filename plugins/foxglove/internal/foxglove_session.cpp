@@ -1,9 +1,7 @@
 #include "plugins/foxglove/internal/foxglove_session.h"
 
 #include <algorithm>
-#include <utility>
 #include <variant>
-#include <vector>
 
 #include "core/base/nearest_name.h"
 #include "plugins/command_service/request_table.h"

@@ -1,7 +1,6 @@
 #include "plugins/web_server/internal/connection_registry.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/base/retry.h"
 

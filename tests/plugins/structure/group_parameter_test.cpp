@@ -1,5 +1,9 @@
 #include "core/module/group_parameter.h"
 
+#include <memory>
+#include <stdexcept>
+
+#include "core/module/hand_over.h"
 #include "plugins/structure/change_history.h"
 #include "tests/plugins/structure/editor_fixture.h"
 
@@ -47,6 +51,31 @@ TEST_F(GroupParameterTest, StandsForWhatIsNamedWithoutTheApplication) {
   Must({SetParameter{"/app/both", "6"}, SetParameter{"/app/pair/other", "7"}, SetParameter{"/app/both", "6"}});
   EXPECT_EQ(At<Counter>("/app/pair/left").step.Get(), 6);
   EXPECT_EQ(At<Counter>("/app/pair/right").step.Get(), 7);
+  Must({SetParameter{"/app/pair/inner/outer", "8"}});
+  EXPECT_EQ(At<Counter>("/app/pair/right").step.Get(), 8) << "what stands for something outside of its group, too";
+}
+
+TEST_F(GroupParameterTest, FollowsEachOfSeveralNamesOfOneChangeSet) {
+  Must({CreateParameter{"/app/both", {"/group/left/step"}}});
+  const auto id = At<GroupParameter>("/app/both").id();
+  ASSERT_TRUE(history_.Apply({RenameElement{"/app/group", "pair"}, RenameElement{"/app/pair/left", "front"},
+                              RenameElement{"/app/pair/right", "back"}}));
+  EXPECT_THAT(At<GroupParameter>("/app/both").targets(), ElementsAre("pair/front/step"));
+  EXPECT_THAT(At<GroupParameter>("/app/pair/step").targets(), ElementsAre("front/step", "back/step"));
+  EXPECT_EQ(At<GroupParameter>("/app/both").id(), id);
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_THAT(At<GroupParameter>("/app/both").targets(), ElementsAre("group/left/step"));
+  EXPECT_THAT(At<GroupParameter>("/app/group/step").targets(), ElementsAre("left/step", "right/step"));
+  Must({SetParameter{"/app/both", "6"}});
+  EXPECT_EQ(Step("left"), 6);
+}
+
+TEST_F(GroupParameterTest, HasItsPathsAgainWhereALaterRenameFails) {
+  At<Counter>("/app/group/right").Annotate(std::make_unique<BeforeHandOver>([]() -> BeforeHandOver::Held {
+    throw std::runtime_error("what is under way does not end");
+  }));
+  EXPECT_FALSE(history_.Apply({RenameElement{"/app/group/left", "front"}, RenameElement{"/app/group/right", "back"}}));
+  EXPECT_THAT(At<GroupParameter>("/app/group/step").targets(), ElementsAre("left/step", "right/step"));
 }
 
 TEST_F(GroupParameterTest, AllOrNothing) {

@@ -99,6 +99,23 @@ TEST_F(RenamingTest, ParametersOfGroupsAndConnectionsThatWaitFollow) {
   EXPECT_THAT(At<GroupParameter>("/app/step").targets(), ElementsAre("g/a/step"));
 }
 
+TEST_F(RenamingTest, AGroupTakesAlongWhatItsChangeSetHasMadeAndRenamed) {
+  Steps(3);
+  MustDo({CreateModule{"/app/g/more", "test/counter"}, RenameElement{"/app/g/a", "first"},
+          RenameElement{"/app/g", "front"}, RenameElement{"/app/front", "last"}});
+  EXPECT_THAT(NamesIn("/app"), ElementsAre("last", "b", "step"));
+  EXPECT_THAT(NamesIn("/app/last"), testing::UnorderedElementsAre("first", "inner", "out", "more"));
+  EXPECT_EQ(CountOf("/app/last/first"), 6);
+  EXPECT_THAT(At<GroupParameter>("/app/step").targets(), ElementsAre("last/first/step"));
+  Steps(2);
+  EXPECT_THAT(At<Sink>("/app/b").taken, ElementsAre(2, 4, 6, 8, 10));
+  MustBe(history.Undo());
+  EXPECT_THAT(NamesIn("/app/g"), testing::UnorderedElementsAre("a", "inner", "out"));
+  EXPECT_EQ(CountOf("/app/g/a"), 10);
+  MustBe(history.Redo());
+  EXPECT_EQ(CountOf("/app/last/first"), 10);
+}
+
 TEST_F(RenamingTest, SaysWhatCannotBeRenamed) {
   EXPECT_THAT(Refusal({RenameElement{"/app", "other"}}), HasSubstr("is the whole application"));
   EXPECT_THAT(Refusal({RenameElement{"/app/g/a/out", "o"}}), HasSubstr("neither a module nor a group"));
