@@ -288,7 +288,8 @@ std::vector<Error> CopyValues(const FrameworkElement& before, const ParameterRec
     if (named.contains(&target)) {
       (void)target.Put({target.own().value});
     } else if (is_late || (change != nullptr && (is_way_back || values.number + values.refused > 0))) {
-      auto own = Attempt([&] { return CopyOwn(set, target, is_way_back); });
+      const bool was_set = known != began.end() && known->values.own.is_set();
+      auto own = Attempt([&] { return CopyOwn(set, target, is_way_back || was_set); });
       // What had been set before is there, with its number.
       if (!own && each.record->is_set_since) (void)Attempt([&] { return CopyOwn(values, target, true); });
       if (taken) taken = std::move(own);

@@ -1,6 +1,7 @@
 #include "plugins/structure/plan.h"
 
 #include <algorithm>
+#include <new>
 
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
@@ -40,6 +41,8 @@ void Plan::Make(const ChangeSet& changes, const std::vector<SourcePosition>& pla
       const auto check = [this](const auto& change) { return Check(change); };
       if (const auto possible = std::visit(check, changes[i]); !possible) tell(possible.error());
     } catch (const Workshop::Overtaken&) {
+      throw;
+    } catch (const std::bad_alloc&) {  // nothing is wrong with the change
       throw;
     } catch (...) {  // the projection may have been told of something that is gone again
       return tell({.message = DescribeException()});

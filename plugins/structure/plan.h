@@ -171,8 +171,11 @@ class Plan {
   Result<void> MoveTo(const Placement& place, FrameworkElement& element);
   Result<void> MoveGroup(const Placement& place, FrameworkElement& group);
   Result<void> MovePort(const Placement& place, Port& port);
+  void AddInheritance(FrameworkElement& made, const FrameworkElement& before);
   // What else names it by its path.
   void MoveTargets(const FrameworkElement& renamed, const std::string& name);
+  // By then.
+  [[nodiscard]] const std::vector<std::string>& TargetsOf(const GroupParameter& parameter) const;
   void MoveExtensions(const FrameworkElement& renamed, const std::string& name);
   Result<void> CheckAll(const GroupParameter& group, const SetParameter& change);
   Result<void> CheckStatic(const FrameworkElement& element, const Configurable& parameter, const void* value);
@@ -226,6 +229,7 @@ class Plan {
   const bool is_way_back_;
   std::map<std::string, int> keys_;  // of what has been asked of it, and how often
   StructureOverlay overlay_;
+  std::map<const GroupParameter*, std::vector<std::string>> targets_;  // that have got other names
   std::vector<Step> steps_;
   bool has_failed_ = false;  // in carrying it out, so that others may have seen what is new
   std::vector<std::string> concerned_;

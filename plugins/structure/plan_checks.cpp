@@ -88,6 +88,7 @@ Result<void> Plan::Check(const CreateParameter& change) {
   std::vector<std::string> targets = change.targets;
   for (std::string& target : targets) {
     const auto found = overlay_.Find(IsAbsolutePath(target) ? target : around + target, PathKind::kParameter);
+    if (!found && change.state) continue;  // it had gone before
     if (!found) return found.error();
     if (dynamic_cast<Configurable*>(*found) == nullptr) {
       return Error{.message = (*found)->path() + " is not a parameter", .path = change.path};
@@ -189,19 +190,22 @@ Result<void> Plan::Check(const SetParameter& change) {
 
 // What stands for others is set by setting them, each as its kind is set.
 Result<void> Plan::CheckAll(const GroupParameter& group, const SetParameter& change) {
-  const auto targets = group.Find();
-  if (targets.empty()) {
-    return Error{.message = "nothing is there any more that could be set by it", .path = group.path()};
-  }
-  for (const ConfigurableElement& each : targets) {
-    SetParameter one{each.element->path(), change.value, change.object, change.type};
-    if (change.object && change.type != &each.configurable->type()) {
+  bool is_set = false;
+  for (const std::string& target : TargetsOf(group)) {
+    const std::string path = IsAbsolutePath(target) ? target : group.parent()->path() + "/" + target;
+    const auto found = overlay_.Find(path, PathKind::kParameter);
+    const auto* const parameter = found ? dynamic_cast<const Configurable*>(*found) : nullptr;
+    if (parameter == nullptr || *found == &group) continue;
+    SetParameter one{(*found)->path(), change.value, change.object, change.type};
+    if (change.object && change.type != &parameter->type()) {
       one.value = runnel::ToText(*change.type, change.object.get());
       one.object.reset();
     }
     if (auto set = Check(one); !set) return set;
+    is_set = true;
   }
-  return {};
+  if (is_set) return {};
+  return Error{.message = "nothing is there any more that could be set by it", .path = group.path()};
 }
 
 // The module is made anew by its own type, and keeps what fits: connections of ports that it has no more are cut.

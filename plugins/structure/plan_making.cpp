@@ -54,10 +54,7 @@ Result<Workshop::Work> Plan::MakeGroup(const Placement& place, const FrameworkEl
   return workshop_.Get(KeyOf(place, "group", before), [&]() -> Result<Workshop::Work> {
     auto made = std::make_shared<UnlistedElement>(std::make_unique<Group>(place));
     if (state) state->GiveAnnotations(**made);
-    if (before != nullptr) {
-      (*made)->InheritAnnotations(*before);
-      NameInFile::Note(**made, *before);
-    }
+    if (before != nullptr) NameInFile::Note(**made, *before);
     if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared.error();
     return Workshop::Work{std::move(made)};
   });

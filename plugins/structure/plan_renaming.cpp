@@ -132,14 +132,8 @@ Result<void> Plan::MoveTo(const Placement& place, FrameworkElement& element) {
   }
   if (auto* const port = dynamic_cast<Port*>(&element)) return MovePort(place, *port);
   if (const auto* const parameter = dynamic_cast<const GroupParameter*>(&element)) {
-    auto made = std::make_unique<GroupParameter>(place, parameter->targets(), parameter->info().description);
-    made->InheritAnnotations(element);
-    // What this change set has renamed before has its name by then.
-    steps_.push_back({[to = made.get(), parameter]() -> Result<void> {
-                        to->SetPaths(parameter->targets());
-                        return {};
-                      },
-                      [] {}});
+    auto made = std::make_unique<GroupParameter>(place, TargetsOf(*parameter), parameter->info().description);
+    AddInheritance(*made, element);
     return AddNew(UnlistedElement(std::move(made)));
   }
   if (element.kind() == ElementKind::kGroup) return MoveGroup(place, element);
@@ -152,6 +146,7 @@ Result<void> Plan::MoveGroup(const Placement& place, FrameworkElement& group) {
   if (!work) return work.error();
   FrameworkElement& after = **work->element;
   KeepPlace(after, group);
+  AddInheritance(after, group);
   AddCreation(work->element, &place.parent == group.parent() ? &group : nullptr);
   for (FrameworkElement* child : overlay_.Children(group)) {
     if (auto moved = MoveTo({after, child->name(), false}, *child); !moved) return moved;
@@ -162,17 +157,26 @@ Result<void> Plan::MoveGroup(const Placement& place, FrameworkElement& group) {
   return {};
 }
 
+// What has been said of it by then, also by this change set.
+void Plan::AddInheritance(FrameworkElement& made, const FrameworkElement& before) {
+  steps_.push_back({[&made, &before]() -> Result<void> {
+                      made.InheritAnnotations(before);
+                      return {};
+                    },
+                    [] {}});
+}
+
 Result<void> Plan::MovePort(const Placement& place, Port& port) {
   if (!port.is_proxy()) return Error{.message = "cannot be moved with its group", .path = port.path()};
   auto kept = std::make_shared<UnlistedElement>(
       std::make_unique<ProxyPort>(place, port.direction(), port.type(), port.description()));
   auto& made = dynamic_cast<Port&>(**kept);
-  made.InheritAnnotations(port);
   KeepPlace(made, port);
   if (auto prepared = Runtime::Prepare(*kept); !prepared) return prepared;
   Concern(port);
   if (auto replaced = overlay_.Replace(port, made, {{&port, &made}}); !replaced) return replaced;
   auto has_taken = std::make_shared<bool>(false);
+  AddInheritance(made, port);
   steps_.push_back({[=, this, &port, &made]() -> Result<void> {
                       if (auto listed = runtime_.List(std::move(*kept)); !listed) return listed.error();
                       made.TakeOver(port);
@@ -189,21 +193,25 @@ Result<void> Plan::MovePort(const Placement& place, Port& port) {
 
 // Parameters of groups that stand for some within it, those that have come with it, too.
 void Plan::MoveTargets(const FrameworkElement& renamed, const std::string& name) {
-  const auto move = [&](GroupParameter& each) {
-    auto before = std::make_shared<std::vector<std::string>>();
-    steps_.push_back({[=, &each, names = NewNames{{renamed.path(), name}}]() -> Result<void> {
-                        std::vector<std::string> paths = each.targets();
-                        for (std::string& path : paths) path = RenamedPath(path, each.parent()->path(), names);
-                        *before = each.targets();
-                        each.SetPaths(std::move(paths));
-                        return {};
-                      },
-                      [=, &each] {
-                        if (!before->empty()) each.SetPaths(*before);
-                      }});
+  const auto move = [&, names = NewNames{{renamed.path(), name}}](GroupParameter& each) {
+    std::vector<std::string> paths = TargetsOf(each);
+    for (std::string& path : paths) path = RenamedPath(path, each.parent()->path(), names);
+    if (paths == TargetsOf(each)) return;
+    targets_[&each] = paths;
+    AddSetting([&each] { return each.targets(); },
+               [&each](const std::vector<std::string>& now) -> Result<void> {
+                 each.SetPaths(now);
+                 return {};
+               },
+               std::move(paths), [](auto&) { return ChangeSet(); });
   };
   runtime_.root().VisitAll<GroupParameter>(move);
   for (FrameworkElement* made : made_) made->VisitAll<GroupParameter>(move);
+}
+
+const std::vector<std::string>& Plan::TargetsOf(const GroupParameter& parameter) const {
+  const auto moved = targets_.find(&parameter);
+  return moved != targets_.end() ? moved->second : parameter.targets();
 }
 
 }  // namespace runnel::internal

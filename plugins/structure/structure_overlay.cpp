@@ -44,7 +44,12 @@ FrameworkElement* StructureOverlay::Child(const FrameworkElement& parent, std::s
 std::vector<FrameworkElement*> StructureOverlay::Children(const FrameworkElement& parent) const {
   std::vector<FrameworkElement*> children = parent.children();
   for (FrameworkElement* each : added_) {
-    if (each->parent() == &parent) children.push_back(each);
+    if (each->parent() != &parent) continue;
+    const auto before = std::ranges::find_if(children, [&](const auto* child) {
+      const auto successor = successors_.find(child);
+      return successor != successors_.end() && successor->second == each;
+    });
+    before != children.end() ? void(*before = each) : children.push_back(each);
   }
   std::erase_if(children, [&](const auto* each) { return IsGone(*each); });
   return children;
@@ -98,6 +103,7 @@ Result<void> StructureOverlay::Replace(FrameworkElement& gone, FrameworkElement&
     }
   }
   removed_.push_back(&gone);
+  successors_[&gone] = &element;
   composites_.push_back(&gone);
   Add(element);
   for (const auto& [before, after] : ports) {

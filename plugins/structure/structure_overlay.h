@@ -65,6 +65,7 @@ class StructureOverlay final : public PathSearch {
   Runtime& runtime_;
   std::vector<FrameworkElement*> added_;
   std::vector<FrameworkElement*> removed_;
+  std::map<const FrameworkElement*, FrameworkElement*> successors_;
   std::map<const Port*, Port*> replaced_;            // a port, and that which stands in its place
   std::vector<const FrameworkElement*> composites_;  // that have been replaced, with what is connected within
   std::vector<Connection> connected_;

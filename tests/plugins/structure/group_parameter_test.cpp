@@ -70,6 +70,35 @@ TEST_F(GroupParameterTest, FollowsEachOfSeveralNamesOfOneChangeSet) {
   EXPECT_EQ(Step("left"), 6);
 }
 
+TEST_F(GroupParameterTest, SetsWhatItStandsForByThenWhereNamesAreExchanged) {
+  Must({CreateParameter{"/app/both", {"/group/left/step"}}});
+  ASSERT_TRUE(history_.Apply({RenameElement{"/app/group/left", "other"}, RenameElement{"/app/group/right", "left"},
+                              RenameElement{"/app/group/other", "right"}, SetParameter{"/app/both", "7"}}));
+  EXPECT_THAT(At<GroupParameter>("/app/both").targets(), ElementsAre("group/right/step"));
+  EXPECT_EQ(Step("right"), 7);
+  EXPECT_EQ(Step("left"), 1);
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_EQ(Step("left"), 1) << "it had not been set";
+  EXPECT_EQ(Step("right"), 1);
+  Must({ReplaceModule{"/app/group/left", "test/other_counter"}, SetParameter{"/app/both", "8"}});
+  EXPECT_EQ(Step("left"), 8) << "what takes its place stands there, too";
+}
+
+TEST_F(GroupParameterTest, IsMadeAgainAfterWhatItStandsFor) {
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/app/group/left"}}));
+  ASSERT_TRUE(history_.Undo());
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/app/group"}}));
+  ASSERT_TRUE(history_.Undo());
+  Must({SetParameter{"/app/group/step", "8"}});
+  EXPECT_EQ(Step("left"), 8);
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/app/group/left"}}));
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/app/group"}}));
+  ASSERT_TRUE(history_.Undo()) << "also if some of that has gone";
+  EXPECT_EQ(Step("right"), 8);
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_THAT(At<GroupParameter>("/app/group/step").Find(), testing::SizeIs(2));
+}
+
 TEST_F(GroupParameterTest, HasItsPathsAgainWhereALaterRenameFails) {
   At<Counter>("/app/group/right").Annotate(std::make_unique<BeforeHandOver>([]() -> BeforeHandOver::Held {
     throw std::runtime_error("what is under way does not end");

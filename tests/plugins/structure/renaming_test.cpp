@@ -1,5 +1,6 @@
 // Modules and groups get another name, and others like them, while all runs on.
 
+#include "core/element/tags.h"
 #include "core/module/group_parameter.h"
 #include "core/paths/late_connections.h"
 #include "plugins/scheduling/thread_container.h"
@@ -114,6 +115,32 @@ TEST_F(RenamingTest, AGroupTakesAlongWhatItsChangeSetHasMadeAndRenamed) {
   EXPECT_EQ(CountOf("/app/g/a"), 10);
   MustBe(history.Redo());
   EXPECT_EQ(CountOf("/app/last/first"), 10);
+}
+
+TEST_F(RenamingTest, AGroupHasWhatItsChangeSetSaysOfItBeforeAndAfter) {
+  const auto thread_of = [&](const std::string& path) { return OwnThread(At<Group>(path))->name(); };
+  MustDo({AssignToThread{"/app/g", "fast"}, TagElement{"/app/g", {"safety"}}, TagElement{"/app/g/out", {"hidden"}},
+          TagElement{"/app/step", {"hidden"}}, RenameElement{"/app/g", "front"}});
+  EXPECT_EQ(thread_of("/app/front"), "fast");
+  EXPECT_THAT(TagsOf(At<Group>("/app/front")), ElementsAre("safety"));
+  EXPECT_THAT(TagsOf(At<Port>("/app/front/out")), ElementsAre("hidden"));
+  MustBe(history.Undo());
+  EXPECT_EQ(thread_of("/app/g"), "slow");
+  EXPECT_THAT(TagsOf(At<Group>("/app/g")), testing::IsEmpty());
+  EXPECT_THAT(TagsOf(At<Port>("/app/g/out")), testing::IsEmpty());
+  MustDo({RenameElement{"/app/g/a", "first"}, RenameElement{"/app/g", "front"}, AssignToThread{"/app/front", "fast"}});
+  EXPECT_THAT(NamesIn("/app/front"), ElementsAre("first", "inner", "out"));
+  MustBe(history.Undo());
+  EXPECT_EQ(thread_of("/app/g"), "slow");
+  EXPECT_THAT(NamesIn("/app/g"), ElementsAre("a", "inner", "out"));
+}
+
+TEST_F(RenamingTest, WhatIsSetAfterARenameIsTakenBackWithIt) {
+  MustDo({RenameElement{"/app/b", "c"}, SetParameter{"/app/step", "7"}, RenameElement{"/app/g/a", "first"},
+          SetParameter{"/app/g/first/step", "9"}});
+  EXPECT_EQ(At<Counter>("/app/g/first").step.Get(), 9);
+  MustBe(history.Undo());
+  EXPECT_EQ(At<Counter>("/app/g/a").step.Get(), 2);
 }
 
 TEST_F(RenamingTest, SaysWhatCannotBeRenamed) {
