@@ -98,8 +98,9 @@ class Request {
   [[nodiscard]] const char* doing() const noexcept { return doing_.load(std::memory_order_relaxed); }
   [[nodiscard]] const Outcome& outcome() const noexcept { return outcome_; }
 
-  /// Called when it is accepted, and when it is done, by the thread that runs the control task: no lock, no wait.
-  void (*on_change)(Request& request, void* client) = nullptr;
+  /// Called when it is accepted, and when it is done, by the thread that runs the control task: no lock, no wait. Its maker
+  /// may have destroyed it by then.
+  void (*on_change)(void* client) = nullptr;
   void* client = nullptr;
   /// Of the standard service abort_activity.
   std::uint32_t abort_id = 0;
@@ -110,9 +111,12 @@ class Request {
   friend class ExecutionTask;
 
   void Set(State state) {
+    // Read first: whoever sees that it is done may destroy it.
+    const auto tell = on_change;
+    void* const whom = client;
     // release: pairs with the acquire in state().
     state_.store(state, std::memory_order_release);
-    if (on_change != nullptr && state != State::kSent) on_change(*this, client);
+    if (tell != nullptr && state != State::kSent) tell(whom);
   }
 
   const ServiceTable& service_;

@@ -151,7 +151,7 @@ Result<Json> RequestServer::Begin(LineServer::Client client, const Said& line) {
     if (auto filled = Fill(component_.services[*service], call.request->data(), with); !filled) return filled.error();
   }
   call.request->client = &lines_;
-  call.request->on_change = [](Request&, void* lines) { static_cast<LineServer*>(lines)->Wake(); };
+  call.request->on_change = [](void* lines) { static_cast<LineServer*>(lines)->Wake(); };
   calls_.push_back(std::move(call));
   if (engine_.Send(*calls_.back().request)) return Json(Json::value_t::discarded);
   calls_.pop_back();

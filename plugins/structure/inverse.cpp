@@ -46,12 +46,7 @@ void AddCreation(const FrameworkElement& element, FrameworkElement::Inherit how,
   const std::string thread = OwnThreadPath(element);
   if (!thread.empty()) changes.push_back(AssignToThread{element.path(), thread});
   if (!is_group) return;
-  // What stands for others comes after them.
-  for (const bool is_parameter : {false, true}) {
-    for (const FrameworkElement* each : element.children()) {
-      if ((each->kind() == ElementKind::kParameter) == is_parameter) AddCreation(*each, how, changes, why_not);
-    }
-  }
+  for (const FrameworkElement* each : element.children()) AddCreation(*each, how, changes, why_not);
 }
 
 // Whether a composite has made it, and makes it again by itself.

@@ -88,7 +88,7 @@ Result<void> Plan::Check(const CreateParameter& change) {
   std::vector<std::string> targets = change.targets;
   for (std::string& target : targets) {
     const auto found = overlay_.Find(IsAbsolutePath(target) ? target : around + target, PathKind::kParameter);
-    if (!found && change.state) continue;  // it had gone before
+    if (!found && change.state) continue;  // it has gone, or comes later
     if (!found) return found.error();
     if (dynamic_cast<Configurable*>(*found) == nullptr) {
       return Error{.message = (*found)->path() + " is not a parameter", .path = change.path};
@@ -191,7 +191,8 @@ Result<void> Plan::Check(const SetParameter& change) {
 // What stands for others is set by setting them, each as its kind is set.
 Result<void> Plan::CheckAll(const GroupParameter& group, const SetParameter& change) {
   bool is_set = false;
-  for (const std::string& target : TargetsOf(group)) {
+  const std::vector<std::string> targets = TargetsOf(group);  // modules are made meanwhile, without the lock
+  for (const std::string& target : targets) {
     const std::string path = IsAbsolutePath(target) ? target : group.parent()->path() + "/" + target;
     const auto found = overlay_.Find(path, PathKind::kParameter);
     const auto* const parameter = found ? dynamic_cast<const Configurable*>(*found) : nullptr;
