@@ -163,7 +163,9 @@ Result<void> McapReader::ReadMessages(const McapChunk& chunk, const Use& use) {
 }
 
 Result<void> McapReader::ReadMessages(const Use& use) {
-  for (const McapChunk& chunk : contents_.chunks) {
+  std::vector<McapChunk> chunks = contents_.chunks;
+  std::ranges::stable_sort(chunks, {}, &McapChunk::offset);
+  for (const McapChunk& chunk : chunks) {
     if (auto read = ReadMessages(chunk, use); !read) return read;
   }
   return {};

@@ -34,6 +34,25 @@ TEST_F(McapReaderTest, ReadsWhatWasWrittenInEachCompression) {
   }
 }
 
+TEST_F(McapReaderTest, TheMessagesOfAChannelComeInTheirOrderWhereChunksOverlap) {
+  auto writer = Must(McapWriter::Create(Path("overlap"), {}));
+  const std::uint16_t schema = Must(writer->AddSchema("T", "jsonschema", "{}"));
+  const std::uint16_t early = Must(writer->AddChannel(schema, "/early", "json", {}));
+  const std::uint16_t late = Must(writer->AddChannel(schema, "/late", "json", {}));
+  Must(writer->AddMessage({early, 1, 20, 20, "1"}));
+  Must(writer->AddMessage({early, 2, 30, 30, "2"}));
+  Must(writer->Flush());
+  Must(writer->AddMessage({late, 1, 10, 10, "1"}));
+  Must(writer->AddMessage({early, 3, 40, 40, "3"}));
+  Must(writer->Finish());
+  auto reader = Must(McapReader::Open(Path("overlap")));
+  std::vector<std::uint64_t> times;
+  for (const ReadMessage& each : ReadAll(*reader)) {
+    if (each.channel == early) times.push_back(each.time);
+  }
+  EXPECT_THAT(times, testing::ElementsAre(20u, 30u, 40u));
+}
+
 TEST_F(McapReaderTest, AFileThatWasKilledHasAllButTheLastChunk) {
   for (const std::string& compression : Compressions()) {
     auto reader = Must(McapReader::Open(WriteFile("k" + compression, compression, 100, false)));
