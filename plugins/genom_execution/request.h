@@ -98,8 +98,8 @@ class Request {
   [[nodiscard]] const char* doing() const noexcept { return doing_.load(std::memory_order_relaxed); }
   [[nodiscard]] const Outcome& outcome() const noexcept { return outcome_; }
 
-  /// Called when it is accepted, and when it is done, by the thread that runs the control task: no lock, no wait. Its maker
-  /// may have destroyed it by then.
+  /// Called when it is accepted, and when it is done, by the thread that runs the control task: no lock, no wait. The
+  /// request's maker may have destroyed it by then; `client` outlives that call.
   void (*on_change)(void* client) = nullptr;
   void* client = nullptr;
   /// Of the standard service abort_activity.

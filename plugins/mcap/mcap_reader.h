@@ -104,8 +104,8 @@ class McapReader {
   /// of an unknown channel.
   using Use = std::function<Result<void>(const McapMessage& message)>;
   Result<void> ReadMessages(const McapChunk& chunk, const Use& use);
-  /// The same for all chunks. They overlap in time where a writer has taken what waited channel by channel; the messages of
-  /// one channel come in their order.
+  /// The same for all chunks, in the order of the file. They overlap in time where a writer has taken what waited channel by
+  /// channel; the messages of one channel come as they were written.
   Result<void> ReadMessages(const Use& use);
   [[nodiscard]] Result<std::string> ReadAttachment(const McapAttachmentPlace& place);
 

@@ -33,8 +33,8 @@ void McapReader::Scan() {
     is_first = false;
   }
   if (!taken) contents_.damage = taken.error();
-  std::ranges::stable_sort(contents_.chunks, {}, &McapChunk::start);
   if (!contents_.ended_properly || !has_statistics_) CountMessages();
+  std::ranges::stable_sort(contents_.chunks, {}, &McapChunk::start);
 }
 
 Result<McapReader::Head> McapReader::ReadHead(std::uint64_t offset) {

@@ -80,19 +80,17 @@ void PlayedValues::ReadChunk(const McapChunk& chunk) {
   const auto read = reader_->ReadMessages(chunk, [&](const McapMessage& message) -> Result<void> {
     const auto wanted = waiting_.find(message.channel);
     if (wanted == waiting_.end()) return {};
-    const std::int64_t time = Signed(message.log_time);
-    const std::int64_t timestamp = Signed(message.publish_time);
-    if (time > end_) return {};
-    if (time < start_) {
-      Waiting& newest = before_.try_emplace(message.channel, Waiting{time, timestamp, {}}).first->second;
-      if (time >= newest.time) newest = {time, timestamp, std::string(message.data)};
+    Waiting value{Signed(message.log_time), chunk.offset, Signed(message.publish_time), std::string(message.data)};
+    if (value.time > end_) return {};
+    if (value.time < start_) {
+      const auto [newest, is_first] = before_.try_emplace(message.channel);
+      if (is_first || value.order() >= newest->second.order()) newest->second = std::move(value);
       return {};
     }
     std::deque<Waiting>& values = wanted->second;
     // Nearly always at the end: chunks overlap little, and each has a channel's values in order.
-    const auto place = std::upper_bound(values.begin(), values.end(), time,
-                                        [](std::int64_t at, const Waiting& each) { return at < each.time; });
-    values.insert(place, {time, timestamp, std::string(message.data)});
+    const auto place = std::ranges::upper_bound(values, value.order(), {}, &Waiting::order);
+    values.insert(place, std::move(value));
     return {};
   });
   if (!read) failure_ = read.error();

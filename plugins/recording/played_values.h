@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/clock.h"
 #include "core/base/ordered_mutex.h"
@@ -50,8 +51,11 @@ class PlayedValues {
  private:
   struct Waiting {
     std::int64_t time;
+    std::uint64_t chunk;  // its place in the file
     std::int64_t timestamp;
     std::string json;
+    // A port may publish several in one cycle, at one time: then as they were written.
+    [[nodiscard]] auto order() const noexcept { return std::pair(time, chunk); }
   };
 
   // All under the mutex.

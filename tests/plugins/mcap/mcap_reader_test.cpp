@@ -53,6 +53,23 @@ TEST_F(McapReaderTest, TheMessagesOfAChannelComeInTheirOrderWhereChunksOverlap) 
   EXPECT_THAT(times, testing::ElementsAre(20u, 30u, 40u));
 }
 
+TEST_F(McapReaderTest, OfAKilledFileWhatIsBeforeABrokenChunkIsReadThoughThatBeginsEarlier) {
+  auto writer = Must(McapWriter::Create(Path("killed"), {}));
+  const std::uint16_t early = Must(writer->AddChannel(0, "/early", "json", {}));
+  const std::uint16_t late = Must(writer->AddChannel(0, "/late", "json", {}));
+  Must(writer->AddMessage({early, 1, 20, 20, "first"}));
+  Must(writer->Flush());
+  Must(writer->AddMessage({late, 1, 10, 10, "second"}));
+  Must(writer->Flush());
+  std::string bytes = ReadBytes(Path("killed"));
+  bytes.replace(bytes.find("second"), 6, "broken");
+  WriteBytes(Path("broken"), bytes);
+  auto reader = Must(McapReader::Open(Path("broken")));
+  EXPECT_THAT(reader->contents().damage->message, HasSubstr("checksum"));
+  EXPECT_THAT(ReadAll(*reader), testing::ElementsAre(ReadMessage{early, 1, 20, "first"}));
+  EXPECT_EQ(reader->contents().statistics.messages, 1u);
+}
+
 TEST_F(McapReaderTest, AFileThatWasKilledHasAllButTheLastChunk) {
   for (const std::string& compression : Compressions()) {
     auto reader = Must(McapReader::Open(WriteFile("k" + compression, compression, 100, false)));

@@ -100,6 +100,28 @@ TEST_F(PlayedValuesTest, TheTimesOfTheirMeasurementMoveWithThem) {
       << "what is published later than it was is measured later, too";
 }
 
+// A port publishes several values in one cycle, and its chunks overlap where the recorder was held up.
+TEST_F(PlayedValuesTest, OfOneTimeAreGivenAsTheyWereWritten) {
+  auto writer = Must(McapWriter::Create(Path("a.mcap"), {}));
+  const auto channel = Must(writer->AddChannel(0, "/x", "json", {}));
+  const auto other = Must(writer->AddChannel(0, "/y", "json", {}));
+  Must(writer->AddMessage({channel, 1, 20, 20, "1"}));
+  Must(writer->AddMessage({channel, 2, 30, 30, "2"}));
+  Must(writer->Flush());
+  Must(writer->AddMessage({other, 1, 10, 10, "1"}));
+  Must(writer->AddMessage({channel, 3, 30, 30, "3"}));
+  Must(writer->AddMessage({channel, 4, 40, 40, "4"}));
+  Must(writer->Finish());
+  const auto played = [&](std::optional<Duration> from) {
+    PlayedValues values(Must(McapReader::Open(Path("a.mcap"))), from, {}, false);
+    values.Want(channel);
+    values.Start(values.start());
+    return TakeAll(values, channel, 100);
+  };
+  EXPECT_THAT(played({}), ElementsAre("201", "302", "303", "404"));
+  EXPECT_THAT(played(Duration(25)), ElementsAre("303", "404")) << "begins with what was published last";
+}
+
 TEST_F(PlayedValuesTest, ARoundDoesNotWaitForWhoIsPaused) {
   auto writer = Must(McapWriter::Create(Path("a.mcap"), {}));
   const auto taken = Must(writer->AddChannel(0, "/x", "json", {}));

@@ -84,7 +84,7 @@ TEST_F(GroupParameterTest, SetsWhatItStandsForByThenWhereNamesAreExchanged) {
   EXPECT_EQ(Step("left"), 8) << "what takes its place stands there, too";
 }
 
-TEST_F(GroupParameterTest, IsMadeAgainAfterWhatItStandsFor) {
+TEST_F(GroupParameterTest, IsMadeAgainWithWhatItStandsFor) {
   ASSERT_TRUE(history_.Apply({DeleteElement{"/app/group/left"}}));
   ASSERT_TRUE(history_.Undo());
   ASSERT_TRUE(history_.Apply({DeleteElement{"/app/group"}}));
