@@ -264,7 +264,7 @@ void McapReader::CountMessages() {
       return {};
     });
     if (read) continue;
-    if (!contents_.damage) contents_.damage = read.error();
+    contents_.damage = read.error();
     contents_.chunks.resize(i);
     counted = before;
   }

@@ -37,7 +37,7 @@ PlayedValues::PlayedValues(std::unique_ptr<McapReader> reader, std::optional<Dur
   const std::int64_t first = Signed(all.start);
   start_ = first + (from ? from->count() : 0);
   end_ = Signed(all.end);
-  if (to) end_ = std::min(end_, first + to->count());
+  if (to && to->count() < end_ - first) end_ = first + to->count();
   end_ = std::max(end_, start_);
 }
 
