@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/base/characters.h"
 #include "core/base/diagnostics.h"
 #include "core/base/exception_text.h"
 #include "core/base/number_text.h"
@@ -23,7 +24,7 @@ constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
 inline int Fail(const Error& error, int code = exit_code::kBadInput) {
   Diagnostics diagnostics;
   diagnostics.Add(error);
-  std::cerr << diagnostics.ToString();
+  std::cerr << Printable(diagnostics.ToString(), "\n\t");
   return code;
 }
 
@@ -69,7 +70,7 @@ int RunProgram(CLI::App& program, int count, const char* const* words, Work&& wo
     std::cerr << "error: " << error.what() << "; see '" << program.get_name() << " --help'\n";
     return exit_code::kBadInput;
   } catch (...) {  // plugins may throw anything
-    std::cerr << "error: " << DescribeException() << '\n';
+    std::cerr << "error: " << Printable(DescribeException(), "\n\t") << '\n';
     return exit_code::kRunFailed;
   }
 }

@@ -15,8 +15,8 @@ namespace runnel {
 
 namespace {
 
-void PrintLine(const char* name, const std::string& text) {
-  if (!text.empty()) std::printf("%-12s %s\n", name, text.c_str());
+void PrintLine(std::string_view name, const std::string& text) {
+  if (!text.empty()) fmt::print("{:<12} {}\n", Printable(name), Printable(text));
 }
 
 std::string PackingText(const RecordingInfo& info) {
@@ -25,15 +25,17 @@ std::string PackingText(const RecordingInfo& info) {
   return text + info.compression + ", " + SizeText(info.compressed_bytes) + " of " + SizeText(info.uncompressed_bytes);
 }
 
-void PrintChannels(const RecordingInfo& info) {
+void PrintChannels(std::vector<RecordingInfo::Channel> channels) {
   std::size_t path_width = 4, type_width = 4;
-  for (const auto& each : info.channels) {
+  for (auto& each : channels) {
+    each.path = Printable(each.path);
+    each.type = Printable(each.type);
     path_width = std::max(path_width, each.path.size());
     type_width = std::max(type_width, each.type.size());
   }
   fmt::print("\n{:<{}}  {:<{}}  {:>10}  {:>10}  {:>10}\n", "port", path_width, "type", type_width, "values", "rate",
              "dropped");
-  for (const auto& each : info.channels) {
+  for (const auto& each : channels) {
     fmt::print("{:<{}}  {:<{}}  {:>10}  {:7.2f} Hz  {:>10}\n", each.path, path_width, each.type, type_width,
                each.values, each.rate, each.dropped);
   }
@@ -45,12 +47,12 @@ void Print(const RecordingInfo& info) {
   PrintLine("values", std::to_string(info.values) + " of " + std::to_string(info.ports) + " ports, " +
                           std::to_string(info.dropped) + " more came too fast or could not be written");
   PrintLine("chunks", PackingText(info));
-  for (const auto& [key, text] : info.about) PrintLine(key.c_str(), text);
+  for (const auto& [key, text] : info.about) PrintLine(key, text);
   if (info.about.empty()) PrintLine("library", info.library);
   PrintLine("attached", fmt::format("{}", fmt::join(info.attachments, ", ")));
   PrintLine("end",
             info.ended_properly ? "as its writer wanted it" : "missing: its writer was killed, or is still at work");
-  if (!info.channels.empty()) PrintChannels(info);
+  if (!info.channels.empty()) PrintChannels(info.channels);
   std::fflush(stdout);
 }
 

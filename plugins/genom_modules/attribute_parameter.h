@@ -12,25 +12,9 @@
 #include "plugins/genom_modules/component_module.h"
 #include "plugins/parameters/cycle_lock.h"
 #include "plugins/parameters/parameter.h"
+#include "plugins/services/callable.h"
 
 namespace runnel::genom_modules {
-
-/// Errors: a member of the structure, or of one inside of it, is not there. Precondition: `said` is a value of the type.
-inline Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said) {
-  const ValueToken* element = said.First();
-  for (std::size_t i = 0; type.kind() == TypeKind::kSequence && i < said.count; ++i, element = element->Next()) {
-    if (auto all = CheckAllAreSaid(*type.elements().type, *element); !all) return all;
-  }
-  if (type.kind() != TypeKind::kStructure) return {};
-  for (const FieldInfo& field : type.fields()) {
-    const ValueToken* name = said.First();
-    std::size_t left = said.count;
-    for (; left > 0 && name->text != field.name; left -= 2) name = name->Next()->Next();
-    if (left == 0) return Error{.message = "'" + field.name + "' is not given", .hint = "say all members"};
-    if (auto all = CheckAllAreSaid(*field.type, *name->Next()); !all) return all;
-  }
-  return {};
-}
 
 /// An attribute with inputs only, as a parameter: each new value is a request of the attribute, with its validation and
 /// exclusion. It follows calls of the attribute's service, and goes back if the component refuses a value. A default of

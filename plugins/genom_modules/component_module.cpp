@@ -217,19 +217,25 @@ void ComponentModule::EndActivities(Time deadline) {
   engine_->Stop();
   for (int round = 0; has_run_ && !is_broken_ && !engine_->is_ended() && round < 100; ++round) {
     RunPasses(now(), true);
-    for (auto& worker : workers_) {
-      if (worker != nullptr && !worker->WaitUntilBack(deadline)) {
-        throw std::runtime_error("one of its asynchronous codels does not come back");
-      }
-    }
+    AwaitWorkers(deadline);
   }
   for (ModulePart* part : parts_) part->AfterPasses();
 }
 
+void ComponentModule::AwaitWorkers(Time deadline) {
+  for (auto& worker : workers_) {
+    if (worker != nullptr && !worker->WaitUntilBack(deadline)) {
+      throw std::runtime_error("one of its asynchronous codels does not come back");
+    }
+  }
+}
+
 void ComponentModule::Settle() {
-  if (!engine_ || !has_run_ || is_broken_) return;
-  is_settled_ |= !engine_->is_stopping();  // one that was killed stays so
-  EndActivities(SteadyClock().Now() + kToSettle);
+  if (!engine_ || !has_run_) return;
+  const Time deadline = SteadyClock().Now() + kToSettle;
+  if (is_broken_) return AwaitWorkers(deadline);  // they write what is handed over
+  is_settled_ |= !engine_->is_stopping();         // one that was killed stays so
+  EndActivities(deadline);
 }
 
 // The change has been taken back. Nobody else may be looking at the engine.

@@ -191,6 +191,7 @@ class ComponentModule : public Module {
   /// Before another component takes its place: as End(), but it may be run again.
   void Settle();
   void EndActivities(Time deadline);
+  void AwaitWorkers(Time deadline);
   void BeginAfresh();
 
   const genom_execution::ComponentTable& component_;

@@ -178,7 +178,9 @@ Result<void> RequestServer::Fill(const StandaloneService& service, void* data, c
       if (!read && !with.contains(each.name)) return read;
     }
     if (!with.contains(each.name)) continue;
-    if (auto read = FromJson(*each.type, with[each.name], value, each.name); !read) return read;
+    auto read = FromJson(*each.type, with[each.name], value, each.name);
+    if (read && initial.empty()) read = CheckAllAreSaid(*each.type, with[each.name], each.name);
+    if (!read) return read;
   }
   return {};
 }

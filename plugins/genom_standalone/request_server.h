@@ -28,6 +28,8 @@ using Said = nlohmann::json;
 /// What is not said stays as it is. Errors: what is of another type, does not fit, or is unknown, with its path; parts may
 /// have been set then.
 [[nodiscard]] Result<void> FromJson(const ValueType& type, const Said& json, void* value, const std::string& path);
+/// Errors: a member of a structure that is not optional is not there. Precondition: it is a value of the type.
+[[nodiscard]] Result<void> CheckAllAreSaid(const ValueType& type, const Said& json, const std::string& path);
 
 /// Lines of text between this process and clients at a Unix socket.
 ///

@@ -205,4 +205,25 @@ Result<void> FromJson(const ValueType& type, const Said& json, void* value, cons
   }
 }
 
+Result<void> CheckAllAreSaid(const ValueType& type, const Said& json, const std::string& path) {
+  Result<void> all;
+  if (type.kind == ValueKind::kOptional && !json.is_null()) return CheckAllAreSaid(*type.element, json, path);
+  if (type.kind == ValueKind::kList) {
+    for (std::size_t i = 0; all && i < json.size(); ++i) {
+      all = CheckAllAreSaid(*type.element, json[i], path + "[" + std::to_string(i) + "]");
+    }
+  }
+  if (type.kind != ValueKind::kStruct && type.kind != ValueKind::kUnion) return all;
+  for (const ValueMember& each : type.members) {
+    const std::string name = path + "." + each.name;
+    if (json.contains(each.name)) {
+      all = CheckAllAreSaid(*each.type, json[each.name], name);
+    } else if (type.kind == ValueKind::kStruct && each.type->kind != ValueKind::kOptional) {
+      return Wrong(name, "is not given", "say all members");
+    }
+    if (!all) return all;
+  }
+  return all;
+}
+
 }  // namespace runnel::genom_standalone

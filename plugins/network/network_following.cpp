@@ -139,7 +139,7 @@ void NetworkLink::MakeOffer(const Wanted& wanted) {
 }
 
 void NetworkLink::TellStructure() {
-  structure_topic_->Follow();
+  structure_topic_->Follow([this](const std::string& name, const Error& why) { Trouble("structure of " + name, why); });
   if (const auto& why = structure_topic_->refusal()) Trouble("structure", *why);
   if (!structure_) return;
   std::string text;

@@ -43,7 +43,7 @@ void StructureTopic::Tell(const std::string& structure) {
   if (writer_->Write(octets, 0)) told_ = structure;
 }
 
-void StructureTopic::Follow() {
+void StructureTopic::Follow(const std::function<void(const std::string& name, const Error& why)>& refused) {
   std::vector<std::string> wanted;
   {
     const std::lock_guard lock(mutex_);
@@ -61,6 +61,7 @@ void StructureTopic::Follow() {
                                             texts_[name] = Printable(text, "\n");
                                           },
                                           {});
+    if (!reader) refused(name, reader.error());
     if (reader) readers_[name] = std::move(*reader);
   }
 }

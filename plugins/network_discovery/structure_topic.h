@@ -26,8 +26,8 @@ class StructureTopic {
   [[nodiscard]] std::optional<WireId> id() const { return writer_ ? std::optional(writer_->id()) : std::nullopt; }
 
   void Tell(const std::string& structure);
-  /// Reads what has been asked for.
-  void Follow();
+  /// Reads what has been asked for. `refused` is told why that of an application cannot be read, each time.
+  void Follow(const std::function<void(const std::string& name, const Error& why)>& refused);
   /// That application has gone; one of its name that comes, or is there, is read anew.
   void Forget(const std::string& name);
   /// Of the application of that name; nothing: it has not come yet.

@@ -53,6 +53,7 @@ Port* FindPort(Runtime& runtime, const std::string& path) {
 /// the original.
 struct Player::PlayedPort {
   Port* original;
+  std::uint64_t id;  // of the original: after that is deleted, another may stand at its address
   std::uint16_t channel;
   std::unique_ptr<Port> output;
   std::string path;  // of the original
@@ -132,7 +133,7 @@ Result<void> Player::FindPorts(const PortPatterns& patterns) {
       continue;
     }
     if (auto good = CheckType(*port, channel); !good) return good;
-    played_.push_back(std::make_unique<PlayedPort>(PlayedPort{port, id, nullptr, port->path()}));
+    played_.push_back(std::make_unique<PlayedPort>(PlayedPort{port, port->id(), id, nullptr, port->path()}));
     values_->Want(id);
   }
   for (const std::string& name : patterns.Names()) {
@@ -229,7 +230,7 @@ ChangeSet Player::Connections() const {
   // Those that are deleted by now are not visited.
   runtime_.root().VisitAll<const Port>([&](const Port& port) {
     for (const auto& each : played_) {
-      if (each->original != &port || !each->output) continue;
+      if (each->original != &port || each->id != port.id() || !each->output) continue;
       all.insert(all.end(), each->sources.begin(), each->sources.end());
       for (const Connection& edge : each->output->outgoing()) {
         if (edge.to != &port) all.push_back(ConnectPorts{port.path(), edge.to->path(), edge.options});

@@ -22,14 +22,41 @@ Result<Callable*> FindCallable(Runtime& runtime, const std::string& path) {
   return Error{.message = "is no service", .path = (*found)->path(), .hint = hint};
 }
 
-Result<void> CheckRequired(const Callable& callable, const ValueToken& said) {
-  std::vector<std::string> given;
-  const bool has_names = said.kind == ValueToken::Kind::kStructure;
+namespace {
+
+// nullptr: it is not there.
+const ValueToken* MemberOf(const ValueToken& said, const std::string& member) {
+  if (said.kind != ValueToken::Kind::kStructure) return nullptr;
   const ValueToken* name = said.First();
-  for (std::size_t i = 0; has_names && i < said.count; i += 2, name = name->Next()->Next()) given.push_back(name->text);
+  for (std::size_t i = 0; i < said.count; i += 2, name = name->Next()->Next()) {
+    if (name->text == member) return name->Next();
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said) {
+  const ValueToken* element = said.First();
+  for (std::size_t i = 0; type.kind() == TypeKind::kSequence && i < said.count; ++i, element = element->Next()) {
+    if (auto all = CheckAllAreSaid(*type.elements().type, *element); !all) return all;
+  }
+  if (type.kind() != TypeKind::kStructure) return {};
+  for (const FieldInfo& field : type.fields()) {
+    const ValueToken* const value = MemberOf(said, field.name);
+    if (value == nullptr) return Error{.message = "'" + field.name + "' is not given", .hint = "say all members"};
+    if (auto all = CheckAllAreSaid(*field.type, *value); !all) return all;
+  }
+  return {};
+}
+
+Result<void> CheckRequired(const Callable& callable, const ValueToken& said) {
   for (const std::string& each : callable.required()) {
-    if (std::ranges::find(given, each) != given.end()) continue;
-    return Error{.message = "argument '" + each + "' is not given", .hint = "it has no default: say it"};
+    const ValueToken* const value = MemberOf(said, each);
+    if (value == nullptr) {
+      return Error{.message = "argument '" + each + "' is not given", .hint = "it has no default: say it"};
+    }
+    if (auto all = CheckAllAreSaid(*callable.arguments()->FindField(each)->type, *value); !all) return all;
   }
   return {};
 }

@@ -205,7 +205,7 @@ void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       if (change.state) {
                         if (auto given = change.state->GivePorts(next, ports); !given) return given;
                       }
-                      for (const auto* each : {&before, &next}) {
+                      for (auto* each : {&before, &next}) {
                         if (auto settled = Settle(*each, held_); !settled) return settled;
                       }
                       if (auto copied = CopyState(before, next); !copied) return copied;

@@ -94,7 +94,7 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting, std::string& done) 
   if (after == nullptr) return std::move(waiting.replaced.before);
   const FrameworkElement* const place = NextSibling(*after);
   std::vector<BeforeHandOver::Held> held;  // by one that has failed and goes anyway, too
-  for (const auto* each : {after, &*waiting.replaced.before}) (void)Settle(*each, held);
+  for (auto* each : {after, &*waiting.replaced.before}) (void)Settle(*each, held);
   FrameworkElement& before = *waiting.replaced.before;
   before.VisitAll<Port>([](Port& port) { DrivingState::Of(port).is_later = true; });
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.

@@ -177,15 +177,18 @@ std::vector<Error> StateRefusals(const FrameworkElement& before, const Framework
   return refusals;
 }
 
-Result<void> Settle(const FrameworkElement& module, std::vector<BeforeHandOver::Held>& held) {
-  const auto* const first = module.FindAnnotation<BeforeHandOver>();
-  if (first == nullptr) return {};
-  try {
-    held.push_back(first->settle());
-    return {};
-  } catch (...) {
-    return Error{.message = "cannot be replaced now: " + DescribeException(), .path = module.path()};
-  }
+Result<void> Settle(FrameworkElement& module, std::vector<BeforeHandOver::Held>& held) {
+  Result<void> settled;
+  module.Visit([&](FrameworkElement& each) {
+    const auto* const first = each.FindAnnotation<BeforeHandOver>();
+    if (first == nullptr || !settled) return;
+    try {
+      held.push_back(first->settle());
+    } catch (...) {
+      settled = Error{.message = "cannot be replaced now: " + DescribeException(), .path = each.path()};
+    }
+  });
+  return settled;
 }
 
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after) {

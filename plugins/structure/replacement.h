@@ -36,8 +36,8 @@ void TakeOver(Port& port, Port& from, const FrameworkElement& before, const Fram
 /// Which kept states of `before` cannot be handed over to `after`, and why.
 [[nodiscard]] std::vector<Error> StateRefusals(const FrameworkElement& before, const FrameworkElement& after);
 
-/// What goes on of the module beside cycles ends, or waits until what `held` gets is let go of. Errors: what it throws.
-Result<void> Settle(const FrameworkElement& module, std::vector<BeforeHandOver::Held>& held);
+/// What goes on of the module and its parts beside cycles ends, or waits until what `held` gets is let go of. Errors: what it throws.
+Result<void> Settle(FrameworkElement& module, std::vector<BeforeHandOver::Held>& held);
 
 /// Hands over the kept states that can be. Neither module runs. Errors: what copying throws.
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after);

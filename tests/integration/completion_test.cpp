@@ -65,6 +65,23 @@ TEST(Completion, CarriesOutNothingThatStandsInAFile) {
   std::filesystem::remove_all(folder);
 }
 
+// An extension from somebody else.
+TEST(Completion, CarriesOutNothingThatIsTheNameOfAnOption) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / ("completion_test_" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  const std::string made = folder / "made";
+  std::ofstream(folder / "evil.extension.xml")
+      << "<extension summary=\"is evil\">\n<option name=\"$(touch${IFS}" << made
+      << ")\" command=\"run\" kind=\"flag\" summary=\"none\"/>\n<command name=\"$(touch${IFS}" << made
+      << ")\"/>\n</extension>\n";
+  setenv("RUNNEL_PLUGIN_PATH", folder.c_str(), 1);
+  (void)Completed("run --");
+  (void)Completed("\"\"");
+  unsetenv("RUNNEL_PLUGIN_PATH");
+  EXPECT_FALSE(std::filesystem::exists(made));
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Completion, KnowsTheOptionsOfEachCommand) {
   EXPECT_THAT(Completed("run --st"), ElementsAre("--statistics"));
   EXPECT_THAT(Completed("check --"), Not(Contains("--statistics")));

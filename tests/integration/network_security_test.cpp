@@ -168,6 +168,8 @@ TEST_P(NetworkSecurity, WithThePermissionsThatItsPortsNeedItRunsAndSaysWhatElseW
       robot->WaitFor("is to have <publish><topics><topic>rt/robot/runnel_structure</topic></topics></publish>"));
   const auto planner = Start("planner", "keys/planner");
   WaitUntilItDrives();
+  (void)Runnel("ls --app robot //planner");
+  EXPECT_TRUE(robot->WaitFor("<subscribe><topics><topic>rt/planner/runnel_structure</topic></topics></subscribe>"));
 }
 
 TEST_P(NetworkSecurity, FilesThatAreNotThereAreToldWithTheirPlace) {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include "plugins/mcap/mcap_writer.h"
 #include "tests/integration/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -101,6 +102,22 @@ TEST_F(TerminalText, OfFilesThatAreRecordedIsNotObeyed) {
   EXPECT_THAT(terminal_.Shows(record), is_shown);
   EXPECT_THAT(terminal_.Shows(record), AllOf(HasSubstr("File exists"), is_shown));
   EXPECT_THAT(Runnel(record).text, is_shown);
+}
+
+TEST_F(TerminalText, OfRecordingsOfOthersIsNotObeyed) {
+  const std::string file = folder_ / "evil.mcap";
+  {
+    auto writer = McapWriter::Create(file, {});
+    ASSERT_TRUE(writer);
+    const auto schema = (*writer)->AddSchema(kEvil, "jsonschema", "{}");
+    ASSERT_TRUE(schema);
+    const auto channel = (*writer)->AddChannel(*schema, "/" + kEvil, "json", {});
+    ASSERT_TRUE(channel);
+    ASSERT_TRUE((*writer)->AddMessage({*channel, 1, 10, 10, "{}"}));
+    ASSERT_TRUE((*writer)->AddMetadata({"runnel", {{kEvil, kEvil}}}));
+    ASSERT_TRUE((*writer)->Finish());
+  }
+  EXPECT_THAT(terminal_.Shows("info " + file), AllOf(HasSubstr("/" + kShown), Not(HasSubstr("\x1b[31m"))));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/types/text_format.h"
 #include "core/types/value_copy.h"
+#include "core/types/value_tokens.h"
 #include "plugins/command_service/application_log.h"
 #include "plugins/services/callable.h"
 
@@ -85,6 +86,38 @@ void PublishByHand(const Open& open, const std::string& path, const py::object& 
   Checked(WithoutGil(open, publish));
 }
 
+namespace {
+
+// What a structure leaves out would be 0.
+void CheckAllAreThere(const TypeInfo& type, const py::handle& said) {
+  if (py::isinstance<py::str>(said)) {
+    if (const auto tokens = TokensOf(said.cast<std::string>())) Checked(CheckAllAreSaid(type, tokens->root()));
+  } else if (type.kind() == TypeKind::kSequence &&
+             (py::isinstance<py::list>(said) || py::isinstance<py::tuple>(said))) {
+    for (const py::handle& each : said) CheckAllAreThere(*type.elements().type, each);
+  } else if (type.kind() == TypeKind::kStructure && py::isinstance<py::dict>(said)) {
+    for (const FieldInfo& field : type.fields()) {
+      if (!said.contains(field.name)) throw py::type_error("the service wants '" + field.name + "', too");
+      CheckAllAreThere(*field.type, said[field.name.c_str()]);
+    }
+  }
+}
+
+// The same of those arguments that have no default.
+void CheckRequired(const Callable& callable, const py::handle& said) {
+  if (py::isinstance<py::str>(said) && !callable.required().empty()) {
+    if (const auto tokens = TokensOf(said.cast<std::string>()))
+      Checked(runnel::CheckRequired(callable, tokens->root()));
+  }
+  if (!py::isinstance<py::dict>(said)) return;  // a value is whole
+  for (const std::string& each : callable.required()) {
+    if (!said.contains(each)) throw py::type_error("the service wants '" + each + "', too");
+    CheckAllAreThere(*callable.arguments()->FindField(each)->type, said[each.c_str()]);
+  }
+}
+
+}  // namespace
+
 py::object Call(const Open& open, const std::string& path, double timeout, const py::args& positional,
                 const py::kwargs& named) {
   if (!positional.empty() && !named.empty())
@@ -113,10 +146,7 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
             throw py::type_error("the service wants " + ToText(*callable->arguments(), call->arguments()));
           const py::object said = positional.empty() ? py::object(named) : py::object(positional[0]);
           if (has_some) FromPython(*callable->arguments(), said, call->arguments(), false);
-          for (const std::string& each : callable->required()) {
-            if (py::isinstance<py::dict>(said) && !said.contains(each))
-              throw py::type_error("the service wants '" + each + "', too");
-          }
+          CheckRequired(*callable, said);
         }
       } catch (...) {
         thrown = std::current_exception();

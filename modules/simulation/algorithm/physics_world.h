@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "modules/simulation/algorithm/robot_options.h"
 #include "modules/simulation/algorithm/world.h"
 #include "modules/types/algorithm/contact.h"
 #include "modules/types/algorithm/pose.h"

@@ -149,7 +149,7 @@ Result<std::string> SaveApplication(Runtime& runtime, FrameworkElement& applicat
                    .hint = "name one"};
     }
     const fs::path file = to.empty() ? source->file : to;
-    if (to.empty() && fs::absolute(file).string().find("/share/runnel/xml/") != std::string::npos) {
+    if (fs::absolute(file).lexically_normal().string().find("/share/runnel/xml/") != std::string::npos) {
       return Error{.message = "the file comes with Runnel, and its next version would take what is saved there away",
                    .position = {file.string()},
                    .hint = "name a file of your own"};

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/characters.h"
+#include "core/base/number_text.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/inspector/internal/viewer_session.h"
 
@@ -12,11 +13,20 @@ namespace {
 
 constexpr int kDeepest = 4;
 constexpr std::size_t kLongestStop = 1000;  // of its message, and of a sign of life
-// Of messages that are refused unread: in longer ones the number of the request is not looked for, which takes time.
+// Of messages that are refused unread: longer ones are not parsed for the number of the request, which takes time.
 constexpr std::size_t kLongestNumbered = 16'384;
 constexpr std::size_t kLongestName = 100;  // what is longer names nothing, and is repeated and compared with what does
 // Whole numbers that every JSON reader gets right.
 constexpr std::uint64_t kLargestWhole = 9007199254740992;
+
+// Of a message in which it is the last member, as in the page's.
+std::optional<std::uint64_t> NumberAtEnd(std::string_view message) {
+  constexpr std::string_view kLast = R"(,"request":)";  // within a text there would be a backslash
+  const std::size_t place = message.rfind(kLast);
+  if (place == message.npos || !message.ends_with('}')) return {};
+  message.remove_prefix(place + kLast.size());
+  return NumberIn<std::uint64_t>(message.substr(0, message.size() - 1));
+}
 
 using Text = std::pair<const char*, std::string ViewerMessage::*>;
 constexpr Text kTexts[] = {{"op", &ViewerMessage::op},         {"path", &ViewerMessage::path},
@@ -100,7 +110,11 @@ WebArrival ViewerSession::OnArrival(std::string_view message, bool is_text) {
 void ViewerSession::OnTooMany(std::string_view message, bool /*is_text*/) {
   if (IsSlow()) return;
   std::optional<std::uint64_t> request;
-  if (message.size() <= kLongestNumbered) (void)ParseViewerMessage(message, &request);
+  if (message.size() > kLongestNumbered) {
+    request = NumberAtEnd(message);
+  } else {
+    (void)ParseViewerMessage(message, &request);
+  }
   client_.SendText(Refusal(request, {{Error{.message = "too many requests a second"}}}));
 }
 

@@ -112,18 +112,19 @@ bool HasProcess(const std::filesystem::path& folder, const std::string& name) {
   return false;
 }
 
-// Of a search that would take minutes, by whichever signal its process is ended.
+// Of a search that would take minutes, by whichever signal its process is ended. Ctrl-C interrupts its whole group.
 TEST_F(ComponentCheckTest, NothingOfASearchIsLeftWhenItsProcessIsEnded) {
-  for (const int signal : {SIGTERM, SIGKILL}) {
+  for (const int signal : {SIGTERM, SIGKILL, SIGINT}) {
     const test::TemporaryFolder folder;
     const pid_t process = fork();
     if (process == 0) {
+      setpgid(0, 0);
       setenv("TMPDIR", folder.path().c_str(), 1);
       (void)RunSpin("active [4] proctype p() { int a, b; do :: a++ :: b++ od }", {.options = {"-m1000000"}});
       _exit(0);
     }
     while (!HasProcess(folder.path(), "/pan")) std::this_thread::yield();
-    kill(process, signal);
+    kill(signal == SIGINT ? -process : process, signal);
     waitpid(process, nullptr, 0);
     while (HasProcess(folder.path(), "")) std::this_thread::yield();
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));

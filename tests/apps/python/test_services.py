@@ -138,6 +138,8 @@ def test_who_is_outside_says_what_has_no_default(xml):
     with runnel.load(xml / "apps/genom_demo.xml", speed=0) as app:
         with pytest.raises(TypeError, match="the service wants 'id', too"):
             app.call("/guide/abort_activity", {})
+        with pytest.raises(runnel.Error, match="argument 'id' is not given"):
+            app.call("/guide/abort_activity", "{}")
         app.run_for(0.1)
         with pytest.raises(runnel.Error, match="'turn_rate' is not given"):
             app.set("/guide/set_limits", {"speed": 0.3})

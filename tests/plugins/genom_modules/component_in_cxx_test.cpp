@@ -61,6 +61,9 @@ TEST_F(ComponentInCxxTest, TakesValuesOfEveryKind) {
               HasSubstr(R"(corners: [{x: 1, y: 2}], level: [7], words: ["up", "down"], flags: [true, false])"));
   const auto call = ServiceAt("set_all").NewCall();
   EXPECT_FALSE(SetFromText(*ServiceAt("set_all").arguments(), "{corners: [{}, {}, {}, {}]}", call->arguments()));
+  const auto partly = SetArguments(ServiceAt("set_all"),
+                                   "{corners: [{x: 1}], level: [7], words: [up, down], flags: [true, false]}", *call);
+  EXPECT_EQ(partly ? "" : partly.error().message, "'y' is not given") << "it would be 0";
 }
 
 TEST_F(ComponentInCxxTest, TakesWhatACallLeavesOutFromTheDescription) {

@@ -58,6 +58,10 @@ TEST(StandaloneInCxxTest, TakesValuesOfEveryKind) {
   EXPECT_THAT(
       mill.Ask(Json::parse(R"({"call":"set_all","with":{"corners":[{},{},{},{}]}})"))["error"].get<std::string>(),
       HasSubstr("corners: has more than 3"));
+  Json partly = Json::parse(all);
+  partly["corners"][0].erase("y");
+  EXPECT_THAT(mill.Ask({{"call", "set_all"}, {"with", partly}})["error"].get<std::string>(),
+              HasSubstr("corners[0].y: is not given"));
 }
 
 }  // namespace

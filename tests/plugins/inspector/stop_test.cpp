@@ -270,6 +270,15 @@ TEST_F(ViewersStopOvertakes, WhatIsTooMuchIsRefusedWithItsNumber) {
   EXPECT_EQ(replies[1]["ok"], true);
 }
 
+TEST_F(ViewersStopOvertakes, WhatIsTooMuchAndTooLongToBeReadIsRefusedWithItsNumberToo) {
+  Viewer viewer = View();
+  std::vector<Json> many(100, Json{{"op", "publish"}, {"path", kIn}, {"at", 1}});
+  many.back()["path"] = std::string(100'000, '/');
+  SendTooFast(viewer, std::move(many));
+  auto replies = Replies(viewer, 100);
+  EXPECT_THAT(replies[100]["errors"][0]["message"], HasSubstr("too many requests a second"));
+}
+
 TEST_F(ViewersStop, IsNotReleasedByAnOldRelease) {
   Start();
   Viewer viewer(server->port(), "", "runnel.stop.v1");

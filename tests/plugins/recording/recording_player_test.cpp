@@ -171,6 +171,8 @@ TEST_F(RecordingPlayerTest, AnInputThatIsPlayedMayBeDeletedMeanwhile) {
   ASSERT_TRUE(player->failure());
   EXPECT_THAT(player->failure()->ToString(), HasSubstr("/sink/input/number: the value recorded at 0.07"));
   EXPECT_EQ(Saved(other), "");
+  auto& next = other.runtime.Create<Sink>(other.runtime.root(), "next");  // often at the same address
+  EXPECT_EQ(Saved(other), "") << &next << " is another than " << other.sink;
 }
 
 TEST_F(RecordingPlayerTest, PlaysAStretchFromLaterOn) {

@@ -1,4 +1,6 @@
+#include "core/module/group.h"
 #include "core/module/hand_over.h"
+#include "plugins/structure/replacement.h"
 #include "tests/plugins/structure/editor_fixture.h"
 #include "tests/support/schedule_order.h"
 
@@ -59,6 +61,19 @@ TEST_F(ReplaceTest, WhatGoesOnBesideCyclesEndsBeforePortsAndStateAreHandedOver) 
   Must({ReplaceModule{"/app/counter", "test/counter"}});
   Steps(1);
   EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4, 6, 106, 108));
+}
+
+TEST_F(ReplaceTest, WhatGoesOnInPartsOfACompositeEndsAsWell) {
+  ASSERT_TRUE(modules.Add(TypeCalled<Winding>("test/winding")));
+  Must({CreateGroup{"/app/whole"}, CreateModule{"/app/whole/part", "test/winding"}});
+  std::vector<BeforeHandOver::Held> held;
+  ASSERT_TRUE(internal::Settle(At<Group>("/app/whole"), held));
+  EXPECT_THAT(held, SizeIs(1));
+  EXPECT_EQ(At<Winding>("/app/whole/part").count.value, 100);
+  At<Winding>("/app/whole/part").cannot_end = true;
+  const auto refused = internal::Settle(At<Group>("/app/whole"), held);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().path, "/app/whole/part");
 }
 
 TEST_F(ReplaceTest, WhatGoesOnBesideCyclesLeavesPortsAloneWhileTheyComeBack) {

@@ -298,6 +298,16 @@ TEST_F(ApplicationSaver, DoesNotOverwriteWhatSomebodyElseHasChanged) {
   EXPECT_EQ(ReadAll(folder_ / "copy.xml"), With("'2.50'", "'3.5'"));
 }
 
+TEST_F(ApplicationSaver, WritesNothingWhereAnInstallationHasItsFiles) {
+  Load();
+  const auto folder = folder_ / "share/runnel/xml/apps";
+  std::filesystem::create_directories(folder);
+  const auto saved = SaveApplication(application_->runtime(), *application_, shop_.tools(), folder / "../apps/a.xml");
+  ASSERT_FALSE(saved);
+  EXPECT_THAT(saved.error().message, HasSubstr("comes with Runnel"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
 TEST_F(ApplicationSaver, FirstFileOfWhatCodeHasBuiltIsItsFile) {
   application_ = &shop_.runtime.Create<Group>(shop_.runtime.root(), "made");
   const auto without = SaveApplication(application_->runtime(), *application_, shop_.tools());

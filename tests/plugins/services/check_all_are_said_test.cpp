@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/genom_modules/attribute_parameter.h"
+#include "core/types/type_of.h"
+#include "core/types/value_tokens.h"
+#include "plugins/services/callable.h"
 
 namespace runnel::test {
 namespace {
@@ -18,7 +20,7 @@ void Describe(TypeBuilder<Step>& type) { type.Name("Step").Field("x", &Step::x).
 TEST(CheckAllAreSaidTest, LooksIntoListsToo) {
   const auto said = [](const std::string& text) -> std::string {
     const auto tokens = TokensOf(text);
-    const auto all = genom_modules::CheckAllAreSaid(TypeOf<std::vector<std::vector<Step>>>(), tokens->root());
+    const auto all = CheckAllAreSaid(TypeOf<std::vector<std::vector<Step>>>(), tokens->root());
     return all ? "all" : all.error().message;
   };
   EXPECT_EQ(said("[[{x: 1, y: 2}], [], [{y: 3, x: 4}, {x: 5, y: 6}]]"), "all");
