@@ -107,7 +107,7 @@ int Show(const std::vector<std::string>& wanted) {
   const auto messages = FindMessages(wanted, library);
   if (!messages) return Fail(messages.error());
   for (const MessageDefinition* const each : *messages) {
-    std::cout << "# " << each->name << ' ' << TypeHashOf(*each, library) << '\n'
+    std::cout << "# " << Printable(each->name) << ' ' << TypeHashOf(*each, library) << '\n'
               << Printable(TextOf(*each), "\n\t") << '\n';
   }
   return exit_code::kDone;

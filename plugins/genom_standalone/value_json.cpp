@@ -209,6 +209,9 @@ Result<void> CheckAllAreSaid(const ValueType& type, const Said& json, const std:
   Result<void> all;
   if (type.kind == ValueKind::kOptional && !json.is_null()) return CheckAllAreSaid(*type.element, json, path);
   if (type.kind == ValueKind::kList) {
+    if (type.is_array && json.size() < type.length) {
+      return Wrong(path, "has fewer than " + std::to_string(type.length) + " elements", "say all of them");
+    }
     for (std::size_t i = 0; all && i < json.size(); ++i) {
       all = CheckAllAreSaid(*type.element, json[i], path + "[" + std::to_string(i) + "]");
     }

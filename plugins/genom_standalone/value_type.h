@@ -124,6 +124,7 @@ struct ValueType {
   std::span<const ValueMember> members = {};
   std::span<const char* const> names = {};
   const ListOperations* list = nullptr;
+  bool is_array = false;  ///< a list that has always `length` elements
 };
 
 }  // namespace runnel::genom_standalone

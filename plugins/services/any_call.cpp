@@ -38,12 +38,14 @@ const ValueToken* MemberOf(const ValueToken& said, const std::string& member) {
 
 Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said) {
   const ValueToken* element = said.First();
-  for (std::size_t i = 0; type.kind() == TypeKind::kSequence && i < said.count; ++i, element = element->Next()) {
+  const bool is_list = type.kind() == TypeKind::kSequence && said.kind == ValueToken::Kind::kList;
+  for (std::size_t i = 0; is_list && i < said.count; ++i, element = element->Next()) {
     if (auto all = CheckAllAreSaid(*type.elements().type, *element); !all) return all;
   }
   if (type.kind() != TypeKind::kStructure) return {};
   for (const FieldInfo& field : type.fields()) {
     const ValueToken* const value = MemberOf(said, field.name);
+    if (value == nullptr && field.type->name().ends_with('?')) continue;  // an optional
     if (value == nullptr) return Error{.message = "'" + field.name + "' is not given", .hint = "say all members"};
     if (auto all = CheckAllAreSaid(*field.type, *value); !all) return all;
   }

@@ -181,11 +181,11 @@ Result<void> Settle(FrameworkElement& module, std::vector<BeforeHandOver::Held>&
   Result<void> settled;
   module.Visit([&](FrameworkElement& each) {
     const auto* const first = each.FindAnnotation<BeforeHandOver>();
-    if (first == nullptr || !settled) return;
+    if (first == nullptr) return;
     try {
       held.push_back(first->settle());
     } catch (...) {
-      settled = Error{.message = "cannot be replaced now: " + DescribeException(), .path = each.path()};
+      if (settled) settled = Error{.message = "cannot be replaced now: " + DescribeException(), .path = each.path()};
     }
   });
   return settled;

@@ -90,15 +90,20 @@ namespace {
 
 // What a structure leaves out would be 0.
 void CheckAllAreThere(const TypeInfo& type, const py::handle& said) {
-  if (py::isinstance<py::str>(said)) {
+  if (type.name().ends_with('?')) {  // an optional
+    if (!said.is_none()) CheckAllAreThere(*type.elements().type, said);
+  } else if (py::isinstance<py::str>(said)) {
     if (const auto tokens = TokensOf(said.cast<std::string>())) Checked(CheckAllAreSaid(type, tokens->root()));
   } else if (type.kind() == TypeKind::kSequence &&
              (py::isinstance<py::list>(said) || py::isinstance<py::tuple>(said))) {
     for (const py::handle& each : said) CheckAllAreThere(*type.elements().type, each);
   } else if (type.kind() == TypeKind::kStructure && py::isinstance<py::dict>(said)) {
     for (const FieldInfo& field : type.fields()) {
-      if (!said.contains(field.name)) throw py::type_error("the service wants '" + field.name + "', too");
-      CheckAllAreThere(*field.type, said[field.name.c_str()]);
+      if (said.contains(field.name)) {
+        CheckAllAreThere(*field.type, said[field.name.c_str()]);
+      } else if (!field.type->name().ends_with('?')) {
+        throw py::type_error("the service wants '" + field.name + "', too");
+      }
     }
   }
 }

@@ -119,6 +119,7 @@ TEST_F(ComponentCheckTest, NothingOfASearchIsLeftWhenItsProcessIsEnded) {
     const pid_t process = fork();
     if (process == 0) {
       setpgid(0, 0);
+      (void)std::signal(SIGINT, SIG_DFL);
       setenv("TMPDIR", folder.path().c_str(), 1);
       (void)RunSpin("active [4] proctype p() { int a, b; do :: a++ :: b++ od }", {.options = {"-m1000000"}});
       _exit(0);

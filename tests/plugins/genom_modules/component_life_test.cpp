@@ -65,24 +65,6 @@ TEST_F(ComponentLifeTest, WaitsForAnAsynchronousCodelBeforeAnotherTakesItsPlace)
   EXPECT_EQ(Outcome("grind", *grind), "1");
 }
 
-// It writes what is handed over.
-TEST_F(ComponentLifeTest, WaitsForAnAsynchronousCodelAlsoWhereItIsBroken) {
-  static const SteadyClock clock;
-  rig.runtime.set_clock(clock);
-  rig.RunCycles(2);
-  const auto grind = Begin("grind", "{times: 1, microseconds: 2500000}");
-  rig.RunCycles(2);
-  ASSERT_EQ(Outcome("grind", *grind), "pending");
-  Port& seen = PortAt("seen");
-  auto source = seen.MakeOutput(rig.runtime.root(), "source", {});
-  ASSERT_TRUE(Port::Connect(*source, seen));
-  ASSERT_TRUE(
-      source->PublishFilled([&](void* value) { return SetFromText(seen.type(), "{at: {x: 99}}", value); }, rig.now()));
-  ASSERT_TRUE(rig.RunUntilFault(3).has_value());
-  EXPECT_THAT([&] { rig.module.FindAnnotation<BeforeHandOver>()->settle(); },
-              testing::ThrowsMessage<std::runtime_error>(HasSubstr("asynchronous codels does not come back")));
-}
-
 // Also if another was to take its place, and has not.
 TEST_F(ComponentLifeTest, StaysKilled) {
   rig.RunCycles(2);

@@ -62,6 +62,15 @@ TEST(StandaloneInCxxTest, TakesValuesOfEveryKind) {
   partly["corners"][0].erase("y");
   EXPECT_THAT(mill.Ask({{"call", "set_all"}, {"with", partly}})["error"].get<std::string>(),
               HasSubstr("corners[0].y: is not given"));
+  partly = Json::parse(all);
+  partly["words"].erase(1);
+  EXPECT_THAT(mill.Ask({{"call", "set_all"}, {"with", partly}})["error"].get<std::string>(),
+              HasSubstr("words: has fewer than 2 elements"));
+  partly = Json::parse(all);
+  partly.erase("level");
+  EXPECT_THAT(mill.Ask({{"call", "set_all"}, {"with", partly}})["error"].get<std::string>(),
+              HasSubstr("level: is not given"))
+      << "arguments are all given";
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,11 @@ namespace {
 struct Step {
   double x = 0;
   double y = 0;
+  std::optional<double> z = {};
 };
-void Describe(TypeBuilder<Step>& type) { type.Name("Step").Field("x", &Step::x).Field("y", &Step::y); }
+void Describe(TypeBuilder<Step>& type) {
+  type.Name("Step").Field("x", &Step::x).Field("y", &Step::y).Field("z", &Step::z);
+}
 
 // Else what is left out would be 0.
 TEST(CheckAllAreSaidTest, LooksIntoListsToo) {
@@ -26,6 +30,7 @@ TEST(CheckAllAreSaidTest, LooksIntoListsToo) {
   EXPECT_EQ(said("[[{x: 1, y: 2}], [], [{y: 3, x: 4}, {x: 5, y: 6}]]"), "all");
   EXPECT_EQ(said("[[{x: 1, y: 2}], [], [{y: 3, x: 4}, {x: 5}]]"), "'y' is not given");
   EXPECT_EQ(said("[]"), "all");
+  EXPECT_EQ(said("[[{x: 1, y: 2, z: [3]}]]"), "all") << "an optional may be there or not";
 }
 
 }  // namespace

@@ -68,8 +68,9 @@ local function define(type, final, number)
     if has(final, "length") then return entry("kText", string.format(", .length = %d", final.length)) end
     return entry(language == c and "kOwnedText" or "kString")
   elseif final.kind == "array" or final.kind == "sequence" then
-    return entry("kList", string.format(", .length = %d, .element = &%s, .list = &kListOperations<%s>",
-                                        has(final, "length") and final.length or 0, values.type(final.type), held))
+    return entry("kList", string.format(", .length = %d, .element = &%s, .list = &kListOperations<%s>, .is_array = %s",
+                                        has(final, "length") and final.length or 0, values.type(final.type), held,
+                                        final.kind == "array"))
   elseif final.kind == "optional" then
     return entry("kOptional", string.format(", .element = &%s, .element_offset = offsetof(%s, _value)", values.type(final.type), in_memory))
   elseif final.kind == "struct" or final.kind == "exception" then

@@ -302,7 +302,8 @@ TEST_F(ApplicationSaver, WritesNothingWhereAnInstallationHasItsFiles) {
   Load();
   const auto folder = folder_ / "share/runnel/xml/apps";
   std::filesystem::create_directories(folder);
-  const auto saved = SaveApplication(application_->runtime(), *application_, shop_.tools(), folder / "../apps/a.xml");
+  const auto saved = SaveApplication(application_->runtime(), *application_, shop_.tools(),
+                                     folder_ / "share/other/../runnel/xml/apps/a.xml");
   ASSERT_FALSE(saved);
   EXPECT_THAT(saved.error().message, HasSubstr("comes with Runnel"));
   EXPECT_TRUE(std::filesystem::is_empty(folder));
