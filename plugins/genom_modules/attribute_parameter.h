@@ -49,7 +49,7 @@ class AttributeParameter final : public ParameterBase, public ModulePart {
   [[nodiscard]] Result<std::shared_ptr<const void>> Parse(std::string_view text) const override {
     auto parsed = ParameterBase::Parse(text);
     if (!parsed || (type().kind() != TypeKind::kStructure && type().kind() != TypeKind::kSequence)) return parsed;
-    const auto all = CheckAllAreSaid(type(), TokensOf(text)->root());
+    const auto all = CheckAllAreSaid(type(), TokensOf(text)->root(), true);
     return all ? parsed : all.error();
   }
   [[nodiscard]] std::optional<Result<void>> Outcome() const override {

@@ -36,7 +36,7 @@ const ValueToken* MemberOf(const ValueToken& said, const std::string& member) {
 
 }  // namespace
 
-Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said) {
+Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said, bool wants_optionals) {
   const ValueToken* element = said.First();
   const bool is_list = type.kind() == TypeKind::kSequence && said.kind == ValueToken::Kind::kList;
   for (std::size_t i = 0; is_list && i < said.count; ++i, element = element->Next()) {
@@ -45,7 +45,7 @@ Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said) {
   if (type.kind() != TypeKind::kStructure) return {};
   for (const FieldInfo& field : type.fields()) {
     const ValueToken* const value = MemberOf(said, field.name);
-    if (value == nullptr && field.type->name().ends_with('?')) continue;  // an optional
+    if (value == nullptr && !wants_optionals && field.type->name().ends_with('?')) continue;
     if (value == nullptr) return Error{.message = "'" + field.name + "' is not given", .hint = "say all members"};
     if (auto all = CheckAllAreSaid(*field.type, *value); !all) return all;
   }

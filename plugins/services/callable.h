@@ -91,7 +91,8 @@ class Callable : public Annotation {
 /// The latter alone, of arguments that have come in another form: the tokens of a structure. One that is required has all its
 /// members: what is left out would be 0.
 [[nodiscard]] Result<void> CheckRequired(const Callable& callable, const ValueToken& said);
-/// Errors: a member of the structure, or of one inside of it, that is no optional is not there. Precondition: `said` is a value of the type.
-[[nodiscard]] Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said);
+/// Errors: a member of the structure, or of one inside of it, is not there; optionals only count in the structure itself, and if it
+/// `wants_optionals`. Precondition: `said` is a value of the type.
+[[nodiscard]] Result<void> CheckAllAreSaid(const TypeInfo& type, const ValueToken& said, bool wants_optionals = false);
 
 }  // namespace runnel

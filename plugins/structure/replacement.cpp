@@ -181,11 +181,11 @@ Result<void> Settle(FrameworkElement& module, std::vector<BeforeHandOver::Held>&
   Result<void> settled;
   module.Visit([&](FrameworkElement& each) {
     const auto* const first = each.FindAnnotation<BeforeHandOver>();
-    if (first == nullptr) return;
+    if (first == nullptr || !settled) return;
     try {
       held.push_back(first->settle());
     } catch (...) {
-      if (settled) settled = Error{.message = "cannot be replaced now: " + DescribeException(), .path = each.path()};
+      settled = Error{.message = "cannot be replaced now: " + DescribeException(), .path = each.path()};
     }
   });
   return settled;

@@ -1,14 +1,17 @@
 // The component of mill.gen, whose codels are in C++.
 
+#include "core/module/hand_over.h"
+#include "core/plugin/plugin_manager.h"
 #include "core/port/port.h"
 #include "tests/plugins/genom_modules/component_fixture.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
 
 class ComponentInCxxTest : public ComponentTest {
  protected:
-  ComponentInCxxTest() : ComponentTest("mill/mill") {}
+  ComponentInCxxTest() : ComponentTest("mill/mill") { plugins_.AddSearchFolder(RUNNEL_TEST_PLUGIN_FOLDER); }
 
   void Feed(const std::string& text) {
     Port& seen = PortAt("seen");
@@ -18,6 +21,8 @@ class ComponentInCxxTest : public ComponentTest {
     }
     ASSERT_TRUE(source_->PublishFilled([&](void* value) { return SetFromText(seen.type(), text, value); }, rig.now()));
   }
+
+  PluginManager plugins_;
 
  private:
   std::unique_ptr<Port> source_;
@@ -105,6 +110,26 @@ TEST_F(ComponentInCxxTest, IsStoppedByWhatIsNoExceptionOfIts) {
   const auto fault = rig.RunUntilFault(200);
   ASSERT_TRUE(fault.has_value());
   EXPECT_THAT(fault->message, HasSubstr("a mistake"));
+}
+
+// A codel that is away writes what would be handed over.
+TEST_F(ComponentInCxxTest, NoneTakesItsPlaceWhileACodelIsAwayAlsoWhereAMistakeHasEndedIt) {
+  ASSERT_TRUE(plugins_.Load("probe"));
+  FrameworkElement* const other = *plugins_.modules().Create("probe/probe", rig.runtime.root(), "other");  // never runs
+  ASSERT_TRUE(Port::Connect(PortOf(*other, "sum"), PortAt("sum")));
+  rig.RunCycle();
+  const auto away = Begin("add", "{name: map, values: [1, 2]}");
+  const auto has_called = [&] {
+    rig.RunCycle();
+    return PortOf(*other, "sum").FindAnnotation<Callable>()->state().waiting == 1;
+  };
+  WaitUntil("it has called", has_called, std::chrono::seconds(100));
+  const auto call = Begin("turns", "{times: 77}");
+  const auto fault = rig.RunUntilFault(200);
+  ASSERT_TRUE(fault.has_value());
+  EXPECT_THAT(fault->message, HasSubstr("a mistake"));
+  EXPECT_THAT([&] { rig.module.FindAnnotation<BeforeHandOver>()->settle(); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("asynchronous codels does not come back")));
 }
 
 TEST_F(ComponentInCxxTest, IsStoppedByAPermanentActivityThatThrows) {

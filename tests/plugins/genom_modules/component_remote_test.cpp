@@ -107,31 +107,5 @@ TEST_F(ComponentRemoteTest, SaysThatNoneCanTakeItsPlaceWhileOneDoesNotAnswer) {
   EXPECT_EQ(said, "one of its asynchronous codels does not come back");
 }
 
-// Its codel that is away writes what would be handed over.
-TEST_F(ComponentRemoteTest, SaysThatNoneCanTakeItsPlaceAlsoWhereAMistakeHasEndedIt) {
-  ASSERT_TRUE(Port::Connect(PortAt("sum"), PortOf(*mill_, "sum")));
-  Scheduler scheduler(rig.runtime);
-  ASSERT_TRUE(rig.runtime.MakeReady(*mill_));  // the other one is never run
-  const auto begin = [&](const std::string& service, const std::string& arguments) {
-    Callable& callable = *PortOf(*mill_, service).FindAnnotation<Callable>();
-    auto call = callable.NewCall();
-    EXPECT_TRUE(SetFromText(*callable.arguments(), arguments, call->arguments()));
-    EXPECT_EQ(call->Begin(clock_.Now(), kLongEnough), CallStatus::kPending);
-    return call;
-  };
-  ASSERT_TRUE(scheduler.Start());
-  const auto away = begin("add", "{name: map, values: [1, 2]}");
-  WaitUntil(
-      "it has called", [&] { return PortAt("sum").FindAnnotation<Callable>()->state().waiting == 1; }, kLongEnough);
-  const auto broken = begin("turns", "{times: 77}");
-  std::vector<Fault> faults;
-  WaitUntil(
-      "it is broken", [&] { return !(faults = scheduler.TakeFaults()).empty(); }, kLongEnough);
-  EXPECT_THAT(faults[0].message, HasSubstr("a mistake"));
-  scheduler.Stop();
-  EXPECT_THAT([&] { mill_->FindAnnotation<BeforeHandOver>()->settle(); },
-              testing::ThrowsMessage<std::runtime_error>(HasSubstr("asynchronous codels does not come back")));
-}
-
 }  // namespace
 }  // namespace runnel::test

@@ -65,10 +65,11 @@ TEST_F(ReplaceTest, WhatGoesOnBesideCyclesEndsBeforePortsAndStateAreHandedOver) 
 
 TEST_F(ReplaceTest, WhatGoesOnInPartsOfACompositeEndsAsWell) {
   ASSERT_TRUE(modules.Add(TypeCalled<Winding>("test/winding")));
-  Must({CreateGroup{"/app/whole"}, CreateModule{"/app/whole/part", "test/winding"}});
+  Must({CreateGroup{"/app/whole"}, CreateModule{"/app/whole/part", "test/winding"},
+        CreateModule{"/app/whole/other", "test/winding"}});
   std::vector<BeforeHandOver::Held> held;
   ASSERT_TRUE(internal::Settle(At<Group>("/app/whole"), held));
-  EXPECT_THAT(held, SizeIs(1));
+  EXPECT_THAT(held, SizeIs(2));
   EXPECT_EQ(At<Winding>("/app/whole/part").count.value, 100);
   At<Winding>("/app/whole/part").cannot_end = true;
   const auto refused = internal::Settle(At<Group>("/app/whole"), held);
