@@ -1,6 +1,6 @@
 #include "core/module/group.h"
 #include "core/module/hand_over.h"
-#include "plugins/structure/replacement.h"
+#include "core/port/proxy_port.h"
 #include "tests/plugins/structure/editor_fixture.h"
 #include "tests/support/schedule_order.h"
 
@@ -63,18 +63,24 @@ TEST_F(ReplaceTest, WhatGoesOnBesideCyclesEndsBeforePortsAndStateAreHandedOver) 
   EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4, 6, 106, 108));
 }
 
+struct Wound final : Group {
+  using Group::Group;
+  Result<void> Construct() override {
+    auto& out = runtime().Create<ProxyPort>(*this, "out", Port::Direction::kOutput, TypeOf<int>());
+    runtime().Create<Winding>(*this, "other");
+    return Port::Connect(runtime().Create<Winding>(*this, "part").out, out);
+  }
+};
+
 TEST_F(ReplaceTest, WhatGoesOnInPartsOfACompositeEndsAsWell) {
-  ASSERT_TRUE(modules.Add(TypeCalled<Winding>("test/winding")));
-  Must({CreateGroup{"/app/whole"}, CreateModule{"/app/whole/part", "test/winding"},
-        CreateModule{"/app/whole/other", "test/winding"}});
-  std::vector<BeforeHandOver::Held> held;
-  ASSERT_TRUE(internal::Settle(At<Group>("/app/whole"), held));
-  EXPECT_THAT(held, SizeIs(2));
-  EXPECT_EQ(At<Winding>("/app/whole/part").count.value, 100);
-  At<Winding>("/app/whole/part").cannot_end = true;
-  const auto refused = internal::Settle(At<Group>("/app/whole"), held);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().path, "/app/whole/part");
+  ASSERT_TRUE(modules.Add(TypeCalled<Wound>("test/wound")));
+  Must({ReplaceModule{"/app/counter", "test/wound"}});
+  At<Winding>("/app/counter/part").cannot_end = true;
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/counter"}}), HasSubstr("does not come back"));
+  At<Winding>("/app/counter/part").cannot_end = false;
+  Must({ReplaceModule{"/app/counter", "test/counter"}});
+  Steps(1);
+  EXPECT_THAT(At<Sink>("/app/sink").taken, testing::Contains(100));
 }
 
 TEST_F(ReplaceTest, WhatGoesOnBesideCyclesLeavesPortsAloneWhileTheyComeBack) {
