@@ -97,7 +97,7 @@ struct RunOptions {
 ///             become errors.
 class Application {
  public:
-  /// Loads an application file and makes it ready to run. Nothing runs yet.
+  /// Loads an application file, by its path, and makes it ready to run. Nothing runs yet.
   [[nodiscard]] static LoadedApplication Load(const std::filesystem::path& file, ApplicationOptions options = {});
   /// The same for a text; errors call it `name`. Relative file names in it start in `folder`.
   [[nodiscard]] static LoadedApplication LoadText(std::string_view text, ApplicationOptions options = {},

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "tests/integration/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
 namespace {
@@ -28,10 +29,9 @@ class CommandLine : public testing::Test {
     std::ofstream(file_) << text;
     return file_.string() + " ";
   }
-  void TearDown() override { std::filesystem::remove(file_); }
 
-  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) /
-                                (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".xml");
+  const TemporaryFolder folder_;  // a world is looked for beside the file, too
+  const std::filesystem::path file_ = folder_ / "application.xml";
 };
 
 TEST_F(CommandLine, RunEndsWithVerdictPathAndTime) {
